@@ -1,0 +1,54 @@
+// What is wrong with a document or with the world, and where. Nothing here prints or throws: the
+// command line renders the list.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lockstep {
+
+// Line and column count from 1, the column in bytes; 0 = not known (the file as a whole).
+struct SourceLocation {
+  std::string file;
+  std::uint32_t line = 0;
+  std::uint32_t column = 0;
+};
+
+enum class Severity : std::uint8_t { Error, Warning, Note };
+
+struct Diagnostic {
+  Severity severity = Severity::Error;
+  SourceLocation location;
+  std::string message;  // lower case, no full stop, names in single quotes
+  std::string hint;     // what to do, or ""
+  std::string excerpt;  // the source line, or ""
+};
+
+class Diagnostics {
+ public:
+  void add(Diagnostic diagnostic);
+  void error(SourceLocation location, std::string message, std::string hint = {},
+             std::string excerpt = {});
+
+  bool has_errors() const;
+  std::size_t count(Severity severity) const;
+  // By file in the order of first mention, then line, then column; equal entries once.
+  void sort();
+  const std::vector<Diagnostic>& all() const { return all_; }
+
+ private:
+  std::vector<Diagnostic> all_;
+};
+
+std::string_view to_string(Severity severity);
+
+// "file:line:column: error: message", the source line, a caret and the hint, each on its own line,
+// ending in a newline. Control characters are made visible. `color` adds ANSI colors.
+std::string render(const Diagnostic& diagnostic, bool color);
+
+// `text` with every control character and every byte that is not UTF-8 written as \xNN.
+std::string printable(std::string_view text);
+
+}  // namespace lockstep

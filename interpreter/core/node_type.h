@@ -1,0 +1,80 @@
+// What a node kind declares of itself: id, arity, parameters, and the rules that tie them together.
+// Built-ins and the leaves of plugins are described in the same words. The checker, `lockstep
+// nodes`, the XSD and docs/nodes.md are all made from these rows: one fact, one place.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/value.h"
+
+namespace lockstep {
+
+enum class NodeCategory : std::uint8_t { Control, Decorator, Action, Condition, SubTree };
+
+enum class Direction : std::uint8_t { Input, Output, InOut };
+
+// Numbers that a parameter may take. The ends belong to it unless said otherwise.
+struct Range {
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  bool min_excluded = false;
+};
+
+// An attribute of a node: a parameter of a built-in, fixed when the tree is loaded, or a port of a
+// leaf, which may also name a blackboard entry as {key}.
+struct Parameter {
+  std::string_view name;
+  ValueType type;
+  std::string_view doc;
+  std::optional<std::string_view> default_text = {};  // as it would be written in the tree
+  bool required = false;
+  Direction direction = Direction::Input;
+  std::string_view unit = {};                      // "s", "" for none
+  Range range = {};                                // numbers, and each number of a list
+  std::span<const std::string_view> choices = {};  // strings: the words that are allowed
+};
+
+struct Arity {
+  std::uint32_t min = 0;
+  std::uint32_t max = std::numeric_limits<std::uint32_t>::max();
+};
+
+// What is wrong with the parameters of a node taken together.
+struct RuleBreak {
+  int parameter = -1;  // its index, or -1: the node itself
+  std::string message;
+  std::string hint;
+};
+
+struct NodeType {
+  std::string_view id;  // the XML tag
+  NodeCategory category;
+  std::string_view doc;
+  Arity arity = {};
+  std::span<const Parameter> parameters = {};
+  // Checks what no single parameter can say, and fills in values that follow from others. The
+  // values stand in the order of `parameters`; an absent one is monostate. May be null.
+  std::optional<RuleBreak> (*rule)(std::span<Value> values, std::uint32_t children) = nullptr;
+  bool has_progress = true;       // false: an action that reports none, so 0 until Success
+  std::string_view plugin = {};   // the plugin it comes from; "" = built in
+  const void* origin = nullptr;   // the plugin it comes from, for those who know what that is
+  const void* binding = nullptr;  // a leaf's lockstep_leaf_type; null = built in
+};
+
+constexpr std::string_view to_string(NodeCategory category) {
+  constexpr std::string_view kNames[] = {"control node", "decorator", "action", "condition",
+                                         "subtree"};
+  return kNames[static_cast<unsigned>(category)];
+}
+
+constexpr std::string_view to_string(Direction direction) {
+  constexpr std::string_view kNames[] = {"in", "out", "inout"};
+  return kNames[static_cast<unsigned>(direction)];
+}
+
+}  // namespace lockstep

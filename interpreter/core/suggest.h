@@ -1,0 +1,17 @@
+// "did you mean": the known word nearest to a mistyped one.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace lockstep {
+
+// The candidate with the smallest edit distance (insert, delete, replace, swap of neighbours; case
+// does not count) if that is at most a third of the word's length, rounded up; else "".
+std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates);
+
+// "did you mean 'x'?" or, when nothing is near, "".
+std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates);
+
+}  // namespace lockstep

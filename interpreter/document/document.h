@@ -1,0 +1,58 @@
+// One XML file, parsed: elements in pre-order with their attributes, and the exact place of each in
+// the original bytes. The only folder that sees tinyxml2. It knows XML, not trees.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/diagnostics.h"
+
+namespace lockstep {
+
+struct Attribute {
+  std::string_view name;
+  std::string_view value;  // entities resolved, and arguments once the project has substituted them
+};
+
+struct Element {
+  std::string_view tag;
+  std::uint32_t end;  // one past its last descendant in Document::elements(); children as in Tree
+  std::uint32_t first_attribute;
+  std::uint32_t attribute_count;
+};
+
+class Document {
+ public:
+  // Null when the text is not XML that can be read; an error then says where and why. `path` is
+  // how messages name the file.
+  static std::unique_ptr<Document> parse(std::string path, std::string text,
+                                         Diagnostics& diagnostics);
+  ~Document();
+
+  const std::string& path() const;
+  std::string_view text() const;
+  // Elements in pre-order; 0 is the root element.
+  std::span<const Element> elements() const;
+  std::span<const Attribute> attributes(std::uint32_t element) const;
+  const Attribute* find_attribute(std::uint32_t element, std::string_view name) const;
+  // Replaces an attribute's value; the document keeps the text.
+  void set_value(const Attribute& attribute, std::string value);
+
+  // Places, found in the bytes only when asked for (the first call scans the file once).
+  SourceLocation locate(std::uint32_t element) const;                           // its '<'
+  SourceLocation locate_attribute(std::uint32_t element, std::string_view name) const;  // its name
+  SourceLocation locate_value(std::uint32_t element, std::string_view name) const;  // inside quotes
+  // The whole line that a location is on, without its newline; cut to 200 bytes.
+  std::string excerpt(const SourceLocation& location) const;
+
+ private:
+  Document();
+  struct Implementation;
+  std::unique_ptr<Implementation> it_;
+};
+
+}  // namespace lockstep

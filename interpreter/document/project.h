@@ -1,0 +1,42 @@
+// A tree file and everything it includes, with load-time arguments substituted: all the documents
+// that a definition is made from.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "document/document.h"
+
+namespace lockstep {
+
+// `--arg name=value`.
+using Arguments = std::map<std::string, std::string, std::less<>>;
+
+struct DeclaredArgument {
+  std::string name;
+  std::optional<std::string> default_value;  // none: must be given
+  std::string doc;
+  std::string value;  // in force
+};
+
+struct Project {
+  std::vector<std::unique_ptr<Document>> documents;  // the main file first, then as included
+  std::vector<DeclaredArgument> arguments;
+  // Main file and includes as a user would write them in a message: relative paths stay relative.
+};
+
+// Reads `path`, its <include>s (relative to the including file, each file once, a cycle is an error
+// that shows the chain) and its <arg>s, and replaces ${name} in every attribute ($${ is a literal
+// ${). Reports everything it finds wrong; null only when the main file could not be parsed.
+// Unknown names in `arguments` are errors without a place, with a hint that lists the declared ones.
+std::unique_ptr<Project> load_project(const std::string& path, const Arguments& arguments,
+                                      Diagnostics& diagnostics);
+
+// The same from text instead of a main file; includes are relative to `path`. For tests.
+std::unique_ptr<Project> load_project_text(const std::string& path, std::string text,
+                                           const Arguments& arguments, Diagnostics& diagnostics);
+
+}  // namespace lockstep

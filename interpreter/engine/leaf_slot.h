@@ -1,0 +1,14 @@
+// A leaf object of a plugin as the engine sees it. Who creates and destroys it is plugin/'s matter.
+#pragma once
+
+struct lockstep_leaf_type;
+
+namespace lockstep {
+
+struct LeafSlot {
+  const lockstep_leaf_type* type = nullptr;
+  void* self = nullptr;
+  const char* error = nullptr;  // set by the host's set_error: the reason, valid until taken
+};
+
+}  // namespace lockstep

@@ -1,0 +1,37 @@
+// The row of a built-in node kind: what it declares of itself and what it does. Each file in nodes/
+// defines one or a few rows; nodes/all.cpp lists them.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/node_type.h"
+#include "core/status.h"
+
+namespace lockstep {
+
+class Ticker;
+using NodeIndex = std::uint32_t;
+
+struct NodeKind {
+  NodeType type;
+  // One tick. Returns Running, Success or Failure. Allocates nothing, throws nothing of its own.
+  Status (*tick)(Ticker& ticker, NodeIndex self);
+  // Asked only while the node is Running; idle and failed nodes have 0, successful ones 1. In [0,1].
+  double (*progress)(Ticker& ticker, NodeIndex self);
+  std::uint32_t state_size = 0;       // bytes in RunState
+  std::uint32_t state_per_child = 0;  // and this many more for each child
+  // Leaves only, may be null: told to a running leaf. A control node has none of these.
+  void (*halt)(Ticker& ticker, NodeIndex self) = nullptr;
+  void (*pause)(Ticker& ticker, NodeIndex self) = nullptr;
+  void (*resume)(Ticker& ticker, NodeIndex self) = nullptr;
+};
+
+// All built-in kinds, in the order in which they are documented.
+std::span<const NodeKind* const> built_in_kinds();
+
+// What a leaf of a plugin is in the tree.
+extern const NodeKind kPluginAction;
+extern const NodeKind kPluginCondition;
+
+}  // namespace lockstep

@@ -1,0 +1,39 @@
+// All that the nodes of one run remember: bytes that a fill resets and a copy preserves. The leaves
+// of plugins and the blackboard are apart.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/status.h"
+#include "engine/tree.h"
+
+namespace lockstep {
+
+// A node's status and whether its ticks are withheld, in one byte.
+enum class Activity : std::uint8_t {
+  Idle = 0,
+  Running = 1,
+  Success = 2,
+  Failure = 3,
+  Paused = 5,  // Running, in a subtree that a synchronized parallel withholds ticks from
+};
+
+constexpr Status status_of(Activity activity) {
+  return static_cast<Status>(static_cast<std::uint8_t>(activity) & 3u);
+}
+
+struct RunState {
+  explicit RunState(const Tree& tree)
+      : activity(tree.nodes.size(), Activity::Idle),
+        last_tick(tree.nodes.size(), 0),
+        bytes((tree.state_size + 7) / 8, 0) {}
+
+  std::vector<Activity> activity;       // of each node
+  std::vector<std::uint32_t> last_tick;  // number of the last tick that reached it; 0 = none yet
+  std::vector<std::uint64_t> bytes;      // the states of the nodes, 8-byte aligned
+
+  friend bool operator==(const RunState&, const RunState&) = default;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,23 @@
+// What a synchronized parallel shows of itself, for measures, views and recordings.
+#pragma once
+
+#include <span>
+
+#include "engine/ticker.h"
+
+namespace lockstep {
+
+enum class Synchronization : std::uint8_t { None, Absolute, Relative };
+
+Synchronization synchronization(const Node& node);
+
+// The progress of each child at the start of its parallel's last tick, as the node used it: 1 for a
+// child that has succeeded. Only for synchronized nodes; valid until the next tick.
+std::span<const double> child_progress(Ticker& ticker, NodeIndex node);
+
+// ParallelAbsolute: its barriers, rising. ParallelRelative: empty.
+std::span<const double> barriers(const Tree& tree, NodeIndex node);
+// ParallelRelative only.
+double delta(const Tree& tree, NodeIndex node);
+
+}  // namespace lockstep

@@ -1,0 +1,120 @@
+// Ticks one run of a tree: the life cycle of every node (activation, halt, pause, resume), once, in
+// one place. Node kinds call the upper half, owners of a run the lower. One thread at a time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "core/clock.h"
+#include "engine/leaf_slot.h"
+#include "engine/run_state.h"
+#include "engine/tree.h"
+
+namespace lockstep {
+
+// A leaf failed as a program. The run ends: no leaf is started or ticked after it.
+struct Fault {
+  NodeIndex node = 0;
+  std::string message;  // "threw …", "returned status 7, …"
+};
+
+class Ticker {
+ public:
+  // `tree` and `leaves` (one for each Tree::leaves, in order) must outlive the ticker.
+  Ticker(const Tree& tree, std::span<LeafSlot> leaves);
+
+  // --- for node kinds, inside a tick -------------------------------------------------------------
+
+  // Ticks a node and keeps its status. At most once per node and tick.
+  Status tick(NodeIndex node) {
+    Activity& activity = state_.activity[node];
+    const Node& it = tree_.nodes[node];
+    if (is_complete(status_of(activity)) && it.children != 0) forget_descendants(node);
+    const Status status = it.kind->tick(*this, node);
+    activity = static_cast<Activity>(status);
+    state_.last_tick[node] = tick_number_;
+    return status;
+  }
+
+  // Ends the activation of every running node in the subtree; all of it is idle then.
+  void halt(NodeIndex node) { halt_range(node, tree_.nodes[node].end); }
+  void halt_range(NodeIndex first, NodeIndex last);
+
+  // Withholds ticks from a subtree: each running leaf is told once, until it is ticked again.
+  void pause(NodeIndex node);
+
+  // In [0, 1]: 1 on Success, 0 when idle or failed.
+  double progress(NodeIndex node);
+
+  // True until the node has been Running: the first tick of an activation.
+  bool first_tick(NodeIndex node) const { return status(node) != Status::Running; }
+
+  template <class State>
+  State& state(NodeIndex node) {
+    return *reinterpret_cast<State*>(state_bytes() + tree_.nodes[node].state);
+  }
+  // The doubles that a kind with state_per_child keeps behind its state, one for each child.
+  std::span<double> child_numbers(NodeIndex node) {
+    const Node& it = tree_.nodes[node];
+    return {reinterpret_cast<double*>(state_bytes() + it.state + it.kind->state_size), it.children};
+  }
+  const Cell& parameter(NodeIndex node, unsigned index) const {
+    return tree_.cells[tree_.nodes[node].params + index];
+  }
+  std::span<const double> numbers(const Cell& cell) const {
+    return std::span(tree_.numbers).subspan(cell.list.first, cell.list.count);
+  }
+  LeafSlot& leaf(NodeIndex node) { return leaves_[tree_.nodes[node].params]; }
+
+  // Marks a leaf as being called, so that whatever it does next can be laid at its door.
+  void enter_leaf(NodeIndex node) { current_leaf_ = node; }
+  void set_fault(NodeIndex node, std::string message);
+  bool faulted() const { return faulted_; }
+
+  // --- for both ----------------------------------------------------------------------------------
+
+  const Tree& tree() const { return tree_; }
+  const Node& node(NodeIndex node) const { return tree_.nodes[node]; }
+  NodeIndex end_of(NodeIndex node) const { return tree_.nodes[node].end; }
+  Activity activity(NodeIndex node) const { return state_.activity[node]; }
+  Status status(NodeIndex node) const { return status_of(state_.activity[node]); }
+  Nanoseconds now() const { return now_; }  // of this tick, since the run began
+
+  // --- for the owner of the run ------------------------------------------------------------------
+
+  // Ticks the root once. The result is Running while the tree runs; after a fault it means nothing.
+  // `now` must not fall from tick to tick.
+  Status tick_root(Nanoseconds now);
+
+  // Halts every running leaf; what a leaf does wrong in halt becomes the fault if there is none.
+  void halt_all();
+
+  // As new. Leaves are not told: halt_all first.
+  void reset();
+
+  const Fault* fault() const { return faulted_ ? &fault_ : nullptr; }
+  std::uint32_t tick_number() const { return tick_number_; }  // of the last tick; the first is 1
+  bool ticked(NodeIndex node) const {
+    return tick_number_ != 0 && state_.last_tick[node] == tick_number_;
+  }
+  bool held(NodeIndex node) const { return state_.activity[node] == Activity::Paused; }
+  const RunState& run_state() const { return state_; }
+
+ private:
+  void forget_descendants(NodeIndex node);
+  std::byte* state_bytes() { return reinterpret_cast<std::byte*>(state_.bytes.data()); }
+
+  const Tree& tree_;
+  std::span<LeafSlot> leaves_;
+  RunState state_;
+  Nanoseconds now_{0};
+  std::uint32_t tick_number_ = 0;
+  NodeIndex current_leaf_ = 0;
+  bool faulted_ = false;
+  bool fault_in_start_ = false;
+  Fault fault_;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,79 @@
+// The compiled tree: flat, in pre-order, immutable, shareable between threads. A subtree is the
+// range [i, nodes[i].end); its first child is i + 1 and the sibling after child c is nodes[c].end.
+// All that changes during a run is in RunState and in the leaves.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/value.h"
+#include "engine/node_kind.h"
+
+struct lockstep_leaf_type;
+
+namespace lockstep {
+
+struct Node {
+  const NodeKind* kind;
+  NodeIndex end;           // one past the last descendant
+  std::uint32_t children;  // how many
+  std::uint32_t params;    // first cell in Tree::cells; of a plugin leaf: its place in Tree::leaves
+  std::uint32_t state;     // first byte in RunState's node states
+};
+
+// A typed parameter, in the order of the kind's parameter table.
+union Cell {
+  bool boolean;
+  std::int64_t integer;  // also the index of a choice
+  double number;
+  struct {
+    std::uint32_t first, count;  // in Tree::numbers
+  } list;
+};
+
+// Where a leaf's port gets its value.
+struct PortBinding {
+  static constexpr std::uint32_t kUnbound = 0xffffffff;
+  std::uint32_t slot = kUnbound;      // blackboard entry, or
+  std::uint32_t constant = kUnbound;  // value in Tree::constants
+};
+
+struct LeafNode {
+  NodeIndex node;
+  const NodeType* type;  // binding = its lockstep_leaf_type, origin = its plugin
+  std::uint32_t first_port;
+};
+
+struct Slot {
+  std::string name;  // the key, after the path of its SubTree
+  ValueType type;
+  Value initial;
+};
+
+struct NodeLabel {
+  std::string name;   // the name attribute, else the id
+  std::string segment;  // its part of the path: the name, made unique among its siblings
+  const NodeType* type;
+  NodeIndex parent;  // the root is its own
+};
+
+struct Tree {
+  std::vector<Node> nodes;
+  std::vector<Cell> cells;
+  std::vector<double> numbers;
+  std::vector<LeafNode> leaves;
+  std::vector<PortBinding> ports;  // of all leaves, each type's ports in order
+  std::vector<Value> constants;
+  std::vector<Slot> slots;
+  std::size_t state_size = 0;      // bytes of all node states
+  std::string id;                  // of the main BehaviorTree
+  std::vector<NodeLabel> labels;   // not touched while ticking
+
+  // "OpenDoor/pull/arm": the tree's id and the segments down to the node.
+  std::string path(NodeIndex node) const;
+};
+
+}  // namespace lockstep

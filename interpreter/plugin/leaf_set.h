@@ -1,0 +1,50 @@
+// The leaf objects of one run, their run contexts, and the host functions they call.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "engine/blackboard.h"
+#include "engine/ticker.h"
+#include "lockstep/leaf.h"
+
+namespace lockstep {
+
+// The time of a run as its leaves see it; the owner of the run keeps it up to date.
+struct LeafTime {
+  Nanoseconds now{0};
+  Nanoseconds period{0};
+};
+
+// Lines that leaves log: the path of the leaf (or the plugin's name, from create_run), level, text.
+// May be called from any thread.
+using LeafLog =
+    std::function<void(std::string_view who, lockstep_log_level level, std::string_view message)>;
+
+class LeafSet {
+ public:
+  // Creates the run context of every plugin in the tree, then every leaf in pre-order. All
+  // references must outlive the set. When a leaf cannot be created, fault() says so and the set
+  // must not be ticked. `seed` and a leaf's place in the tree give its stream of random numbers.
+  LeafSet(const Tree& tree, Blackboard& blackboard, const LeafTime& time, std::uint64_t seed,
+          LeafLog log = {});
+  // Destroys the leaves in reverse order, then the run contexts. No leaf may be running.
+  ~LeafSet();
+  LeafSet(const LeafSet&) = delete;
+  LeafSet& operator=(const LeafSet&) = delete;
+
+  std::span<LeafSlot> slots();
+  const std::optional<Fault>& fault() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> it_;
+};
+
+// The table that this host gives to plugins.
+const lockstep_host& host_table();
+
+}  // namespace lockstep

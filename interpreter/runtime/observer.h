@@ -1,0 +1,47 @@
+// Who watches a run: called by the loop, on the tick thread, around each tick. An observer reads;
+// it never changes the run. What takes long it hands to a thread of its own.
+#pragma once
+
+#include <cstdint>
+
+#include "core/clock.h"
+#include "core/status.h"
+#include "engine/ticker.h"
+
+namespace lockstep {
+
+struct RunStart {
+  Nanoseconds period{0};
+  bool real_time = true;  // false on a virtual clock: periods and lateness mean nothing
+};
+
+struct TickReport {
+  std::uint64_t tick = 0;    // counts from 0
+  Nanoseconds time{0};       // when it began, since the run began
+  Status status = Status::Running;  // of the root
+  std::uint64_t skipped = 0;  // deadlines that this tick came too late for, beyond its own
+};
+
+enum class StopReason : std::uint8_t { Completed, Fault, Timeout, MaxTicks, Signal };
+
+struct RunEnd {
+  StopReason reason = StopReason::Completed;
+  Status status = Status::Running;  // of the root after the last tick
+  int signal = 0;                   // when reason is Signal
+  std::uint64_t ticks = 0;
+  Nanoseconds time{0};          // from the start of the first tick to the end of the last
+  std::uint64_t overruns = 0;   // ticks that ended after the next deadline
+  std::uint64_t skipped = 0;    // deadlines passed over because of them
+};
+
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  virtual void run_started(Ticker&, const RunStart&) {}
+  virtual void before_tick(Ticker&, std::uint64_t /*tick*/, Nanoseconds /*time*/) {}
+  virtual void after_tick(Ticker&, const TickReport&) {}
+  // After every running leaf was halted.
+  virtual void run_ended(Ticker&, const RunEnd&) {}
+};
+
+}  // namespace lockstep

@@ -1,0 +1,45 @@
+// One run of a tree: the ticker, the blackboard and the leaves, in the order of their lives.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "engine/blackboard.h"
+#include "engine/ticker.h"
+#include "plugin/leaf_set.h"
+
+namespace lockstep {
+
+struct RunOptions {
+  std::uint64_t seed = 0;
+  Nanoseconds period = std::chrono::milliseconds(10);
+  LeafLog log = {};
+};
+
+class Run {
+ public:
+  // `tree` must outlive the run. Several runs may share one tree, each on a thread of its own.
+  Run(const Tree& tree, const RunOptions& options);
+  // Halts what still runs, then destroys the leaves.
+  ~Run();
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+
+  // One tick of the root at `now`, counted from the start of the run; see Ticker::tick_root.
+  Status tick(Nanoseconds now);
+  // Halts every running leaf, in order.
+  void halt() { ticker_.halt_all(); }
+
+  // Null while every leaf has kept its contract.
+  const Fault* fault() const;
+  Ticker& ticker() { return ticker_; }
+  Nanoseconds period() const { return time_.period; }
+
+ private:
+  Blackboard blackboard_;
+  LeafTime time_;
+  LeafSet leaves_;
+  Ticker ticker_;
+};
+
+}  // namespace lockstep
