@@ -1,0 +1,155 @@
+#include "core/diagnostics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "core/utf8.h"
+
+namespace lockstep {
+namespace {
+
+// A tab in an excerpt stays, so that the caret below can repeat it and align at any tab width.
+enum class Tabs : bool { Escaped, Kept };
+
+bool is_control(std::string_view character) {
+  const auto byte = static_cast<unsigned char>(character[0]);
+  if (character.size() == 1) return byte < 0x20 || byte == 0x7F;
+  // U+0080 to U+009F: some terminals obey them.
+  return byte == 0xC2 && static_cast<unsigned char>(character[1]) < 0xA0;
+}
+
+// Appends the first character of `text` so that a terminal only shows it. Returns its bytes.
+std::size_t append_visible(std::string& out, std::string_view text, Tabs tabs) {
+  const auto length = utf8_length(text);
+  const auto character = text.substr(0, std::max<std::size_t>(length, 1));
+  const bool plain_tab = tabs == Tabs::Kept && character == "\t";
+  if (plain_tab || (length > 0 && !is_control(character))) {
+    out += character;
+  } else {
+    for (const char c : character)
+      fmt::format_to(std::back_inserter(out), "\\x{:02X}", static_cast<unsigned char>(c));
+  }
+  return character.size();
+}
+
+std::string visible(std::string_view text, Tabs tabs) {
+  std::string out;
+  while (!text.empty()) text.remove_prefix(append_visible(out, text, tabs));
+  return out;
+}
+
+// What lies before the caret: a tab for a tab, a blank for every other character that is shown.
+std::string caret_padding(std::string_view before) {
+  std::string padding;
+  std::string shown;
+  while (!before.empty()) {
+    shown.clear();
+    before.remove_prefix(append_visible(shown, before, Tabs::Kept));
+    if (shown == "\t") {
+      padding += '\t';
+    } else {
+      padding.append(shown[0] == '\\' ? shown.size() : 1, ' ');
+    }
+  }
+  return padding;
+}
+
+std::string place(const SourceLocation& location) {
+  auto text = printable(location.file);
+  if (location.line > 0) text += fmt::format(":{}", location.line);
+  if (location.line > 0 && location.column > 0) text += fmt::format(":{}", location.column);
+  if (!text.empty()) text += ": ";
+  return text;
+}
+
+struct Paint {
+  bool color;
+  std::string operator()(std::string_view code, std::string_view text) const {
+    return color ? fmt::format("\x1b[{}m{}\x1b[0m", code, text) : std::string(text);
+  }
+};
+
+std::string_view color_of(Severity severity) {
+  constexpr std::string_view kCodes[] = {"1;31", "1;35", "1;36"};
+  return kCodes[static_cast<unsigned>(severity)];
+}
+
+auto identity(const Diagnostic& d) {
+  return std::tie(d.severity, d.location.file, d.location.line, d.location.column, d.message,
+                  d.hint, d.excerpt);
+}
+
+}  // namespace
+
+void Diagnostics::add(Diagnostic diagnostic) {
+  all_.push_back(std::move(diagnostic));
+}
+
+void Diagnostics::error(SourceLocation location, std::string message, std::string hint,
+                        std::string excerpt) {
+  add({Severity::Error, std::move(location), std::move(message), std::move(hint),
+       std::move(excerpt)});
+}
+
+bool Diagnostics::has_errors() const {
+  return count(Severity::Error) > 0;
+}
+
+std::size_t Diagnostics::count(Severity severity) const {
+  return static_cast<std::size_t>(std::count_if(
+      all_.begin(), all_.end(), [&](const Diagnostic& d) { return d.severity == severity; }));
+}
+
+void Diagnostics::sort() {
+  std::map<std::string, std::size_t> mentioned;
+  for (const auto& d : all_) mentioned.try_emplace(d.location.file, mentioned.size());
+  const auto key = [&](const Diagnostic& d) {
+    return std::tuple(mentioned.at(d.location.file), d.location.line, d.location.column);
+  };
+  std::stable_sort(all_.begin(), all_.end(),
+                   [&](const Diagnostic& a, const Diagnostic& b) { return key(a) < key(b); });
+
+  const auto before = [&](std::size_t a, std::size_t b) {
+    return identity(all_[a]) < identity(all_[b]);
+  };
+  std::set<std::size_t, decltype(before)> seen(before);
+  std::vector<Diagnostic> once;
+  std::vector<bool> keep(all_.size());
+  for (std::size_t i = 0; i < all_.size(); ++i) keep[i] = seen.insert(i).second;
+  for (std::size_t i = 0; i < all_.size(); ++i)
+    if (keep[i]) once.push_back(std::move(all_[i]));
+  all_ = std::move(once);
+}
+
+std::string_view to_string(Severity severity) {
+  constexpr std::string_view kNames[] = {"error", "warning", "note"};
+  return kNames[static_cast<unsigned>(severity)];
+}
+
+std::string render(const Diagnostic& diagnostic, bool color) {
+  const Paint paint{color};
+  const auto& [severity, location, message, hint, excerpt] = diagnostic;
+  auto text = fmt::format("{}{} {}\n", paint("1", place(location)),
+                          paint(color_of(severity), fmt::format("{}:", to_string(severity))),
+                          printable(message));
+  if (!excerpt.empty()) {
+    text += fmt::format("  {}\n", visible(excerpt, Tabs::Kept));
+    // A column beyond the excerpt: the line was cut before it.
+    if (location.column > 0 && location.column <= excerpt.size() + 1) {
+      const auto before = std::string_view(excerpt).substr(0, location.column - 1);
+      text += fmt::format("  {}{}\n", caret_padding(before), paint("1;32", "^"));
+    }
+  }
+  if (!hint.empty()) text += fmt::format("  {} {}\n", paint("1", "hint:"), printable(hint));
+  return text;
+}
+
+std::string printable(std::string_view text) {
+  return visible(text, Tabs::Escaped);
+}
+
+}  // namespace lockstep
