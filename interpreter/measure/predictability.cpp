@@ -1,0 +1,49 @@
+#include "measure/predictability.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace lockstep {
+namespace {
+
+constexpr double kEqualGap = 1e-9;
+
+double mean_of(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double median_of(std::span<const double> sorted) {
+  const std::size_t half = sorted.size() / 2;
+  if (sorted.size() % 2 == 1) return sorted[half];
+  return sorted[half - 1] + (sorted[half] - sorted[half - 1]) / 2;
+}
+
+}  // namespace
+
+void NearestInstant::sample(double time, double progress) {
+  const double gap = std::abs(progress - target_);
+  if (!(gap < gap_ - kEqualGap)) return;
+  gap_ = gap;
+  time_ = time;
+}
+
+double predictability_distance(std::span<const double> times, double expected) {
+  return mean_of(times) - expected;
+}
+
+SampleSummary summarize(std::vector<double> values) {
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  const std::span<const double> sorted = values;
+  const std::size_t half = std::max<std::size_t>(sorted.size() / 2, 1);
+  return {.count = sorted.size(),
+          .min = sorted.front(),
+          .q1 = median_of(sorted.first(half)),
+          .median = median_of(sorted),
+          .q3 = median_of(sorted.last(half)),
+          .max = sorted.back(),
+          .mean = mean_of(sorted)};
+}
+
+}  // namespace lockstep

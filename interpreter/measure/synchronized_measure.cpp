@@ -1,0 +1,64 @@
+#include "measure/synchronized_measure.h"
+
+#include "engine/synchronized.h"
+
+namespace lockstep {
+
+std::vector<NodeIndex> synchronized_nodes(const Tree& tree) {
+  std::vector<NodeIndex> nodes;
+  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
+    if (synchronization(tree.nodes[node]) != Synchronization::None) nodes.push_back(node);
+  }
+  return nodes;
+}
+
+std::vector<NodeIndex> children_of(const Tree& tree, NodeIndex node) {
+  std::vector<NodeIndex> children;
+  const NodeIndex end = tree.nodes[node].end;
+  for (NodeIndex child = node + 1; child < end; child = tree.nodes[child].end) {
+    children.push_back(child);
+  }
+  return children;
+}
+
+void SynchronizedMeasure::after_tick(const SynchronizedTick& tick) {
+  pass_time(tick.time);
+  if (tick.ticked) {
+    if (!running_) distance_.begin_activation();
+    distance_.sample(tick.progress);
+    if (tick.status == Status::Success) distance_.succeeded();
+  }
+  for (std::size_t child = 0; child < held_.size(); ++child) {
+    held_[child].now = tick.ticked && tick.held[child];
+    held_[child].ticks += held_[child].now;
+  }
+  running_ = tick.status == Status::Running;
+}
+
+void SynchronizedMeasure::pass_time(Nanoseconds time) {
+  for (Held& child : held_) {
+    if (child.now) child.time += time - last_;
+  }
+  last_ = time;
+}
+
+SynchronizedProbe::SynchronizedProbe(const Tree& tree, NodeIndex node)
+    : node_(node),
+      children_(children_of(tree, node)),
+      held_(std::make_unique<bool[]>(children_.size())) {}
+
+SynchronizedTick SynchronizedProbe::read(Ticker& ticker, Nanoseconds time) {
+  SynchronizedTick tick;
+  tick.time = time;
+  tick.ticked = ticker.ticked(node_);
+  tick.status = ticker.status(node_);
+  if (!tick.ticked) return tick;
+  for (std::size_t child = 0; child < children_.size(); ++child) {
+    held_[child] = ticker.held(children_[child]);
+  }
+  tick.progress = child_progress(ticker, node_);
+  tick.held = {held_.get(), children_.size()};
+  return tick;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,72 @@
+// What is measured of one synchronized node over a run: its progress distance, and how long each
+// child was held. Fed once per tick of the run, from a Ticker or from a recording.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/clock.h"
+#include "engine/tree.h"
+#include "measure/progress_distance.h"
+
+namespace lockstep {
+
+class Ticker;
+
+// The nodes of the tree that keep their children in step, in pre-order.
+std::vector<NodeIndex> synchronized_nodes(const Tree& tree);
+std::vector<NodeIndex> children_of(const Tree& tree, NodeIndex node);
+
+// Of one node, after a tick of the run.
+struct SynchronizedTick {
+  Nanoseconds time{0};  // when the tick of the run began, since the run began
+  bool ticked = false;  // did the tick reach the node? If not, only the time counts.
+  Status status = Status::Idle;
+  std::span<const double> progress = {};  // of each child, as the node used it in this tick
+  std::span<const bool> held = {};        // of each child
+};
+
+class SynchronizedMeasure {
+ public:
+  explicit SynchronizedMeasure(std::size_t children) : distance_(children), held_(children) {}
+
+  void after_tick(const SynchronizedTick& tick);
+  void run_ended(Nanoseconds time) { pass_time(time); }
+
+  struct Held {
+    bool now = false;
+    Nanoseconds time{0};  // a child held in a tick is held until the next tick, or the end
+    std::uint64_t ticks = 0;
+  };
+  const ProgressDistance& distance() const { return distance_; }
+  // Only what this node withheld: while the node itself is held, its children are not counted.
+  std::span<const Held> held() const { return held_; }
+
+ private:
+  void pass_time(Nanoseconds time);
+
+  ProgressDistance distance_;
+  std::vector<Held> held_;
+  Nanoseconds last_{0};
+  bool running_ = false;
+};
+
+// Reads the ticks of one node from a Ticker. No allocation after it is made.
+class SynchronizedProbe {
+ public:
+  SynchronizedProbe(const Tree& tree, NodeIndex node);
+  // Valid until the next call.
+  SynchronizedTick read(Ticker& ticker, Nanoseconds time);
+
+  NodeIndex node() const { return node_; }
+  std::span<const NodeIndex> children() const { return children_; }
+
+ private:
+  NodeIndex node_;
+  std::vector<NodeIndex> children_;
+  std::unique_ptr<bool[]> held_;
+};
+
+}  // namespace lockstep
