@@ -1,0 +1,70 @@
+// What a recording says, as data: docs/recording.md is the format that users read. The recorder
+// writes it, the reader reads it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/status.h"
+#include "engine/synchronized.h"
+
+namespace lockstep {
+
+constexpr int kRecordingVersion = 1;
+
+struct RecordedNode {
+  std::string path, kind, name;
+  std::optional<NodeIndex> parent;  // none: the root
+  Synchronization synchronization = Synchronization::None;
+  std::vector<double> barriers;  // Absolute
+  double delta = 0;              // Relative
+};
+
+struct RecordingHeader {
+  std::string tree;     // the id of the tree
+  std::string file;     // as the user named it
+  std::string version;  // of the program
+  double rate_hz = 0;
+  std::string clock;  // "wall" or "virtual"
+  std::uint64_t seed = 0;
+  std::map<std::string, std::string, std::less<>> arguments;
+  std::vector<RecordedNode> nodes;  // by index: pre-order
+};
+
+// Of one node in one tick. Before the first tick all are as constructed here.
+struct RecordedState {
+  Status status = Status::Idle;  // after the tick
+  double progress = 0;           // at the start of the tick, as its parent used it
+  bool ticked = false;
+  bool held = false;
+
+  friend bool operator==(const RecordedState&, const RecordedState&) = default;
+};
+
+struct RecordedTick {
+  std::uint64_t tick = 0;
+  double time = 0;  // seconds
+  std::span<const RecordedState> nodes;
+};
+
+struct RecordedEnd {
+  std::string result, reason;
+  std::string fault;  // or ""
+  std::optional<std::int64_t> signal;
+  std::uint64_t ticks = 0;
+  double time = 0;  // seconds
+  std::uint64_t overruns = 0, skipped = 0;
+};
+
+// The header's part about the nodes.
+std::vector<RecordedNode> describe(const Tree& tree);
+
+// One line each, without the newline.
+std::string to_json(const RecordingHeader& header);
+std::string to_json(const RecordedEnd& end);
+
+}  // namespace lockstep

@@ -1,0 +1,143 @@
+#include "observers/summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "core/diagnostics.h"
+#include "observers/style.h"
+
+namespace lockstep {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string why(const Summary& summary) {
+  switch (summary.reason) {
+    case StopReason::Completed:
+      return {};
+    case StopReason::Fault:
+      return "a leaf failed: " + printable(summary.fault);
+    case StopReason::Timeout:
+      return "the time limit was reached";
+    case StopReason::MaxTicks:
+      return "the tick limit was reached";
+    case StopReason::Signal:
+      return fmt::format("signal: {}", strsignal(summary.signal));
+  }
+  return {};
+}
+
+Style result_style(const Summary& summary) {
+  if (summary.reason == StopReason::Fault) return Style::Bad;
+  if (summary.status == Status::Success) return Style::Good;
+  return summary.status == Status::Failure ? Style::Bad : Style::Warning;
+}
+
+std::string timing(const Summary& summary) {
+  if (!summary.period) return {};
+  return fmt::format("  period     p50 {:.3f} ms, p99 {:.3f} ms, max {:.3f} ms\n",
+                     summary.period->p50 * 1e3, summary.period->p99 * 1e3,
+                     summary.period->max * 1e3) +
+         fmt::format("  overruns   {} (deadlines skipped: {})\n", summary.overruns,
+                     summary.skipped);
+}
+
+Json json_of(const SynchronizedSummary& node) {
+  Json children = Json::array();
+  for (const ChildSummary& child : node.children) {
+    children.push_back(
+        {{"name", child.name}, {"held_s", child.held_seconds}, {"held_ticks", child.held_ticks}});
+  }
+  return {{"path", node.path},
+          {"kind", node.kind},
+          {"samples", node.samples},
+          {"progress_distance", node.distance_sum},
+          {"progress_distance_mean", node.distance_mean},
+          {"largest_spread", node.largest_spread},
+          {"step_length", node.step_length},
+          {"children", std::move(children)}};
+}
+
+Json json_of(const PeriodSummary& period) {
+  return {{"p50_s", period.p50}, {"p99_s", period.p99}, {"max_s", period.max}};
+}
+
+}  // namespace
+
+std::string_view result_text(Status status) {
+  return is_complete(status) ? to_string(status) : std::string_view("stopped");
+}
+
+std::string_view to_string(StopReason reason) {
+  constexpr std::string_view kNames[] = {"completed", "fault", "timeout", "max_ticks", "signal"};
+  return kNames[static_cast<unsigned>(reason)];
+}
+
+SynchronizedSummary summarize(const SynchronizedMeasure& measure, std::string path,
+                              std::string kind, const std::vector<std::string>& children) {
+  const ProgressDistance& distance = measure.distance();
+  SynchronizedSummary summary{.path = std::move(path),
+                              .kind = std::move(kind),
+                              .samples = distance.samples(),
+                              .distance_sum = distance.sum(),
+                              .distance_mean = distance.mean(),
+                              .largest_spread = distance.largest_spread(),
+                              .step_length = distance.step_length(),
+                              .children = {}};
+  for (std::size_t child = 0; child < children.size(); ++child) {
+    const auto& held = measure.held()[child];
+    summary.children.push_back({children[child], to_seconds(held.time), held.ticks});
+  }
+  return summary;
+}
+
+void write_text(const SynchronizedSummary& node, std::FILE* out, bool color) {
+  const auto name = styled(printable(node.path), Style::Strong, color);
+  fmt::print(out, "  {} ({}, {} ticks)\n", name, node.kind, node.samples);
+  fmt::print(out, "    progress distance {:.6g}, mean {:.6g} a tick; largest spread {:.6g}, ",
+             node.distance_sum, node.distance_mean, node.largest_spread);
+  fmt::print(out, "longest step {:.6g}\n", node.step_length);
+  std::size_t width = 0;
+  for (const ChildSummary& child : node.children) {
+    width = std::max(width, printable(child.name).size());
+  }
+  for (const ChildSummary& child : node.children) {
+    fmt::print(out, "    {:<{}}  waited {:.3f} s in {} ticks\n", printable(child.name), width,
+               child.held_seconds, child.held_ticks);
+  }
+}
+
+void write_text(const Summary& summary, std::FILE* out, bool color) {
+  const auto result = styled(result_text(summary.status), result_style(summary), color);
+  const std::string reason = why(summary);
+  fmt::print(out, "{}{}{} after {} ticks, {:.3f} s\n", result, reason.empty() ? "" : ": ", reason,
+             summary.ticks, summary.seconds);
+  fmt::print(out, "{}", timing(summary));
+  for (const SynchronizedSummary& node : summary.synchronized_nodes) write_text(node, out, color);
+  for (const std::string& note : summary.notes) {
+    fmt::print(out, "{} {}\n", styled("note:", Style::Warning, color), printable(note));
+  }
+}
+
+std::string to_json(const Summary& summary) {
+  Json json = {{"result", result_text(summary.status)}, {"reason", to_string(summary.reason)}};
+  if (summary.reason == StopReason::Fault) json["fault"] = summary.fault;
+  if (summary.reason == StopReason::Signal) json["signal"] = summary.signal;
+  json["ticks"] = summary.ticks;
+  json["time_s"] = summary.seconds;
+  json["period"] = summary.period ? json_of(*summary.period) : Json();
+  json["overruns"] = summary.overruns;
+  json["skipped"] = summary.skipped;
+  json["synchronized_nodes"] = Json::array();
+  for (const auto& node : summary.synchronized_nodes) {
+    json["synchronized_nodes"].push_back(json_of(node));
+  }
+  json["notes"] = summary.notes;
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace lockstep

@@ -1,0 +1,63 @@
+// What a run was like, in numbers, and how that is told: as text for people and as JSON for
+// programs. Plain data; statistics.h fills it in.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "measure/synchronized_measure.h"
+#include "runtime/observer.h"
+
+namespace lockstep {
+
+// "success", "failure", or "stopped" when the tree was still running.
+std::string_view result_text(Status status);
+// "completed", "fault", "timeout", "max_ticks" or "signal", as recordings and JSON spell it.
+std::string_view to_string(StopReason reason);
+
+struct ChildSummary {
+  std::string name;
+  double held_seconds = 0;
+  std::uint64_t held_ticks = 0;
+};
+
+struct SynchronizedSummary {
+  std::string path, kind;
+  std::uint64_t samples = 0;  // ticks of the node
+  double distance_sum = 0, distance_mean = 0;
+  double largest_spread = 0;
+  double step_length = 0;
+  std::vector<ChildSummary> children;
+};
+
+SynchronizedSummary summarize(const SynchronizedMeasure& measure, std::string path,
+                              std::string kind, const std::vector<std::string>& children);
+
+struct PeriodSummary {
+  double p50 = 0, p99 = 0, max = 0;  // seconds from the start of a tick to the start of the next
+};
+
+struct Summary {
+  Status status = Status::Running;  // of the root after the last tick
+  StopReason reason = StopReason::Completed;
+  int signal = 0;     // when reason is Signal
+  std::string fault;  // when reason is Fault: "Door/pull/arm: threw …"
+  std::uint64_t ticks = 0;
+  double seconds = 0;
+  std::optional<PeriodSummary> period;  // real time only, and from two ticks on
+  std::uint64_t overruns = 0, skipped = 0;
+  std::vector<SynchronizedSummary> synchronized_nodes;
+  std::vector<std::string> notes;  // what else the user must know: a recording that is cut, …
+};
+
+void write_text(const Summary& summary, std::FILE* out, bool color);
+// The part of it about synchronized nodes.
+void write_text(const SynchronizedSummary& node, std::FILE* out, bool color);
+
+// One line, no newline. docs/recording.md describes the keys.
+std::string to_json(const Summary& summary);
+
+}  // namespace lockstep
