@@ -8,7 +8,9 @@ namespace lockstep {
 
 using Nanoseconds = std::chrono::nanoseconds;
 
-constexpr double to_seconds(Nanoseconds time) { return static_cast<double>(time.count()) * 1e-9; }
+constexpr double to_seconds(Nanoseconds time) {
+  return static_cast<double>(time.count()) * 1e-9;
+}
 
 // Rounded to the nearest nanosecond. `seconds` must be within +-9.2e9.
 constexpr Nanoseconds from_seconds(double seconds) {
