@@ -9,7 +9,7 @@ namespace lockstep {
 using Nanoseconds = std::chrono::nanoseconds;
 
 constexpr double to_seconds(Nanoseconds time) {
-  return static_cast<double>(time.count()) * 1e-9;
+  return static_cast<double>(time.count()) / 1e9;
 }
 
 // Rounded to the nearest nanosecond. `seconds` must be within +-9.2e9.
