@@ -27,18 +27,23 @@ class PluginSet {
   // file again does nothing. `where` is the place in a tree that asked for it, if any.
   bool load_file(const std::string& path, Diagnostics& diagnostics, SourceLocation where = {});
 
-  // Opens <name>.so from the first of `directories` that has it.
+  // Opens <name>.so from the first of `directories` that has it, unless a plugin of this name is
+  // there already: one opened by its path takes the place of one found by its name.
   bool load_named(std::string_view name, std::span<const std::string> directories,
                   Diagnostics& diagnostics, SourceLocation where = {});
 
-  // A plugin that is linked in; for tests. `origin` stands for its path in messages.
+  // A plugin that is linked in; for tests. `origin` stands for its path in messages. The plugin and
+  // all that it points to must outlive the set.
   bool add(const lockstep_plugin& plugin, std::string origin, Diagnostics& diagnostics,
            SourceLocation where = {});
 
-  // Calls each plugin's init once. On false, one error tells which refused.
+  // Calls the init of each plugin that it has not been called for. On false, one error tells which
+  // refused. A plugin has one state per process: of two sets that live at the same time, only one
+  // may initialize it.
   bool initialize(Diagnostics& diagnostics);
 
-  // The leaves of all plugins. Valid as long as the set.
+  // The leaves of all plugins, for each: origin = its lockstep_plugin, binding = its
+  // lockstep_leaf_type, both in full size whatever the plugin's age. Valid as long as the set.
   std::vector<const NodeType*> types() const;
 
   // name, version, doc and path of each plugin, in the order of loading.
@@ -49,6 +54,15 @@ class PluginSet {
 
  private:
   struct Plugin;
+  struct Request {
+    std::string origin;
+    std::string_view expected_name;  // "" = any
+    SourceLocation where;
+  };
+  bool open(const Request& request, Diagnostics& diagnostics);
+  bool accept(const lockstep_plugin& entry, std::size_t size, const Request& request,
+              Diagnostics& diagnostics);
+
   std::vector<std::unique_ptr<Plugin>> plugins_;
 };
 

@@ -1,0 +1,181 @@
+#include "plugin/descriptor.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/node_kind.h"
+#include "plugin/descriptor_port.h"
+
+namespace lockstep {
+namespace {
+
+constexpr std::size_t kHandshakeSize =
+    offsetof(lockstep_plugin, struct_size) + sizeof(lockstep_plugin::struct_size);
+constexpr std::size_t kPluginSizeIn10 =
+    offsetof(lockstep_plugin, get_extension) + sizeof(lockstep_plugin::get_extension);
+constexpr std::size_t kLeafSizeIn10 =
+    offsetof(lockstep_leaf_type, get_extension) + sizeof(lockstep_leaf_type::get_extension);
+
+// Tags of the tree language that are no node kinds.
+constexpr std::string_view kReservedTags[] = {"root",    "BehaviorTree", "SubTree", "include",
+                                              "plugin",  "arg",          "Action",  "Condition",
+                                              "Control", "Decorator"};
+
+bool is_taken(std::string_view id) {
+  return std::ranges::find(kReservedTags, id) != std::end(kReservedTags) ||
+         std::ranges::any_of(built_in_kinds(),
+                             [&](const NodeKind* kind) { return kind->type.id == id; });
+}
+
+std::optional<Refusal> check_handshake(const lockstep_plugin& entry, std::size_t exported_size) {
+  if (exported_size != 0 && exported_size < kHandshakeSize) {
+    return Refusal{
+        fmt::format("exports a constant of {} bytes, expected a lockstep_plugin", exported_size),
+        "define lockstep_plugin_entry as in docs/plugins.md"};
+  }
+  if (entry.abi_major != LOCKSTEP_ABI_MAJOR) {
+    return Refusal{
+        fmt::format("was built for plugin ABI {}.{}, this program has {}.{}", entry.abi_major,
+                    entry.abi_minor, LOCKSTEP_ABI_MAJOR, LOCKSTEP_ABI_MINOR),
+        "build it with the lockstep/leaf.h of this version"};
+  }
+  const bool too_long = exported_size != 0 && entry.struct_size > exported_size;
+  if (entry.struct_size < kPluginSizeIn10 || too_long) {
+    return Refusal{
+        fmt::format("has a lockstep_plugin with struct_size {}, expected {} {}", entry.struct_size,
+                    too_long ? "at most" : "at least", too_long ? exported_size : kPluginSizeIn10),
+        "set it to sizeof(lockstep_plugin)"};
+  }
+  return std::nullopt;
+}
+
+std::optional<Refusal> check_plugin(const lockstep_plugin& plugin) {
+  if (plugin.name == nullptr) return Refusal{"has no name", "set lockstep_plugin::name"};
+  if (!is_plugin_name(plugin.name)) {
+    return Refusal{fmt::format("is named '{}'", plugin.name),
+                   "a plugin's name is made of letters, digits, '_' and '-'"};
+  }
+  if (plugin.leaf_type_count > kMaxDescriptorCount) {
+    return Refusal{fmt::format("claims to have {} leaf types, expected at most {}",
+                               plugin.leaf_type_count, kMaxDescriptorCount),
+                   "check lockstep_plugin::leaf_type_count"};
+  }
+  if (plugin.leaf_type_count != 0 && plugin.leaf_types == nullptr) {
+    return Refusal{fmt::format("has {} leaf types but no list of them", plugin.leaf_type_count),
+                   "set lockstep_plugin::leaf_types"};
+  }
+  if ((plugin.create_run == nullptr) != (plugin.destroy_run == nullptr)) {
+    return Refusal{fmt::format("has {} without {}",
+                               plugin.create_run != nullptr ? "create_run" : "destroy_run",
+                               plugin.create_run != nullptr ? "destroy_run" : "create_run"),
+                   "a plugin has both or none"};
+  }
+  return std::nullopt;
+}
+
+std::optional<Refusal> check_id(const char* id) {
+  if (id == nullptr) return Refusal{"has no id", "set lockstep_leaf_type::id"};
+  if (!is_identifier(id)) {
+    return Refusal{fmt::format("has the id '{}'", id),
+                   "an id is a letter, then letters, digits and '_'"};
+  }
+  if (is_taken(id)) {
+    return Refusal{fmt::format("has the id '{}', which is a tag of the tree language", id),
+                   "give the leaf another id"};
+  }
+  return std::nullopt;
+}
+
+std::optional<Refusal> check_leaf(const lockstep_leaf_type& leaf) {
+  if (auto refusal = check_id(leaf.id)) return refusal;
+  if (leaf.kind != LOCKSTEP_ACTION && leaf.kind != LOCKSTEP_CONDITION) {
+    return Refusal{fmt::format("('{}') has kind {}", leaf.id, leaf.kind),
+                   "use LOCKSTEP_ACTION or LOCKSTEP_CONDITION, 1 or 2"};
+  }
+  const char* missing = leaf.create == nullptr    ? "create"
+                        : leaf.destroy == nullptr ? "destroy"
+                        : leaf.tick == nullptr    ? "tick"
+                                                  : nullptr;
+  if (missing != nullptr) {
+    return Refusal{fmt::format("('{}') has no {} function", leaf.id, missing),
+                   "create, destroy and tick must not be NULL"};
+  }
+  if (leaf.port_count > kMaxDescriptorCount) {
+    return Refusal{fmt::format("('{}') claims to have {} ports, expected at most {}", leaf.id,
+                               leaf.port_count, kMaxDescriptorCount),
+                   "check lockstep_leaf_type::port_count"};
+  }
+  if (leaf.port_count != 0 && leaf.ports == nullptr) {
+    return Refusal{fmt::format("('{}') has {} ports but no list of them", leaf.id, leaf.port_count),
+                   "set lockstep_leaf_type::ports"};
+  }
+  return std::nullopt;
+}
+
+std::optional<Refusal> read_ports(const lockstep_leaf_type& leaf, std::vector<Parameter>& ports) {
+  ports.reserve(leaf.port_count);
+  for (std::uint32_t index = 0; index < leaf.port_count; ++index) {
+    Parameter port{};
+    if (auto refusal = read_port(leaf.ports[index], ports, port)) {
+      return Refusal{fmt::format("('{}'): port {} {}", leaf.id, index, refusal->message),
+                     std::move(refusal->hint)};
+    }
+    ports.push_back(port);
+  }
+  return std::nullopt;
+}
+
+std::optional<Refusal> read_leaf(const lockstep_leaf_type* from, Descriptors::Leaf& leaf) {
+  if (from == nullptr) return Refusal{"is NULL", "list leaf_type_count leaf types"};
+  if (from->struct_size < kLeafSizeIn10) {
+    return Refusal{
+        fmt::format("has struct_size {}, expected at least {}", from->struct_size, kLeafSizeIn10),
+        "set it to sizeof(lockstep_leaf_type)"};
+  }
+  leaf.type = covered_copy(from, from->struct_size);
+  if (auto refusal = check_leaf(leaf.type)) return refusal;
+  return read_ports(leaf.type, leaf.parameters);
+}
+
+NodeType node_type(const lockstep_plugin& plugin, const Descriptors::Leaf& leaf) {
+  const bool is_action = leaf.type.kind == LOCKSTEP_ACTION;
+  return NodeType{.id = leaf.type.id,
+                  .category = is_action ? NodeCategory::Action : NodeCategory::Condition,
+                  .doc = leaf.type.doc == nullptr ? "" : leaf.type.doc,
+                  .arity = {0, 0},
+                  .parameters = leaf.parameters,
+                  .has_progress = !is_action || leaf.type.progress != nullptr,
+                  .plugin = plugin.name,
+                  .origin = &plugin,
+                  .binding = &leaf.type};
+}
+
+}  // namespace
+
+std::optional<Refusal> read_descriptors(const lockstep_plugin& entry, std::size_t exported_size,
+                                        Descriptors& descriptors) {
+  if (auto refusal = check_handshake(entry, exported_size)) return refusal;
+  lockstep_plugin& plugin = descriptors.plugin;
+  plugin = covered_copy(&entry, entry.struct_size);
+  if (auto refusal = check_plugin(plugin)) return refusal;
+  for (std::uint32_t index = 0; index < plugin.leaf_type_count; ++index) {
+    auto leaf = std::make_unique<Descriptors::Leaf>();
+    if (auto refusal = read_leaf(plugin.leaf_types[index], *leaf)) {
+      return Refusal{fmt::format("is malformed: leaf type {} {}", index, refusal->message),
+                     std::move(refusal->hint)};
+    }
+    if (std::ranges::any_of(descriptors.leaves, [&](const auto& other) {
+          return other->node_type.id == leaf->type.id;
+        })) {
+      return Refusal{fmt::format("is malformed: leaf type {} has the id '{}', as one before it",
+                                 index, leaf->type.id),
+                     "give each leaf its own id"};
+    }
+    leaf->node_type = node_type(plugin, *leaf);
+    descriptors.leaves.push_back(std::move(leaf));
+  }
+  return std::nullopt;
+}
+
+}  // namespace lockstep

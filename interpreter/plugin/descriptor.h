@@ -1,0 +1,45 @@
+// The descriptors of a plugin: checked against the rules of lockstep/leaf.h, copied to the full
+// size that this host knows, and told as node types. Calls nothing of the plugin.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/node_type.h"
+#include "lockstep/leaf.h"
+#include "plugin/refusal.h"
+
+namespace lockstep {
+
+struct Descriptors {
+  // Full size: what the plugin's own, perhaps shorter, structs do not cover is zero.
+  lockstep_plugin plugin{};
+  struct Leaf {
+    lockstep_leaf_type type{};
+    std::vector<Parameter> parameters;  // its ports, in order
+    NodeType node_type{};
+  };
+  std::vector<std::unique_ptr<Leaf>> leaves;
+};
+
+// `exported_size` is the size of `entry` as the shared object's symbol table has it; 0 = not known.
+// The descriptors point into the plugin's strings.
+std::optional<Refusal> read_descriptors(const lockstep_plugin& entry, std::size_t exported_size,
+                                        Descriptors& descriptors);
+
+// Letters, digits, '_' and '-'.
+bool is_plugin_name(std::string_view name);
+
+// As much of a struct as its owner wrote; the rest is zero.
+template <class Struct>
+Struct covered_copy(const Struct* from, std::size_t size) {
+  Struct copy{};
+  std::memcpy(static_cast<void*>(&copy), static_cast<const void*>(from),
+              size < sizeof copy ? size : sizeof copy);
+  return copy;
+}
+
+}  // namespace lockstep

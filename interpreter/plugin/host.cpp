@@ -1,0 +1,177 @@
+#include "plugin/host.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <new>
+
+namespace lockstep {
+namespace {
+
+// The contract hands out constant callers, so that plugins keep their hands off.
+lockstep_caller& mine(const lockstep_caller* caller) {
+  return const_cast<lockstep_caller&>(*caller);  // NOLINT: every caller is made non-constant
+}
+
+// The port's value when it has one of this type.
+template <class T>
+const T* readable(const lockstep_caller* caller, std::uint32_t port) {
+  if (port >= caller->ports.size() || caller->ports[port].read == nullptr) return nullptr;
+  return std::get_if<T>(caller->ports[port].read);
+}
+
+template <class T>
+bool get(const lockstep_caller* caller, std::uint32_t port, T* value) {
+  const T* found = readable<T>(caller, port);
+  if (found != nullptr) *value = *found;
+  return found != nullptr;
+}
+
+bool get_string(const lockstep_caller* caller, std::uint32_t port, const char** text,
+                std::size_t* length) {
+  const auto* found = readable<std::string>(caller, port);
+  if (found == nullptr) return false;
+  *text = found->c_str();
+  *length = found->size();
+  return true;
+}
+
+bool get_double_list(const lockstep_caller* caller, std::uint32_t port, const double** values,
+                     std::size_t* count) {
+  const auto* found = readable<std::vector<double>>(caller, port);
+  if (found == nullptr) return false;
+  *values = found->data();
+  *count = found->size();
+  return true;
+}
+
+Value* writable(const lockstep_caller* caller, std::uint32_t port, ValueType type) {
+  if (port >= caller->ports.size() || caller->ports[port].type != type) return nullptr;
+  return caller->ports[port].write;
+}
+
+template <class T, ValueType type>
+bool set(const lockstep_caller* caller, std::uint32_t port, T value) {
+  if constexpr (std::is_same_v<T, double>) {
+    if (!std::isfinite(value)) return false;
+  }
+  Value* const target = writable(caller, port, type);
+  if (target != nullptr) target->emplace<T>(value);
+  return target != nullptr;
+}
+
+// The object that the entry holds, made when it holds none: what has capacity keeps it.
+template <class T>
+T& held(Value& value) {
+  T* const found = std::get_if<T>(&value);
+  return found != nullptr ? *found : value.emplace<T>();
+}
+
+bool set_string(const lockstep_caller* caller, std::uint32_t port, const char* text,
+                std::size_t length) {
+  Value* const target = writable(caller, port, ValueType::String);
+  if (target == nullptr || (text == nullptr && length != 0)) return false;
+  try {
+    // Also right when the text is (a part of) this entry's own.
+    held<std::string>(*target).assign(length == 0 ? "" : text, length);
+  } catch (const std::exception&) {
+    return false;  // out of memory, or a length that is none
+  }
+  return true;
+}
+
+bool set_double_list(const lockstep_caller* caller, std::uint32_t port, const double* values,
+                     std::size_t count) {
+  Value* const target = writable(caller, port, ValueType::DoubleList);
+  if (target == nullptr || (values == nullptr && count != 0)) return false;
+  if (!std::all_of(values, values + count, [](double it) { return std::isfinite(it); })) {
+    return false;
+  }
+  try {
+    auto& list = held<std::vector<double>>(*target);
+    if (count > list.size()) {
+      list.assign(values, values + count);
+    } else {
+      // `values` may be a part of this very list.
+      if (count != 0) std::memmove(list.data(), values, count * sizeof(double));
+      list.resize(count);
+    }
+  } catch (const std::exception&) {
+    return false;
+  }
+  return true;
+}
+
+void set_error(const lockstep_caller* caller, const char* message) {
+  lockstep_caller& it = mine(caller);
+  if (it.slot->error != nullptr) return;  // the first is the cause
+  if (message == nullptr || *message == '\0') message = "unknown error";
+  std::size_t length = strnlen(message, it.error.size());
+  if (length == it.error.size()) {
+    // Cut before a character of UTF-8, not in it.
+    --length;
+    while (length > 0 && (static_cast<unsigned char>(message[length]) & 0xc0u) == 0x80u) --length;
+  }
+  std::memcpy(it.error.data(), message, length);
+  it.error[length] = '\0';
+  it.slot->error = it.error.data();
+}
+
+double now(const lockstep_caller* caller) {
+  return to_seconds(caller->time->now);
+}
+double tick_period(const lockstep_caller* caller) {
+  return to_seconds(caller->time->period);
+}
+
+std::uint64_t random_bits(const lockstep_caller* caller) {
+  return mine(caller).random.next();
+}
+double random_double(const lockstep_caller* caller) {
+  return mine(caller).random.next_double();
+}
+
+void log(const lockstep_caller* caller, lockstep_log_level level, const char* message) {
+  if (!*caller->log) return;
+  level = std::clamp<lockstep_log_level>(level, LOCKSTEP_LOG_DEBUG, LOCKSTEP_LOG_WARNING);
+  try {
+    (*caller->log)(caller->who, level, message == nullptr ? "" : message);
+  } catch (...) {  // NOLINT(bugprone-empty-catch): a lost line must not unwind through a plugin
+  }
+}
+
+const void* get_extension(const char* /*id*/) {
+  return nullptr;
+}
+
+}  // namespace
+
+const lockstep_host& host_table() {
+  static constexpr lockstep_host kTable{
+      .abi_major = LOCKSTEP_ABI_MAJOR,
+      .abi_minor = LOCKSTEP_ABI_MINOR,
+      .struct_size = sizeof(lockstep_host),
+      .name = "lockstep",
+      .version = LOCKSTEP_VERSION,
+      .get_bool = get<bool>,
+      .get_int = get<std::int64_t>,
+      .get_double = get<double>,
+      .get_string = get_string,
+      .get_double_list = get_double_list,
+      .set_bool = set<bool, ValueType::Bool>,
+      .set_int = set<std::int64_t, ValueType::Int>,
+      .set_double = set<double, ValueType::Double>,
+      .set_string = set_string,
+      .set_double_list = set_double_list,
+      .set_error = set_error,
+      .now = now,
+      .tick_period = tick_period,
+      .random_bits = random_bits,
+      .random = random_double,
+      .log = log,
+      .get_extension = get_extension,
+  };
+  return kTable;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,37 @@
+// The host's side of the functions in lockstep_host: who calls, and what the call may touch. Only
+// within plugin/. Getters and setters neither lock nor look up a name.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/random.h"
+#include "core/value.h"
+#include "engine/leaf_slot.h"
+#include "lockstep/leaf.h"
+#include "plugin/leaf_set.h"
+
+namespace lockstep {
+
+struct Port {
+  ValueType type;
+  const Value* read = nullptr;  // null: no value
+  Value* write = nullptr;       // null: an input, or not bound to an entry
+};
+
+}  // namespace lockstep
+
+// A leaf of a run, or (without ports) a run itself.
+struct lockstep_caller {
+  static constexpr std::size_t kMaxErrorLength = 500;
+
+  std::string who;  // its path, or the plugin's name
+  std::vector<lockstep::Port> ports;
+  lockstep::RandomStream random;
+  const lockstep::LeafTime* time;
+  const lockstep::LeafLog* log;
+  lockstep::LeafSlot* slot;  // its `error` tells of set_error
+  std::array<char, kMaxErrorLength + 1> error{};
+};

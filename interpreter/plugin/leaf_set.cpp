@@ -1,0 +1,192 @@
+#include "plugin/leaf_set.h"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <utility>
+#include <vector>
+
+#include "plugin/host.h"
+
+namespace lockstep {
+namespace {
+
+// Run contexts draw from streams that no leaf of any tree can have.
+constexpr std::uint64_t kFirstRunStream = std::uint64_t{1} << 32;
+
+// Calls a plugin, which should let no exception out. Returns the reason when it does, else "".
+template <class Call>
+std::string call_plugin(Call call) {
+  try {
+    call();
+    return {};
+  } catch (const std::exception& exception) {
+    return fmt::format("threw an exception: {}", exception.what());
+  } catch (...) {
+    return "threw an exception that is not a std::exception";
+  }
+}
+
+std::vector<Port> resolve_ports(const Tree& tree, const LeafNode& leaf, Blackboard& blackboard) {
+  std::vector<Port> ports;
+  ports.reserve(leaf.type->parameters.size());
+  for (std::size_t index = 0; index < leaf.type->parameters.size(); ++index) {
+    const PortBinding& binding = tree.ports[leaf.first_port + index];
+    const Parameter& parameter = leaf.type->parameters[index];
+    Port port{.type = parameter.type};
+    if (binding.slot != PortBinding::kUnbound) {
+      Value& entry = blackboard.values[binding.slot];
+      port.read = &entry;
+      if (parameter.direction != Direction::Input) port.write = &entry;
+    } else if (binding.constant != PortBinding::kUnbound) {
+      port.read = &tree.constants[binding.constant];
+    }
+    ports.push_back(port);
+  }
+  return ports;
+}
+
+}  // namespace
+
+struct LeafSet::Implementation {
+  // What a run shares per plugin; seen by the plugin as its run context.
+  struct Context {
+    const lockstep_plugin* plugin;
+    std::unique_ptr<lockstep_caller> caller;
+    LeafSlot slot;  // `self` is the context
+    bool created = false;
+  };
+
+  Implementation(const Tree& tree, Blackboard& blackboard, const LeafTime& time, std::uint64_t seed,
+                 LeafLog log)
+      : tree_(tree),
+        blackboard_(blackboard),
+        time_(time),
+        seed_(seed),
+        log_(std::move(log)),
+        slots_(tree.leaves.size()) {}
+  ~Implementation();
+  Implementation(const Implementation&) = delete;
+  Implementation& operator=(const Implementation&) = delete;
+
+  void create_all();
+  bool create_context(const LeafNode& leaf);
+  bool create_leaf(std::uint32_t index);
+  Context* find_context(const void* plugin);
+  std::unique_ptr<lockstep_caller> make_caller(std::string who, std::uint64_t stream,
+                                               LeafSlot& slot);
+  bool fail(NodeIndex node, std::string message);
+  void destroy(const lockstep_caller& caller, void (*function)(void*), void* object);
+
+  const Tree& tree_;
+  Blackboard& blackboard_;
+  const LeafTime& time_;
+  std::uint64_t seed_;
+  LeafLog log_;
+  // Plugins keep pointers to callers, and callers to slots: once made, none of them moves.
+  std::vector<std::unique_ptr<Context>> contexts_;
+  std::vector<LeafSlot> slots_;
+  std::vector<std::unique_ptr<lockstep_caller>> callers_;  // of the leaves that were created
+  std::optional<Fault> fault_;
+};
+
+LeafSet::Implementation::~Implementation() {
+  while (!callers_.empty()) {
+    const LeafSlot& slot = slots_[callers_.size() - 1];
+    if (slot.self != nullptr) destroy(*callers_.back(), slot.type->destroy, slot.self);
+    callers_.pop_back();
+  }
+  while (!contexts_.empty()) {
+    const Context& context = *contexts_.back();
+    if (context.created) destroy(*context.caller, context.plugin->destroy_run, context.slot.self);
+    contexts_.pop_back();
+  }
+}
+
+void LeafSet::Implementation::destroy(const lockstep_caller& caller, void (*function)(void*),
+                                      void* object) {
+  const std::string reason = call_plugin([&] { function(object); });
+  if (reason.empty()) return;
+  host_table().log(&caller, LOCKSTEP_LOG_WARNING, fmt::format("its destroy {}", reason).c_str());
+}
+
+bool LeafSet::Implementation::fail(NodeIndex node, std::string message) {
+  fault_ = Fault{node, std::move(message)};
+  return false;
+}
+
+LeafSet::Implementation::Context* LeafSet::Implementation::find_context(const void* plugin) {
+  for (const auto& context : contexts_) {
+    if (context->plugin == plugin) return context.get();
+  }
+  return nullptr;
+}
+
+std::unique_ptr<lockstep_caller> LeafSet::Implementation::make_caller(std::string who,
+                                                                      std::uint64_t stream,
+                                                                      LeafSlot& slot) {
+  return std::make_unique<lockstep_caller>(lockstep_caller{.who = std::move(who),
+                                                           .ports = {},
+                                                           .random = RandomStream(seed_, stream),
+                                                           .time = &time_,
+                                                           .log = &log_,
+                                                           .slot = &slot});
+}
+
+bool LeafSet::Implementation::create_context(const LeafNode& leaf) {
+  const auto* plugin = static_cast<const lockstep_plugin*>(leaf.type->origin);
+  contexts_.push_back(std::make_unique<Context>(Context{plugin, nullptr, {}}));
+  Context& context = *contexts_.back();
+  context.caller = make_caller(plugin->name, kFirstRunStream + contexts_.size(), context.slot);
+  if (plugin->create_run == nullptr) return true;
+  std::string reason = call_plugin([&] {
+    context.slot.self = plugin->create_run(&host_table(), context.caller.get());
+    // What came with an error is a context that must go; NULL is one only without an error.
+    context.created = context.slot.self != nullptr || context.slot.error == nullptr;
+  });
+  if (reason.empty() && context.slot.error != nullptr) reason = context.slot.error;
+  if (reason.empty()) return true;
+  return fail(leaf.node, fmt::format("the run context of plugin '{}' could not be created: {}",
+                                     plugin->name, reason));
+}
+
+bool LeafSet::Implementation::create_leaf(std::uint32_t index) {
+  const LeafNode& leaf = tree_.leaves[index];
+  LeafSlot& slot = slots_[index];
+  slot.type = static_cast<const lockstep_leaf_type*>(leaf.type->binding);
+  callers_.push_back(make_caller(tree_.path(leaf.node), index + std::uint64_t{1}, slot));
+  lockstep_caller& caller = *callers_.back();
+  caller.ports = resolve_ports(tree_, leaf, blackboard_);
+  void* const context = find_context(leaf.type->origin)->slot.self;
+  std::string reason =
+      call_plugin([&] { slot.self = slot.type->create(&host_table(), &caller, context); });
+  if (reason.empty() && slot.error != nullptr) reason = slot.error;
+  if (reason.empty() && slot.self == nullptr) reason = "its create returned NULL without an error";
+  return reason.empty() || fail(leaf.node, fmt::format("could not be created: {}", reason));
+}
+
+void LeafSet::Implementation::create_all() {
+  for (const LeafNode& leaf : tree_.leaves) {
+    if (find_context(leaf.type->origin) == nullptr && !create_context(leaf)) return;
+  }
+  for (std::uint32_t index = 0; index < tree_.leaves.size(); ++index) {
+    if (!create_leaf(index)) return;
+  }
+}
+
+LeafSet::LeafSet(const Tree& tree, Blackboard& blackboard, const LeafTime& time, std::uint64_t seed,
+                 LeafLog log)
+    : it_(std::make_unique<Implementation>(tree, blackboard, time, seed, std::move(log))) {
+  it_->create_all();
+}
+
+LeafSet::~LeafSet() = default;
+
+std::span<LeafSlot> LeafSet::slots() {
+  return it_->slots_;
+}
+const std::optional<Fault>& LeafSet::fault() const {
+  return it_->fault_;
+}
+
+}  // namespace lockstep

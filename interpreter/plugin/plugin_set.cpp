@@ -1,0 +1,203 @@
+#include "plugin/plugin_set.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+#include <ranges>
+#include <utility>
+
+#include "core/suggest.h"
+#include "plugin/descriptor.h"
+#include "plugin/leaf_set.h"
+#include "plugin/shared_object.h"
+
+namespace lockstep {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool refuse(const std::string& origin, Refusal refusal, Diagnostics& diagnostics,
+            SourceLocation where) {
+  diagnostics.error(std::move(where), fmt::format("plugin '{}' {}", origin, refusal.message),
+                    std::move(refusal.hint));
+  return false;
+}
+
+// The names that load_named would find in the directories.
+std::vector<std::string> available(std::span<const std::string> directories) {
+  std::vector<std::string> names;
+  for (const std::string& directory : directories) {
+    std::error_code error;
+    fs::directory_iterator entry(directory, error);
+    for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+      if (entry->path().extension() == ".so") names.push_back(entry->path().stem().string());
+    }
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+bool not_found(std::string_view name, std::span<const std::string> directories,
+               Diagnostics& diagnostics, SourceLocation where) {
+  const std::vector<std::string> names = available(directories);
+  const std::vector<std::string_view> candidates(names.begin(), names.end());
+  std::string hint = did_you_mean(name, candidates);
+  if (hint.empty()) hint = "add the directory that has it to the plugin path";
+  diagnostics.error(
+      std::move(where),
+      directories.empty()
+          ? fmt::format("plugin '{}' is not found: there is no directory to search", name)
+          : fmt::format("plugin '{}' is not found: '{}.so' is not in {}", name, name,
+                        fmt::join(directories, ", ")),
+      std::move(hint));
+  return false;
+}
+
+std::optional<Refusal> check_expected_name(std::string_view name, std::string_view expected) {
+  if (expected.empty() || name == expected) return std::nullopt;
+  return Refusal{fmt::format("calls itself '{}', expected '{}'", name, expected),
+                 fmt::format("name the file '{}.so', or give the plugin the file's name", name)};
+}
+
+// The reason why init did not work, or "".
+std::string init_failure(const lockstep_plugin& plugin) {
+  if (plugin.init == nullptr) return {};
+  try {
+    return plugin.init(&host_table()) ? "" : "refuses to work: its init returned false";
+  } catch (const std::exception& exception) {
+    return fmt::format("refuses to work: its init threw an exception: {}", exception.what());
+  } catch (...) {
+    return "refuses to work: its init threw an exception that is not a std::exception";
+  }
+}
+
+}  // namespace
+
+struct PluginSet::Plugin {
+  const lockstep_plugin* entry;  // the plugin's own constant
+  std::string origin;
+  Descriptors descriptors;
+  bool initialized = false;
+
+  std::string_view name() const { return descriptors.plugin.name; }
+
+  // What keeps two plugins from living in one set.
+  static std::optional<Refusal> check_against(const Plugin& newcomer, const Plugin& other);
+};
+
+std::optional<Refusal> PluginSet::Plugin::check_against(const Plugin& newcomer,
+                                                        const Plugin& other) {
+  if (newcomer.name() == other.name()) {
+    return Refusal{fmt::format("is named '{}', as is '{}'", newcomer.name(), other.origin),
+                   "load one of the two"};
+  }
+  for (const auto& leaf : newcomer.descriptors.leaves) {
+    for (const auto& known : other.descriptors.leaves) {
+      if (leaf->node_type.id != known->node_type.id) continue;
+      return Refusal{fmt::format("has the leaf '{}', which plugin '{}' has already",
+                                 leaf->node_type.id, other.origin),
+                     "load one of the two, or rename the leaf"};
+    }
+  }
+  return std::nullopt;
+}
+
+PluginSet::PluginSet() = default;
+
+PluginSet::~PluginSet() {
+  for (const auto& plugin : plugins_ | std::views::reverse) {
+    const auto deinit = plugin->descriptors.plugin.deinit;
+    if (!plugin->initialized || deinit == nullptr) continue;
+    try {
+      deinit();
+    } catch (...) {  // NOLINT(bugprone-empty-catch): the work is done, nobody is left to tell
+    }
+  }
+}
+
+bool PluginSet::load_file(const std::string& path, Diagnostics& diagnostics, SourceLocation where) {
+  return open({path, {}, std::move(where)}, diagnostics);
+}
+
+bool PluginSet::load_named(std::string_view name, std::span<const std::string> directories,
+                           Diagnostics& diagnostics, SourceLocation where) {
+  if (!is_plugin_name(name)) {
+    diagnostics.error(std::move(where), fmt::format("'{}' is not the name of a plugin", name),
+                      "a plugin is named by letters, digits, '_' and '-', without path and '.so'");
+    return false;
+  }
+  if (std::ranges::any_of(plugins_, [&](const auto& it) { return it->name() == name; })) {
+    return true;
+  }
+  for (const std::string& directory : directories) {
+    const std::string path = (fs::path(directory) / fmt::format("{}.so", name)).string();
+    std::error_code error;
+    if (fs::exists(path, error)) return open({path, name, std::move(where)}, diagnostics);
+  }
+  return not_found(name, directories, diagnostics, std::move(where));
+}
+
+bool PluginSet::add(const lockstep_plugin& plugin, std::string origin, Diagnostics& diagnostics,
+                    SourceLocation where) {
+  return accept(plugin, 0, {std::move(origin), {}, std::move(where)}, diagnostics);
+}
+
+bool PluginSet::open(const Request& request, Diagnostics& diagnostics) {
+  SharedObject object;
+  ExportedConstant constant;
+  auto refusal = open_shared_object(request.origin, object);
+  if (!refusal) refusal = find_constant(object, LOCKSTEP_PLUGIN_ENTRY, constant);
+  if (refusal) return refuse(request.origin, std::move(*refusal), diagnostics, request.where);
+  return accept(*static_cast<const lockstep_plugin*>(constant.address), constant.size, request,
+                diagnostics);
+}
+
+bool PluginSet::accept(const lockstep_plugin& entry, std::size_t size, const Request& request,
+                       Diagnostics& diagnostics) {
+  if (std::ranges::any_of(plugins_, [&](const auto& it) { return it->entry == &entry; })) {
+    return true;
+  }
+  auto plugin = std::make_unique<Plugin>(Plugin{&entry, request.origin, {}});
+  auto refusal = read_descriptors(entry, size, plugin->descriptors);
+  if (!refusal) refusal = check_expected_name(plugin->name(), request.expected_name);
+  for (const auto& other : plugins_) {
+    if (!refusal) refusal = Plugin::check_against(*plugin, *other);
+  }
+  if (refusal) return refuse(request.origin, std::move(*refusal), diagnostics, request.where);
+  plugins_.push_back(std::move(plugin));
+  return true;
+}
+
+bool PluginSet::initialize(Diagnostics& diagnostics) {
+  for (const auto& plugin : plugins_) {
+    if (plugin->initialized) continue;
+    if (std::string failure = init_failure(plugin->descriptors.plugin); !failure.empty()) {
+      return refuse(plugin->origin, {std::move(failure), "its author knows what it waits for"},
+                    diagnostics, {});
+    }
+    plugin->initialized = true;
+  }
+  return true;
+}
+
+std::vector<const NodeType*> PluginSet::types() const {
+  std::vector<const NodeType*> types;
+  for (const auto& plugin : plugins_) {
+    for (const auto& leaf : plugin->descriptors.leaves) types.push_back(&leaf->node_type);
+  }
+  return types;
+}
+
+std::vector<PluginSet::Info> PluginSet::list() const {
+  const auto text = [](const char* it) { return std::string(it == nullptr ? "" : it); };
+  std::vector<Info> list;
+  for (const auto& plugin : plugins_) {
+    const lockstep_plugin& it = plugin->descriptors.plugin;
+    list.push_back({text(it.name), text(it.version), text(it.doc), plugin->origin});
+  }
+  return list;
+}
+
+}  // namespace lockstep

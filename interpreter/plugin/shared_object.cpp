@@ -1,0 +1,65 @@
+#include "plugin/shared_object.h"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <link.h>
+
+#include <string_view>
+
+#include "plugin/elf_file.h"
+
+namespace lockstep {
+namespace {
+
+// The linker's last words, without the path that the message names already.
+std::string linker_error(const std::string& path) {
+  const char* text = dlerror();
+  std::string_view error = text == nullptr ? "unknown error" : text;
+  if (error.starts_with(path)) {
+    error.remove_prefix(path.size());
+    if (error.starts_with(": ")) error.remove_prefix(2);
+  }
+  return std::string(error);
+}
+
+std::string hint_for(std::string_view error) {
+  if (error.find("undefined symbol") != error.npos) {
+    return "link the plugin with the library that defines it; functions of lockstep are reached "
+           "through the host table only";
+  }
+  return "'ldd' lists the libraries that it needs and which of them are missing";
+}
+
+}  // namespace
+
+std::optional<Refusal> open_shared_object(const std::string& path, SharedObject& object) {
+  if (auto refusal = inspect_elf_file(path)) return refusal;
+  // A name without a slash would be searched in the system's library directories.
+  const std::string file = path.find('/') == path.npos ? "./" + path : path;
+  object.handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (object.handle != nullptr) return std::nullopt;
+  const std::string error = linker_error(file);
+  return Refusal{fmt::format("cannot be loaded: {}", error), hint_for(error)};
+}
+
+std::optional<Refusal> find_constant(const SharedObject& object, const char* symbol,
+                                     ExportedConstant& found) {
+  const Refusal missing{fmt::format("does not export '{}'", symbol),
+                        "is it a lockstep plugin? docs/plugins.md shows how one is built"};
+  found.address = dlsym(object.handle, symbol);
+  if (found.address == nullptr) return missing;
+  Dl_info info{};
+  void* extra = nullptr;
+  if (dladdr1(found.address, &info, &extra, RTLD_DL_SYMENT) == 0 || extra == nullptr) {
+    return std::nullopt;
+  }
+  const auto& entry = *static_cast<const ElfW(Sym)*>(extra);
+  if (ELF64_ST_TYPE(entry.st_info) == STT_FUNC) {
+    return Refusal{fmt::format("exports '{}' as a function", symbol),
+                   "define it as a constant of type lockstep_plugin"};
+  }
+  found.size = entry.st_size;
+  return std::nullopt;
+}
+
+}  // namespace lockstep
