@@ -1,0 +1,96 @@
+// What a leaf derives from: Action or Condition. Included by lockstep/leaf.hpp.
+#pragma once
+
+#include <stdexcept>
+
+#include "port.hpp"
+#include "run_context.hpp"
+
+namespace lockstep {
+inline namespace sdk1 {
+
+namespace detail {
+
+// Where the leaf under construction finds its caller, so that authors need not pass it on.
+inline thread_local const Caller* creating = nullptr;
+
+struct LeafAccess;
+
+}  // namespace detail
+
+// Common to actions and conditions: the host's services, and what the leaves of a run share.
+class Leaf : protected Services {
+ public:
+  using Status = sdk1::Status;
+  virtual ~Leaf() = default;
+
+ protected:
+  Leaf() : Services(creator()) {}
+
+  // The run context of this run, declared to the plugin with lockstep::run_context<Context>().
+  template <class Context>
+  Context& context() const {
+    return detail::ContextHolder<Context>::from(caller_.run_context).value;
+  }
+
+ private:
+  friend struct detail::LeafAccess;
+
+  static const detail::Caller& creator() {
+    if (!detail::creating) throw std::logic_error("a leaf can only be created by its host");
+    return *detail::creating;
+  }
+};
+
+// The functions of an action. Only those that are overridden exist for the host. Each runs in the
+// thread that ticks the tree and must return quickly. To fail as an action, return Failure; to
+// report that the leaf is broken, throw: the run ends in order, with the message as its reason.
+class ActionFunctions : public Leaf {
+ public:
+  // Once per tick, from start until it returns Success or Failure.
+  virtual Status tick() = 0;
+  // The first tick of an activation is about to come. The object may have been active before.
+  virtual void start() {}
+  // Stop now: the activation ends without a result. May come while paused.
+  virtual void halt() {}
+  // Hold still, keep the position: no ticks for a while.
+  virtual void pause() {}
+  // Ticks come again.
+  virtual void resume() {}
+  // How much of the activation is done, in [0, 1]; asked only while running, also while paused. It
+  // may fall.
+  virtual double progress() const { return 0; }
+
+ private:
+  friend struct detail::LeafAccess;
+  // What must end before any part of a derived leaf is destroyed.
+  virtual void before_destroy() {}
+};
+
+template <class PortsOfLeaf = NoPorts>
+class Action : public ActionFunctions, public PortsOfLeaf {
+ public:
+  using PortsType = PortsOfLeaf;
+
+ protected:
+  Action() { detail::PortsAccess::bind(*this, this->caller_); }
+};
+
+// A question with an answer in the same tick.
+class ConditionFunctions : public Leaf {
+ public:
+  // true is Success, false is Failure.
+  virtual bool check() = 0;
+};
+
+template <class PortsOfLeaf = NoPorts>
+class Condition : public ConditionFunctions, public PortsOfLeaf {
+ public:
+  using PortsType = PortsOfLeaf;
+
+ protected:
+  Condition() { detail::PortsAccess::bind(*this, this->caller_); }
+};
+
+}  // namespace sdk1
+}  // namespace lockstep

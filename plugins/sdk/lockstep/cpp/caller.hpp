@@ -1,0 +1,119 @@
+// What a leaf or a run may ask of its host: time, random numbers, log lines. Also the boundary that
+// turns C++ exceptions into leaf errors. Included by lockstep/leaf.hpp.
+#pragma once
+
+#include <cstdint>
+#include <exception>
+#include <stdexcept>
+#include <string>
+
+#include "../leaf.h"
+
+namespace lockstep {
+inline namespace sdk1 {
+
+enum class Status : std::int32_t {
+  Running = LOCKSTEP_RUNNING,
+  Success = LOCKSTEP_SUCCESS,
+  Failure = LOCKSTEP_FAILURE
+};
+
+enum class LogLevel : std::int32_t {
+  Debug = LOCKSTEP_LOG_DEBUG,
+  Info = LOCKSTEP_LOG_INFO,
+  Warning = LOCKSTEP_LOG_WARNING
+};
+
+namespace detail {
+
+// Set in the thread of a ThreadedAction, from where nothing but log() may reach the host.
+inline thread_local bool in_worker = false;
+
+struct Caller {
+  const lockstep_host* host = nullptr;
+  const lockstep_caller* id = nullptr;
+  void* run_context = nullptr;
+  bool has_worker = false;
+
+  void require_run_thread() const {
+    if (has_worker && in_worker) {
+      throw std::logic_error(
+          "ports, time and random numbers belong to begin() and finish(), not run()");
+    }
+  }
+};
+
+// Runs `work` and returns its result. An exception becomes an error of the caller, and `otherwise`
+// the result, which then does not count.
+template <class Result, class Work>
+Result guarded(const Caller& caller, Result otherwise, Work&& work) noexcept {
+  const auto fail = [&](const char* message) { caller.host->set_error(caller.id, message); };
+  try {
+    return work();
+  } catch (const std::exception& error) {
+    fail(error.what());
+  } catch (const char* message) {
+    fail(message);
+  } catch (const std::string& message) {
+    fail(message.c_str());
+  } catch (...) {
+    fail("an exception that is not a std::exception");
+  }
+  return otherwise;
+}
+
+template <class Work>
+void guarded(const Caller& caller, Work&& work) noexcept {
+  guarded(caller, true, [&] {
+    work();
+    return true;
+  });
+}
+
+}  // namespace detail
+
+// The host as one leaf, or one run, sees it.
+class Services {
+ public:
+  // Seconds since the run began, the same for the whole of a tick.
+  double now() const { return host().now(caller_.id); }
+  // Seconds between two ticks.
+  double tick_period() const { return host().tick_period(caller_.id); }
+
+  // The caller's own stream of random numbers: 64 bits, or uniform in [0, 1) or [low, high). The
+  // same seed, tree and run give the same numbers.
+  std::uint64_t random_bits() { return host().random_bits(caller_.id); }
+  double random() { return host().random(caller_.id); }
+  double uniform(double low, double high) { return low + (high - low) * random(); }
+
+  // A line for the person who runs the tree; from any thread. To report that the leaf is broken,
+  // throw.
+  void log(LogLevel level, const std::string& message) const {
+    caller_.host->log(caller_.id, static_cast<lockstep_log_level>(level), message.c_str());
+  }
+  void log(const std::string& message) const { log(LogLevel::Info, message); }
+
+  // A table of functions beyond leaf.h, or null when the host does not know the id.
+  template <class Table>
+  const Table* host_extension(const char* id) const {
+    return static_cast<const Table*>(caller_.host->get_extension(id));
+  }
+
+  Services(const Services&) = delete;
+  Services& operator=(const Services&) = delete;
+
+ protected:
+  explicit Services(const detail::Caller& caller) : caller_(caller) {}
+  ~Services() = default;
+
+  detail::Caller caller_;
+
+ private:
+  const lockstep_host& host() const {
+    caller_.require_run_thread();
+    return *caller_.host;
+  }
+};
+
+}  // namespace sdk1
+}  // namespace lockstep

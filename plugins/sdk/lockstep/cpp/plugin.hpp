@@ -1,0 +1,238 @@
+// From classes to the C tables of a plugin, as constants; and the macro that exports them. Included
+// by lockstep/leaf.hpp.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <type_traits>
+
+#include "action.hpp"
+
+namespace lockstep {
+inline namespace sdk1 {
+namespace detail {
+
+struct LeafAccess {
+  static const Caller& caller(const Leaf& leaf) { return leaf.caller_; }
+  static void before_destroy(ActionFunctions& action) { action.before_destroy(); }
+  static void before_destroy(ConditionFunctions&) {}
+};
+
+// The functions of the C table for leaf class T, which must be public in T.
+template <class T>
+struct LeafFunctions {
+  static constexpr bool kIsAction = std::is_base_of_v<ActionFunctions, T>;
+  static_assert(kIsAction || std::is_base_of_v<ConditionFunctions, T>,
+                "a leaf derives from lockstep::Action, Condition or ThreadedAction");
+
+  static void* create(const lockstep_host* host, const lockstep_caller* id, void* run_context) {
+    const Caller caller{host, id, run_context};
+    return guarded(caller, static_cast<void*>(nullptr), [&]() -> void* {
+      const Creating scope(caller);
+      return new T();
+    });
+  }
+  static void destroy(void* leaf) {
+    T* object = static_cast<T*>(leaf);
+    const Caller caller = LeafAccess::caller(*object);
+    guarded(caller, [&] {
+      LeafAccess::before_destroy(*object);
+      delete object;
+    });
+  }
+  static lockstep_status tick(void* leaf) {
+    T& object = *static_cast<T*>(leaf);
+    return guarded(LeafAccess::caller(object), lockstep_status{LOCKSTEP_FAILURE}, [&] {
+      if constexpr (kIsAction) {
+        return static_cast<lockstep_status>(object.tick());
+      } else {
+        return lockstep_status{object.check() ? LOCKSTEP_SUCCESS : LOCKSTEP_FAILURE};
+      }
+    });
+  }
+  static void start(void* leaf) { call(leaf, &T::start); }
+  static void halt(void* leaf) { call(leaf, &T::halt); }
+  static void pause(void* leaf) { call(leaf, &T::pause); }
+  static void resume(void* leaf) { call(leaf, &T::resume); }
+  static double progress(void* leaf) {
+    const T& object = *static_cast<T*>(leaf);
+    return guarded(LeafAccess::caller(object), 0.0, [&] { return object.progress(); });
+  }
+
+ private:
+  struct Creating {
+    explicit Creating(const Caller& caller) { creating = &caller; }
+    ~Creating() { creating = nullptr; }
+    Creating(const Creating&) = delete;
+    Creating& operator=(const Creating&) = delete;
+  };
+  static void call(void* leaf, void (T::*function)()) {
+    T* object = static_cast<T*>(leaf);
+    guarded(LeafAccess::caller(*object), [&] { (object->*function)(); });
+  }
+};
+
+// A pointer to a member function has the class that declares it in its type: that tells an
+// overridden function from one that was left alone.
+template <class Own, class Inherited>
+inline constexpr bool is_overridden = !std::is_same_v<Own, Inherited>;
+
+template <class T>
+constexpr void add_optional_functions(lockstep_leaf_type& type) {
+  using Functions = LeafFunctions<T>;
+  using Nothing = void (ActionFunctions::*)();
+  using NoProgress = double (ActionFunctions::*)() const;
+  if constexpr (is_overridden<decltype(&T::start), Nothing>) type.start = &Functions::start;
+  if constexpr (is_overridden<decltype(&T::halt), Nothing>) type.halt = &Functions::halt;
+  if constexpr (is_overridden<decltype(&T::pause), Nothing>) type.pause = &Functions::pause;
+  if constexpr (is_overridden<decltype(&T::resume), Nothing>) type.resume = &Functions::resume;
+  if constexpr (is_overridden<decltype(&T::progress), NoProgress>) {
+    type.progress = &Functions::progress;
+  }
+}
+
+struct RunContextPart {
+  void* (*create)(const lockstep_host*, const lockstep_caller*);
+  void (*destroy)(void*);
+};
+struct InitPart {
+  bool (*function)(const lockstep_host*);
+};
+struct DeinitPart {
+  void (*function)();
+};
+
+// All of a plugin but the pointers to its own parts.
+template <std::size_t LeafCount>
+struct PluginParts {
+  lockstep_plugin plugin{};
+  std::array<lockstep_leaf_type, LeafCount> leaves{};
+  std::size_t count = 0;
+
+  constexpr void add(const lockstep_leaf_type& leaf) {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (std::string_view(leaves[i].id) == leaf.id) error_two_leaves_have_the_same_id();
+    }
+    leaves[count++] = leaf;
+  }
+  constexpr void add(RunContextPart part) {
+    require_first(plugin.create_run);
+    plugin.create_run = part.create;
+    plugin.destroy_run = part.destroy;
+  }
+  constexpr void add(InitPart part) {
+    require_first(plugin.init);
+    plugin.init = part.function;
+  }
+  constexpr void add(DeinitPart part) {
+    require_first(plugin.deinit);
+    plugin.deinit = part.function;
+  }
+
+ private:
+  template <class Function>
+  static constexpr void require_first(Function present) {
+    if (present) error_a_plugin_has_at_most_one_run_context_init_and_deinit();
+  }
+};
+
+template <class... Parts>
+constexpr auto parts(const char* name, const char* version, const char* doc, Parts... all) {
+  if (!is_name(name)) error_name_must_be_letters_digits_and_underscores();
+  constexpr std::size_t kLeaves =
+      (std::size_t{0} + ... + (std::is_same_v<Parts, lockstep_leaf_type> ? 1 : 0));
+  static_assert(kLeaves > 0, "a plugin has at least one leaf");
+  PluginParts<kLeaves> result;
+  result.plugin.abi_major = LOCKSTEP_ABI_MAJOR;
+  result.plugin.abi_minor = LOCKSTEP_ABI_MINOR;
+  result.plugin.struct_size = sizeof(lockstep_plugin);
+  result.plugin.name = name;
+  result.plugin.version = version;
+  result.plugin.doc = doc;
+  (result.add(all), ...);
+  return result;
+}
+
+template <std::size_t Count>
+constexpr auto pointers(const PluginParts<Count>& parts) {
+  std::array<const lockstep_leaf_type*, Count> list{};
+  for (std::size_t i = 0; i < Count; ++i) list[i] = &parts.leaves[i];
+  return list;
+}
+
+template <std::size_t Count>
+constexpr lockstep_plugin plugin(const PluginParts<Count>& parts,
+                                 const std::array<const lockstep_leaf_type*, Count>& leaves) {
+  lockstep_plugin result = parts.plugin;
+  result.leaf_type_count = static_cast<std::uint32_t>(Count);
+  result.leaf_types = leaves.data();
+  return result;
+}
+
+}  // namespace detail
+
+// Parts of a plugin, to be listed in LOCKSTEP_PLUGIN.
+
+// A leaf of class T: its XML tag, and one or two sentences about it.
+template <class T>
+constexpr lockstep_leaf_type leaf(const char* id, const char* doc) {
+  using Functions = detail::LeafFunctions<T>;
+  using Table = detail::PortTable<typename T::PortsType>;
+  if (!detail::is_name(id)) detail::error_name_must_be_letters_digits_and_underscores();
+  lockstep_leaf_type type{};
+  type.struct_size = sizeof(lockstep_leaf_type);
+  type.kind = Functions::kIsAction ? LOCKSTEP_ACTION : LOCKSTEP_CONDITION;
+  type.id = id;
+  type.doc = doc;
+  type.port_count = Table::kCount;
+  type.ports = Table::kList.data();
+  type.create = &Functions::create;
+  type.destroy = &Functions::destroy;
+  type.tick = &Functions::tick;
+  if constexpr (Functions::kIsAction) detail::add_optional_functions<T>(type);
+  return type;
+}
+
+// What the leaves of a run share: one Context per run, made from a Run& or from nothing. Its leaves
+// reach it with context<Context>().
+template <class Context>
+constexpr detail::RunContextPart run_context() {
+  return {&detail::ContextHolder<Context>::create, &detail::ContextHolder<Context>::destroy};
+}
+
+// Called once before the first leaf, and once after the last. false, or an exception, from `Start`
+// refuses to work.
+template <bool (*Start)(const lockstep_host&)>
+constexpr detail::InitPart init() {
+  return {[](const lockstep_host* host) noexcept {
+    try {
+      return Start(*host);
+    } catch (...) {
+      return false;
+    }
+  }};
+}
+template <void (*End)()>
+constexpr detail::DeinitPart deinit() {
+  return {[]() noexcept {
+    try {
+      End();
+    } catch (...) {  // there is nobody left to tell
+    }
+  }};
+}
+
+}  // namespace sdk1
+}  // namespace lockstep
+
+// Defines the constant `table` as the plugin: name, version, one sentence, then its parts.
+#define LOCKSTEP_PLUGIN_TABLE(table, ...)                                                        \
+  static constexpr auto table##_parts = ::lockstep::detail::parts(__VA_ARGS__);                  \
+  static constexpr auto table##_leaves = ::lockstep::detail::pointers(table##_parts);            \
+  extern "C" {                                                                                   \
+  constexpr ::lockstep_plugin table = ::lockstep::detail::plugin(table##_parts, table##_leaves); \
+  }                                                                                              \
+  static_assert(table.leaf_type_count > 0, "a plugin has at least one leaf")
+
+// Exports the plugin from this shared object; once, outside of any namespace.
+#define LOCKSTEP_PLUGIN(...) LOCKSTEP_PLUGIN_TABLE(lockstep_plugin_entry, __VA_ARGS__)

@@ -1,0 +1,201 @@
+// The ports of a leaf: members of a struct that derives from Ports. The struct is made once as a
+// constant, for the descriptors, and once in every leaf, where its members read and write. Included
+// by lockstep/leaf.hpp.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "port_traits.hpp"
+
+namespace lockstep {
+inline namespace sdk1 {
+
+template <class T>
+class Input;
+template <class T>
+class Output;
+template <class T>
+class InOut;
+
+// In the place of a default: the tree must give this port.
+struct Required {};
+
+namespace detail {
+class Port;
+struct PortsAccess;
+}  // namespace detail
+
+class Ports {
+ public:
+  template <class T>
+  using Input = sdk1::Input<T>;
+  template <class T>
+  using Output = sdk1::Output<T>;
+  template <class T>
+  using InOut = sdk1::InOut<T>;
+  static constexpr Required required{};
+
+  constexpr Ports() = default;
+  Ports(const Ports&) = delete;
+  Ports& operator=(const Ports&) = delete;
+
+ private:
+  friend class detail::Port;
+  friend struct detail::PortsAccess;
+  detail::Port* first_port_ = nullptr;
+  detail::Port* last_port_ = nullptr;
+  std::uint32_t port_count_ = 0;
+  const detail::Caller* port_caller_ = nullptr;
+};
+
+namespace detail {
+
+class Port {
+ public:
+  Port(const Port&) = delete;
+  Port& operator=(const Port&) = delete;
+  constexpr const char* name() const { return description_.name; }
+
+ protected:
+  constexpr Port(Ports* owner, const lockstep_port& description)
+      : description_(description), owner_(owner), index_(owner->port_count_) {
+    check_name(owner);
+    (owner->last_port_ ? owner->last_port_->next_ : owner->first_port_) = this;
+    owner->last_port_ = this;
+    ++owner->port_count_;
+  }
+
+  const Caller& caller() const {
+    if (!owner_->port_caller_) throw std::logic_error("a port outside of a leaf");
+    owner_->port_caller_->require_run_thread();
+    return *owner_->port_caller_;
+  }
+  std::uint32_t index() const { return index_; }
+
+ private:
+  friend struct PortsAccess;
+
+  constexpr void check_name(const Ports* owner) const {
+    const std::string_view name(description_.name);
+    if (!is_name(name)) error_name_must_be_letters_digits_and_underscores();
+    if (name == "name" || name == "ID") error_port_name_is_reserved_by_the_tree_language();
+    for (const Port* other = owner->first_port_; other; other = other->next_) {
+      if (name == other->description_.name) error_two_ports_have_the_same_name();
+    }
+  }
+
+  lockstep_port description_;
+  const Ports* owner_;
+  std::uint32_t index_;
+  Port* next_ = nullptr;
+};
+
+template <class T>
+constexpr lockstep_port describe(lockstep_direction direction, const char* name,
+                                 const char* default_value, const char* doc, const char* unit) {
+  if (default_value && !PortTraits<T>::accepts(default_value)) {
+    error_default_is_not_a_value_of_the_port_type();
+  }
+  return {sizeof(lockstep_port), PortTraits<T>::kType, direction, name, default_value, unit, doc};
+}
+
+template <class T>
+class ReadablePort : public Port {
+ public:
+  using View = typename PortTraits<T>::View;
+
+  // The value; a std::runtime_error that names the port when it has none.
+  T get() const { return from_view<T>(view()); }
+
+  // Nothing when the port has no value: it is bound to an entry that nobody has written yet.
+  std::optional<T> try_get() const {
+    View value{};
+    if (!PortTraits<T>::get(caller(), index(), value)) return std::nullopt;
+    return from_view<T>(value);
+  }
+
+  // As get, without a copy: a std::string_view or a ListView, valid until a port is set or the
+  // function of the leaf returns.
+  View view() const {
+    View value{};
+    if (!PortTraits<T>::get(caller(), index(), value)) {
+      throw std::runtime_error("port '" + std::string(name()) + "' has no value");
+    }
+    return value;
+  }
+
+ protected:
+  using Port::Port;
+};
+
+}  // namespace detail
+
+template <class T>
+class Input : public detail::ReadablePort<T> {
+ public:
+  // `default_value` as a tree would write it.
+  constexpr Input(Ports* owner, const char* name, const char* default_value, const char* doc,
+                  const char* unit = "")
+      : detail::ReadablePort<T>(
+            owner, detail::describe<T>(LOCKSTEP_INPUT, name, default_value, doc, unit)) {}
+  constexpr Input(Ports* owner, const char* name, Required, const char* doc, const char* unit = "")
+      : Input(owner, name, static_cast<const char*>(nullptr), doc, unit) {}
+};
+
+template <class T>
+class Output : public detail::Port {
+ public:
+  constexpr Output(Ports* owner, const char* name, const char* doc, const char* unit = "")
+      : Port(owner, detail::describe<T>(LOCKSTEP_OUTPUT, name, nullptr, doc, unit)) {}
+
+  // Writes the entry that the tree binds to the port; false when it binds none, or when the host
+  // refuses the value (a number that is not finite).
+  bool set(const T& value) { return detail::PortTraits<T>::set(caller(), index(), value); }
+};
+
+template <class T>
+class InOut : public detail::ReadablePort<T> {
+ public:
+  constexpr InOut(Ports* owner, const char* name, const char* doc, const char* unit = "")
+      : detail::ReadablePort<T>(owner,
+                                detail::describe<T>(LOCKSTEP_INOUT, name, nullptr, doc, unit)) {}
+
+  bool set(const T& value) {
+    return detail::PortTraits<T>::set(this->caller(), this->index(), value);
+  }
+};
+
+// The ports of a leaf that has none.
+struct NoPorts : Ports {};
+
+namespace detail {
+
+struct PortsAccess {
+  static void bind(Ports& ports, const Caller& caller) { ports.port_caller_ = &caller; }
+  static constexpr std::uint32_t count(const Ports& ports) { return ports.port_count_; }
+
+  template <std::uint32_t Count>
+  static constexpr std::array<const lockstep_port*, Count> list(const Ports& ports) {
+    std::array<const lockstep_port*, Count> pointers{};
+    for (const Port* port = ports.first_port_; port; port = port->next_) {
+      pointers[port->index_] = &port->description_;
+    }
+    return pointers;
+  }
+};
+
+// The descriptors of a struct of ports, without a leaf.
+template <class PortsOfLeaf>
+struct PortTable {
+  static constexpr PortsOfLeaf kPorts = PortsOfLeaf();
+  static constexpr std::uint32_t kCount = PortsAccess::count(kPorts);
+  static constexpr std::array<const lockstep_port*, kCount> kList =
+      PortsAccess::list<kCount>(kPorts);
+};
+
+}  // namespace detail
+}  // namespace sdk1
+}  // namespace lockstep

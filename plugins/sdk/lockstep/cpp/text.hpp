@@ -1,0 +1,108 @@
+// What the compiler checks in names and default values, so that a mistake in a descriptor is a
+// compile error with a telling name. Included by cpp/port.hpp and cpp/plugin.hpp.
+#pragma once
+
+#include <cstdlib>
+#include <string_view>
+
+namespace lockstep {
+inline namespace sdk1 {
+namespace detail {
+
+// Descriptors are constants, and a constant may not call these: the compiler shows the name.
+[[noreturn]] inline void error_name_must_be_letters_digits_and_underscores() {
+  std::abort();
+}
+[[noreturn]] inline void error_port_name_is_reserved_by_the_tree_language() {
+  std::abort();
+}
+[[noreturn]] inline void error_two_ports_have_the_same_name() {
+  std::abort();
+}
+[[noreturn]] inline void error_default_is_not_a_value_of_the_port_type() {
+  std::abort();
+}
+[[noreturn]] inline void error_two_leaves_have_the_same_id() {
+  std::abort();
+}
+[[noreturn]] inline void error_a_plugin_has_at_most_one_run_context_init_and_deinit() {
+  std::abort();
+}
+
+constexpr bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+constexpr bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+// A letter, then letters, digits, '_'.
+constexpr bool is_name(std::string_view text) {
+  if (text.empty() || !is_letter(text[0])) return false;
+  for (const char c : text) {
+    if (!is_letter(c) && !is_digit(c) && c != '_') return false;
+  }
+  return true;
+}
+
+constexpr std::string_view trim(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r\n";
+  const auto first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+// Removes the digits at the front; how many there were.
+constexpr std::size_t skip_digits(std::string_view& text) {
+  std::size_t count = 0;
+  for (; !text.empty() && is_digit(text[0]); ++count) text.remove_prefix(1);
+  return count;
+}
+
+constexpr void skip_sign(std::string_view& text) {
+  if (!text.empty() && (text[0] == '+' || text[0] == '-')) text.remove_prefix(1);
+}
+
+constexpr bool is_int(std::string_view text) {
+  text = trim(text);
+  skip_sign(text);
+  return skip_digits(text) > 0 && text.empty();
+}
+
+constexpr bool is_double(std::string_view text) {
+  text = trim(text);
+  skip_sign(text);
+  std::size_t digits = skip_digits(text);
+  if (!text.empty() && text[0] == '.') {
+    text.remove_prefix(1);
+    digits += skip_digits(text);
+  }
+  if (digits == 0) return false;
+  if (text.empty()) return true;
+  if (text[0] != 'e' && text[0] != 'E') return false;
+  text.remove_prefix(1);
+  skip_sign(text);
+  return skip_digits(text) > 0 && text.empty();
+}
+
+constexpr bool is_bool(std::string_view text) {
+  text = trim(text);
+  return text == "true" || text == "false" || text == "1" || text == "0";
+}
+
+constexpr bool is_double_list(std::string_view text) {
+  constexpr std::string_view kSeparators = ";, \t\r\n";
+  while (true) {
+    const auto first = text.find_first_not_of(kSeparators);
+    if (first == std::string_view::npos) return true;
+    text.remove_prefix(first);
+    const auto found = text.find_first_of(kSeparators);
+    const auto length = found == std::string_view::npos ? text.size() : found;
+    if (!is_double(text.substr(0, length))) return false;
+    text.remove_prefix(length);
+  }
+}
+
+}  // namespace detail
+}  // namespace sdk1
+}  // namespace lockstep
