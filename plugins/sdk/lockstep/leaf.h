@@ -70,9 +70,11 @@ typedef struct lockstep_port {
   uint32_t struct_size; /* sizeof(lockstep_port) as the plugin knew it */
   lockstep_type type;
   lockstep_direction direction;
-  const char* name;          /* the XML attribute: a letter, then letters, digits, '_' */
-  const char* default_value; /* as written in XML; NULL: an input must be given in the tree */
-  const char* unit;          /* "s", "m/s", …; NULL or "" for none */
+  const char* name;          /* the XML attribute: a letter, then letters, digits, '_'; each port of
+                                a leaf has its own; 'name' and 'ID' are taken */
+  const char* default_value; /* a constant, as written in XML; NULL: an input or inout must be given
+                                in the tree, an output (which has no default) may be left out */
+  const char* unit;          /* "s", "m/s"; NULL or "" for none */
   const char* doc;           /* one sentence; NULL for none */
 } lockstep_port;
 
@@ -92,8 +94,10 @@ typedef struct lockstep_host {
    * when the port has no value now (an entry nobody wrote yet, an output without a binding), when
    * the index or the type is wrong, or when the caller is a run. A string or list that get hands
    * out belongs to the host and is valid until the next call that sets a port, or until the leaf
-   * function returns, whichever is first. set copies; it returns false when the port is an input,
-   * not bound to an entry, or of another type. */
+   * function returns, whichever is first; a string ends in a NUL that *length does not count. set
+   * copies; it returns false and changes nothing when the port is an input, not bound to an entry,
+   * or of another type, when a number is not finite, or when there is no memory. No get or set
+   * locks; what allocates is a string or list that grows. */
   bool (*get_bool)(const lockstep_caller* caller, uint32_t port, bool* value);
   bool (*get_int)(const lockstep_caller* caller, uint32_t port, int64_t* value);
   bool (*get_double)(const lockstep_caller* caller, uint32_t port, double* value);
@@ -104,14 +108,14 @@ typedef struct lockstep_host {
   bool (*set_bool)(const lockstep_caller* caller, uint32_t port, bool value);
   bool (*set_int)(const lockstep_caller* caller, uint32_t port, int64_t value);
   bool (*set_double)(const lockstep_caller* caller, uint32_t port, double value);
-  bool (*set_string)(const lockstep_caller* caller, uint32_t port, const char* text,
-                     size_t length);
+  bool (*set_string)(const lockstep_caller* caller, uint32_t port, const char* text, size_t length);
   bool (*set_double_list)(const lockstep_caller* caller, uint32_t port, const double* values,
                           size_t count);
 
   /* [run] Says that the caller has failed as a program, not as an action: the run ends in order
    * with `message` as the reason. To be called inside a function of the leaf, which then returns
-   * as usual; its result does not count. The first message of a call is kept. */
+   * as usual; its result does not count. The message is copied, up to 500 bytes; the first one of a
+   * call is kept. */
   void (*set_error)(const lockstep_caller* caller, const char* message);
 
   /* [run] Seconds since the run began, the same for the whole of a tick. */
@@ -136,18 +140,19 @@ typedef struct lockstep_host {
  * An activation: start, then tick once per tick of the tree until it returns success or failure;
  * or halt, when the tree moves on first. Then, perhaps, start again, on the same object. pause is
  * called when a synchronized node begins to withhold ticks from a running leaf, resume just before
- * the next tick; halt may come while paused. When start sets an error, tick and halt do not follow.
+ * the next tick; halt may come while paused. When start sets an error, tick and halt do not follow;
+ * after an error in tick, pause, resume or progress, halt does.
  * Every function must return quickly: all leaves of a run share its tick. */
 typedef struct lockstep_leaf_type {
   uint32_t struct_size; /* sizeof(lockstep_leaf_type) as the plugin knew it */
   lockstep_leaf_kind kind;
-  const char* id;  /* the XML tag: a letter, then letters, digits, '_' */
+  const char* id;  /* the XML tag: a letter, then letters, digits, '_'; no tag of the language */
   const char* doc; /* one or two sentences; NULL for none */
-  uint32_t port_count;
+  uint32_t port_count;               /* at most 4096 */
   const lockstep_port* const* ports; /* port_count pointers, none NULL */
 
   /* [run] A new leaf for one node of one run, or NULL after set_error. run_context is what
-   * create_run returned, or NULL. */
+   * create_run returned, or NULL. What is returned in spite of an error is destroyed. */
   void* (*create)(const lockstep_host* host, const lockstep_caller* caller, void* run_context);
   /* [run] The end of the leaf; it is not running. */
   void (*destroy)(void* leaf);
@@ -169,23 +174,25 @@ typedef struct lockstep_leaf_type {
 } lockstep_leaf_type;
 
 typedef struct lockstep_plugin {
-  uint32_t abi_major;   /* LOCKSTEP_ABI_MAJOR */
-  uint32_t abi_minor;   /* LOCKSTEP_ABI_MINOR */
-  uint32_t struct_size; /* sizeof(lockstep_plugin) as the plugin knew it */
-  const char* name;     /* as in <plugin name="…"/> */
-  const char* version;  /* of the plugin; NULL for none */
-  const char* doc;      /* one sentence; NULL for none */
-  uint32_t leaf_type_count;
+  uint32_t abi_major;       /* LOCKSTEP_ABI_MAJOR */
+  uint32_t abi_minor;       /* LOCKSTEP_ABI_MINOR */
+  uint32_t struct_size;     /* sizeof(lockstep_plugin) as the plugin knew it */
+  const char* name;         /* as in <plugin name="..."/>: letters, digits, '_', '-' */
+  const char* version;      /* of the plugin; NULL for none */
+  const char* doc;          /* one sentence; NULL for none */
+  uint32_t leaf_type_count; /* at most 4096 */
   const lockstep_leaf_type* const* leaf_types; /* leaf_type_count pointers, none NULL */
 
-  /* [load] (optional) Once, before the first leaf; false refuses to work. Listing the descriptors
-   * (`lockstep nodes`, `lockstep check`) does not call it. */
+  /* [load] (optional) Before the first leaf; false refuses to work. Not called again unless deinit
+   * came in between. Listing the descriptors (`lockstep nodes`, `lockstep check`) does not call
+   * it. */
   bool (*init)(const lockstep_host* host);
-  /* [load] (optional) Once, after the last leaf, if init returned true. */
+  /* [load] (optional) After the last leaf, if init returned true (or is NULL). */
   void (*deinit)(void);
 
   /* [run] (optional, both or none) What the leaves of one run share, such as a simulated world.
-   * NULL from create_run is a legal context unless set_error was called. */
+   * NULL from create_run is a legal context unless set_error was called; destroy_run gets it too,
+   * after the run's last leaf was destroyed. */
   void* (*create_run)(const lockstep_host* host, const lockstep_caller* caller);
   void (*destroy_run)(void* run_context);
 
@@ -193,11 +200,9 @@ typedef struct lockstep_plugin {
   const void* (*get_extension)(const char* id);
 } lockstep_plugin;
 
+/* The plugin defines it, once: const lockstep_plugin lockstep_plugin_entry = {...}; */
 #define LOCKSTEP_PLUGIN_ENTRY "lockstep_plugin_entry"
-#ifdef __cplusplus
-extern
-#endif
-    LOCKSTEP_EXPORT const lockstep_plugin lockstep_plugin_entry;
+extern LOCKSTEP_EXPORT const lockstep_plugin lockstep_plugin_entry;
 
 #ifdef __cplusplus
 }
