@@ -78,11 +78,16 @@ std::optional<std::int64_t> parse_int(std::string_view text) {
 
 std::optional<Value> parse_value(ValueType type, std::string_view text) {
   switch (type) {
-    case ValueType::Bool: return wrap(parse_bool(text));
-    case ValueType::Int: return wrap(parse_int(text));
-    case ValueType::Double: return wrap(parse_double(text));
-    case ValueType::String: return Value(std::string(text));
-    case ValueType::DoubleList: return wrap(parse_list(text));
+    case ValueType::Bool:
+      return wrap(parse_bool(text));
+    case ValueType::Int:
+      return wrap(parse_int(text));
+    case ValueType::Double:
+      return wrap(parse_double(text));
+    case ValueType::String:
+      return Value(std::string(text));
+    case ValueType::DoubleList:
+      return wrap(parse_list(text));
   }
   return std::nullopt;
 }

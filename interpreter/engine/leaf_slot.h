@@ -8,6 +8,7 @@ namespace lockstep {
 struct LeafSlot {
   const lockstep_leaf_type* type = nullptr;
   void* self = nullptr;
+  bool started = false;         // the activation began, so it has to be halted
   const char* error = nullptr;  // set by the host's set_error: the reason, valid until taken
 };
 

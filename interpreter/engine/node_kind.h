@@ -17,14 +17,15 @@ struct NodeKind {
   NodeType type;
   // One tick. Returns Running, Success or Failure. Allocates nothing, throws nothing of its own.
   Status (*tick)(Ticker& ticker, NodeIndex self);
-  // Asked only while the node is Running; idle and failed nodes have 0, successful ones 1. In [0,1].
+  // Asked only while the node is Running; idle and failed nodes have 0, successful ones 1. In
+  // [0,1].
   double (*progress)(Ticker& ticker, NodeIndex self);
   std::uint32_t state_size = 0;       // bytes in RunState
   std::uint32_t state_per_child = 0;  // and this many more for each child
-  // Leaves only, may be null: told to a running leaf. A control node has none of these.
+  // Leaves only, may be null: told to a running leaf. A control node has none of these. A leaf that
+  // was paused finds itself Activity::Paused in its next tick.
   void (*halt)(Ticker& ticker, NodeIndex self) = nullptr;
   void (*pause)(Ticker& ticker, NodeIndex self) = nullptr;
-  void (*resume)(Ticker& ticker, NodeIndex self) = nullptr;
 };
 
 // All built-in kinds, in the order in which they are documented.

@@ -29,7 +29,7 @@ struct RunState {
         last_tick(tree.nodes.size(), 0),
         bytes((tree.state_size + 7) / 8, 0) {}
 
-  std::vector<Activity> activity;       // of each node
+  std::vector<Activity> activity;        // of each node
   std::vector<std::uint32_t> last_tick;  // number of the last tick that reached it; 0 = none yet
   std::vector<std::uint64_t> bytes;      // the states of the nodes, 8-byte aligned
 

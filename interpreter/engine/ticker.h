@@ -27,8 +27,10 @@ class Ticker {
 
   // --- for node kinds, inside a tick -------------------------------------------------------------
 
-  // Ticks a node and keeps its status. At most once per node and tick.
+  // Ticks a node and keeps its status. At most once per node and tick. After a fault it does
+  // nothing.
   Status tick(NodeIndex node) {
+    if (faulted_) return Status::Running;  // which stops every control node where it is
     Activity& activity = state_.activity[node];
     const Node& it = tree_.nodes[node];
     if (is_complete(status_of(activity)) && it.children != 0) forget_descendants(node);
@@ -41,6 +43,8 @@ class Ticker {
   // Ends the activation of every running node in the subtree; all of it is idle then.
   void halt(NodeIndex node) { halt_range(node, tree_.nodes[node].end); }
   void halt_range(NodeIndex first, NodeIndex last);
+  // Of a node's children, those that run; the others keep their status.
+  void halt_running_children(NodeIndex node);
 
   // Withholds ticks from a subtree: each running leaf is told once, until it is ticked again.
   void pause(NodeIndex node);
@@ -68,8 +72,6 @@ class Ticker {
   }
   LeafSlot& leaf(NodeIndex node) { return leaves_[tree_.nodes[node].params]; }
 
-  // Marks a leaf as being called, so that whatever it does next can be laid at its door.
-  void enter_leaf(NodeIndex node) { current_leaf_ = node; }
   void set_fault(NodeIndex node, std::string message);
   bool faulted() const { return faulted_; }
 
@@ -89,7 +91,7 @@ class Ticker {
   Status tick_root(Nanoseconds now);
 
   // Halts every running leaf; what a leaf does wrong in halt becomes the fault if there is none.
-  void halt_all();
+  void halt_all() { halt(0); }
 
   // As new. Leaves are not told: halt_all first.
   void reset();
@@ -111,9 +113,7 @@ class Ticker {
   RunState state_;
   Nanoseconds now_{0};
   std::uint32_t tick_number_ = 0;
-  NodeIndex current_leaf_ = 0;
   bool faulted_ = false;
-  bool fault_in_start_ = false;
   Fault fault_;
 };
 

@@ -54,7 +54,7 @@ struct Slot {
 };
 
 struct NodeLabel {
-  std::string name;   // the name attribute, else the id
+  std::string name;     // the name attribute, else the id
   std::string segment;  // its part of the path: the name, made unique among its siblings
   const NodeType* type;
   NodeIndex parent;  // the root is its own
@@ -68,9 +68,9 @@ struct Tree {
   std::vector<PortBinding> ports;  // of all leaves, each type's ports in order
   std::vector<Value> constants;
   std::vector<Slot> slots;
-  std::size_t state_size = 0;      // bytes of all node states
-  std::string id;                  // of the main BehaviorTree
-  std::vector<NodeLabel> labels;   // not touched while ticking
+  std::size_t state_size = 0;     // bytes of all node states
+  std::string id;                 // of the main BehaviorTree
+  std::vector<NodeLabel> labels;  // not touched while ticking
 
   // "OpenDoor/pull/arm": the tree's id and the segments down to the node.
   std::string path(NodeIndex node) const;

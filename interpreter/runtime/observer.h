@@ -16,10 +16,10 @@ struct RunStart {
 };
 
 struct TickReport {
-  std::uint64_t tick = 0;    // counts from 0
-  Nanoseconds time{0};       // when it began, since the run began
+  std::uint64_t tick = 0;           // counts from 0
+  Nanoseconds time{0};              // when it began, since the run began
   Status status = Status::Running;  // of the root
-  std::uint64_t skipped = 0;  // deadlines that this tick came too late for, beyond its own
+  std::uint64_t skipped = 0;        // deadlines that this tick came too late for, beyond its own
 };
 
 enum class StopReason : std::uint8_t { Completed, Fault, Timeout, MaxTicks, Signal };
@@ -29,9 +29,9 @@ struct RunEnd {
   Status status = Status::Running;  // of the root after the last tick
   int signal = 0;                   // when reason is Signal
   std::uint64_t ticks = 0;
-  Nanoseconds time{0};          // from the start of the first tick to the end of the last
-  std::uint64_t overruns = 0;   // ticks that ended after the next deadline
-  std::uint64_t skipped = 0;    // deadlines passed over because of them
+  Nanoseconds time{0};         // from the start of the first tick to the end of the last
+  std::uint64_t overruns = 0;  // ticks that ended after the next deadline
+  std::uint64_t skipped = 0;   // deadlines passed over because of them
 };
 
 class Observer {

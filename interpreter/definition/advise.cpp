@@ -1,0 +1,126 @@
+#include <fmt/format.h>
+
+#include "definition/expand.h"
+#include "document/reporter.h"
+
+namespace lockstep {
+namespace {
+
+class Adviser {
+ public:
+  Adviser(const Project& project, const Definition& definition, Diagnostics& diagnostics)
+      : project_(project), definition_(definition), diagnostics_(diagnostics) {}
+
+  void advise() const {
+    for (std::uint32_t node = 0; node < definition_.nodes.size(); ++node) {
+      const std::string_view id = at(node).type->id;
+      if (id == "Sequence" && !has_memory(node)) sequence_restarts(node);
+      if (id == "ParallelAbsolute" || id == "ParallelRelative") child_without_progress(node);
+    }
+    unwritten_entries();
+  }
+
+ private:
+  const DefinitionNode& at(std::uint32_t node) const { return definition_.nodes[node]; }
+
+  template <class Visit>
+  void for_each_child(std::uint32_t node, Visit visit) const {
+    for (std::uint32_t child = node + 1; child < at(node).end; child = at(child).end) visit(child);
+  }
+
+  void add(std::uint32_t node, Severity severity, std::string message, std::string hint) const {
+    const Reporter report(*project_.documents[at(node).document], diagnostics_);
+    report.at_element(at(node).element, std::move(message), std::move(hint), severity);
+  }
+
+  bool has_memory(std::uint32_t node) const {
+    return std::get<bool>(definition_.values[at(node).first]);
+  }
+
+  // Whether ticking this node anew after Success does work again. A Fallback that begins with a
+  // condition asks first, so it does not.
+  bool acts_again(std::uint32_t node) const {
+    const NodeType& type = *at(node).type;
+    if (type.category == NodeCategory::Action) return !type.id.starts_with("Always");
+    if (type.id == "RunOnce" || type.category == NodeCategory::Condition) return false;
+    if (type.id == "Fallback" && at(node + 1).type->category == NodeCategory::Condition)
+      return false;
+    bool acts = false;
+    for_each_child(node, [&](std::uint32_t child) { acts |= acts_again(child); });
+    return acts;
+  }
+
+  void sequence_restarts(std::uint32_t sequence) const {
+    std::uint32_t earlier = 0;
+    for_each_child(sequence, [&](std::uint32_t child) {
+      if (!acts_again(child)) return;
+      if (earlier != 0) {
+        add(earlier, Severity::Warning,
+            fmt::format("'{}' is started again in every tick in which '{}' runs", at(earlier).name,
+                        at(child).name),
+            "the Sequence ticks all its children in every tick: give it memory=\"true\", or let "
+            "the "
+            "action return Success at once where its goal already holds");
+      }
+      earlier = child;
+    });
+  }
+
+  // A decorator or SubTree has its child's progress.
+  void child_without_progress(std::uint32_t parallel) const {
+    for_each_child(parallel, [&](std::uint32_t child) {
+      std::uint32_t source = child;
+      while (at(source).children == 1 && at(source).type->category != NodeCategory::Control)
+        ++source;
+      const NodeType& type = *at(source).type;
+      if (type.category != NodeCategory::Action || type.has_progress) return;
+      add(source, Severity::Note,
+          fmt::format("'{}' reports no progress: for '{}' it is at 0 until it succeeds",
+                      at(source).name, at(parallel).name),
+          "the others wait for it at the first barrier, or within delta of 0");
+    });
+  }
+
+  void unwritten_entries() const {
+    std::vector<bool> written(definition_.entries.size(), false);
+    for_each_port([&](std::uint32_t, const Parameter& parameter, std::uint32_t entry) {
+      if (parameter.direction != Direction::Input) written[entry] = true;
+    });
+    for_each_port([&](std::uint32_t node, const Parameter& parameter, std::uint32_t entry) {
+      const BlackboardEntry& it = definition_.entries[entry];
+      if (written[entry] || !std::holds_alternative<std::monostate>(it.initial)) return;
+      written[entry] = true;  // one warning an entry
+      const Reporter report(*project_.documents[at(node).document], diagnostics_);
+      report.at_value(at(node).element, parameter.name,
+                      fmt::format("nothing writes '{{{}}}'", it.name),
+                      it.name.find('/') == std::string::npos
+                          ? fmt::format("give it a value with --set {}=…", it.name)
+                          : "give it a value by an attribute of the SubTree",
+                      Severity::Warning);
+    });
+  }
+
+  template <class Visit>
+  void for_each_port(Visit visit) const {
+    for (std::uint32_t node = 0; node < definition_.nodes.size(); ++node) {
+      const NodeType& type = *at(node).type;
+      if (type.binding == nullptr) continue;
+      for (std::uint32_t i = 0; i < type.parameters.size(); ++i) {
+        const Port& port = definition_.ports[at(node).first + i];
+        if (port.entry != Port::kNone) visit(node, type.parameters[i], port.entry);
+      }
+    }
+  }
+
+  const Project& project_;
+  const Definition& definition_;
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+void advise(const Project& project, const Definition& definition, Diagnostics& diagnostics) {
+  Adviser(project, definition, diagnostics).advise();
+}
+
+}  // namespace lockstep

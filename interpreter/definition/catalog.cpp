@@ -1,0 +1,21 @@
+#include "definition/catalog.h"
+
+namespace lockstep {
+
+void Catalog::add(const NodeType* type) {
+  types_.push_back(type);
+  by_id_.emplace(type->id, type);
+}
+
+const NodeType* Catalog::find(std::string_view id) const {
+  const auto it = by_id_.find(id);
+  return it == by_id_.end() ? nullptr : it->second;
+}
+
+std::vector<std::string_view> Catalog::ids() const {
+  std::vector<std::string_view> ids;
+  for (const auto& entry : by_id_) ids.push_back(entry.first);
+  return ids;
+}
+
+}  // namespace lockstep

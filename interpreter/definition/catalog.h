@@ -1,0 +1,27 @@
+// What nodes exist: the built-ins and the leaves of the plugins, by id.
+#pragma once
+
+#include <map>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/node_type.h"
+
+namespace lockstep {
+
+class Catalog {
+ public:
+  // The types must outlive the catalog; ids are distinct.
+  void add(const NodeType* type);
+
+  const NodeType* find(std::string_view id) const;
+  std::vector<std::string_view> ids() const;                         // sorted
+  std::span<const NodeType* const> types() const { return types_; }  // as added
+
+ private:
+  std::vector<const NodeType*> types_;
+  std::map<std::string_view, const NodeType*> by_id_;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,242 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/suggest.h"
+#include "definition/attributes.h"
+#include "definition/checked_tree.h"
+
+namespace lockstep {
+namespace {
+
+constexpr std::string_view kExplicitTags[] = {"Action", "Condition", "Control", "Decorator"};
+
+bool is_explicit(std::string_view tag) {
+  return std::ranges::find(kExplicitTags, tag) != std::end(kExplicitTags);
+}
+
+bool matches(std::string_view tag, NodeCategory category) {
+  constexpr NodeCategory kCategories[] = {NodeCategory::Action, NodeCategory::Condition,
+                                          NodeCategory::Control, NodeCategory::Decorator};
+  for (std::size_t i = 0; i < std::size(kExplicitTags); ++i) {
+    if (kExplicitTags[i] == tag) return kCategories[i] == category;
+  }
+  return false;
+}
+
+class TreeChecker {
+ public:
+  TreeChecker(const Project& project, const Catalog& catalog, Diagnostics& diagnostics)
+      : project_(project), catalog_(catalog), diagnostics_(diagnostics) {}
+
+  CheckedTrees check() {
+    for (document_ = 0; document_ < project_.documents.size(); ++document_) check_document();
+    return std::move(trees_);
+  }
+
+ private:
+  const Document& document() const { return *project_.documents[document_]; }
+  const Element& element(std::uint32_t index) const { return document().elements()[index]; }
+
+  void check_document() {
+    const Reporter report(document(), diagnostics_);
+    check_root(report);
+    for (std::uint32_t child = 1; child < element(0).end; child = element(child).end) {
+      const std::string_view tag = element(child).tag;
+      if (tag == "BehaviorTree") {
+        check_tree(report, child);
+      } else if (tag != "arg" && tag != "include" && tag != "plugin") {
+        constexpr std::string_view kTags[] = {"BehaviorTree", "plugin", "arg", "include"};
+        std::string hint = did_you_mean(tag, kTags);
+        if (hint.empty()) hint = "inside <root> stand BehaviorTree, plugin, arg and include";
+        report.at_element(child, fmt::format("unknown element '{}' in 'root'", tag), hint);
+      }
+    }
+  }
+
+  void check_root(const Reporter& report) const {
+    bool versioned = false;
+    for (const Attribute& attribute : document().attributes(0)) {
+      if (attribute.name == "lockstep") {
+        versioned = true;
+        if (attribute.value != "1") {
+          report.at_value(0, "lockstep",
+                          fmt::format("version '{}' of the language is not known", attribute.value),
+                          "this program reads lockstep=\"1\"");
+        }
+      } else if (attribute.name == "BTCPP_format") {
+        report.at_attribute(
+            0, attribute.name, "files for BehaviorTree.CPP are not read yet",
+            "write lockstep=\"1\" and check the tree's meaning in docs/language.md");
+        versioned = true;
+      } else if (attribute.name != "main_tree_to_execute") {
+        report.at_attribute(0, attribute.name,
+                            fmt::format("'root' has no attribute '{}'", attribute.name),
+                            "attributes of 'root': lockstep, main_tree_to_execute");
+      }
+    }
+    if (!versioned) {
+      report.at_element(0, "'root' needs the attribute 'lockstep'",
+                        "write <root lockstep=\"1\">: the version of the language");
+    }
+  }
+
+  void check_tree(const Reporter& report, std::uint32_t tree) {
+    std::string_view id;
+    for (const Attribute& attribute : document().attributes(tree)) {
+      if (attribute.name == "ID") {
+        id = attribute.value;
+      } else if (attribute.name != "_description") {
+        report.at_attribute(tree, attribute.name,
+                            fmt::format("'BehaviorTree' has no attribute '{}'", attribute.name),
+                            "attributes of 'BehaviorTree': ID");
+      }
+    }
+    if (id.empty()) {
+      report.at_element(tree, "'BehaviorTree' needs the attribute 'ID'",
+                        "write <BehaviorTree ID=\"…\">");
+    } else if (id.find('/') != std::string_view::npos) {
+      report.at_value(tree, "ID", fmt::format("the ID '{}' contains '/'", id),
+                      "'/' separates the names in a node's path");
+    }
+    const std::uint32_t root = tree + 1;
+    if (root == element(tree).end) {
+      report.at_element(tree, fmt::format("the tree '{}' is empty", id), "put one node into it");
+      return;
+    }
+    if (const std::uint32_t second = element(root).end; second != element(tree).end) {
+      report.at_element(second, fmt::format("the tree '{}' has more than one root node", id),
+                        "put them into a Sequence, a Fallback or a parallel node");
+    }
+    enter_tree(report, tree, id);
+    check_node(report, root, 0);
+  }
+
+  void enter_tree(const Reporter& report, std::uint32_t tree, std::string_view id) {
+    const auto [entry, is_new] =
+        trees_.roots.try_emplace(id, static_cast<std::uint32_t>(trees_.nodes.size()));
+    if (is_new) {
+      trees_.ids.push_back(id);
+      places_.emplace(id, std::pair(document_, tree));
+      return;
+    }
+    const auto [first_document, first_element] = places_.at(id);
+    const auto first = project_.documents[first_document]->locate(first_element);
+    report.at_value(tree, "ID", fmt::format("a tree '{}' exists already", id),
+                    fmt::format("the first is at {}:{}:{}", first.file, first.line, first.column));
+  }
+
+  void check_node(const Reporter& report, std::uint32_t index, std::uint32_t depth) {
+    const std::uint32_t place = static_cast<std::uint32_t>(trees_.nodes.size());
+    trees_.nodes.emplace_back();
+    CheckedNode node;
+    node.document = document_;
+    node.element = index;
+    node.depth = depth;
+    const bool explicit_form = is_explicit(element(index).tag);
+    node.type = find_type(report, index);
+    for (std::uint32_t child = index + 1; child < element(index).end; child = element(child).end) {
+      ++node.children;
+    }
+    if (node.type != nullptr) {
+      const Attribute* name = document().find_attribute(index, "name");
+      node.name = name != nullptr ? name->value : node.type->id;
+      check_arity(report, node);
+      if (node.type->category == NodeCategory::SubTree) {
+        check_subtree_attributes(document(), report, node);
+        if (name == nullptr) node.name = node.subtree;
+      } else {
+        check_attributes(document(), report, explicit_form, node, trees_);
+      }
+    }
+    for (std::uint32_t child = index + 1; child < element(index).end; child = element(child).end) {
+      check_node(report, child, depth + 1);
+    }
+    node.end = static_cast<std::uint32_t>(trees_.nodes.size());
+    trees_.nodes[place] = node;
+  }
+
+  const NodeType* find_type(const Reporter& report, std::uint32_t index) const {
+    const std::string_view tag = element(index).tag;
+    if (!is_explicit(tag)) {
+      const NodeType* type = catalog_.find(tag);
+      if (type == nullptr) unknown(report, index, tag, nullptr);
+      return type;
+    }
+    const Attribute* id = document().find_attribute(index, "ID");
+    if (id == nullptr) {
+      report.at_element(index, fmt::format("'{}' needs the attribute 'ID'", tag),
+                        fmt::format("write <{} ID=\"…\"/> with the id of a node", tag));
+      return nullptr;
+    }
+    const NodeType* type = catalog_.find(id->value);
+    if (type == nullptr) {
+      unknown(report, index, id->value, id);
+    } else if (!matches(tag, type->category)) {
+      report.at_value(
+          index, "ID", fmt::format("'{}' is not of the kind '{}'", id->value, tag),
+          fmt::format("it is a kind of {}: write <{}>", to_string(type->category), id->value));
+    }
+    return type;
+  }
+
+  void unknown(const Reporter& report, std::uint32_t index, std::string_view id,
+               const Attribute* attribute) const {
+    auto known = catalog_.ids();
+    std::string hint = did_you_mean(id, known);
+    if (hint.empty() && trees_.roots.contains(id)) {
+      hint = fmt::format("to use the tree '{}' write <SubTree ID=\"{}\"/>", id, id);
+    }
+    if (hint.empty()) {
+      hint =
+          "if a plugin provides it, name that with <plugin name=\"…\"/>; `lockstep nodes` "
+          "lists the built-in nodes";
+    }
+    const std::string message = fmt::format("unknown node '{}'", id);
+    if (attribute == nullptr) {
+      report.at_element(index, message, hint);
+    } else {
+      report.at_value(index, attribute->name, message, hint);
+    }
+  }
+
+  void check_arity(const Reporter& report, const CheckedNode& node) const {
+    const NodeType& type = *node.type;
+    if (type.category == NodeCategory::SubTree) {
+      if (node.children == 0) return;
+      report.at_element(node.element + 1, "'SubTree' has no children of its own",
+                        "its tree is the BehaviorTree that its ID names");
+    } else if (node.children < type.arity.min) {
+      report.at_element(node.element,
+                        fmt::format("'{}' needs {}", type.id,
+                                    type.arity.max == 1 ? "exactly one child" : "a child"),
+                        fmt::format("it is a {}: put a node into it", to_string(type.category)));
+    } else if (node.children > type.arity.max) {
+      // The first child that is one too many.
+      std::uint32_t extra = node.element + 1;
+      for (std::uint32_t i = 0; i < type.arity.max; ++i) extra = element(extra).end;
+      report.at_element(extra,
+                        type.arity.max == 0 ? fmt::format("'{}' cannot have children", type.id)
+                                            : fmt::format("'{}' has more than one child", type.id),
+                        type.arity.max == 0
+                            ? fmt::format("it is a leaf ({})", to_string(type.category))
+                            : "put the children into a Sequence, a Fallback or a "
+                              "parallel node");
+    }
+  }
+
+  const Project& project_;
+  const Catalog& catalog_;
+  Diagnostics& diagnostics_;
+  CheckedTrees trees_;
+  std::map<std::string_view, std::pair<std::uint32_t, std::uint32_t>> places_;
+  std::uint32_t document_ = 0;
+};
+
+}  // namespace
+
+CheckedTrees check_trees(const Project& project, const Catalog& catalog, Diagnostics& diagnostics) {
+  return TreeChecker(project, catalog, diagnostics).check();
+}
+
+}  // namespace lockstep

@@ -1,0 +1,47 @@
+// What a project says before subtrees are expanded: each element of each BehaviorTree with its node
+// type and its attributes as values. Between resolve.cpp's two passes; nobody else uses it.
+#pragma once
+
+#include <map>
+#include <string_view>
+#include <vector>
+
+#include "core/diagnostics.h"
+#include "definition/catalog.h"
+#include "document/project.h"
+
+namespace lockstep {
+
+// An attribute of a leaf: a constant, a {key}, or absent.
+struct CheckedPort {
+  std::uint32_t value = 0xffffffff;  // in CheckedTrees::values
+  std::string_view key;
+};
+
+struct CheckedNode {
+  const NodeType* type = nullptr;
+  std::string_view name;
+  std::uint32_t document = 0;
+  std::uint32_t element = 0;
+  std::uint32_t end = 0;  // in CheckedTrees::nodes
+  std::uint32_t children = 0;
+  std::uint32_t depth = 0;        // below the root of its BehaviorTree
+  std::uint32_t first = 0;        // as in DefinitionNode: in values, or in ports
+  std::string_view subtree = {};  // the ID that a SubTree names
+};
+
+struct CheckedTrees {
+  std::vector<CheckedNode> nodes;
+  std::vector<Value> values;
+  std::vector<CheckedPort> ports;
+  std::map<std::string_view, std::uint32_t> roots;  // BehaviorTree ID -> its root node
+  std::vector<std::string_view> ids;                // as they stand in the documents
+};
+
+// Checks every BehaviorTree of the project, used or not.
+CheckedTrees check_trees(const Project& project, const Catalog& catalog, Diagnostics& diagnostics);
+
+// "key" when `text` is "{key}", else "".
+std::string_view key_of(std::string_view text);
+
+}  // namespace lockstep

@@ -1,0 +1,51 @@
+// The checked meaning of a project: one tree in pre-order, subtrees expanded, parameters typed,
+// keys resolved to blackboard entries. What the engine compiles. Views point into the project.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/node_type.h"
+
+namespace lockstep {
+
+struct DefinitionNode {
+  const NodeType* type;
+  std::uint32_t end;       // one past the last descendant
+  std::uint32_t parent;    // the root is its own
+  std::uint32_t children;  // how many
+  // One for each of type->parameters: a built-in's start here in `values`, a leaf's in `ports`.
+  std::uint32_t first;
+  std::string_view name;   // the name attribute, else the id
+  std::uint32_t document;  // its place: Project::documents[document], element
+  std::uint32_t element;
+};
+
+struct Port {
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t entry = kNone;  // in `entries`, or
+  std::uint32_t value = kNone;  // in `values`; neither: an output that goes nowhere
+};
+
+struct BlackboardEntry {
+  std::string name;  // the key, after the path of names to its SubTree
+  ValueType type = ValueType::String;
+  Value initial;  // monostate: none
+};
+
+struct Definition {
+  std::string_view id;
+  std::vector<DefinitionNode> nodes;
+  std::vector<Value> values;
+  std::vector<Port> ports;
+  std::vector<BlackboardEntry> entries;
+};
+
+// What a tree may not exceed; each is named in the message that refuses one.
+inline constexpr std::uint32_t kMaxNodes = 4'000'000;
+inline constexpr std::uint32_t kMaxDepth = 1'000;
+
+}  // namespace lockstep

@@ -1,0 +1,172 @@
+#include "definition/expand.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/suggest.h"
+#include "definition/attributes.h"
+#include "definition/scope.h"
+#include "document/reporter.h"
+
+namespace lockstep {
+namespace {
+
+class Expander {
+ public:
+  Expander(const Project& project, CheckedTrees& trees, const ResolveOptions& options,
+           Diagnostics& diagnostics)
+      : project_(project), trees_(trees), options_(options), diagnostics_(diagnostics) {}
+
+  Definition expand(std::string_view main) {
+    definition_.id = main;
+    definition_.values = std::move(trees_.values);
+    Scope scope(definition_.entries);
+    for (const auto& [key, text] : options_.values) scope.set_text(key, text);
+    add(trees_.roots.at(main), 0, scope);
+    check_set_keys(scope);
+    return std::move(definition_);
+  }
+
+ private:
+  struct Use {  // where an entry got its type
+    std::uint32_t document, element;
+    std::string_view port;
+  };
+
+  void add(std::uint32_t from, std::uint32_t parent, Scope& scope) {
+    const CheckedNode& checked = trees_.nodes[from];
+    const Reporter report(*project_.documents[checked.document], diagnostics_);
+    if (checked.type == nullptr) return;  // reported already
+    const auto place = static_cast<std::uint32_t>(definition_.nodes.size());
+    definition_.nodes.push_back({.type = checked.type,
+                                 .end = 0,
+                                 .parent = parent,
+                                 .children = checked.children,
+                                 .first = checked.first,
+                                 .name = checked.name,
+                                 .document = checked.document,
+                                 .element = checked.element});
+    if (checked.type->category == NodeCategory::SubTree) {
+      definition_.nodes[place].children = 1;
+      enter_subtree(report, checked, place, scope);
+    } else if (checked.type->binding != nullptr) {
+      definition_.nodes[place].first = bind_ports(report, checked, scope);
+    }
+    for (std::uint32_t child = from + 1; child < checked.end; child = trees_.nodes[child].end) {
+      add(child, place, scope);
+    }
+    definition_.nodes[place].end = static_cast<std::uint32_t>(definition_.nodes.size());
+  }
+
+  void enter_subtree(const Reporter& report, const CheckedNode& checked, std::uint32_t place,
+                     Scope& outer) {
+    const auto root = trees_.roots.find(checked.subtree);
+    if (root == trees_.roots.end()) return;  // reported already
+    const Document& document = *project_.documents[checked.document];
+    const Attribute* autoremap = document.find_attribute(checked.element, "_autoremap");
+    Scope scope(outer, std::string(checked.name) + "/",
+                autoremap != nullptr && parse_value(ValueType::Bool, autoremap->value) == Value(true));
+    for_each_remapping(document, checked.element, [&](const Attribute& attribute) {
+      const auto key = key_of(attribute.value);
+      key.empty() ? scope.set_text(attribute.name, attribute.value)
+                  : scope.remap(attribute.name, key);
+    });
+    add(root->second, place, scope);
+    for_each_remapping(document, checked.element, [&](const Attribute& attribute) {
+      if (scope.used(attribute.name)) return;
+      report.at_attribute(
+          checked.element, attribute.name,
+          fmt::format("the tree '{}' does not use '{{{}}}'", checked.subtree, attribute.name), {},
+          Severity::Warning);
+    });
+  }
+
+  template <class Visit>
+  static void for_each_remapping(const Document& document, std::uint32_t element, Visit visit) {
+    for (const Attribute& attribute : document.attributes(element)) {
+      const bool is_own = is_common_attribute(attribute.name) || attribute.name == "ID" ||
+                          attribute.name == "_autoremap";
+      if (!is_own) visit(attribute);
+    }
+  }
+
+  std::uint32_t bind_ports(const Reporter& report, const CheckedNode& checked, Scope& scope) {
+    const auto first = static_cast<std::uint32_t>(definition_.ports.size());
+    for (std::uint32_t i = 0; i < checked.type->parameters.size(); ++i) {
+      const CheckedPort& port = trees_.ports[checked.first + i];
+      Port bound{.value = port.value};
+      if (!port.key.empty()) {
+        bound.entry = use(report, checked, checked.type->parameters[i], port.key, scope);
+      }
+      definition_.ports.push_back(bound);
+    }
+    return first;
+  }
+
+  std::uint32_t use(const Reporter& report, const CheckedNode& checked, const Parameter& port,
+                    std::string_view key, Scope& scope) {
+    const Scope::Found found = scope.find(key);
+    BlackboardEntry& entry = definition_.entries[found.entry];
+    if (found.is_new) {
+      entry.type = port.type;
+      uses_.push_back({checked.document, checked.element, port.name});
+      if (found.has_text) set_initial(report, checked, port, found.text, entry);
+    } else if (entry.type != port.type) {
+      const Use& first = uses_[found.entry];
+      const auto where =
+          project_.documents[first.document]->locate_attribute(first.element, first.port);
+      report.at_value(
+          checked.element, port.name,
+          fmt::format("'{{{}}}' is a {} for '{}', but a {} elsewhere", key, to_string(port.type),
+                      port.name, to_string(entry.type)),
+          fmt::format("the other use is at {}:{}:{}", where.file, where.line, where.column));
+    }
+    return found.entry;
+  }
+
+  void set_initial(const Reporter& report, const CheckedNode& checked, const Parameter& port,
+                   std::string_view text, BlackboardEntry& entry) {
+    const auto value = parse_value(port.type, text);
+    if (value) {
+      entry.initial = *value;
+      return;
+    }
+    report.at_value(checked.element, port.name,
+                    fmt::format("the start value '{}' of '{}' is not {}, which '{}' must be", text,
+                                entry.name, expected_text(port.type), port.name),
+                    "it comes from --set or from an attribute of a SubTree");
+  }
+
+  void check_set_keys(const Scope& scope) {
+    std::vector<std::string_view> keys;
+    for (const BlackboardEntry& entry : definition_.entries) {
+      if (entry.name.find('/') == std::string::npos) keys.push_back(entry.name);
+    }
+    for (const auto& [key, text] : options_.values) {
+      if (scope.used(key)) continue;
+      std::string hint = did_you_mean(key, keys);
+      if (hint.empty() && !keys.empty()) {
+        hint = fmt::format("entries of the main tree: {}", fmt::join(keys, ", "));
+      }
+      diagnostics_.error({}, fmt::format("--set {}: the main tree does not use '{{{}}}'", key, key),
+                         hint);
+    }
+  }
+
+  const Project& project_;
+  CheckedTrees& trees_;
+  const ResolveOptions& options_;
+  Diagnostics& diagnostics_;
+  Definition definition_;
+  std::vector<Use> uses_;  // of each entry
+};
+
+}  // namespace
+
+Definition expand(const Project& project, CheckedTrees& trees, std::string_view main,
+                  const ResolveOptions& options, Diagnostics& diagnostics) {
+  return Expander(project, trees, options, diagnostics).expand(main);
+}
+
+}  // namespace lockstep

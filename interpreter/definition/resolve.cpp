@@ -1,0 +1,93 @@
+#include "definition/resolve.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/suggest.h"
+#include "definition/attributes.h"
+#include "definition/expand.h"
+#include "definition/references.h"
+#include "document/reporter.h"
+
+namespace lockstep {
+namespace {
+
+std::string trees_hint(const CheckedTrees& trees, std::string_view wanted) {
+  const std::string near = did_you_mean(wanted, trees.ids);
+  return near.empty() ? fmt::format("trees in this file: {}", fmt::join(trees.ids, ", ")) : near;
+}
+
+// The ID of the tree to run; nothing after an error.
+std::optional<std::string_view> choose_main(const Project& project, const CheckedTrees& trees,
+                                            const ResolveOptions& options,
+                                            Diagnostics& diagnostics) {
+  const Document& main = *project.documents.front();
+  const Reporter report(main, diagnostics);
+  if (trees.ids.empty()) {
+    report.at_element(0, "there is no BehaviorTree", "put a <BehaviorTree ID=\"…\"> into <root>");
+    return std::nullopt;
+  }
+  if (!options.main_tree.empty()) {
+    const auto it = trees.roots.find(options.main_tree);
+    if (it != trees.roots.end()) return it->first;
+    diagnostics.error({}, fmt::format("--tree {}: unknown tree", options.main_tree),
+                      trees_hint(trees, options.main_tree));
+    return std::nullopt;
+  }
+  if (const Attribute* attribute = main.find_attribute(0, "main_tree_to_execute")) {
+    const auto it = trees.roots.find(attribute->value);
+    if (it != trees.roots.end()) return it->first;
+    report.at_value(0, "main_tree_to_execute", fmt::format("unknown tree '{}'", attribute->value),
+                    trees_hint(trees, attribute->value));
+    return std::nullopt;
+  }
+  if (trees.ids.size() == 1) return trees.ids.front();
+  report.at_element(0, "it is not said which tree to run",
+                    fmt::format("add main_tree_to_execute=\"…\" or give --tree; trees: {}",
+                                fmt::join(trees.ids, ", ")));
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<PluginRequest> requested_plugins(const Project& project, Diagnostics& diagnostics) {
+  std::vector<PluginRequest> requests;
+  for (const auto& document : project.documents) {
+    const Reporter report(*document, diagnostics);
+    const auto elements = document->elements();
+    for (std::uint32_t child = 1; child < elements[0].end; child = elements[child].end) {
+      if (elements[child].tag != "plugin") continue;
+      for (const Attribute& attribute : document->attributes(child)) {
+        if (attribute.name == "name") continue;
+        report.at_attribute(child, attribute.name,
+                            fmt::format("'plugin' has no attribute '{}'", attribute.name),
+                            "attributes of 'plugin': name (a tree names plugins, never paths)");
+      }
+      const Attribute* name = document->find_attribute(child, "name");
+      if (name == nullptr) {
+        report.at_element(child, "'plugin' needs the attribute 'name'",
+                          "write <plugin name=\"…\"/>");
+        continue;
+      }
+      const bool known = std::ranges::any_of(
+          requests, [&](const PluginRequest& request) { return request.name == name->value; });
+      if (!known)
+        requests.push_back({std::string(name->value), document->locate_value(child, "name")});
+    }
+  }
+  return requests;
+}
+
+std::optional<Definition> resolve(const Project& project, const Catalog& catalog,
+                                  const ResolveOptions& options, Diagnostics& diagnostics) {
+  CheckedTrees trees = check_trees(project, catalog, diagnostics);
+  const auto main = choose_main(project, trees, options, diagnostics);
+  if (!check_references(project, trees, diagnostics) || !main) return std::nullopt;
+  Definition definition = expand(project, trees, *main, options, diagnostics);
+  if (diagnostics.has_errors()) return std::nullopt;
+  advise(project, definition, diagnostics);
+  return definition;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,33 @@
+// Project + Catalog -> Definition: every rule about trees. Reports all it finds in one pass.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/diagnostics.h"
+#include "definition/catalog.h"
+#include "definition/definition.h"
+#include "document/project.h"
+
+namespace lockstep {
+
+struct ResolveOptions {
+  std::string main_tree;                                   // "": main_tree_to_execute, or the only
+  std::map<std::string, std::string, std::less<>> values;  // `--set key=value`
+};
+
+struct PluginRequest {
+  std::string name;
+  SourceLocation where;
+};
+
+// What <plugin name="…"/> asks for, each name once, in the order of the documents.
+std::vector<PluginRequest> requested_plugins(const Project& project, Diagnostics& diagnostics);
+
+// Nothing when there are errors. Warnings and notes are reported as well.
+std::optional<Definition> resolve(const Project& project, const Catalog& catalog,
+                                  const ResolveOptions& options, Diagnostics& diagnostics);
+
+}  // namespace lockstep

@@ -1,0 +1,51 @@
+// The blackboard while subtrees are expanded: which entry a {key} means in which SubTree.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "definition/definition.h"
+
+namespace lockstep {
+
+class Scope {
+ public:
+  static constexpr std::uint32_t kNone = Port::kNone;
+
+  // The scope of the main tree.
+  explicit Scope(std::vector<BlackboardEntry>& entries) : entries_(entries) {}
+  // A SubTree's own scope inside `outer`; `prefix` names it in messages ("grasp/").
+  Scope(Scope& outer, std::string prefix, bool autoremap)
+      : entries_(outer.entries_),
+        outer_(&outer),
+        prefix_(outer.prefix_ + prefix),
+        autoremap_(autoremap) {}
+
+  // The SubTree attribute inner="{outer_key}".
+  void remap(std::string_view inner, std::string_view outer_key) { remapped_[inner] = outer_key; }
+  // The SubTree attribute inner="text": a start value.
+  void set_text(std::string_view inner, std::string_view text) { texts_[inner] = text; }
+
+  struct Found {
+    std::uint32_t entry;
+    bool is_new;            // nobody has used it before: it has no type yet
+    std::string_view text;  // its start value as written, or ""
+    bool has_text;
+  };
+  // The entry that `key` means here; made when it does not exist.
+  Found find(std::string_view key);
+  bool used(std::string_view key) const { return known_.contains(key); }
+
+ private:
+  std::vector<BlackboardEntry>& entries_;
+  Scope* outer_ = nullptr;
+  std::string prefix_;
+  bool autoremap_ = false;
+  std::map<std::string_view, std::string_view> remapped_;
+  std::map<std::string_view, std::string_view> texts_;
+  std::map<std::string_view, std::uint32_t> known_;
+};
+
+}  // namespace lockstep

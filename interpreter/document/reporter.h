@@ -1,0 +1,42 @@
+// Reports errors at places in one document, with the source line. For all who check what it says.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/diagnostics.h"
+#include "document/document.h"
+
+namespace lockstep {
+
+class Reporter {
+ public:
+  Reporter(const Document& document, Diagnostics& diagnostics)
+      : document_(document), diagnostics_(diagnostics) {}
+
+  void at_element(std::uint32_t element, std::string message, std::string hint = {},
+                  Severity severity = Severity::Error) const {
+    add(document_.locate(element), std::move(message), std::move(hint), severity);
+  }
+  void at_attribute(std::uint32_t element, std::string_view name, std::string message,
+                    std::string hint = {}, Severity severity = Severity::Error) const {
+    add(document_.locate_attribute(element, name), std::move(message), std::move(hint), severity);
+  }
+  void at_value(std::uint32_t element, std::string_view name, std::string message,
+                std::string hint = {}, Severity severity = Severity::Error) const {
+    add(document_.locate_value(element, name), std::move(message), std::move(hint), severity);
+  }
+
+ private:
+  void add(SourceLocation location, std::string message, std::string hint,
+           Severity severity) const {
+    std::string excerpt = document_.excerpt(location);
+    diagnostics_.add(
+        {severity, std::move(location), std::move(message), std::move(hint), std::move(excerpt)});
+  }
+
+  const Document& document_;
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace lockstep

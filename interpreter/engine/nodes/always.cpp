@@ -1,0 +1,41 @@
+// AlwaysSuccess, AlwaysFailure, AlwaysRunning: leaves with one answer.
+#include "engine/nodes/kinds.h"
+#include "engine/ticker.h"
+
+namespace lockstep {
+namespace {
+
+template <Status kStatus>
+Status tick(Ticker&, NodeIndex) {
+  return kStatus;
+}
+
+double no_progress(Ticker&, NodeIndex) {
+  return 0.0;
+}
+
+}  // namespace
+
+const NodeKind kAlwaysSuccess{.type = {.id = "AlwaysSuccess",
+                                       .category = NodeCategory::Action,
+                                       .doc = "Success at once.",
+                                       .arity = {0, 0}},
+                              .tick = tick<Status::Success>,
+                              .progress = no_progress};
+
+const NodeKind kAlwaysFailure{.type = {.id = "AlwaysFailure",
+                                       .category = NodeCategory::Action,
+                                       .doc = "Failure at once.",
+                                       .arity = {0, 0}},
+                              .tick = tick<Status::Failure>,
+                              .progress = no_progress};
+
+const NodeKind kAlwaysRunning{.type = {.id = "AlwaysRunning",
+                                       .category = NodeCategory::Action,
+                                       .doc = "Running until it is halted; its progress is 0.",
+                                       .arity = {0, 0},
+                                       .has_progress = false},
+                              .tick = tick<Status::Running>,
+                              .progress = no_progress};
+
+}  // namespace lockstep

@@ -1,0 +1,24 @@
+#include "engine/nodes/kinds.h"
+#include "engine/nodes/ordered.h"
+
+namespace lockstep {
+namespace {
+
+double progress(Ticker& ticker, NodeIndex self) {
+  return ticker.progress(ticker.state<ordered::State>(self).current);
+}
+
+}  // namespace
+
+const NodeKind kFallback{
+    .type = {.id = "Fallback",
+             .category = NodeCategory::Control,
+             .doc = "Ticks its children from the left, every tick from the first; stops at the "
+                    "first that is Running or Success and returns that. Failure when all fail.",
+             .arity = {1},
+             .parameters = ordered::kParameters},
+    .tick = ordered::tick<Status::Failure>,
+    .progress = progress,
+    .state_size = sizeof(ordered::State)};
+
+}  // namespace lockstep

@@ -1,0 +1,20 @@
+#include "engine/nodes/decorator.h"
+
+namespace lockstep {
+namespace {
+
+Status tick(Ticker& ticker, NodeIndex self) {
+  return ticker.tick(self + 1) == Status::Failure ? Status::Failure : Status::Running;
+}
+
+}  // namespace
+
+const NodeKind kKeepRunningUntilFailure{
+    .type = {.id = "KeepRunningUntilFailure",
+             .category = NodeCategory::Decorator,
+             .doc = "Running until its child fails; a child that succeeds is ticked anew.",
+             .arity = {1, 1}},
+    .tick = tick,
+    .progress = decorator::child_progress};
+
+}  // namespace lockstep

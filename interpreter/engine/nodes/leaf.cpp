@@ -1,0 +1,115 @@
+// The leaves of plugins: the only place where the engine calls the C ABI. Whatever a leaf does
+// against its contract becomes a fault here.
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <string>
+
+#include "engine/node_kind.h"
+#include "engine/ticker.h"
+#include "lockstep/leaf.h"
+
+namespace lockstep {
+namespace {
+
+// The contract forbids exceptions, but a leaf that throws must not take the robot with it.
+template <class Call>
+void guarded(Ticker& ticker, NodeIndex self, Call call) {
+  try {
+    call();
+  } catch (const std::exception& exception) {
+    ticker.set_fault(self, std::string("threw an exception: ") + exception.what());
+  } catch (...) {
+    ticker.set_fault(self, "threw an exception that is not a std::exception");
+  }
+}
+
+// Takes an error that the leaf has set; true if there was one.
+bool take_error(Ticker& ticker, NodeIndex self, LeafSlot& leaf) {
+  if (leaf.error == nullptr) return false;
+  ticker.set_fault(self, leaf.error);
+  leaf.error = nullptr;
+  return true;
+}
+
+void call(Ticker& ticker, NodeIndex self, void (*function)(void*)) {
+  LeafSlot& leaf = ticker.leaf(self);
+  if (function != nullptr) guarded(ticker, self, [&] { function(leaf.self); });
+  take_error(ticker, self, leaf);
+}
+
+// The first tick of an activation, or the first after a pause. False: it must not be ticked.
+bool prepare(Ticker& ticker, NodeIndex self, LeafSlot& leaf) {
+  if (ticker.activity(self) == Activity::Paused) {
+    call(ticker, self, leaf.type->resume);
+  } else {
+    leaf.started = false;
+    call(ticker, self, leaf.type->start);
+    leaf.started = !ticker.faulted();
+  }
+  return !ticker.faulted();
+}
+
+template <bool kIsCondition>
+Status checked(Ticker& ticker, NodeIndex self, LeafSlot& leaf, lockstep_status result) {
+  if (take_error(ticker, self, leaf) || ticker.faulted()) return Status::Running;
+  if (result == LOCKSTEP_SUCCESS) return Status::Success;
+  if (result == LOCKSTEP_FAILURE) return Status::Failure;
+  if (result == LOCKSTEP_RUNNING && !kIsCondition) return Status::Running;
+  ticker.set_fault(self, result == LOCKSTEP_RUNNING
+                             ? std::string("is a condition and returned running")
+                             : "returned status " + std::to_string(result) +
+                                   ", expected running (1), success (2) or failure (3)");
+  return Status::Running;
+}
+
+template <bool kIsCondition>
+Status tick(Ticker& ticker, NodeIndex self) {
+  LeafSlot& leaf = ticker.leaf(self);
+  if (ticker.activity(self) != Activity::Running && !prepare(ticker, self, leaf)) {
+    return Status::Running;
+  }
+  lockstep_status result = LOCKSTEP_RUNNING;
+  guarded(ticker, self, [&] { result = leaf.type->tick(leaf.self); });
+  return checked<kIsCondition>(ticker, self, leaf, result);
+}
+
+void halt(Ticker& ticker, NodeIndex self) {
+  const LeafSlot& leaf = ticker.leaf(self);
+  if (leaf.started) call(ticker, self, leaf.type->halt);
+}
+
+void pause(Ticker& ticker, NodeIndex self) {
+  call(ticker, self, ticker.leaf(self).type->pause);
+}
+
+double progress(Ticker& ticker, NodeIndex self) {
+  LeafSlot& leaf = ticker.leaf(self);
+  if (leaf.type->progress == nullptr) return 0.0;
+  double reported = 0.0;
+  guarded(ticker, self, [&] { reported = leaf.type->progress(leaf.self); });
+  if (take_error(ticker, self, leaf)) return 0.0;
+  if (std::isnan(reported)) {
+    ticker.set_fault(self, "reported a progress that is not a number");
+    return 0.0;
+  }
+  return std::clamp(reported, 0.0, 1.0);
+}
+
+}  // namespace
+
+const NodeKind kPluginAction{
+    .type = {.id = "Action", .category = NodeCategory::Action, .doc = "", .arity = {0, 0}},
+    .tick = tick<false>,
+    .progress = progress,
+    .halt = halt,
+    .pause = pause};
+
+const NodeKind kPluginCondition{
+    .type = {.id = "Condition", .category = NodeCategory::Condition, .doc = "", .arity = {0, 0}},
+    .tick = tick<true>,
+    .progress = progress,
+    .halt = halt,
+    .pause = pause};
+
+}  // namespace lockstep

@@ -1,0 +1,98 @@
+#include <limits>
+#include <string>
+
+#include "engine/nodes/kinds.h"
+#include "engine/nodes/synchronized_tick.h"
+
+namespace lockstep {
+namespace {
+
+using synchronized::kEpsilon;
+
+constexpr unsigned kBarriers = 0;
+constexpr unsigned kBarrierCount = 1;
+constexpr unsigned kAtBarrier = 2;
+
+constexpr std::string_view kAtBarrierChoices[] = {"wait", "tick"};
+constexpr std::int64_t kTickAtBarrier = 1;
+
+constexpr Parameter kParameters[] = {
+    {.name = "barriers",
+     .type = ValueType::DoubleList,
+     .doc = "Progress values at which the children wait for each other, rising: 0.25;0.5;0.75.",
+     .range = {.min = 0, .max = 1, .min_excluded = true}},
+    {.name = "barrier_count",
+     .type = ValueType::Int,
+     .doc = "Instead of barriers: n equidistant ones, i/n for i = 1 to n; 0 = none.",
+     .range = {.min = 0, .max = 100000}},
+    {.name = "at_barrier",
+     .type = ValueType::String,
+     .doc = "What a child exactly at a barrier does: wait (the definition) or tick once more (the "
+            "pseudocode).",
+     .default_text = "wait",
+     .choices = kAtBarrierChoices},
+};
+
+std::optional<RuleBreak> check_order(const std::vector<double>& barriers) {
+  auto sorted = barriers;
+  std::sort(sorted.begin(), sorted.end());
+  if (const auto twice = std::adjacent_find(sorted.begin(), sorted.end()); twice != sorted.end()) {
+    return RuleBreak{kBarriers, "barrier " + to_text(*twice) + " is given twice", ""};
+  }
+  if (sorted == barriers) return std::nullopt;
+  return RuleBreak{kBarriers, "barriers must rise", "write '" + to_text(sorted) + "'"};
+}
+
+std::optional<RuleBreak> rule(std::span<Value> values, std::uint32_t) {
+  const auto* barriers = std::get_if<std::vector<double>>(&values[kBarriers]);
+  const auto* count = std::get_if<std::int64_t>(&values[kBarrierCount]);
+  if (barriers != nullptr && count != nullptr) {
+    return RuleBreak{kBarrierCount, "both 'barriers' and 'barrier_count' are given",
+                     "give exactly one of the two"};
+  }
+  if (barriers != nullptr) return check_order(*barriers);
+  if (count == nullptr) {
+    return RuleBreak{-1, "'barriers' or 'barrier_count' is missing",
+                     "give exactly one of the two, such as barriers=\"0.25;0.5;0.75\""};
+  }
+  std::vector<double> equidistant;
+  for (std::int64_t i = 1; i <= *count; ++i) {
+    equidistant.push_back(static_cast<double>(i) / static_cast<double>(*count));
+  }
+  values[kBarriers] = std::move(equidistant);
+  return std::nullopt;
+}
+
+// The smallest barrier that not every child has passed; infinity when none is left.
+double current_barrier(std::span<const double> barriers, double least) {
+  const auto next = std::upper_bound(barriers.begin(), barriers.end(), least + kEpsilon);
+  return next == barriers.end() ? std::numeric_limits<double>::infinity() : *next;
+}
+
+Status tick(Ticker& ticker, NodeIndex self) {
+  const auto barriers = ticker.numbers(ticker.parameter(self, kBarriers));
+  const double barrier = current_barrier(barriers, synchronized::take_snapshot(ticker, self));
+  if (ticker.parameter(self, kAtBarrier).integer == kTickAtBarrier) {
+    return synchronized::tick_children(
+        ticker, self, [barrier](double reached) { return reached > barrier + kEpsilon; });
+  }
+  return synchronized::tick_children(
+      ticker, self, [barrier](double reached) { return reached >= barrier - kEpsilon; });
+}
+
+}  // namespace
+
+const NodeKind kParallelAbsolute{
+    .type = {.id = "ParallelAbsolute",
+             .category = NodeCategory::Control,
+             .doc = "Ticks its children in parallel and makes them wait for each other at a list "
+                    "of barriers: who reached the current barrier is held until all have. Success "
+                    "when all succeed, Failure when one fails.",
+             .arity = {1},
+             .parameters = kParameters,
+             .rule = rule},
+    .tick = tick,
+    .progress = synchronized::progress,
+    .state_per_child = sizeof(double)};
+
+}  // namespace lockstep

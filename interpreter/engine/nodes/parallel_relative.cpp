@@ -1,0 +1,38 @@
+#include "engine/nodes/kinds.h"
+#include "engine/nodes/synchronized_tick.h"
+
+namespace lockstep {
+namespace {
+
+constexpr unsigned kDelta = 0;
+
+constexpr Parameter kParameters[] = {
+    {.name = "delta",
+     .type = ValueType::Double,
+     .doc = "How far a child may run ahead of the slowest: 0 = strict lockstep, 1 = not "
+            "synchronized.",
+     .required = true,
+     .range = {.min = 0, .max = 1}},
+};
+
+Status tick(Ticker& ticker, NodeIndex self) {
+  const double least = synchronized::take_snapshot(ticker, self);
+  const double limit = least + ticker.parameter(self, kDelta).number + synchronized::kEpsilon;
+  return synchronized::tick_children(ticker, self,
+                                     [limit](double reached) { return reached > limit; });
+}
+
+}  // namespace
+
+const NodeKind kParallelRelative{
+    .type = {.id = "ParallelRelative",
+             .category = NodeCategory::Control,
+             .doc = "Ticks its children in parallel and lets none run ahead of the slowest by more "
+                    "than delta. Success when all succeed, Failure when one fails.",
+             .arity = {1},
+             .parameters = kParameters},
+    .tick = tick,
+    .progress = synchronized::progress,
+    .state_per_child = sizeof(double)};
+
+}  // namespace lockstep

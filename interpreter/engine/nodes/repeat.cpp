@@ -1,0 +1,52 @@
+#include "engine/nodes/decorator.h"
+
+namespace lockstep {
+namespace {
+
+constexpr unsigned kTimes = 0;
+constexpr std::int64_t kForever = 0;  // the cell of an absent number
+
+constexpr Parameter kParameters[] = {
+    {.name = "times",
+     .type = ValueType::Int,
+     .doc = "How often the child must succeed; for ever when absent.",
+     .range = {.min = 1}},
+};
+
+struct State {
+  std::int64_t done;
+};
+
+Status tick(Ticker& ticker, NodeIndex self) {
+  State& state = ticker.state<State>(self);
+  if (ticker.first_tick(self)) state.done = 0;
+  const Status status = ticker.tick(self + 1);
+  if (status != Status::Success) return status;
+  ++state.done;
+  return state.done == ticker.parameter(self, kTimes).integer ? Status::Success : Status::Running;
+}
+
+double progress(Ticker& ticker, NodeIndex self) {
+  const std::int64_t times = ticker.parameter(self, kTimes).integer;
+  const double child = ticker.progress(self + 1);
+  if (times == kForever) return child;
+  // A child that has just succeeded is already counted as done.
+  const double current = ticker.status(self + 1) == Status::Running ? child : 0.0;
+  const auto done = static_cast<double>(ticker.state<State>(self).done);
+  return (done + current) / static_cast<double>(times);
+}
+
+}  // namespace
+
+const NodeKind kRepeat{
+    .type = {.id = "Repeat",
+             .category = NodeCategory::Decorator,
+             .doc = "Ticks its child until it has succeeded a number of times, once per tick; "
+                    "Failure as soon as it fails.",
+             .arity = {1, 1},
+             .parameters = kParameters},
+    .tick = tick,
+    .progress = progress,
+    .state_size = sizeof(State)};
+
+}  // namespace lockstep

@@ -1,0 +1,41 @@
+// Inverter, ForceSuccess, ForceFailure: change the result of their child, nothing else.
+#include "engine/nodes/decorator.h"
+
+namespace lockstep {
+namespace {
+
+template <Status kSuccessBecomes, Status kFailureBecomes>
+Status tick(Ticker& ticker, NodeIndex self) {
+  const Status status = ticker.tick(self + 1);
+  if (status == Status::Success) return kSuccessBecomes;
+  if (status == Status::Failure) return kFailureBecomes;
+  return status;
+}
+
+}  // namespace
+
+const NodeKind kInverter{
+    .type = {.id = "Inverter",
+             .category = NodeCategory::Decorator,
+             .doc = "Success of its child becomes Failure, and Failure Success.",
+             .arity = {1, 1}},
+    .tick = tick<Status::Failure, Status::Success>,
+    .progress = decorator::child_progress};
+
+const NodeKind kForceSuccess{
+    .type = {.id = "ForceSuccess",
+             .category = NodeCategory::Decorator,
+             .doc = "Success when its child completes, whatever the result.",
+             .arity = {1, 1}},
+    .tick = tick<Status::Success, Status::Success>,
+    .progress = decorator::child_progress};
+
+const NodeKind kForceFailure{
+    .type = {.id = "ForceFailure",
+             .category = NodeCategory::Decorator,
+             .doc = "Failure when its child completes, whatever the result.",
+             .arity = {1, 1}},
+    .tick = tick<Status::Failure, Status::Failure>,
+    .progress = decorator::child_progress};
+
+}  // namespace lockstep

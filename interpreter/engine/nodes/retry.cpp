@@ -1,0 +1,43 @@
+#include "engine/nodes/decorator.h"
+
+namespace lockstep {
+namespace {
+
+constexpr unsigned kAttempts = 0;
+
+constexpr Parameter kParameters[] = {
+    {.name = "attempts",
+     .type = ValueType::Int,
+     .doc = "How often the child may fail before this node does.",
+     .required = true,
+     .range = {.min = 1}},
+};
+
+struct State {
+  std::int64_t failed;
+};
+
+Status tick(Ticker& ticker, NodeIndex self) {
+  State& state = ticker.state<State>(self);
+  if (ticker.first_tick(self)) state.failed = 0;
+  const Status status = ticker.tick(self + 1);
+  if (status != Status::Failure) return status;
+  ++state.failed;
+  return state.failed == ticker.parameter(self, kAttempts).integer ? Status::Failure
+                                                                   : Status::Running;
+}
+
+}  // namespace
+
+const NodeKind kRetry{
+    .type = {.id = "Retry",
+             .category = NodeCategory::Decorator,
+             .doc = "Ticks its child until it succeeds, at most a number of attempts, once per "
+                    "tick.",
+             .arity = {1, 1},
+             .parameters = kParameters},
+    .tick = tick,
+    .progress = decorator::child_progress,
+    .state_size = sizeof(State)};
+
+}  // namespace lockstep

@@ -1,0 +1,20 @@
+#include "engine/nodes/decorator.h"
+
+namespace lockstep {
+namespace {
+
+Status tick(Ticker& ticker, NodeIndex self) {
+  return ticker.tick(self + 1);
+}
+
+}  // namespace
+
+// Its attributes (ID, remapping, _autoremap) are resolved before the tree is compiled.
+const NodeKind kSubTree{
+    .type = {.id = "SubTree",
+             .category = NodeCategory::SubTree,
+             .doc = "The tree with this ID, with a blackboard scope of its own."},
+    .tick = tick,
+    .progress = decorator::child_progress};
+
+}  // namespace lockstep

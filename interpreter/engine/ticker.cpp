@@ -1,0 +1,70 @@
+#include "engine/ticker.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace lockstep {
+
+Ticker::Ticker(const Tree& tree, std::span<LeafSlot> leaves)
+    : tree_(tree), leaves_(leaves), state_(tree) {}
+
+Status Ticker::tick_root(Nanoseconds now) {
+  now_ = now;
+  ++tick_number_;
+  return tick(0);
+}
+
+void Ticker::forget_descendants(NodeIndex node) {
+  const auto begin = state_.activity.begin();
+  std::fill(begin + node + 1, begin + tree_.nodes[node].end, Activity::Idle);
+}
+
+void Ticker::halt_range(NodeIndex first, NodeIndex last) {
+  for (NodeIndex node = first; node < last; ++node) {
+    const bool running = status(node) == Status::Running;
+    state_.activity[node] = Activity::Idle;
+    const auto halt = tree_.nodes[node].kind->halt;
+    if (running && halt != nullptr) halt(*this, node);
+  }
+}
+
+void Ticker::halt_running_children(NodeIndex node) {
+  for (NodeIndex child = node + 1; child != end_of(node); child = end_of(child)) {
+    if (status(child) == Status::Running) halt(child);
+  }
+}
+
+void Ticker::pause(NodeIndex node) {
+  for (NodeIndex at = node; at < tree_.nodes[node].end; ++at) {
+    if (state_.activity[at] != Activity::Running) continue;
+    state_.activity[at] = Activity::Paused;
+    if (const auto pause = tree_.nodes[at].kind->pause) pause(*this, at);
+  }
+}
+
+double Ticker::progress(NodeIndex node) {
+  switch (status(node)) {
+    case Status::Running:
+      return tree_.nodes[node].kind->progress(*this, node);
+    case Status::Success:
+      return 1.0;
+    default:
+      return 0.0;
+  }
+}
+
+void Ticker::set_fault(NodeIndex node, std::string message) {
+  if (faulted_) return;  // the first is the cause
+  faulted_ = true;
+  fault_ = Fault{node, std::move(message)};
+}
+
+void Ticker::reset() {
+  state_ = RunState(tree_);
+  now_ = Nanoseconds(0);
+  tick_number_ = 0;
+  faulted_ = false;
+  fault_ = {};
+}
+
+}  // namespace lockstep

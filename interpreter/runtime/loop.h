@@ -1,0 +1,30 @@
+// The fixed-rate loop: ticks a run at absolute deadlines until it ends, with its observers around
+// each tick. Deadlines are multiples of the period from the start, so there is no drift; those that
+// a late tick has missed are skipped, never made up for in a bunch.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "core/clock.h"
+#include "runtime/observer.h"
+#include "runtime/run.h"
+
+namespace lockstep {
+
+struct LoopOptions {
+  double rate = 100;                       // Hz, in [0.001, 100000]
+  std::optional<std::uint64_t> max_ticks;  // stop after this many
+  std::optional<Nanoseconds> timeout;      // stop before the first tick at or after this time
+  int (*stop_signal)() = nullptr;          // asked before each tick: nonzero = stop
+};
+
+// Time of the deadline of tick k, since the start.
+Nanoseconds deadline_of(std::uint64_t k, double rate);
+
+// Runs to the end: every running leaf is halted, every observer has heard of it.
+RunEnd run_loop(Run& run, Clock& clock, const LoopOptions& options,
+                std::span<Observer* const> observers);
+
+}  // namespace lockstep

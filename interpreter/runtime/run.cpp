@@ -1,0 +1,25 @@
+#include "runtime/run.h"
+
+namespace lockstep {
+
+Run::Run(const Tree& tree, const RunOptions& options)
+    : blackboard_(tree),
+      time_{.now = Nanoseconds(0), .period = options.period},
+      leaves_(tree, blackboard_, time_, options.seed, options.log),
+      ticker_(tree, leaves_.slots()) {}
+
+Run::~Run() {
+  halt();
+}
+
+Status Run::tick(Nanoseconds now) {
+  time_.now = now;
+  return ticker_.tick_root(now);
+}
+
+const Fault* Run::fault() const {
+  if (leaves_.fault()) return &*leaves_.fault();
+  return ticker_.fault();
+}
+
+}  // namespace lockstep
