@@ -2,6 +2,7 @@
 // the original bytes. The only folder that sees tinyxml2. It knows XML, not trees.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -27,14 +28,18 @@ struct Element {
 
 class Document {
  public:
-  // Null when the text is not XML that can be read; an error then says where and why. `path` is
-  // how messages name the file.
+  // A longer text is refused.
+  static constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
+
+  // Null when the text is not XML that can be read; an error then says where and why. A fault that
+  // leaves the elements readable (text in an element, an unknown '&x;') is an error too, but the
+  // document is there. `path` is how messages name the file.
   static std::unique_ptr<Document> parse(std::string path, std::string text,
                                          Diagnostics& diagnostics);
   ~Document();
 
   const std::string& path() const;
-  std::string_view text() const;
+  std::string_view text() const;  // without a byte order mark
   // Elements in pre-order; 0 is the root element.
   std::span<const Element> elements() const;
   std::span<const Attribute> attributes(std::uint32_t element) const;
@@ -43,9 +48,12 @@ class Document {
   void set_value(const Attribute& attribute, std::string value);
 
   // Places, found in the bytes only when asked for (the first call scans the file once).
-  SourceLocation locate(std::uint32_t element) const;                           // its '<'
+  // An element without such an attribute stands for it.
+  SourceLocation locate(std::uint32_t element) const;                                   // its '<'
   SourceLocation locate_attribute(std::uint32_t element, std::string_view name) const;  // its name
-  SourceLocation locate_value(std::uint32_t element, std::string_view name) const;  // inside quotes
+  // Inside the quotes, at byte `offset` of the value as it was parsed (before set_value).
+  SourceLocation locate_value(std::uint32_t element, std::string_view name,
+                              std::size_t offset = 0) const;
   // The whole line that a location is on, without its newline; cut to 200 bytes.
   std::string excerpt(const SourceLocation& location) const;
 

@@ -23,15 +23,17 @@ struct DeclaredArgument {
 };
 
 struct Project {
-  std::vector<std::unique_ptr<Document>> documents;  // the main file first, then as included
+  // The main file first, then as included. Their paths are as a user would write them: relative
+  // ones stay relative.
+  std::vector<std::unique_ptr<Document>> documents;
   std::vector<DeclaredArgument> arguments;
-  // Main file and includes as a user would write them in a message: relative paths stay relative.
 };
 
 // Reads `path`, its <include>s (relative to the including file, each file once, a cycle is an error
 // that shows the chain) and its <arg>s, and replaces ${name} in every attribute ($${ is a literal
-// ${). Reports everything it finds wrong; null only when the main file could not be parsed.
-// Unknown names in `arguments` are errors without a place, with a hint that lists the declared ones.
+// ${). A value that has an error in it stays as it is written. Reports everything it finds wrong;
+// null only when the main file could not be parsed.
+// Unknown names in `arguments` are errors without a place, with a hint that lists the declared.
 std::unique_ptr<Project> load_project(const std::string& path, const Arguments& arguments,
                                       Diagnostics& diagnostics);
 

@@ -16,25 +16,25 @@ class Reporter {
 
   void at_element(std::uint32_t element, std::string message, std::string hint = {},
                   Severity severity = Severity::Error) const {
-    add(document_.locate(element), std::move(message), std::move(hint), severity);
+    at(document_.locate(element), std::move(message), std::move(hint), severity);
   }
   void at_attribute(std::uint32_t element, std::string_view name, std::string message,
                     std::string hint = {}, Severity severity = Severity::Error) const {
-    add(document_.locate_attribute(element, name), std::move(message), std::move(hint), severity);
+    at(document_.locate_attribute(element, name), std::move(message), std::move(hint), severity);
   }
   void at_value(std::uint32_t element, std::string_view name, std::string message,
                 std::string hint = {}, Severity severity = Severity::Error) const {
-    add(document_.locate_value(element, name), std::move(message), std::move(hint), severity);
+    at(document_.locate_value(element, name), std::move(message), std::move(hint), severity);
   }
 
- private:
-  void add(SourceLocation location, std::string message, std::string hint,
-           Severity severity) const {
+  void at(SourceLocation location, std::string message, std::string hint = {},
+          Severity severity = Severity::Error) const {
     std::string excerpt = document_.excerpt(location);
     diagnostics_.add(
         {severity, std::move(location), std::move(message), std::move(hint), std::move(excerpt)});
   }
 
+ private:
   const Document& document_;
   Diagnostics& diagnostics_;
 };

@@ -1,0 +1,162 @@
+#include "document/arguments.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/suggest.h"
+#include "document/reporter.h"
+#include "document/vocabulary.h"
+
+namespace lockstep {
+namespace {
+
+constexpr std::size_t kMaxListed = 20;
+constexpr std::string_view kAttributes[] = {"name", "default", "doc"};
+
+bool is_identifier(std::string_view text) {
+  const auto is_part = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  return !text.empty() && !(text[0] >= '0' && text[0] <= '9') &&
+         std::all_of(text.begin(), text.end(), is_part);
+}
+
+std::optional<std::string> value_of(const Attribute* attribute) {
+  if (!attribute) return std::nullopt;
+  return std::string(attribute->value);
+}
+
+std::string to_place(const SourceLocation& location) {
+  return fmt::format("{}:{}:{}", location.file, location.line, location.column);
+}
+
+}  // namespace
+
+void ArgumentTable::declare(Document& document, std::uint32_t element) {
+  if (!check_vocabulary(document, element, kAttributes, 1, diagnostics_)) return;
+  const Reporter report(document, diagnostics_);
+  const bool sound = substitute(document, element);
+  const std::string name(document.find_attribute(element, "name")->value);
+  const auto location = document.locate_value(element, "name");
+  if (!is_identifier(name))
+    return report.at_value(element, "name", fmt::format("'{}' is not an identifier", name),
+                           "letters, digits and '_', not a digit first");
+  const auto [entry, is_new] = by_name_.try_emplace(name, Where{declared_.size(), location, sound});
+  if (!is_new)
+    return report.at_value(element, "name", fmt::format("argument '{}' is declared twice", name),
+                           fmt::format("the first is at {}", to_place(entry->second.location)));
+
+  auto default_value = value_of(document.find_attribute(element, "default"));
+  const auto given = given_.find(name);
+  if (given == given_.end() && !default_value) {
+    entry->second.has_value = false;
+    report.at_element(element, fmt::format("argument '{}' has no default and is not given", name),
+                      fmt::format("give it with --arg {}=value", name));
+  }
+  if (given != given_.end()) entry->second.has_value = true;
+  auto value = given != given_.end() ? given->second : default_value.value_or("");
+  declared_.push_back({name, std::move(default_value),
+                       value_of(document.find_attribute(element, "doc")).value_or(""),
+                       std::move(value)});
+}
+
+bool ArgumentTable::substitute(Document& document, std::uint32_t element) {
+  if (is_full_) return false;
+  bool sound = true;
+  for (const auto& attribute : document.attributes(element)) {
+    if (attribute.value.find("${") == std::string_view::npos) continue;
+    auto value = expand(document, element, attribute);
+    sound = sound && value.has_value();
+    if (value) document.set_value(attribute, std::move(*value));
+  }
+  return sound;
+}
+
+std::optional<std::string> ArgumentTable::expand(const Document& document, std::uint32_t element,
+                                                 const Attribute& attribute) {
+  const auto text = attribute.value;
+  const auto place = [&](std::size_t offset) {
+    return document.locate_value(element, attribute.name, offset);
+  };
+  std::string out;
+  bool sound = true;
+  std::size_t done = 0;
+  for (auto at = text.find("${"); at != std::string_view::npos; at = text.find("${", done)) {
+    const bool literal = at > done && text[at - 1] == '$';
+    out += text.substr(done, at - done - (literal ? 1 : 0));
+    done = at + 2;
+    if (literal) {
+      out += "${";
+      continue;
+    }
+    const auto close = text.find('}', done);
+    if (close == std::string_view::npos) {
+      Reporter(document, diagnostics_)
+          .at(place(at), "'${' is not closed",
+              "write ${name}, or $${ for the characters themselves");
+      return std::nullopt;
+    }
+    const auto name = text.substr(done, close - done);
+    done = close + 1;
+    const auto* where = find(name);
+    if (!where) report_unknown(name, document, place(at));
+    sound = sound && where && where->has_value;
+    if (!sound) continue;
+    const auto& value = declared_[where->index].value;
+    if (!fits(out.size() + value.size(), document, element, attribute)) return std::nullopt;
+    out += value;
+  }
+  if (!sound) return std::nullopt;
+  out += text.substr(done);
+  expanded_ += out.size();
+  return out;
+}
+
+bool ArgumentTable::fits(std::size_t bytes, const Document& document, std::uint32_t element,
+                         const Attribute& attribute) {
+  const auto fail = [&](std::string message) {
+    Reporter(document, diagnostics_).at_value(element, attribute.name, std::move(message));
+    return false;
+  };
+  if (bytes > kMaxValueMiB << 20u)
+    return fail(fmt::format("the value of '{}' is larger than {} MiB with its arguments",
+                            attribute.name, kMaxValueMiB));
+  is_full_ = expanded_ + bytes > kMaxExpandedMiB << 20u;
+  if (is_full_)
+    return fail(
+        fmt::format("values with arguments are larger than {} MiB together", kMaxExpandedMiB));
+  return true;
+}
+
+const ArgumentTable::Where* ArgumentTable::find(std::string_view name) const {
+  const auto entry = by_name_.find(name);
+  return entry == by_name_.end() ? nullptr : &entry->second;
+}
+
+void ArgumentTable::report_unknown(std::string_view name, const Document& document,
+                                   SourceLocation location) {
+  Reporter(document, diagnostics_)
+      .at(std::move(location), fmt::format("unknown argument '{}'", name), list_declared(name));
+}
+
+std::string ArgumentTable::list_declared(std::string_view near) const {
+  if (declared_.empty()) return "no <arg> is declared";
+  std::vector<std::string_view> names;
+  for (const auto& argument : declared_) names.push_back(argument.name);
+  auto hint = did_you_mean(near, names);
+  if (!hint.empty()) hint += " ";
+  const auto listed = std::min(names.size(), kMaxListed);
+  hint += fmt::format("declared: '{}'", fmt::join(names.begin(), names.begin() + listed, "', '"));
+  if (listed < names.size()) hint += fmt::format(" and {} more", names.size() - listed);
+  return hint;
+}
+
+void ArgumentTable::check_given() const {
+  for (const auto& [name, value] : given_)
+    if (!find(name))
+      diagnostics_.error({}, fmt::format("unknown argument '{}' in --arg", name),
+                         list_declared(name));
+}
+
+}  // namespace lockstep

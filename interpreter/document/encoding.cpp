@@ -1,0 +1,41 @@
+#include <fmt/format.h>
+
+#include "core/utf8.h"
+#include "document/well_formed.h"
+
+namespace lockstep {
+namespace {
+
+constexpr auto kSaveAsUtf8 = "save it as UTF-8";
+
+Fault bad_byte(std::string_view text, std::size_t offset) {
+  const auto byte = static_cast<unsigned char>(text[offset]);
+  if (byte == 0) return {offset, "NUL byte: this is not text in UTF-8", kSaveAsUtf8};
+  if (byte < 0x20) return {offset, fmt::format("control character \\x{:02X} in the text", byte)};
+  return {offset, fmt::format("byte \\x{:02X} is not UTF-8", byte), kSaveAsUtf8};
+}
+
+bool is_allowed_control(char c) {
+  return c == '\t' || c == '\n' || c == '\r';
+}
+
+}  // namespace
+
+std::optional<Fault> check_encoding(std::string_view text) {
+  using namespace std::string_view_literals;
+  for (const auto mark : {"\xFF\xFE"sv, "\xFE\xFF"sv})
+    if (text.starts_with(mark)) return Fault{0, "the file is in UTF-16", kSaveAsUtf8};
+  for (std::size_t i = 0; i < text.size();) {
+    if (text[i] >= 0x20 || is_allowed_control(text[i])) {
+      ++i;
+      continue;
+    }
+    const auto length =
+        static_cast<unsigned char>(text[i]) < 0x20 ? 0 : utf8_length(text.substr(i));
+    if (length == 0) return bad_byte(text, i);
+    i += length;
+  }
+  return std::nullopt;
+}
+
+}  // namespace lockstep

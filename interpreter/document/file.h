@@ -1,0 +1,18 @@
+// Reading a whole file, with the system's reason when that fails.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace lockstep {
+
+struct FileText {
+  std::string text;
+  std::string failure;  // "" when the text is there
+};
+
+// At most a little more than `limit` bytes, so that the reader of the text sees that it is too much
+// and an endless file ends.
+FileText read_file(const std::string& path, std::size_t limit);
+
+}  // namespace lockstep

@@ -1,0 +1,42 @@
+// Where things are in the bytes of a text: lines, and the elements and attributes of a well-formed
+// document, counted as the reader counts them. Made once, when a place is first asked for.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace lockstep {
+
+struct LineColumn {
+  std::uint32_t line;
+  std::uint32_t column;
+};
+
+class Lines {
+ public:
+  explicit Lines(std::string_view text);
+  LineColumn locate(std::size_t offset) const;
+  // Line 1 is the first; without its line end. "" when there is no such line.
+  std::string_view line(std::uint32_t number) const;
+
+ private:
+  std::string_view text_;
+  std::vector<std::size_t> starts_;
+};
+
+struct Places {
+  struct AttributePlace {
+    std::size_t name;
+    std::string_view value;  // as written, between the quotes
+  };
+
+  // `text` is well-formed.
+  explicit Places(std::string_view text);
+
+  std::vector<std::size_t> elements;       // the '<' of each start tag, in pre-order
+  std::vector<AttributePlace> attributes;  // of all elements, in the order of the text
+};
+
+}  // namespace lockstep

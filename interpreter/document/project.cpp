@@ -1,0 +1,151 @@
+#include "document/project.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "document/arguments.h"
+#include "document/file.h"
+#include "document/reporter.h"
+#include "document/vocabulary.h"
+
+namespace lockstep {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxIncludeDepth = 32;
+constexpr std::string_view kIncludeAttributes[] = {"path"};
+
+// The same for all spellings of a path, and for links to one file.
+std::string identity_of(const std::string& path) {
+  std::error_code error;
+  const auto canonical = fs::weakly_canonical(path, error);
+  return error ? fs::path(path).lexically_normal().string() : canonical.string();
+}
+
+bool is_root(const Document& document) {
+  return document.elements()[0].tag == "root";
+}
+
+class Loader {
+ public:
+  Loader(const Arguments& given, Diagnostics& diagnostics)
+      : arguments_(given, diagnostics), diagnostics_(diagnostics) {}
+
+  std::unique_ptr<Project> load(const std::string& path, std::string text) {
+    if (!add(path, std::move(text))) return nullptr;
+    arguments_.check_given();
+    for (const auto& document : project_->documents) substitute(*document);
+    project_->arguments = arguments_.take();
+    return std::move(project_);
+  }
+
+ private:
+  struct Reading {
+    std::string path;
+    std::string identity;
+  };
+
+  bool add(const std::string& path, std::string text);
+  void include(Document& document, std::uint32_t element);
+  // The chain of files that `next` would close, or "".
+  std::string cycle(const Reading& next) const;
+  void substitute(Document& document);
+  template <class Visit>
+  void for_each_child(Document& document, std::string_view tag, Visit visit);
+
+  std::unique_ptr<Project> project_ = std::make_unique<Project>();
+  ArgumentTable arguments_;
+  Diagnostics& diagnostics_;
+  std::vector<Reading> open_;   // the chain of includes that is being read
+  std::set<std::string> read_;  // identities
+};
+
+template <class Visit>
+void Loader::for_each_child(Document& document, std::string_view tag, Visit visit) {
+  const auto elements = document.elements();
+  for (std::uint32_t i = 1; i < elements.size(); i = elements[i].end)
+    if (elements[i].tag == tag) visit(i);
+}
+
+bool Loader::add(const std::string& path, std::string text) {
+  const auto identity = identity_of(path);
+  read_.insert(identity);
+  auto parsed = Document::parse(path, std::move(text), diagnostics_);
+  if (!parsed) return false;
+  auto& document = *project_->documents.emplace_back(std::move(parsed));
+  if (!is_root(document)) {
+    Reporter(document, diagnostics_)
+        .at_element(0, fmt::format("the first element must be 'root', not '{}'",
+                                   document.elements()[0].tag));
+    return true;
+  }
+  open_.push_back({path, identity});
+  // All arguments of a file before its includes: an included file sees those of its includer.
+  for_each_child(document, "arg", [&](auto i) { arguments_.declare(document, i); });
+  for_each_child(document, "include", [&](auto i) { include(document, i); });
+  open_.pop_back();
+  return true;
+}
+
+void Loader::include(Document& document, std::uint32_t element) {
+  if (!check_vocabulary(document, element, kIncludeAttributes, 1, diagnostics_)) return;
+  if (!arguments_.substitute(document, element)) return;
+  const fs::path written(document.find_attribute(element, "path")->value);
+  const auto path = (fs::path(document.path()).parent_path() / written).lexically_normal().string();
+  const auto fail = [&](std::string message) {
+    Reporter(document, diagnostics_).at_value(element, "path", std::move(message));
+  };
+  const Reading next{path, identity_of(path)};
+  if (const auto chain = cycle(next); !chain.empty()) return fail("include cycle: " + chain);
+  if (read_.count(next.identity) > 0) return;
+  if (open_.size() > kMaxIncludeDepth)
+    return fail(fmt::format("includes are nested deeper than {} levels", kMaxIncludeDepth));
+  auto [text, failure] = read_file(path, Document::kMaxBytes);
+  if (!failure.empty()) return fail(fmt::format("cannot read '{}': {}", path, failure));
+  add(path, std::move(text));
+}
+
+std::string Loader::cycle(const Reading& next) const {
+  const auto first = std::find_if(open_.begin(), open_.end(), [&](const Reading& reading) {
+    return reading.identity == next.identity;
+  });
+  std::string chain;
+  for (auto reading = first; reading != open_.end(); ++reading) chain += reading->path + " -> ";
+  return chain.empty() ? chain : chain + next.path;
+}
+
+void Loader::substitute(Document& document) {
+  const auto elements = document.elements();
+  const auto is_read = [&](std::uint32_t i) {
+    return is_root(document) && (elements[i].tag == "arg" || elements[i].tag == "include");
+  };
+  arguments_.substitute(document, 0);
+  for (std::uint32_t child = 1; child < elements.size(); child = elements[child].end) {
+    // Substituted when it was read; the text of an argument is not looked into again.
+    if (is_read(child)) continue;
+    for (auto i = child; i < elements[child].end; ++i) arguments_.substitute(document, i);
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<Project> load_project(const std::string& path, const Arguments& arguments,
+                                      Diagnostics& diagnostics) {
+  auto [text, failure] = read_file(path, Document::kMaxBytes);
+  if (!failure.empty()) {
+    diagnostics.error({path}, "cannot be read: " + failure);
+    return nullptr;
+  }
+  return load_project_text(path, std::move(text), arguments, diagnostics);
+}
+
+std::unique_ptr<Project> load_project_text(const std::string& path, std::string text,
+                                           const Arguments& arguments, Diagnostics& diagnostics) {
+  return Loader(arguments, diagnostics).load(path, std::move(text));
+}
+
+}  // namespace lockstep

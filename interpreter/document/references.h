@@ -1,0 +1,24 @@
+// '&' in XML values: which references are known, and how bytes of a value as it is read correspond
+// to bytes as they are written.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+
+namespace lockstep {
+
+// What stands at the front of a raw value, and how many bytes it becomes.
+struct RawUnit {
+  std::size_t raw;   // bytes in the file
+  std::size_t read;  // bytes in the value that the reader gives
+};
+
+// The reference that `raw` (which begins with '&') begins with: &lt; &gt; &amp; &quot; &apos; or
+// the number of an XML character. Nothing when it is none of them.
+std::optional<RawUnit> read_reference(std::string_view raw);
+
+// Where in `raw` the byte `read` of the value comes from.
+std::size_t raw_offset(std::string_view raw, std::size_t read);
+
+}  // namespace lockstep

@@ -1,0 +1,146 @@
+#include "document/scanner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace lockstep {
+namespace {
+
+constexpr bool is_name_start(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == ':' ||
+         static_cast<unsigned char>(c) >= 0x80;
+}
+
+constexpr bool is_name_part(char c) {
+  return is_name_start(c) || (c >= '0' && c <= '9') || c == '-' || c == '.';
+}
+
+}  // namespace
+
+Token Scanner::next() {
+  if (fault_) return {TokenKind::Fault, fault_->offset};
+  return tag_.empty() ? content() : inside_tag();
+}
+
+Token Scanner::content() {
+  const auto begin = position_;
+  if (rest().empty()) return {TokenKind::End, begin};
+  if (text_[begin] == '<') return markup();
+  position_ = std::min(text_.find('<', begin), text_.size());
+  return {TokenKind::Text, begin, {}, text_.substr(begin, position_ - begin)};
+}
+
+Token Scanner::markup() {
+  const auto begin = position_;
+  if (rest().starts_with("</")) return close_tag();
+  if (rest().starts_with("<!--")) return enclosed(TokenKind::Comment, "<!--", "-->", "comment");
+  if (rest().starts_with("<![CDATA["))
+    return enclosed(TokenKind::Text, "<![CDATA[", "]]>", "CDATA section");
+  if (rest().starts_with("<?"))
+    return enclosed(TokenKind::Instruction, "<?", "?>", "processing instruction");
+  if (rest().starts_with("<!DOCTYPE")) return doctype();
+  ++position_;
+  tag_ = take_name();
+  tag_begin_ = begin;
+  if (tag_.empty())
+    return fail(begin, "'<' does not begin a tag", "write '&lt;' for the character itself");
+  return {TokenKind::OpenTag, begin, tag_};
+}
+
+Token Scanner::inside_tag() {
+  const bool blanks = skip_blanks();
+  const auto begin = position_;
+  if (rest().starts_with('>') || rest().starts_with("/>")) {
+    const bool empty = rest()[0] == '/';
+    position_ += empty ? 2 : 1;
+    const auto name = std::exchange(tag_, std::string_view());
+    return {empty ? TokenKind::EmptyTagEnd : TokenKind::TagEnd, begin, name};
+  }
+  if (rest().empty()) return fail(tag_begin_, fmt::format("the tag '<{}' is not closed", tag_));
+  if (!is_name_start(text_[begin])) {
+    const auto hint = fmt::format("the tag '<{}' needs '>' or '/>' at its end", tag_);
+    return fail(begin, fmt::format("unexpected '{}' in the tag '<{}'", text_[begin], tag_), hint);
+  }
+  if (!blanks) return fail(begin, "expected a blank before the attribute");
+  return attribute();
+}
+
+Token Scanner::attribute() {
+  const auto begin = position_;
+  const auto name = take_name();
+  skip_blanks();
+  if (!rest().starts_with('='))
+    return fail(begin, fmt::format("attribute '{}' has no value", name),
+                fmt::format("write {}=\"…\"", name));
+  ++position_;
+  skip_blanks();
+  const auto open = position_;
+  if (!rest().starts_with('"') && !rest().starts_with('\''))
+    return fail(open, fmt::format("expected a quote before the value of '{}'", name),
+                fmt::format("write {}=\"…\"", name));
+  const auto close = text_.find(text_[open], open + 1);
+  const auto value = text_.substr(open + 1, std::min(close, text_.size()) - open - 1);
+  // Before the missing quote: a quote that is forgotten finds the next value's, far below.
+  if (const auto stray = value.find('<'); stray != std::string_view::npos)
+    return fail(open + 1 + stray, fmt::format("'<' in the value of '{}'", name),
+                "write '&lt;', or close the quote before it");
+  if (close == std::string_view::npos)
+    return fail(open, fmt::format("the quote of '{}' is not closed", name));
+  position_ = close + 1;
+  return {TokenKind::Attribute, begin, name, value};
+}
+
+Token Scanner::close_tag() {
+  const auto begin = position_;
+  position_ += 2;
+  const auto name = take_name();
+  if (name.empty()) return fail(begin, "'</' needs the name of the element that it closes");
+  skip_blanks();
+  if (!rest().starts_with('>'))
+    return fail(begin, fmt::format("the tag '</{}' is not closed", name));
+  ++position_;
+  return {TokenKind::CloseTag, begin, name};
+}
+
+Token Scanner::enclosed(TokenKind kind, std::string_view open, std::string_view close,
+                        std::string_view what) {
+  const auto begin = position_;
+  const auto inside = begin + open.size();
+  const auto end = text_.find(close, inside);
+  if (end == std::string_view::npos)
+    return fail(begin, fmt::format("the {} is not closed", what),
+                fmt::format("'{}' ends it", close));
+  position_ = end + close.size();
+  return {kind, begin, {}, text_.substr(inside, end - inside)};
+}
+
+Token Scanner::doctype() {
+  const auto begin = position_;
+  const auto end = text_.find_first_of("[>", begin);
+  if (end == std::string_view::npos) return fail(begin, "the DOCTYPE is not closed");
+  if (text_[end] == '[') return fail(end, "definitions in a DOCTYPE are not supported");
+  position_ = end + 1;
+  return {TokenKind::Doctype, begin};
+}
+
+Token Scanner::fail(std::size_t offset, std::string message, std::string hint) {
+  fault_ = Fault{offset, std::move(message), std::move(hint)};
+  return {TokenKind::Fault, offset};
+}
+
+std::string_view Scanner::take_name() {
+  const auto begin = position_;
+  if (begin == text_.size() || !is_name_start(text_[begin])) return {};
+  while (position_ < text_.size() && is_name_part(text_[position_])) ++position_;
+  return text_.substr(begin, position_ - begin);
+}
+
+bool Scanner::skip_blanks() {
+  const auto begin = position_;
+  position_ = std::min(text_.find_first_not_of(kXmlBlanks, begin), text_.size());
+  return position_ > begin;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,75 @@
+// Cuts the bytes of an XML text into tokens, each with its exact place. It knows the shape of tags
+// and nothing of their meaning or nesting. The checker of well-formedness and the places of a
+// Document are made from it; tinyxml2, which keeps no columns, is not.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace lockstep {
+
+// What is wrong at a byte of a text.
+struct Fault {
+  std::size_t offset = 0;
+  std::string message;
+  std::string hint = {};
+};
+
+enum class TokenKind {
+  OpenTag,      // <name
+  Attribute,    // name="value", between OpenTag and TagEnd
+  TagEnd,       // >
+  EmptyTagEnd,  // />
+  CloseTag,     // </name>
+  Text,         // also a CDATA section
+  Comment,
+  Instruction,  // <?name …?>, so the XML declaration too
+  Doctype,
+  End,
+  Fault,
+};
+
+struct Token {
+  TokenKind kind = TokenKind::End;
+  std::size_t begin = 0;        // its first byte
+  std::string_view name = {};   // of a tag or an attribute
+  std::string_view value = {};  // of an attribute, between the quotes; of Text, what counts
+};
+
+class Scanner {
+ public:
+  explicit Scanner(std::string_view text) : text_(text) {}
+
+  // The next token. After End or Fault, that one again.
+  Token next();
+  const std::optional<Fault>& fault() const { return fault_; }
+  std::size_t offset_of(std::string_view part) const {
+    return static_cast<std::size_t>(part.data() - text_.data());
+  }
+
+ private:
+  Token content();
+  Token inside_tag();
+  Token markup();
+  Token attribute();
+  Token close_tag();
+  Token enclosed(TokenKind kind, std::string_view open, std::string_view close,
+                 std::string_view what);
+  Token doctype();
+  Token fail(std::size_t offset, std::string message, std::string hint = {});
+  std::string_view take_name();
+  bool skip_blanks();
+  std::string_view rest() const { return text_.substr(position_); }
+
+  std::string_view text_;
+  std::size_t position_ = 0;
+  std::string_view tag_;  // the tag that is open: its attributes come next
+  std::size_t tag_begin_ = 0;
+  std::optional<Fault> fault_;
+};
+
+constexpr std::string_view kXmlBlanks = " \t\r\n";
+
+}  // namespace lockstep

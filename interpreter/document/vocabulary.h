@@ -1,0 +1,17 @@
+// The two elements that are for loading only, <arg> and <include>: their attributes.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "document/document.h"
+
+namespace lockstep {
+
+// Reports attributes of `element` that are not in `known`, required ones that are missing (the
+// first `required` of `known`), and elements inside it. False when a required one is missing.
+bool check_vocabulary(const Document& document, std::uint32_t element,
+                      std::span<const std::string_view> known, std::size_t required,
+                      Diagnostics& diagnostics);
+
+}  // namespace lockstep

@@ -1,0 +1,27 @@
+// Whether a text is XML, with the exact place of what is wrong: the reader behind Document says
+// only the line, and takes more than XML allows. It knows nesting and bytes, not tags.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "document/scanner.h"
+
+namespace lockstep {
+
+// Elements inside each other. tinyxml2 allows 100 levels, of which it needs two for itself.
+constexpr std::size_t kMaxElementDepth = 98;
+
+// The first byte that cannot be part of a text in UTF-8 that XML allows. `text` has no byte order
+// mark of UTF-8.
+std::optional<Fault> check_encoding(std::string_view text);
+
+struct WellFormed {
+  std::vector<Fault> faults;
+  bool readable = true;  // false: a fault is such that the reader refuses the text
+};
+
+WellFormed check_well_formed(std::string_view text);
+
+}  // namespace lockstep
