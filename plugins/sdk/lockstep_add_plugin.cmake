@@ -1,0 +1,15 @@
+# lockstep_add_plugin(name source…) builds the plugin name.so, in C or C++, with everything hidden
+# but lockstep_plugin_entry. Used by the plugins of this repository and, installed, by all others.
+function(lockstep_add_plugin name)
+  add_library(${name} MODULE ${ARGN})
+  target_link_libraries(${name} PRIVATE lockstep::sdk)
+  get_property(languages GLOBAL PROPERTY ENABLED_LANGUAGES)
+  if("CXX" IN_LIST languages)
+    target_compile_features(${name} PRIVATE cxx_std_17)
+  endif()
+  set(exports ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/lockstep_plugin.map)
+  target_link_options(${name} PRIVATE LINKER:--version-script=${exports})
+  set_target_properties(${name} PROPERTIES
+    PREFIX "" SUFFIX .so LINK_DEPENDS ${exports}
+    C_VISIBILITY_PRESET hidden CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+endfunction()
