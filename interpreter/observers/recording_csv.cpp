@@ -1,0 +1,44 @@
+#include "observers/recording_csv.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+namespace lockstep {
+namespace {
+
+bool is_active(const RecordedState& node) {
+  return node.status != Status::Idle || node.ticked;
+}
+
+}  // namespace
+
+std::string csv_field(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string quoted = "\"";
+  for (const char character : text) {
+    if (character == '"') quoted += '"';
+    quoted += character;
+  }
+  return quoted + '"';
+}
+
+bool write_csv(RecordingReader& reader, std::FILE* out) {
+  std::vector<std::string> paths;
+  for (const RecordedNode& node : reader.header().nodes) paths.push_back(csv_field(node.path));
+  std::string rows = "tick,time_s,node,path,status,progress,ticked,held\n";
+  while (const auto tick = reader.next()) {
+    for (std::size_t index = 0; index < tick->nodes.size(); ++index) {
+      const RecordedState& node = tick->nodes[index];
+      if (!is_active(node)) continue;
+      fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{},{:d},{:d}\n", tick->tick,
+                     tick->time, index, paths[index], to_string(node.status), node.progress,
+                     node.ticked, node.held);
+    }
+    if (std::fwrite(rows.data(), 1, rows.size(), out) != rows.size()) return false;
+    rows.clear();
+  }
+  return std::fwrite(rows.data(), 1, rows.size(), out) == rows.size() && std::fflush(out) == 0;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,159 @@
+#include "observers/recording_json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace lockstep {
+namespace {
+
+using Json = nlohmann::json;
+
+const Json& member(const Json& object, const char* key) {
+  if (!object.is_object()) throw BadLine("expected a JSON object");
+  const auto found = object.find(key);
+  if (found == object.end()) throw BadLine(fmt::format("'{}' is missing", key));
+  return *found;
+}
+
+template <class T>
+T member_as(const Json& object, const char* key, const char* expected) {
+  try {
+    return member(object, key).get<T>();
+  } catch (const Json::exception&) {
+    throw BadLine(fmt::format("'{}' is not {}", key, expected));
+  }
+}
+
+std::string text(const Json& object, const char* key) {
+  return member_as<std::string>(object, key, "a string");
+}
+
+double number(const Json& object, const char* key) {
+  return member_as<double>(object, key, "a number");
+}
+
+std::uint64_t whole(const Json& object, const char* key) {
+  const Json& value = member(object, key);
+  if (!value.is_number_unsigned()) throw BadLine(fmt::format("'{}' is not a whole number", key));
+  return value.get<std::uint64_t>();
+}
+
+const Json& list(const Json& object, const char* key) {
+  const Json& value = member(object, key);
+  if (!value.is_array()) throw BadLine(fmt::format("'{}' is not a list", key));
+  return value;
+}
+
+RecordedNode node_from(const Json& json, std::size_t index) {
+  if (whole(json, "index") != index) throw BadLine(fmt::format("node {} is missing", index));
+  RecordedNode node{.path = text(json, "path"),
+                    .kind = text(json, "kind"),
+                    .name = text(json, "name"),
+                    .parent = {},
+                    .barriers = {}};
+  if (!member(json, "parent").is_null()) {
+    const std::uint64_t parent = whole(json, "parent");
+    if (parent >= index) throw BadLine(fmt::format("parent of node {} comes after it", index));
+    node.parent = static_cast<NodeIndex>(parent);
+  }
+  if (json.contains("barriers")) {
+    node.synchronization = Synchronization::Absolute;
+    node.barriers = member_as<std::vector<double>>(json, "barriers", "a list of numbers");
+  } else if (json.contains("delta")) {
+    node.synchronization = Synchronization::Relative;
+    node.delta = number(json, "delta");
+  }
+  return node;
+}
+
+Status status_from(const Json& json) {
+  constexpr std::array kAll = {Status::Idle, Status::Running, Status::Success, Status::Failure};
+  const auto found = std::find_if(kAll.begin(), kAll.end(), [&](Status status) {
+    return json.is_string() && json.get_ref<const std::string&>() == to_string(status);
+  });
+  if (found != kAll.end()) return *found;
+  throw BadLine(fmt::format("no status {}, expected idle, running, success or failure",
+                            json.dump(-1, ' ', false, Json::error_handler_t::replace)));
+}
+
+bool flag_from(const Json& json) {
+  if (json == 0) return false;
+  if (json == 1) return true;
+  throw BadLine("a node's change has a flag that is neither 0 nor 1");
+}
+
+double progress_from(const Json& json) {
+  const double progress = json.is_number() ? json.get<double>() : -1.0;
+  if (progress >= 0.0 && progress <= 1.0) return progress;
+  throw BadLine("a node's change has a progress that is not in [0, 1]");
+}
+
+void apply(const Json& change, std::vector<RecordedState>& states) {
+  constexpr std::size_t kFields = 5;
+  if (!change.is_array() || change.size() != kFields || !change[0].is_number_unsigned()) {
+    throw BadLine("a node's change is not [index, status, progress, ticked, held]");
+  }
+  const auto index = change[0].get<std::uint64_t>();
+  if (index >= states.size()) {
+    throw BadLine(fmt::format("no node {}, expected 0 to {}", index, states.size() - 1));
+  }
+  states[index] = {.status = status_from(change[1]),
+                   .progress = progress_from(change[2]),
+                   .ticked = flag_from(change[3]),
+                   .held = flag_from(change[4])};
+}
+
+}  // namespace
+
+RecordingHeader header_from(const Json& line) {
+  if (!line.is_object() || !line.contains("lockstep_recording")) {
+    throw BadLine("not a recording: the first line has no 'lockstep_recording'");
+  }
+  const std::uint64_t version = whole(line, "lockstep_recording");
+  if (version != kRecordingVersion) {
+    throw BadLine(fmt::format("recording of version {}, expected {}", version, kRecordingVersion));
+  }
+  RecordingHeader header{.tree = text(line, "tree"),
+                         .file = text(line, "file"),
+                         .version = text(line, "version"),
+                         .rate_hz = number(line, "rate_hz"),
+                         .clock = text(line, "clock"),
+                         .seed = whole(line, "seed"),
+                         .arguments = {},
+                         .nodes = {}};
+  for (const auto& [name, value] : member(line, "arguments").items()) {
+    if (!value.is_string()) throw BadLine(fmt::format("argument '{}' is not a string", name));
+    header.arguments[name] = value.get<std::string>();
+  }
+  for (const Json& node : list(line, "nodes")) {
+    header.nodes.push_back(node_from(node, header.nodes.size()));
+  }
+  if (header.nodes.empty()) throw BadLine("'nodes' is empty");
+  return header;
+}
+
+RecordedEnd end_from(const Json& line) {
+  const Json& json = member(line, "end");
+  RecordedEnd end{.result = text(json, "result"),
+                  .reason = text(json, "reason"),
+                  .fault = {},
+                  .signal = {},
+                  .ticks = whole(json, "ticks"),
+                  .time = number(json, "time_s"),
+                  .overruns = whole(json, "overruns"),
+                  .skipped = whole(json, "skipped")};
+  if (json.contains("fault")) end.fault = text(json, "fault");
+  if (json.contains("signal")) end.signal = static_cast<std::int64_t>(whole(json, "signal"));
+  return end;
+}
+
+RecordedTick tick_from(const Json& line, std::vector<RecordedState>& states) {
+  RecordedTick tick{.tick = whole(line, "tick"), .time = number(line, "time_s"), .nodes = {}};
+  for (const Json& change : list(line, "nodes")) apply(change, states);
+  tick.nodes = states;
+  return tick;
+}
+
+}  // namespace lockstep

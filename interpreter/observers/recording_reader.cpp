@@ -1,0 +1,80 @@
+#include "observers/recording_reader.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "observers/recording_json.h"
+
+namespace lockstep {
+
+RecordingReader::RecordingReader(std::istream& in, std::string name)
+    : in_(in), name_(std::move(name)) {
+  const auto line = next_line();
+  if (!line) {
+    line_ = 1;
+    fail("the file is empty, expected a recording");
+    return;
+  }
+  read_line(*line, [this](const nlohmann::json& json) {
+    header_ = header_from(json);
+    states_.resize(header_.nodes.size());
+  });
+  if (last_line_cut_) fail("the header is cut");
+}
+
+std::optional<RecordedTick> RecordingReader::next() {
+  if (!error_.empty()) return std::nullopt;
+  const auto line = next_line();
+  if (!line) return std::nullopt;
+  read_line(*line, [this](const nlohmann::json& json) {
+    if (end_) throw BadLine("a line after the closing line");
+    if (json.is_object() && json.contains("end")) {
+      end_ = end_from(json);
+      return;
+    }
+    const std::uint64_t last = tick_.tick;
+    tick_ = tick_from(json, states_);
+    if (std::exchange(has_tick_, true) && tick_.tick <= last) {
+      throw BadLine(fmt::format("tick {} comes after tick {}", tick_.tick, last));
+    }
+  });
+  if (!error_.empty() || last_line_cut_) return std::nullopt;
+  // Lines after the closing one must not be there: reading on finds them.
+  return end_ ? next() : std::optional(tick_);
+}
+
+std::string RecordingReader::cut() const {
+  if (end_ || !error_.empty()) return {};
+  if (last_line_cut_) return fmt::format("line {} is cut, the run did not end there", line_);
+  return fmt::format("it ends after line {} without a closing line", line_);
+}
+
+std::optional<std::string> RecordingReader::next_line() {
+  std::string line;
+  if (!std::getline(in_, line)) return std::nullopt;
+  ++line_;
+  return line;
+}
+
+// Only the last line can lack its newline, and only there is broken JSON a sign of a kill.
+template <class Read>
+void RecordingReader::read_line(const std::string& line, Read read) {
+  const auto json = nlohmann::json::parse(line, nullptr, false);
+  if (json.is_discarded()) {
+    last_line_cut_ = in_.eof();
+    if (!last_line_cut_) fail("not JSON");
+    return;
+  }
+  try {
+    read(json);
+  } catch (const BadLine& bad) {
+    fail(bad.what());
+  }
+}
+
+void RecordingReader::fail(const std::string& message) {
+  error_ = fmt::format("{}:{}: {}", name_, line_, message);
+}
+
+}  // namespace lockstep

@@ -1,0 +1,66 @@
+#include "measure/predictability.h"
+
+#include <catch2/catch.hpp>
+
+namespace lockstep {
+namespace {
+
+double nearest(double target, const std::vector<double>& progress) {
+  NearestInstant instant(target);
+  for (std::size_t i = 0; i < progress.size(); ++i) {
+    instant.sample(static_cast<double>(i), progress[i]);
+  }
+  return instant.time();
+}
+
+TEST_CASE("the instant of nearest progress is the first of equals") {
+  CHECK(nearest(0.5, {0, 0.2, 0.5, 0.5, 0.8}) == 2);
+  CHECK(nearest(0.5, {0, 0.4, 0.6, 0.9}) == 1);  // in doubles, 0.6 is the nearer one
+  CHECK(nearest(0.5, {0.6, 0.4}) == 0);
+  CHECK(nearest(0.5, {0, 0.3, 0.9, 0.51, 0.2}) == 3);
+  CHECK(nearest(1.0, {0, 0.3, 0.9}) == 2);
+}
+
+TEST_CASE("without samples there is no instant") {
+  NearestInstant instant(0.5);
+  CHECK(instant.empty());
+  instant.sample(3, 0.75);
+  CHECK_FALSE(instant.empty());
+  CHECK(instant.gap() == 0.25);
+}
+
+TEST_CASE("predictability distance is negative for an early action") {
+  const double times[] = {4.0, 5.0, 4.5};
+  CHECK(predictability_distance(times, 5.0) == Approx(-0.5));
+  CHECK(predictability_distance(times, 4.0) == Approx(0.5));
+}
+
+TEST_CASE("quartiles are the medians of the halves") {
+  const SampleSummary odd = summarize({9, 1, 3, 7, 5});
+  CHECK(odd.count == 5);
+  CHECK(odd.min == 1);
+  CHECK(odd.q1 == 2);  // of 1 3
+  CHECK(odd.median == 5);
+  CHECK(odd.q3 == 8);  // of 7 9
+  CHECK(odd.max == 9);
+  CHECK(odd.mean == Approx(5));
+
+  const SampleSummary even = summarize({4, 1, 3, 2, 6, 5});
+  CHECK(even.q1 == 2);
+  CHECK(even.median == 3.5);
+  CHECK(even.q3 == 5);
+}
+
+TEST_CASE("quartiles of few values") {
+  const SampleSummary one = summarize({4});
+  CHECK(one.q1 == 4);
+  CHECK(one.q3 == 4);
+  const SampleSummary two = summarize({4, 2});
+  CHECK(two.q1 == 2);
+  CHECK(two.median == 3);
+  CHECK(two.q3 == 4);
+  CHECK(summarize({}).count == 0);
+}
+
+}  // namespace
+}  // namespace lockstep

@@ -1,0 +1,59 @@
+#include "measure/stall.h"
+
+#include <catch2/catch.hpp>
+
+#include "support/scripted_run.h"
+
+namespace lockstep {
+namespace {
+
+// Ticks at 10 Hz and writes down who was reported, at which tick and since when.
+std::string watch(std::string_view tree, std::string_view leaves, int ticks, double limit) {
+  test::ScriptedRun run(tree, leaves);
+  std::string reports;
+  int tick = 0;
+  StallWatch watch(run.tree(), from_seconds(limit), [&](const Standstill& found) {
+    reports += run.tree().labels[found.child].name + "@" + std::to_string(tick) + " since " +
+               std::to_string(found.since.count() / 100'000'000) + ";";
+  });
+  for (; tick < ticks; ++tick) {
+    const auto now = std::chrono::milliseconds(100) * tick;
+    run.tick(now);
+    watch.after_tick(run.ticker(), now);
+  }
+  return reports;
+}
+
+constexpr const char* kTree = "ParallelAbsolute[barriers=.5;1](a b)";
+
+TEST_CASE("a child that stands still while another waits for it is reported once") {
+  // b reaches the barrier with its second tick and is held from tick 2 on.
+  CHECK(watch(kTree, "a=R.2R b+.25", 20, 0.35) == "a@6 since 2;");
+}
+
+TEST_CASE("exactly the limit is not longer than the limit") {
+  CHECK(watch(kTree, "a=R.2R b+.25", 20, 0.4) == "a@7 since 2;");
+}
+
+TEST_CASE("a child that advances is no standstill") {
+  CHECK(watch(kTree, "a+.01 b+.25", 40, 0.35) == "");
+}
+
+TEST_CASE("nobody stands in the way when nobody is held") {
+  CHECK(watch("ParallelRelative[delta=1](a b)", "a=R b+.01", 40, 0.35) == "");
+}
+
+TEST_CASE("a standstill that goes on after progress is a new one") {
+  CHECK(watch(kTree, "a=R.2RRRRRRRRR.3R b+.25", 30, 0.35) == "a@6 since 2;a@14 since 10;");
+}
+
+TEST_CASE("who is held is not to blame") {
+  CHECK(watch(kTree, "a=R.2R b+.25", 20, 0.35).find("b@") == std::string::npos);
+}
+
+TEST_CASE("time before anybody waited does not count") {
+  CHECK(watch("ParallelRelative[delta=.5](a b)", "a=R b+.1", 20, 0.35) == "a@10 since 6;");
+}
+
+}  // namespace
+}  // namespace lockstep

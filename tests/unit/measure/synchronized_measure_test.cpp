@@ -1,0 +1,97 @@
+#include "measure/synchronized_measure.h"
+
+#include <catch2/catch.hpp>
+
+#include "support/scripted_run.h"
+
+namespace lockstep {
+namespace {
+
+using test::ScriptedRun;
+
+constexpr Nanoseconds kPeriod = std::chrono::milliseconds(100);
+
+// Runs to the end, measuring the synchronized node that stands at `place` among them.
+struct Measured {
+  Measured(std::string_view tree, std::string_view leaves, std::size_t place = 0)
+      : run(tree, leaves),
+        probe(run.tree(), synchronized_nodes(run.tree()).at(place)),
+        measure(probe.children().size()) {
+    Nanoseconds now{0};
+    for (Status status = Status::Running; status == Status::Running && ticks < 100; ++ticks) {
+      status = run.tick(now);
+      measure.after_tick(probe.read(run.ticker(), now));
+      now += kPeriod;
+    }
+    measure.run_ended(now);
+  }
+  double held_seconds(std::size_t child) const { return to_seconds(measure.held()[child].time); }
+  std::uint64_t held_ticks(std::size_t child) const { return measure.held()[child].ticks; }
+
+  ScriptedRun run;
+  SynchronizedProbe probe;
+  SynchronizedMeasure measure;
+  int ticks = 0;
+};
+
+struct WorkedTrace {
+  const char *name, *tree, *leaves;
+  int ticks;
+  double distance;
+  std::uint64_t held[3];  // ticks in which the child is '-'
+};
+
+constexpr WorkedTrace kTraces[] = {
+    {"A1", "ParallelAbsolute[barriers=.5;1](a b)", "a+.1 b+.3", 10, 2.10, {0, 3}},
+    {"A2t", "ParallelAbsolute[barriers=.5;1 at_barrier=tick](a b)", "a+.1 b+.25", 10, 2.50, {0, 2}},
+    {"A2w", "ParallelAbsolute[barriers=.5;1](a b)", "a+.1 b+.25", 10, 1.50, {0, 3}},
+    {"A3", "ParallelAbsolute[barriers=.3](a b)", "a+.2 b+.4", 5, 0.60, {0, 1}},
+    {"A4w", "ParallelAbsolute[barrier_count=4](a b c)", "a+.1 b+.2 c+.5", 10, 4.40, {0, 4, 4}},
+    {"R1", "ParallelRelative[delta=.2](a b)", "a+.1 b+.3", 10, 2.30, {0, 4}},
+    {"R2", "ParallelRelative[delta=0](a b)", "a+.2 b+.3", 7, 0.60, {1, 3}},
+    {"R4", "ParallelRelative[delta=1](a b)", "a+.25 b+.5", 4, 1.00, {0, 0}},
+    {"A5", "ParallelAbsolute[barriers=.3;.6;1](a b)", "a+.4,-.2,.3,.3,.3 b+.35", 5, 0.85, {0, 2}},
+};
+
+TEST_CASE("the worked traces, measured") {
+  for (const WorkedTrace& trace : kTraces) {
+    INFO(trace.name);
+    const Measured measured(trace.tree, trace.leaves);
+    CHECK(measured.ticks == trace.ticks);
+    CHECK(measured.measure.distance().sum() == Approx(trace.distance));
+    CHECK(measured.measure.distance().samples() == static_cast<std::uint64_t>(trace.ticks));
+    for (std::size_t child = 0; child < measured.probe.children().size(); ++child) {
+      CHECK(measured.held_ticks(child) == trace.held[child]);
+      const auto ticks = static_cast<double>(trace.held[child]);
+      CHECK(measured.held_seconds(child) == Approx(ticks * 0.1));
+    }
+  }
+}
+
+TEST_CASE("a node is sampled only in ticks that reach it") {
+  const Measured measured("Sequence[memory=true](w ParallelRelative[delta=1](a b))",
+                          "w=RRS a+.5 b+.5");
+  CHECK(measured.ticks == 4);
+  CHECK(measured.measure.distance().samples() == 2);
+}
+
+TEST_CASE("a child is held by its own parent, not by one further up") {
+  // Tick 0 brings b to .2 and c to .5; the outer node withholds the inner one in ticks 1 to 3.
+  // From tick 4 on nothing is left to wait for out there, and the inner node holds c in 4 and 5.
+  const char* tree = "ParallelAbsolute[barriers=.2](a ParallelRelative[delta=0](b c))";
+  const Measured outer(tree, "a+.05 b+.2 c+.5");
+  const Measured inner(tree, "a+.05 b+.2 c+.5", 1);
+  CHECK(outer.held_ticks(1) == 3);
+  CHECK(inner.measure.distance().samples() == 6);
+  CHECK(inner.held_ticks(1) == 2);
+  CHECK(inner.held_seconds(1) == Approx(0.2));
+}
+
+TEST_CASE("a new activation is measured on, without a step back to zero") {
+  const Measured measured("Repeat[times=2](ParallelRelative[delta=1](a b))", "a+.1 b+.2");
+  CHECK(measured.ticks == 20);
+  CHECK(measured.measure.distance().step_length() == Approx(0.2));
+}
+
+}  // namespace
+}  // namespace lockstep

@@ -1,0 +1,111 @@
+#include "observers/statistics.h"
+
+#include <catch2/catch.hpp>
+#include <csignal>
+
+#include "unit/observers/watched_run.h"
+
+namespace lockstep {
+namespace {
+
+using test::TextFile;
+using test::WatchedRun;
+
+constexpr const char* kTree = "ParallelAbsolute[barriers=.5;1](a b)";
+
+Summary summary_of(WatchedRun& run) {
+  Statistics statistics(run.run.tree());
+  run.watch({&statistics});
+  return statistics.summary();
+}
+
+TEST_CASE("the summary of a run") {
+  WatchedRun run(kTree, "a+.1 b+.3");
+  const Summary summary = summary_of(run);
+  CHECK(summary.status == Status::Success);
+  CHECK(summary.reason == StopReason::Completed);
+  CHECK(summary.ticks == 10);
+  CHECK(summary.seconds == 0.9);
+  CHECK_FALSE(summary.period);
+  REQUIRE(summary.synchronized_nodes.size() == 1);
+  const SynchronizedSummary& node = summary.synchronized_nodes[0];
+  CHECK(node.path == "Test/ParallelAbsolute");
+  CHECK(node.samples == 10);
+  CHECK(node.distance_sum == Approx(2.1));
+  CHECK(node.distance_mean == Approx(0.21));
+  CHECK(node.largest_spread == Approx(0.4));
+  CHECK(node.children.at(1).name == "b");
+  CHECK(node.children.at(1).held_seconds == Approx(0.3));
+  CHECK(node.children.at(1).held_ticks == 3);
+}
+
+TEST_CASE("tick periods are measured on a real clock only") {
+  WatchedRun run(kTree, "a+.1 b+.3");
+  run.start.real_time = true;
+  const Summary summary = summary_of(run);
+  REQUIRE(summary.period);
+  CHECK(summary.period->max == 0.1);
+  CHECK(summary.period->p50 == Approx(0.1).epsilon(0.01));
+}
+
+TEST_CASE("a child that is held when the run ends was held until then") {
+  WatchedRun run("ParallelAbsolute[barriers=.5](a b)", "a=R.1RRRX b=R.9");
+  const Summary summary = summary_of(run);
+  CHECK(summary.reason == StopReason::Fault);
+  CHECK(summary.fault.starts_with("Test/ParallelAbsolute/a: "));
+  CHECK(summary.synchronized_nodes[0].children[1].held_ticks == 4);
+  CHECK(summary.synchronized_nodes[0].children[1].held_seconds == Approx(0.3));
+}
+
+std::string text_of(const Summary& summary, bool color = false) {
+  TextFile out;
+  write_text(summary, out.get(), color);
+  return out.text();
+}
+
+TEST_CASE("the summary as text") {
+  WatchedRun run(kTree, "a+.1 b+.3");
+  run.start.real_time = true;
+  Summary summary = summary_of(run);
+  summary.overruns = 2;
+  summary.skipped = 3;
+  summary.notes = {"the recording is cut"};
+  CHECK(text_of(summary) ==
+        "success after 10 ticks, 0.900 s\n"
+        "  period     p50 100.000 ms, p99 100.000 ms, max 100.000 ms\n"
+        "  overruns   2 (deadlines skipped: 3)\n"
+        "  Test/ParallelAbsolute (ParallelAbsolute, 10 ticks)\n"
+        "    progress distance 2.1, mean 0.21 a tick; largest spread 0.4, longest step 0.3\n"
+        "    a  waited 0.000 s in 0 ticks\n"
+        "    b  waited 0.300 s in 3 ticks\n"
+        "note: the recording is cut\n");
+  CHECK(text_of(summary, true).starts_with("\x1b[32msuccess\x1b[0m after"));
+}
+
+TEST_CASE("why a run stopped") {
+  Summary summary;
+  summary.reason = StopReason::Timeout;
+  CHECK(text_of(summary).starts_with("stopped: the time limit was reached after 0 ticks"));
+  summary.reason = StopReason::MaxTicks;
+  CHECK(text_of(summary).starts_with("stopped: the tick limit was reached after"));
+  summary.reason = StopReason::Signal;
+  summary.signal = SIGINT;
+  CHECK(text_of(summary).starts_with("stopped: signal: Interrupt after"));
+  summary.reason = StopReason::Fault;
+  summary.fault = "Test/a: broke";
+  CHECK(text_of(summary).starts_with("stopped: a leaf failed: Test/a: broke after"));
+}
+
+TEST_CASE("the summary as JSON") {
+  WatchedRun run("ParallelRelative[delta=.5](a b)", "a+.25 b+.5");
+  CHECK(to_json(summary_of(run)) ==
+        R"({"result":"success","reason":"completed","ticks":4,"time_s":0.3,"period":null,)"
+        R"("overruns":0,"skipped":0,"synchronized_nodes":[{"path":"Test/ParallelRelative",)"
+        R"("kind":"ParallelRelative","samples":4,"progress_distance":1.0,)"
+        R"("progress_distance_mean":0.25,"largest_spread":0.5,"step_length":0.5,"children":[)"
+        R"({"name":"a","held_s":0.0,"held_ticks":0},{"name":"b","held_s":0.0,"held_ticks":0}]}],)"
+        R"("notes":[]})");
+}
+
+}  // namespace
+}  // namespace lockstep

@@ -1,0 +1,52 @@
+// Runs a tree of scripted leaves under observers, on virtual time, as the loop would.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+
+#include "runtime/observer.h"
+#include "support/scripted_run.h"
+
+namespace lockstep::test {
+
+struct WatchedRun {
+  WatchedRun(std::string_view tree, std::string_view leaves) : run(tree, leaves) {}
+
+  // Ticks until the root completes or a leaf faults, at most `max_ticks` times.
+  RunEnd watch(std::initializer_list<Observer*> observers, std::uint64_t max_ticks = 1000);
+
+  ScriptedRun run;
+  RunStart start{.period = std::chrono::milliseconds(100), .real_time = false};
+};
+
+// All that was written to a temporary file, for functions that print to one.
+class TextFile {
+ public:
+  TextFile() : file_(std::tmpfile()) {}
+  ~TextFile() { std::fclose(file_); }
+  TextFile(const TextFile&) = delete;
+  TextFile& operator=(const TextFile&) = delete;
+
+  std::FILE* get() { return file_; }
+  std::string text();
+
+ private:
+  std::FILE* file_;
+};
+
+// A path in the temporary folder, removed with everything in it.
+class TemporaryPath {
+ public:
+  TemporaryPath();
+  ~TemporaryPath();
+  TemporaryPath(const TemporaryPath&) = delete;
+  TemporaryPath& operator=(const TemporaryPath&) = delete;
+
+  const std::string& path() const { return path_; }
+  std::string text() const;
+
+ private:
+  std::string folder_, path_;
+};
+
+}  // namespace lockstep::test
