@@ -1,0 +1,32 @@
+// The commands of the program: one file each, one row each in commands.cpp.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string_view>
+
+namespace CLI {
+class App;
+}
+
+namespace lockstep {
+
+struct Command {
+  const char* name;
+  const char* summary;
+  const char* examples;  // lines for the end of --help
+  // Adds the command's options to `app`; the function it returns runs the command and gives the
+  // exit code.
+  std::function<int()> (*define)(CLI::App& app);
+};
+
+extern const Command kRunCommand, kCheckCommand, kShowCommand, kNodesCommand, kSchemaCommand,
+    kLogCommand;
+
+// All of them, in the order of --help.
+std::span<const Command* const> commands();
+
+// Parses the command line and runs what it says. Returns the exit code.
+int run_program(int argc, char** argv);
+
+}  // namespace lockstep

@@ -1,0 +1,48 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/exit_code.h"
+
+namespace lockstep {
+
+std::span<const Command* const> commands() {
+  static constexpr const Command* kAll[] = {&kRunCommand,   &kCheckCommand,  &kShowCommand,
+                                            &kNodesCommand, &kSchemaCommand, &kLogCommand};
+  return kAll;
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App app{"lockstep: behavior trees that move several things at once and keep them in step",
+               "lockstep"};
+  app.require_subcommand(1);
+  app.set_version_flag("--version", "lockstep " LOCKSTEP_VERSION);
+  app.footer(
+      "Example: lockstep run trees/door_pulling.xml\n"
+      "`lockstep COMMAND --help` shows the options of a command and examples.");
+  std::vector<std::function<int()>> actions;
+  std::vector<CLI::App*> subcommands;
+  for (const Command* command : commands()) {
+    CLI::App* subcommand = app.add_subcommand(command->name, command->summary);
+    subcommand->footer(command->examples);
+    actions.push_back(command->define(*subcommand));
+    subcommands.push_back(subcommand);
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {  // --help, --version
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    print_error(error.what(), "see `lockstep --help`");
+    return kExitUsage;
+  }
+  for (std::size_t i = 0; i < actions.size(); ++i) {
+    if (subcommands[i]->parsed()) return actions[i]();
+  }
+  return kExitUsage;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,17 @@
+// How lockstep ends: an interface, documented in docs/cli.md.
+#pragma once
+
+namespace lockstep {
+
+enum ExitCode : int {
+  kExitSuccess = 0,
+  kExitFailure = 1,
+  kExitUsage = 2,
+  kExitInvalidTree = 3,
+  kExitPluginRefused = 4,
+  kExitLeafFault = 5,
+  kExitLimit = 124,   // --timeout or --max-ticks
+  kExitSignal = 128,  // + the signal
+};
+
+}  // namespace lockstep

@@ -1,0 +1,54 @@
+// From a file name to a tree that can run: the arrows of docs/architecture.md, one after the other.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "definition/catalog.h"
+#include "definition/resolve.h"
+#include "document/project.h"
+#include "engine/tree.h"
+#include "plugin/plugin_set.h"
+
+namespace CLI {
+class App;
+}
+
+namespace lockstep {
+
+struct PluginOptions {
+  std::vector<std::string> files;        // --plugin
+  std::vector<std::string> directories;  // --plugin-path
+};
+
+struct LoadOptions {
+  PluginOptions plugins;
+  std::vector<std::string> arguments;  // --arg name=value
+  std::vector<std::string> values;     // --set key=value
+  std::string main_tree;               // --tree
+};
+
+void add_plugin_options(CLI::App& app, PluginOptions& options);
+// The plugin options, --arg, --set and --tree.
+void add_load_options(CLI::App& app, LoadOptions& options);
+
+// --plugin-path, then LOCKSTEP_PLUGIN_PATH, then where plugins are installed beside this program.
+std::vector<std::string> plugin_directories(const PluginOptions& options);
+
+// The built-in nodes and the leaves of `plugins`.
+Catalog make_catalog(const PluginSet& plugins);
+
+struct Loaded {
+  std::unique_ptr<Project> project;
+  std::unique_ptr<PluginSet> plugins;
+  Catalog catalog;
+  std::optional<Definition> definition;
+};
+
+// Does all that can be done; `definition` is there when nothing was wrong. Returns the exit code.
+int load(const std::string& path, const LoadOptions& options, Loaded& loaded,
+         Diagnostics& diagnostics);
+
+}  // namespace lockstep
