@@ -1,0 +1,106 @@
+#include <catch2/catch.hpp>
+
+#include "support/scripted_run.h"
+#include "support/tick_table.h"
+
+namespace lockstep::test {
+namespace {
+
+// clang-format off
+constexpr TickRow kRows[] = {
+//  law
+//    tree  |  leaves, tick by tick  |  expected
+  {"an activation is start, then a tick in each tick",
+   "a", "a=RRS", "R{start a, tick a} R{tick a} S{tick a}"},
+  {"the next tick after a result starts it again",
+   "a", "a=SF", "S{start a, tick a} F{start a, tick a}"},
+  {"a halt ends the activation",
+   "a", "a=R", "R{start a, tick a} stop halt[a] R{start a, tick a}"},
+  {"a leaf that does not run is not halted",
+   "Sequence(a)", "a=S", "S[a] stop"},
+  {"an action with nothing but tick can be started, halted, paused and resumed",
+   "Sequence(c? ParallelAbsolute[barriers=.5](a Sequence[memory=true](AlwaysSuccess b[bare])))",
+   "c=SSSSF a=R.1R.1R.6 b=R", "R[c a b] R[c a] R[c a] R[c a b] F[c] halt[a]"},
+  {"an action with nothing but tick has progress 0 until it succeeds",
+   "a[bare]", "a=R.5S", "R[a]=0 S[a]=1"},
+  {"progress is clamped to [0, 1]",
+   "a", "a=R-2R.5R2", "R[a]=0 R[a]=.5 R[a]=1"},
+  {"a failed leaf has progress 0",
+   "a", "a=R.5F", "R[a]=.5 F[a]=0"},
+  {"a condition has progress 1 when it holds, else 0",
+   "c?", "c=SF", "S[c]=1 F[c]=0"},
+
+  {"an error in tick ends the run; the leaf is halted",
+   "a", "a=RX", "R[a] X{tick a, halt a}=a"},
+  {"an exception in tick ends the run; the leaf is halted",
+   "a", "a=RT", "R[a] X{tick a, halt a}=a"},
+  {"an error in its first tick halts a leaf as well",
+   "a", "a=X", "X{start a, tick a, halt a}=a"},
+  {"an error in start: the leaf is neither ticked nor halted",
+   "Parallel(a b)", "a=R b=x", "X{start a, tick a, start b, halt a}=b"},
+  {"an exception in start: the leaf is neither ticked nor halted",
+   "Parallel(a b)", "a=R b=t", "X{start a, tick a, start b, halt a}=b"},
+  {"a status out of range is a fault",
+   "a", "a=B", "X{start a, tick a, halt a}=a"},
+  {"idle is no status that a leaf may return",
+   "a", "a=I", "X{start a, tick a, halt a}=a"},
+  {"a condition that returns Running is at fault",
+   "Sequence(c? a)", "c=R a=R", "X{start c, tick c, halt c}=c"},
+  {"after a fault nothing is ticked, and the running leaves are halted from the left",
+   "Parallel(a b c)", "a=R b=RX c=R", "R[a b c] X{tick a, tick b, halt a, halt b, halt c}=b"},
+  {"a control node that the fault makes stop leaves the halts to the end of the run",
+   "Parallel(a Sequence(b c))", "a=R b=SX c=R",
+   "R[a b c] X{tick a, start b, tick b, halt a, halt b, halt c}=b"},
+  {"an error in halt is a fault; the leaf is not halted again",
+   "Parallel(a Fallback(b? c))", "a=R b=FS c=R!halt",
+   "R[a b c] X{tick a, start b, tick b, halt c, halt a}=c"},
+  {"an exception in halt is a fault; the leaf is not halted again",
+   "Fallback(b? c)", "b=FS c=R^halt", "R[b c] X{start b, tick b, halt c}=c"},
+  {"a halt at the end of the run that goes wrong does not stop the others",
+   "Parallel(a b c)", "a=R b=R^halt c=RX", "R[a b c] X{tick a, tick b, tick c, halt a, halt b, halt c}=c"},
+  {"an error in pause is a fault",
+   "ParallelAbsolute[barriers=.5](a b c)", "a=R.1 b=R.6!pause c=R",
+   "R[a b c] X{tick a, pause b, halt a, halt b, halt c}=b"},
+  {"an error in resume is a fault; the leaf is not ticked",
+   "ParallelAbsolute[barriers=.5](a b)", "a=R.1R.6 b=R.6!resume",
+   "R[a b] R[a] pause[b] X{tick a, resume b, halt a, halt b}=b"},
+};
+
+struct FaultRow {
+  std::string_view script, message;
+};
+
+constexpr FaultRow kFaults[] = {
+  {"X", "error of the script"},
+  {"x", "error of the script"},
+  {"T", "threw an exception: thrown by the script"},
+  {"t", "threw an exception: thrown by the script"},
+  {"B", "returned status 7, expected running (1), success (2) or failure (3)"},
+  {"I", "returned status 0, expected running (1), success (2) or failure (3)"},
+};
+// clang-format on
+
+}  // namespace
+
+TEST_CASE("plugin leaves: life cycle and faults") {
+  check_rows(kRows);
+}
+
+TEST_CASE("a fault says what the leaf did") {
+  for (const FaultRow& row : kFaults) {
+    ScriptedRun run("Sequence(a)", "a=" + std::string(row.script));
+    run.tick(Nanoseconds(0));
+    REQUIRE(run.ticker().fault() != nullptr);
+    CHECK(run.ticker().fault()->node == 1);
+    CHECK(run.ticker().fault()->message == row.message);
+  }
+}
+
+TEST_CASE("the first fault of a run is kept") {
+  ScriptedRun run("a", "a=X^halt");
+  run.tick(Nanoseconds(0));
+  REQUIRE(run.ticker().fault() != nullptr);
+  CHECK(run.ticker().fault()->message == "error of the script");
+}
+
+}  // namespace lockstep::test

@@ -1,0 +1,36 @@
+#include <catch2/catch.hpp>
+
+#include "support/tick_table.h"
+
+namespace lockstep::test {
+namespace {
+
+// clang-format off
+constexpr TickRow kRows[] = {
+//  law
+//    tree  |  leaves, tick by tick  |  expected
+  {"returns what its child returns in time",
+   "Timeout[seconds=.25](a)", "a=RS", "R[a] S[a]"},
+  {"halts its child and fails in the tick at which the time is over, without ticking it",
+   "Timeout[seconds=.2](a)", "a=R", "R[a] R[a] F[] halt[a]"},
+  {"fails at the first tick after the time",
+   "Timeout[seconds=.25](a)", "a=R", "R[a] R[a] R[a] F[] halt[a]"},
+  {"counts from the first tick of each activation",
+   "Timeout[seconds=.2](a)", "a=RRRS", "R[a] R[a] F[] halt[a] R[a] S[a]"},
+  {"counts anew after it was halted",
+   "Sequence(c? Timeout[seconds=.2](a))", "c=SFS a=R", "R[c a] F[c] halt[a] R[c a] R[c a] F[c] halt[a]"},
+  {"counts the run's clock also while it is held",
+   "ParallelRelative[delta=0](a Timeout[seconds=.3](b))", "a=R~0,0,0,0,.5 b=R.5",
+   "R[a b] R[a] pause[b] R[a] R[a] F[a] halt[b a]"},
+  {"has its child's progress",
+   "Timeout[seconds=5](a)", "a=R.3", "R[a]=.3"},
+};
+// clang-format on
+
+}  // namespace
+
+TEST_CASE("Timeout") {
+  check_rows(kRows);
+}
+
+}  // namespace lockstep::test

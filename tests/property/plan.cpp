@@ -1,0 +1,62 @@
+#include "property/plan.h"
+
+#include <fmt/format.h>
+
+namespace lockstep::test {
+namespace {
+
+std::string parameters(const Plan& plan) {
+  std::string text;
+  const auto add = [&text](std::string_view name, const auto& value) {
+    text += fmt::format("{}{}={}", text.empty() ? "" : " ", name, value);
+  };
+  if (plan.memory) add("memory", "true");
+  if (plan.success_count >= 0) add("success_count", plan.success_count);
+  if (plan.failure_count >= 0) add("failure_count", plan.failure_count);
+  if (plan.has_barriers) add("barriers", fmt::format("{}", fmt::join(plan.barriers, ";")));
+  if (plan.barrier_count >= 0) add("barrier_count", plan.barrier_count);
+  if (plan.tick_at_barrier) add("at_barrier", "tick");
+  if (plan.kind == "ParallelRelative") add("delta", plan.delta);
+  if (plan.times >= 0) add(plan.kind == "Retry" ? "attempts" : "times", plan.times);
+  if (plan.kind == "Wait" || plan.kind == "Delay" || plan.kind == "Timeout") {
+    add("seconds", plan.seconds);
+  }
+  return text.empty() ? text : "[" + text + "]";
+}
+
+}  // namespace
+
+std::string tree_text(const Plan& plan) {
+  if (plan.kind == "action") return plan.name;
+  if (plan.kind == "condition") return plan.name + "?";
+  if (plan.kind == "bare") return plan.name + "[bare]";
+  std::string text = plan.kind + parameters(plan);
+  if (plan.children.empty()) return text;
+  text += '(';
+  for (const Plan& child : plan.children) {
+    if (text.back() != '(') text += ' ';
+    text += tree_text(child);
+  }
+  return text + ')';
+}
+
+std::string leaves_text(const Plan& plan) {
+  if (!plan.script.empty()) {
+    return plan.name + (plan.script[0] == '+' ? "" : "=") + plan.script;
+  }
+  std::string text;
+  for (const Plan& child : plan.children) {
+    const std::string leaves = leaves_text(child);
+    if (!text.empty() && !leaves.empty()) text += ' ';
+    text += leaves;
+  }
+  return text;
+}
+
+std::size_t count_nodes(const Plan& plan) {
+  std::size_t count = 1;
+  for (const Plan& child : plan.children) count += count_nodes(child);
+  return count;
+}
+
+}  // namespace lockstep::test

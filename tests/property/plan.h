@@ -1,0 +1,37 @@
+// A tree as plain data: what the generator makes, the engine's tree text is written from, and the
+// reference interpreter is built from.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace lockstep::test {
+
+struct Plan {
+  std::string kind;  // of the language, or "action", "condition", "bare" for scripted leaves
+  std::vector<Plan> children = {};
+
+  // Scripted leaves.
+  std::string name = {};
+  std::string script = {};
+
+  // Built-ins; each uses the ones that are its own. Absent: -1.
+  bool memory = false;
+  int success_count = -1;
+  int failure_count = -1;
+  bool has_barriers = false;
+  std::vector<double> barriers = {};
+  int barrier_count = -1;
+  bool tick_at_barrier = false;
+  double delta = 0;
+  int times = -1;  // of Repeat, attempts of Retry
+  double seconds = 0;
+};
+
+// As tree_from_text and ScriptedRun read them.
+std::string tree_text(const Plan& plan);
+std::string leaves_text(const Plan& plan);
+
+std::size_t count_nodes(const Plan& plan);
+
+}  // namespace lockstep::test

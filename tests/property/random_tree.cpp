@@ -1,0 +1,224 @@
+#include "property/random_tree.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "core/random.h"
+
+namespace lockstep::test {
+namespace {
+
+constexpr int kMaxDepth = 6;
+constexpr std::array kFractions{.1, .2, .25, .3, .4, .5, .6, .7, .75, .8, .9, 1.0};
+
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : random_(seed, 0) {}
+  int between(int low, int high) {
+    return low + static_cast<int>(random_.next() % static_cast<std::uint64_t>(high - low + 1));
+  }
+  bool one_in(int count) { return between(1, count) == 1; }
+  template <class List>
+  auto pick(const List& list) {
+    return list[static_cast<std::size_t>(between(0, static_cast<int>(list.size()) - 1))];
+  }
+
+ private:
+  RandomStream random_;
+};
+
+class Generator : Random {
+ public:
+  explicit Generator(std::uint64_t seed) : Random(seed) {}
+
+  Trial trial() {
+    Trial trial;
+    budget_ = between(1, one_in(4) ? 40 : 14);
+    faults_ = one_in(8);
+    trial.plan = node(1);
+    trial.period = pick(std::array{.1, .05, .13, 1.0});
+    trial.ticks = between(5, 60);
+    trial.halt_every = one_in(3) ? between(2, 15) : 0;
+    trial.watched = one_in(2);
+    return trial;
+  }
+
+ private:
+  double fraction() { return pick(kFractions); }
+
+  Plan node(int depth) {
+    --budget_;
+    if (depth == kMaxDepth || budget_ <= 0 || (depth > 1 && one_in(4))) return leaf();
+    switch (between(0, 9)) {
+      case 0:
+      case 1:
+        return control("Sequence", depth);
+      case 2:
+        return control("Fallback", depth);
+      case 3:
+        return control("Parallel", depth);
+      case 4:
+      case 5:
+        return control("ParallelAbsolute", depth);
+      case 6:
+      case 7:
+        return control("ParallelRelative", depth);
+      default:
+        return decorator(depth);
+    }
+  }
+
+  Plan control(std::string kind, int depth) {
+    Plan plan{.kind = std::move(kind)};
+    const int children = between(1, 4);
+    for (int i = 0; i < children; ++i) plan.children.push_back(node(depth + 1));
+    if (plan.kind == "Sequence" || plan.kind == "Fallback") plan.memory = one_in(2);
+    if (plan.kind == "Parallel" && one_in(2)) plan.success_count = between(1, children);
+    if (plan.kind == "Parallel" && one_in(2)) plan.failure_count = between(1, children);
+    if (plan.kind == "ParallelRelative") plan.delta = one_in(4) ? between(0, 1) : fraction();
+    if (plan.kind == "ParallelAbsolute") barriers(plan);
+    return plan;
+  }
+
+  void barriers(Plan& plan) {
+    plan.tick_at_barrier = one_in(3);
+    if (one_in(3)) {
+      plan.barrier_count = between(0, 5);
+      return;
+    }
+    plan.has_barriers = true;
+    for (const double value : kFractions) {
+      if (one_in(4)) plan.barriers.push_back(value);
+    }
+  }
+
+  Plan decorator(int depth) {
+    Plan plan{.kind = pick(std::array{"Inverter", "ForceSuccess", "ForceFailure", "Repeat",
+                                      "Repeat", "Retry", "Timeout", "Delay", "RunOnce",
+                                      "KeepRunningUntilFailure", "SubTree"})};
+    plan.children.push_back(node(depth + 1));
+    if (plan.kind == "Retry" || (plan.kind == "Repeat" && !one_in(4))) plan.times = between(1, 4);
+    plan.seconds = .05 * between(plan.kind == "Timeout" ? 1 : 0, 20);
+    return plan;
+  }
+
+  Plan leaf() {
+    switch (between(0, 19)) {
+      case 0:
+        return Plan{.kind = "AlwaysSuccess"};
+      case 1:
+        return one_in(2) ? Plan{.kind = "AlwaysFailure"} : Plan{.kind = "AlwaysRunning"};
+      case 2:
+      case 3:
+        return Plan{.kind = "Wait", .seconds = .05 * between(0, 20)};
+      case 4:
+      case 5:
+        return scripted("condition");
+      case 6:
+        return scripted("bare");
+      default:
+        return scripted("action");
+    }
+  }
+
+  Plan scripted(std::string kind) {
+    const std::string name = fmt::format("a{}", leaves_++);
+    std::string script;
+    if (kind == "condition")
+      script = steps("SF", 4);
+    else if (!one_in(3))
+      script = one_in(2) ? growth() : steps("RRRRSSF", 10);
+    else
+      script = one_in(2) ? "R" + live() : steps("RRRRRRRRSF", 12) + live();
+    if (faults_ && one_in(4)) script = fault(script);
+    return Plan{.kind = std::move(kind), .name = name, .script = std::move(script)};
+  }
+
+  std::string progress() {
+    // Two decimals, so that the number cannot run into the dots of a repeated script.
+    return fmt::format("{:.2f}", one_in(10)  ? pick(std::array{-.5, 1.5, 1.0})
+                                 : one_in(5) ? 0.0
+                                             : fraction());
+  }
+
+  std::string growth() {
+    if (one_in(2)) return fmt::format("+{}", pick(std::array{.05, .1, .2, .25, .3, .5}));
+    return fmt::format("+{},-{},{}", fraction(), pick(std::array{.1, .2, .3}), fraction() / 2);
+  }
+
+  std::string steps(std::string_view letters, int longest) {
+    std::string text;
+    for (int count = between(1, longest); count > 0; --count) {
+      text += pick(letters);
+      if (!one_in(4)) text += progress();
+    }
+    return text + "...";
+  }
+
+  std::string live() {
+    std::string text;
+    for (int count = between(2, 40); count > 0; --count) {
+      text += (text.empty() ? "~" : ",") + (one_in(2) ? std::to_string(between(0, 1)) : progress());
+    }
+    return text;
+  }
+
+  std::string fault(const std::string& script) {
+    constexpr std::array kWrong{"X", "T", "B", "I", "x", "t", "R<nan>", "R<nan>"};
+    constexpr std::array kCalls{"!halt", "^halt", "!pause", "^pause", "!resume", "^resume"};
+    if (one_in(2)) return script + pick(kCalls);
+    if (script[0] == '+') return steps("R", 10) + pick(kCalls);
+    return (script[0] == 'R' ? "R" : "S") + std::string(pick(kWrong)) + script;
+  }
+
+  int budget_ = 0;
+  int leaves_ = 0;
+  bool faults_ = false;
+};
+
+// Each plan that comes from taking a child away or putting a child in its parent's place.
+void add_smaller_plans(const Plan& plan, std::vector<Plan>& plans) {
+  for (std::size_t i = 0; i < plan.children.size(); ++i) {
+    plans.push_back(plan.children[i]);
+    if (plan.children.size() > 1) {
+      Plan fewer = plan;
+      fewer.children.erase(fewer.children.begin() + static_cast<std::ptrdiff_t>(i));
+      const int left = static_cast<int>(fewer.children.size());
+      fewer.success_count = std::min(fewer.success_count, left);
+      fewer.failure_count = std::min(fewer.failure_count, left);
+      plans.push_back(fewer);
+    }
+    std::vector<Plan> deeper;
+    add_smaller_plans(plan.children[i], deeper);
+    for (Plan& child : deeper) {
+      Plan changed = plan;
+      changed.children[i] = std::move(child);
+      plans.push_back(std::move(changed));
+    }
+  }
+}
+
+}  // namespace
+
+Trial random_trial(std::uint64_t seed) {
+  return Generator(seed).trial();
+}
+
+std::vector<Trial> smaller_trials(const Trial& trial) {
+  std::vector<Plan> plans;
+  add_smaller_plans(trial.plan, plans);
+  std::vector<Trial> trials;
+  for (Plan& plan : plans) {
+    trials.push_back(trial);
+    trials.back().plan = std::move(plan);
+  }
+  if (trial.halt_every != 0) {
+    trials.push_back(trial);
+    trials.back().halt_every = 0;
+  }
+  return trials;
+}
+
+}  // namespace lockstep::test

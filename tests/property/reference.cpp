@@ -1,0 +1,460 @@
+#include "property/reference.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+
+#include "support/scripted_leaf.h"
+
+namespace lockstep::test {
+namespace {
+
+constexpr double kEpsilon = 1e-9;
+
+// Thrown where a leaf breaks its contract: nothing else happens in that tick.
+struct LeafFault {
+  std::size_t node;
+};
+
+}  // namespace
+
+struct Reference::World {
+  Nanoseconds now{0};
+  std::uint32_t tick = 0;
+  std::optional<std::size_t> fault;
+  std::uint32_t leaves = 0;
+};
+
+class ReferenceNode {
+ public:
+  using Children = std::vector<std::unique_ptr<ReferenceNode>>;
+
+  ReferenceNode(Reference& tree, const Plan& its_plan)
+      : plan(its_plan), world(*tree.world_), events(tree.events), number(tree.nodes_.size()) {
+    tree.nodes_.push_back(this);
+    for (const Plan& child : plan.children) children.push_back(make(tree, child));
+  }
+  virtual ~ReferenceNode() = default;
+  static std::unique_ptr<ReferenceNode> make(Reference& tree, const Plan& plan);
+
+  Status tick() {
+    if (is_complete(status)) {
+      for (auto& child : children) child->make_idle();
+    }
+    status = on_tick(status != Status::Running);
+    paused = false;
+    last_tick = world.tick;
+    return status;
+  }
+
+  // Halts what runs; all of the subtree is idle then.
+  void make_idle() {
+    const bool was_running = status == Status::Running;
+    status = Status::Idle;
+    paused = false;
+    if (was_running) on_halt();
+    for (auto& child : children) child->make_idle();
+  }
+
+  void pause() {
+    if (status == Status::Running && !paused) {
+      paused = true;
+      on_pause();
+    }
+    for (auto& child : children) child->pause();
+  }
+
+  double progress() {
+    if (status == Status::Running) return on_progress();
+    return status == Status::Success ? 1 : 0;
+  }
+
+  virtual Status on_tick(bool first) = 0;
+  virtual double on_progress() = 0;
+  virtual void on_halt() {}
+  virtual void on_pause() {}
+
+  ReferenceNode& child() { return *children.front(); }
+
+  const Plan& plan;
+  Reference::World& world;
+  EventLog& events;
+  std::size_t number;
+  Children children;
+  Status status = Status::Idle;
+  bool paused = false;
+  std::uint32_t last_tick = 0;
+  std::vector<double> snapshot;
+};
+
+namespace {
+
+class Leaf : public ReferenceNode {
+ public:
+  Leaf(Reference& tree, const Plan& its_plan, std::uint32_t place)
+      : ReferenceNode(tree, its_plan),
+        leaf_(parse_leaf_script(its_plan.script), place, &world.tick, &events, &error_) {}
+
+  Status on_tick(bool first) override {
+    const bool bare = plan.kind == "bare";
+    if (first && !bare) call([&] { leaf_.start(); });
+    status = Status::Running;
+    if (paused && !bare) call([&] { leaf_.resume(); });
+    std::int32_t result = 0;
+    call([&] { result = leaf_.tick(); });
+    const bool may_run = plan.kind != "condition";
+    if (result == 1 && may_run) return Status::Running;
+    if (result == 2) return Status::Success;
+    if (result == 3) return Status::Failure;
+    throw LeafFault{number};
+  }
+
+  double on_progress() override {
+    if (plan.kind == "bare") return 0;
+    const double progress = leaf_.progress();
+    if (std::isnan(progress)) throw LeafFault{number};
+    return std::min(1.0, std::max(0.0, progress));
+  }
+
+  void on_halt() override {
+    if (plan.kind != "bare") call([&] { leaf_.halt(); });
+  }
+
+  void on_pause() override {
+    if (plan.kind != "bare") call([&] { leaf_.pause(); });
+  }
+
+ private:
+  template <class Function>
+  void call(Function function) {
+    error_ = nullptr;
+    try {
+      function();
+    } catch (const std::exception&) {
+      throw LeafFault{number};
+    }
+    if (error_ != nullptr) throw LeafFault{number};
+  }
+
+  const char* error_ = nullptr;
+  ScriptedLeaf leaf_;
+};
+
+class Constant : public ReferenceNode {
+ public:
+  using ReferenceNode::ReferenceNode;
+  Status on_tick(bool) override {
+    if (plan.kind == "AlwaysSuccess") return Status::Success;
+    return plan.kind == "AlwaysFailure" ? Status::Failure : Status::Running;
+  }
+  double on_progress() override { return 0; }
+};
+
+class Wait : public ReferenceNode {
+ public:
+  using ReferenceNode::ReferenceNode;
+  Status on_tick(bool first) override {
+    if (first)
+      waited_ = Nanoseconds(0);
+    else
+      waited_ = waited_so_far();
+    paused = false;
+    counted_until_ = world.now;
+    return waited_ >= from_seconds(plan.seconds) ? Status::Success : Status::Running;
+  }
+  void on_pause() override { waited_ += world.now - counted_until_; }
+  double on_progress() override {
+    return std::min(1.0, to_seconds(waited_so_far()) / plan.seconds);
+  }
+
+ private:
+  Nanoseconds waited_so_far() const {
+    return paused ? waited_ : waited_ + (world.now - counted_until_);
+  }
+  Nanoseconds waited_{0}, counted_until_{0};
+};
+
+// Sequence goes on after Success, Fallback after Failure.
+class Ordered : public ReferenceNode {
+ public:
+  using ReferenceNode::ReferenceNode;
+  Status on_tick(bool) override {
+    const Status go_on = plan.kind == "Sequence" ? Status::Success : Status::Failure;
+    for (std::size_t i = 0; i < children.size(); ++i) {
+      if (plan.memory && children[i]->status == go_on) continue;
+      const Status result = children[i]->tick();
+      if (result == go_on) continue;
+      for (std::size_t later = i + 1; later < children.size(); ++later) {
+        children[later]->make_idle();
+      }
+      return result;
+    }
+    return go_on;
+  }
+
+  double on_progress() override {
+    double done = 0;
+    for (auto& child : children) {
+      if (child->status != Status::Running) {
+        ++done;
+      } else if (plan.kind == "Fallback") {
+        return child->progress();
+      } else {
+        return (done + child->progress()) / static_cast<double>(children.size());
+      }
+    }
+    throw std::logic_error("a running Sequence or Fallback without a running child");
+  }
+};
+
+class Parallel : public ReferenceNode {
+ public:
+  using ReferenceNode::ReferenceNode;
+  Status on_tick(bool) override {
+    for (auto& child : children) {
+      if (!is_complete(child->status)) child->tick();
+    }
+    const int succeeded = count(Status::Success), failed = count(Status::Failure);
+    if (succeeded >= wanted()) return finish(Status::Success);
+    if (failed >= (plan.failure_count < 0 ? 1 : plan.failure_count)) return finish(Status::Failure);
+    if (static_cast<int>(children.size()) - failed < wanted()) return finish(Status::Failure);
+    return Status::Running;
+  }
+
+  double on_progress() override {
+    std::vector<double> all;
+    for (auto& child : children) all.push_back(child->progress());
+    std::sort(all.begin(), all.end(), std::greater<>());
+    return all[static_cast<std::size_t>(wanted() - 1)];
+  }
+
+ protected:
+  int count(Status wanted_status) const {
+    return static_cast<int>(std::count_if(children.begin(), children.end(), [&](const auto& child) {
+      return child->status == wanted_status;
+    }));
+  }
+  Status finish(Status result) {
+    for (auto& child : children) {
+      if (child->status == Status::Running) child->make_idle();
+    }
+    return result;
+  }
+
+ private:
+  int wanted() const {
+    return plan.success_count < 0 ? static_cast<int>(children.size()) : plan.success_count;
+  }
+};
+
+class Synchronized : public Parallel {
+ public:
+  using Parallel::Parallel;
+  Status on_tick(bool) override {
+    snapshot.clear();
+    double least = 1;
+    for (auto& child : children) {
+      snapshot.push_back(child->progress());
+      least = std::min(least, snapshot.back());
+    }
+    const auto barrier = next_barrier(least);
+    for (std::size_t i = 0; i < children.size(); ++i) {
+      if (is_complete(children[i]->status)) continue;
+      if (!is_held(snapshot[i], least, barrier)) {
+        children[i]->tick();
+      } else if (children[i]->status == Status::Running && !children[i]->paused) {
+        children[i]->pause();
+      }
+    }
+    if (count(Status::Success) == static_cast<int>(children.size())) return Status::Success;
+    return count(Status::Failure) > 0 ? finish(Status::Failure) : Status::Running;
+  }
+
+  double on_progress() override {
+    double least = 1;
+    for (auto& child : children) least = std::min(least, child->progress());
+    return least;
+  }
+
+ private:
+  std::optional<double> next_barrier(double least) const {
+    std::vector<double> barriers = plan.barriers;
+    for (int i = 1; i <= plan.barrier_count; ++i) {
+      barriers.push_back(static_cast<double>(i) / plan.barrier_count);
+    }
+    for (const double barrier : barriers) {
+      if (barrier > least + kEpsilon) return barrier;
+    }
+    return std::nullopt;
+  }
+
+  bool is_held(double progress, double least, std::optional<double> barrier) const {
+    if (plan.kind == "ParallelRelative") return progress > least + plan.delta + kEpsilon;
+    if (!barrier) return false;
+    return plan.tick_at_barrier ? progress > *barrier + kEpsilon : progress >= *barrier - kEpsilon;
+  }
+};
+
+// Inverter, ForceSuccess, ForceFailure, KeepRunningUntilFailure, SubTree.
+class Result : public ReferenceNode {
+ public:
+  using ReferenceNode::ReferenceNode;
+  Status on_tick(bool) override {
+    const Status result = child().tick();
+    if (result == Status::Running) return result;
+    const bool success = result == Status::Success;
+    if (plan.kind == "Inverter") return success ? Status::Failure : Status::Success;
+    if (plan.kind == "ForceSuccess") return Status::Success;
+    if (plan.kind == "ForceFailure") return Status::Failure;
+    if (plan.kind == "KeepRunningUntilFailure") return success ? Status::Running : Status::Failure;
+    return result;
+  }
+  double on_progress() override { return child().progress(); }
+};
+
+class Repeat : public ReferenceNode {
+ public:
+  using ReferenceNode::ReferenceNode;
+  Status on_tick(bool first) override {
+    if (first) done_ = 0;
+    const Status result = child().tick();
+    if (result != Status::Success) return result;
+    return ++done_ == plan.times ? Status::Success : Status::Running;
+  }
+  double on_progress() override {
+    if (plan.times < 0) return child().progress();
+    const double current = child().status == Status::Running ? child().progress() : 0;
+    return (done_ + current) / plan.times;
+  }
+
+ private:
+  int done_ = 0;
+};
+
+class Retry : public ReferenceNode {
+ public:
+  using ReferenceNode::ReferenceNode;
+  Status on_tick(bool first) override {
+    if (first) failed_ = 0;
+    const Status result = child().tick();
+    if (result != Status::Failure) return result;
+    return ++failed_ == plan.times ? Status::Failure : Status::Running;
+  }
+  double on_progress() override { return child().progress(); }
+
+ private:
+  int failed_ = 0;
+};
+
+class Timed : public ReferenceNode {  // Timeout, Delay
+ public:
+  using ReferenceNode::ReferenceNode;
+  Status on_tick(bool first) override {
+    if (first) start_ = world.now;
+    const bool over = world.now - start_ >= from_seconds(plan.seconds);
+    if (plan.kind == "Delay") return over ? child().tick() : Status::Running;
+    if (!over) return child().tick();
+    child().make_idle();
+    return Status::Failure;
+  }
+  double on_progress() override { return child().progress(); }
+
+ private:
+  Nanoseconds start_{0};
+};
+
+class RunOnce : public ReferenceNode {
+ public:
+  using ReferenceNode::ReferenceNode;
+  Status on_tick(bool) override {
+    if (result_) return *result_;
+    const Status result = child().tick();
+    if (is_complete(result)) result_ = result;
+    return result;
+  }
+  double on_progress() override { return child().progress(); }
+
+ private:
+  std::optional<Status> result_;
+};
+
+template <class Node>
+std::unique_ptr<ReferenceNode> node(Reference& tree, const Plan& plan) {
+  return std::make_unique<Node>(tree, plan);
+}
+
+}  // namespace
+
+std::unique_ptr<ReferenceNode> ReferenceNode::make(Reference& tree, const Plan& plan) {
+  const std::string& kind = plan.kind;
+  if (!plan.script.empty()) return std::make_unique<Leaf>(tree, plan, tree.world_->leaves++);
+  if (kind.starts_with("Always")) return node<Constant>(tree, plan);
+  if (kind == "Wait") return node<Wait>(tree, plan);
+  if (kind == "Sequence" || kind == "Fallback") return node<Ordered>(tree, plan);
+  if (kind == "Parallel") return node<Parallel>(tree, plan);
+  if (kind == "ParallelAbsolute" || kind == "ParallelRelative")
+    return node<Synchronized>(tree, plan);
+  if (kind == "Repeat") return node<Repeat>(tree, plan);
+  if (kind == "Retry") return node<Retry>(tree, plan);
+  if (kind == "Timeout" || kind == "Delay") return node<Timed>(tree, plan);
+  if (kind == "RunOnce") return node<RunOnce>(tree, plan);
+  return node<Result>(tree, plan);
+}
+
+Reference::Reference(const Plan& plan)
+    : world_(std::make_unique<World>()), root_(ReferenceNode::make(*this, plan)) {}
+
+Reference::~Reference() = default;
+
+Status Reference::tick(Nanoseconds now) {
+  world_->now = now;
+  ++world_->tick;
+  try {
+    return root_->tick();
+  } catch (const LeafFault& fault) {
+    world_->fault = fault.node;
+    halt();
+    return Status::Running;
+  }
+}
+
+void Reference::halt() {
+  for (ReferenceNode* node : nodes_) {
+    const bool was_running = node->status == Status::Running;
+    node->status = Status::Idle;
+    node->paused = false;
+    try {
+      if (was_running) node->on_halt();
+    } catch (const LeafFault& fault) {
+      if (!world_->fault) world_->fault = fault.node;
+    }
+  }
+}
+
+Status Reference::status(std::size_t node) const {
+  return nodes_[node]->status;
+}
+bool Reference::ticked(std::size_t node) const {
+  return nodes_[node]->last_tick == world_->tick;
+}
+bool Reference::held(std::size_t node) const {
+  return nodes_[node]->paused;
+}
+const std::vector<double>& Reference::snapshot(std::size_t node) const {
+  return nodes_[node]->snapshot;
+}
+const std::optional<std::size_t>& Reference::fault() const {
+  return world_->fault;
+}
+
+double Reference::progress(std::size_t node) {
+  try {
+    return nodes_[node]->progress();
+  } catch (const LeafFault& fault) {
+    if (!world_->fault) world_->fault = fault.node;
+    return 0;
+  }
+}
+
+}  // namespace lockstep::test

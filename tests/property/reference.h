@@ -1,0 +1,49 @@
+// The law of the language once more, slow and obvious: an object for each node that calls its
+// children. It shares nothing with engine/; the property tests hold the two against each other.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/clock.h"
+#include "core/status.h"
+#include "property/plan.h"
+#include "support/event_log.h"
+
+namespace lockstep::test {
+
+class ReferenceNode;
+
+class Reference {
+ public:
+  struct World;
+  explicit Reference(const Plan& plan);
+  ~Reference();
+  Reference(const Reference&) = delete;
+  Reference& operator=(const Reference&) = delete;
+
+  // The root's status. After a fault, everything has been halted.
+  Status tick(Nanoseconds now);
+  void halt();
+
+  // Nodes are numbered in pre-order.
+  Status status(std::size_t node) const;
+  bool ticked(std::size_t node) const;  // in the last tick
+  bool held(std::size_t node) const;
+  double progress(std::size_t node);  // may find a fault
+  // What a synchronized node saw at the start of its last tick; empty for other nodes.
+  const std::vector<double>& snapshot(std::size_t node) const;
+  // The leaf at fault.
+  const std::optional<std::size_t>& fault() const;
+
+  EventLog events;  // since it was last cleared
+
+ private:
+  friend class ReferenceNode;
+  std::unique_ptr<World> world_;
+  std::vector<ReferenceNode*> nodes_;
+  std::unique_ptr<ReferenceNode> root_;
+};
+
+}  // namespace lockstep::test

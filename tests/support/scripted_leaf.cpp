@@ -1,0 +1,98 @@
+#include "support/scripted_leaf.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace lockstep::test {
+namespace {
+
+ScriptedLeaf& leaf(void* self) {
+  return *static_cast<ScriptedLeaf*>(self);
+}
+
+lockstep_leaf_type bare(lockstep_leaf_kind kind, const char* id) {
+  lockstep_leaf_type type{};
+  type.struct_size = sizeof type;
+  type.kind = kind;
+  type.id = id;
+  type.tick = [](void* self) -> lockstep_status { return leaf(self).tick(); };
+  return type;
+}
+
+lockstep_leaf_type full(lockstep_leaf_kind kind, const char* id) {
+  lockstep_leaf_type type = bare(kind, id);
+  type.start = [](void* self) { leaf(self).start(); };
+  type.halt = [](void* self) { leaf(self).halt(); };
+  type.pause = [](void* self) { leaf(self).pause(); };
+  type.resume = [](void* self) { leaf(self).resume(); };
+  type.progress = [](void* self) { return leaf(self).progress(); };
+  return type;
+}
+
+}  // namespace
+
+const lockstep_leaf_type kScriptedAction = full(LOCKSTEP_ACTION, "Scripted");
+const lockstep_leaf_type kScriptedCondition = full(LOCKSTEP_CONDITION, "ScriptedCondition");
+const lockstep_leaf_type kBareAction = bare(LOCKSTEP_ACTION, "Bare");
+
+const LeafScript::Step& ScriptedLeaf::next_step() const {
+  const auto& steps = script_.steps;
+  return steps[script_.repeats ? ticks_ % steps.size() : std::min(ticks_, steps.size() - 1)];
+}
+
+void ScriptedLeaf::told(Call call) {
+  log_->push_back({call, number_});
+  if (script_.fails_in != call) return;
+  if (script_.throws) throw std::runtime_error("thrown by the script");
+  *error_ = "error of the script";
+}
+
+void ScriptedLeaf::start() {
+  told(Call::Start);
+  activation_ticks_ = 0;
+  progress_ = 0;
+  if (!script_.growth.empty()) return;
+  if (next_step().letter == 'x') *error_ = "error of the script";
+  if (next_step().letter == 't') throw std::runtime_error("thrown by the script");
+}
+
+std::int32_t ScriptedLeaf::grow() {
+  const auto& growth = script_.growth;
+  progress_ += growth[std::min(activation_ticks_, growth.size() - 1)];
+  ++activation_ticks_;
+  // Ten steps of 0.1 are one.
+  return progress_ >= 1 - 1e-9 ? LOCKSTEP_SUCCESS : LOCKSTEP_RUNNING;
+}
+
+std::int32_t ScriptedLeaf::tick() {
+  told(Call::Tick);
+  if (!script_.growth.empty()) return grow();
+  const LeafScript::Step& step = next_step();
+  ++ticks_;
+  if (step.progress) progress_ = *step.progress;
+  switch (step.letter) {
+    case 'R':
+      return LOCKSTEP_RUNNING;
+    case 'S':
+      return LOCKSTEP_SUCCESS;
+    case 'F':
+      return LOCKSTEP_FAILURE;
+    case 'B':
+      return 7;
+    case 'T':
+      throw std::runtime_error("thrown by the script");
+    case 'X':
+      *error_ = "error of the script";
+      return LOCKSTEP_SUCCESS;
+    default:
+      return 0;
+  }
+}
+
+double ScriptedLeaf::progress() const {
+  if (script_.live.empty()) return progress_;
+  const std::size_t tick = *tree_tick_ == 0 ? 0 : *tree_tick_ - 1;
+  return script_.live[std::min(tick, script_.live.size() - 1)];
+}
+
+}  // namespace lockstep::test

@@ -1,0 +1,58 @@
+// A leaf that plays a LeafScript and logs what it is told. The engine reaches it through a plain C
+// table (leaf_types below); the reference interpreter calls its functions directly.
+#pragma once
+
+#include <cstdint>
+
+#include "lockstep/leaf.h"
+#include "support/leaf_script.h"
+
+namespace lockstep::test {
+
+class ScriptedLeaf {
+ public:
+  // `tree_tick` counts from 1 (0 before the first); `error` is where an error is left for the
+  // caller. All must outlive the leaf.
+  ScriptedLeaf(LeafScript script, std::uint32_t number, const std::uint32_t* tree_tick,
+               EventLog* log, const char** error)
+      : script_(std::move(script)),
+        number_(number),
+        tree_tick_(tree_tick),
+        log_(log),
+        error_(error) {}
+
+  void start();
+  std::int32_t tick();
+  void halt() { told(Call::Halt); }
+  void pause() { told(Call::Pause); }
+  void resume() { told(Call::Resume); }
+  double progress() const;
+  // As new.
+  void rewind() {
+    ticks_ = 0;
+    activation_ticks_ = 0;
+    progress_ = 0;
+  }
+
+ private:
+  const LeafScript::Step& next_step() const;
+  void told(Call call);
+  std::int32_t grow();
+
+  LeafScript script_;
+  std::uint32_t number_;
+  const std::uint32_t* tree_tick_;
+  EventLog* log_;
+  const char** error_;
+  std::size_t ticks_ = 0;  // in all activations
+  std::size_t activation_ticks_ = 0;
+  double progress_ = 0;
+};
+
+// What the engine calls; `self` is a ScriptedLeaf.
+extern const lockstep_leaf_type kScriptedAction;
+extern const lockstep_leaf_type kScriptedCondition;
+// An action without any function but tick: nothing of it is logged but its ticks.
+extern const lockstep_leaf_type kBareAction;
+
+}  // namespace lockstep::test

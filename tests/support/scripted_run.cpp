@@ -1,0 +1,61 @@
+#include "support/scripted_run.h"
+
+#include <map>
+#include <sstream>
+#include <stdexcept>
+
+#include "support/tree_text.h"
+
+namespace lockstep::test {
+namespace {
+
+std::map<std::string, LeafScript> scripts(std::string_view text) {
+  std::map<std::string, LeafScript> scripts;
+  std::istringstream words{std::string(text)};
+  for (std::string word; words >> word;) {
+    const auto end = word.find_first_of("=+");
+    if (end == std::string::npos) throw std::invalid_argument("leaves: what is '" + word + "'?");
+    const auto script = word.substr(word[end] == '=' ? end + 1 : end);
+    scripts[word.substr(0, end)] = parse_leaf_script(script);
+  }
+  return scripts;
+}
+
+}  // namespace
+
+ScriptedRun::ScriptedRun(std::string_view tree, std::string_view leaves)
+    : tree_(tree_from_text(tree)), slots_(tree_.leaves.size()), ticker_(tree_, slots_) {
+  const auto by_name = scripts(leaves);
+  for (std::uint32_t number = 0; number < slots_.size(); ++number) {
+    const auto script = by_name.find(leaf_name(number));
+    if (script == by_name.end()) {
+      throw std::invalid_argument("no script for leaf '" + leaf_name(number) + "'");
+    }
+    LeafSlot& slot = slots_[number];
+    leaves_.emplace_back(script->second, number, &tree_tick_, &events, &slot.error);
+    slot.type = static_cast<const lockstep_leaf_type*>(tree_.leaves[number].type->binding);
+    slot.self = &leaves_.back();
+  }
+}
+
+const std::string& ScriptedRun::leaf_name(std::uint32_t leaf) const {
+  return tree_.labels[tree_.leaves[leaf].node].name;
+}
+
+Status ScriptedRun::tick(Nanoseconds now) {
+  ++tree_tick_;
+  const Status status = ticker_.tick_root(now);
+  if (ticker_.fault() != nullptr) ticker_.halt_all();
+  return status;
+}
+
+void ScriptedRun::restart() {
+  ticker_.halt_all();
+  ticker_.reset();
+  for (ScriptedLeaf& leaf : leaves_) leaf.rewind();
+  for (LeafSlot& slot : slots_) slot.error = nullptr;
+  events.clear();
+  tree_tick_ = 0;
+}
+
+}  // namespace lockstep::test

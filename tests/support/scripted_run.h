@@ -1,0 +1,40 @@
+// A run of a tree text with scripted leaves on the engine's ticker: what the tables and the
+// property tests drive.
+#pragma once
+
+#include <deque>
+#include <string>
+#include <string_view>
+
+#include "engine/ticker.h"
+#include "support/scripted_leaf.h"
+
+namespace lockstep::test {
+
+class ScriptedRun {
+ public:
+  // `leaves`: "a=RRS b+.1 c=R~0,1", a script for each leaf of the tree. Throws
+  // std::invalid_argument.
+  ScriptedRun(std::string_view tree, std::string_view leaves);
+  ScriptedRun(const ScriptedRun&) = delete;
+  ScriptedRun& operator=(const ScriptedRun&) = delete;
+
+  // The root's status; after a fault, everything has been halted.
+  Status tick(Nanoseconds now);
+  // Ends the run as its owner would, and makes everything as new.
+  void restart();
+
+  const Tree& tree() const { return tree_; }
+  Ticker& ticker() { return ticker_; }
+  const std::string& leaf_name(std::uint32_t leaf) const;
+  EventLog events;  // since it was last cleared
+
+ private:
+  Tree tree_;
+  std::uint32_t tree_tick_ = 0;
+  std::deque<ScriptedLeaf> leaves_;
+  std::vector<LeafSlot> slots_;
+  Ticker ticker_;
+};
+
+}  // namespace lockstep::test

@@ -1,0 +1,134 @@
+#include "support/tick_table.h"
+
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "support/scripted_run.h"
+
+namespace lockstep::test {
+namespace {
+
+// One tick as a row expects it: "R[a b] halt[b] =.5".
+struct Step {
+  std::string calls;   // without the suffix
+  std::string suffix;  // what stands after '=': a progress, or the leaf at fault
+  bool every_call = false;
+};
+
+// Cuts at blanks that are outside of brackets.
+std::vector<std::string> words(std::string_view text) {
+  std::vector<std::string> words(1);
+  int depth = 0;
+  for (const char character : text) {
+    if (character == '[' || character == '{') ++depth;
+    if (character == ']' || character == '}') --depth;
+    if (character == ' ' && depth == 0) {
+      words.emplace_back();
+    } else {
+      words.back() += character;
+    }
+  }
+  std::erase(words, "");
+  return words;
+}
+
+std::vector<Step> parse_expected(std::string_view text) {
+  std::vector<Step> steps;
+  for (std::string& word : words(text)) {
+    if (std::islower(static_cast<unsigned char>(word[0])) != 0 && word != "stop") {
+      steps.back().calls += " " + word;
+      continue;
+    }
+    Step& step = steps.emplace_back();
+    step.every_call = word.find('{') != std::string::npos;
+    if (const auto equal = word.find('='); equal != std::string::npos) {
+      step.suffix = word.substr(equal + 1);
+      word.resize(equal);
+    }
+    step.calls = word;
+  }
+  return steps;
+}
+
+std::string every_call(const ScriptedRun& run, char status) {
+  std::vector<std::string> calls;
+  for (const Event& event : run.events) {
+    calls.push_back(fmt::format("{} {}", to_string(event.call), run.leaf_name(event.leaf)));
+  }
+  return fmt::format("{}{{{}}}", status, fmt::join(calls, ", "));
+}
+
+// The ticks first, then the runs of halts, pauses and resumes in their order.
+std::string summary(const ScriptedRun& run, char status) {
+  std::string ticks, rest;
+  Call open = Call::Tick;
+  for (const Event& event : run.events) {
+    const std::string& name = run.leaf_name(event.leaf);
+    if (event.call == Call::Tick) {
+      ticks += (ticks.empty() ? "" : " ") + name;
+    } else if (event.call != Call::Start) {
+      if (event.call == open)
+        rest.back() = ' ';
+      else
+        rest += fmt::format(" {}[", to_string(event.call));
+      rest += name + "]";
+      open = event.call;
+    }
+  }
+  return fmt::format("{}[{}]{}", status, ticks, rest);
+}
+
+class Row {
+ public:
+  explicit Row(const TickRow& row) : row_(row), run_(row.tree, row.leaves) {}
+
+  void check() {
+    const auto steps = parse_expected(row_.expected);
+    std::string expected, got;
+    for (const Step& step : steps) {
+      expected += "\n    " + step.calls + (step.suffix.empty() ? "" : " =" + step.suffix);
+      got += "\n    " + play(step);
+    }
+    UNSCOPED_INFO("law:    " << row_.law);
+    UNSCOPED_INFO("tree:   " << row_.tree);
+    UNSCOPED_INFO("leaves: " << row_.leaves);
+    CHECK("tick by tick:" + got == "tick by tick:" + expected);
+  }
+
+ private:
+  std::string play(const Step& step) {
+    run_.events.clear();
+    if (step.calls.starts_with("stop")) {
+      run_.ticker().halt_all();
+      return "stop" + summary(run_, ' ').substr(3);
+    }
+    const Status status = run_.tick(tick_++ * from_seconds(row_.period));
+    const Fault* fault = run_.ticker().fault();
+    const char letter = fault != nullptr ? 'X' : "IRSF"[static_cast<int>(status)];
+    std::string got = step.every_call ? every_call(run_, letter) : summary(run_, letter);
+    if (!step.suffix.empty()) got += " =" + suffix(step.suffix, fault);
+    return got;
+  }
+
+  std::string suffix(std::string_view expected, const Fault* fault) {
+    if (fault != nullptr) return run_.tree().labels[fault->node].name;
+    const double progress = run_.ticker().progress(0);
+    std::string_view number = expected;
+    const bool same = std::abs(take_number(number) - progress) < 1e-9;
+    return same ? std::string(expected) : fmt::format("{}", progress);
+  }
+
+  const TickRow& row_;
+  ScriptedRun run_;
+  int tick_ = 0;
+};
+
+}  // namespace
+
+void check_rows(std::span<const TickRow> rows) {
+  for (const TickRow& row : rows) Row(row).check();
+}
+
+}  // namespace lockstep::test

@@ -1,0 +1,28 @@
+// Tables of laws. A row is a tree text, a script for each leaf, and what must come of it, tick by
+// tick:
+//   R[a b] S[a] halt[b]    a tick that returns Running and ticks a, then b; a tick that returns
+//                          Success, ticks a and halts b. Halts, pauses and resumes are always
+//                          compared, in their order; starts are not.
+//   R{start a, tick a}     a tick with everything that its leaves were told, in order.
+//   R[a]=.5                the progress of the root after the tick is .5.
+//   X[a]=a                 a tick that ends in a fault of leaf a (and halts what still runs).
+//   stop                   not a tick: the owner halts the run.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace lockstep::test {
+
+struct TickRow {
+  std::string_view law;
+  std::string_view tree;
+  std::string_view leaves;
+  std::string_view expected;
+  double period = 0.1;  // seconds from tick to tick; the first is at 0
+};
+
+// Fails the Catch test for each row that does not hold, showing law, tree, expected and got.
+void check_rows(std::span<const TickRow> rows);
+
+}  // namespace lockstep::test

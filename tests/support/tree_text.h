@@ -1,0 +1,17 @@
+// A compiled tree from a short text, without documents:
+//   Sequence(a Inverter(b))   Parallel[success_count=1](a b)   ParallelAbsolute[barriers=.5;1](a b)
+// A name with a capital is a built-in kind; any other is a scripted action, with '?' behind it a
+// scripted condition, with [bare] an action that has no function but tick.
+#pragma once
+
+#include <string_view>
+
+#include "engine/tree.h"
+
+namespace lockstep::test {
+
+// Throws std::invalid_argument for a text that is not a tree, and for parameters that break the
+// kind's rule or arity.
+Tree tree_from_text(std::string_view text);
+
+}  // namespace lockstep::test
