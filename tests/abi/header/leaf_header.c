@@ -1,0 +1,7 @@
+/* The header compiles alone, before anything else is included. */
+#include "lockstep/leaf.h"
+
+int lockstep_header_in_c(const lockstep_plugin* plugin);
+int lockstep_header_in_c(const lockstep_plugin* plugin) {
+  return plugin->abi_major == LOCKSTEP_ABI_MAJOR;
+}

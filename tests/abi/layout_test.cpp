@@ -1,0 +1,92 @@
+// The layout of every struct in the ABI on LP64 machines, pinned: a member that moves breaks every
+// plugin that is out there. New members go to the end; then a line and a size change here.
+#include <cstddef>
+
+#include "lockstep/leaf.h"
+
+#if defined(__LP64__)
+
+#define SIZE_IS(type, size) static_assert(sizeof(type) == (size))
+#define MEMBER_AT(type, member, offset) static_assert(offsetof(type, member) == (offset))
+
+SIZE_IS(bool, 1);
+SIZE_IS(lockstep_status, 4);
+SIZE_IS(lockstep_leaf_kind, 4);
+SIZE_IS(lockstep_type, 4);
+SIZE_IS(lockstep_direction, 4);
+SIZE_IS(lockstep_log_level, 4);
+
+SIZE_IS(lockstep_port, 48);
+MEMBER_AT(lockstep_port, struct_size, 0);
+MEMBER_AT(lockstep_port, type, 4);
+MEMBER_AT(lockstep_port, direction, 8);
+MEMBER_AT(lockstep_port, name, 16);
+MEMBER_AT(lockstep_port, default_value, 24);
+MEMBER_AT(lockstep_port, unit, 32);
+MEMBER_AT(lockstep_port, doc, 40);
+
+SIZE_IS(lockstep_host, 168);
+MEMBER_AT(lockstep_host, abi_major, 0);
+MEMBER_AT(lockstep_host, abi_minor, 4);
+MEMBER_AT(lockstep_host, struct_size, 8);
+MEMBER_AT(lockstep_host, name, 16);
+MEMBER_AT(lockstep_host, version, 24);
+MEMBER_AT(lockstep_host, get_bool, 32);
+MEMBER_AT(lockstep_host, get_int, 40);
+MEMBER_AT(lockstep_host, get_double, 48);
+MEMBER_AT(lockstep_host, get_string, 56);
+MEMBER_AT(lockstep_host, get_double_list, 64);
+MEMBER_AT(lockstep_host, set_bool, 72);
+MEMBER_AT(lockstep_host, set_int, 80);
+MEMBER_AT(lockstep_host, set_double, 88);
+MEMBER_AT(lockstep_host, set_string, 96);
+MEMBER_AT(lockstep_host, set_double_list, 104);
+MEMBER_AT(lockstep_host, set_error, 112);
+MEMBER_AT(lockstep_host, now, 120);
+MEMBER_AT(lockstep_host, tick_period, 128);
+MEMBER_AT(lockstep_host, random_bits, 136);
+MEMBER_AT(lockstep_host, random, 144);
+MEMBER_AT(lockstep_host, log, 152);
+MEMBER_AT(lockstep_host, get_extension, 160);
+
+SIZE_IS(lockstep_leaf_type, 112);
+MEMBER_AT(lockstep_leaf_type, struct_size, 0);
+MEMBER_AT(lockstep_leaf_type, kind, 4);
+MEMBER_AT(lockstep_leaf_type, id, 8);
+MEMBER_AT(lockstep_leaf_type, doc, 16);
+MEMBER_AT(lockstep_leaf_type, port_count, 24);
+MEMBER_AT(lockstep_leaf_type, ports, 32);
+MEMBER_AT(lockstep_leaf_type, create, 40);
+MEMBER_AT(lockstep_leaf_type, destroy, 48);
+MEMBER_AT(lockstep_leaf_type, start, 56);
+MEMBER_AT(lockstep_leaf_type, tick, 64);
+MEMBER_AT(lockstep_leaf_type, halt, 72);
+MEMBER_AT(lockstep_leaf_type, pause, 80);
+MEMBER_AT(lockstep_leaf_type, resume, 88);
+MEMBER_AT(lockstep_leaf_type, progress, 96);
+MEMBER_AT(lockstep_leaf_type, get_extension, 104);
+
+SIZE_IS(lockstep_plugin, 96);
+MEMBER_AT(lockstep_plugin, abi_major, 0);
+MEMBER_AT(lockstep_plugin, abi_minor, 4);
+MEMBER_AT(lockstep_plugin, struct_size, 8);
+MEMBER_AT(lockstep_plugin, name, 16);
+MEMBER_AT(lockstep_plugin, version, 24);
+MEMBER_AT(lockstep_plugin, doc, 32);
+MEMBER_AT(lockstep_plugin, leaf_type_count, 40);
+MEMBER_AT(lockstep_plugin, leaf_types, 48);
+MEMBER_AT(lockstep_plugin, init, 56);
+MEMBER_AT(lockstep_plugin, deinit, 64);
+MEMBER_AT(lockstep_plugin, create_run, 72);
+MEMBER_AT(lockstep_plugin, destroy_run, 80);
+MEMBER_AT(lockstep_plugin, get_extension, 88);
+
+#endif
+
+// What plugins have compiled into them as numbers.
+static_assert(LOCKSTEP_RUNNING == 1 && LOCKSTEP_SUCCESS == 2 && LOCKSTEP_FAILURE == 3);
+static_assert(LOCKSTEP_ACTION == 1 && LOCKSTEP_CONDITION == 2);
+static_assert(LOCKSTEP_BOOL == 1 && LOCKSTEP_INT == 2 && LOCKSTEP_DOUBLE == 3);
+static_assert(LOCKSTEP_STRING == 4 && LOCKSTEP_DOUBLE_LIST == 5);
+static_assert(LOCKSTEP_INPUT == 1 && LOCKSTEP_OUTPUT == 2 && LOCKSTEP_INOUT == 3);
+static_assert(LOCKSTEP_LOG_DEBUG == 0 && LOCKSTEP_LOG_INFO == 1 && LOCKSTEP_LOG_WARNING == 2);

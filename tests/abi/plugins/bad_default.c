@@ -1,0 +1,2 @@
+#define PORT_DEFAULT "two"
+#include "entry.h"

@@ -1,0 +1,2 @@
+#define LEAF_ID "Pro be"
+#include "entry.h"

@@ -1,0 +1,2 @@
+#define LEAF_KIND 3
+#include "entry.h"

@@ -1,0 +1,2 @@
+#define PLUGIN_NAME "../x"
+#include "entry.h"

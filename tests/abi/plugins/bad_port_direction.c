@@ -1,0 +1,2 @@
+#define PORT_DIRECTION 0
+#include "entry.h"

@@ -1,0 +1,2 @@
+#define PORT_NAME "2nd"
+#include "entry.h"

@@ -1,0 +1,2 @@
+#define PORT_TYPE 6
+#include "entry.h"

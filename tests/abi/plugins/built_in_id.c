@@ -1,0 +1,2 @@
+#define LEAF_ID "Sequence"
+#include "entry.h"

@@ -1,0 +1,4 @@
+#include "probe.h"
+
+#define LEAF_KIND LOCKSTEP_CONDITION
+#include "entry.h"

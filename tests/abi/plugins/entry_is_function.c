@@ -1,0 +1,4 @@
+__attribute__((visibility("default"))) const void* lockstep_plugin_entry(void);
+const void* lockstep_plugin_entry(void) {
+  return 0;
+}

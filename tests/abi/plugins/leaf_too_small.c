@@ -1,0 +1,2 @@
+#define LEAF_SIZE 40
+#include "entry.h"

@@ -1,0 +1,2 @@
+#define LEAF_LIST NULL
+#include "entry.h"

@@ -1,0 +1,2 @@
+#define ABI_MINOR 7
+#include "entry.h"

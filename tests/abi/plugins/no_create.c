@@ -1,0 +1,2 @@
+#define LEAF_CREATE NULL
+#include "entry.h"

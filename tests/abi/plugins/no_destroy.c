@@ -1,0 +1,2 @@
+#define LEAF_DESTROY NULL
+#include "entry.h"

@@ -1,0 +1,2 @@
+#define LEAF_ID NULL
+#include "entry.h"

@@ -1,0 +1,2 @@
+#define PORT_NAME NULL
+#include "entry.h"

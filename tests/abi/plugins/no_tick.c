@@ -1,0 +1,2 @@
+#define LEAF_TICK NULL
+#include "entry.h"

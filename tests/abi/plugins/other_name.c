@@ -1,0 +1,2 @@
+#define PLUGIN_NAME "something_else"
+#include "entry.h"

@@ -1,0 +1,2 @@
+#define PORT_DIRECTION LOCKSTEP_OUTPUT
+#include "entry.h"

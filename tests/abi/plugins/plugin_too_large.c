@@ -1,0 +1,2 @@
+#define PLUGIN_SIZE 4000
+#include "entry.h"

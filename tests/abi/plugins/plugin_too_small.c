@@ -1,0 +1,2 @@
+#define PLUGIN_SIZE 24
+#include "entry.h"

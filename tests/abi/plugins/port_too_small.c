@@ -1,0 +1,2 @@
+#define PORT_SIZE 8
+#include "entry.h"

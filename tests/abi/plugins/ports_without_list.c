@@ -1,0 +1,2 @@
+#define PORT_LIST NULL
+#include "entry.h"

@@ -1,0 +1,2 @@
+#define LEAF_ID "BehaviorTree"
+#include "entry.h"

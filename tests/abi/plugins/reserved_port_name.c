@@ -1,0 +1,2 @@
+#define PORT_NAME "ID"
+#include "entry.h"

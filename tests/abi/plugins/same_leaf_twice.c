@@ -1,0 +1,2 @@
+#define LEAF_COUNT 2
+#include "entry.h"

@@ -1,0 +1,2 @@
+#define PORT_COUNT 2
+#include "entry.h"

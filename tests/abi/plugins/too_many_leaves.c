@@ -1,0 +1,2 @@
+#define LEAF_COUNT 5000
+#include "entry.h"

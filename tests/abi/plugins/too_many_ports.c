@@ -1,0 +1,2 @@
+#define PORT_COUNT 4097
+#include "entry.h"

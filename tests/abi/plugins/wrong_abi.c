@@ -1,0 +1,3 @@
+#define ABI_MAJOR 2
+#define ABI_MINOR 3
+#include "entry.h"

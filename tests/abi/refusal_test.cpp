@@ -1,0 +1,178 @@
+// Every way in which a plugin is refused, with the whole message: one error and nothing else.
+#include <elf.h>
+
+#include <catch2/catch.hpp>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "abi/support/plugins.h"
+
+namespace lockstep::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Strings = std::vector<std::string>;
+
+struct Case {
+  const char* plugin;
+  const char* message;  // after "plugin '<path>' "
+  const char* hint;
+};
+
+// clang-format off
+const Case kCases[] = {
+  {"no_entry", "does not export 'lockstep_plugin_entry'", "is it a lockstep plugin? docs/plugins.md shows how one is built"},
+  {"entry_is_function", "exports 'lockstep_plugin_entry' as a function", "define it as a constant of type lockstep_plugin"},
+  {"entry_too_small", "exports a constant of 4 bytes, expected a lockstep_plugin", "define lockstep_plugin_entry as in docs/plugins.md"},
+  {"wrong_abi", "was built for plugin ABI 2.3, this program has 1.0", "build it with the lockstep/leaf.h of this version"},
+  {"undefined_symbol", "cannot be loaded: undefined symbol: a_function_that_nobody_has", "link the plugin with the library that defines it; functions of lockstep are reached through the host table only"},
+  {"plugin_too_small", "has a lockstep_plugin with struct_size 24, expected at least 96", "set it to sizeof(lockstep_plugin)"},
+  {"plugin_too_large", "has a lockstep_plugin with struct_size 4000, expected at most 96", "set it to sizeof(lockstep_plugin)"},
+  {"no_plugin_name", "has no name", "set lockstep_plugin::name"},
+  {"bad_plugin_name", "is named '../x'", "a plugin's name is made of letters, digits, '_' and '-'"},
+  {"too_many_leaves", "claims to have 5000 leaf types, expected at most 4096", "check lockstep_plugin::leaf_type_count"},
+  {"leaves_without_list", "has 1 leaf types but no list of them", "set lockstep_plugin::leaf_types"},
+  {"create_run_alone", "has create_run without destroy_run", "a plugin has both or none"},
+  {"null_leaf", "is malformed: leaf type 0 is NULL", "list leaf_type_count leaf types"},
+  {"same_leaf_twice", "is malformed: leaf type 1 has the id 'Probe', as one before it", "give each leaf its own id"},
+  {"leaf_too_small", "is malformed: leaf type 0 has struct_size 40, expected at least 112", "set it to sizeof(lockstep_leaf_type)"},
+  {"no_id", "is malformed: leaf type 0 has no id", "set lockstep_leaf_type::id"},
+  {"bad_id", "is malformed: leaf type 0 has the id 'Pro be'", "an id is a letter, then letters, digits and '_'"},
+  {"built_in_id", "is malformed: leaf type 0 has the id 'Sequence', which is a tag of the tree language", "give the leaf another id"},
+  {"reserved_id", "is malformed: leaf type 0 has the id 'BehaviorTree', which is a tag of the tree language", "give the leaf another id"},
+  {"bad_kind", "is malformed: leaf type 0 ('Probe') has kind 3", "use LOCKSTEP_ACTION or LOCKSTEP_CONDITION, 1 or 2"},
+  {"no_create", "is malformed: leaf type 0 ('Probe') has no create function", "create, destroy and tick must not be NULL"},
+  {"no_destroy", "is malformed: leaf type 0 ('Probe') has no destroy function", "create, destroy and tick must not be NULL"},
+  {"no_tick", "is malformed: leaf type 0 ('Probe') has no tick function", "create, destroy and tick must not be NULL"},
+  {"too_many_ports", "is malformed: leaf type 0 ('Probe') claims to have 4097 ports, expected at most 4096", "check lockstep_leaf_type::port_count"},
+  {"ports_without_list", "is malformed: leaf type 0 ('Probe') has 1 ports but no list of them", "set lockstep_leaf_type::ports"},
+  {"null_port", "is malformed: leaf type 0 ('Probe'): port 0 is NULL", "list port_count ports"},
+  {"port_too_small", "is malformed: leaf type 0 ('Probe'): port 0 has struct_size 8, expected at least 48", "set it to sizeof(lockstep_port)"},
+  {"no_port_name", "is malformed: leaf type 0 ('Probe'): port 0 has no name", "set lockstep_port::name"},
+  {"bad_port_name", "is malformed: leaf type 0 ('Probe'): port 0 is named '2nd'", "a port's name is a letter, then letters, digits and '_'"},
+  {"reserved_port_name", "is malformed: leaf type 0 ('Probe'): port 0 is named 'ID', an attribute that every node has", "give the port another name"},
+  {"same_port_twice", "is malformed: leaf type 0 ('Probe'): port 1 is named 'ticks', as a port before it", "give each port of a leaf its own name"},
+  {"bad_port_type", "is malformed: leaf type 0 ('Probe'): port 0 ('ticks') has type 6", "use one of the LOCKSTEP_ types, 1 to 5"},
+  {"bad_port_direction", "is malformed: leaf type 0 ('Probe'): port 0 ('ticks') has direction 0", "use LOCKSTEP_INPUT, LOCKSTEP_OUTPUT or LOCKSTEP_INOUT, 1 to 3"},
+  {"bad_default", "is malformed: leaf type 0 ('Probe'): port 0 ('ticks') has the default 'two', expected a whole number", "a default is a constant, written as in a tree"},
+  {"key_as_default", "is malformed: leaf type 0 ('Probe'): port 0 ('ticks') has the default '{key}', expected text", "a default is a constant, written as in a tree"},
+  {"output_with_default", "is malformed: leaf type 0 ('Probe'): port 0 ('ticks') is an output with a default", "only an input or inout port has a default"},
+};
+// clang-format on
+
+std::string said(const std::string& path, const std::string& message, const std::string& hint) {
+  return "plugin '" + path + "' " + message + " | " + hint;
+}
+
+// Bytes of a good plugin, to be damaged.
+std::string good_bytes() {
+  std::ifstream file(plugin_path("good"), std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// A file of its own for one test, gone afterwards.
+struct TemporaryFile {
+  std::string path;
+  TemporaryFile(const std::string& name, const std::string& bytes)
+      : path((fs::path(LOCKSTEP_ABI_PLUGINS) / ("damaged_" + name)).string()) {
+    std::ofstream(path, std::ios::binary) << bytes;
+  }
+  ~TemporaryFile() { fs::remove(path); }
+};
+
+TEST_CASE("a plugin that breaks the contract is refused with one error") {
+  for (const Case& it : kCases) {
+    const std::string path = plugin_path(it.plugin);
+    CHECK(refusal(path) == Strings{said(path, it.message, it.hint)});
+  }
+}
+
+TEST_CASE("what is not a shared object for this machine is refused before the linker sees it") {
+  const std::string build = "build it as a MODULE or SHARED library (docs/plugins.md)";
+  const std::string directory = LOCKSTEP_ABI_PLUGINS;
+
+  CHECK(refusal("/nowhere/x.so") ==
+        Strings{said("/nowhere/x.so", "does not exist",
+                     "check the path; a tree names plugins without path and without '.so'")});
+  CHECK(refusal(directory) ==
+        Strings{said(directory, "is not a shared object: it is a directory", build)});
+
+  const TemporaryFile text("text.so", "#!/bin/sh\necho no plugin, but long enough to be one\n");
+  const TemporaryFile empty("empty.so", "");
+  for (const TemporaryFile* file : {&text, &empty}) {
+    CHECK(refusal(file->path) ==
+          Strings{said(file->path, "is not a shared object: it does not begin like an ELF file",
+                       build)});
+  }
+}
+
+TEST_CASE("a damaged or foreign shared object is named for what it is") {
+  std::string bytes = good_bytes();
+  REQUIRE(bytes.size() > 4096);
+  const auto patched = [&](std::size_t offset, Elf64_Half value) {
+    std::string copy = bytes;
+    copy.replace(offset, sizeof value, reinterpret_cast<const char*>(&value), sizeof value);
+    return copy;
+  };
+
+  const TemporaryFile cut("cut.so", bytes.substr(0, 2000));
+  CHECK(refusal(cut.path) == Strings{said(cut.path, "is cut off: parts of the file are missing",
+                                          "copy or build it again")});
+
+  const TemporaryFile object("object.so", patched(offsetof(Elf64_Ehdr, e_type), ET_REL));
+  CHECK(refusal(object.path).front().find("is not a shared object: it is an object file") !=
+        std::string::npos);
+
+  const TemporaryFile program("program.so", patched(offsetof(Elf64_Ehdr, e_type), ET_EXEC));
+  CHECK(refusal(program.path).front().find("is not a shared object: it is a program") !=
+        std::string::npos);
+
+#if defined(__x86_64__)
+  const TemporaryFile arm("arm.so", patched(offsetof(Elf64_Ehdr, e_machine), EM_AARCH64));
+  CHECK(refusal(arm.path) ==
+        Strings{said(arm.path, "is for aarch64, this program is for x86_64",
+                     "build it on, or cross-compile it for, the machine that runs the tree")});
+#endif
+}
+
+TEST_CASE("a leaf id belongs to one plugin, and both are named") {
+  PluginSet plugins;
+  Diagnostics diagnostics;
+  REQUIRE(plugins.load_file(plugin_path("good"), diagnostics));
+  CHECK_FALSE(plugins.load_file(plugin_path("another_good"), diagnostics));
+  CHECK(texts(diagnostics) ==
+        Strings{said(plugin_path("another_good"),
+                     "has the leaf 'Probe', which plugin '" + plugin_path("good") + "' has already",
+                     "load one of the two, or rename the leaf")});
+  CHECK(plugins.types().size() == 1);
+}
+
+TEST_CASE("a plugin whose init fails is named") {
+  const Case kInit[] = {
+      {"init_refuses", "refuses to work: its init returned false", ""},
+      {"throws_in_init",
+       "refuses to work: its init threw an exception that is not a std::exception", ""}};
+  for (const Case& it : kInit) {
+    PluginSet plugins;
+    Diagnostics diagnostics;
+    REQUIRE(plugins.load_file(plugin_path(it.plugin), diagnostics));
+    CHECK_FALSE(plugins.initialize(diagnostics));
+    REQUIRE(diagnostics.all().size() == 1);
+    CHECK(diagnostics.all()[0].message == "plugin '" + plugin_path(it.plugin) + "' " + it.message);
+  }
+}
+
+TEST_CASE("a refusal is told where the tree asked for the plugin") {
+  PluginSet plugins;
+  Diagnostics diagnostics;
+  CHECK_FALSE(plugins.load_file(plugin_path("no_tick"), diagnostics, {"tree.xml", 3, 5}));
+  REQUIRE(diagnostics.all().size() == 1);
+  CHECK(diagnostics.all()[0].location.file == "tree.xml");
+  CHECK(diagnostics.all()[0].location.line == 3);
+  CHECK(diagnostics.all()[0].location.column == 5);
+}
+
+}  // namespace
+}  // namespace lockstep::test
