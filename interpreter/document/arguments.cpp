@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/identifier.h"
 #include "core/suggest.h"
 #include "document/reporter.h"
 #include "document/vocabulary.h"
@@ -13,14 +14,6 @@ namespace {
 
 constexpr std::size_t kMaxListed = 20;
 constexpr std::string_view kAttributes[] = {"name", "default", "doc"};
-
-bool is_identifier(std::string_view text) {
-  const auto is_part = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-  };
-  return !text.empty() && !(text[0] >= '0' && text[0] <= '9') &&
-         std::all_of(text.begin(), text.end(), is_part);
-}
 
 std::optional<std::string> value_of(const Attribute* attribute) {
   if (!attribute) return std::nullopt;

@@ -1,0 +1,44 @@
+#include "core/utf8.h"
+
+#include <catch2/catch.hpp>
+#include <string>
+
+using namespace lockstep;
+
+namespace {
+
+// The definition: code points written out, then looked up.
+std::string encode(std::uint32_t code) {
+  const auto byte = [](std::uint32_t value) { return static_cast<char>(value); };
+  const auto tail = [&](int shift, std::uint32_t c) { return byte(0x80 | ((c >> shift) & 0x3F)); };
+  if (code < 0x80) return {byte(code)};
+  if (code < 0x800) return {byte(0xC0 | code >> 6), tail(0, code)};
+  if (code < 0x10000) return {byte(0xE0 | code >> 12), tail(6, code), tail(0, code)};
+  return {byte(0xF0 | code >> 18), tail(12, code), tail(6, code), tail(0, code)};
+}
+
+}  // namespace
+
+TEST_CASE("every code point but the surrogates has its length, and no part of it has") {
+  std::size_t wrong = 0;
+  for (std::uint32_t code = 0; code <= 0x10FFFF; ++code) {
+    const auto bytes = encode(code);
+    const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
+    wrong += utf8_length(bytes + "x") != (surrogate ? 0 : bytes.size());
+    wrong += utf8_length(std::string_view(bytes).substr(0, bytes.size() - 1)) != 0;
+  }
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("other sequences are not UTF-8") {
+  for (const auto* bytes : {"", "\x80", "\xc0\x80", "\xc1\xbf", "\xe0\x9f\xbf", "\xf0\x8f\xbf\xbf",
+                            "\xf4\x90\x80\x80", "\xf5\x80\x80\x80", "\xff", "\xe2\x82x"})
+    CHECK(utf8_length(bytes) == 0);
+}
+
+TEST_CASE("a front part cuts no character") {
+  CHECK(utf8_front("a€b", 9) == "a€b");
+  CHECK(utf8_front("a€b", 4) == "a€");
+  CHECK(utf8_front("a€b", 3) == "a");
+  CHECK(utf8_front("a€b", 0).empty());
+}

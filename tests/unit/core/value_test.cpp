@@ -1,0 +1,79 @@
+#include "core/value.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+using namespace lockstep;
+
+namespace {
+
+const std::string kManyZeros(400, '0');
+
+struct Row {
+  ValueType type;
+  std::string text;
+  std::optional<Value> value;
+};
+
+std::vector<double> list(std::initializer_list<double> numbers) {
+  return numbers;
+}
+
+}  // namespace
+
+TEST_CASE("a text is a value of its type or nothing") {
+  const Row rows[] = {
+      {ValueType::Bool, "true", true},
+      {ValueType::Bool, " false\n", false},
+      {ValueType::Bool, "1", true},
+      {ValueType::Bool, "0", false},
+      {ValueType::Bool, "True", std::nullopt},
+      {ValueType::Bool, "", std::nullopt},
+      {ValueType::Int, "-12", std::int64_t{-12}},
+      {ValueType::Int, " +12 ", std::int64_t{12}},
+      {ValueType::Int, "9223372036854775807", std::numeric_limits<std::int64_t>::max()},
+      {ValueType::Int, "9223372036854775808", std::nullopt},
+      {ValueType::Int, "1.0", std::nullopt},
+      {ValueType::Int, "+-1", std::nullopt},
+      {ValueType::Int, "1 2", std::nullopt},
+      {ValueType::Double, "0.25", 0.25},
+      {ValueType::Double, "-1e-3", -1e-3},
+      {ValueType::Double, ".5", 0.5},
+      {ValueType::Double, "+", std::nullopt},
+      {ValueType::Double, "inf", std::nullopt},
+      {ValueType::Double, "nan", std::nullopt},
+      {ValueType::Double, "1" + kManyZeros, std::nullopt},
+      {ValueType::Double, "0x10", std::nullopt},
+      {ValueType::Double, "0,5", std::nullopt},
+      {ValueType::String, " as it is ", std::string(" as it is ")},
+      {ValueType::DoubleList, "0.25;0.5;0.75", list({0.25, 0.5, 0.75})},
+      {ValueType::DoubleList, " 1, 2\t3 ;4\n", list({1, 2, 3, 4})},
+      {ValueType::DoubleList, "", list({})},
+      {ValueType::DoubleList, "1;x", std::nullopt},
+  };
+  for (const auto& row : rows) {
+    INFO(to_string(row.type) << " '" << row.text << "'");
+    CHECK(parse_value(row.type, row.text) == row.value);
+  }
+}
+
+TEST_CASE("a value written as text reads back to the same value") {
+  const std::pair<ValueType, Value> rows[] = {
+      {ValueType::Bool, true},
+      {ValueType::Bool, false},
+      {ValueType::Int, std::numeric_limits<std::int64_t>::min()},
+      {ValueType::Double, 0.1},
+      {ValueType::Double, 1.0},
+      {ValueType::Double, std::nextafter(1.0, 2.0)},
+      {ValueType::Double, 1e300},
+      {ValueType::String, std::string("a;b")},
+      {ValueType::DoubleList, list({0.1, 1.0 / 3, 1})},
+      {ValueType::DoubleList, list({})},
+  };
+  for (const auto& [type, value] : rows) {
+    INFO(to_text(value));
+    CHECK(parse_value(type, to_text(value)) == value);
+  }
+  CHECK(to_text(Value()).empty());
+}

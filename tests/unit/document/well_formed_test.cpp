@@ -1,0 +1,142 @@
+#include "document/well_formed.h"
+
+#include <catch2/catch.hpp>
+
+#include "document/document.h"
+#include "unit/document/told.h"
+
+using namespace lockstep;
+using namespace std::string_literals;
+
+namespace {
+
+struct Row {
+  std::string law, text, told;
+};
+
+void check(const Row& row) {
+  Diagnostics diagnostics;
+  Document::parse("f", row.text, diagnostics);
+  INFO(row.law << ": " << row.text);
+  CHECK(told(diagnostics) == std::vector<std::string>{row.told});
+}
+
+std::string nested(std::size_t depth) {
+  std::string text;
+  for (std::size_t i = 0; i < depth; ++i) text += "<a>\n";
+  for (std::size_t i = 0; i < depth; ++i) text += "</a>";
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("what is not XML is told with its exact place") {
+  const Row rows[] = {
+      {"mismatch", "<r>\n <A>\n  <B/>\n </C>\n</r>",
+       "f:4:2: '</C>' closes '<A>', opened at line 2"},
+      {"case counts", "<r></R>", "f:1:4: '</R>' closes '<r>', opened at line 1"},
+      {"unclosed element", "<r>\n\t<A>\n", "f:2:2: '<A>' is not closed"},
+      {"end tag of nothing", "<r/>\n</r>", "f:2:1: '</r>' closes no element"},
+      {"end tag without a name", "<r></></r>",
+       "f:1:4: '</' needs the name of the element that it closes"},
+      {"unclosed end tag", "<r></r", "f:1:4: the tag '</r' is not closed"},
+      {"unclosed start tag", "<r>\n <A x='1'", "f:2:2: the tag '<A' is not closed"},
+      {"tag in a tag", "<r>\n <A x='1'\n <B/></r>", "f:3:2: unexpected '<' in the tag '<A'"},
+      {"no quotes", "<r a='1' b=2/>", "f:1:12: expected a quote before the value of 'b'"},
+      {"no value", "<r a/>", "f:1:4: attribute 'a' has no value"},
+      {"quote left open", "<r a='1/>", "f:1:6: the quote of 'a' is not closed"},
+      {"quote left open before a tag", "<r><A x='1/>\n<B y='2'/></r>",
+       "f:2:1: '<' in the value of 'x'"},
+      {"stray < in a value", "<r a='1 < 2'/>", "f:1:9: '<' in the value of 'a'"},
+      {"< is no tag", "<r>\n < A/></r>", "f:2:2: '<' does not begin a tag"},
+      {"no blank between", "<r a='1'b='2'/>", "f:1:9: expected a blank before the attribute"},
+      {"given twice", "<r a='1'\n   b='2' a='3'/>", "f:2:10: attribute 'a' is given twice"},
+      {"second root", "<r/>\n<s/>", "f:2:1: a second root element"},
+      {"text after", "<r/>\n x", "f:2:2: text after the root element"},
+      {"text before", "x <r/>", "f:1:1: text before the root element"},
+      {"CDATA after", "<r/><![CDATA[ ]]>", "f:1:5: text after the root element"},
+      {"comment left open", "<r>\n<!-- <a> ->\n</r>", "f:2:1: the comment is not closed"},
+      {"CDATA left open", "<r><![CDATA[ </r>", "f:1:4: the CDATA section is not closed"},
+      {"instruction left open", "<?xml <r/>", "f:1:1: the processing instruction is not closed"},
+      {"late instruction", "<r>\n <?x y?></r>",
+       "f:2:2: a processing instruction stands at the top of the file"},
+      {"late DOCTYPE", "<r/><!DOCTYPE r>", "f:1:5: a DOCTYPE stands before the root element"},
+      {"definitions", "<!DOCTYPE r [<!ENTITY x 'y'>]><r/>",
+       "f:1:13: definitions in a DOCTYPE are not supported"},
+      {"DOCTYPE left open", "<!DOCTYPE r", "f:1:1: the DOCTYPE is not closed"},
+      {"only a comment", "<!-- -->\n", "f:2:1: the root element is missing"},
+      {"empty", "", "f:1:1: the file is empty"},
+      {"blank", "\n \n", "f:1:1: the file is empty"},
+  };
+  for (const auto& row : rows) check(row);
+}
+
+TEST_CASE("what is not text in UTF-8 is told with its exact place") {
+  const Row rows[] = {
+      {"UTF-16, low byte first", "\xff\xfe<\0r\0"s, "f:1:1: the file is in UTF-16"},
+      {"UTF-16, high byte first", "\xfe\xff\0<\0r"s, "f:1:1: the file is in UTF-16"},
+      {"NUL", "<r>\n \0</r>"s, "f:2:2: NUL byte: this is not text in UTF-8"},
+      {"Latin-1", "<r a='\xe9'/>", "f:1:7: byte \\xE9 is not UTF-8"},
+      {"cut character", "<r/>\n\xe2\x82", "f:2:1: byte \\xE2 is not UTF-8"},
+      {"control character", "<r a='\x1b'/>", "f:1:7: control character \\x1B in the text"},
+  };
+  for (const auto& row : rows) check(row);
+
+  Diagnostics diagnostics;
+  Document::parse("f", "\xff\xfe", diagnostics);
+  CHECK(hints(diagnostics) == std::vector<std::string>{"save it as UTF-8"});
+}
+
+TEST_CASE("text in an element and unknown references leave the document readable") {
+  Diagnostics diagnostics;
+  const auto document = Document::parse(
+      "f", "<r>\n  hello <a b='1 & 2 &x; &amp; &#0; &#x110000; &#99'/>\n<![CDATA[ x]]> &lt;</r>",
+      diagnostics);
+  CHECK(told(diagnostics) == std::vector<std::string>{
+                                 "f:2:3: text is not part of the language",
+                                 "f:2:17: '&' begins no reference that is known",
+                                 "f:2:21: '&' begins no reference that is known",
+                                 "f:2:31: '&' begins no reference that is known",
+                                 "f:2:36: '&' begins no reference that is known",
+                                 "f:2:47: '&' begins no reference that is known",
+                                 "f:3:11: text is not part of the language",
+                                 "f:3:16: text is not part of the language",
+                             });
+  REQUIRE(document);
+  CHECK(document->elements().size() == 2);
+}
+
+TEST_CASE("every attribute that is given twice is told, and the document is refused") {
+  Diagnostics diagnostics;
+  CHECK_FALSE(Document::parse("f", "<r a='1' a='2'>\n<s b='' c='' b='' b=''/></r>", diagnostics));
+  CHECK(told(diagnostics) == std::vector<std::string>{"f:1:10: attribute 'a' is given twice",
+                                                      "f:2:14: attribute 'b' is given twice",
+                                                      "f:2:19: attribute 'b' is given twice"});
+}
+
+TEST_CASE("the depth of elements has a limit that is named") {
+  Diagnostics none;
+  const auto deepest = Document::parse("f", nested(kMaxElementDepth), none);
+  REQUIRE(deepest);
+  CHECK(deepest->elements().size() == kMaxElementDepth);
+
+  Diagnostics diagnostics;
+  CHECK_FALSE(Document::parse("f", nested(100'000), diagnostics));
+  CHECK(told(diagnostics) ==
+        std::vector<std::string>{"f:99:1: elements are nested deeper than 98 levels"});
+  CHECK(hints(diagnostics)[0].find("limit is 100") != std::string::npos);
+}
+
+TEST_CASE("the size of a file has a limit that is named") {
+  Diagnostics diagnostics;
+  CHECK_FALSE(Document::parse("f", std::string(Document::kMaxBytes + 1, ' '), diagnostics));
+  CHECK(told(diagnostics) == std::vector<std::string>{"f: the file is larger than 64 MiB"});
+}
+
+TEST_CASE("a text full of faults is not read to its end") {
+  std::string text = "<r>";
+  for (int i = 0; i < 1000; ++i) text += "x<a/>";
+  Diagnostics diagnostics;
+  CHECK_FALSE(Document::parse("f", text + "</r>", diagnostics));
+  CHECK(diagnostics.count(Severity::Error) == 100);
+}
