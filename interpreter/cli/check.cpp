@@ -18,9 +18,12 @@ struct Options {
 };
 
 nlohmann::ordered_json to_json(const Diagnostic& diagnostic) {
-  return {{"severity", to_string(diagnostic.severity)}, {"file", diagnostic.location.file},
-          {"line", diagnostic.location.line},           {"column", diagnostic.location.column},
-          {"message", diagnostic.message},              {"hint", diagnostic.hint}};
+  return {{"severity", to_string(diagnostic.severity)},
+          {"file", diagnostic.location.file},
+          {"line", diagnostic.location.line},
+          {"column", diagnostic.location.column},
+          {"message", diagnostic.message},
+          {"hint", diagnostic.hint}};
 }
 
 int check(const Options& options) {

@@ -9,7 +9,9 @@
 
 namespace lockstep {
 
-bool is_terminal(std::FILE* file) { return isatty(fileno(file)) == 1; }
+bool is_terminal(std::FILE* file) {
+  return isatty(fileno(file)) == 1;
+}
 
 bool wants_color(std::FILE* file) {
   const char* no_color = std::getenv("NO_COLOR");

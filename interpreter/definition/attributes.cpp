@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
+#include "core/identifier.h"
 #include "core/suggest.h"
 
 namespace lockstep {
@@ -18,18 +18,6 @@ std::string join_hints(std::string first, const std::string& second) {
 
 std::string quoted_list(std::span<const std::string_view> words) {
   return fmt::format("'{}'", fmt::join(words, "', '"));
-}
-
-std::string range_text(const Range& range) {
-  const bool has_min = std::isfinite(range.min);
-  const bool has_max = std::isfinite(range.max);
-  const std::string_view above = range.min_excluded ? "more than" : "at least";
-  if (has_min && has_max && !range.min_excluded) {
-    return fmt::format("from {} to {}", range.min, range.max);
-  }
-  if (has_min && has_max) return fmt::format("{} {}, at most {}", above, range.min, range.max);
-  if (has_min) return fmt::format("{} {}", above, range.min);
-  return fmt::format("at most {}", range.max);
 }
 
 bool in_range(const Range& range, double number) {
@@ -197,7 +185,7 @@ void check_ports(const Reporter& report, const AttributeChecker& checker, Checke
       }
     } else if (!is_identifier(checked.key)) {
       report.at_value(node.element, port.name, fmt::format("'{}' is not a key", checked.key),
-                      "a key is a letter or '_', then letters, digits or '_'");
+                      fmt::format("a key is {}", kIdentifierRule));
       checked.key = {};
     }
     trees.ports.push_back(checked);
@@ -206,14 +194,21 @@ void check_ports(const Reporter& report, const AttributeChecker& checker, Checke
 
 }  // namespace
 
-bool is_common_attribute(std::string_view name) {
-  return name == "name" || name == "_description";
+std::string range_text(const Range& range) {
+  const bool has_min = std::isfinite(range.min);
+  const bool has_max = std::isfinite(range.max);
+  if (!has_min && !has_max) return {};
+  const std::string_view above = range.min_excluded ? "more than" : "at least";
+  if (has_min && has_max && !range.min_excluded) {
+    return fmt::format("from {} to {}", range.min, range.max);
+  }
+  if (has_min && has_max) return fmt::format("{} {}, at most {}", above, range.min, range.max);
+  if (has_min) return fmt::format("{} {}", above, range.min);
+  return fmt::format("at most {}", range.max);
 }
 
-bool is_identifier(std::string_view text) {
-  const auto is_word = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
-  return !text.empty() && !std::isdigit(static_cast<unsigned char>(text[0])) &&
-         std::all_of(text.begin(), text.end(), is_word);
+bool is_common_attribute(std::string_view name) {
+  return name == "name" || name == "_description";
 }
 
 std::string_view key_of(std::string_view text) {
@@ -254,10 +249,10 @@ void check_subtree_attributes(const Document& document, const Reporter& report, 
     } else if (!is_identifier(attribute.name)) {
       report.at_attribute(node.element, attribute.name,
                           fmt::format("'{}' is not a key", attribute.name),
-                          "a key is a letter or '_', then letters, digits or '_'");
+                          fmt::format("a key is {}", kIdentifierRule));
     } else if (const auto key = key_of(attribute.value); !key.empty() && !is_identifier(key)) {
       report.at_value(node.element, attribute.name, fmt::format("'{}' is not a key", key),
-                      "a key is a letter or '_', then letters, digits or '_'");
+                      fmt::format("a key is {}", kIdentifierRule));
     }
   }
   if (node.subtree.empty()) {

@@ -17,10 +17,10 @@ void check_subtree_attributes(const Document& document, const Reporter& report, 
 // Whether an attribute is one that every node may have: name, _description.
 bool is_common_attribute(std::string_view name);
 
-// A letter or '_', then letters, digits, '_': what keys, ports and arguments are called.
-bool is_identifier(std::string_view text);
-
 // "parameters of 'X': a, b, c" for a hint.
 std::string parameters_hint(const NodeType& type);
+
+// "from 0 to 1", "more than 0, at most 1", …; "" when every number is allowed.
+std::string range_text(const Range& range);
 
 }  // namespace lockstep

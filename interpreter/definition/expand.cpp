@@ -65,8 +65,9 @@ class Expander {
     if (root == trees_.roots.end()) return;  // reported already
     const Document& document = *project_.documents[checked.document];
     const Attribute* autoremap = document.find_attribute(checked.element, "_autoremap");
-    Scope scope(outer, std::string(checked.name) + "/",
-                autoremap != nullptr && parse_value(ValueType::Bool, autoremap->value) == Value(true));
+    Scope scope(
+        outer, std::string(checked.name) + "/",
+        autoremap != nullptr && parse_value(ValueType::Bool, autoremap->value) == Value(true));
     for_each_remapping(document, checked.element, [&](const Attribute& attribute) {
       const auto key = key_of(attribute.value);
       key.empty() ? scope.set_text(attribute.name, attribute.value)

@@ -76,7 +76,7 @@ std::optional<Refusal> check_plugin(const lockstep_plugin& plugin) {
 
 std::optional<Refusal> check_id(const char* id) {
   if (id == nullptr) return Refusal{"has no id", "set lockstep_leaf_type::id"};
-  if (!is_identifier(id)) {
+  if (!is_attribute_name(id)) {
     return Refusal{fmt::format("has the id '{}'", id),
                    "an id is a letter, then letters, digits and '_'"};
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/identifier.h"
 #include "plugin/descriptor.h"
 
 namespace lockstep {
@@ -25,7 +26,7 @@ std::string_view text_or_empty(const char* text) {
 std::optional<Refusal> check_name(const lockstep_port& port, std::span<const Parameter> others) {
   if (port.name == nullptr) return Refusal{"has no name", "set lockstep_port::name"};
   const std::string_view name = port.name;
-  if (!is_identifier(name)) {
+  if (!is_attribute_name(name)) {
     return Refusal{fmt::format("is named '{}'", name),
                    "a port's name is a letter, then letters, digits and '_'"};
   }
@@ -71,9 +72,8 @@ std::optional<Refusal> check(const lockstep_port& port, std::span<const Paramete
 
 }  // namespace
 
-bool is_identifier(std::string_view text) {
-  return !text.empty() && is_letter(text.front()) &&
-         std::ranges::all_of(text, [](char c) { return is_letter(c) || is_digit(c) || c == '_'; });
+bool is_attribute_name(std::string_view text) {
+  return is_identifier(text) && text.front() != '_';
 }
 
 bool is_plugin_name(std::string_view name) {

@@ -13,7 +13,7 @@ namespace lockstep {
 inline constexpr std::uint32_t kMaxDescriptorCount = 4096;  // of leaves, and of ports of a leaf
 
 // A letter, then letters, digits, '_': ids of leaves and names of ports.
-bool is_identifier(std::string_view text);
+bool is_attribute_name(std::string_view text);
 
 // `others` are the ports before it. The message says what is wrong with "it".
 std::optional<Refusal> read_port(const lockstep_port* from, std::span<const Parameter> others,

@@ -1,0 +1,43 @@
+// What nodes there are, written down: for a terminal, for a program, for docs/nodes.md. Made from
+// the rows that the checker uses; prints nothing.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "core/node_type.h"
+
+namespace lockstep {
+
+using NodeTypes = std::span<const NodeType* const>;
+
+// Grouped by category, at most 100 columns wide.
+std::string nodes_as_text(NodeTypes types);
+// One node in full.
+std::string node_as_text(const NodeType& type);
+// An array of objects; docs/cli.md names the members.
+std::string nodes_as_json(NodeTypes types);
+std::string nodes_as_markdown(NodeTypes types);
+
+// What is shared by the above: the categories in the order of the pages, with their headings.
+struct NodeGroup {
+  NodeCategory category;
+  std::string_view heading;
+};
+std::span<const NodeGroup> node_groups();
+
+// "no children", "exactly one child", "one or more children".
+std::string_view children_text(const NodeType& type);
+// "number in s, required, from 0 to 1": all but the name and the doc.
+std::string facts_text(const NodeType& type, const Parameter& parameter);
+// A line that shows how it is written in a tree.
+std::string usage_text(const NodeType& type);
+// The attributes that are not parameters of one node, one sentence each.
+struct CommonAttribute {
+  std::string_view name;
+  std::string_view doc;
+};
+std::span<const CommonAttribute> common_attributes();
+std::span<const CommonAttribute> subtree_attributes();
+
+}  // namespace lockstep

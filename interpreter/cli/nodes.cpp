@@ -1,0 +1,66 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/catalog_options.h"
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/exit_code.h"
+#include "cli/node_reference.h"
+#include "core/suggest.h"
+
+namespace lockstep {
+namespace {
+
+struct Options {
+  CatalogOptions catalog;
+  std::string id;
+  std::string format = "text";
+};
+
+std::string as_text(const Options& options, NodeTypes types) {
+  if (options.format == "json") return nodes_as_json(types);
+  if (options.format == "markdown") return nodes_as_markdown(types);
+  return options.id.empty() ? nodes_as_text(types) : node_as_text(*types.front());
+}
+
+int nodes(const Options& options) {
+  PluginSet plugins;
+  Catalog catalog;
+  if (const int code = load_catalog(options.catalog, plugins, catalog); code != kExitSuccess) {
+    return code;
+  }
+  if (options.id.empty()) return write_stdout(as_text(options, catalog.types()));
+  const NodeType* const type = catalog.find(options.id);
+  if (type == nullptr) {
+    std::string hint = did_you_mean(options.id, catalog.ids());
+    if (hint.empty()) hint = "load the plugin that provides it with --with or --plugin";
+    print_error(fmt::format("unknown node '{}'", options.id), hint);
+    return kExitUsage;
+  }
+  return write_stdout(as_text(options, {&type, 1}));
+}
+
+std::function<int()> define(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  app.add_option("id", options->id, "Only this node")->type_name("ID");
+  app.add_option("--format", options->format, "text, json: an array of objects, or markdown")
+      ->check(CLI::IsMember({"text", "json", "markdown"}))
+      ->capture_default_str();
+  add_catalog_options(app, options->catalog);
+  return [options] { return nodes(*options); };
+}
+
+}  // namespace
+
+const Command kNodesCommand{"nodes",
+                            "List the nodes that trees are made of, with their parameters or ports",
+                            "Exit code: 0 listed, 2 unknown node or usage, 4 plugin refused.\n"
+                            "\n"
+                            "Examples:\n"
+                            "  lockstep nodes\n"
+                            "  lockstep nodes ParallelAbsolute\n"
+                            "  lockstep nodes --with motion --format json",
+                            define};
+
+}  // namespace lockstep
