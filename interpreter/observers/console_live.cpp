@@ -1,0 +1,146 @@
+#include "observers/console_live.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/diagnostics.h"
+#include "engine/synchronized.h"
+#include "measure/synchronized_measure.h"
+#include "observers/quiet_thread.h"
+#include "observers/terminal.h"
+
+namespace lockstep {
+namespace {
+
+constexpr std::string_view kHideCursor = "\x1b[?25l";
+constexpr std::string_view kShowCursor = "\x1b[?25h";
+constexpr std::string_view kClearRestOfLine = "\x1b[K";
+constexpr std::string_view kClearBelow = "\x1b[J";
+
+std::string with_cleared_line_ends(std::string_view text) {
+  std::string cleared;
+  for (const char character : text) {
+    if (character == '\n') cleared += kClearRestOfLine;
+    cleared += character;
+  }
+  return cleared;
+}
+
+}  // namespace
+
+ConsoleLive::ConsoleLive(const Tree& tree, const LiveOptions& options)
+    : tree_(tree),
+      options_(options),
+      synchronized_nodes_(synchronized_nodes(tree)),
+      activity_(tree.nodes.size()),
+      snapshots_(Snapshot{.header = {}, .nodes = std::vector<NodeView>(tree.nodes.size())}) {}
+
+ConsoleLive::~ConsoleLive() {
+  stop();
+}
+
+void ConsoleLive::run_started(Ticker&, const RunStart& start) {
+  header_.rate_hz = 1.0 / to_seconds(start.period);
+  header_.real_time = start.real_time;
+  thread_ = quiet_thread([this] { draw_until_stopped(); });
+}
+
+void ConsoleLive::after_tick(Ticker& ticker, const TickReport& report) {
+  header_.tick = report.tick;
+  header_.time = report.time;
+  header_.skipped += report.skipped;
+  header_.result = report.status;
+  activity_ = ticker.run_state().activity;
+  const auto now = std::chrono::steady_clock::now();
+  if (now - published_ < kFrame) return;
+  published_ = now;
+  publish(ticker);
+}
+
+// By now everything has been halted; what stays on the screen is where the last tick left it.
+void ConsoleLive::run_ended(Ticker& ticker, const RunEnd&) {
+  header_.ended = true;
+  publish(ticker);
+  stop();
+}
+
+void ConsoleLive::publish(Ticker& ticker) {
+  Snapshot& back = snapshots_.back();
+  back.header = header_;
+  for (NodeIndex node = 0; node < back.nodes.size(); ++node) {
+    back.nodes[node] = {.activity = activity_[node]};
+  }
+  for (const NodeIndex node : synchronized_nodes_) take_progress(ticker, node, back.nodes);
+  snapshots_.publish();
+}
+
+void ConsoleLive::take_progress(Ticker& ticker, NodeIndex node, std::vector<NodeView>& views) {
+  NodeIndex child = node + 1;
+  for (const double used : child_progress(ticker, node)) {
+    const Activity activity = views[child].activity;
+    if (activity != Activity::Idle) {
+      views[child].progress = activity == Activity::Success ? 1.0 : used;
+    }
+    child = ticker.end_of(child);
+  }
+}
+
+void ConsoleLive::print(std::string line) {
+  const std::lock_guard lock(mutex_);
+  printed_.push_back(std::move(line));
+}
+
+void ConsoleLive::stop() {
+  if (!thread_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  wake_.notify_one();
+  thread_.join();
+}
+
+void ConsoleLive::draw_until_stopped() {
+  std::fwrite(kHideCursor.data(), 1, kHideCursor.size(), options_.out);
+  bool stopped = false;
+  while (!stopped) {
+    draw_frame();
+    std::unique_lock lock(mutex_);
+    stopped = wake_.wait_for(lock, kFrame, [this] { return stopping_; });
+  }
+  draw_frame();
+  std::fwrite(kShowCursor.data(), 1, kShowCursor.size(), options_.out);
+  std::fflush(options_.out);
+}
+
+void ConsoleLive::draw_frame() {
+  std::vector<std::string> printed;
+  {
+    const std::lock_guard lock(mutex_);
+    printed.swap(printed_);
+  }
+  if (!snapshots_.take() && printed.empty()) return;
+  const TerminalSize size = terminal_size(options_.out);
+  const std::string frame = draw(tree_, snapshots_.front(),
+                                 {.width = size.width,
+                                  .height = size.height,
+                                  .color = options_.color,
+                                  .unicode = options_.unicode});
+  std::string text = lines_on_screen_ == 0 ? "" : fmt::format("\r\x1b[{}A", lines_on_screen_);
+  for (const std::string& line : printed)
+    text += printable(line) + std::string(kClearRestOfLine) + "\n";
+  text.append(with_cleared_line_ends(frame)).append(kClearBelow);
+  std::fwrite(text.data(), 1, text.size(), options_.out);
+  std::fflush(options_.out);
+  lines_on_screen_ = static_cast<std::size_t>(std::count(frame.begin(), frame.end(), '\n'));
+}
+
+void restore_cursor(int terminal) {
+  // In a signal handler there is nobody to tell that it failed.
+  [[maybe_unused]] const auto written = ::write(terminal, kShowCursor.data(), kShowCursor.size());
+}
+
+}  // namespace lockstep

@@ -1,0 +1,72 @@
+// The live view of a run on a terminal. A thread of its own draws, ten times a second at most; the
+// tick thread only copies the state of the nodes, as often, into a buffer that nobody locks.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdio>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "observers/tree_view.h"
+#include "observers/triple_buffer.h"
+#include "runtime/observer.h"
+
+namespace lockstep {
+
+struct LiveOptions {
+  std::FILE* out = stderr;
+  bool color = true;
+  bool unicode = true;
+};
+
+class ConsoleLive final : public Observer {
+ public:
+  static constexpr std::chrono::milliseconds kFrame{100};
+
+  ConsoleLive(const Tree& tree, const LiveOptions& options);
+  // Leaves the last frame on the screen and the cursor visible below it.
+  ~ConsoleLive() override;
+  ConsoleLive(const ConsoleLive&) = delete;
+  ConsoleLive& operator=(const ConsoleLive&) = delete;
+
+  void run_started(Ticker& ticker, const RunStart& start) override;
+  void after_tick(Ticker& ticker, const TickReport& report) override;
+  void run_ended(Ticker& ticker, const RunEnd& end) override;
+
+  // A line that scrolls by above the view. From any thread; shown with the next frame.
+  void print(std::string line);
+
+ private:
+  void publish(Ticker& ticker);
+  void take_progress(Ticker& ticker, NodeIndex node, std::vector<NodeView>& views);
+  void stop();
+  void draw_until_stopped();
+  void draw_frame();
+
+  const Tree& tree_;
+  LiveOptions options_;
+  std::vector<NodeIndex> synchronized_nodes_;
+
+  // The tick thread's.
+  Snapshot::Header header_;
+  std::vector<Activity> activity_;  // after the last tick
+  std::chrono::steady_clock::time_point published_{};
+  TripleBuffer<Snapshot> snapshots_;
+
+  // The drawing thread's.
+  std::size_t lines_on_screen_ = 0;
+
+  std::mutex mutex_;  // for what follows
+  std::condition_variable wake_;
+  std::vector<std::string> printed_;
+  bool stopping_ = false;
+  std::thread thread_;
+};
+
+// Makes the cursor visible again. May be called in a signal handler.
+void restore_cursor(int terminal);
+
+}  // namespace lockstep

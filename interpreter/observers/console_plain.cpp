@@ -1,0 +1,103 @@
+#include "observers/console_plain.h"
+
+#include <fmt/format.h>
+
+#include "core/diagnostics.h"
+#include "observers/statistics.h"
+#include "observers/summary.h"
+#include "observers/waiting.h"
+
+namespace lockstep {
+
+ConsolePlain::ConsolePlain(const Tree& tree, std::FILE* out, RealTime real_time)
+    : tree_(tree), out_(out), real_time_(real_time) {
+  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
+    if (tree.nodes[node].children == 0) leaves_.push_back(node);
+  }
+  last_.resize(leaves_.size());
+  for (const NodeIndex node : synchronized_nodes(tree)) {
+    const std::size_t children = tree.nodes[node].children;
+    nodes_.push_back({SynchronizedProbe(tree, node), std::vector<bool>(children),
+                      std::vector<Nanoseconds>(children)});
+  }
+}
+
+void ConsolePlain::run_started(Ticker&, const RunStart& start) {
+  print(fmt::format("run of {} starts, {:.6g} Hz{}", tree_.id, 1.0 / to_seconds(start.period),
+                    start.real_time ? "" : ", virtual clock"));
+}
+
+void ConsolePlain::before_tick(Ticker&, std::uint64_t tick, Nanoseconds time) {
+  tick_ = tick;
+  time_ = time;
+}
+
+void ConsolePlain::after_tick(Ticker& ticker, const TickReport&) {
+  for (Watched& node : nodes_) tell_held(ticker, node);
+  for (std::size_t i = 0; i < leaves_.size(); ++i) {
+    const Status now = ticker.status(leaves_[i]);
+    if (now != last_[i]) tell_leaf(leaves_[i], last_[i], now);
+    last_[i] = now;
+  }
+}
+
+void ConsolePlain::run_ended(Ticker& ticker, const RunEnd& end) {
+  after_tick(ticker, {});
+  tell_left_out();
+  if (ticker.fault() != nullptr) print("fault: " + fault_text(ticker));
+  print(fmt::format("run ends: {} ({}) after {} ticks", result_text(end.status),
+                    to_string(end.reason), end.ticks));
+}
+
+void ConsolePlain::print(std::string_view text) {
+  fmt::print(out_, "{:10.3f} s  tick {:<6}  {}\n", to_seconds(time_), tick_, printable(text));
+  std::fflush(out_);
+}
+
+bool ConsolePlain::may_print() {
+  if (!budget_.take(real_time_())) return false;
+  tell_left_out();
+  return true;
+}
+
+void ConsolePlain::tell_left_out() {
+  const std::uint64_t left_out = budget_.take_left_out();
+  if (left_out > 0) print(fmt::format("... {} lines left out", left_out));
+}
+
+void ConsolePlain::tell_leaf(NodeIndex leaf, Status before, Status now) {
+  const bool halted = now == Status::Idle && before == Status::Running;
+  // A completed leaf that becomes idle has been told already.
+  if (now == Status::Idle && !halted) return;
+  if (!may_print()) return;
+  const std::string_view what = halted                   ? "halted"
+                                : now == Status::Running ? "started"
+                                                         : to_string(now);
+  print(fmt::format("{}: {}", tree_.path(leaf), what));
+}
+
+void ConsolePlain::tell_held(Ticker& ticker, Watched& node) {
+  const SynchronizedTick tick = node.probe.read(ticker, time_);
+  if (!tick.ticked) return;
+  for (std::size_t child = 0; child < node.held.size(); ++child) {
+    const bool held = tick.held[child];
+    if (held == node.held[child]) continue;
+    node.held[child] = held;
+    if (held) {
+      node.since[child] = time_;
+      if (!may_print()) continue;
+      print(fmt::format("{}: {}", tree_.path(node.probe.children()[child]),
+                        waiting_text(tree_, node.probe.node(), tick.progress, child)));
+    } else if (ticker.ticked(node.probe.children()[child])) {
+      tell_goes_on(node, child);
+    }
+  }
+}
+
+void ConsolePlain::tell_goes_on(const Watched& node, std::size_t child) {
+  if (!may_print()) return;
+  print(fmt::format("{}: goes on after {:.3f} s", tree_.path(node.probe.children()[child]),
+                    to_seconds(time_ - node.since[child])));
+}
+
+}  // namespace lockstep

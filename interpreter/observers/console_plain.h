@@ -1,0 +1,55 @@
+// Tells a run as plain lines, for logs and for whatever is not a terminal: who starts, completes,
+// is halted, who waits for whom. Prints at most 200 lines at once and one a second after that.
+#pragma once
+
+#include <cstdio>
+#include <string_view>
+#include <vector>
+
+#include "measure/synchronized_measure.h"
+#include "observers/line_budget.h"
+#include "runtime/observer.h"
+
+namespace lockstep {
+
+class ConsolePlain final : public Observer {
+ public:
+  static constexpr std::int64_t kBurst = 200;
+  using RealTime = LineBudget::Time (*)();
+
+  // `real_time` is for tests.
+  explicit ConsolePlain(const Tree& tree, std::FILE* out = stderr,
+                        RealTime real_time = std::chrono::steady_clock::now);
+
+  void run_started(Ticker& ticker, const RunStart& start) override;
+  void before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) override;
+  void after_tick(Ticker& ticker, const TickReport& report) override;
+  void run_ended(Ticker& ticker, const RunEnd& end) override;
+
+  // A line that must not be left out, such as a standstill. Tick thread only.
+  void print(std::string_view text);
+
+ private:
+  struct Watched {
+    SynchronizedProbe probe;
+    std::vector<bool> held;
+    std::vector<Nanoseconds> since;
+  };
+  bool may_print();
+  void tell_left_out();
+  void tell_leaf(NodeIndex leaf, Status before, Status now);
+  void tell_held(Ticker& ticker, Watched& node);
+  void tell_goes_on(const Watched& node, std::size_t child);
+
+  const Tree& tree_;
+  std::FILE* out_;
+  RealTime real_time_;
+  LineBudget budget_{kBurst};
+  std::vector<NodeIndex> leaves_;
+  std::vector<Status> last_;  // of each leaf
+  std::vector<Watched> nodes_;
+  std::uint64_t tick_ = 0;
+  Nanoseconds time_{0};
+};
+
+}  // namespace lockstep

@@ -1,0 +1,21 @@
+// A thread that takes no signals: they are for the tick thread, whose sleep they must end.
+#pragma once
+
+#include <signal.h>
+
+#include <thread>
+#include <utility>
+
+namespace lockstep {
+
+template <class Function>
+std::thread quiet_thread(Function function) {
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  std::thread thread(std::move(function));
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  return thread;
+}
+
+}  // namespace lockstep

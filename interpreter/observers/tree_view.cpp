@@ -1,0 +1,170 @@
+#include "observers/tree_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "engine/synchronized.h"
+#include "measure/synchronized_measure.h"
+#include "observers/progress_bar.h"
+#include "observers/summary.h"
+#include "observers/text_line.h"
+#include "observers/waiting.h"
+
+namespace lockstep {
+namespace {
+
+struct Look {
+  std::string_view ascii, unicode;
+  Style style;
+};
+
+Look look_of(Activity activity) {
+  switch (activity) {
+    case Activity::Idle:
+      return {"-", "·", Style::Dim};
+    case Activity::Running:
+      return {">", "▶", Style::Active};
+    case Activity::Success:
+      return {"+", "✓", Style::Good};
+    case Activity::Failure:
+      return {"x", "✗", Style::Bad};
+    case Activity::Paused:
+      return {"=", "‖", Style::Warning};
+  }
+  return {};
+}
+
+class View {
+ public:
+  View(const Tree& tree, const Snapshot& snapshot, const DrawOptions& options)
+      : tree_(tree), snapshot_(snapshot), options_(options) {}
+
+  std::string draw() const {
+    std::string text = header();
+    const std::size_t rows = options_.height > 3 ? options_.height - 2 : 1;
+    const auto shown = choose(rows);
+    for (const NodeIndex node : shown) text += row(node);
+    const std::size_t left_out = tree_.nodes.size() - shown.size();
+    if (left_out == 0) return text;
+    TextLine line = new_line();
+    line.add(fmt::format("... {} nodes left out", left_out), Style::Dim);
+    return text + line.text() + "\n";
+  }
+
+ private:
+  TextLine new_line() const { return {options_.width, options_.color, options_.unicode}; }
+  NodeIndex parent(NodeIndex node) const { return tree_.labels[node].parent; }
+  bool is_synchronized(NodeIndex node) const {
+    return synchronization(tree_.nodes[node]) != Synchronization::None;
+  }
+  bool has_bar(NodeIndex node) const { return node != 0 && is_synchronized(parent(node)); }
+  std::size_t depth(NodeIndex node) const {
+    std::size_t depth = 0;
+    for (; node != parent(node); node = parent(node)) ++depth;
+    return depth;
+  }
+
+  std::string header() const {
+    const Snapshot::Header& is = snapshot_.header;
+    TextLine line = new_line();
+    line.add(tree_.id, Style::Strong);
+    line.add(fmt::format("  {:.6g} Hz{}  tick {}  {:.3f} s", is.rate_hz,
+                         is.real_time ? "" : " (virtual)", is.tick, to_seconds(is.time)));
+    if (is.real_time) {
+      const Style style = is.skipped == 0 ? Style::Plain : Style::Warning;
+      line.add(fmt::format("  skipped {}", is.skipped), style);
+    }
+    if (is.ended) {
+      const bool complete = is_complete(is.result);
+      line.add("  ");
+      line.add(result_text(is.result),
+               complete ? look_of(static_cast<Activity>(is.result)).style : Style::Warning);
+    }
+    return line.text() + "\n";
+  }
+
+  // What must be seen first, when not all can be.
+  int rank(NodeIndex node) const {
+    if (node == 0 || is_synchronized(node) || has_bar(node)) return 0;
+    const bool running = status_of(snapshot_.nodes[node].activity) == Status::Running;
+    if (!running) return 3;
+    return tree_.nodes[node].children == 0 ? 1 : 2;
+  }
+
+  // In the order of the tree; one row is kept for the note when nodes are left out.
+  std::vector<NodeIndex> choose(std::size_t rows) const {
+    std::vector<NodeIndex> nodes(tree_.nodes.size());
+    std::iota(nodes.begin(), nodes.end(), NodeIndex{0});
+    if (nodes.size() <= rows) return nodes;
+    std::stable_sort(nodes.begin(), nodes.end(),
+                     [this](NodeIndex a, NodeIndex b) { return rank(a) < rank(b); });
+    nodes.resize(rows - 1);
+    std::sort(nodes.begin(), nodes.end());
+    return nodes;
+  }
+
+  std::string row(NodeIndex node) const {
+    const Look look = look_of(snapshot_.nodes[node].activity);
+    const NodeLabel& label = tree_.labels[node];
+    TextLine line = new_line();
+    line.fill_to(2 * depth(node));
+    line.add(options_.unicode ? look.unicode : look.ascii, look.style);
+    line.add(" ");
+    line.add(label.segment, is_synchronized(node) ? Style::Strong : Style::Plain);
+    if (has_bar(node)) add_bar(line, node, look.style);
+    if (!has_bar(node) && label.segment != label.type->id) {
+      line.add(fmt::format(" ({})", label.type->id), Style::Dim);
+    }
+    return line.text() + "\n";
+  }
+
+  void add_bar(TextLine& line, NodeIndex node, Style style) const {
+    const NodeIndex self = parent(node);
+    const auto children = children_of(tree_, self);
+    std::vector<double> progress;
+    std::size_t name = 0, place = 0;
+    for (std::size_t child = 0; child < children.size(); ++child) {
+      progress.push_back(snapshot_.nodes[children[child]].progress);
+      name = std::max(name, columns(tree_.labels[children[child]].segment));
+      if (children[child] == node) place = child;
+    }
+    line.fill_to(2 * depth(node) + 3 + std::min<std::size_t>(name, 24));
+    line.add(bar(self, progress, place), style);
+    line.add(fmt::format(" {:.2f}", progress[place]));
+    // Under a parent that is held itself, the parent says what is waited for.
+    if (snapshot_.nodes[node].activity != Activity::Paused ||
+        snapshot_.nodes[self].activity == Activity::Paused) {
+      return;
+    }
+    line.add("  ");
+    line.add(waiting_text(tree_, self, progress, place), Style::Warning);
+  }
+
+  std::string bar(NodeIndex self, const std::vector<double>& progress, std::size_t place) const {
+    ProgressBar bar{.progress = progress[place],
+                    .marks = barriers(tree_, self),
+                    .cells = std::clamp<std::size_t>(options_.width / 4, 8, 40)};
+    double limit = 1;
+    if (synchronization(tree_.nodes[self]) == Synchronization::Relative) {
+      bar.band_begin = *std::min_element(progress.begin(), progress.end());
+      bar.band_end = std::min(1.0, bar.band_begin + delta(tree_, self));
+      limit = bar.band_end;
+      bar.marks = {&limit, 1};
+    }
+    return to_text(bar, options_.unicode);
+  }
+
+  const Tree& tree_;
+  const Snapshot& snapshot_;
+  const DrawOptions& options_;
+};
+
+}  // namespace
+
+std::string draw(const Tree& tree, const Snapshot& snapshot, const DrawOptions& options) {
+  return View(tree, snapshot, options).draw();
+}
+
+}  // namespace lockstep

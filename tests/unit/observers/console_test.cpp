@@ -1,0 +1,125 @@
+// The plain lines, and the thread of the live view.
+#include <catch2/catch.hpp>
+
+#include "observers/console_live.h"
+#include "observers/console_plain.h"
+#include "observers/stall_observer.h"
+#include "observers/waiting.h"
+#include "unit/observers/watched_run.h"
+
+namespace lockstep {
+namespace {
+
+using test::TextFile;
+using test::WatchedRun;
+
+LineBudget::Time frozen() {
+  return LineBudget::Time(std::chrono::hours(1));
+}
+
+std::string plain(std::string_view tree, std::string_view leaves, std::uint64_t max_ticks = 1000) {
+  TextFile out;
+  WatchedRun run(tree, leaves);
+  ConsolePlain console(run.run.tree(), out.get(), frozen);
+  run.watch({&console}, max_ticks);
+  return out.text();
+}
+
+TEST_CASE("plain lines tell who waits for whom") {
+  CHECK(plain("ParallelAbsolute[barriers=.5;1](a b)", "a+.25 b+.5") ==
+        "     0.000 s  tick 0       run of Test starts, 10 Hz, virtual clock\n"
+        "     0.000 s  tick 0       Test/ParallelAbsolute/a: started\n"
+        "     0.000 s  tick 0       Test/ParallelAbsolute/b: started\n"
+        "     0.100 s  tick 1       Test/ParallelAbsolute/b: waits for a at barrier 0.5\n"
+        "     0.200 s  tick 2       Test/ParallelAbsolute/b: goes on after 0.100 s\n"
+        "     0.200 s  tick 2       Test/ParallelAbsolute/b: success\n"
+        "     0.300 s  tick 3       Test/ParallelAbsolute/a: success\n"
+        "     0.300 s  tick 3       run ends: success (completed) after 4 ticks\n");
+}
+
+TEST_CASE("plain lines tell how far ahead a child is") {
+  CHECK(plain("ParallelRelative[delta=.2](a b c)", "a+.1 b+.3 c+.1")
+            .find("b: waits for a and c, 0.40 ahead (delta 0.2)\n") != std::string::npos);
+}
+
+TEST_CASE("plain lines tell who is halted and what failed") {
+  CHECK(
+      plain("Parallel(a b)", "a=R b=RF").find("0.100 s  tick 1       Test/Parallel/a: halted\n") !=
+      std::string::npos);
+  const std::string fault = plain("Sequence(a)", "a=RX");
+  CHECK(fault.find("Test/Sequence/a: halted\n") != std::string::npos);
+  CHECK(fault.find("fault: Test/Sequence/a: ") != std::string::npos);
+  CHECK(fault.find("run ends: stopped (fault) after 2 ticks\n") != std::string::npos);
+}
+
+TEST_CASE("a leaf that completes the same way in each tick is told once") {
+  const std::string text = plain("Sequence(a? b)", "a=S b=R", 50);
+  CHECK(text.find("a: success") == text.rfind("a: success"));
+}
+
+TEST_CASE("plain lines of a long run are bounded") {
+  const std::string text = plain("Repeat(a)", "a=RS...", 100'000);
+  CHECK(std::count(text.begin(), text.end(), '\n') == ConsolePlain::kBurst + 3);
+  CHECK(text.find("... 99800 lines left out\n") != std::string::npos);
+}
+
+TEST_CASE("after the burst there is a line for each second") {
+  const auto at = [](int milliseconds) {
+    return LineBudget::Time(std::chrono::hours(1) + std::chrono::milliseconds(milliseconds));
+  };
+  LineBudget budget(2);
+  CHECK(budget.take(at(0)));
+  CHECK(budget.take(at(0)));
+  CHECK_FALSE(budget.take(at(1)));
+  CHECK_FALSE(budget.take(at(999)));
+  CHECK(budget.take(at(1000)));
+  CHECK(budget.take_left_out() == 2);
+  CHECK_FALSE(budget.take(at(1001)));
+  CHECK(budget.take(at(60'000)));
+  CHECK(budget.take(at(60'000)));
+  CHECK_FALSE(budget.take(at(60'000)));
+}
+
+TEST_CASE("a standstill in words") {
+  WatchedRun run("ParallelAbsolute[barriers=.5](a b)", "a=R.25 b=R.75");
+  std::string told;
+  StallObserver stall(run.run.tree(), std::chrono::milliseconds(250), [&](const Standstill& found) {
+    told += standstill_text(run.run.tree(), found) + "\n";
+  });
+  run.watch({&stall}, 10);
+  CHECK(
+      told ==
+      "Test/ParallelAbsolute/a stands still at 0.25 since 0.100 s and holds the other children of "
+      "'ParallelAbsolute' back\n");
+}
+
+TEST_CASE("the live view leaves the last state and the cursor on the screen") {
+  TextFile out;
+  WatchedRun run("ParallelAbsolute[barriers=.5;1](a b)", "a+.25 b+.5");
+  ConsoleLive live(run.run.tree(), {.out = out.get(), .color = false, .unicode = false});
+  live.print("a line of a leaf");
+  run.watch({&live});
+  const std::string text = out.text();
+  CHECK(text.starts_with("\x1b[?25l"));
+  CHECK(text.find("a line of a leaf\x1b[K\n") != std::string::npos);
+  const std::string last =
+      "Test  10 Hz (virtual)  tick 3  0.300 s  success\x1b[K\n"
+      "+ ParallelAbsolute\x1b[K\n"
+      "  + a [##########|#########] 1.00\x1b[K\n"
+      "  + b [##########|#########] 1.00\x1b[K\n"
+      "\x1b[J\x1b[?25h";
+  CHECK(text.substr(text.size() - std::min(text.size(), last.size())) == last);
+}
+
+TEST_CASE("a live view that is given up restores the cursor") {
+  TextFile out;
+  WatchedRun run("Sequence(a)", "a=R");
+  {
+    ConsoleLive live(run.run.tree(), {.out = out.get()});
+    live.run_started(run.run.ticker(), run.start);
+  }
+  CHECK(out.text().ends_with("\x1b[?25h"));
+}
+
+}  // namespace
+}  // namespace lockstep

@@ -1,0 +1,125 @@
+#include "observers/tree_view.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <sstream>
+
+#include "observers/text_line.h"
+#include "support/tree_text.h"
+
+namespace lockstep {
+namespace {
+
+using test::tree_from_text;
+
+Snapshot snapshot(std::vector<NodeView> nodes) {
+  return {.header = {.rate_hz = 10, .tick = 4, .time = std::chrono::milliseconds(400)},
+          .nodes = std::move(nodes)};
+}
+
+constexpr DrawOptions kPlain{.width = 72, .height = 24};
+
+TEST_CASE("an absolute node: its barriers are marks in the bars") {
+  const Tree tree = tree_from_text("ParallelAbsolute[barriers=.5;1](arm base)");
+  const Snapshot now =
+      snapshot({{Activity::Running}, {Activity::Paused, 0.6}, {Activity::Running, 0.4}});
+  CHECK(draw(tree, now, kPlain) ==
+        "Test  10 Hz  tick 4  0.400 s  skipped 0\n"
+        "> ParallelAbsolute\n"
+        "  = arm  [#########|........] 0.60  waits for base at barrier 0.5\n"
+        "  > base [#######..|........] 0.40\n");
+}
+
+TEST_CASE("a relative node: the band in which its children may move") {
+  const Tree tree = tree_from_text("ParallelRelative[delta=.25](arm base)");
+  const Snapshot now =
+      snapshot({{Activity::Running}, {Activity::Running, 0.5}, {Activity::Paused, 0.8}});
+  CHECK(draw(tree, now, {.width = 80, .height = 24}) ==
+        "Test  10 Hz  tick 4  0.400 s  skipped 0\n"
+        "> ParallelRelative\n"
+        "  > arm  [##########=====|....] 0.50\n"
+        "  = base [###############|....] 0.80  waits for arm, 0.30 ahead (delta 0.25)\n");
+}
+
+TEST_CASE("a view with signs that need Unicode") {
+  const Tree tree = tree_from_text("ParallelAbsolute[barriers=.5](a b)");
+  const Snapshot now =
+      snapshot({{Activity::Running}, {Activity::Success, 1}, {Activity::Failure, 0.25}});
+  CHECK(draw(tree, now, {.width = 32, .height = 24, .unicode = true}) ==
+        "Test  10 Hz  tick 4  0.400 s  sk\n"
+        "▶ ParallelAbsolute\n"
+        "  ✓ a [████┃███] 1.00\n"
+        "  ✗ b [██░░┃░░░] 0.25\n");
+}
+
+TEST_CASE("colors come in pairs and do not count as columns") {
+  const Tree tree = tree_from_text("Sequence(a)");
+  const Snapshot now = snapshot({{Activity::Running}, {Activity::Success}});
+  const std::string text = draw(tree, now, {.width = 12, .height = 24, .color = true});
+  CHECK(text ==
+        "\x1b[1mTest\x1b[0m  10 Hz \n"
+        "\x1b[36m>\x1b[0m Sequence\n"
+        "  \x1b[32m+\x1b[0m a\x1b[2m (Scrip\x1b[0m\n");
+}
+
+TEST_CASE("how the run ended stands in the first line") {
+  const Tree tree = tree_from_text("Sequence(a)");
+  Snapshot now = snapshot({{Activity::Success}, {Activity::Success}});
+  now.header.ended = true;
+  now.header.real_time = false;
+  now.header.result = Status::Success;
+  CHECK(draw(tree, now, kPlain).starts_with("Test  10 Hz (virtual)  tick 4  0.400 s  success\n"));
+  now.header.result = Status::Running;
+  CHECK(draw(tree, now, kPlain).starts_with("Test  10 Hz (virtual)  tick 4  0.400 s  stopped\n"));
+}
+
+TEST_CASE("what does not fit: synchronized and running nodes stay") {
+  const Tree tree = tree_from_text("Sequence(a b c d ParallelRelative[delta=1](e f) g h)");
+  std::vector<NodeView> nodes(tree.nodes.size());
+  for (const std::size_t running : {0, 5, 6, 7, 9}) nodes[running].activity = Activity::Running;
+  const std::string text = draw(tree, snapshot(nodes), {.width = 40, .height = 9});
+  CHECK(text ==
+        "Test  10 Hz  tick 4  0.400 s  skipped 0\n"
+        "> Sequence\n"
+        "  - a (Scripted)\n"
+        "  > ParallelRelative\n"
+        "    > e [==========] 0.00\n"
+        "    > f [==========] 0.00\n"
+        "  > h (Scripted)\n"
+        "... 4 nodes left out\n");
+}
+
+TEST_CASE("a view never has more lines or columns than the terminal") {
+  const Tree tree = tree_from_text(
+      "Sequence(a b ParallelRelative[delta=.1](e ParallelAbsolute[barriers=.5](x y z)) g)");
+  const Snapshot now = snapshot(std::vector<NodeView>(tree.nodes.size(), {Activity::Paused, 0.7}));
+  for (unsigned height = 3; height < 16; ++height) {
+    for (unsigned width = 1; width < 100; width += 7) {
+      std::istringstream text(draw(tree, now, {.width = width, .height = height, .unicode = true}));
+      unsigned lines = 0;
+      for (std::string line; std::getline(text, line); ++lines) CHECK(columns(line) <= width);
+      CHECK(lines <= height - 1);
+    }
+  }
+}
+
+TEST_CASE("names cannot send control sequences to the terminal") {
+  Tree tree = tree_from_text("Sequence(a)");
+  tree.labels[1].segment = "a\x1b[2J";
+  const std::string text = draw(tree, snapshot({{}, {}}), kPlain);
+  CHECK(text.find('\x1b') == std::string::npos);
+  CHECK(text.find("a\\x1B[2J") != std::string::npos);
+}
+
+TEST_CASE("wide and foreign characters") {
+  TextLine line(6, false, true);
+  line.add("抓取抓取");
+  CHECK(line.text() == "抓取抓");
+  CHECK(line.column() == 6);
+  TextLine ascii(6, false, false);
+  ascii.add("Tür");
+  CHECK(ascii.text() == "T?r");
+}
+
+}  // namespace
+}  // namespace lockstep
