@@ -1,0 +1,69 @@
+#include <langinfo.h>
+
+#include <CLI/CLI.hpp>
+#include <clocale>
+#include <cstring>
+
+#include "cli/catalog_options.h"
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/exit_code.h"
+#include "cli/tree_drawing.h"
+
+namespace lockstep {
+namespace {
+
+struct Options {
+  LoadOptions load;
+  std::string tree;
+  std::string format = "text";
+};
+
+// Only looked at: a program that sets its locale reads and writes numbers in it.
+bool locale_is_utf8() {
+  const locale_t locale = newlocale(LC_CTYPE_MASK, "", nullptr);
+  if (locale == nullptr) return false;
+  const bool is_utf8 = std::strcmp(nl_langinfo_l(CODESET, locale), "UTF-8") == 0;
+  freelocale(locale);
+  return is_utf8;
+}
+
+std::string draw(const Drawn& drawn, const std::string& format) {
+  if (format == "dot") return tree_as_dot(drawn);
+  if (format == "mermaid") return tree_as_mermaid(drawn);
+  return tree_as_text(drawn, !locale_is_utf8());
+}
+
+int show(const Options& options) {
+  Loaded loaded;
+  Diagnostics diagnostics;
+  const int code = load(options.tree, options.load, loaded, diagnostics);
+  print_diagnostics(diagnostics, Severity::Error, stderr);
+  if (!loaded.definition) return code;
+  return write_stdout(draw({*loaded.project, *loaded.definition}, options.format));
+}
+
+std::function<int()> define(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  app.add_option("tree", options->tree, "Tree file")->type_name("TREE.xml")->required();
+  app.add_option("--format", options->format, "text, dot: for Graphviz, or mermaid")
+      ->check(CLI::IsMember({"text", "dot", "mermaid"}))
+      ->capture_default_str();
+  add_load_options(app, options->load);
+  return [options] { return show(*options); };
+}
+
+}  // namespace
+
+const Command kShowCommand{
+    "show", "Draw a tree as it will run: subtrees in place, arguments substituted",
+    "The text is drawn with ASCII when the locale is not UTF-8.\n"
+    "Exit code: 0 drawn, 3 invalid tree, 4 plugin refused, 2 usage.\n"
+    "\n"
+    "Examples:\n"
+    "  lockstep show trees/door_pulling.xml\n"
+    "  lockstep show trees/door_pulling.xml --arg barriers=0.5\n"
+    "  lockstep show --format dot trees/door_pulling.xml | dot -Tsvg > door_pulling.svg",
+    define};
+
+}  // namespace lockstep

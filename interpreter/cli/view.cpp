@@ -1,0 +1,53 @@
+#include "cli/view.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "core/diagnostics.h"
+#include "observers/terminal.h"
+
+namespace lockstep {
+namespace {
+
+bool g_is_live = false;  // written before a signal handler can read it
+
+std::string_view to_string(lockstep_log_level level) {
+  if (level == LOCKSTEP_LOG_WARNING) return "warning";
+  return level == LOCKSTEP_LOG_DEBUG ? "debug" : "info";
+}
+
+}  // namespace
+
+View::View(const std::string& mode, const Tree& tree) {
+  if (mode == "live" || (mode == "auto" && is_terminal(stderr))) {
+    g_is_live = is_terminal(stderr);
+    live_.emplace(tree, LiveOptions{.color = wants_color(stderr), .unicode = has_unicode()});
+  } else if (mode != "none") {
+    plain_.emplace(tree);
+  }
+}
+
+Observer* View::observer() {
+  if (live_) return &*live_;
+  return plain_ ? &*plain_ : nullptr;
+}
+
+void View::print(const std::string& line) {
+  if (live_) {
+    live_->print(line);
+  } else {
+    fmt::print(stderr, "{}\n", line);
+  }
+}
+
+LeafLog View::leaf_log() {
+  return [this](std::string_view who, lockstep_log_level level, std::string_view message) {
+    print(fmt::format("{}: {}: {}", printable(who), to_string(level), printable(message)));
+  };
+}
+
+void View::last_words() {
+  if (g_is_live) restore_cursor(STDERR_FILENO);
+}
+
+}  // namespace lockstep
