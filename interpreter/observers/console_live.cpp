@@ -51,7 +51,7 @@ void ConsoleLive::run_started(Ticker&, const RunStart& start) {
 void ConsoleLive::after_tick(Ticker& ticker, const TickReport& report) {
   header_.tick = report.tick;
   header_.time = report.time;
-  header_.skipped += report.skipped;
+  header_.overruns += report.skipped > 0;
   header_.result = report.status;
   activity_ = ticker.run_state().activity;
   const auto now = std::chrono::steady_clock::now();

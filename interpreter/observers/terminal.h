@@ -1,4 +1,4 @@
-// What the terminal can do, asked of the system: size, colors, characters.
+// What the terminal can do, asked of the system: size and characters.
 #pragma once
 
 #include <cstdio>
@@ -9,11 +9,8 @@ struct TerminalSize {
   unsigned width = 80, height = 24;
 };
 
-bool is_terminal(std::FILE* file);
 // 80 x 24 when it is not known.
 TerminalSize terminal_size(std::FILE* file);
-// A terminal, NO_COLOR is not set (no-color.org), TERM is not "dumb".
-bool wants_color(std::FILE* file);
 // LC_ALL, LC_CTYPE or LANG, the first that is set, names UTF-8.
 bool has_unicode();
 

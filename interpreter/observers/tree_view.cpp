@@ -73,8 +73,8 @@ class View {
     line.add(fmt::format("  {:.6g} Hz{}  tick {}  {:.3f} s", is.rate_hz,
                          is.real_time ? "" : " (virtual)", is.tick, to_seconds(is.time)));
     if (is.real_time) {
-      const Style style = is.skipped == 0 ? Style::Plain : Style::Warning;
-      line.add(fmt::format("  skipped {}", is.skipped), style);
+      const Style style = is.overruns == 0 ? Style::Plain : Style::Warning;
+      line.add(fmt::format("  overruns {}", is.overruns), style);
     }
     if (is.ended) {
       const bool complete = is_complete(is.result);

@@ -23,7 +23,7 @@ struct Snapshot {
     bool real_time = true;
     std::uint64_t tick = 0;
     Nanoseconds time{0};
-    std::uint64_t skipped = 0;        // deadlines passed over so far
+    std::uint64_t overruns = 0;       // ticks that ended after the next deadline
     Status result = Status::Running;  // of the root
     bool ended = false;
   } header;

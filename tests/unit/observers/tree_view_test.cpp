@@ -24,7 +24,7 @@ TEST_CASE("an absolute node: its barriers are marks in the bars") {
   const Snapshot now =
       snapshot({{Activity::Running}, {Activity::Paused, 0.6}, {Activity::Running, 0.4}});
   CHECK(draw(tree, now, kPlain) ==
-        "Test  10 Hz  tick 4  0.400 s  skipped 0\n"
+        "Test  10 Hz  tick 4  0.400 s  overruns 0\n"
         "> ParallelAbsolute\n"
         "  = arm  [#########|........] 0.60  waits for base at barrier 0.5\n"
         "  > base [#######..|........] 0.40\n");
@@ -35,7 +35,7 @@ TEST_CASE("a relative node: the band in which its children may move") {
   const Snapshot now =
       snapshot({{Activity::Running}, {Activity::Running, 0.5}, {Activity::Paused, 0.8}});
   CHECK(draw(tree, now, {.width = 80, .height = 24}) ==
-        "Test  10 Hz  tick 4  0.400 s  skipped 0\n"
+        "Test  10 Hz  tick 4  0.400 s  overruns 0\n"
         "> ParallelRelative\n"
         "  > arm  [##########=====|....] 0.50\n"
         "  = base [###############|....] 0.80  waits for arm, 0.30 ahead (delta 0.25)\n");
@@ -46,7 +46,7 @@ TEST_CASE("a view with signs that need Unicode") {
   const Snapshot now =
       snapshot({{Activity::Running}, {Activity::Success, 1}, {Activity::Failure, 0.25}});
   CHECK(draw(tree, now, {.width = 32, .height = 24, .unicode = true}) ==
-        "Test  10 Hz  tick 4  0.400 s  sk\n"
+        "Test  10 Hz  tick 4  0.400 s  ov\n"
         "▶ ParallelAbsolute\n"
         "  ✓ a [████┃███] 1.00\n"
         "  ✗ b [██░░┃░░░] 0.25\n");
@@ -79,7 +79,7 @@ TEST_CASE("what does not fit: synchronized and running nodes stay") {
   for (const std::size_t running : {0, 5, 6, 7, 9}) nodes[running].activity = Activity::Running;
   const std::string text = draw(tree, snapshot(nodes), {.width = 40, .height = 9});
   CHECK(text ==
-        "Test  10 Hz  tick 4  0.400 s  skipped 0\n"
+        "Test  10 Hz  tick 4  0.400 s  overruns 0\n"
         "> Sequence\n"
         "  - a (Scripted)\n"
         "  > ParallelRelative\n"
