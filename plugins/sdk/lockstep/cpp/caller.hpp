@@ -43,30 +43,42 @@ struct Caller {
   }
 };
 
+// Runs `work`; no exception leaves. What it throws is told to `report`.
+template <class Work, class Report>
+void catching(Work&& work, Report&& report) noexcept {
+  try {
+    work();
+  } catch (const std::exception& error) {
+    report(error.what());
+  } catch (const char* message) {
+    report(message);
+  } catch (const std::string& message) {
+    report(message.c_str());
+  } catch (...) {
+    report("an exception that is not a std::exception");
+  }
+}
+
 // Runs `work` and returns its result. An exception becomes an error of the caller, and `otherwise`
 // the result, which then does not count.
 template <class Result, class Work>
 Result guarded(const Caller& caller, Result otherwise, Work&& work) noexcept {
-  const auto fail = [&](const char* message) { caller.host->set_error(caller.id, message); };
-  try {
-    return work();
-  } catch (const std::exception& error) {
-    fail(error.what());
-  } catch (const char* message) {
-    fail(message);
-  } catch (const std::string& message) {
-    fail(message.c_str());
-  } catch (...) {
-    fail("an exception that is not a std::exception");
-  }
-  return otherwise;
+  Result result = otherwise;
+  catching([&] { result = work(); },
+           [&](const char* message) { caller.host->set_error(caller.id, message); });
+  return result;
 }
 
+// The end of a run context: there is no run left that an error could end, so a warning tells.
 template <class Work>
-void guarded(const Caller& caller, Work&& work) noexcept {
-  guarded(caller, true, [&] {
-    work();
-    return true;
+void guarded_end(const Caller& caller, Work&& work) noexcept {
+  catching(work, [&](const char* message) {
+    catching(
+        [&] {
+          const std::string line = std::string("its destructor threw: ") + message;
+          caller.host->log(caller.id, LOCKSTEP_LOG_WARNING, line.c_str());
+        },
+        [](const char*) {});
   });
 }
 

@@ -34,11 +34,8 @@ struct LeafFunctions {
   }
   static void destroy(void* leaf) {
     T* object = static_cast<T*>(leaf);
-    const Caller caller = LeafAccess::caller(*object);
-    guarded(caller, [&] {
-      LeafAccess::before_destroy(*object);
-      delete object;
-    });
+    LeafAccess::before_destroy(*object);
+    delete object;  // its destructor is virtual and so noexcept: the compiler refuses another
   }
   static lockstep_status tick(void* leaf) {
     T& object = *static_cast<T*>(leaf);
@@ -68,7 +65,10 @@ struct LeafFunctions {
   };
   static void call(void* leaf, void (T::*function)()) {
     T* object = static_cast<T*>(leaf);
-    guarded(LeafAccess::caller(*object), [&] { (object->*function)(); });
+    guarded(LeafAccess::caller(*object), true, [&] {
+      (object->*function)();
+      return true;
+    });
   }
 };
 
@@ -138,7 +138,7 @@ struct PluginParts {
 
 template <class... Parts>
 constexpr auto parts(const char* name, const char* version, const char* doc, Parts... all) {
-  if (!is_name(name)) error_name_must_be_letters_digits_and_underscores();
+  if (!is_plugin_name(name)) error_plugin_name_must_be_letters_digits_underscores_and_dashes();
   constexpr std::size_t kLeaves =
       (std::size_t{0} + ... + (std::is_same_v<Parts, lockstep_leaf_type> ? 1 : 0));
   static_assert(kLeaves > 0, "a plugin has at least one leaf");

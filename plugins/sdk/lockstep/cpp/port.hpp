@@ -63,7 +63,7 @@ class Port {
   constexpr Port(Ports* owner, const lockstep_port& description)
       : description_(description), owner_(owner), index_(owner->port_count_) {
     check_name(owner);
-    (owner->last_port_ ? owner->last_port_->next_ : owner->first_port_) = this;
+    (owner->port_count_ == 0 ? owner->first_port_ : owner->last_port_->next_) = this;
     owner->last_port_ = this;
     ++owner->port_count_;
   }
@@ -82,7 +82,9 @@ class Port {
     const std::string_view name(description_.name);
     if (!is_name(name)) error_name_must_be_letters_digits_and_underscores();
     if (name == "name" || name == "ID") error_port_name_is_reserved_by_the_tree_language();
-    for (const Port* other = owner->first_port_; other; other = other->next_) {
+    // Counted: with -fsanitize=undefined, g++ takes no comparison with null for a constant.
+    const Port* other = owner->first_port_;
+    for (std::uint32_t i = 0; i < owner->port_count_; ++i, other = other->next_) {
       if (name == other->description_.name) error_two_ports_have_the_same_name();
     }
   }
@@ -93,12 +95,17 @@ class Port {
   Port* next_ = nullptr;
 };
 
+// A port without a default.
+template <class T>
+constexpr lockstep_port describe(lockstep_direction direction, const char* name, const char* doc,
+                                 const char* unit) {
+  return {sizeof(lockstep_port), PortTraits<T>::kType, direction, name, nullptr, unit, doc};
+}
+
 template <class T>
 constexpr lockstep_port describe(lockstep_direction direction, const char* name,
                                  const char* default_value, const char* doc, const char* unit) {
-  if (default_value && !PortTraits<T>::accepts(default_value)) {
-    error_default_is_not_a_value_of_the_port_type();
-  }
+  if (!PortTraits<T>::accepts(default_value)) error_default_is_not_a_value_of_the_port_type();
   return {sizeof(lockstep_port), PortTraits<T>::kType, direction, name, default_value, unit, doc};
 }
 
@@ -142,14 +149,14 @@ class Input : public detail::ReadablePort<T> {
       : detail::ReadablePort<T>(
             owner, detail::describe<T>(LOCKSTEP_INPUT, name, default_value, doc, unit)) {}
   constexpr Input(Ports* owner, const char* name, Required, const char* doc, const char* unit = "")
-      : Input(owner, name, static_cast<const char*>(nullptr), doc, unit) {}
+      : detail::ReadablePort<T>(owner, detail::describe<T>(LOCKSTEP_INPUT, name, doc, unit)) {}
 };
 
 template <class T>
 class Output : public detail::Port {
  public:
   constexpr Output(Ports* owner, const char* name, const char* doc, const char* unit = "")
-      : Port(owner, detail::describe<T>(LOCKSTEP_OUTPUT, name, nullptr, doc, unit)) {}
+      : Port(owner, detail::describe<T>(LOCKSTEP_OUTPUT, name, doc, unit)) {}
 
   // Writes the entry that the tree binds to the port; false when it binds none, or when the host
   // refuses the value (a number that is not finite).
@@ -159,9 +166,13 @@ class Output : public detail::Port {
 template <class T>
 class InOut : public detail::ReadablePort<T> {
  public:
-  constexpr InOut(Ports* owner, const char* name, const char* doc, const char* unit = "")
-      : detail::ReadablePort<T>(owner,
-                                detail::describe<T>(LOCKSTEP_INOUT, name, nullptr, doc, unit)) {}
+  // The default stands where the tree binds no entry; it can be read but not set.
+  constexpr InOut(Ports* owner, const char* name, const char* default_value, const char* doc,
+                  const char* unit = "")
+      : detail::ReadablePort<T>(
+            owner, detail::describe<T>(LOCKSTEP_INOUT, name, default_value, doc, unit)) {}
+  constexpr InOut(Ports* owner, const char* name, Required, const char* doc, const char* unit = "")
+      : detail::ReadablePort<T>(owner, detail::describe<T>(LOCKSTEP_INOUT, name, doc, unit)) {}
 
   bool set(const T& value) {
     return detail::PortTraits<T>::set(this->caller(), this->index(), value);
@@ -180,8 +191,9 @@ struct PortsAccess {
   template <std::uint32_t Count>
   static constexpr std::array<const lockstep_port*, Count> list(const Ports& ports) {
     std::array<const lockstep_port*, Count> pointers{};
-    for (const Port* port = ports.first_port_; port; port = port->next_) {
-      pointers[port->index_] = &port->description_;
+    const Port* port = ports.first_port_;
+    for (std::uint32_t i = 0; i < Count; ++i, port = port->next_) {
+      pointers[i] = &port->description_;
     }
     return pointers;
   }

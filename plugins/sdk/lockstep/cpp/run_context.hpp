@@ -48,10 +48,9 @@ struct ContextHolder : ContextBase {
                    [&]() -> void* { return static_cast<ContextBase*>(new ContextHolder(caller)); });
   }
   static void destroy(void* context) {
-    if (!context) return;
-    ContextHolder& holder = from(context);
+    auto& holder = *static_cast<ContextHolder*>(static_cast<ContextBase*>(context));
     const Caller caller = holder.caller;
-    guarded(caller, [&] { delete &holder; });
+    guarded_end(caller, [&] { delete &holder; });
   }
 
   Run run;

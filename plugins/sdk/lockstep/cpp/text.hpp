@@ -13,6 +13,9 @@ namespace detail {
 [[noreturn]] inline void error_name_must_be_letters_digits_and_underscores() {
   std::abort();
 }
+[[noreturn]] inline void error_plugin_name_must_be_letters_digits_underscores_and_dashes() {
+  std::abort();
+}
 [[noreturn]] inline void error_port_name_is_reserved_by_the_tree_language() {
   std::abort();
 }
@@ -43,6 +46,14 @@ constexpr bool is_name(std::string_view text) {
     if (!is_letter(c) && !is_digit(c) && c != '_') return false;
   }
   return true;
+}
+
+// Letters, digits, '_', '-': also the name of the file, without ".so".
+constexpr bool is_plugin_name(std::string_view text) {
+  for (const char c : text) {
+    if (!is_letter(c) && !is_digit(c) && c != '_' && c != '-') return false;
+  }
+  return !text.empty();
 }
 
 constexpr std::string_view trim(std::string_view text) {

@@ -1,0 +1,48 @@
+// One mistake of a plugin author per number: the compiler must refuse it, with the words that
+// mistakes.cmake expects. MISTAKE=0 is right.
+#include <lockstep/leaf.hpp>
+
+struct GoodPorts : lockstep::Ports {
+  Input<double> step{this, "step", "0.1", "a step"};
+#if MISTAKE == 1
+  Input<double> again{this, "step", "0.1", "the same name"};
+#elif MISTAKE == 2
+  Input<double> other{this, "other", "fast", "not a number"};
+#elif MISTAKE == 3
+  Input<int> other{this, "other", "1", "not a type of port"};
+#elif MISTAKE == 4
+  Input<double> other{this, "my-port", "1", "not a name"};
+#elif MISTAKE == 5
+  Input<double> other{this, "name", "1", "every node has a name"};
+#endif
+};
+
+class Good : public lockstep::Action<GoodPorts> {
+ public:
+  Status tick() override {
+#if MISTAKE == 6
+    step.set(1);
+#endif
+    return Status::Success;
+  }
+#if MISTAKE == 7
+  double progress() const override {
+    return random();
+  }
+#elif MISTAKE == 8
+ private:
+  void start() override {}
+#elif MISTAKE == 9
+  void stop() override {}
+#endif
+};
+
+#if MISTAKE == 10
+#define ID "Other"
+#elif MISTAKE == 11
+#define ID "2nd"
+#else
+#define ID "Good"
+#endif
+
+LOCKSTEP_PLUGIN("good", "1", "", lockstep::leaf<Good>("Other", ""), lockstep::leaf<Good>(ID, ""));

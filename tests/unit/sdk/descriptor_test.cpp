@@ -1,0 +1,158 @@
+// The constants that leaf.hpp makes of classes: what a host can list without creating anything.
+#include <catch2/catch.hpp>
+
+#include <string>
+#include <vector>
+
+#include "core/value.h"
+#include "lockstep/leaf.hpp"
+
+namespace {
+
+struct AllPorts : lockstep::Ports {
+  Input<bool> flag{this, "flag", "true", "a flag"};
+  Input<std::int64_t> count{this, "count", "-3", "a count"};
+  Input<double> length{this, "length", required, "a length", "m"};
+  InOut<std::string> text{this, "text", "", "a text"};
+  Output<std::vector<double>> list{this, "list", "a list", "s"};
+};
+
+struct MorePorts : AllPorts {
+  Input<double> extra{this, "extra", "1e-3", "one more"};
+};
+
+int created = 0;
+
+class Bare : public lockstep::Action<> {
+ public:
+  Bare() { ++created; }
+  Status tick() override { return Status::Success; }
+};
+
+class Full : public lockstep::Action<AllPorts> {
+ public:
+  void start() override {}
+  Status tick() override { return Status::Success; }
+  void halt() override {}
+  void pause() override {}
+  void resume() override {}
+  double progress() const override { return 0.5; }
+};
+
+class Heir : public Full {
+ public:
+  Status tick() override { return Status::Failure; }
+};
+
+class Extended : public lockstep::Action<MorePorts> {
+ public:
+  Status tick() override { return Status::Success; }
+};
+
+class Question : public lockstep::Condition<> {
+ public:
+  bool check() override { return true; }
+};
+
+class Threaded : public lockstep::ThreadedAction<> {
+ public:
+  Status run(lockstep::Token&) override { return Status::Success; }
+};
+
+constexpr lockstep_leaf_type kBare = lockstep::leaf<Bare>("Bare", "does nothing");
+constexpr lockstep_leaf_type kFull = lockstep::leaf<Full>("Full", "has all");
+constexpr lockstep_leaf_type kHeir = lockstep::leaf<Heir>("Heir", "");
+constexpr lockstep_leaf_type kExtended = lockstep::leaf<Extended>("Extended", "");
+constexpr lockstep_leaf_type kQuestion = lockstep::leaf<Question>("Question", "asks");
+constexpr lockstep_leaf_type kThreaded = lockstep::leaf<Threaded>("Threaded", "");
+
+LOCKSTEP_PLUGIN_TABLE(sdk_test_plugin, "sdk-test_1", "2.3", "a plugin of two leaves",
+                      lockstep::leaf<Bare>("Bare", "does nothing"),
+                      lockstep::leaf<Question>("Question", "asks"));
+
+std::string describe(const lockstep_port& port) {
+  return std::to_string(port.type) + std::to_string(port.direction) + " " + port.name + "=" +
+         (port.default_value != nullptr ? port.default_value : "required") + " [" + port.unit +
+         "] " + port.doc;
+}
+
+}  // namespace
+
+TEST_CASE("a leaf type is described without creating a leaf", "[sdk]") {
+  const int before = created;
+  CHECK(kBare.struct_size == sizeof(lockstep_leaf_type));
+  CHECK(kBare.kind == LOCKSTEP_ACTION);
+  CHECK(std::string(kBare.id) == "Bare");
+  CHECK(std::string(kBare.doc) == "does nothing");
+  CHECK(kBare.port_count == 0);
+  CHECK(kQuestion.kind == LOCKSTEP_CONDITION);
+  CHECK(created == before);
+}
+
+TEST_CASE("ports are listed in the order of the members", "[sdk]") {
+  std::vector<std::string> ports;
+  for (std::uint32_t i = 0; i < kFull.port_count; ++i) {
+    CHECK(kFull.ports[i]->struct_size == sizeof(lockstep_port));
+    ports.push_back(describe(*kFull.ports[i]));
+  }
+  CHECK(ports == std::vector<std::string>{"11 flag=true [] a flag", "21 count=-3 [] a count",
+                                          "31 length=required [m] a length", "43 text= [] a text",
+                                          "52 list=required [s] a list"});
+}
+
+TEST_CASE("a struct of ports extends another", "[sdk]") {
+  REQUIRE(kExtended.port_count == 6);
+  CHECK(std::string(kExtended.ports[0]->name) == "flag");
+  CHECK(std::string(kExtended.ports[5]->name) == "extra");
+}
+
+TEST_CASE("functions that a class does not override are NULL", "[sdk]") {
+  CHECK(kBare.create != nullptr);
+  CHECK(kBare.destroy != nullptr);
+  CHECK(kBare.tick != nullptr);
+  for (const auto* type : {&kBare, &kQuestion}) {
+    CHECK(type->start == nullptr);
+    CHECK(type->halt == nullptr);
+    CHECK(type->pause == nullptr);
+    CHECK(type->resume == nullptr);
+    CHECK(type->progress == nullptr);
+  }
+}
+
+TEST_CASE("functions that a class or its base overrides are there", "[sdk]") {
+  for (const auto* type : {&kFull, &kHeir, &kThreaded}) {
+    CHECK(type->start != nullptr);
+    CHECK(type->halt != nullptr);
+    CHECK(type->pause != nullptr);
+    CHECK(type->resume != nullptr);
+    CHECK(type->progress != nullptr);
+  }
+}
+
+TEST_CASE("the plugin is one constant with all its leaves", "[sdk]") {
+  CHECK(sdk_test_plugin.abi_major == LOCKSTEP_ABI_MAJOR);
+  CHECK(sdk_test_plugin.abi_minor == LOCKSTEP_ABI_MINOR);
+  CHECK(sdk_test_plugin.struct_size == sizeof(lockstep_plugin));
+  CHECK(std::string(sdk_test_plugin.name) == "sdk-test_1");
+  CHECK(std::string(sdk_test_plugin.version) == "2.3");
+  CHECK(std::string(sdk_test_plugin.doc) == "a plugin of two leaves");
+  REQUIRE(sdk_test_plugin.leaf_type_count == 2);
+  CHECK(std::string(sdk_test_plugin.leaf_types[0]->id) == "Bare");
+  CHECK(std::string(sdk_test_plugin.leaf_types[1]->id) == "Question");
+  CHECK(sdk_test_plugin.init == nullptr);
+  CHECK(sdk_test_plugin.create_run == nullptr);
+}
+
+TEST_CASE("the compiler accepts the defaults that the tree language accepts", "[sdk]") {
+  using lockstep::ValueType;
+  const std::string text = GENERATE(
+      as<std::string>(), "", " ", "0", "1", "-7", "+7", "+-7", "--7", "1.", ".5", ".", "1.5", " 2 ",
+      "1e3", "1e", "1e+3", "1E-3", "e3", "0x10", "inf", "nan", "true", "false", "True", " true ",
+      "1;2", "1, 2", "0.25;0.5;", ";;", "1;x", "1;-", "1 2\t3", "1 . 2", "7,", "+", "1_0");
+  CAPTURE(text);
+  const auto accepted = [&](ValueType type) { return parse_value(type, text).has_value(); };
+  CHECK(lockstep::detail::is_bool(text) == accepted(ValueType::Bool));
+  CHECK(lockstep::detail::is_int(text) == accepted(ValueType::Int));
+  CHECK(lockstep::detail::is_double(text) == accepted(ValueType::Double));
+  CHECK(lockstep::detail::is_double_list(text) == accepted(ValueType::DoubleList));
+}

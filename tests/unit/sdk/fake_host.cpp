@@ -1,0 +1,119 @@
+#include "fake_host.h"
+
+namespace sdk_test {
+namespace {
+
+FakeHost& self(const lockstep_caller* caller) {
+  return *const_cast<FakeHost*>(reinterpret_cast<const FakeHost*>(caller));
+}
+
+template <class T>
+T* find(const lockstep_caller* caller, std::uint32_t port) {
+  auto& ports = self(caller).ports;
+  return port < ports.size() ? std::get_if<T>(&ports[port]) : nullptr;
+}
+
+template <class T>
+bool get(const lockstep_caller* caller, std::uint32_t port, T* value) {
+  const T* found = find<T>(caller, port);
+  if (found != nullptr) *value = *found;
+  return found != nullptr;
+}
+
+bool set_value(const lockstep_caller* caller, std::uint32_t port, PortValue value) {
+  FakeHost& host = self(caller);
+  if (port >= host.ports.size() || !host.writable[port]) return false;
+  host.ports[port] = std::move(value);
+  return true;
+}
+
+template <class T>
+bool set(const lockstep_caller* caller, std::uint32_t port, T value) {
+  return set_value(caller, port, value);
+}
+
+bool get_string(const lockstep_caller* caller, std::uint32_t port, const char** text,
+                std::size_t* length) {
+  const auto* found = find<std::string>(caller, port);
+  if (found == nullptr) return false;
+  *text = found->data();
+  *length = found->size();
+  return true;
+}
+
+bool get_list(const lockstep_caller* caller, std::uint32_t port, const double** values,
+              std::size_t* count) {
+  const auto* found = find<std::vector<double>>(caller, port);
+  if (found == nullptr) return false;
+  *values = found->data();
+  *count = found->size();
+  return true;
+}
+
+bool set_string(const lockstep_caller* caller, std::uint32_t port, const char* text,
+                std::size_t length) {
+  return set_value(caller, port, std::string(text, length));
+}
+
+bool set_list(const lockstep_caller* caller, std::uint32_t port, const double* values,
+              std::size_t count) {
+  return set_value(caller, port, std::vector<double>(values, values + count));
+}
+
+void set_error(const lockstep_caller* caller, const char* message) {
+  if (self(caller).error.empty()) self(caller).error = message;
+}
+
+double now(const lockstep_caller* caller) {
+  return self(caller).time;
+}
+double tick_period(const lockstep_caller*) {
+  return 0.125;
+}
+
+// 0, 1/4, 2/4, 3/4, 0, …
+std::uint64_t random_bits(const lockstep_caller* caller) {
+  return self(caller).draws++;
+}
+double random_double(const lockstep_caller* caller) {
+  return static_cast<double>(self(caller).draws++ % 4) / 4;
+}
+
+void log(const lockstep_caller* caller, lockstep_log_level level, const char* message) {
+  self(caller).add_line(std::to_string(level) + " " + message);
+}
+
+const void* get_extension(const char* id) {
+  static const int kAnswer = 42;
+  return std::string(id) == "test.answer" ? &kAnswer : nullptr;
+}
+
+}  // namespace
+
+const lockstep_host& FakeHost::table() {
+  static const lockstep_host kTable = {LOCKSTEP_ABI_MAJOR,
+                                       LOCKSTEP_ABI_MINOR,
+                                       sizeof(lockstep_host),
+                                       "fake",
+                                       "0",
+                                       get<bool>,
+                                       get<std::int64_t>,
+                                       get<double>,
+                                       get_string,
+                                       get_list,
+                                       set<bool>,
+                                       set<std::int64_t>,
+                                       set<double>,
+                                       set_string,
+                                       set_list,
+                                       set_error,
+                                       now,
+                                       tick_period,
+                                       random_bits,
+                                       random_double,
+                                       log,
+                                       get_extension};
+  return kTable;
+}
+
+}  // namespace sdk_test

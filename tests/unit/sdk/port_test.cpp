@@ -1,0 +1,165 @@
+// Reading and writing ports, and the services of the host, from inside a leaf.
+#include <catch2/catch.hpp>
+
+#include <functional>
+
+#include "fake_host.h"
+#include "lockstep/leaf.hpp"
+
+namespace {
+
+using sdk_test::FakeLeaf;
+using sdk_test::PortValue;
+
+struct ProbePorts : lockstep::Ports {
+  Input<bool> flag{this, "flag", required, ""};
+  Input<std::int64_t> count{this, "count", required, ""};
+  Input<double> length{this, "length", required, ""};
+  InOut<std::string> text{this, "text", required, ""};
+  InOut<std::vector<double>> list{this, "list", required, ""};
+  Output<double> out{this, "out", ""};
+};
+
+// Does in its tick what the test says.
+class Probe : public lockstep::Action<ProbePorts> {
+ public:
+  using Action::context;
+  using Action::host_extension;
+  using Action::log;
+  using Action::now;
+  using Action::random;
+  using Action::random_bits;
+  using Action::tick_period;
+  using Action::uniform;
+
+  Status tick() override {
+    work(*this);
+    return Status::Success;
+  }
+  static inline std::function<void(Probe&)> work;
+};
+
+constexpr lockstep_leaf_type kProbe = lockstep::leaf<Probe>("Probe", "");
+
+// The error of a probe with these ports that does this work; "" for none.
+std::string error_of(std::function<void(Probe&)> work, FakeLeaf& leaf) {
+  Probe::work = std::move(work);
+  leaf.tick();
+  return leaf.host.take_error();
+}
+
+std::vector<PortValue> values() {
+  return {true, std::int64_t{-5}, 0.25, std::string("door"), std::vector<double>{1, 2.5}, 0.0};
+}
+
+}  // namespace
+
+TEST_CASE("each type of port is read", "[sdk]") {
+  FakeLeaf leaf(kProbe, values());
+  CHECK(error_of(
+            [](Probe& it) {
+              CHECK(it.flag.get() == true);
+              CHECK(it.count.get() == -5);
+              CHECK(it.length.get() == 0.25);
+              CHECK(it.text.get() == "door");
+              CHECK(it.text.view() == "door");
+              CHECK(it.list.get() == std::vector<double>{1, 2.5});
+              CHECK(it.list.view().size() == 2);
+              CHECK(it.list.view()[1] == 2.5);
+              CHECK(it.list.try_get() == std::vector<double>{1, 2.5});
+            },
+            leaf)
+            .empty());
+}
+
+TEST_CASE("ports are written, also with what they hold", "[sdk]") {
+  FakeLeaf leaf(kProbe, values());
+  Probe::work = [](Probe& it) {
+    CHECK(it.out.set(7.5));
+    CHECK(it.text.set("window"));
+    CHECK(it.list.set({3}));
+  };
+  leaf.tick();
+  CHECK(leaf.host.ports[5] == PortValue(7.5));
+  CHECK(leaf.host.ports[3] == PortValue(std::string("window")));
+  CHECK(leaf.host.ports[4] == PortValue(std::vector<double>{3}));
+}
+
+TEST_CASE("setting an output that the tree does not bind says so, and is no error", "[sdk]") {
+  FakeLeaf leaf(kProbe, values());
+  leaf.host.writable[5] = false;
+  CHECK(error_of([](Probe& it) { CHECK_FALSE(it.out.set(1)); }, leaf).empty());
+}
+
+TEST_CASE("reading a port without a value is an error that names the port", "[sdk]") {
+  FakeLeaf leaf(kProbe, std::vector<PortValue>(6));
+  CHECK(error_of([](Probe& it) { it.length.get(); }, leaf) == "port 'length' has no value");
+  CHECK(error_of([](Probe& it) { it.text.get(); }, leaf) == "port 'text' has no value");
+  CHECK(error_of([](Probe& it) { it.list.view(); }, leaf) == "port 'list' has no value");
+}
+
+TEST_CASE("try_get of a port without a value is nothing", "[sdk]") {
+  FakeLeaf leaf(kProbe, std::vector<PortValue>(6));
+  CHECK(error_of(
+            [](Probe& it) {
+              CHECK(it.flag.try_get() == std::nullopt);
+              CHECK(it.text.try_get() == std::nullopt);
+            },
+            leaf)
+            .empty());
+}
+
+TEST_CASE("two leaves of a type have ports of their own", "[sdk]") {
+  FakeLeaf one(kProbe, values());
+  FakeLeaf two(kProbe, values());
+  two.host.ports[2] = 9.0;
+  CHECK(error_of([](Probe& it) { CHECK(it.length.get() == 0.25); }, one).empty());
+  CHECK(error_of([](Probe& it) { CHECK(it.length.get() == 9.0); }, two).empty());
+}
+
+TEST_CASE("a leaf asks its host for time, random numbers, log lines and extensions", "[sdk]") {
+  FakeLeaf leaf(kProbe, values());
+  leaf.host.time = 3.5;
+  CHECK(error_of(
+            [](Probe& it) {
+              CHECK(it.now() == 3.5);
+              CHECK(it.tick_period() == 0.125);
+              CHECK(it.random_bits() == 0);
+              CHECK(it.random() == 0.25);
+              CHECK(it.uniform(-1, 1) == 0);
+              it.log("hello");
+              it.log(lockstep::LogLevel::Warning, "careful");
+              REQUIRE(it.host_extension<int>("test.answer") != nullptr);
+              CHECK(*it.host_extension<int>("test.answer") == 42);
+              CHECK(it.host_extension<int>("unheard of") == nullptr);
+            },
+            leaf)
+            .empty());
+  CHECK(leaf.host.lines == std::vector<std::string>{"1 hello", "2 careful"});
+}
+
+namespace {
+
+class Early : public lockstep::Action<ProbePorts> {
+ public:
+  Early() : length_(length.get()), random_(random()) {}
+  Status tick() override { return length_ == 0.25 ? Status::Success : Status::Failure; }
+
+ private:
+  double length_;
+  double random_;
+};
+
+}  // namespace
+
+TEST_CASE("a constructor may use ports and services", "[sdk]") {
+  static constexpr auto kEarly = lockstep::leaf<Early>("Early", "");
+  FakeLeaf leaf(kEarly, values());
+  REQUIRE(leaf.exists());
+  CHECK(leaf.tick() == LOCKSTEP_SUCCESS);
+  CHECK(leaf.host.draws == 1);
+}
+
+TEST_CASE("a leaf is created by its host only", "[sdk]") {
+  CHECK_THROWS_WITH(Probe(), "a leaf can only be created by its host");
+}
