@@ -1,12 +1,25 @@
 #include "cli/console.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
+
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 
-#include "observers/terminal.h"
-
 namespace lockstep {
+
+bool is_terminal(std::FILE* file) {
+  return isatty(fileno(file)) == 1;
+}
+
+bool wants_color(std::FILE* file) {
+  const char* no_color = std::getenv("NO_COLOR");
+  const char* terminal = std::getenv("TERM");
+  const bool refused = no_color != nullptr && *no_color != '\0';
+  return !refused && is_terminal(file) &&
+         (terminal == nullptr || std::strcmp(terminal, "dumb") != 0);
+}
 
 void print_error(std::string_view message, std::string_view hint) {
   Diagnostic diagnostic;

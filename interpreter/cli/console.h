@@ -8,6 +8,10 @@
 
 namespace lockstep {
 
+bool is_terminal(std::FILE* file);
+// A terminal, and neither NO_COLOR nor TERM=dumb.
+bool wants_color(std::FILE* file);
+
 void print_error(std::string_view message, std::string_view hint = {});
 
 // Those of at least this severity, sorted, and how many errors there are when more than one.

@@ -77,7 +77,10 @@ class RunCommand {
   }
 
   int run() {
-    if (recorder_ && !recorder_->error().empty()) return kExitUsage;  // told already
+    if (recorder_ && !recorder_->error().empty()) {
+      print_error(recorder_->error());
+      return kExitUsage;
+    }
     StopSignals::install(View::last_words);
     WallClock wall_clock;
     VirtualClock virtual_clock;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "cli/console.h"
 #include "core/diagnostics.h"
 #include "observers/terminal.h"
 
