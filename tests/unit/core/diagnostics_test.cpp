@@ -102,12 +102,23 @@ TEST_CASE("sorting is by file as first mentioned, then line, then column") {
   CHECK(messages(diagnostics) == std::vector<std::string>{"5", "4", "3", "1", "2"});
 }
 
-TEST_CASE("at one place the order of reporting stays, and equal entries are one") {
+TEST_CASE("equal entries are one") {
   Diagnostics diagnostics;
   for (const auto* message : {"b", "a", "b", "c", "a"}) diagnostics.error({"f", 1, 1}, message);
   diagnostics.add({Severity::Warning, {"f", 1, 1}, "a", {}, {}});
   diagnostics.sort();
   CHECK(messages(diagnostics) == std::vector<std::string>{"b", "a", "c", "a"});
+}
+
+TEST_CASE("at one place the order of reporting stays") {
+  Diagnostics diagnostics;
+  std::vector<std::string> reported;
+  for (int i = 100; i > 0; --i) {
+    reported.push_back(std::to_string(i));
+    diagnostics.error({"f", 1, 1}, reported.back());
+  }
+  diagnostics.sort();
+  CHECK(messages(diagnostics) == reported);
 }
 
 TEST_CASE("only errors are errors") {

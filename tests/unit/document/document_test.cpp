@@ -83,11 +83,12 @@ TEST_CASE("elements and attributes are found in the original bytes") {
 }
 
 TEST_CASE("a byte of a value is found behind what is written longer than it is read") {
-  const auto document = parse("<r x='&lt;é&#x20AC;\r\n&#65;z'/>");
+  const auto document = parse("<r x='&lt;é&#x20AC;&#xE9;&#x1F600;.\r\n&#65;z'/>");
   const auto value = std::string(document->find_attribute(0, "x")->value);
-  REQUIRE(value == "<é€\nAz");
-  const std::pair<std::string, std::string> rows[] = {{"<", "1:7"},   {"é", "1:11"}, {"€", "1:13"},
-                                                      {"\n", "1:21"}, {"A", "2:1"},  {"z", "2:6"}};
+  REQUIRE(value == "<é€é😀.\nAz");
+  const std::pair<std::string, std::string> rows[] = {{"<", "1:7"},  {"é", "1:11"}, {"€", "1:13"},
+                                                      {"😀", "1:27"}, {".", "1:36"}, {"\n", "1:37"},
+                                                      {"A", "2:1"},  {"z", "2:6"}};
   for (const auto& [part, expected] : rows) {
     INFO(part);
     CHECK(place(document->locate_value(0, "x", value.find(part))) == expected);
