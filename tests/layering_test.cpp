@@ -1,0 +1,181 @@
+// Who may include whom: docs/architecture.md's table, checked against every #include line.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace lockstep::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::vector<std::string_view>;
+
+// `from` is a folder of the project, or a file of it; `to` what its files may include beside their
+// own folder. A file's row is added to its folder's.
+struct Layer {
+  std::string_view from;
+  Names to;
+};
+
+const std::vector<Layer> kLayers{
+    {"interpreter/core/", {}},
+    {"interpreter/document/", {"core/"}},
+    {"interpreter/definition/", {"core/", "document/"}},
+    {"interpreter/engine/", {"core/"}},
+    {"interpreter/engine/compile.h", {"definition/"}},
+    {"interpreter/engine/compile.cpp", {"definition/"}},
+    {"interpreter/engine/nodes/leaf.cpp", {"lockstep/leaf.h"}},
+    {"interpreter/plugin/", {"core/", "engine/", "lockstep/leaf.h"}},
+    {"interpreter/runtime/", {"core/", "engine/", "plugin/", "measure/"}},
+    {"interpreter/measure/", {"core/", "engine/"}},
+    {"interpreter/observers/", {"core/", "engine/", "runtime/", "measure/"}},
+    {"interpreter/study/", {"core/", "engine/", "plugin/", "runtime/", "measure/", "observers/"}},
+    {"interpreter/cli/",
+     {"core/", "document/", "definition/", "engine/", "plugin/", "runtime/", "measure/",
+      "observers/", "study/", "lockstep/leaf.h"}},
+    {"interpreter/main.cpp", {"cli/"}},
+    {"plugins/", {"lockstep/"}},
+};
+
+// What is not ours, by the beginning of its name, and the only places that may see it.
+const std::vector<Layer> kThirdParty{
+    {"tinyxml2", {"interpreter/document/"}},
+    {"dlfcn.h", {"interpreter/plugin/"}},
+    {"CLI/", {"interpreter/cli/"}},
+    {"nlohmann/", {"interpreter/observers/", "interpreter/cli/"}},
+    {"fmt/",
+     {"interpreter/core/", "interpreter/document/", "interpreter/definition/",
+      "interpreter/plugin/", "interpreter/runtime/", "interpreter/observers/", "interpreter/study/",
+      "interpreter/cli/"}},
+};
+
+struct Include {
+  std::string file;  // from the root of the project
+  int line;
+  std::string path;
+  bool quoted;
+};
+
+bool starts_with_any(std::string_view text, const Names& names) {
+  return std::any_of(names.begin(), names.end(),
+                     [text](std::string_view name) { return text.starts_with(name); });
+}
+
+std::vector<Include> includes_of(const std::string& file) {
+  std::vector<Include> list;
+  std::ifstream stream(fs::path(LOCKSTEP_SOURCE_DIR) / file);
+  int number = 0;
+  for (std::string line; std::getline(stream, line);) {
+    ++number;
+    const auto hash = line.find_first_not_of(" \t");
+    if (hash == std::string::npos || line[hash] != '#') continue;
+    const auto open = line.find_first_of("\"<");
+    if (line.find("include") > open || open == std::string::npos) continue;
+    const auto close = line.find_first_of("\">", open + 1);
+    list.push_back({file, number, line.substr(open + 1, close - open - 1), line[open] == '"'});
+  }
+  return list;
+}
+
+bool is_source(const fs::path& path) {
+  const auto extension = path.extension();
+  return extension == ".h" || extension == ".hpp" || extension == ".cpp" || extension == ".c";
+}
+
+std::vector<std::string> sources_under(const std::string& folder) {
+  std::vector<std::string> files;
+  const fs::path root(LOCKSTEP_SOURCE_DIR);
+  for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+    if (entry.is_regular_file() && is_source(entry.path())) {
+      files.push_back(fs::relative(entry.path(), root).generic_string());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::string at(const Include& include) {
+  return fmt::format("{}:{}: includes '{}': ", include.file, include.line, include.path);
+}
+
+// The folder as includes name it: "engine/" of interpreter/engine/ticker.h.
+std::string_view own_folder(std::string_view file) {
+  if (!file.starts_with("interpreter/")) return {};
+  file.remove_prefix(std::string_view("interpreter/").size());
+  return file.substr(0, file.find('/') + 1);
+}
+
+// A plugin's own files include each other by their places.
+bool stays_in_plugin(const Include& include) {
+  if (!include.file.starts_with("plugins/")) return false;
+  const auto folder = include.file.substr(0, include.file.find('/', 8) + 1);
+  const auto target = (fs::path(include.file).parent_path() / include.path).lexically_normal();
+  return target.generic_string().starts_with(folder) &&
+         fs::exists(fs::path(LOCKSTEP_SOURCE_DIR) / target);
+}
+
+// "" when the include is allowed, else what is wrong with it.
+std::string broken_layer(const Include& include) {
+  Names allowed;
+  bool known = false;
+  for (const Layer& layer : kLayers) {
+    if (!include.file.starts_with(layer.from)) continue;
+    known = true;
+    allowed.insert(allowed.end(), layer.to.begin(), layer.to.end());
+  }
+  if (!known) return at(include) + "its folder is not in the table";
+  const auto own = own_folder(include.file);
+  if (!own.empty() && include.path.starts_with(own)) return {};
+  if (starts_with_any(include.path, allowed)) return {};
+  if (stays_in_plugin(include)) return {};
+  return at(include) + fmt::format("may include {{{}}}", fmt::join(allowed, ", "));
+}
+
+std::string broken_third_party(const Include& include) {
+  for (const Layer& library : kThirdParty) {
+    if (!include.path.starts_with(library.from)) continue;
+    if (include.file.starts_with("plugins/") || starts_with_any(include.file, library.to))
+      return {};
+    return at(include) + fmt::format("only {{{}}} may see it", fmt::join(library.to, ", "));
+  }
+  return {};
+}
+
+template <class Check>
+void check_all(Check check) {
+  for (const char* folder : {"interpreter", "plugins"}) {
+    for (const std::string& file : sources_under(folder)) {
+      for (const Include& include : includes_of(file)) check(include);
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("layers: a folder includes only what the table allows") {
+  int seen = 0;
+  check_all([&](const Include& include) {
+    if (!include.quoted) return;
+    ++seen;
+    if (const auto broken = broken_layer(include); !broken.empty()) FAIL_CHECK(broken);
+  });
+  CHECK(seen > 100);  // or the reader of #include lines is broken
+}
+
+TEST_CASE("layers: a library is seen only where the table says") {
+  std::set<std::string> xml;
+  check_all([&](const Include& include) {
+    if (const auto broken = broken_third_party(include); !broken.empty()) FAIL_CHECK(broken);
+    if (include.path.starts_with("tinyxml2")) xml.insert(include.file);
+  });
+  INFO("tinyxml2 belongs in one source of document/: " << fmt::format("{}", fmt::join(xml, ", ")));
+  CHECK(xml.size() == 1);
+  CHECK(xml.begin()->ends_with(".cpp"));
+}
+
+}  // namespace lockstep::test
