@@ -19,13 +19,20 @@ void Ticker::forget_descendants(NodeIndex node) {
   std::fill(begin + node + 1, begin + tree_.nodes[node].end, Activity::Idle);
 }
 
+void Ticker::end_activation(NodeIndex node) {
+  const bool running = status(node) == Status::Running;
+  state_.activity[node] = Activity::Idle;
+  const auto halt = tree_.nodes[node].kind->halt;
+  if (running && halt != nullptr) halt(*this, node);
+}
+
 void Ticker::halt_range(NodeIndex first, NodeIndex last) {
-  for (NodeIndex node = first; node < last; ++node) {
-    const bool running = status(node) == Status::Running;
-    state_.activity[node] = Activity::Idle;
-    const auto halt = tree_.nodes[node].kind->halt;
-    if (running && halt != nullptr) halt(*this, node);
-  }
+  // After a fault all halts are halt_all's, so that they come in one order.
+  for (NodeIndex node = first; node < last && !faulted_; ++node) end_activation(node);
+}
+
+void Ticker::halt_all() {
+  for (NodeIndex node = 0; node < tree_.nodes.size(); ++node) end_activation(node);
 }
 
 void Ticker::halt_running_children(NodeIndex node) {
@@ -35,7 +42,7 @@ void Ticker::halt_running_children(NodeIndex node) {
 }
 
 void Ticker::pause(NodeIndex node) {
-  for (NodeIndex at = node; at < tree_.nodes[node].end; ++at) {
+  for (NodeIndex at = node; at < tree_.nodes[node].end && !faulted_; ++at) {
     if (state_.activity[at] != Activity::Running) continue;
     state_.activity[at] = Activity::Paused;
     if (const auto pause = tree_.nodes[at].kind->pause) pause(*this, at);

@@ -40,7 +40,8 @@ class Ticker {
     return status;
   }
 
-  // Ends the activation of every running node in the subtree; all of it is idle then.
+  // Ends the activation of every running node in the subtree; all of it is idle then. After a fault
+  // it does nothing.
   void halt(NodeIndex node) { halt_range(node, tree_.nodes[node].end); }
   void halt_range(NodeIndex first, NodeIndex last);
   // Of a node's children, those that run; the others keep their status.
@@ -91,7 +92,7 @@ class Ticker {
   Status tick_root(Nanoseconds now);
 
   // Halts every running leaf; what a leaf does wrong in halt becomes the fault if there is none.
-  void halt_all() { halt(0); }
+  void halt_all();
 
   // As new. Leaves are not told: halt_all first.
   void reset();
@@ -106,6 +107,7 @@ class Ticker {
 
  private:
   void forget_descendants(NodeIndex node);
+  void end_activation(NodeIndex node);
   std::byte* state_bytes() { return reinterpret_cast<std::byte*>(state_.bytes.data()); }
 
   const Tree& tree_;
