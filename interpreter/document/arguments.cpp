@@ -13,6 +13,7 @@ namespace lockstep {
 namespace {
 
 constexpr std::size_t kMaxListed = 20;
+constexpr std::size_t kMaxUnknown = 10;  // reported of one value: each place is counted out
 constexpr std::string_view kAttributes[] = {"name", "default", "doc"};
 
 std::optional<std::string> value_of(const Attribute* attribute) {
@@ -74,6 +75,7 @@ std::optional<std::string> ArgumentTable::expand(const Document& document, std::
   };
   std::string out;
   bool sound = true;
+  std::size_t unknown = 0;
   std::size_t done = 0;
   for (auto at = text.find("${"); at != std::string_view::npos; at = text.find("${", done)) {
     const bool literal = at > done && text[at - 1] == '$';
@@ -94,6 +96,7 @@ std::optional<std::string> ArgumentTable::expand(const Document& document, std::
     done = close + 1;
     const auto* where = find(name);
     if (!where) report_unknown(name, document, place(at));
+    if (!where && ++unknown == kMaxUnknown) return std::nullopt;
     sound = sound && where && where->has_value;
     if (!sound) continue;
     const auto& value = declared_[where->index].value;

@@ -12,6 +12,8 @@ namespace lockstep {
 
 // Elements inside each other. tinyxml2 allows 100 levels, of which it needs two for itself.
 constexpr std::size_t kMaxElementDepth = 98;
+// Of one element: tinyxml2 compares each with all before it.
+constexpr std::size_t kMaxAttributes = 256;
 
 // The first byte that cannot be part of a text in UTF-8 that XML allows. `text` has no byte order
 // mark of UTF-8.

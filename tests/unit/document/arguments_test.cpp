@@ -115,6 +115,12 @@ TEST_CASE("an unknown argument is told at its exact place, with what is declared
   CHECK(loaded.diagnostics.all()[0].excerpt == "<N x='&lt;é${speed}${sped}'");
 }
 
+TEST_CASE("of a value full of unknown arguments some are told, in good time") {
+  std::string value;
+  for (int i = 0; i < 200'000; ++i) value += "${y}";
+  CHECK(told(load("<root><N x='" + value + "'/></root>").diagnostics).size() == 10);
+}
+
 TEST_CASE("'${' must be closed") {
   const auto loaded = load("<root><N x='1 ${a' y='$${ $$${'/></root>");
   CHECK(told(loaded.diagnostics) == Lines{"f:1:15: '${' is not closed"});

@@ -127,6 +127,16 @@ TEST_CASE("the depth of elements has a limit that is named") {
   CHECK(hints(diagnostics)[0].find("limit is 100") != std::string::npos);
 }
 
+TEST_CASE("the number of attributes has a limit that is named") {
+  std::string text = "<r";
+  for (std::size_t i = 0; i < kMaxAttributes; ++i) text += "\na" + std::to_string(i) + "=''";
+  Diagnostics diagnostics;
+  CHECK(Document::parse("f", text + "/>", diagnostics));
+  CHECK(told(diagnostics).empty());
+  CHECK_FALSE(Document::parse("f", text + "\nb=''/>", diagnostics));
+  CHECK(told(diagnostics) == std::vector<std::string>{"f:258:1: 'r' has more than 256 attributes"});
+}
+
 TEST_CASE("the size of a file has a limit that is named") {
   Diagnostics diagnostics;
   CHECK_FALSE(Document::parse("f", std::string(Document::kMaxBytes + 1, ' '), diagnostics));
