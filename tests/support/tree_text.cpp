@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "engine/compile.h"
 #include "support/scripted_leaf.h"
 
 namespace lockstep::test {
@@ -31,16 +32,22 @@ struct Attribute {
   std::string_view name, value;
 };
 
+bool is_choice(const Parameter& parameter, const Value& value) {
+  const auto* word = std::get_if<std::string>(&value);
+  return word == nullptr || parameter.choices.empty() ||
+         std::ranges::find(parameter.choices, *word) != parameter.choices.end();
+}
+
 class Builder {
  public:
   explicit Builder(std::string_view text) : all_(text), rest_(text) {}
 
-  Tree build() {
+  Definition build() {
     node(0);
     skip_blanks();
     if (!rest_.empty()) fail("text after the tree");
-    tree_.id = "Test";
-    return std::move(tree_);
+    definition_.id = "Test";
+    return std::move(definition_);
   }
 
  private:
@@ -75,55 +82,50 @@ class Builder {
     return list;
   }
 
-  void node(NodeIndex parent) {
+  void node(std::uint32_t parent) {
     skip_blanks();
     const auto name = take_until(" ()[]?");
     if (name.empty()) fail("expected a name");
-    const auto self = static_cast<NodeIndex>(tree_.nodes.size());
-    tree_.nodes.push_back({});
-    tree_.labels.push_back({std::string(name), std::string(name), nullptr, parent});
-    if (std::isupper(static_cast<unsigned char>(name[0])) != 0) {
-      built_in(self, name);
-    } else {
-      scripted(self);
+    const auto self = static_cast<std::uint32_t>(definition_.nodes.size());
+    definition_.nodes.emplace_back();
+    const bool built_in = std::isupper(static_cast<unsigned char>(name[0])) != 0;
+    const NodeType& type = built_in ? built_in_type(name) : scripted_type();
+    const auto given = built_in ? attributes() : std::vector<Attribute>();
+    const std::uint32_t children = take('(') ? nodes_until_end(self) : 0;
+    if (children < type.arity.min || children > type.arity.max) {
+      fail("arity of " + std::string(type.id));
     }
-    tree_.nodes[self].end = static_cast<NodeIndex>(tree_.nodes.size());
+    const auto typed = values(type, given, children);
+    DefinitionNode& it = definition_.nodes[self];
+    it.type = &type;
+    it.parent = parent;
+    it.name = name;
+    it.children = children;
+    it.first = static_cast<std::uint32_t>(definition_.values.size());
+    it.end = static_cast<std::uint32_t>(definition_.nodes.size());
+    definition_.values.insert(definition_.values.end(), typed.begin(), typed.end());
   }
 
-  void scripted(NodeIndex self) {
-    const bool condition = take('?');
-    const bool bare = !attributes().empty();
-    const NodeType& type = condition ? kScriptedConditionType
-                           : bare    ? kBareActionType
-                                     : kScriptedActionType;
-    tree_.labels[self].type = &type;
-    tree_.nodes[self].kind = condition ? &kPluginCondition : &kPluginAction;
-    tree_.nodes[self].params = static_cast<std::uint32_t>(tree_.leaves.size());
-    tree_.leaves.push_back({self, &type, 0});
-    reserve_state(self);
+  std::uint32_t nodes_until_end(std::uint32_t parent) {
+    std::uint32_t count = 0;
+    for (skip_blanks(); !take(')'); skip_blanks()) {
+      if (rest_.empty()) fail("expected ')'");
+      node(parent);
+      ++count;
+    }
+    return count;
   }
 
-  void built_in(NodeIndex self, std::string_view name) {
-    const auto kinds = built_in_kinds();
-    const auto found = std::find_if(kinds.begin(), kinds.end(),
-                                    [&](const NodeKind* kind) { return kind->type.id == name; });
-    if (found == kinds.end()) fail("no node '" + std::string(name) + "'");
-    const NodeType& type = (*found)->type;
-    tree_.nodes[self].kind = *found;
-    tree_.labels[self].type = &type;
-    const auto given = attributes();
-    if (take('(')) {
-      for (skip_blanks(); !take(')'); skip_blanks()) {
-        if (rest_.empty()) fail("expected ')'");
-        node(self);
-        ++tree_.nodes[self].children;
-      }
+  const NodeType& scripted_type() {
+    if (take('?')) return kScriptedConditionType;
+    return attributes().empty() ? kScriptedActionType : kBareActionType;
+  }
+
+  const NodeType& built_in_type(std::string_view name) const {
+    for (const NodeKind* kind : built_in_kinds()) {
+      if (kind->type.id == name) return kind->type;
     }
-    const std::uint32_t children = tree_.nodes[self].children;
-    if (children < type.arity.min || children > type.arity.max)
-      fail("arity of " + std::string(name));
-    lay_out(self, type, values(type, given, children));
-    reserve_state(self);
+    fail("no node '" + std::string(name) + "'");
   }
 
   std::vector<Value> values(const NodeType& type, const std::vector<Attribute>& given,
@@ -139,7 +141,7 @@ class Builder {
       }
       if (parameter.required && !text) fail("missing " + std::string(parameter.name));
       const auto value = text ? parse_value(parameter.type, *text) : Value();
-      if (!value) fail("value of " + std::string(parameter.name));
+      if (!value || !is_choice(parameter, *value)) fail("value of " + std::string(parameter.name));
       list.push_back(*value);
     }
     if (used != given.size()) fail("unknown parameter of " + std::string(type.id));
@@ -149,46 +151,14 @@ class Builder {
     return list;
   }
 
-  void lay_out(NodeIndex self, const NodeType& type, const std::vector<Value>& list) {
-    tree_.nodes[self].params = static_cast<std::uint32_t>(tree_.cells.size());
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      tree_.cells.push_back(cell(type.parameters[i], list[i]));
-    }
-  }
-
-  Cell cell(const Parameter& parameter, const Value& value) {
-    Cell cell{};
-    if (const auto* flag = std::get_if<bool>(&value)) cell.boolean = *flag;
-    if (const auto* number = std::get_if<std::int64_t>(&value)) cell.integer = *number;
-    if (const auto* number = std::get_if<double>(&value)) cell.number = *number;
-    if (const auto* text = std::get_if<std::string>(&value)) {
-      const auto choice = std::find(parameter.choices.begin(), parameter.choices.end(), *text);
-      if (choice == parameter.choices.end()) fail("value of " + std::string(parameter.name));
-      cell.integer = choice - parameter.choices.begin();
-    }
-    if (const auto* list = std::get_if<std::vector<double>>(&value)) {
-      cell.list = {static_cast<std::uint32_t>(tree_.numbers.size()),
-                   static_cast<std::uint32_t>(list->size())};
-      tree_.numbers.insert(tree_.numbers.end(), list->begin(), list->end());
-    }
-    return cell;
-  }
-
-  void reserve_state(NodeIndex self) {
-    Node& node = tree_.nodes[self];
-    node.state = static_cast<std::uint32_t>(tree_.state_size);
-    const std::size_t size = node.kind->state_size + node.kind->state_per_child * node.children;
-    tree_.state_size += (size + 7) / 8 * 8;
-  }
-
   std::string_view all_, rest_;
-  Tree tree_;
+  Definition definition_;
 };
 
 }  // namespace
 
 Tree tree_from_text(std::string_view text) {
-  return Builder(text).build();
+  return compile(Builder(text).build());
 }
 
 }  // namespace lockstep::test
