@@ -105,6 +105,15 @@ TEST_CASE("an idle node has a row only when it was ticked") {
   CHECK(table.find("/c,") == std::string::npos);
 }
 
+TEST_CASE("progress of a child is what its synchronized node used, not what was left before") {
+  // Before tick 2 both are still successful; the node's new activation begins at 0.
+  const std::string table =
+      csv_of(record("Repeat[times=2](ParallelRelative[delta=1](a b))", "a+.5 b+.5"));
+  CHECK(table.find("1,0.1,2,Test/Repeat/ParallelRelative/a,success,0.5,1,0\n") !=
+        std::string::npos);
+  CHECK(table.find("2,0.2,2,Test/Repeat/ParallelRelative/a,running,0,1,0\n") != std::string::npos);
+}
+
 TEST_CASE("names with commas and quotes are quoted") {
   CHECK(csv_field("a/b") == "a/b");
   CHECK(csv_field("a,b") == "\"a,b\"");

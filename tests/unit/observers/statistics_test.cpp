@@ -48,6 +48,14 @@ TEST_CASE("tick periods are measured on a real clock only") {
   CHECK(summary.period->p50 == Approx(0.1).epsilon(0.01));
 }
 
+TEST_CASE("two ticks have one period between them") {
+  WatchedRun run(kTree, "a+.5 b+.5");
+  run.start.real_time = true;
+  const Summary summary = summary_of(run);
+  REQUIRE(summary.period);
+  CHECK(summary.period->p50 == Approx(0.1).epsilon(0.01));
+}
+
 TEST_CASE("a child that is held when the run ends was held until then") {
   WatchedRun run("ParallelAbsolute[barriers=.5](a b)", "a=R.1RRRX b=R.9");
   const Summary summary = summary_of(run);

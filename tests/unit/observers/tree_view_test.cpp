@@ -62,6 +62,23 @@ TEST_CASE("colors come in pairs and do not count as columns") {
         "  \x1b[32m+\x1b[0m a\x1b[2m (Scrip\x1b[0m\n");
 }
 
+TEST_CASE("only the topmost node that is held says for whom it waits") {
+  const Tree tree =
+      tree_from_text("ParallelRelative[delta=.1](a ParallelAbsolute[barriers=.5](b c))");
+  const Snapshot now = snapshot({{Activity::Running},
+                                 {Activity::Running, 0.1},
+                                 {Activity::Paused, 0.4},
+                                 {Activity::Paused, 0.6},
+                                 {Activity::Paused, 0.4}});
+  CHECK(draw(tree, now, {.width = 90, .height = 24}) ==
+        "Test  10 Hz  tick 4  0.400 s  overruns 0\n"
+        "> ParallelRelative\n"
+        "  > a                [##==|.................] 0.10\n"
+        "  = ParallelAbsolute [####|###..............] 0.40  waits for a, 0.30 ahead (delta 0.1)\n"
+        "    = b [###########|#.........] 0.60\n"
+        "    = c [########...|..........] 0.40\n");
+}
+
 TEST_CASE("how the run ended stands in the first line") {
   const Tree tree = tree_from_text("Sequence(a)");
   Snapshot now = snapshot({{Activity::Success}, {Activity::Success}});
