@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "engine/node_kind.h"
+#include "plugin/descriptor_leaf.h"
 #include "plugin/descriptor_port.h"
 
 namespace lockstep {
@@ -14,19 +14,6 @@ constexpr std::size_t kHandshakeSize =
     offsetof(lockstep_plugin, struct_size) + sizeof(lockstep_plugin::struct_size);
 constexpr std::size_t kPluginSizeIn10 =
     offsetof(lockstep_plugin, get_extension) + sizeof(lockstep_plugin::get_extension);
-constexpr std::size_t kLeafSizeIn10 =
-    offsetof(lockstep_leaf_type, get_extension) + sizeof(lockstep_leaf_type::get_extension);
-
-// Tags of the tree language that are no node kinds.
-constexpr std::string_view kReservedTags[] = {"root",    "BehaviorTree", "SubTree", "include",
-                                              "plugin",  "arg",          "Action",  "Condition",
-                                              "Control", "Decorator"};
-
-bool is_taken(std::string_view id) {
-  return std::ranges::find(kReservedTags, id) != std::end(kReservedTags) ||
-         std::ranges::any_of(built_in_kinds(),
-                             [&](const NodeKind* kind) { return kind->type.id == id; });
-}
 
 std::optional<Refusal> check_handshake(const lockstep_plugin& entry, std::size_t exported_size) {
   if (exported_size != 0 && exported_size < kHandshakeSize) {
@@ -72,70 +59,6 @@ std::optional<Refusal> check_plugin(const lockstep_plugin& plugin) {
                    "a plugin has both or none"};
   }
   return std::nullopt;
-}
-
-std::optional<Refusal> check_id(const char* id) {
-  if (id == nullptr) return Refusal{"has no id", "set lockstep_leaf_type::id"};
-  if (!is_attribute_name(id)) {
-    return Refusal{fmt::format("has the id '{}'", id),
-                   "an id is a letter, then letters, digits and '_'"};
-  }
-  if (is_taken(id)) {
-    return Refusal{fmt::format("has the id '{}', which is a tag of the tree language", id),
-                   "give the leaf another id"};
-  }
-  return std::nullopt;
-}
-
-std::optional<Refusal> check_leaf(const lockstep_leaf_type& leaf) {
-  if (auto refusal = check_id(leaf.id)) return refusal;
-  if (leaf.kind != LOCKSTEP_ACTION && leaf.kind != LOCKSTEP_CONDITION) {
-    return Refusal{fmt::format("('{}') has kind {}", leaf.id, leaf.kind),
-                   "use LOCKSTEP_ACTION or LOCKSTEP_CONDITION, 1 or 2"};
-  }
-  const char* missing = leaf.create == nullptr    ? "create"
-                        : leaf.destroy == nullptr ? "destroy"
-                        : leaf.tick == nullptr    ? "tick"
-                                                  : nullptr;
-  if (missing != nullptr) {
-    return Refusal{fmt::format("('{}') has no {} function", leaf.id, missing),
-                   "create, destroy and tick must not be NULL"};
-  }
-  if (leaf.port_count > kMaxDescriptorCount) {
-    return Refusal{fmt::format("('{}') claims to have {} ports, expected at most {}", leaf.id,
-                               leaf.port_count, kMaxDescriptorCount),
-                   "check lockstep_leaf_type::port_count"};
-  }
-  if (leaf.port_count != 0 && leaf.ports == nullptr) {
-    return Refusal{fmt::format("('{}') has {} ports but no list of them", leaf.id, leaf.port_count),
-                   "set lockstep_leaf_type::ports"};
-  }
-  return std::nullopt;
-}
-
-std::optional<Refusal> read_ports(const lockstep_leaf_type& leaf, std::vector<Parameter>& ports) {
-  ports.reserve(leaf.port_count);
-  for (std::uint32_t index = 0; index < leaf.port_count; ++index) {
-    Parameter port{};
-    if (auto refusal = read_port(leaf.ports[index], ports, port)) {
-      return Refusal{fmt::format("('{}'): port {} {}", leaf.id, index, refusal->message),
-                     std::move(refusal->hint)};
-    }
-    ports.push_back(port);
-  }
-  return std::nullopt;
-}
-
-std::optional<Refusal> read_leaf(const lockstep_leaf_type* from, Descriptors::Leaf& leaf) {
-  if (from == nullptr) return Refusal{"is NULL", "list leaf_type_count leaf types"};
-  if (from->struct_size < kLeafSizeIn10) {
-    return Refusal{
-        fmt::format("has struct_size {}, expected at least {}", from->struct_size, kLeafSizeIn10),
-        "set it to sizeof(lockstep_leaf_type)"};
-  }
-  leaf.type = covered_copy(from, from->struct_size);
-  if (auto refusal = check_leaf(leaf.type)) return refusal;
-  return read_ports(leaf.type, leaf.parameters);
 }
 
 NodeType node_type(const lockstep_plugin& plugin, const Descriptors::Leaf& leaf) {

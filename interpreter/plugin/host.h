@@ -15,7 +15,7 @@
 
 namespace lockstep {
 
-struct Port {
+struct BoundPort {
   ValueType type;
   const Value* read = nullptr;  // null: no value
   Value* write = nullptr;       // null: an input, or not bound to an entry
@@ -28,7 +28,7 @@ struct lockstep_caller {
   static constexpr std::size_t kMaxErrorLength = 500;
 
   std::string who;  // its path, or the plugin's name
-  std::vector<lockstep::Port> ports;
+  std::vector<BoundPort> ports;
   lockstep::RandomStream random;
   const lockstep::LeafTime* time;
   const lockstep::LeafLog* log;

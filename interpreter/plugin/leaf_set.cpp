@@ -27,13 +27,13 @@ std::string call_plugin(Call call) {
   }
 }
 
-std::vector<Port> resolve_ports(const Tree& tree, const LeafNode& leaf, Blackboard& blackboard) {
-  std::vector<Port> ports;
+std::vector<BoundPort> resolve_ports(const Tree& tree, const LeafNode& leaf, Blackboard& blackboard) {
+  std::vector<BoundPort> ports;
   ports.reserve(leaf.type->parameters.size());
   for (std::size_t index = 0; index < leaf.type->parameters.size(); ++index) {
     const PortBinding& binding = tree.ports[leaf.first_port + index];
     const Parameter& parameter = leaf.type->parameters[index];
-    Port port{.type = parameter.type};
+    BoundPort port{.type = parameter.type};
     if (binding.slot != PortBinding::kUnbound) {
       Value& entry = blackboard.values[binding.slot];
       port.read = &entry;

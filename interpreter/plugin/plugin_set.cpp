@@ -4,54 +4,21 @@
 
 #include <algorithm>
 #include <exception>
-#include <filesystem>
 #include <ranges>
 #include <utility>
 
-#include "core/suggest.h"
 #include "plugin/descriptor.h"
 #include "plugin/leaf_set.h"
+#include "plugin/plugin_path.h"
 #include "plugin/shared_object.h"
 
 namespace lockstep {
 namespace {
 
-namespace fs = std::filesystem;
-
 bool refuse(const std::string& origin, Refusal refusal, Diagnostics& diagnostics,
             SourceLocation where) {
   diagnostics.error(std::move(where), fmt::format("plugin '{}' {}", origin, refusal.message),
                     std::move(refusal.hint));
-  return false;
-}
-
-// The names that load_named would find in the directories.
-std::vector<std::string> available(std::span<const std::string> directories) {
-  std::vector<std::string> names;
-  for (const std::string& directory : directories) {
-    std::error_code error;
-    fs::directory_iterator entry(directory, error);
-    for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-      if (entry->path().extension() == ".so") names.push_back(entry->path().stem().string());
-    }
-  }
-  std::ranges::sort(names);
-  return names;
-}
-
-bool not_found(std::string_view name, std::span<const std::string> directories,
-               Diagnostics& diagnostics, SourceLocation where) {
-  const std::vector<std::string> names = available(directories);
-  const std::vector<std::string_view> candidates(names.begin(), names.end());
-  std::string hint = did_you_mean(name, candidates);
-  if (hint.empty()) hint = "add the directory that has it to the plugin path";
-  diagnostics.error(
-      std::move(where),
-      directories.empty()
-          ? fmt::format("plugin '{}' is not found: there is no directory to search", name)
-          : fmt::format("plugin '{}' is not found: '{}.so' is not in {}", name, name,
-                        fmt::join(directories, ", ")),
-      std::move(hint));
   return false;
 }
 
@@ -131,12 +98,11 @@ bool PluginSet::load_named(std::string_view name, std::span<const std::string> d
   if (std::ranges::any_of(plugins_, [&](const auto& it) { return it->name() == name; })) {
     return true;
   }
-  for (const std::string& directory : directories) {
-    const std::string path = (fs::path(directory) / fmt::format("{}.so", name)).string();
-    std::error_code error;
-    if (fs::exists(path, error)) return open({path, name, std::move(where)}, diagnostics);
+  std::string path;
+  if (auto refusal = find_plugin_file(name, directories, path)) {
+    return refuse(std::string(name), std::move(*refusal), diagnostics, std::move(where));
   }
-  return not_found(name, directories, diagnostics, std::move(where));
+  return open({std::move(path), name, std::move(where)}, diagnostics);
 }
 
 bool PluginSet::add(const lockstep_plugin& plugin, std::string origin, Diagnostics& diagnostics,

@@ -149,6 +149,16 @@ TEST_CASE("a leaf id belongs to one plugin, and both are named") {
   CHECK(plugins.types().size() == 1);
 }
 
+TEST_CASE("two plugins of one name cannot live in one program") {
+  PluginSet plugins;
+  Diagnostics diagnostics;
+  REQUIRE(plugins.load_file(plugin_path("good"), diagnostics));
+  CHECK_FALSE(plugins.load_file(plugin_path("same_name"), diagnostics));
+  CHECK(texts(diagnostics) == Strings{said(plugin_path("same_name"),
+                                           "is named 'good', as is '" + plugin_path("good") + "'",
+                                           "load one of the two")});
+}
+
 TEST_CASE("a plugin whose init fails is named") {
   const Case kInit[] = {
       {"init_refuses", "refuses to work: its init returned false", ""},

@@ -1,0 +1,53 @@
+#include "plugin/plugin_path.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+#include "core/suggest.h"
+
+namespace lockstep {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kAddDirectory = "add the directory that has it to the plugin path";
+
+// The names that could be found in the directories.
+std::vector<std::string> available(std::span<const std::string> directories) {
+  std::vector<std::string> names;
+  for (const std::string& directory : directories) {
+    std::error_code error;
+    fs::directory_iterator entry(directory, error);
+    for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+      if (entry->path().extension() == ".so") names.push_back(entry->path().stem().string());
+    }
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+}  // namespace
+
+std::optional<Refusal> find_plugin_file(std::string_view name,
+                                        std::span<const std::string> directories,
+                                        std::string& path) {
+  for (const std::string& directory : directories) {
+    path = (fs::path(directory) / fmt::format("{}.so", name)).string();
+    std::error_code error;
+    if (fs::exists(path, error)) return std::nullopt;
+  }
+  if (directories.empty()) {
+    return Refusal{"is not found: there is no directory to search", kAddDirectory};
+  }
+  const std::vector<std::string> names = available(directories);
+  const std::vector<std::string_view> candidates(names.begin(), names.end());
+  std::string hint = did_you_mean(name, candidates);
+  return Refusal{
+      fmt::format("is not found: '{}.so' is not in {}", name, fmt::join(directories, ", ")),
+      hint.empty() ? std::string(kAddDirectory) : std::move(hint)};
+}
+
+}  // namespace lockstep

@@ -1,0 +1,3 @@
+#define PLUGIN_NAME "good"
+#define LEAF_ID "Twin"
+#include "entry.h"
