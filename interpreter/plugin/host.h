@@ -28,7 +28,7 @@ struct lockstep_caller {
   static constexpr std::size_t kMaxErrorLength = 500;
 
   std::string who;  // its path, or the plugin's name
-  std::vector<BoundPort> ports;
+  std::vector<lockstep::BoundPort> ports;
   lockstep::RandomStream random;
   const lockstep::LeafTime* time;
   const lockstep::LeafLog* log;

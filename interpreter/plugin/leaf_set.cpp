@@ -27,7 +27,8 @@ std::string call_plugin(Call call) {
   }
 }
 
-std::vector<BoundPort> resolve_ports(const Tree& tree, const LeafNode& leaf, Blackboard& blackboard) {
+std::vector<BoundPort> resolve_ports(const Tree& tree, const LeafNode& leaf,
+                                     Blackboard& blackboard) {
   std::vector<BoundPort> ports;
   ports.reserve(leaf.type->parameters.size());
   for (std::size_t index = 0; index < leaf.type->parameters.size(); ++index) {
