@@ -20,6 +20,11 @@ constexpr std::string_view kShowCursor = "\x1b[?25h";
 constexpr std::string_view kClearRestOfLine = "\x1b[K";
 constexpr std::string_view kClearBelow = "\x1b[J";
 
+void write(std::FILE* out, std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), out);
+  std::fflush(out);
+}
+
 std::string with_cleared_line_ends(std::string_view text) {
   std::string cleared;
   for (const char character : text) {
@@ -90,21 +95,33 @@ void ConsoleLive::take_progress(Ticker& ticker, NodeIndex node, std::vector<Node
 
 void ConsoleLive::print(std::string line) {
   const std::lock_guard lock(mutex_);
-  printed_.push_back(std::move(line));
+  if (stopped_) {
+    write(options_.out, printable(line) + "\n");
+  } else if (printed_.size() < kMostLines) {
+    printed_.push_back(std::move(line));
+  } else {
+    ++left_out_;
+  }
 }
 
 void ConsoleLive::stop() {
-  if (!thread_.joinable()) return;
+  if (thread_.joinable()) {
+    {
+      const std::lock_guard lock(mutex_);
+      stopping_ = true;
+    }
+    wake_.notify_one();
+    thread_.join();
+  }
   {
     const std::lock_guard lock(mutex_);
-    stopping_ = true;
+    stopped_ = true;
   }
-  wake_.notify_one();
-  thread_.join();
+  write(options_.out, take_printed());
 }
 
 void ConsoleLive::draw_until_stopped() {
-  std::fwrite(kHideCursor.data(), 1, kHideCursor.size(), options_.out);
+  write(options_.out, kHideCursor);
   bool stopped = false;
   while (!stopped) {
     draw_frame();
@@ -112,16 +129,11 @@ void ConsoleLive::draw_until_stopped() {
     stopped = wake_.wait_for(lock, kFrame, [this] { return stopping_; });
   }
   draw_frame();
-  std::fwrite(kShowCursor.data(), 1, kShowCursor.size(), options_.out);
-  std::fflush(options_.out);
+  write(options_.out, kShowCursor);
 }
 
 void ConsoleLive::draw_frame() {
-  std::vector<std::string> printed;
-  {
-    const std::lock_guard lock(mutex_);
-    printed.swap(printed_);
-  }
+  const std::string printed = take_printed();
   if (!snapshots_.take() && printed.empty()) return;
   const TerminalSize size = terminal_size(options_.out);
   const std::string frame = draw(tree_, snapshots_.front(),
@@ -130,12 +142,19 @@ void ConsoleLive::draw_frame() {
                                   .color = options_.color,
                                   .unicode = options_.unicode});
   std::string text = lines_on_screen_ == 0 ? "" : fmt::format("\r\x1b[{}A", lines_on_screen_);
-  for (const std::string& line : printed)
-    text += printable(line) + std::string(kClearRestOfLine) + "\n";
-  text.append(with_cleared_line_ends(frame)).append(kClearBelow);
-  std::fwrite(text.data(), 1, text.size(), options_.out);
-  std::fflush(options_.out);
+  text += with_cleared_line_ends(printed + frame);
+  write(options_.out, text.append(kClearBelow));
   lines_on_screen_ = static_cast<std::size_t>(std::count(frame.begin(), frame.end(), '\n'));
+}
+
+std::string ConsoleLive::take_printed() {
+  const std::lock_guard lock(mutex_);
+  std::string text;
+  for (const std::string& line : printed_) text += printable(line) + "\n";
+  if (left_out_ > 0) text += fmt::format("... {} lines left out\n", left_out_);
+  printed_.clear();
+  left_out_ = 0;
+  return text;
 }
 
 void restore_cursor(int terminal) {

@@ -25,6 +25,7 @@ struct LiveOptions {
 class ConsoleLive final : public Observer {
  public:
   static constexpr std::chrono::milliseconds kFrame{100};
+  static constexpr std::size_t kMostLines = 1000;
 
   ConsoleLive(const Tree& tree, const LiveOptions& options);
   // Leaves the last frame on the screen and the cursor visible below it.
@@ -36,7 +37,8 @@ class ConsoleLive final : public Observer {
   void after_tick(Ticker& ticker, const TickReport& report) override;
   void run_ended(Ticker& ticker, const RunEnd& end) override;
 
-  // A line that scrolls by above the view. From any thread; shown with the next frame.
+  // A line that scrolls by above the view. From any thread; shown with the next frame, or at once
+  // after the last one. Of more than kMostLines for a frame, the rest is counted.
   void print(std::string line);
 
  private:
@@ -45,6 +47,7 @@ class ConsoleLive final : public Observer {
   void stop();
   void draw_until_stopped();
   void draw_frame();
+  std::string take_printed();
 
   const Tree& tree_;
   LiveOptions options_;
@@ -62,6 +65,8 @@ class ConsoleLive final : public Observer {
   std::mutex mutex_;  // for what follows
   std::condition_variable wake_;
   std::vector<std::string> printed_;
+  std::size_t left_out_ = 0;
+  bool stopped_ = false;
   bool stopping_ = false;
   std::thread thread_;
 };

@@ -111,6 +111,18 @@ TEST_CASE("the live view leaves the last state and the cursor on the screen") {
   CHECK(text.substr(text.size() - std::min(text.size(), last.size())) == last);
 }
 
+TEST_CASE("no line is lost after the last frame, and too many are counted") {
+  TextFile out;
+  WatchedRun run("Sequence(a)", "a=S");
+  ConsoleLive live(run.run.tree(), {.out = out.get()});
+  for (std::size_t i = 0; i < ConsoleLive::kMostLines + 7; ++i) live.print("early");
+  run.watch({&live});
+  live.print("late");
+  const std::string text = out.text();
+  CHECK(text.find("... 7 lines left out") != std::string::npos);
+  CHECK(text.ends_with("\x1b[?25hlate\n"));
+}
+
 TEST_CASE("a live view that is given up restores the cursor") {
   TextFile out;
   WatchedRun run("Sequence(a)", "a=R");
