@@ -40,7 +40,7 @@ struct Document::Implementation {
     return std::string(utf8_front(lines->line(line), kExcerptBytes));
   }
 
-  void report(Fault fault, Diagnostics& diagnostics) {
+  void report(XmlFault fault, Diagnostics& diagnostics) {
     const auto location = at(fault.offset);
     diagnostics.error(location, std::move(fault.message), std::move(fault.hint),
                       excerpt(location.line));

@@ -8,7 +8,7 @@ namespace {
 
 constexpr auto kSaveAsUtf8 = "save it as UTF-8";
 
-Fault bad_byte(std::string_view text, std::size_t offset) {
+XmlFault bad_byte(std::string_view text, std::size_t offset) {
   const auto byte = static_cast<unsigned char>(text[offset]);
   if (byte == 0) return {offset, "NUL byte: this is not text in UTF-8", kSaveAsUtf8};
   if (byte < 0x20) return {offset, fmt::format("control character \\x{:02X} in the text", byte)};
@@ -21,10 +21,10 @@ bool is_allowed_control(char c) {
 
 }  // namespace
 
-std::optional<Fault> check_encoding(std::string_view text) {
+std::optional<XmlFault> check_encoding(std::string_view text) {
   using namespace std::string_view_literals;
   for (const auto mark : {"\xFF\xFE"sv, "\xFE\xFF"sv})
-    if (text.starts_with(mark)) return Fault{0, "the file is in UTF-16", kSaveAsUtf8};
+    if (text.starts_with(mark)) return XmlFault{0, "the file is in UTF-16", kSaveAsUtf8};
   for (std::size_t i = 0; i < text.size();) {
     if (text[i] >= 0x20 || is_allowed_control(text[i])) {
       ++i;

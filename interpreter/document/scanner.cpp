@@ -126,7 +126,7 @@ Token Scanner::doctype() {
 }
 
 Token Scanner::fail(std::size_t offset, std::string message, std::string hint) {
-  fault_ = Fault{offset, std::move(message), std::move(hint)};
+  fault_ = XmlFault{offset, std::move(message), std::move(hint)};
   return {TokenKind::Fault, offset};
 }
 

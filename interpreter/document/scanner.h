@@ -10,8 +10,8 @@
 
 namespace lockstep {
 
-// What is wrong at a byte of a text.
-struct Fault {
+// What is wrong at a byte of a text. (Fault is that of a leaf: engine/ticker.h.)
+struct XmlFault {
   std::size_t offset = 0;
   std::string message;
   std::string hint = {};
@@ -44,7 +44,7 @@ class Scanner {
 
   // The next token. After End or Fault, that one again.
   Token next();
-  const std::optional<Fault>& fault() const { return fault_; }
+  const std::optional<XmlFault>& fault() const { return fault_; }
   std::size_t offset_of(std::string_view part) const {
     return static_cast<std::size_t>(part.data() - text_.data());
   }
@@ -67,7 +67,7 @@ class Scanner {
   std::size_t position_ = 0;
   std::string_view tag_;  // the tag that is open: its attributes come next
   std::size_t tag_begin_ = 0;
-  std::optional<Fault> fault_;
+  std::optional<XmlFault> fault_;
 };
 
 constexpr std::string_view kXmlBlanks = " \t\r\n";

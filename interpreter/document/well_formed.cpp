@@ -137,14 +137,14 @@ class Checker {
             prolog_ ? "the file is empty" : "the root element is missing"});
   }
 
-  void add(Fault fault) {
+  void add(XmlFault fault) {
     if (stopped_) return;
     result_.faults.push_back(std::move(fault));
     if (result_.faults.size() == kMaxFaults) stopped_ = true;
     if (stopped_) result_.readable = false;
   }
 
-  void stop(Fault fault) {
+  void stop(XmlFault fault) {
     add(std::move(fault));
     result_.readable = false;
     stopped_ = true;

@@ -17,10 +17,10 @@ constexpr std::size_t kMaxAttributes = 256;
 
 // The first byte that cannot be part of a text in UTF-8 that XML allows. `text` has no byte order
 // mark of UTF-8.
-std::optional<Fault> check_encoding(std::string_view text);
+std::optional<XmlFault> check_encoding(std::string_view text);
 
 struct WellFormed {
-  std::vector<Fault> faults;
+  std::vector<XmlFault> faults;
   bool readable = true;  // false: a fault is such that the reader refuses the text
 };
 
