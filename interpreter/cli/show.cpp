@@ -1,14 +1,11 @@
-#include <langinfo.h>
-
 #include <CLI/CLI.hpp>
-#include <clocale>
-#include <cstring>
 
 #include "cli/catalog_options.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/tree_drawing.h"
+#include "observers/terminal.h"
 
 namespace lockstep {
 namespace {
@@ -19,19 +16,10 @@ struct Options {
   std::string format = "text";
 };
 
-// Only looked at: a program that sets its locale reads and writes numbers in it.
-bool locale_is_utf8() {
-  const locale_t locale = newlocale(LC_CTYPE_MASK, "", nullptr);
-  if (locale == nullptr) return false;
-  const bool is_utf8 = std::strcmp(nl_langinfo_l(CODESET, locale), "UTF-8") == 0;
-  freelocale(locale);
-  return is_utf8;
-}
-
 std::string draw(const Drawn& drawn, const std::string& format) {
   if (format == "dot") return tree_as_dot(drawn);
   if (format == "mermaid") return tree_as_mermaid(drawn);
-  return tree_as_text(drawn, !locale_is_utf8());
+  return tree_as_text(drawn, !has_unicode());
 }
 
 int show(const Options& options) {

@@ -1,0 +1,189 @@
+#include "definition/xsd.h"
+
+#include <fmt/format.h>
+
+#include "core/diagnostics.h"
+
+namespace lockstep {
+namespace {
+
+// What every schema begins with. XSD cannot keep a node from being the first element, but it can
+// keep the elements of 'root' out of trees: an abstract element is never valid.
+constexpr std::string_view kPrologue = R"xsd(<?xml version="1.0" encoding="UTF-8"?>
+<!-- The tree language of lockstep. Made by `lockstep schema`; do not edit. -->
+<xs:schema xmlns:xs="http://www.w3.org/2001/XMLSchema" elementFormDefault="unqualified">
+
+  <xs:simpleType name="substituted">
+    <xs:annotation><xs:documentation>Contains ${…}: an argument of the tree, known when it is loaded.</xs:documentation></xs:annotation>
+    <xs:restriction base="xs:string"><xs:pattern value="(.|\s)*$\{(.|\s)*\}(.|\s)*"/></xs:restriction>
+  </xs:simpleType>
+  <xs:simpleType name="key">
+    <xs:annotation><xs:documentation>{key}: an entry of the blackboard.</xs:documentation></xs:annotation>
+    <xs:restriction base="xs:string"><xs:pattern value="\{[A-Za-z_][A-Za-z0-9_]*\}"/></xs:restriction>
+  </xs:simpleType>
+  <xs:simpleType name="text">
+    <xs:annotation><xs:documentation>Any text that is not {…}.</xs:documentation></xs:annotation>
+    <xs:restriction base="xs:string"><xs:pattern value="([^{](.|\s)*)?|\{((.|\s)*[^}])?|\{\}"/></xs:restriction>
+  </xs:simpleType>
+  <xs:simpleType name="int">
+    <xs:restriction base="xs:long"/>
+  </xs:simpleType>
+  <xs:simpleType name="double">
+    <xs:restriction base="xs:double"><xs:pattern value="[+\-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+\-]?[0-9]+)?"/></xs:restriction>
+  </xs:simpleType>
+  <xs:simpleType name="list">
+    <xs:annotation><xs:documentation>Numbers, separated by ; or , or blanks.</xs:documentation></xs:annotation>
+    <xs:restriction base="xs:string"><xs:pattern value="[\s;,]*([+\-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+\-]?[0-9]+)?([\s;,]+[+\-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+\-]?[0-9]+)?)*)?[\s;,]*"/></xs:restriction>
+  </xs:simpleType>
+  <xs:simpleType name="boolean">
+    <xs:union memberTypes="xs:boolean substituted"/>
+  </xs:simpleType>
+  <xs:simpleType name="word">
+    <xs:annotation><xs:documentation>Not empty.</xs:documentation></xs:annotation>
+    <xs:restriction base="xs:string"><xs:minLength value="1"/></xs:restriction>
+  </xs:simpleType>
+  <xs:simpleType name="plainName">
+    <xs:restriction base="xs:string"><xs:pattern value="[^/]+"/></xs:restriction>
+  </xs:simpleType>
+  <xs:simpleType name="nodeName">
+    <xs:annotation><xs:documentation>Not empty, without '/'.</xs:documentation></xs:annotation>
+    <xs:union memberTypes="plainName substituted"/>
+  </xs:simpleType>
+  <xs:simpleType name="identifier">
+    <xs:restriction base="xs:string"><xs:pattern value="[A-Za-z_][A-Za-z0-9_]*"/></xs:restriction>
+  </xs:simpleType>
+  <xs:simpleType name="languageVersion">
+    <xs:restriction base="xs:string"><xs:enumeration value="1"/></xs:restriction>
+  </xs:simpleType>
+
+  <xs:attributeGroup name="common">
+    <xs:attribute name="name" type="nodeName">
+      <xs:annotation><xs:documentation>What the node is called in messages, views and recordings; its id when absent. Without '/'.</xs:documentation></xs:annotation>
+    </xs:attribute>
+    <xs:attribute name="_description" type="xs:string">
+      <xs:annotation><xs:documentation>A remark for readers of the file.</xs:documentation></xs:annotation>
+    </xs:attribute>
+  </xs:attributeGroup>
+
+  <xs:element name="root">
+    <xs:complexType>
+      <xs:choice minOccurs="0" maxOccurs="unbounded">
+        <xs:element name="plugin">
+          <xs:annotation><xs:documentation>A plugin that the trees of this file need, by its name.</xs:documentation></xs:annotation>
+          <xs:complexType><xs:attribute name="name" type="nodeName" use="required"/></xs:complexType>
+        </xs:element>
+        <xs:element name="arg">
+          <xs:annotation><xs:documentation>A load-time argument: --arg name=value gives it, ${name} uses it.</xs:documentation></xs:annotation>
+          <xs:complexType>
+            <xs:attribute name="name" use="required">
+              <xs:simpleType><xs:union memberTypes="identifier substituted"/></xs:simpleType>
+            </xs:attribute>
+            <xs:attribute name="default" type="xs:string"/>
+            <xs:attribute name="doc" type="xs:string"/>
+          </xs:complexType>
+        </xs:element>
+        <xs:element name="include">
+          <xs:annotation><xs:documentation>Another file whose trees are used here; its path is relative to this file.</xs:documentation></xs:annotation>
+          <xs:complexType><xs:attribute name="path" type="word" use="required"/></xs:complexType>
+        </xs:element>
+        <xs:element name="BehaviorTree">
+          <xs:annotation><xs:documentation>One tree: exactly one node, with all that is in it.</xs:documentation></xs:annotation>
+          <xs:complexType>
+            <xs:sequence><xs:any namespace="##local" processContents="lax"/></xs:sequence>
+            <xs:attribute name="ID" type="nodeName" use="required"/>
+            <xs:attribute name="_description" type="xs:string"/>
+          </xs:complexType>
+        </xs:element>
+      </xs:choice>
+      <xs:attribute name="lockstep" use="required">
+        <xs:annotation><xs:documentation>The version of the language.</xs:documentation></xs:annotation>
+        <xs:simpleType><xs:union memberTypes="languageVersion substituted"/></xs:simpleType>
+      </xs:attribute>
+      <xs:attribute name="main_tree_to_execute" type="word">
+        <xs:annotation><xs:documentation>The ID of the tree to run.</xs:documentation></xs:annotation>
+      </xs:attribute>
+    </xs:complexType>
+  </xs:element>
+  <xs:element name="BehaviorTree" abstract="true"/>
+  <xs:element name="plugin" abstract="true"/>
+  <xs:element name="arg" abstract="true"/>
+  <xs:element name="include" abstract="true"/>
+)xsd";
+
+std::string annotation(std::string_view doc) {
+  if (doc.empty()) return {};
+  return fmt::format("<xs:annotation><xs:documentation>{}</xs:documentation></xs:annotation>",
+                     xsd_escaped(printable(doc)));
+}
+
+std::string children(const Arity& arity) {
+  if (arity.max == 0) return {};
+  const std::string most = arity.max == Arity{}.max ? "unbounded" : fmt::format("{}", arity.max);
+  return fmt::format(
+      "      <xs:sequence><xs:any namespace=\"##local\" processContents=\"lax\" minOccurs=\"{}\" "
+      "maxOccurs=\"{}\"/></xs:sequence>\n",
+      arity.min, most);
+}
+
+std::string doc_of(const Parameter& parameter) {
+  std::string doc(parameter.doc);
+  if (!parameter.unit.empty()) doc += fmt::format(" Unit: {}.", parameter.unit);
+  if (parameter.default_text) doc += fmt::format(" Default: '{}'.", *parameter.default_text);
+  return doc;
+}
+
+std::string attribute(const NodeType& type, const Parameter& parameter) {
+  const bool required = parameter.required && !parameter.default_text;
+  return fmt::format(
+      "      <xs:attribute name=\"{}\"{}>\n        {}\n        {}\n      </xs:attribute>\n",
+      parameter.name, required ? " use=\"required\"" : "", annotation(doc_of(parameter)),
+      xsd_type(type, parameter));
+}
+
+std::string element(std::string_view name, std::string_view doc, std::string_view content) {
+  return fmt::format(
+      "\n  <xs:element name=\"{}\">\n    {}\n    <xs:complexType>\n{}      <xs:attributeGroup "
+      "ref=\"common\"/>\n",
+      name, annotation(doc), content);
+}
+
+constexpr std::string_view kElementEnd = "    </xs:complexType>\n  </xs:element>\n";
+constexpr std::string_view kAnyAttribute =
+    "      <xs:anyAttribute namespace=\"##local\" processContents=\"lax\"/>\n";
+
+// SubTree's other attributes are a remapping, those of an explicit form belong to the node that its
+// ID names: of both, the schema knows no more than the ID.
+std::string open_element(std::string_view name, std::string_view doc, const Arity& arity,
+                         std::string_view more) {
+  return element(name, doc, children(arity)) +
+         "      <xs:attribute name=\"ID\" type=\"word\" use=\"required\"/>\n" + std::string(more) +
+         std::string(kAnyAttribute) + std::string(kElementEnd);
+}
+
+std::string explicit_forms() {
+  return open_element("Action", "The action that ID names.", {0, 0}, "") +
+         open_element("Condition", "The condition that ID names.", {0, 0}, "") +
+         open_element("Control", "The control node that ID names.", {1}, "") +
+         open_element("Decorator", "The decorator that ID names.", {1, 1}, "");
+}
+
+std::string node(const NodeType& type) {
+  if (type.category == NodeCategory::SubTree) {
+    return open_element(type.id, type.doc, {0, 0},
+                        "      <xs:attribute name=\"_autoremap\" type=\"boolean\"/>\n");
+  }
+  std::string text = element(type.id, type.doc, children(type.arity));
+  for (const Parameter& parameter : type.parameters) text += attribute(type, parameter);
+  return text + std::string(kElementEnd);
+}
+
+}  // namespace
+
+std::string make_xsd(std::span<const NodeType* const> types) {
+  std::string text(kPrologue);
+  text += explicit_forms();
+  for (const NodeType* type : types) text += node(*type);
+  return text + "\n</xs:schema>\n";
+}
+
+}  // namespace lockstep

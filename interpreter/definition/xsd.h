@@ -1,0 +1,21 @@
+// The XML schema (XSD 1.0) of the tree language, made from the same rows that the checker uses. It
+// accepts all that the checker accepts, and refuses what XSD can say. Pure: text out, no files.
+//
+// All nodes are global elements, and what a node contains is a lax wildcard: nodes that the schema
+// knows are checked wherever they stand, leaves of plugins that it does not know are let pass.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "core/node_type.h"
+
+namespace lockstep {
+
+std::string make_xsd(std::span<const NodeType* const> types);
+
+// The xs:simpleType of a parameter, for attributes that are named `name`. Only within xsd*.cpp.
+std::string xsd_type(const NodeType& type, const Parameter& parameter);
+std::string xsd_escaped(std::string_view text);
+
+}  // namespace lockstep
