@@ -73,7 +73,7 @@ HoldCart::Status HoldCart::tick() {
   if (std::abs(now.cart.error) > slip.get()) {
     now.arms_align = false;
     log(lockstep::LogLevel::Warning,
-        "the cart slips away " + std::to_string(now.traveled) + " m along the path");
+        "the cart slips away after " + std::to_string(now.traveled) + " m");
     return Status::Failure;
   }
   is_aligning_ = is_off();
