@@ -60,6 +60,9 @@ class AttributeChecker {
     const Attribute* attribute = document_.find_attribute(node_.element, parameter.name);
     if (attribute == nullptr) return absent(parameter);
     const auto value = parse_value(parameter.type, attribute->value);
+    // An argument that is wrong or missing is told already; $${ is a literal, and wrong here.
+    const bool unknown = attribute->value.find("${") != std::string_view::npos;
+    if (!value && unknown && report_.has_errors()) return {};
     if (!value) {
       report_.at_value(node_.element, parameter.name,
                        fmt::format("'{}' is not {}, which '{}' must be", attribute->value,
@@ -173,10 +176,11 @@ void check_ports(const Reporter& report, const AttributeChecker& checker, Checke
     const Attribute* attribute = checker.attribute(port);
     if (attribute != nullptr) checked.key = key_of(attribute->value);
     if (attribute != nullptr && checked.key.empty() && port.direction != Direction::Input) {
-      report.at_value(node.element, port.name,
-                      fmt::format("the {}put '{}' needs a blackboard entry",
-                                  to_string(port.direction), port.name),
-                      fmt::format("write {}=\"{{key}}\"", port.name));
+      report.at_value(
+          node.element, port.name,
+          fmt::format("the {} '{}' needs a blackboard entry",
+                      port.direction == Direction::Output ? "output" : "inout", port.name),
+          fmt::format("write {}=\"{{key}}\"", port.name));
     } else if (checked.key.empty()) {
       Value value = checker.constant(port);
       if (!std::holds_alternative<std::monostate>(value)) {
@@ -246,6 +250,11 @@ void check_subtree_attributes(const Document& document, const Reporter& report, 
         report.at_value(node.element, attribute.name,
                         fmt::format("'{}' is not true or false", attribute.value));
       }
+    } else if (attribute.name.starts_with('_')) {
+      report.at_attribute(node.element, attribute.name,
+                          fmt::format("'SubTree' has no attribute '{}'", attribute.name),
+                          "attributes that begin with '_' belong to the language: _autoremap, "
+                          "_description; such a key cannot be remapped");
     } else if (!is_identifier(attribute.name)) {
       report.at_attribute(node.element, attribute.name,
                           fmt::format("'{}' is not a key", attribute.name),
