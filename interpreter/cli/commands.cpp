@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <system_error>
 #include <vector>
 
 #include "cli/command.h"
@@ -40,7 +41,13 @@ int run_program(int argc, char** argv) {
     return kExitUsage;
   }
   for (std::size_t i = 0; i < actions.size(); ++i) {
-    if (subcommands[i]->parsed()) return actions[i]();
+    if (!subcommands[i]->parsed()) continue;
+    try {
+      return actions[i]();
+    } catch (const std::system_error& error) {  // from fmt::print: a full disk, a closed pipe
+      print_error(error.what());
+      return kExitUsage;
+    }
   }
   return kExitUsage;
 }

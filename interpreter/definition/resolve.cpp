@@ -25,7 +25,9 @@ std::optional<std::string_view> choose_main(const Project& project, const Checke
   const Document& main = *project.documents.front();
   const Reporter report(main, diagnostics);
   if (trees.ids.empty()) {
-    report.at_element(0, "there is no BehaviorTree", "put a <BehaviorTree ID=\"…\"> into <root>");
+    if (!diagnostics.has_errors()) {  // else it may be there, but without a node
+      report.at_element(0, "there is no BehaviorTree", "put a <BehaviorTree ID=\"…\"> into <root>");
+    }
     return std::nullopt;
   }
   if (!options.main_tree.empty()) {
@@ -58,6 +60,9 @@ std::vector<PluginRequest> requested_plugins(const Project& project, Diagnostics
     const auto elements = document->elements();
     for (std::uint32_t child = 1; child < elements[0].end; child = elements[child].end) {
       if (elements[child].tag != "plugin") continue;
+      if (elements[child].end > child + 1) {
+        report.at_element(child + 1, "'plugin' takes no elements inside");
+      }
       for (const Attribute& attribute : document->attributes(child)) {
         if (attribute.name == "name") continue;
         report.at_attribute(child, attribute.name,

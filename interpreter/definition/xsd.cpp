@@ -56,6 +56,12 @@ constexpr std::string_view kPrologue = R"xsd(<?xml version="1.0" encoding="UTF-8
     <xs:restriction base="xs:string"><xs:enumeration value="1"/></xs:restriction>
   </xs:simpleType>
 
+  <xs:group name="nothing">
+    <xs:annotation><xs:documentation>No elements, but blanks and comments.</xs:documentation></xs:annotation>
+    <xs:sequence><xs:element ref="_nothing" minOccurs="0"/></xs:sequence>
+  </xs:group>
+  <xs:element name="_nothing" abstract="true"/>
+
   <xs:attributeGroup name="common">
     <xs:attribute name="name" type="nodeName">
       <xs:annotation><xs:documentation>What the node is called in messages, views and recordings; its id when absent. Without '/'.</xs:documentation></xs:annotation>
@@ -70,11 +76,12 @@ constexpr std::string_view kPrologue = R"xsd(<?xml version="1.0" encoding="UTF-8
       <xs:choice minOccurs="0" maxOccurs="unbounded">
         <xs:element name="plugin">
           <xs:annotation><xs:documentation>A plugin that the trees of this file need, by its name.</xs:documentation></xs:annotation>
-          <xs:complexType><xs:attribute name="name" type="nodeName" use="required"/></xs:complexType>
+          <xs:complexType><xs:group ref="nothing"/><xs:attribute name="name" type="nodeName" use="required"/></xs:complexType>
         </xs:element>
         <xs:element name="arg">
           <xs:annotation><xs:documentation>A load-time argument: --arg name=value gives it, ${name} uses it.</xs:documentation></xs:annotation>
           <xs:complexType>
+            <xs:group ref="nothing"/>
             <xs:attribute name="name" use="required">
               <xs:simpleType><xs:union memberTypes="identifier substituted"/></xs:simpleType>
             </xs:attribute>
@@ -84,7 +91,7 @@ constexpr std::string_view kPrologue = R"xsd(<?xml version="1.0" encoding="UTF-8
         </xs:element>
         <xs:element name="include">
           <xs:annotation><xs:documentation>Another file whose trees are used here; its path is relative to this file.</xs:documentation></xs:annotation>
-          <xs:complexType><xs:attribute name="path" type="word" use="required"/></xs:complexType>
+          <xs:complexType><xs:group ref="nothing"/><xs:attribute name="path" type="word" use="required"/></xs:complexType>
         </xs:element>
         <xs:element name="BehaviorTree">
           <xs:annotation><xs:documentation>One tree: exactly one node, with all that is in it.</xs:documentation></xs:annotation>
@@ -117,7 +124,7 @@ std::string annotation(std::string_view doc) {
 }
 
 std::string children(const Arity& arity) {
-  if (arity.max == 0) return {};
+  if (arity.max == 0) return "      <xs:group ref=\"nothing\"/>\n";
   const std::string most = arity.max == Arity{}.max ? "unbounded" : fmt::format("{}", arity.max);
   return fmt::format(
       "      <xs:sequence><xs:any namespace=\"##local\" processContents=\"lax\" minOccurs=\"{}\" "
