@@ -65,7 +65,9 @@ double progress(Ticker& ticker, NodeIndex self) {
   }
   const auto wanted = sorted.begin() + (ticker.parameter(self, kSuccessCount).integer - 1);
   std::nth_element(sorted.begin(), wanted, sorted.end(), std::greater<>());
-  return *wanted;
+  const double reached = *wanted;
+  std::fill(sorted.begin(), sorted.end(), 0.0);  // asking must not change the state
+  return reached;
 }
 
 }  // namespace
