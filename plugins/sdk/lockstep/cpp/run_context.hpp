@@ -48,6 +48,7 @@ struct ContextHolder : ContextBase {
                    [&]() -> void* { return static_cast<ContextBase*>(new ContextHolder(caller)); });
   }
   static void destroy(void* context) {
+    if (!context) return;
     auto& holder = *static_cast<ContextHolder*>(static_cast<ContextBase*>(context));
     const Caller caller = holder.caller;
     guarded_end(caller, [&] { delete &holder; });
