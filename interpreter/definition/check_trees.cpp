@@ -11,6 +11,11 @@ namespace {
 
 constexpr std::string_view kExplicitTags[] = {"Action", "Condition", "Control", "Decorator"};
 
+// How an editor finds the schema; they say nothing about the trees.
+bool is_schema_attribute(std::string_view name) {
+  return name == "xmlns:xsi" || name == "xsi:noNamespaceSchemaLocation";
+}
+
 bool is_explicit(std::string_view tag) {
   return std::ranges::find(kExplicitTags, tag) != std::end(kExplicitTags);
 }
@@ -69,7 +74,7 @@ class TreeChecker {
             0, attribute.name, "files for BehaviorTree.CPP are not read yet",
             "write lockstep=\"1\" and check the tree's meaning in docs/language.md");
         versioned = true;
-      } else if (attribute.name != "main_tree_to_execute") {
+      } else if (attribute.name != "main_tree_to_execute" && !is_schema_attribute(attribute.name)) {
         report.at_attribute(0, attribute.name,
                             fmt::format("'root' has no attribute '{}'", attribute.name),
                             "attributes of 'root': lockstep, main_tree_to_execute");
@@ -120,6 +125,7 @@ class TreeChecker {
       places_.emplace(id, std::pair(document_, tree));
       return;
     }
+    if (id.empty()) return;  // reported already
     const auto [first_document, first_element] = places_.at(id);
     const auto first = project_.documents[first_document]->locate(first_element);
     report.at_value(tree, "ID", fmt::format("a tree '{}' exists already", id),

@@ -12,6 +12,10 @@
 namespace lockstep {
 namespace {
 
+std::string with_article(ValueType type) {
+  return fmt::format("{} {}", type == ValueType::Int ? "an" : "a", to_string(type));
+}
+
 class Expander {
  public:
   Expander(const Project& project, CheckedTrees& trees, const ResolveOptions& options,
@@ -119,8 +123,8 @@ class Expander {
           project_.documents[first.document]->locate_attribute(first.element, first.port);
       report.at_value(
           checked.element, port.name,
-          fmt::format("'{{{}}}' is a {} for '{}', but a {} elsewhere", key, to_string(port.type),
-                      port.name, to_string(entry.type)),
+          fmt::format("'{{{}}}' is {} for '{}', but {} elsewhere", key, with_article(port.type),
+                      port.name, with_article(entry.type)),
           fmt::format("the other use is at {}:{}:{}", where.file, where.line, where.column));
     }
     return found.entry;

@@ -14,6 +14,8 @@ class Reporter {
   Reporter(const Document& document, Diagnostics& diagnostics)
       : document_(document), diagnostics_(diagnostics) {}
 
+  bool has_errors() const { return diagnostics_.has_errors(); }
+
   void at_element(std::uint32_t element, std::string message, std::string hint = {},
                   Severity severity = Severity::Error) const {
     at(document_.locate(element), std::move(message), std::move(hint), severity);
