@@ -1,0 +1,193 @@
+// docs/language.md: "The blackboard".
+#include <catch2/catch.hpp>
+
+#include "language/pipeline.h"
+
+namespace lockstep::test {
+namespace {
+
+TEST_CASE("literals of each type") {
+  constexpr ClaimRow kRows[] = {
+      {"ports have defaults", R"(<Show/>)", "success 1: false 0 0 '' []"},
+      {"bool, int, double, string, list",
+       R"(<Show flag="true" count="-3" speed="+2.5e-1" text="a b" points="1;2"/>)",
+       "success 1: true -3 0.25 'a b' [1;2;]"},
+      {"bool is also 1 and 0", R"(<Show flag="1"/>)", "success 1: true 0 0 '' []"},
+      {"bool is not a word of another kind", R"(<Show flag="yes"/>)",
+       "2:13 error: 'yes' is not true or false, which 'flag' must be"},
+      {"blanks around a value do not count, but in a string",
+       R"(<Show flag=" true " count=" 4 " text=" x "/>)", "success 1: true 4 0 ' x ' []"},
+      {"an int is whole", R"(<Show count="1.0"/>)",
+       "2:14 error: '1.0' is not a whole number, which 'count' must be"},
+      {"an int has 64 bits", R"(<Show count="9223372036854775808"/>)",
+       "2:14 error: '9223372036854775808' is not a whole number, which 'count' must be"},
+      {"a double is decimal", R"(<Show speed="0x10"/>)",
+       "2:14 error: '0x10' is not a number, which 'speed' must be"},
+      {"a double is finite", R"(<Show speed="inf"/>)",
+       "2:14 error: 'inf' is not a number, which 'speed' must be"},
+      {"a list is separated by ; or , or blanks", R"(<Show points="1;2, 3 4"/>)",
+       "success 1: false 0 0 '' [1;2;3;4;]"},
+      {"a list may be empty", R"(<Show points=""/>)", "success 1: false 0 0 '' []"},
+      {"a number may not", R"(<Show count=""/>)",
+       "2:14 error: '' is not a whole number, which 'count' must be"},
+      {"braces that are not the whole value are text", R"(<Say text="a {b}"/>)",
+       "success 1: a {b}"},
+      {"empty braces too", R"(<Say text="{}"/>)", "success 1: {}"},
+      {"XML writes special characters", R"(<Say text="&lt;&#33;&amp;&quot;"/>)",
+       "success 1: <!&\""},
+  };
+  check_runs(kRows);
+}
+
+TEST_CASE("ports: given, left out, bound") {
+  constexpr ClaimRow kRows[] = {
+      {"an input without a default must be given", R"(<GoTo/>)",
+       "2:1 error: 'GoTo' needs the parameter 'target'"},
+      {"an inout too", R"(<Count/>)", "2:1 error: 'Count' needs the parameter 'total'"},
+      {"an output may be left out", R"(<FindDoor/>)", ""},
+      {"an output needs a key", R"(<FindDoor door="x"/>)",
+       "2:17 error: the output 'door' needs a blackboard entry"},
+      {"an inout needs a key", R"(<Count total="3"/>)",
+       "2:15 error: the inout 'total' needs a blackboard entry"},
+      {"an attribute that is no port", R"(<Say txt="a"/>)",
+       "2:1 error: 'Say' needs the parameter 'text'\n2:6 error: 'Say' has no parameter 'txt'"},
+      {"a key is an identifier", R"(<Say text="{the door}"/>)",
+       "2:12 error: 'the door' is not a key"},
+      {"a parameter of a built-in node is fixed when loaded", R"(<Wait seconds="{pause}"/>)",
+       "2:16 error: 'seconds' of 'Wait' cannot be a blackboard entry"},
+  };
+  check_told(kRows);
+}
+
+TEST_CASE("entries: written, read, set, typed") {
+  constexpr ClaimRow kRows[] = {
+      {"what one leaf writes another reads",
+       R"(<Sequence memory="true"><FindDoor sees="red" door="{door}"/><GoTo target="{door}"/>
+          </Sequence>)",
+       "success 2: go to red"},
+      {"--set gives a start value", R"(<GoTo target="{door}"/>)", "success 2: go to blue",
+       "set.door=blue"},
+      {"the value has the type of the ports", R"(<Show speed="{v}"/>)",
+       "2:14 error: the start value 'fast' of 'v' is not a number, which 'speed' must be",
+       "set.v=fast"},
+      {"--set names an entry of the main tree", R"(<GoTo target="{door}"/>)",
+       "error: --set dor: the main tree does not use '{dor}'", "set.dor=blue"},
+      {"an entry has one type",
+       "<Sequence memory=\"true\">\n<GoTo target=\"{x}\"/>\n<Show speed=\"{x}\"/></Sequence>",
+       "4:14 error: '{x}' is a double for 'speed', but a string elsewhere", "set.x=1"},
+      {"int and double are two types",
+       "<Sequence>\n<Count total=\"{x}\"/>\n<Show speed=\"{x}\"/></Sequence>",
+       "4:14 error: '{x}' is a double for 'speed', but an int elsewhere"},
+      {"an entry that nobody wrote has no value", R"(<GoTo target="{door}"/>)",
+       "fault: port 'target' has no value"},
+      {"an inout reads and writes", R"(<Repeat times="3"><Count total="{n}"/></Repeat>)",
+       "success 3: 5, 6, 7", "set.n=4"},
+  };
+  for (const ClaimRow& row : kRows) {
+    INFO(row.claim);
+    const Pipeline pipeline(row.xml, row.options);
+    CHECK((pipeline.loaded() ? pipeline.run() : pipeline.told()) == row.expected);
+  }
+}
+
+// `attributes` of a SubTree 'Inner' between leaves that write and read {door} outside of it.
+std::string with_inner(std::string_view attributes) {
+  return R"(<root lockstep="1" main_tree_to_execute="Outer"><BehaviorTree ID="Outer">
+            <Sequence memory="true"><FindDoor sees="red" door="{door}"/><SubTree ID="Inner" )" +
+         std::string(attributes) + R"(/><Say text="{door}"/></Sequence></BehaviorTree>
+            <BehaviorTree ID="Inner"><Sequence memory="true"><Say text="{door}"/>
+            <FindDoor sees="green" door="{door}"/></Sequence></BehaviorTree></root>)";
+}
+
+TEST_CASE("each SubTree has a scope of its own") {
+  struct Row {
+    std::string_view claim, attributes, expected;
+  };
+  constexpr Row kRows[] = {
+      {"a key inside is another entry than outside", R"(door="blue")", "success 1: blue, red"},
+      {"remapped it is the same entry, both ways", R"(door="{door}")", "success 1: red, green"},
+      {"_autoremap passes on every key", R"(_autoremap="true")", "success 1: red, green"},
+      {"an attribute goes before _autoremap", R"(_autoremap="true" door="blue")",
+       "success 1: blue, red"},
+      {"_autoremap is true or false", R"(_autoremap="1" name="x")", "success 1: red, green"},
+  };
+  for (const Row& row : kRows) {
+    INFO(row.claim);
+    CHECK(Pipeline(with_inner(row.attributes)).run() == row.expected);
+  }
+}
+
+TEST_CASE("remapping: names differ, levels add up, each use is a scope") {
+  constexpr ClaimRow kRows[] = {
+      {"inner key = outer key",
+       R"(<root lockstep="1" main_tree_to_execute="M"><BehaviorTree ID="M"><Sequence memory="true">
+          <FindDoor sees="red" door="{the_door}"/><SubTree ID="S" text="{the_door}"/></Sequence>
+          </BehaviorTree><BehaviorTree ID="S"><Say text="{text}"/></BehaviorTree></root>)",
+       "success 1: red"},
+      {"through two levels",
+       R"(<root lockstep="1" main_tree_to_execute="M"><BehaviorTree ID="M">
+          <SubTree ID="A" x="{n}"/></BehaviorTree>
+          <BehaviorTree ID="A"><SubTree ID="B" y="{x}"/></BehaviorTree>
+          <BehaviorTree ID="B"><Count total="{y}"/></BehaviorTree></root>)",
+       "success 1: 8", "set.n=7"},
+      {"two uses of a tree share nothing",
+       R"(<root lockstep="1" main_tree_to_execute="M"><BehaviorTree ID="M"><Sequence>
+          <SubTree ID="A" n="1"/><SubTree ID="A" n="5"/></Sequence></BehaviorTree>
+          <BehaviorTree ID="A"><Count total="{n}"/></BehaviorTree></root>)",
+       "success 1: 2, 6"},
+      {"but what both remap to",
+       R"(<root lockstep="1" main_tree_to_execute="M"><BehaviorTree ID="M"><Sequence>
+          <SubTree ID="A" n="{m}"/><SubTree ID="A" n="{m}"/></Sequence></BehaviorTree>
+          <BehaviorTree ID="A"><Count total="{n}"/></BehaviorTree></root>)",
+       "success 1: 1, 2"},
+      {"an entry lives as long as the run: a second activation finds what the first wrote",
+       R"(<root lockstep="1" main_tree_to_execute="M"><BehaviorTree ID="M"><Repeat times="2">
+          <SubTree ID="A" n="1"/></Repeat></BehaviorTree>
+          <BehaviorTree ID="A"><Count total="{n}"/></BehaviorTree></root>)",
+       "success 2: 2, 3"},
+  };
+  check_runs(kRows);
+}
+
+TEST_CASE("what is wrong with a SubTree") {
+  constexpr ClaimRow kRows[] = {
+      {"it needs an ID", R"(<SubTree/>)", "2:1 error: 'SubTree' needs the attribute 'ID'"},
+      {"the ID is a tree's", R"(<SubTree ID="Grasp"/>)", "2:14 error: unknown tree 'Grasp'"},
+      {"it has no children", R"(<SubTree ID="T"><AlwaysSuccess/></SubTree>)",
+       "2:14 error: the tree 'T' contains itself: T -> T\n"
+       "2:17 error: 'SubTree' has no children of its own"},
+      {"its keys are identifiers", R"(<SubTree ID="T" the.door="x" door="{the.door}"/>)",
+       "2:14 error: the tree 'T' contains itself: T -> T\n"
+       "2:17 error: 'the.door' is not a key\n2:36 error: 'the.door' is not a key"},
+      {"attributes that begin with '_' are the language's own", R"(<SubTree ID="T" _skipIf="x"/>)",
+       "2:14 error: the tree 'T' contains itself: T -> T\n"
+       "2:17 error: 'SubTree' has no attribute '_skipIf'"},
+      {"_autoremap is a bool", R"(<SubTree ID="T" _autoremap="yes"/>)",
+       "2:14 error: the tree 'T' contains itself: T -> T\n2:29 error: 'yes' is not true or false"},
+      {"recursion shows the chain",
+       "<root lockstep=\"1\" main_tree_to_execute=\"A\">\n"
+       "<BehaviorTree ID=\"A\"><SubTree ID=\"B\"/></BehaviorTree>\n"
+       "<BehaviorTree ID=\"B\"><SubTree ID=\"A\"/></BehaviorTree></root>",
+       "3:35 error: the tree 'A' contains itself: A -> B -> A"},
+      {"a start value is checked against the port that uses it",
+       "<root lockstep=\"1\" main_tree_to_execute=\"A\">\n"
+       "<BehaviorTree ID=\"A\"><SubTree ID=\"B\" n=\"many\"/></BehaviorTree>\n"
+       "<BehaviorTree ID=\"B\"><Count total=\"{n}\"/></BehaviorTree></root>",
+       "3:36 error: the start value 'many' of 'B/n' is not a whole number, which 'total' must be"},
+      {"types are compared through a remapping",
+       "<root lockstep=\"1\" main_tree_to_execute=\"A\">\n"
+       "<BehaviorTree ID=\"A\"><Sequence><FindDoor door=\"{d}\"/><SubTree ID=\"B\" n=\"{d}\"/>"
+       "</Sequence></BehaviorTree>\n"
+       "<BehaviorTree ID=\"B\"><Count total=\"{n}\"/></BehaviorTree></root>",
+       "3:36 error: '{n}' is an int for 'total', but a string elsewhere"},
+      {"an attribute that the tree does not use is doubtful",
+       "<root lockstep=\"1\" main_tree_to_execute=\"A\">\n"
+       "<BehaviorTree ID=\"A\"><SubTree ID=\"B\" n=\"1\"/></BehaviorTree>\n"
+       "<BehaviorTree ID=\"B\"><AlwaysSuccess/></BehaviorTree></root>",
+       "2:38 warning: the tree 'B' does not use '{n}'"},
+  };
+  check_told(kRows);
+}
+
+}  // namespace
+}  // namespace lockstep::test

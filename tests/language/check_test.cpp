@@ -1,0 +1,192 @@
+// docs/language.md: "What is checked" and "Limits".
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+
+#include "definition/definition.h"
+#include "language/pipeline.h"
+#include "unit/document/temporary_directory.h"
+
+namespace lockstep::test {
+namespace {
+
+TEST_CASE("all errors are told in one pass, sorted by their places") {
+  constexpr ClaimRow kRows[] = {
+      {"of the document, its nodes, its arguments, its subtrees",
+       R"(<root lockstep="1" main_tree_to_execute="Main" color="red">
+  <arg name="a" default="${b}"/>
+  <include/>
+  <BehaviorTree ID="Main">
+    <Sequence>
+      <Sequnce/>
+      <Repeat times="0"><AlwaysSuccess/><AlwaysSuccess/></Repeat>
+      <SubTree ID="Grasp"/>
+      <ParallelRelative delta="2"><Say/></ParallelRelative>
+      hello
+    </Sequence>
+  </BehaviorTree>
+  <BehaviorTree ID="Loop"><SubTree ID="Loop"/></BehaviorTree>
+</root>)",
+       "1:48 error: 'root' has no attribute 'color'\n"
+       "2:26 error: unknown argument 'b'\n"
+       "3:3 error: 'include' needs the attribute 'path'\n"
+       "6:7 error: unknown node 'Sequnce'\n"
+       "7:22 error: 0 is outside the range of 'times'\n"
+       "7:41 error: 'Repeat' has more than one child\n"
+       "8:20 error: unknown tree 'Grasp'\n"
+       "9:32 error: 2 is outside the range of 'delta'\n"
+       "9:35 error: 'Say' needs the parameter 'text'\n"
+       "10:7 error: text is not part of the language\n"
+       "13:40 error: the tree 'Loop' contains itself: Loop -> Loop"},
+      {"an XML error ends the file at once",
+       "<root lockstep=\"1\">\n<BehaviorTree ID=\"T\"><Sequnce></BehaviorTree></root>",
+       "2:31 error: '</BehaviorTree>' closes '<Sequnce>', opened at line 2"},
+  };
+  check_told(kRows);
+}
+
+TEST_CASE("hints") {
+  struct Row {
+    std::string_view xml, hint;
+  };
+  constexpr Row kRows[] = {
+      {R"(<Sequnce/>)", "did you mean 'Sequence'?"},
+      {R"(<Wait second="1"/>)", "parameters of 'Wait': seconds"},
+      {R"(<Inverter/>)", "it is a decorator: put a node into it"},
+      {R"(<Timeout seconds="0"><AlwaysSuccess/></Timeout>)", "it must be more than 0, at most"},
+      {R"(<ParallelAbsolute barriers="0.5;0.2"><AlwaysSuccess/></ParallelAbsolute>)",
+       "write '0.2;0.5'"},
+      {R"(<SubTree ID="Q"/>)", "'T'"},
+  };
+  for (const Row& row : kRows) {
+    INFO(row.xml);
+    const Pipeline pipeline(row.xml);
+    REQUIRE_FALSE(pipeline.diagnostics().all().empty());
+    CHECK(pipeline.diagnostics().all().front().hint.find(row.hint) != std::string::npos);
+  }
+}
+
+TEST_CASE("parameters of the parallel nodes") {
+  constexpr ClaimRow kRows[] = {
+      {"barriers or barrier_count", R"(<ParallelAbsolute><AlwaysSuccess/></ParallelAbsolute>)",
+       "2:1 error: 'barriers' or 'barrier_count' is missing"},
+      {"not both",
+       R"(<ParallelAbsolute barriers="1" barrier_count="1"><AlwaysSuccess/></ParallelAbsolute>)",
+       "2:47 error: both 'barriers' and 'barrier_count' are given"},
+      {"barriers rise",
+       R"(<ParallelAbsolute barriers="0.5;0.2"><AlwaysSuccess/></ParallelAbsolute>)",
+       "2:29 error: barriers must rise"},
+      {"no barrier twice",
+       R"(<ParallelAbsolute barriers="0.5;0.5"><AlwaysSuccess/></ParallelAbsolute>)",
+       "2:29 error: barrier 0.5 is given twice"},
+      {"no barrier at 0", R"(<ParallelAbsolute barriers="0"><AlwaysSuccess/></ParallelAbsolute>)",
+       "2:29 error: 0 is outside the range of 'barriers'"},
+      {"a barrier at 1, and none at all, are legal",
+       R"(<Parallel><ParallelAbsolute barriers="1"><AlwaysSuccess/></ParallelAbsolute>
+          <ParallelAbsolute barriers=""><AlwaysSuccess/></ParallelAbsolute>
+          <ParallelAbsolute barrier_count="0"><AlwaysSuccess/></ParallelAbsolute></Parallel>)",
+       ""},
+      {"at_barrier is a word",
+       R"(<ParallelAbsolute barriers="1" at_barrier="go"><AlwaysSuccess/></ParallelAbsolute>)",
+       "2:44 error: 'go' is not a value of 'at_barrier'"},
+      {"delta is required", R"(<ParallelRelative><AlwaysSuccess/></ParallelRelative>)",
+       "2:1 error: 'ParallelRelative' needs the parameter 'delta'"},
+      {"no more successes than children",
+       R"(<Parallel success_count="2"><AlwaysSuccess/></Parallel>)",
+       "2:26 error: 'success_count' is more than the 1 children of the node"},
+      {"counts are not negative", R"(<Parallel failure_count="-1"><AlwaysSuccess/></Parallel>)",
+       "2:26 error: -1 is outside the range of 'failure_count'"},
+  };
+  check_told(kRows);
+}
+
+TEST_CASE("warnings and notes") {
+  constexpr ClaimRow kRows[] = {
+      {"an action before an action, without memory",
+       "<Sequence>\n<GoTo name=\"first\" target=\"a\"/>\n<GoTo name=\"second\" "
+       "target=\"b\"/></Sequence>",
+       "3:1 warning: 'first' is started again in every tick in which 'second' runs"},
+      {"not with memory", R"(<Sequence memory="true"><GoTo target="a"/><GoTo target="b"/>
+                             </Sequence>)",
+       ""},
+      {"not after conditions only", R"(<Sequence><IsOpen/><GoTo target="b"/></Sequence>)", ""},
+      {"not where a condition asks first",
+       R"(<Sequence><Fallback><IsOpen/><GoTo target="a"/></Fallback><GoTo target="b"/></Sequence>)",
+       ""},
+      {"not in a Fallback", R"(<Fallback><GoTo target="a"/><GoTo target="b"/></Fallback>)", ""},
+      {"not for RunOnce",
+       R"(<Sequence><RunOnce><GoTo target="a"/></RunOnce><GoTo target="b"/></Sequence>)", ""},
+      {"an entry that nobody writes, once",
+       "<Parallel>\n<Say text=\"{x}\"/><Say text=\"{x}\"/>"
+       "</Parallel>",
+       "3:12 warning: nothing writes '{x}'"},
+      {"an entry inside a SubTree",
+       "<root lockstep=\"1\" main_tree_to_execute=\"A\">\n"
+       "<BehaviorTree ID=\"A\"><SubTree ID=\"B\"/></BehaviorTree>\n"
+       "<BehaviorTree ID=\"B\"><Say text=\"{x}\"/></BehaviorTree></root>",
+       "3:33 warning: nothing writes '{B/x}'"},
+      {"an action without progress under a synchronized node",
+       "<ParallelRelative delta=\"0.1\">\n<Inverter><Say text=\"x\"/></Inverter>\n"
+       "<GoTo target=\"a\"/></ParallelRelative>",
+       "3:11 note: 'Say' reports no progress: for 'ParallelRelative' it is at 0 until it "
+       "succeeds"},
+  };
+  check_told(kRows);
+}
+
+std::string nested(int inverters) {
+  std::string xml;
+  for (int i = 0; i < inverters; ++i) xml += "<Inverter>";
+  xml += "<AlwaysSuccess/>";
+  for (int i = 0; i < inverters; ++i) xml += "</Inverter>";
+  return xml;
+}
+
+// T1 uses T0 `width` times under one more node, T2 so uses T1, and so on.
+std::string tower(int levels, int width) {
+  std::string xml = fmt::format(
+      "<root lockstep=\"1\" main_tree_to_execute=\"T{}\"><BehaviorTree "
+      "ID=\"T0\"><AlwaysSuccess/></BehaviorTree>",
+      levels);
+  for (int level = 1; level <= levels; ++level) {
+    xml += fmt::format("\n<BehaviorTree ID=\"T{}\"><Parallel>", level);
+    for (int i = 0; i < width; ++i) xml += fmt::format("<SubTree ID=\"T{}\"/>", level - 1);
+    xml += "</Parallel></BehaviorTree>";
+  }
+  return xml + "</root>";
+}
+
+TEST_CASE("limits are named, and nothing breaks at them") {
+  CHECK(Pipeline(nested(95)).run() == "failure 1");  // with root, BehaviorTree and leaf: 98
+  CHECK(Pipeline(nested(96)).told() == "2:961 error: elements are nested deeper than 98 levels");
+  CHECK(Pipeline(tower(499, 1)).run() == "success 1");  // two nodes a level, and the leaf: 999
+  CHECK(Pipeline(tower(500, 1)).told() ==
+        "501:25 error: the tree 'T500' is 1001 nodes deep with its subtrees expanded");
+  CHECK(Pipeline(tower(20, 2)).told() ==
+        "21:24 error: the tree 'T20' has 4194301 nodes with its subtrees expanded");
+  CHECK(Pipeline("<ParallelAbsolute barrier_count=\"100001\"><AlwaysSuccess/></ParallelAbsolute>")
+            .told() == "2:34 error: 100001 is outside the range of 'barrier_count'");
+  CHECK(Pipeline("<Wait seconds=\"1.1e9\"/>").told() ==
+        "2:16 error: 1100000000 is outside the range of 'seconds'");
+}
+
+TEST_CASE("includes nest 32 levels deep") {
+  const TemporaryDirectory files;
+  for (int i = 1; i <= 33; ++i) {
+    files.write(fmt::format("{}.xml", i),
+                fmt::format("<root lockstep=\"1\"><include path=\"{}.xml\"/></root>", i + 1));
+  }
+  files.write("34.xml", "<root lockstep=\"1\"/>");
+  const auto told = [&](int first) {
+    return Pipeline(fmt::format("<root lockstep=\"1\"><include path=\"{}.xml\"/>"
+                                "<BehaviorTree ID=\"T\"><AlwaysSuccess/></BehaviorTree></root>",
+                                first),
+                    "", files / "main.xml")
+        .told();
+  };
+  CHECK(told(3).empty());
+  CHECK(told(2) == "1:35 error: includes are nested deeper than 32 levels");
+}
+
+}  // namespace
+}  // namespace lockstep::test

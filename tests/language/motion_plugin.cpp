@@ -1,0 +1,15 @@
+#include <lockstep/leaf.hpp>
+
+#include "language/robot_plugin.h"
+
+#undef LOCKSTEP_PLUGIN
+#define LOCKSTEP_PLUGIN(...) LOCKSTEP_PLUGIN_TABLE(shipped_motion_plugin, __VA_ARGS__)
+#include "../../plugins/motion/motion.cpp"
+
+namespace lockstep::test {
+
+const lockstep_plugin& motion_plugin() {
+  return shipped_motion_plugin;
+}
+
+}  // namespace lockstep::test

@@ -1,0 +1,160 @@
+// docs/language.md itself: its examples load, its traces are what a run does, its tables are
+// complete, its links lead somewhere.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "definition/definition.h"
+#include "document/arguments.h"
+#include "document/well_formed.h"
+#include "engine/synchronized.h"
+#include "language/pipeline.h"
+#include "runtime/run.h"
+
+namespace lockstep::test {
+namespace {
+
+std::string read_page() {
+  std::ifstream file(LOCKSTEP_SOURCE_DIR "/docs/language.md");
+  std::ostringstream text;
+  text << file.rdbuf();
+  REQUIRE_FALSE(text.str().empty());
+  return text.str();
+}
+
+struct Example {
+  std::string xml;
+  std::string error;  // that it must produce, or ""
+};
+
+// The blocks ```xml, with what a comment in the line before says of them.
+std::vector<Example> examples(const std::string& page) {
+  std::vector<Example> examples;
+  std::istringstream lines(page);
+  std::string previous;
+  bool inside = false;
+  for (std::string line; std::getline(lines, line); previous = line) {
+    constexpr std::string_view kError = "<!-- error: ";
+    if (line == "```xml") {
+      const bool wrong = previous.starts_with(kError);
+      examples.push_back(
+          {"",
+           wrong ? previous.substr(kError.size(), previous.rfind(" -->") - kError.size()) : ""});
+      inside = true;
+    } else if (line == "```") {
+      inside = false;
+    } else if (inside) {
+      examples.back().xml += line + "\n";
+    }
+  }
+  return examples;
+}
+
+Example example_of(std::string_view tree) {
+  for (Example& example : examples(read_page())) {
+    if (example.xml.find(fmt::format("ID=\"{}\"", tree)) != std::string::npos) return example;
+  }
+  FAIL("no example " << tree);
+  return {};
+}
+
+std::string word(Ticker& ticker, NodeIndex child, Status before) {
+  if (is_complete(before)) return "done";
+  return ticker.ticked(child) ? "ticked" : "held";
+}
+
+// The rows of a worked trace. `limit` is what the children with least progress `m` wait at.
+template <class Limit>
+std::string trace(std::string_view tree, Limit limit) {
+  const Pipeline pipeline(example_of(tree).xml);
+  REQUIRE(pipeline.loaded());
+  Run run(pipeline.tree(), {});
+  Ticker& ticker = run.ticker();
+  constexpr NodeIndex kArm = 1, kBase = 2;
+  std::string rows;
+  Status status = Status::Running;
+  for (int tick = 1; status == Status::Running; ++tick) {
+    const Status arm = ticker.status(kArm), base = ticker.status(kBase);
+    status = run.tick(tick * run.period());
+    const auto before = child_progress(ticker, 0);
+    rows += fmt::format("| {} | {:.1f} | {:.1f} | {:.1f} | {} | {} |\n", tick, before[0], before[1],
+                        limit(std::min(before[0], before[1])), word(ticker, kArm, arm),
+                        word(ticker, kBase, base));
+  }
+  return rows;
+}
+
+TEST_CASE("the examples of the page load, and the wrong ones are told as it says") {
+  const std::string page = read_page();
+  const auto all = examples(page);
+  CHECK(all.size() > 10);
+  for (const Example& example : all) {
+    INFO(example.xml);
+    const Pipeline pipeline(example.xml);
+    if (example.error.empty()) {
+      CHECK(pipeline.told().empty());
+      continue;
+    }
+    REQUIRE(pipeline.diagnostics().all().size() == 1);
+    CHECK(pipeline.diagnostics().all().front().message == example.error);
+    CHECK(page.find("`" + example.error + "`") != std::string::npos);
+  }
+}
+
+TEST_CASE("the worked traces of the page are what a run does") {
+  const std::string page = read_page();
+  const std::string absolute = trace("A1", [](double m) { return m < 0.5 - 1e-9 ? 0.5 : 1.0; });
+  CHECK(std::ranges::count(absolute, '\n') == 10);
+  CHECK(page.find("|\n" + absolute + "\n") != std::string::npos);
+  const std::string relative = trace("R1", [](double m) { return m + 0.2; });
+  CHECK(std::ranges::count(relative, '\n') == 10);
+  CHECK(page.find("|\n" + relative + "\n") != std::string::npos);
+}
+
+TEST_CASE("the page names every built-in node and parameter, and every limit") {
+  const std::string page = read_page();
+  const auto names = [&](std::string_view text) {
+    INFO(text);
+    CHECK(page.find(text) != std::string::npos);
+  };
+  for (const NodeKind* kind : built_in_kinds()) {
+    names(fmt::format("`{}`", kind->type.id));
+    for (const Parameter& it : kind->type.parameters) names(fmt::format("`{}", it.name));
+  }
+  names(fmt::format("| {} MiB |", Document::kMaxBytes >> 20u));
+  names(fmt::format("`root` included | {} |", kMaxElementDepth));
+  names(fmt::format("| {} MiB, all together {} MiB |", kMaxValueMiB, kMaxExpandedMiB));
+  STATIC_REQUIRE(kMaxNodes == 4'000'000);
+  names("| 4,000,000 |");
+  STATIC_REQUIRE(kMaxDepth == 1'000);
+  names("| 1,000 |");
+}
+
+TEST_CASE("links inside the page lead to its headings") {
+  const std::string page = read_page();
+  std::vector<std::string> anchors;
+  std::istringstream lines(page);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("## ") && !line.starts_with("### ")) continue;
+    std::string anchor;
+    for (const char c : line.substr(line.find(' ') + 1)) {
+      if (c == ' ' || c == '-') anchor += '-';
+      if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
+        anchor += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      }
+    }
+    anchors.push_back(anchor);
+  }
+  const std::regex link(R"(\]\(#([^)]+)\))");
+  for (std::sregex_iterator it(page.begin(), page.end(), link), end; it != end; ++it) {
+    INFO((*it)[1].str());
+    CHECK(std::ranges::find(anchors, (*it)[1].str()) != anchors.end());
+  }
+}
+
+}  // namespace
+}  // namespace lockstep::test

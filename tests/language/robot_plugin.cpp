@@ -1,0 +1,116 @@
+#include "language/robot_plugin.h"
+
+#include <algorithm>
+#include <lockstep/leaf.hpp>
+#include <sstream>
+
+namespace {
+
+using lockstep::test::said;
+
+struct FindPorts : lockstep::Ports {
+  Input<std::string> sees{this, "sees", "front door", "what there is to be found"};
+  Output<std::string> door{this, "door", "the door that was found"};
+};
+
+class FindDoor : public lockstep::Action<FindPorts> {
+ public:
+  Status tick() override {
+    door.set(sees.get());
+    return Status::Success;
+  }
+};
+
+struct GoToPorts : lockstep::Ports {
+  Input<std::string> target{this, "target", required, "where to go"};
+  Input<double> speed{this, "speed", "0.5", "progress per tick"};
+};
+
+class GoTo : public lockstep::Action<GoToPorts> {
+ public:
+  void start() override {
+    progress_ = 0;
+    said.push_back("go to " + target.get());
+  }
+  Status tick() override {
+    progress_ = std::min(1.0, progress_ + speed.get());
+    return progress_ == 1.0 ? Status::Success : Status::Running;
+  }
+  double progress() const override { return progress_; }
+
+ private:
+  double progress_ = 0;
+};
+
+struct SayPorts : lockstep::Ports {
+  Input<std::string> text{this, "text", required, "what to say"};
+};
+
+class Say : public lockstep::Action<SayPorts> {
+ public:
+  Status tick() override {
+    said.push_back(text.get());
+    return Status::Success;
+  }
+};
+
+struct CountPorts : lockstep::Ports {
+  InOut<std::int64_t> total{this, "total", required, "what is counted up"};
+};
+
+class Count : public lockstep::Action<CountPorts> {
+ public:
+  Status tick() override {
+    total.set(total.try_get().value_or(0) + 1);
+    said.push_back(std::to_string(total.get()));
+    return Status::Success;
+  }
+};
+
+struct ShowPorts : lockstep::Ports {
+  Input<bool> flag{this, "flag", "false", "a bool"};
+  Input<std::int64_t> count{this, "count", "0", "an int"};
+  Input<double> speed{this, "speed", "0", "a double"};
+  Input<std::string> text{this, "text", "", "a string"};
+  Input<std::vector<double>> points{this, "points", "", "a list"};
+};
+
+class Show : public lockstep::Action<ShowPorts> {
+ public:
+  Status tick() override {
+    std::ostringstream line;
+    line << std::boolalpha << flag.get() << ' ' << count.get() << ' ' << speed.get() << " '"
+         << text.get() << "' [";
+    for (const double point : points.get()) line << point << ';';
+    line << ']';
+    said.push_back(line.str());
+    return Status::Success;
+  }
+};
+
+struct IsOpenPorts : lockstep::Ports {
+  Input<bool> open{this, "open", "false", "whether the door is open"};
+};
+
+class IsOpen : public lockstep::Condition<IsOpenPorts> {
+ public:
+  bool check() override { return open.get(); }
+};
+
+}  // namespace
+
+LOCKSTEP_PLUGIN_TABLE(robot_table, "robot", "1.0", "A robot that only says what it does",
+                      lockstep::leaf<FindDoor>("FindDoor", "Finds a door."),
+                      lockstep::leaf<GoTo>("GoTo", "Goes somewhere."),
+                      lockstep::leaf<Say>("Say", "Says a text."),
+                      lockstep::leaf<Count>("Count", "Counts."),
+                      lockstep::leaf<Show>("Show", "Shows its ports."),
+                      lockstep::leaf<IsOpen>("IsOpen", "Whether a door is open."));
+
+namespace lockstep::test {
+
+const lockstep_plugin& robot_plugin() {
+  return robot_table;
+}
+
+}  // namespace lockstep::test
