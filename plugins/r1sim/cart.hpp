@@ -42,8 +42,8 @@ class CartScene {
 };
 
 struct HoldCartPorts : lockstep::Ports {
-  Input<double> boundary{this, "boundary", "0.04", "progress is 0 from this error on", "m"};
-  Input<double> aligned{this, "aligned", "0.01", "… and 1 again from this error down", "m"};
+  Input<double> boundary{this, "boundary", "0.04", "progress is 0 above this error", "m"};
+  Input<double> aligned{this, "aligned", "0.01", "progress is 1 again below this error", "m"};
   Input<double> slip{this, "slip", "0.08", "the cart is lost at this error", "m"};
   Input<double> align_rate{this, "align_rate", "0.04", "how fast the arms bring it back", "m/s"};
   Input<double> drift{this, "drift", "0.15", "rms of the cart's slope: m sideways per m", "m/m"};
@@ -70,7 +70,7 @@ class HoldCart : public lockstep::Action<HoldCartPorts> {
 struct FollowPathPorts : lockstep::Ports {
   Input<double> path{this, "path", "10", "length of the path", "m"};
   Input<double> speed{this, "speed", "0.5", "speed along it", "m/s"};
-  Input<double> boundary{this, "boundary", "0.1", "progress is 0 from this error on", "m"};
+  Input<double> boundary{this, "boundary", "0.1", "progress is 0 above this error", "m"};
   Input<double> steer_rate{this, "steer_rate", "0.05", "how fast steering reduces it", "m/s"};
   Input<double> drift{this, "drift", "0.05", "rms of the base's slope: m sideways per m", "m/m"};
   Input<double> drift_length{this, "drift_length", "0.5", "length over which it changes", "m"};
