@@ -107,6 +107,10 @@ class TreeChecker {
     const std::uint32_t root = tree + 1;
     if (root == element(tree).end) {
       report.at_element(tree, fmt::format("the tree '{}' is empty", id), "put one node into it");
+      enter_tree(report, tree, id);  // so that whoever names it is not blamed
+      CheckedNode nothing;
+      nothing.end = static_cast<std::uint32_t>(trees_.nodes.size() + 1);
+      trees_.nodes.push_back(nothing);
       return;
     }
     if (const std::uint32_t second = element(root).end; second != element(tree).end) {
@@ -118,6 +122,7 @@ class TreeChecker {
   }
 
   void enter_tree(const Reporter& report, std::uint32_t tree, std::string_view id) {
+    if (id.empty()) return;  // reported already
     const auto [entry, is_new] =
         trees_.roots.try_emplace(id, static_cast<std::uint32_t>(trees_.nodes.size()));
     if (is_new) {
@@ -125,7 +130,6 @@ class TreeChecker {
       places_.emplace(id, std::pair(document_, tree));
       return;
     }
-    if (id.empty()) return;  // reported already
     const auto [first_document, first_element] = places_.at(id);
     const auto first = project_.documents[first_document]->locate(first_element);
     report.at_value(tree, "ID", fmt::format("a tree '{}' exists already", id),

@@ -25,7 +25,7 @@ std::optional<std::string_view> choose_main(const Project& project, const Checke
   const Document& main = *project.documents.front();
   const Reporter report(main, diagnostics);
   if (trees.ids.empty()) {
-    if (!diagnostics.has_errors()) {  // else it may be there, but without a node
+    if (trees.nodes.empty()) {  // else it is there, but without an ID: reported already
       report.at_element(0, "there is no BehaviorTree", "put a <BehaviorTree ID=\"…\"> into <root>");
     }
     return std::nullopt;
