@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 
@@ -12,7 +11,7 @@
 #include "observers/recorder.h"
 #include "observers/stall_observer.h"
 #include "observers/statistics.h"
-#include "observers/terminal.h"
+#include "observers/waiting.h"
 #include "runtime/loop.h"
 #include "runtime/stop_signals.h"
 
@@ -58,12 +57,6 @@ std::string describe(const Fault& fault, const Tree& tree, const RunEnd& end) {
                      type.id, type.plugin, when, fault.message);
 }
 
-std::string describe(const Standstill& standstill, const Tree& tree) {
-  return fmt::format("'{}' has stood still at {:.3f} for {:.1f} s while the others wait for it",
-                     tree.path(standstill.child), standstill.progress,
-                     to_seconds(standstill.time - standstill.since));
-}
-
 class RunCommand {
  public:
   RunCommand(const Options& options, const Loaded& loaded, const Tree& tree)
@@ -71,7 +64,7 @@ class RunCommand {
     if (!options.record.empty()) recorder_.emplace(tree, recorder_options(loaded));
     if (options.stall > 0) {
       stall_.emplace(tree, from_seconds(options.stall), [this](const Standstill& standstill) {
-        view_.print("warning: " + describe(standstill, tree_));
+        view_.print("warning: " + standstill_text(tree_, standstill));
       });
     }
   }
@@ -164,6 +157,12 @@ int run(const Options& options) {
   return RunCommand(options, loaded, tree).run();
 }
 
+// CLI11 reads -1 as the largest number there is.
+std::string check_count(const std::string& text) {
+  const bool good = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+  return good ? "" : fmt::format("'{}' is not a whole number from 0", text);
+}
+
 void define_loop_options(CLI::App& app, Options& options) {
   app.add_option("--rate", options.rate, "Ticks per second")
       ->type_name("HZ")
@@ -176,10 +175,14 @@ void define_loop_options(CLI::App& app, Options& options) {
   app.add_option("--seed", options.seed,
                  "Of the leaves' random numbers: the same seed gives the same numbers")
       ->type_name("N")
+      ->check(check_count)
       ->capture_default_str();
-  app.add_option("--max-ticks", options.max_ticks, "Stop after N ticks")
+  app.add_option("--max-ticks", options.max_ticks, "Stop after N ticks, at least 1")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(check_count)
+      ->check([](const std::string& text) {
+        return text == "0" ? std::string("a run has at least 1 tick") : std::string();
+      });
   app.add_option("--timeout", options.timeout, "Stop after S seconds of the run's clock")
       ->type_name("S")
       ->check(CLI::Range(0.0, 1e9));

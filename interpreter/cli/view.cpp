@@ -36,6 +36,8 @@ Observer* View::observer() {
 void View::print(const std::string& line) {
   if (live_) {
     live_->print(line);
+  } else if (plain_) {
+    plain_->print(line);
   } else {
     fmt::print(stderr, "{}\n", line);
   }

@@ -40,6 +40,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates) {
   if (word.size() > kLongestWord) return {};
+  if (word.size() < 2) return {};  // near to every other letter
   std::size_t limit = (word.size() + 2) / 3;
   std::string_view best;
   for (const auto candidate : candidates) {

@@ -7,9 +7,9 @@
 
 namespace lockstep {
 
-// The candidate with the smallest edit distance (insert, delete, replace, swap of neighbors; case
-// does not count) if that is at most a third of the word's length, rounded up; else "". Of
-// several, the first. A word of more than 256 bytes is near nothing.
+// Of a word of two letters or more: the candidate with the smallest edit distance (insert, delete,
+// replace, swap of neighbors; case does not count) if that is at most a third of the word's length,
+// rounded up; else "". Of several, the first. A word of more than 256 bytes is near nothing.
 std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates);
 
 // "did you mean 'x'?" or, when nothing is near, "".

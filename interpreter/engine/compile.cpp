@@ -1,8 +1,8 @@
 #include "engine/compile.h"
 
 #include <algorithm>
-#include <map>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "engine/nodes/kinds.h"
 
@@ -100,12 +100,27 @@ class Compiler {
   }
 
   void add_labels() {
-    std::map<std::pair<NodeIndex, std::string_view>, std::uint32_t> seen;
+    tree_.labels.reserve(definition_.nodes.size());
     for (const DefinitionNode& node : definition_.nodes) {
-      const std::uint32_t nth = ++seen[{node.parent, node.name}];
       std::string name(node.name);
-      std::string segment = nth == 1 ? name : name + "#" + std::to_string(nth);
-      tree_.labels.push_back({std::move(name), std::move(segment), node.type, node.parent});
+      tree_.labels.push_back({name, name, node.type, node.parent});
+    }
+    for (NodeIndex node = 0; node < tree_.nodes.size(); ++node) {
+      if (tree_.nodes[node].children > 1) make_segments_unique(node);
+    }
+  }
+
+  // The second child called "arm" becomes "arm#2", or the next number that is free.
+  void make_segments_unique(NodeIndex parent) {
+    std::unordered_set<std::string> used;
+    std::unordered_map<std::string, std::uint32_t> last;
+    const NodeIndex end = tree_.nodes[parent].end;
+    for (NodeIndex child = parent + 1; child < end; child = tree_.nodes[child].end) {
+      NodeLabel& label = tree_.labels[child];
+      std::uint32_t& number = last.try_emplace(label.name, 1).first->second;
+      while (!used.insert(label.segment).second) {
+        label.segment = label.name + "#" + std::to_string(++number);
+      }
     }
   }
 

@@ -9,7 +9,7 @@ Ticker::Ticker(const Tree& tree, std::span<LeafSlot> leaves)
     : tree_(tree), leaves_(leaves), state_(tree) {}
 
 Status Ticker::tick_root(Nanoseconds now) {
-  now_ = now;
+  set_now(now);
   ++tick_number_;
   return tick(0);
 }

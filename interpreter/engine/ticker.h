@@ -87,8 +87,10 @@ class Ticker {
 
   // --- for the owner of the run ------------------------------------------------------------------
 
+  // The time of the next tick. It must not fall. Progress asked for from now on is as of then.
+  void set_now(Nanoseconds now) { now_ = now; }
+
   // Ticks the root once. The result is Running while the tree runs; after a fault it means nothing.
-  // `now` must not fall from tick to tick.
   Status tick_root(Nanoseconds now);
 
   // Halts every running leaf; what a leaf does wrong in halt becomes the fault if there is none.

@@ -17,8 +17,7 @@ ConsolePlain::ConsolePlain(const Tree& tree, std::FILE* out, RealTime real_time)
   last_.resize(leaves_.size());
   for (const NodeIndex node : synchronized_nodes(tree)) {
     const std::size_t children = tree.nodes[node].children;
-    nodes_.push_back({SynchronizedProbe(tree, node), std::vector<bool>(children),
-                      std::vector<Nanoseconds>(children)});
+    nodes_.push_back({SynchronizedProbe(tree, node), std::vector<Watched::Child>(children)});
   }
 }
 
@@ -51,7 +50,7 @@ void ConsolePlain::run_ended(Ticker& ticker, const RunEnd& end) {
 
 void ConsolePlain::print(std::string_view text) {
   const std::string line =
-      fmt::format("{:10.3f} s  tick {:<6}  {}\n", to_seconds(time_), tick_, printable(text));
+      fmt::format("{:10.3f} s  tick {:<6}  {}\n", to_seconds(time_), tick_.load(), printable(text));
   // That nobody can read it must not end the run.
   std::fwrite(line.data(), 1, line.size(), out_);
   std::fflush(out_);
@@ -80,27 +79,29 @@ void ConsolePlain::tell_leaf(NodeIndex leaf, Status before, Status now) {
 }
 
 void ConsolePlain::tell_held(Ticker& ticker, Watched& node) {
-  const SynchronizedTick tick = node.probe.read(ticker, time_);
+  const Nanoseconds now = time_;
+  const SynchronizedTick tick = node.probe.read(ticker, now);
   if (!tick.ticked) return;
-  for (std::size_t child = 0; child < node.held.size(); ++child) {
-    const bool held = tick.held[child];
-    if (held == node.held[child]) continue;
-    node.held[child] = held;
-    if (held) {
-      node.since[child] = time_;
-      if (!may_print()) continue;
-      print(fmt::format("{}: {}", tree_.path(node.probe.children()[child]),
-                        waiting_text(tree_, node.probe.node(), tick.progress, child)));
-    } else if (ticker.ticked(node.probe.children()[child])) {
-      tell_goes_on(node, child);
+  for (std::size_t child = 0; child < node.waits.size(); ++child) {
+    Watched::Child& wait = node.waits[child];
+    if (tick.held[child]) {
+      if (!wait.held) wait = {true, false, now};
+      if (wait.told || now - wait.since < kShortestWait) continue;
+      wait.told = true;
+      tell_wait(node, child, waiting_text(tree_, node.probe.node(), tick.progress, child));
+    } else {
+      const bool goes_on = wait.told && ticker.ticked(node.probe.children()[child]);
+      if (goes_on) {
+        tell_wait(node, child, fmt::format("goes on after {:.3f} s", to_seconds(now - wait.since)));
+      }
+      wait = {};
     }
   }
 }
 
-void ConsolePlain::tell_goes_on(const Watched& node, std::size_t child) {
+void ConsolePlain::tell_wait(const Watched& node, std::size_t child, std::string_view text) {
   if (!may_print()) return;
-  print(fmt::format("{}: goes on after {:.3f} s", tree_.path(node.probe.children()[child]),
-                    to_seconds(time_ - node.since[child])));
+  print(fmt::format("{}: {}", tree_.path(node.probe.children()[child]), text));
 }
 
 }  // namespace lockstep

@@ -2,6 +2,7 @@
 // is halted, who waits for whom. Prints at most 200 lines at once and one a second after that.
 #pragma once
 
+#include <atomic>
 #include <cstdio>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,9 @@ namespace lockstep {
 class ConsolePlain final : public Observer {
  public:
   static constexpr std::int64_t kBurst = 200;
+  // A child that is held for less, on the run's clock, is not told: under a small delta that would
+  // be every other tick.
+  static constexpr Nanoseconds kShortestWait = std::chrono::milliseconds(100);
   using RealTime = LineBudget::Time (*)();
 
   // `real_time` is for tests.
@@ -26,20 +30,24 @@ class ConsolePlain final : public Observer {
   void after_tick(Ticker& ticker, const TickReport& report) override;
   void run_ended(Ticker& ticker, const RunEnd& end) override;
 
-  // A line that must not be left out, such as a standstill. Tick thread only.
+  // A line that must not be left out, such as a standstill. Any thread.
   void print(std::string_view text);
 
  private:
   struct Watched {
     SynchronizedProbe probe;
-    std::vector<bool> held;
-    std::vector<Nanoseconds> since;
+    struct Child {
+      bool held = false;
+      bool told = false;
+      Nanoseconds since{0};
+    };
+    std::vector<Child> waits;  // of each child
   };
   bool may_print();
   void tell_left_out();
   void tell_leaf(NodeIndex leaf, Status before, Status now);
   void tell_held(Ticker& ticker, Watched& node);
-  void tell_goes_on(const Watched& node, std::size_t child);
+  void tell_wait(const Watched& node, std::size_t child, std::string_view text);
 
   const Tree& tree_;
   std::FILE* out_;
@@ -48,8 +56,8 @@ class ConsolePlain final : public Observer {
   std::vector<NodeIndex> leaves_;
   std::vector<Status> last_;  // of each leaf
   std::vector<Watched> nodes_;
-  std::uint64_t tick_ = 0;
-  Nanoseconds time_{0};
+  std::atomic<std::uint64_t> tick_{0};
+  std::atomic<Nanoseconds> time_{Nanoseconds(0)};
 };
 
 }  // namespace lockstep

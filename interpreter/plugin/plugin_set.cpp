@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "plugin/descriptor.h"
-#include "plugin/leaf_set.h"
+#include "plugin/host.h"
 #include "plugin/plugin_path.h"
 #include "plugin/shared_object.h"
 
@@ -31,8 +31,14 @@ std::optional<Refusal> check_expected_name(std::string_view name, std::string_vi
 // The reason why init did not work, or "".
 std::string init_failure(const lockstep_plugin& plugin) {
   if (plugin.init == nullptr) return {};
+  static const LeafTime no_time;
+  static const LeafLog no_log;
+  LeafSlot slot;
+  lockstep_caller caller{plugin.name, {}, RandomStream(0, 0), &no_time, &no_log, &slot};
   try {
-    return plugin.init(&host_table()) ? "" : "refuses to work: its init returned false";
+    const bool works = plugin.init(&host_table(), &caller);
+    if (slot.error != nullptr) return fmt::format("refuses to work: {}", slot.error);
+    return works ? "" : "refuses to work: its init returned false";
   } catch (const std::exception& exception) {
     return fmt::format("refuses to work: its init threw an exception: {}", exception.what());
   } catch (...) {

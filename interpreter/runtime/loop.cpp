@@ -48,6 +48,7 @@ class Loop {
   bool tick() {
     const Nanoseconds now = clock_.now() - start_;
     Ticker& ticker = run_.ticker();
+    run_.set_now(now);
     for (Observer* observer : observers_) observer->before_tick(ticker, end_.ticks, now);
     end_.status = run_.tick(now);
     const TickReport report{end_.ticks, now, end_.status, skipped_before_};

@@ -12,8 +12,13 @@ Run::~Run() {
   halt();
 }
 
-Status Run::tick(Nanoseconds now) {
+void Run::set_now(Nanoseconds now) {
   time_.now = now;
+  ticker_.set_now(now);
+}
+
+Status Run::tick(Nanoseconds now) {
+  set_now(now);
   return ticker_.tick_root(now);
 }
 

@@ -25,7 +25,10 @@ class Run {
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
 
-  // One tick of the root at `now`, counted from the start of the run; see Ticker::tick_root.
+  // The time of the next tick, counted from the start of the run; for observers that look at the
+  // run just before it.
+  void set_now(Nanoseconds now);
+  // One tick of the root at `now`; see Ticker::tick_root.
   Status tick(Nanoseconds now);
   // Halts every running leaf, in order.
   void halt() { ticker_.halt_all(); }

@@ -162,6 +162,7 @@ TEST_CASE("two plugins of one name cannot live in one program") {
 TEST_CASE("a plugin whose init fails is named") {
   const Case kInit[] = {
       {"init_refuses", "refuses to work: its init returned false", ""},
+      {"init_explains", "refuses to work: no license", ""},
       {"throws_in_init",
        "refuses to work: its init threw an exception that is not a std::exception", ""}};
   for (const Case& it : kInit) {

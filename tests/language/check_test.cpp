@@ -56,7 +56,7 @@ TEST_CASE("hints") {
       {R"(<Timeout seconds="0"><AlwaysSuccess/></Timeout>)", "it must be more than 0, at most"},
       {R"(<ParallelAbsolute barriers="0.5;0.2"><AlwaysSuccess/></ParallelAbsolute>)",
        "write '0.2;0.5'"},
-      {R"(<SubTree ID="Q"/>)", "'T'"},
+      {R"(<SubTree ID="Q"/>)", "trees in this project: T"},
   };
   for (const Row& row : kRows) {
     INFO(row.xml);

@@ -18,7 +18,6 @@ TEST_CASE("the root says the version of the language") {
   constexpr ClaimRow kRows[] = {
       {"the first element is root", R"(<!-- <root> --><tree/>)",
        "1:16 error: the first element must be 'root', not 'tree'\n"
-       "1:16 error: 'root' needs the attribute 'lockstep'\n"
        "1:16 error: there is no BehaviorTree"},
       {"lockstep is required",
        R"(<root><BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree></root>)",

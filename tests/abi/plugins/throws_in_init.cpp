@@ -1,6 +1,6 @@
 #include "probe.h"
 
-static bool init(const lockstep_host*) {
+static bool init(const lockstep_host*, const lockstep_caller*) {
   throw 42;
 }
 #define PLUGIN_INIT init

@@ -26,20 +26,25 @@ std::string plain(std::string_view tree, std::string_view leaves, std::uint64_t 
 }
 
 TEST_CASE("plain lines tell who waits for whom") {
-  CHECK(plain("ParallelAbsolute[barriers=.5;1](a b)", "a+.25 b+.5") ==
+  CHECK(plain("ParallelAbsolute[barriers=.5;1](a b)", "a+.1 b+.5") ==
         "     0.000 s  tick 0       run of Test starts, 10 Hz, virtual clock\n"
         "     0.000 s  tick 0       Test/ParallelAbsolute/a: started\n"
         "     0.000 s  tick 0       Test/ParallelAbsolute/b: started\n"
-        "     0.100 s  tick 1       Test/ParallelAbsolute/b: waits for a at barrier 0.5\n"
-        "     0.200 s  tick 2       Test/ParallelAbsolute/b: goes on after 0.100 s\n"
-        "     0.200 s  tick 2       Test/ParallelAbsolute/b: success\n"
-        "     0.300 s  tick 3       Test/ParallelAbsolute/a: success\n"
-        "     0.300 s  tick 3       run ends: success (completed) after 4 ticks\n");
+        "     0.200 s  tick 2       Test/ParallelAbsolute/b: waits for a at barrier 0.5\n"
+        "     0.500 s  tick 5       Test/ParallelAbsolute/b: goes on after 0.400 s\n"
+        "     0.500 s  tick 5       Test/ParallelAbsolute/b: success\n"
+        "     0.900 s  tick 9       Test/ParallelAbsolute/a: success\n"
+        "     0.900 s  tick 9       run ends: success (completed) after 10 ticks\n");
 }
 
 TEST_CASE("plain lines tell how far ahead a child is") {
   CHECK(plain("ParallelRelative[delta=.2](a b c)", "a+.1 b+.3 c+.1")
-            .find("b: waits for a and c, 0.40 ahead (delta 0.2)\n") != std::string::npos);
+            .find("b: waits for a and c, 0.30 ahead (delta 0.2)\n") != std::string::npos);
+}
+
+TEST_CASE("a child that is held every other tick is not told each time") {
+  const std::string text = plain("ParallelRelative[delta=0](a b)", "a+.1 b+.1001");
+  CHECK(text.find("waits") == std::string::npos);
 }
 
 TEST_CASE("plain lines tell who is halted and what failed") {

@@ -24,7 +24,7 @@ lockstep_status tick(void*) {
   return LOCKSTEP_SUCCESS;
 }
 
-bool init(const lockstep_host*) {
+bool init(const lockstep_host*, const lockstep_caller*) {
   lab.events.emplace_back("init");
   return true;
 }

@@ -49,16 +49,14 @@ class Stray : public lockstep::Action<> {
 };
 
 bool initialized = false;
-bool start(const lockstep_host& host) {
-  if (std::string(host.name) != "fake") throw std::runtime_error("wrong host");
+void start() {
   initialized = true;
-  return true;
 }
 void end() {
   initialized = false;
 }
-bool refuse(const lockstep_host&) {
-  throw 42;
+void refuse() {
+  throw std::runtime_error("no license");
 }
 
 LOCKSTEP_PLUGIN_TABLE(world_plugin, "world", "1", "", lockstep::run_context<World>(),
@@ -132,10 +130,12 @@ TEST_CASE("asking for a context of another type, or for none, is an error", "[sd
   CHECK(alone.host.take_error() == "the plugin declares no run context of this type");
 }
 
-TEST_CASE("init and deinit are called with the host, and an exception refuses", "[sdk]") {
-  CHECK(world_plugin.init(&FakeHost::table()));
+TEST_CASE("init and deinit are called, and an exception refuses with its reason", "[sdk]") {
+  FakeHost host;
+  CHECK(world_plugin.init(&FakeHost::table(), host.caller()));
   CHECK(initialized);
   world_plugin.deinit();
   CHECK_FALSE(initialized);
-  CHECK_FALSE(refusing_plugin.init(&FakeHost::table()));
+  CHECK_FALSE(refusing_plugin.init(&FakeHost::table(), host.caller()));
+  CHECK(host.take_error() == "no license");
 }

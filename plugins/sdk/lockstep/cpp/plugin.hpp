@@ -96,7 +96,7 @@ struct RunContextPart {
   void (*destroy)(void*);
 };
 struct InitPart {
-  bool (*function)(const lockstep_host*);
+  bool (*function)(const lockstep_host*, const lockstep_caller*);
 };
 struct DeinitPart {
   void (*function)();
@@ -200,16 +200,15 @@ constexpr detail::RunContextPart run_context() {
   return {&detail::ContextHolder<Context>::create, &detail::ContextHolder<Context>::destroy};
 }
 
-// Called once before the first leaf, and once after the last. false, or an exception, from `Start`
-// refuses to work.
-template <bool (*Start)(const lockstep_host&)>
+// Called once before the first leaf, and once after the last. An exception from `Start` refuses to
+// work, with its text as the reason.
+template <void (*Start)()>
 constexpr detail::InitPart init() {
-  return {[](const lockstep_host* host) noexcept {
-    try {
-      return Start(*host);
-    } catch (...) {
-      return false;
-    }
+  return {[](const lockstep_host* host, const lockstep_caller* id) noexcept {
+    return detail::guarded(detail::Caller{host, id}, false, [] {
+      Start();
+      return true;
+    });
   }};
 }
 template <void (*End)()>
