@@ -1,12 +1,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <system_error>
 #include <vector>
 
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
+#include "core/suggest.h"
 
 namespace lockstep {
 
@@ -16,7 +18,23 @@ std::span<const Command* const> commands() {
   return kAll;
 }
 
+namespace {
+
+// CLI11 would only say that a subcommand is required.
+bool is_unknown(std::string_view command) {
+  std::vector<std::string_view> names;
+  for (const Command* it : commands()) names.emplace_back(it->name);
+  if (command.starts_with('-') || std::ranges::find(names, command) != names.end()) return false;
+  const std::string near = did_you_mean(command, names);
+  print_error(fmt::format("unknown command '{}'", printable(command)),
+              near.empty() ? fmt::format("commands: {}", fmt::join(names, ", ")) : near);
+  return true;
+}
+
+}  // namespace
+
 int run_program(int argc, char** argv) {
+  if (argc > 1 && is_unknown(argv[1])) return kExitUsage;
   CLI::App app{"lockstep: behavior trees that move several things at once and keep them in step",
                "lockstep"};
   app.require_subcommand(1);

@@ -25,7 +25,8 @@ std::optional<std::string_view> choose_main(const Project& project, const Checke
   const Document& main = *project.documents.front();
   const Reporter report(main, diagnostics);
   if (trees.ids.empty()) {
-    if (trees.nodes.empty()) {  // else it is there, but without an ID: reported already
+    // Else it is there, but without an ID, or this is no tree file at all: reported already.
+    if (trees.nodes.empty() && main.elements()[0].tag == "root") {
       report.at_element(0, "there is no BehaviorTree", "put a <BehaviorTree ID=\"…\"> into <root>");
     }
     return std::nullopt;

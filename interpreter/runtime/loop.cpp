@@ -1,9 +1,13 @@
 #include "runtime/loop.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace lockstep {
 namespace {
+
+// A stop signal that comes between the look at it and the sleep does not end the sleep.
+constexpr Nanoseconds kLongestSleep = std::chrono::milliseconds(100);
 
 class Loop {
  public:
@@ -71,7 +75,8 @@ class Loop {
     }
     const Nanoseconds deadline = start_ + deadline_of(deadline_, options_.rate);
     do {  // any signal ends a sleep, only a stop signal ends the wait
-      clock_.sleep_until(deadline);
+      clock_.sleep_until(clock_.is_real() ? std::min(deadline, clock_.now() + kLongestSleep)
+                                          : deadline);
     } while (clock_.now() < deadline && !stop_requested());
   }
 

@@ -1,0 +1,101 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+
+using namespace lockstep::test;
+
+TEST_CASE("check says ok on stdout and what is wrong on stderr, for each file") {
+  const TemporaryDirectory directory;
+  const std::string good = directory.file("good.xml", tree_text("<Advance/>"));
+  const std::string bad = directory.file("bad.xml", tree_text("<Advnce/>"));
+  const Outcome outcome = lockstep::test::lockstep({"check", bad, good});
+  CHECK(outcome.code == 3);
+  CHECK(outcome.out == good + ": ok\n");
+  CHECK(contains(outcome.err, bad + ":1:"));
+  CHECK(contains(outcome.err, "unknown node 'Advnce'"));
+  CHECK(contains(outcome.err, "did you mean 'Advance'?"));
+  CHECK(!contains(outcome.err, "\x1b"));
+  CHECK(lockstep::test::lockstep({"check", good}).code == 0);
+}
+
+TEST_CASE("check --format json is an array on stdout") {
+  const TemporaryDirectory directory;
+  const std::string bad = directory.file("bad.xml", tree_text("<Advnce/>"));
+  const Outcome outcome = lockstep::test::lockstep({"check", "--format", "json", bad});
+  CHECK(outcome.code == 3);
+  CHECK(outcome.err.empty());
+  const auto messages = nlohmann::json::parse(outcome.out);
+  REQUIRE(messages.size() == 1);
+  CHECK(messages[0]["severity"] == "error");
+  CHECK(messages[0]["file"] == bad);
+  CHECK(messages[0]["line"] == 1);
+  CHECK(messages[0]["hint"] == "did you mean 'Advance'?");
+}
+
+TEST_CASE("check tells usage, trees and plugins apart") {
+  const TemporaryDirectory directory;
+  const std::string good = directory.file("good.xml", tree_text("<Advance step=\"{x}\"/>"));
+  const std::string lost =
+      directory.file("lost.xml",
+                     "<root lockstep=\"1\"><plugin name=\"lost\"/><BehaviorTree "
+                     "ID=\"A\"><X/></BehaviorTree></root>");
+  struct Row {
+    int code;
+    std::vector<std::string> arguments;
+    std::string message;
+  };
+  const Row rows[] = {
+      {2, {}, "tree is required"},
+      {2, {good, "--format", "xml"}, "--format"},
+      {2, {good, "--arg", "x"}, "expected name=value"},
+      {2, {good, "--arg", "x=1"}, "unknown argument 'x'"},
+      {2, {good, "--set", "y=1"}, "the main tree does not use '{y}'"},
+      {2, {good, "--tree", "Mian"}, "did you mean 'Main'?"},
+      {3, {good, "--set", "x=fast"}, "is not a number"},
+      {3, {directory.path("none.xml")}, "No such file or directory"},
+      {4, {lost}, "plugin 'lost' is not found"},
+      {4, {good, "--plugin", LOCKSTEP_BINARY_DIR "/tests/abi/plugins/wrong_abi.so"}, "ABI"},
+      {4, {good, "--plugin", good}, "good.xml"}};
+  for (const Row& row : rows) {
+    std::vector<std::string> arguments{"check"};
+    arguments.insert(arguments.end(), row.arguments.begin(), row.arguments.end());
+    const Outcome outcome = lockstep::test::lockstep(arguments);
+    INFO(outcome.err);
+    CHECK(outcome.code == row.code);
+    CHECK(contains(outcome.err, row.message));
+  }
+}
+
+TEST_CASE("the program itself") {
+  CHECK(lockstep::test::lockstep({"--version"}).out.rfind("lockstep ", 0) == 0);
+  const Outcome help = lockstep::test::lockstep({"--help"});
+  CHECK(help.code == 0);
+  CHECK(help.err.empty());
+  for (const std::string command : {"run", "check", "show", "nodes", "schema", "log"}) {
+    CHECK(contains(help.out, "  " + command + " "));
+    const Outcome its = lockstep::test::lockstep({command, "--help"});
+    CHECK(its.code == 0);
+    CHECK(contains(its.out, "Example"));
+    CHECK(lockstep::test::lockstep({command, "--no-such-option"}).code == 2);
+  }
+  CHECK(lockstep::test::lockstep({}).code == 2);
+  const Outcome unknown = lockstep::test::lockstep({"chekc"});
+  CHECK(unknown.code == 2);
+  CHECK(contains(unknown.err, "unknown command 'chekc'"));
+  CHECK(contains(unknown.err, "did you mean 'check'?"));
+}
+
+TEST_CASE("a full disk is said, never a crash") {
+  const TemporaryDirectory directory;
+  const std::string bad = directory.file("bad.xml", tree_text("<Sequence>" + [] {
+                                           std::string nodes;
+                                           for (int i = 0; i < 100; ++i) nodes += "<Unknown/>";
+                                           return nodes;
+                                         }() + "</Sequence>"));
+  const Outcome outcome = run({.arguments = {"-c", "\"$0\" check --format json \"$1\" > /dev/full",
+                                             LOCKSTEP_BINARY_DIR "/lockstep", bad},
+                               .program = "/bin/sh"});
+  CHECK(outcome.code == 2);
+  CHECK(contains(outcome.err, "No space left on device"));
+}

@@ -1,0 +1,132 @@
+#include <catch2/catch.hpp>
+
+#include "cli/program.h"
+
+using namespace lockstep::test;
+
+namespace {
+
+// A recording of ten ticks.
+std::string record(const TemporaryDirectory& directory) {
+  const std::string tree = directory.file(
+      "tree.xml", tree_text("<ParallelAbsolute name=\"pull\" barriers=\"0.5;1\">"
+                            "<Advance name=\"arm\" step=\"0.1\"/>"
+                            "<Advance name=\"base\" step=\"0.3\"/></ParallelAbsolute>"));
+  const std::string file = directory.path("run.jsonl");
+  const Outcome outcome = lockstep::test::lockstep(
+      {"run", tree, "--clock", "virtual", "--view", "none", "--record", file});
+  REQUIRE(outcome.code == 0);
+  return file;
+}
+
+Outcome log(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "log");
+  return lockstep::test::lockstep(std::move(arguments));
+}
+
+}  // namespace
+
+TEST_CASE("log csv prints a row for each tick and active node") {
+  const TemporaryDirectory directory;
+  const Outcome outcome = log({"csv", record(directory)});
+  CHECK(outcome.code == 0);
+  CHECK(outcome.err.empty());
+  const auto rows = lines(outcome.out);
+  REQUIRE(rows.size() == 1 + 10 * 3);
+  CHECK(rows[0] == "tick,time_s,node,path,status,progress,ticked,held");
+  CHECK(rows[1] == "0,0,0,Main/pull,running,0,1,0");
+  CHECK(rows[9] == "2,0.02,2,Main/pull/base,running,0.6,0,1");  // the first tick that holds it
+}
+
+TEST_CASE("log csv --out writes the same table to a file, but never over the recording") {
+  const TemporaryDirectory directory;
+  const std::string recording = record(directory);
+  const std::string table = directory.path("run.csv");
+  const Outcome outcome = log({"csv", recording, "--out", table});
+  CHECK(outcome.code == 0);
+  CHECK(outcome.out.empty());
+  CHECK((read_file(table) == log({"csv", recording}).out));
+  const std::string before = read_file(recording);
+  CHECK(log({"csv", recording, "--out", recording}).code == 2);
+  CHECK((read_file(recording) == before));
+  CHECK(log({"csv", recording, "--out", directory.path("none/run.csv")}).code == 2);
+  const Outcome full = log({"csv", recording, "--out", "/dev/full"});
+  CHECK(full.code == 2);
+  CHECK(contains(full.err, "No space left"));
+}
+
+TEST_CASE("log info sums up") {
+  const TemporaryDirectory directory;
+  const Outcome outcome = log({"info", record(directory)});
+  CHECK(outcome.code == 0);
+  CHECK(outcome.err.empty());
+  CHECK(contains(outcome.out, "success (completed) after 10 ticks"));
+  CHECK(contains(outcome.out, "progress distance 2.1"));
+  CHECK(!contains(outcome.out, "\x1b"));
+}
+
+TEST_CASE("- is stdin") {
+  const TemporaryDirectory directory;
+  const std::string recording = record(directory);
+  for (const std::string command : {"csv", "info"}) {
+    const Outcome piped = run({.arguments = {"log", command, "-"}, .input = read_file(recording)});
+    CHECK(piped.code == 0);
+    CHECK(piped.out == log({command, recording}).out);
+  }
+}
+
+TEST_CASE("a recording that ends early is read, and that is said") {
+  const TemporaryDirectory directory;
+  std::string text = read_file(record(directory));
+  text.resize(text.size() * 3 / 4);
+  const std::string cut = directory.file("cut.jsonl", text);
+  for (const std::string command : {"csv", "info"}) {
+    const Outcome outcome = log({command, cut});
+    CHECK(outcome.code == 0);
+    CHECK(!outcome.out.empty());
+    CHECK(contains(outcome.err, "the recording is cut"));
+  }
+}
+
+TEST_CASE("what is no recording, or a damaged one, ends with 3") {
+  const TemporaryDirectory directory;
+  std::string text = read_file(record(directory));
+  text.replace(text.find("\"tick\":4"), 8, "\"tick\":x");
+  const std::string damaged = directory.file("damaged.jsonl", text);
+  const std::string other = directory.file("other.jsonl", "<root/>\n");
+  for (const std::string command : {"csv", "info"}) {
+    const Outcome outcome = log({command, damaged});
+    CHECK(outcome.code == 3);
+    CHECK(contains(outcome.err, "damaged.jsonl:6: "));
+    CHECK(log({command, other}).code == 3);
+    CHECK(run({.arguments = {"log", command, "-"}}).code == 3);
+  }
+}
+
+TEST_CASE("what cannot be read, and wrong usage, end with 2") {
+  const TemporaryDirectory directory;
+  const Outcome missing = log({"csv", directory.path("none.jsonl")});
+  CHECK(missing.code == 2);
+  CHECK(contains(missing.err, "No such file or directory"));
+  CHECK(log({"info", directory.path("")}).code == 2);
+  CHECK(lockstep::test::lockstep({"log"}).code == 2);
+  CHECK(log({"csv"}).code == 2);
+  CHECK(log({"table", "x.jsonl"}).code == 2);
+}
+
+TEST_CASE("a reader that goes away is no error") {
+  const TemporaryDirectory directory;
+  const std::string tree =
+      directory.file("tree.xml", tree_text("<Parallel><Advance step=\"0.0001\"/></Parallel>"));
+  const std::string recording = directory.path("run.jsonl");
+  REQUIRE(lockstep::test::lockstep(
+              {"run", tree, "--clock", "virtual", "--view", "none", "--record", recording})
+              .code == 0);
+  for (const std::string before : {"", "trap '' PIPE; "}) {
+    const Outcome outcome = run({.arguments = {"-c", before + "\"$0\" log csv \"$1\" | head -n 1",
+                                               LOCKSTEP_BINARY_DIR "/lockstep", recording},
+                                 .program = "/bin/sh"});
+    CHECK(outcome.out == "tick,time_s,node,path,status,progress,ticked,held\n");
+    CHECK(outcome.err.empty());
+  }
+}

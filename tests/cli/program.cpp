@@ -1,0 +1,189 @@
+#include "cli/program.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+extern char** environ;
+
+namespace lockstep::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What would change what a program prints, and is set on one machine and not on another.
+constexpr const char* kUnset[] = {"NO_COLOR", "LC_ALL", "LC_CTYPE", "LANG", "LOCKSTEP_PLUGIN_PATH"};
+
+std::vector<std::string> environment_of(const Call& call) {
+  std::map<std::string, std::string> all;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string text = *entry;
+    all[text.substr(0, text.find('='))] = text.substr(text.find('=') + 1);
+  }
+  for (const char* name : kUnset) all.erase(name);
+  all["TERM"] = "xterm";
+  for (const auto& [name, value] : call.environment) all[name] = value;
+  std::vector<std::string> environment;
+  for (const auto& [name, value] : all) environment.push_back(name + "=" + value);
+  return environment;
+}
+
+std::vector<char*> pointers(std::vector<std::string>& texts) {
+  std::vector<char*> result;
+  for (std::string& text : texts) result.push_back(text.data());
+  result.push_back(nullptr);
+  return result;
+}
+
+struct Pipe {
+  int read = -1, write = -1;
+  Pipe() {
+    int ends[2];
+    REQUIRE(pipe2(ends, O_CLOEXEC) == 0);
+    read = ends[0];
+    write = ends[1];
+  }
+};
+
+// Appends what can be read at once; false at the end.
+bool append(int file, std::string& text) {
+  char buffer[65536];
+  const ssize_t count = read(file, buffer, sizeof buffer);
+  if (count <= 0) return false;  // a terminal whose program has ended gives EIO
+  text.append(buffer, static_cast<std::size_t>(count));
+  return true;
+}
+
+}  // namespace
+
+Process::Process(const Call& call, Output output) {
+  std::vector<std::string> arguments{call.program};
+  arguments.insert(arguments.end(), call.arguments.begin(), call.arguments.end());
+  auto environment = environment_of(call);
+  const auto argv = pointers(arguments);
+  const auto envp = pointers(environment);
+  if (output == Output::Terminal) {
+    winsize size{40, 120, 0, 0};
+    pid_ = forkpty(&out_, nullptr, nullptr, &size);
+    if (pid_ == 0) {
+      execvpe(argv[0], argv.data(), envp.data());
+      _exit(127);
+    }
+    REQUIRE(pid_ > 0);
+    return;
+  }
+  const Pipe in, out, err;
+  pid_ = fork();
+  if (pid_ == 0) {
+    dup2(in.read, STDIN_FILENO);
+    dup2(out.write, STDOUT_FILENO);
+    dup2(err.write, STDERR_FILENO);
+    execvpe(argv[0], argv.data(), envp.data());
+    _exit(127);
+  }
+  REQUIRE(pid_ > 0);
+  close(in.read);
+  close(out.write);
+  close(err.write);
+  out_ = out.read;
+  err_ = err.read;
+  const ssize_t written = write(in.write, call.input.data(), call.input.size());
+  close(in.write);
+  REQUIRE(written == static_cast<ssize_t>(call.input.size()));
+}
+
+Process::~Process() {
+  if (pid_ > 0) {
+    kill(pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+  }
+  if (out_ >= 0) close(out_);
+  if (err_ >= 0) close(err_);
+}
+
+bool Process::read_more() {
+  pollfd files[] = {{out_, POLLIN, 0}, {err_, POLLIN, 0}};  // poll ignores a negative file
+  if (out_ < 0 && err_ < 0) return false;
+  constexpr int kPatience = 60'000;
+  REQUIRE(poll(files, 2, kPatience) > 0);
+  if (files[0].revents != 0 && !append(out_, outcome_.out)) {
+    close(out_);
+    out_ = -1;
+  }
+  if (files[1].revents != 0 && !append(err_, outcome_.err)) {
+    close(err_);
+    err_ = -1;
+  }
+  return true;
+}
+
+bool Process::wait_for(const std::string& text) {
+  while (!contains(outcome_.out, text) && !contains(outcome_.err, text)) {
+    if (!read_more()) return false;
+  }
+  return true;
+}
+
+Outcome Process::finish() {
+  while (read_more()) {
+  }
+  int status = 0;
+  REQUIRE(waitpid(pid_, &status, 0) == pid_);
+  pid_ = -1;
+  outcome_.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return outcome_;
+}
+
+Outcome run(const Call& call) {
+  return Process(call).finish();
+}
+
+Outcome lockstep(std::vector<std::string> arguments) {
+  return run({.arguments = std::move(arguments)});
+}
+
+TemporaryDirectory::TemporaryDirectory() {
+  std::string pattern = (fs::temp_directory_path() / "lockstep-cli-XXXXXX").string();
+  REQUIRE(mkdtemp(pattern.data()) != nullptr);
+  path_ = pattern;
+}
+
+TemporaryDirectory::~TemporaryDirectory() {
+  std::error_code error;
+  fs::remove_all(path_, error);
+}
+
+std::string TemporaryDirectory::file(const std::string& name, const std::string& text) const {
+  std::ofstream(path(name), std::ios::binary) << text;
+  return path(name);
+}
+
+std::string read_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  REQUIRE(file);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::string tree_text(const std::string& node) {
+  return "<root lockstep=\"1\"><plugin name=\"motion\"/><BehaviorTree ID=\"Main\">" + node +
+         "</BehaviorTree></root>\n";
+}
+
+std::vector<std::string> lines(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+}  // namespace lockstep::test

@@ -1,0 +1,75 @@
+// The program from outside: what it prints and how it ends. No shell stands between.
+#pragma once
+
+#include <signal.h>
+#include <sys/types.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace lockstep::test {
+
+struct Outcome {
+  int code = -1;  // 128 + the signal when one killed it
+  std::string out;
+  std::string err;
+};
+
+struct Call {
+  std::vector<std::string> arguments;
+  std::map<std::string, std::string> environment = {};  // over ours; NO_COLOR and such are unset
+  std::string input = {};
+  std::string program = LOCKSTEP_BINARY_DIR "/lockstep";
+};
+
+Outcome run(const Call& call);
+// lockstep with these arguments.
+Outcome lockstep(std::vector<std::string> arguments);
+
+// The program while it runs.
+class Process {
+ public:
+  enum class Output { Pipes, Terminal };  // a terminal is both out and err: all is in `out`
+
+  explicit Process(const Call& call, Output output = Output::Pipes);
+  ~Process();
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  // Reads on until its output holds `text`; false when it ended without.
+  bool wait_for(const std::string& text);
+  void signal(int number) const { kill(pid_, number); }
+  Outcome finish();
+
+ private:
+  bool read_more();  // false at the end of both
+  void write_input(const std::string& input);
+
+  pid_t pid_ = -1;
+  int out_ = -1, err_ = -1;
+  Outcome outcome_;
+};
+
+// A directory of its own that is removed in the end.
+class TemporaryDirectory {
+ public:
+  TemporaryDirectory();
+  ~TemporaryDirectory();
+  std::string path(const std::string& name) const { return path_ + "/" + name; }
+  // Writes a file and returns its path.
+  std::string file(const std::string& name, const std::string& text) const;
+
+ private:
+  std::string path_;
+};
+
+std::string read_file(const std::string& path);
+// <root>, the plugin motion, and a BehaviorTree 'Main' around `node`.
+std::string tree_text(const std::string& node);
+std::vector<std::string> lines(const std::string& text);
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace lockstep::test

@@ -1,0 +1,217 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "cli/program.h"
+
+using namespace lockstep::test;
+using nlohmann::json;
+
+namespace {
+
+const std::string kSynchronized =
+    "<ParallelAbsolute name=\"pull\" barriers=\"0.5;1\">"
+    "<Advance name=\"arm\" step=\"0.01\" noise=\"0.005\"/>"
+    "<Advance name=\"base\" step=\"0.03\" noise=\"0.005\"/></ParallelAbsolute>";
+
+std::string abi_plugin(const std::string& name) {
+  return LOCKSTEP_BINARY_DIR "/tests/abi/plugins/" + name + ".so";
+}
+
+// A run on the virtual clock.
+struct Simulation {
+  explicit Simulation(const std::string& node)
+      : file(directory.file("tree.xml", tree_text(node))) {}
+
+  Outcome run(std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments{"run", file, "--clock", "virtual"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return lockstep::test::lockstep(arguments);
+  }
+
+  TemporaryDirectory directory;
+  std::string file;
+};
+
+}  // namespace
+
+TEST_CASE("Success is 0 and Failure is 1") {
+  CHECK(Simulation("<AlwaysSuccess/>").run().code == 0);
+  CHECK(Simulation("<AlwaysFailure/>").run().code == 1);
+}
+
+TEST_CASE(
+    "the summary goes to stdout, what happens meanwhile to stderr, without escape sequences") {
+  const Simulation it(kSynchronized);
+  const Outcome outcome = it.run({"--view", "auto"});
+  CHECK(outcome.code == 0);
+  CHECK(contains(outcome.out, "success after"));
+  CHECK(contains(outcome.out, "progress distance"));
+  CHECK(contains(outcome.err, "Main/pull/base: waits for arm at barrier 0.5"));
+  CHECK(!contains(outcome.out + outcome.err, "\x1b"));
+  CHECK(it.run({"--view", "plain"}).err == outcome.err);
+  const Outcome silent = it.run({"--view", "none"});
+  CHECK(silent.err.empty());
+  CHECK(silent.out == outcome.out);
+}
+
+TEST_CASE("--json is the summary as one object on stdout") {
+  const Outcome outcome = Simulation(kSynchronized).run({"--json"});
+  const json summary = json::parse(outcome.out);
+  CHECK(summary["result"] == "success");
+  CHECK(summary["reason"] == "completed");
+  CHECK(summary["ticks"] > 5);
+  CHECK(summary["synchronized_nodes"].size() == 1);
+}
+
+TEST_CASE("--max-ticks and --timeout end with 124, all running leaves halted") {
+  const Simulation it("<Parallel><AlwaysRunning/><Advance step=\"0\"/></Parallel>");
+  const Outcome ticks = it.run({"--max-ticks", "7"});
+  CHECK(ticks.code == 124);
+  CHECK(contains(ticks.out, "after 7 ticks"));
+  CHECK(contains(ticks.err, "Main/Parallel/Advance: halted"));
+  const Outcome time = it.run({"--timeout", "0.5", "--rate", "10"});
+  CHECK(time.code == 124);
+  CHECK(contains(time.out, "after 5 ticks"));
+}
+
+TEST_CASE("--rate is ticks per second") {
+  const Outcome outcome = Simulation("<Wait seconds=\"1\"/>").run({"--rate", "20", "--json"});
+  CHECK(json::parse(outcome.out)["ticks"] == 21);
+}
+
+TEST_CASE("--arg, --set and --tree choose what runs") {
+  const TemporaryDirectory directory;
+  const std::string file = directory.file(
+      "tree.xml",
+      "<root lockstep=\"1\" main_tree_to_execute=\"A\"><plugin name=\"motion\"/>"
+      "<arg name=\"n\" default=\"1\"/>"
+      "<BehaviorTree ID=\"A\"><Repeat times=\"${n}\"><AlwaysSuccess/></Repeat></BehaviorTree>"
+      "<BehaviorTree ID=\"B\"><Advance step=\"{pace}\"/></BehaviorTree></root>");
+  const auto ticks = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments{"run", file, "--clock", "virtual", "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return json::parse(lockstep::test::lockstep(arguments).out)["ticks"].get<int>();
+  };
+  CHECK(ticks({}) == 1);
+  CHECK(ticks({"--arg", "n=3"}) == 3);
+  CHECK(ticks({"--tree", "B", "--set", "pace=0.25"}) == 4);
+}
+
+TEST_CASE("the same seed gives the same run, another seed another") {
+  const Simulation it(kSynchronized);
+  const auto recorded = [&](const std::string& seed) {
+    const std::string file = it.directory.path("run.jsonl");
+    REQUIRE(it.run({"--seed", seed, "--record", file}).code == 0);
+    const std::string text = read_file(file);
+    return text.substr(text.find('\n'));  // the header names the seed
+  };
+  CHECK((recorded("7") == recorded("7")));
+  CHECK((recorded("7") != recorded("8")));
+}
+
+TEST_CASE("a recording holds the whole run: header, ticks, end") {
+  const Simulation it(kSynchronized);
+  const std::string file = it.directory.path("run.jsonl");
+  const Outcome outcome = it.run({"--record", file, "--seed", "3", "--json"});
+  const auto recording = lines(read_file(file));
+  const json summary = json::parse(outcome.out);
+  REQUIRE(recording.size() == summary["ticks"].get<std::size_t>() + 2);
+  const json header = json::parse(recording.front());
+  CHECK(header["seed"] == 3);
+  CHECK(header["clock"] == "virtual");
+  CHECK(header["file"] == it.file);
+  CHECK(header["nodes"][1]["path"] == "Main/pull/arm");
+  const json end = json::parse(recording.back())["end"];
+  CHECK(end["reason"] == "completed");
+  CHECK(end["ticks"] == summary["ticks"]);
+}
+
+TEST_CASE("a recording that cannot be opened stops the run before it begins") {
+  const Outcome outcome =
+      Simulation("<AlwaysSuccess/>").run({"--record", "/nonexistent/run.jsonl"});
+  CHECK(outcome.code == 2);
+  CHECK(outcome.out.empty());
+  CHECK(contains(outcome.err, "/nonexistent/run.jsonl"));
+}
+
+TEST_CASE("--stall names who stands still while others wait") {
+  const Simulation it(
+      "<ParallelRelative name=\"pair\" delta=\"0.1\"><Advance name=\"arm\" step=\"0\"/>"
+      "<Advance name=\"base\" step=\"0.3\"/></ParallelRelative>");
+  const auto err = [&](const std::string& stall) {
+    return it.run({"--stall", stall, "--max-ticks", "500", "--view", "none"}).err;
+  };
+  CHECK(contains(err("2"), "warning: Main/pair/arm stands still at 0 "));
+  CHECK(err("0").empty());
+  CHECK(err("10").empty());
+}
+
+TEST_CASE("wrong usage is 2 and runs nothing") {
+  const Simulation it("<AlwaysSuccess/>");
+  const std::vector<std::string> rows[] = {
+      {"--rate", "0"},     {"--rate", "1e9"},   {"--rate", "fast"},   {"--clock", "sundial"},
+      {"--seed", "-1"},    {"--seed", "1.5"},   {"--max-ticks", "0"}, {"--max-ticks", "-3"},
+      {"--timeout", "-1"}, {"--stall", "-1"},   {"--view", "3d"},     {"--set", "x"},
+      {"--set", "none=1"}, {"--arg", "none=1"}, {"--tree", "None"},   {"other.xml"},
+      {"--no-such-option"}};
+  for (const auto& row : rows) {
+    const Outcome outcome = it.run(row);
+    INFO(row[0] << " " << outcome.err);
+    CHECK(outcome.code == 2);
+    CHECK(outcome.out.empty());
+    CHECK(!outcome.err.empty());
+  }
+  CHECK(lockstep::test::lockstep({"run"}).code == 2);
+}
+
+TEST_CASE("an invalid tree is 3, a refused plugin 4") {
+  CHECK(Simulation("<Sequnce/>").run().code == 3);
+  const Simulation it("<Probe/>");
+  const Outcome abi = it.run({"--plugin", abi_plugin("wrong_abi")});
+  CHECK(abi.code == 4);
+  CHECK(contains(abi.err, "wrong_abi.so"));
+  CHECK(it.run({"--plugin", abi_plugin("init_refuses")}).code == 4);
+  CHECK(it.run({"--plugin", abi_plugin("good")}).code == 0);
+}
+
+TEST_CASE("a leaf that fails as a program is 5; it is named, the others are halted") {
+  for (const std::string name : {"error_in_tick", "throws_exception", "status_out_of_range",
+                                 "nan_progress", "condition_running"}) {
+    const Simulation it(
+        "<ParallelRelative delta=\"1\"><Advance name=\"arm\"/><Probe name=\"culprit\"/>"
+        "</ParallelRelative>");
+    const Outcome outcome = it.run({"--plugin", abi_plugin(name)});
+    INFO(name << "\n" << outcome.err);
+    CHECK(outcome.code == 5);
+    CHECK(contains(outcome.err, "Main/ParallelRelative/culprit"));
+    CHECK(contains(outcome.err, "plugin '" + name + "'"));
+    CHECK(contains(outcome.err, "in tick "));
+    CHECK(contains(outcome.err, "Main/ParallelRelative/arm: halted"));
+  }
+  const Outcome fault = Simulation("<Profile shape=\"zigzag\"/>").run({"--json"});
+  CHECK(fault.code == 5);
+  CHECK(json::parse(fault.out)["reason"] == "fault");
+}
+
+TEST_CASE("a terminal gets the live view, in color unless NO_COLOR asks for none") {
+  const TemporaryDirectory directory;
+  const std::string file =
+      directory.file("tree.xml", tree_text("<Parallel><Advance step=\"0.02\"/></Parallel>"));
+  const std::regex color("\x1b\\[[0-9;]*m");
+  for (const bool no_color : {false, true}) {
+    Call call{.arguments = {"run", file, "--rate", "100"}};
+    if (no_color) call.environment["NO_COLOR"] = "1";
+    const Outcome outcome = Process(call, Process::Output::Terminal).finish();
+    CHECK(outcome.code == 0);
+    CHECK(contains(outcome.out, "after 50 ticks"));
+    CHECK(contains(outcome.out, "\x1b[?25l"));  // the cursor is hidden, and comes back
+    CHECK(outcome.out.rfind("\x1b[?25h") > outcome.out.rfind("\x1b[?25l"));
+    CHECK(std::regex_search(outcome.out, color) != no_color);
+  }
+  const Outcome plain =
+      Process({.arguments = {"run", file, "--view", "plain"}, .environment = {{"NO_COLOR", "1"}}},
+              Process::Output::Terminal)
+          .finish();
+  CHECK(!contains(plain.out, "\x1b"));
+}

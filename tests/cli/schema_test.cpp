@@ -1,0 +1,142 @@
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "cli/program.h"
+
+using namespace lockstep::test;
+
+namespace {
+
+const std::string kSchema = LOCKSTEP_SOURCE_DIR "/schema/lockstep.xsd";
+
+Outcome xmllint(const std::string& schema, const std::string& tree) {
+  const Outcome outcome =
+      run({.arguments = {"--noout", "--schema", schema, tree}, .program = "xmllint"});
+  REQUIRE(outcome.code != 127);  // not installed: Debian libxml2-utils
+  return outcome;
+}
+
+std::string around(const std::string& node) {
+  return "<root lockstep=\"1\"><BehaviorTree ID=\"A\">" + node + "</BehaviorTree></root>";
+}
+
+std::vector<std::string> trees_below(const std::string& directory) {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(directory)) {
+    if (entry.path().extension() == ".xml") files.push_back(entry.path().string());
+  }
+  return files;
+}
+
+}  // namespace
+
+TEST_CASE("schema/lockstep.xsd is what the program prints") {
+  const Outcome outcome = lockstep::test::lockstep({"schema"});
+  CHECK(outcome.code == 0);
+  CHECK(outcome.err.empty());
+  INFO("schema/lockstep.xsd is stale: lockstep schema > schema/lockstep.xsd");
+  CHECK((outcome.out == read_file(kSchema)));
+}
+
+TEST_CASE("xmllint accepts every tree that ships and every good one of the tests") {
+  auto files = trees_below(LOCKSTEP_SOURCE_DIR "/trees");
+  REQUIRE(files.size() > 3);
+  const auto good = trees_below(LOCKSTEP_SOURCE_DIR "/tests/trees/good");
+  REQUIRE(good.size() >= 10);
+  files.insert(files.end(), good.begin(), good.end());
+  for (const std::string& file : files) {
+    const Outcome outcome = xmllint(kSchema, file);
+    INFO(outcome.err);
+    CHECK(outcome.code == 0);
+  }
+}
+
+TEST_CASE("what check accepts, the schema accepts") {
+  const TemporaryDirectory directory;
+  const std::string accepted[] = {
+      around("<Wait seconds=\" +.5e0 \" name=\"a b\" _description=\"\"/>"),
+      around("<Wait seconds=\"5.\">\n  <!-- nothing -->\n</Wait>"),
+      around("<ParallelAbsolute barriers=\"0.25,0.5 .75;1.\"><AlwaysSuccess/></ParallelAbsolute>"),
+      around("<ParallelAbsolute barriers=\"5e-1\"><AlwaysSuccess/></ParallelAbsolute>"),
+      around("<ParallelAbsolute barriers=\"\"><AlwaysSuccess/></ParallelAbsolute>"),
+      around("<Sequence "
+             "memory=\"1\"><AlwaysSuccess/><Inverter><AlwaysFailure/></Inverter></Sequence>"),
+      around("<Control ID=\"Sequence\"><Action ID=\"AlwaysSuccess\"/></Control>"),
+      around("<Decorator ID=\"Repeat\" times=\"3\"><AlwaysSuccess/></Decorator>"),
+      "<root lockstep=\"1\"><arg name=\"s\" default=\"1\"/>"
+      "<BehaviorTree ID=\"A\"><Wait seconds=\"${s}\"/></BehaviorTree></root>",
+      "<root lockstep=\"1\" main_tree_to_execute=\"A\" "
+      "xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" "
+      "xsi:noNamespaceSchemaLocation=\"lockstep.xsd\"><BehaviorTree ID=\"A\">"
+      "<SubTree ID=\"B\" _autoremap=\"true\"/></BehaviorTree>"
+      "<BehaviorTree ID=\"B\"><AlwaysSuccess/></BehaviorTree></root>"};
+  for (const std::string& text : accepted) {
+    const std::string file = directory.file("tree.xml", text);
+    const Outcome checked = lockstep::test::lockstep({"check", file});
+    const Outcome outcome = xmllint(kSchema, file);
+    INFO(text << "\n" << outcome.err << checked.err);
+    CHECK(checked.code == 0);
+    CHECK(outcome.code == 0);
+  }
+}
+
+TEST_CASE("what check refuses, the schema refuses where it can say it") {
+  const TemporaryDirectory directory;
+  const std::string refused[] = {
+      around("<Sequence memroy=\"true\"><AlwaysSuccess/></Sequence>"),
+      around("<ParallelRelative><AlwaysSuccess/></ParallelRelative>"),
+      around("<ParallelAbsolute barriers=\"1\" "
+             "at_barrier=\"wat\"><AlwaysSuccess/></ParallelAbsolute>"),
+      around("<ParallelRelative delta=\"1.5\"><AlwaysSuccess/></ParallelRelative>"),
+      around("<ParallelAbsolute barriers=\"0;0.5\"><AlwaysSuccess/></ParallelAbsolute>"),
+      around("<ParallelAbsolute barriers=\"0.5;1.5\"><AlwaysSuccess/></ParallelAbsolute>"),
+      around("<Timeout seconds=\"0\"><AlwaysSuccess/></Timeout>"),
+      around("<Repeat times=\"1.5\"><AlwaysSuccess/></Repeat>"),
+      around("<Repeat times=\"{n}\"><AlwaysSuccess/></Repeat>"),
+      around("<Wait seconds=\"INF\"/>"),
+      around("<Sequence memory=\"yes\"><AlwaysSuccess/></Sequence>"),
+      around("<Inverter><AlwaysSuccess/><AlwaysSuccess/></Inverter>"),
+      around("<Wait seconds=\"1\"><AlwaysSuccess/></Wait>"),
+      around("<Sequence/>"),
+      around("<Sequence>text<AlwaysSuccess/></Sequence>"),
+      around("<SubTree/>"),
+      around("<Action/>"),
+      around("<AlwaysSuccess name=\"\"/>"),
+      around("<AlwaysSuccess name=\"a/b\"/>"),
+      around("<Sequence><AlwaysSuccess/><arg name=\"x\"/></Sequence>"),
+      around("<Sequence><BehaviorTree ID=\"B\"><AlwaysSuccess/></BehaviorTree></Sequence>"),
+      around("<Unknown><Sequence/></Unknown>"),
+      around("<AlwaysSuccess/><AlwaysSuccess/>"),
+      around(""),
+      "<root><BehaviorTree ID=\"A\"><AlwaysSuccess/></BehaviorTree></root>",
+      "<root lockstep=\"2\"><BehaviorTree ID=\"A\"><AlwaysSuccess/></BehaviorTree></root>",
+      "<root lockstep=\"1\" x=\"\"><BehaviorTree ID=\"A\"><AlwaysSuccess/></BehaviorTree></root>",
+      "<root lockstep=\"1\"><BehaviorTree><AlwaysSuccess/></BehaviorTree></root>",
+      "<root lockstep=\"1\"><Sequence/><BehaviorTree "
+      "ID=\"A\"><AlwaysSuccess/></BehaviorTree></root>",
+      "<root lockstep=\"1\"><plugin name=\"motion\"><x/></plugin></root>",
+      "<root lockstep=\"1\"><arg/></root>",
+      "<BehaviorTree ID=\"A\"><AlwaysSuccess/></BehaviorTree>"};
+  constexpr int kInvalid = 3;  // of both programs
+  for (const std::string& text : refused) {
+    const std::string file = directory.file("tree.xml", text);
+    INFO(text);
+    CHECK(lockstep::test::lockstep({"check", file}).code == kInvalid);
+    CHECK(xmllint(kSchema, file).code == kInvalid);
+  }
+}
+
+TEST_CASE("leaves of plugins are open content until the schema knows them") {
+  const TemporaryDirectory directory;
+  const Outcome schema = lockstep::test::lockstep({"schema", "--with", "motion"});
+  CHECK(schema.code == 0);
+  const std::string knowing = directory.file("motion.xsd", schema.out);
+  const std::string wrong = directory.file("tree.xml", around("<Advance step=\"fast\"/>"));
+  CHECK(xmllint(kSchema, wrong).code == 0);
+  CHECK(xmllint(knowing, wrong).code == 3);
+  for (const char* step : {"0.5", "{speed}", "${speed}"}) {
+    const std::string good =
+        directory.file("good.xml", around("<Advance step=\"" + std::string(step) + "\"/>"));
+    CHECK(xmllint(knowing, good).code == 0);
+  }
+}

@@ -1,0 +1,122 @@
+// Trees with what is expected of them inside, as comments:
+//
+//   <!-- expect error 4:7: unknown node 'Sequnce' -->   also warning, note; file:4:7 in an include
+//   <!-- expect success in 10 ticks -->                 or failure; on the virtual clock
+//   <!-- with set speed=0.5 -->                         or arg: more options of the run
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+
+using namespace lockstep::test;
+using nlohmann::json;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kTrees = LOCKSTEP_SOURCE_DIR "/tests/trees/";
+
+std::vector<std::string> files_in(const std::string& directory) {
+  std::vector<std::string> files;
+  for (const auto& entry : fs::directory_iterator(directory)) {
+    if (entry.path().extension() == ".xml") files.push_back(entry.path().string());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// What stands in the comments that begin with `word`.
+std::vector<std::string> comments(const std::string& file, const std::string& word) {
+  std::vector<std::string> found;
+  for (const std::string& line : lines(read_file(file))) {
+    const std::string open = "<!-- " + word + " ", close = " -->";
+    if (line.rfind(open, 0) != 0) continue;
+    found.push_back(line.substr(open.size(), line.size() - open.size() - close.size()));
+  }
+  return found;
+}
+
+// Messages name files as they were given; the comments name them from where they stand.
+std::string without_directory(std::string message) {
+  const std::string directory = kTrees + "bad/";
+  for (auto at = message.find(directory); at != std::string::npos; at = message.find(directory)) {
+    message.erase(at, directory.size());
+  }
+  return message;
+}
+
+// All that check says, as the comments say it.
+std::vector<std::string> told(const std::string& file, int& code) {
+  const Outcome outcome = lockstep::test::lockstep({"check", "--format", "json", file});
+  code = outcome.code;
+  CHECK(outcome.err.empty());
+  std::vector<std::string> messages;
+  for (const json& it : json::parse(outcome.out)) {
+    const std::string in = it["file"];
+    messages.push_back(without_directory(
+        it["severity"].get<std::string>() + " " + (in == file ? "" : in + ":") +
+        std::to_string(it["line"].get<int>()) + ":" + std::to_string(it["column"].get<int>()) +
+        ": " + it["message"].get<std::string>()));
+  }
+  return messages;
+}
+
+// "success in 10 ticks"
+std::string result_of(const std::string& file) {
+  std::vector<std::string> arguments{"run", file, "--clock", "virtual", "--view", "none", "--json"};
+  arguments.insert(arguments.end(), {"--max-ticks", "100000"});
+  for (const std::string& option : comments(file, "with")) {
+    arguments.push_back("--" + option.substr(0, option.find(' ')));
+    arguments.push_back(option.substr(option.find(' ') + 1));
+  }
+  const Outcome outcome = lockstep::test::lockstep(arguments);
+  INFO(outcome.err);
+  REQUIRE(!outcome.out.empty());
+  const json summary = json::parse(outcome.out);
+  const std::string result = summary["result"];
+  CHECK(outcome.code == (result == "success" ? 0 : 1));
+  const int ticks = summary["ticks"];
+  return result + " in " + std::to_string(ticks) + (ticks == 1 ? " tick" : " ticks");
+}
+
+}  // namespace
+
+TEST_CASE("bad trees: all that is wrong or doubtful is told, at its place, and nothing else") {
+  const auto files = files_in(kTrees + "bad");
+  REQUIRE(files.size() >= 30);
+  for (const std::string& file : files) {
+    INFO(file);
+    const auto expected = comments(file, "expect");
+    int code = -1;
+    const auto messages = told(file, code);
+    REQUIRE(!expected.empty());
+    CHECK(messages == expected);
+    const bool has_errors = std::any_of(expected.begin(), expected.end(), [](const auto& message) {
+      return message.rfind("error", 0) == 0;
+    });
+    CHECK(code == (has_errors ? 3 : 0));
+  }
+}
+
+TEST_CASE("a tree with errors does not run") {
+  for (const std::string& file : files_in(kTrees + "bad")) {
+    if (comments(file, "expect").front().rfind("error", 0) != 0) continue;
+    INFO(file);
+    const Outcome outcome = lockstep::test::lockstep({"run", file, "--clock", "virtual"});
+    CHECK(outcome.code == 3);
+    CHECK(outcome.out.empty());
+    CHECK(contains(outcome.err, "error: "));
+  }
+}
+
+TEST_CASE("good trees run to the result and in the ticks that they expect") {
+  const auto files = files_in(kTrees + "good");
+  REQUIRE(files.size() >= 10);
+  for (const std::string& file : files) {
+    INFO(file);
+    CHECK(std::vector<std::string>{result_of(file)} == comments(file, "expect"));
+  }
+}
