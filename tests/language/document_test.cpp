@@ -17,8 +17,7 @@ constexpr std::string_view kTwoTrees =
 TEST_CASE("the root says the version of the language") {
   constexpr ClaimRow kRows[] = {
       {"the first element is root", R"(<!-- <root> --><tree/>)",
-       "1:16 error: the first element must be 'root', not 'tree'\n"
-       "1:16 error: there is no BehaviorTree"},
+       "1:16 error: the first element must be 'root', not 'tree'"},
       {"lockstep is required",
        R"(<root><BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree></root>)",
        "1:1 error: 'root' needs the attribute 'lockstep'"},
