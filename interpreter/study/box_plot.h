@@ -1,0 +1,48 @@
+// The box plots of a study: minimum, quartiles, maximum and mean of a measure for each value of a
+// grid name. Which plots a summary gives, and how one is drawn, as SVG and PNG.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "measure/predictability.h"
+#include "study/plot.h"
+
+namespace lockstep {
+
+// A row of summary.csv.
+struct SummaryRow {
+  std::vector<std::string> grid;  // a value for each grid name, in their order
+  std::string node;               // its path
+  std::string measure;            // as to_text(MeasureSpec) writes it
+  SampleSummary summary;
+};
+
+struct BoxGroup {
+  std::string label;                                // below it
+  std::vector<std::optional<SampleSummary>> boxes;  // one for each series, side by side
+};
+
+struct BoxPlot {
+  std::string stem;  // of its files: letters, digits, '_', '-' and '.' only
+  std::string title, x_label, y_label;
+  std::vector<std::string> series = {""};  // with only one there is no legend
+  std::vector<BoxGroup> groups;            // from left to right
+};
+
+// One plot for each node, measure and combination of values of the other grid names; the values of
+// the last grid name stand along x, in the order of the rows. Stems are unique.
+std::vector<BoxPlot> box_plots(std::span<const std::string> grid_names,
+                               std::span<const SummaryRow> rows);
+
+// Writes <stem>.dat, .gp, .svg and .png to `directory`, which must exist.
+PlotResult draw(const BoxPlot& plot, const std::filesystem::path& directory, PlotSize size = {});
+
+// The text of the two files, for draw() and its tests.
+std::string box_plot_data(const BoxPlot& plot);
+std::string box_plot_script(const BoxPlot& plot, PlotSize size);
+
+}  // namespace lockstep
