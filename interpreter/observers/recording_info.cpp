@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <memory>
-
 #include "core/diagnostics.h"
+#include "observers/recorded_probe.h"
 #include "observers/style.h"
 #include "observers/summary.h"
 
@@ -14,43 +13,20 @@ namespace {
 // A synchronized node of the recording and what is measured of it.
 class Replayed {
  public:
-  Replayed(const RecordingHeader& header, NodeIndex node) : node_(node) {
-    for (NodeIndex child = node + 1; child < header.nodes.size(); ++child) {
-      if (header.nodes[child].parent == node) children_.push_back(child);
-    }
-    measure_ = SynchronizedMeasure(children_.size());
-    progress_.resize(children_.size());
-    held_ = std::make_unique<bool[]>(children_.size());
-  }
+  Replayed(const RecordingHeader& header, NodeIndex node)
+      : probe_(header, node), measure_(probe_.children().size()) {}
 
-  void after_tick(const RecordedTick& tick) {
-    for (std::size_t child = 0; child < children_.size(); ++child) {
-      progress_[child] = tick.nodes[children_[child]].progress;
-      held_[child] = tick.nodes[children_[child]].held;
-    }
-    measure_.after_tick({.time = from_seconds(tick.time),
-                         .ticked = tick.nodes[node_].ticked,
-                         .status = tick.nodes[node_].status,
-                         .progress = progress_,
-                         .held = {held_.get(), children_.size()}});
-  }
+  void after_tick(const RecordedTick& tick) { measure_.after_tick(probe_.read(tick)); }
 
   SynchronizedSummary summary(const RecordingHeader& header, double end) {
     measure_.run_ended(from_seconds(end));
-    std::vector<std::string> names;
-    for (const NodeIndex child : children_) {
-      const std::string& path = header.nodes[child].path;
-      names.push_back(path.substr(path.rfind('/') + 1));
-    }
-    return summarize(measure_, header.nodes[node_].path, header.nodes[node_].kind, names);
+    const RecordedNode& node = header.nodes[probe_.node()];
+    return summarize(measure_, node.path, node.kind, probe_.names());
   }
 
  private:
-  NodeIndex node_;
-  std::vector<NodeIndex> children_;
-  std::vector<double> progress_;
-  std::unique_ptr<bool[]> held_;
-  SynchronizedMeasure measure_{0};
+  RecordedProbe probe_;
+  SynchronizedMeasure measure_;
 };
 
 void write_header(const RecordingHeader& header, std::FILE* out, bool color) {
@@ -82,10 +58,7 @@ void write_end(const RecordingReader& reader, std::uint64_t ticks, double time, 
 void write_info(RecordingReader& reader, std::FILE* out, bool color) {
   const RecordingHeader& header = reader.header();
   std::vector<Replayed> nodes;
-  for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
-    if (header.nodes[node].synchronization == Synchronization::None) continue;
-    nodes.emplace_back(header, node);
-  }
+  for (const NodeIndex node : synchronized_nodes(header)) nodes.emplace_back(header, node);
   std::uint64_t ticks = 0;
   double time = 0;
   while (const auto tick = reader.next()) {

@@ -1,0 +1,30 @@
+// The measures of a recording by the names that studies use, computed from its lines alone. What
+// `lockstep log measure` prints.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "measure/measure_spec.h"
+#include "observers/recording_reader.h"
+
+namespace lockstep {
+
+struct MeasuredValue {
+  std::string node;  // its path
+  MeasureSpec measure;
+  double value = 0;
+};
+
+// Of each synchronized node, the measures that are of one; and of the nodes they name, the others.
+// Reads to the end; then look at reader.error(). `error`: a node that a measure names is not there.
+std::vector<MeasuredValue> measure_recording(RecordingReader& reader,
+                                             std::span<const MeasureSpec> measures,
+                                             std::string& error);
+
+// One line: [{"node":…,"measure":…,"value":…},…]. A table with the same columns.
+std::string to_json(std::span<const MeasuredValue> values);
+std::string to_table(std::span<const MeasuredValue> values);
+
+}  // namespace lockstep
