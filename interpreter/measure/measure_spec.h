@@ -14,8 +14,8 @@ namespace lockstep {
 enum class MeasureKind : std::uint8_t {
   ProgressDistance,  // of a synchronized node: the sum over its ticks
   StepLength,        // of a synchronized node
-  Duration,  // of a synchronized node: seconds from the first tick that reached it to the last
-  Predictability,  // of any node: ticks
+  Duration,          // of the run: seconds, a period for each tick
+  Predictability,    // of any node: ticks
 };
 
 struct MeasureSpec {

@@ -24,8 +24,6 @@ std::vector<NodeIndex> children_of(const Tree& tree, NodeIndex node) {
 void SynchronizedMeasure::after_tick(const SynchronizedTick& tick) {
   pass_time(tick.time);
   if (tick.ticked) {
-    if (distance_.samples() == 0) first_reached_ = tick.time;
-    reached_ = tick.time;
     if (!running_) distance_.begin_activation();
     distance_.sample(tick.progress);
     if (tick.status == Status::Success) distance_.succeeded();

@@ -41,8 +41,6 @@ class SynchronizedMeasure {
     std::uint64_t ticks = 0;
   };
   const ProgressDistance& distance() const { return distance_; }
-  // From the first tick that reached the node to the last; 0 when none did.
-  Nanoseconds duration() const { return reached_ - first_reached_; }
   // Only what this node withheld: while the node itself is held, its children are not counted.
   std::span<const Held> held() const { return held_; }
 
@@ -52,7 +50,6 @@ class SynchronizedMeasure {
   ProgressDistance distance_;
   std::vector<Held> held_;
   Nanoseconds last_{0};
-  Nanoseconds first_reached_{0}, reached_{0};
   bool running_ = false;
 };
 

@@ -20,15 +20,20 @@ class Synchronized {
   NodeIndex node() const { return probe_.node(); }
   void after_tick(const RecordedTick& tick) { measure_.after_tick(probe_.read(tick)); }
   double value(MeasureKind kind) const {
-    if (kind == MeasureKind::ProgressDistance) return measure_.distance().sum();
-    if (kind == MeasureKind::StepLength) return measure_.distance().step_length();
-    return to_seconds(measure_.duration());
+    const bool is_sum = kind == MeasureKind::ProgressDistance;
+    return is_sum ? measure_.distance().sum() : measure_.distance().step_length();
   }
 
  private:
   RecordedProbe probe_;
   SynchronizedMeasure measure_;
 };
+
+std::vector<std::string> paths_of(const RecordingHeader& header) {
+  std::vector<std::string> paths;
+  for (const RecordedNode& node : header.nodes) paths.push_back(node.path);
+  return paths;
+}
 
 class Instant {
  public:
@@ -56,51 +61,64 @@ class Instant {
   bool succeeded_ = false;
 };
 
-bool is_instant(const MeasureSpec& measure) {
-  return measure.kind == MeasureKind::Predictability;
-}
+// Feeds each tick to what was asked for.
+class Measuring {
+ public:
+  // A node that is not there is told in `error`.
+  Measuring(const RecordingHeader& header, std::span<const MeasureSpec> measures,
+            std::string& error)
+      : header_(header) {
+    for (const NodeIndex node : synchronized_nodes(header)) nodes_.emplace_back(header, node);
+    const auto paths = paths_of(header);
+    for (const MeasureSpec& measure : measures) {
+      if (measure.kind != MeasureKind::Predictability) continue;
+      const auto node = find_path(paths, measure.node, error);
+      if (!node) return;
+      instants_.emplace_back(measure, *node);
+    }
+  }
 
-std::vector<std::string> paths_of(const RecordingHeader& header) {
-  std::vector<std::string> paths;
-  for (const RecordedNode& node : header.nodes) paths.push_back(node.path);
-  return paths;
-}
+  void after_tick(const RecordedTick& tick) {
+    // A tick lasts until the next would begin, also the last.
+    duration_ = tick.time + 1 / header_.rate_hz;
+    for (Synchronized& node : nodes_) node.after_tick(tick);
+    for (Instant& instant : instants_) instant.after_tick(tick);
+  }
+
+  std::vector<MeasuredValue> values(std::span<const MeasureSpec> measures) {
+    std::vector<MeasuredValue> values;
+    auto instant = instants_.begin();
+    for (const MeasureSpec& measure : measures) {
+      if (measure.kind == MeasureKind::Duration) {
+        values.push_back({header_.tree, measure, duration_});
+      } else if (measure.kind == MeasureKind::Predictability) {
+        values.push_back({header_.nodes[instant->node()].path, measure, instant->value()});
+        ++instant;
+      } else {
+        for (const Synchronized& node : nodes_) {
+          values.push_back({header_.nodes[node.node()].path, measure, node.value(measure.kind)});
+        }
+      }
+    }
+    return values;
+  }
+
+ private:
+  const RecordingHeader& header_;
+  std::vector<Synchronized> nodes_;
+  std::vector<Instant> instants_;
+  double duration_ = 0;
+};
 
 }  // namespace
 
 std::vector<MeasuredValue> measure_recording(RecordingReader& reader,
                                              std::span<const MeasureSpec> measures,
                                              std::string& error) {
-  const auto paths = paths_of(reader.header());
-  std::vector<Synchronized> nodes;
-  for (const NodeIndex node : synchronized_nodes(reader.header())) {
-    nodes.emplace_back(reader.header(), node);
-  }
-  std::vector<Instant> instants;
-  for (const MeasureSpec& measure : measures) {
-    if (!is_instant(measure)) continue;
-    const auto node = find_path(paths, measure.node, error);
-    if (!node) return {};
-    instants.emplace_back(measure, *node);
-  }
-  while (const auto tick = reader.next()) {
-    for (Synchronized& node : nodes) node.after_tick(*tick);
-    for (Instant& instant : instants) instant.after_tick(*tick);
-  }
-  std::vector<MeasuredValue> values;
-  for (const Synchronized& node : nodes) {
-    for (const MeasureSpec& measure : measures) {
-      if (is_instant(measure)) continue;
-      values.push_back({paths[node.node()], measure, node.value(measure.kind)});
-    }
-  }
-  auto instant = instants.begin();
-  for (const MeasureSpec& measure : measures) {
-    if (!is_instant(measure)) continue;
-    values.push_back({paths[instant->node()], measure, instant->value()});
-    ++instant;
-  }
-  return values;
+  Measuring measuring(reader.header(), measures, error);
+  if (!error.empty()) return {};
+  while (const auto tick = reader.next()) measuring.after_tick(*tick);
+  return measuring.values(measures);
 }
 
 std::string to_json(std::span<const MeasuredValue> values) {

@@ -12,12 +12,12 @@
 namespace lockstep {
 
 struct MeasuredValue {
-  std::string node;  // its path
+  std::string node;  // its path; of a duration, the tree
   MeasureSpec measure;
   double value = 0;
 };
 
-// Of each synchronized node, the measures that are of one; and of the nodes they name, the others.
+// One value for each measure; of those that are of a synchronized node, one for each such node.
 // Reads to the end; then look at reader.error(). `error`: a node that a measure names is not there.
 std::vector<MeasuredValue> measure_recording(RecordingReader& reader,
                                              std::span<const MeasureSpec> measures,
