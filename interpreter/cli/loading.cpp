@@ -40,15 +40,11 @@ int exit_code_of(const Diagnostics& diagnostics) {
 
 bool load_plugins(const PluginOptions& options, const Project* project, PluginSet& plugins,
                   Diagnostics& diagnostics) {
-  bool good = true;
-  for (const std::string& file : options.files) good &= plugins.load_file(file, diagnostics);
+  bool good = load_given_plugins(options, plugins, diagnostics);
   if (project == nullptr) return good;
   const auto directories = plugin_directories(options);
   for (const PluginRequest& request : requested_plugins(*project, diagnostics)) {
-    const auto known = plugins.list();
-    const bool given = std::ranges::any_of(
-        known, [&](const PluginSet::Info& info) { return info.name == request.name; });
-    if (!given) good &= plugins.load_named(request.name, directories, diagnostics, request.where);
+    good &= plugins.load_named(request.name, directories, diagnostics, request.where);
   }
   return good;
 }
@@ -56,8 +52,9 @@ bool load_plugins(const PluginOptions& options, const Project* project, PluginSe
 }  // namespace
 
 void add_plugin_options(CLI::App& app, PluginOptions& options) {
-  app.add_option("--plugin", options.files, "Load this plugin file (.so); may be repeated")
-      ->type_name("FILE")
+  app.add_option("--plugin", options.plugins,
+                 "Load this plugin: a file (.so), or a name that is searched for; may be repeated")
+      ->type_name("FILE|NAME")
       ->allow_extra_args(false);
   app.add_option("--plugin-path", options.directories,
                  "Search plugins in this directory first; may be repeated")
@@ -95,6 +92,18 @@ std::vector<std::string> plugin_directories(const PluginOptions& options) {
     directories.push_back((beside / LOCKSTEP_PLUGINS_FROM_BIN).lexically_normal().string());
   }
   return directories;
+}
+
+bool load_given_plugins(const PluginOptions& options, PluginSet& plugins,
+                        Diagnostics& diagnostics) {
+  bool good = true;
+  const auto directories = plugin_directories(options);
+  for (const std::string& plugin : options.plugins) {
+    const bool is_file = plugin.find('/') != std::string::npos || plugin.ends_with(".so");
+    good &= is_file ? plugins.load_file(plugin, diagnostics)
+                    : plugins.load_named(plugin, directories, diagnostics);
+  }
+  return good;
 }
 
 Catalog make_catalog(const PluginSet& plugins) {

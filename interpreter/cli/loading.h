@@ -19,7 +19,7 @@ class App;
 namespace lockstep {
 
 struct PluginOptions {
-  std::vector<std::string> files;        // --plugin
+  std::vector<std::string> plugins;      // --plugin: a path, or a name to search for
   std::vector<std::string> directories;  // --plugin-path
 };
 
@@ -36,6 +36,9 @@ void add_load_options(CLI::App& app, LoadOptions& options);
 
 // --plugin-path, then LOCKSTEP_PLUGIN_PATH, then where plugins are installed beside this program.
 std::vector<std::string> plugin_directories(const PluginOptions& options);
+
+// Loads what --plugin names. On false, errors tell why.
+bool load_given_plugins(const PluginOptions& options, PluginSet& plugins, Diagnostics& diagnostics);
 
 // The built-in nodes and the leaves of `plugins`.
 Catalog make_catalog(const PluginSet& plugins);

@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cli/catalog_options.h"
+#include "cli/catalog_loading.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
@@ -13,7 +13,7 @@ namespace lockstep {
 namespace {
 
 struct Options {
-  CatalogOptions catalog;
+  PluginOptions plugins;
   std::string id;
   std::string format = "text";
 };
@@ -27,14 +27,14 @@ std::string as_text(const Options& options, NodeTypes types) {
 int nodes(const Options& options) {
   PluginSet plugins;
   Catalog catalog;
-  if (const int code = load_catalog(options.catalog, plugins, catalog); code != kExitSuccess) {
+  if (const int code = load_catalog(options.plugins, plugins, catalog); code != kExitSuccess) {
     return code;
   }
   if (options.id.empty()) return write_stdout(as_text(options, catalog.types()));
   const NodeType* const type = catalog.find(options.id);
   if (type == nullptr) {
     std::string hint = did_you_mean(options.id, catalog.ids());
-    if (hint.empty()) hint = "load the plugin that provides it with --with or --plugin";
+    if (hint.empty()) hint = "load the plugin that provides it with --plugin or --plugin";
     print_error(fmt::format("unknown node '{}'", options.id), hint);
     return kExitUsage;
   }
@@ -47,7 +47,7 @@ std::function<int()> define(CLI::App& app) {
   app.add_option("--format", options->format, "text, json: an array of objects, or markdown")
       ->check(CLI::IsMember({"text", "json", "markdown"}))
       ->capture_default_str();
-  add_catalog_options(app, options->catalog);
+  add_plugin_options(app, options->plugins);
   return [options] { return nodes(*options); };
 }
 
@@ -60,7 +60,7 @@ const Command kNodesCommand{"nodes",
                             "Examples:\n"
                             "  lockstep nodes\n"
                             "  lockstep nodes ParallelAbsolute\n"
-                            "  lockstep nodes --with motion --format json",
+                            "  lockstep nodes --plugin motion --format json",
                             define};
 
 }  // namespace lockstep

@@ -1,6 +1,6 @@
 #include <CLI/CLI.hpp>
 
-#include "cli/catalog_options.h"
+#include "cli/catalog_loading.h"
 #include "cli/command.h"
 #include "cli/exit_code.h"
 #include "definition/xsd.h"
@@ -8,7 +8,7 @@
 namespace lockstep {
 namespace {
 
-int schema(const CatalogOptions& options) {
+int schema(const PluginOptions& options) {
   PluginSet plugins;
   Catalog catalog;
   if (const int code = load_catalog(options, plugins, catalog); code != kExitSuccess) return code;
@@ -16,8 +16,8 @@ int schema(const CatalogOptions& options) {
 }
 
 std::function<int()> define(CLI::App& app) {
-  const auto options = std::make_shared<CatalogOptions>();
-  add_catalog_options(app, *options);
+  const auto options = std::make_shared<PluginOptions>();
+  add_plugin_options(app, *options);
   return [options] { return schema(*options); };
 }
 
@@ -30,7 +30,7 @@ const Command kSchemaCommand{
     "\n"
     "Examples:\n"
     "  lockstep schema > lockstep.xsd\n"
-    "  lockstep schema --with motion > lockstep-motion.xsd\n"
+    "  lockstep schema --plugin motion > lockstep-motion.xsd\n"
     "  xmllint --noout --schema lockstep.xsd trees/door_pulling.xml",
     define};
 

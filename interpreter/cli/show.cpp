@@ -1,6 +1,6 @@
 #include <CLI/CLI.hpp>
 
-#include "cli/catalog_options.h"
+#include "cli/catalog_loading.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"

@@ -65,7 +65,7 @@ TEST_CASE("log info sums up") {
   CHECK(!contains(outcome.out, "\x1b"));
 }
 
-TEST_CASE("- is stdin") {
+TEST_CASE("log: - is stdin") {
   const TemporaryDirectory directory;
   const std::string recording = record(directory);
   for (const std::string command : {"csv", "info"}) {

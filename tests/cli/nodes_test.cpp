@@ -60,19 +60,19 @@ TEST_CASE("nodes as JSON says what the checker knows") {
 TEST_CASE("leaves of plugins are listed with their ports, found by file and by name") {
   const std::string file = LOCKSTEP_BINARY_DIR "/plugins/motion.so";
   const json by_file = listed({"Advance", "--plugin", file});
-  CHECK(by_file == listed({"Advance", "--with", "motion"}));
+  CHECK(by_file == listed({"Advance", "--plugin", "motion"}));
   CHECK(by_file ==
-        listed({"Advance", "--with", "motion", "--plugin-path", LOCKSTEP_BINARY_DIR "/plugins"}));
+        listed({"Advance", "--plugin", "motion", "--plugin-path", LOCKSTEP_BINARY_DIR "/plugins"}));
   CHECK(by_file[0]["plugin"] == "motion");
   CHECK(by_file[0]["parameters"][0]["blackboard"] == true);
   CHECK(by_file[0]["parameters"][0]["direction"] == "in");
-  CHECK(listed({"--with", "motion"}).size() > listed({}).size());
+  CHECK(listed({"--plugin", "motion"}).size() > listed({}).size());
 }
 
 TEST_CASE("LOCKSTEP_PLUGIN_PATH is searched, after --plugin-path") {
   const TemporaryDirectory empty;
   const Call call{
-      .arguments = {"nodes", "good", "--with", "good"},
+      .arguments = {"nodes", "good", "--plugin", "good"},
       .environment = {{"LOCKSTEP_PLUGIN_PATH",
                        empty.path("none") + ":" LOCKSTEP_BINARY_DIR "/tests/abi/plugins"}}};
   CHECK(contains(run({.arguments = call.arguments}).err, "plugin 'good' is not found"));
@@ -98,7 +98,7 @@ TEST_CASE("a plugin that is refused ends nodes and schema with 4") {
     CHECK(missing.code == 4);
     CHECK(missing.out.empty());
     CHECK(contains(missing.err, "'/nonexistent.so' does not exist"));
-    CHECK(lockstep::test::lockstep({command, "--with", "nonexistent"}).code == 4);
+    CHECK(lockstep::test::lockstep({command, "--plugin", "nonexistent"}).code == 4);
   }
 }
 

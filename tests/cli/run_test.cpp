@@ -55,7 +55,7 @@ TEST_CASE(
   CHECK(silent.out == outcome.out);
 }
 
-TEST_CASE("--json is the summary as one object on stdout") {
+TEST_CASE("run --json is the summary as one object on stdout") {
   const Outcome outcome = Simulation(kSynchronized).run({"--json"});
   const json summary = json::parse(outcome.out);
   CHECK(summary["result"] == "success");
@@ -64,7 +64,7 @@ TEST_CASE("--json is the summary as one object on stdout") {
   CHECK(summary["synchronized_nodes"].size() == 1);
 }
 
-TEST_CASE("--max-ticks and --timeout end with 124, all running leaves halted") {
+TEST_CASE("run --max-ticks and --timeout end with 124, all running leaves halted") {
   const Simulation it("<Parallel><AlwaysRunning/><Advance step=\"0\"/></Parallel>");
   const Outcome ticks = it.run({"--max-ticks", "7"});
   CHECK(ticks.code == 124);
@@ -75,12 +75,12 @@ TEST_CASE("--max-ticks and --timeout end with 124, all running leaves halted") {
   CHECK(contains(time.out, "after 5 ticks"));
 }
 
-TEST_CASE("--rate is ticks per second") {
+TEST_CASE("run --rate is ticks per second") {
   const Outcome outcome = Simulation("<Wait seconds=\"1\"/>").run({"--rate", "20", "--json"});
   CHECK(json::parse(outcome.out)["ticks"] == 21);
 }
 
-TEST_CASE("--arg, --set and --tree choose what runs") {
+TEST_CASE("run --arg, --set and --tree choose what runs") {
   const TemporaryDirectory directory;
   const std::string file = directory.file(
       "tree.xml",
@@ -135,7 +135,7 @@ TEST_CASE("a recording that cannot be opened stops the run before it begins") {
   CHECK(contains(outcome.err, "/nonexistent/run.jsonl"));
 }
 
-TEST_CASE("--stall names who stands still while others wait") {
+TEST_CASE("run --stall names who stands still while others wait") {
   const Simulation it(
       "<ParallelRelative name=\"pair\" delta=\"0.1\"><Advance name=\"arm\" step=\"0\"/>"
       "<Advance name=\"base\" step=\"0.3\"/></ParallelRelative>");
@@ -175,7 +175,7 @@ TEST_CASE("an invalid tree is 3, a refused plugin 4") {
   CHECK(it.run({"--plugin", abi_plugin("good")}).code == 0);
 }
 
-TEST_CASE("a leaf that fails as a program is 5; it is named, the others are halted") {
+TEST_CASE("a leaf that fails as a program is 5, it is named, the others are halted") {
   for (const std::string name : {"error_in_tick", "throws_exception", "status_out_of_range",
                                  "nan_progress", "condition_running"}) {
     const Simulation it(

@@ -128,7 +128,7 @@ TEST_CASE("what check refuses, the schema refuses where it can say it") {
 
 TEST_CASE("leaves of plugins are open content until the schema knows them") {
   const TemporaryDirectory directory;
-  const Outcome schema = lockstep::test::lockstep({"schema", "--with", "motion"});
+  const Outcome schema = lockstep::test::lockstep({"schema", "--plugin", "motion"});
   CHECK(schema.code == 0);
   const std::string knowing = directory.file("motion.xsd", schema.out);
   const std::string wrong = directory.file("tree.xml", around("<Advance step=\"fast\"/>"));

@@ -53,7 +53,7 @@ TEST_CASE("show --tree draws another tree") {
   CHECK(outcome.out == "Part\n`-- Inverter\n    `-- AlwaysFailure\n");
 }
 
-TEST_CASE("show --format dot: signs, barriers and delta; shapes; nothing of a label is markup") {
+TEST_CASE("show --format dot: signs, barriers and delta, shapes, nothing of a label is markup") {
   const Shown it;
   const Outcome outcome = lockstep::test::lockstep({"show", it.file, "--format", "dot"});
   CHECK(outcome.code == 0);

@@ -21,7 +21,7 @@ TEST_CASE("no two streams of neighboring seeds and numbers are alike") {
   CHECK(firsts.size() == 64 * 64);
 }
 
-TEST_CASE("doubles fill [0, 1) evenly") {
+TEST_CASE("doubles fill 0 to 1 evenly, without 1") {
   RandomStream stream(1, 1);
   constexpr int kSamples = 100'000;
   int bins[10] = {};

@@ -126,7 +126,7 @@ TEST_CASE("'${' must be closed") {
   CHECK(told(loaded.diagnostics) == Lines{"f:1:15: '${' is not closed"});
 }
 
-TEST_CASE("--arg of what is not declared has no place") {
+TEST_CASE("an --arg of what is not declared has no place") {
   const auto loaded = load("<root><arg name='speed' default='1'/></root>", {{"sped", "2"}});
   CHECK(told(loaded.diagnostics) == Lines{"unknown argument 'sped' in --arg"});
   CHECK(hints(loaded.diagnostics) == Lines{"did you mean 'speed'? declared: 'speed'"});

@@ -205,7 +205,7 @@ TEST_CASE("each leaf and each run draws from a stream of its own, given by the s
   CHECK(of_run != RandomStream(42, 2).next());
 }
 
-TEST_CASE("a line in the log says who wrote it; an unknown level is the nearest") {
+TEST_CASE("a line in the log says who wrote it, an unknown level is the nearest") {
   lab = {};
   const Fixture fixture(2);
   host.log(fixture.leaf(1), LOCKSTEP_LOG_INFO, "there");

@@ -36,7 +36,7 @@ TEST_CASE("ten steps of 0.1 are one", "[sdk][motion]") {
   CHECK(progress_to_success(advance).size() == 10);
 }
 
-TEST_CASE("Advance adds its step and its noise, and stays in [0, 1]", "[sdk][motion]") {
+TEST_CASE("Advance adds its step and its noise, and stays from 0 to 1", "[sdk][motion]") {
   FakeLeaf advance(kAdvance, {0.25, 0.5});
   // The fake host draws 0, 1/4, 2/4, 3/4, …: the changes are -0.25, 0, 0.25, 0.5.
   CHECK(progress_to_success(advance) == std::vector<double>{0, 0, 0, 0.25, 0.75, 0.5, 0.5, 0.75});
