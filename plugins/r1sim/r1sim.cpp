@@ -1,10 +1,28 @@
-// A simulated humanoid on a wheeled base, without graphics: one world per run, one pair of files
-// per scene. The scenes are those of the experiments in M. Colledanchise, L. Natale, Analysis and
-// Exploitation of Synchronized Parallel Executions in Behavior Trees.
+// A simulated humanoid on a wheeled base, without graphics: one world per run, scene by scene; the
+// hallway is apart from the leaves that act in it, in seek.hpp. The scenes are those of the
+// experiments in M. Colledanchise, L. Natale, Analysis and Exploitation of Synchronized Parallel
+// Executions in Behavior Trees.
+#include "manipulation.hpp"
+#include "seek.hpp"
 #include "world.hpp"
 
 LOCKSTEP_PLUGIN("r1sim", "1.0", "A simulated humanoid on a wheeled base, scene by scene",
                 lockstep::run_context<r1sim::World>(),
+                lockstep::leaf<r1sim::EnterHallway>(
+                    "EnterHallway",
+                    "Puts the robot into a hallway with objects on the floor; Success at once. "
+                    "Must come before the other leaves of the hallway."),
+                lockstep::leaf<r1sim::Swipe>(
+                    "Swipe",
+                    "Sweeps the head over the floor of the hallway. It stops at each object until "
+                    "that is identified; one that is out of its reach is missed. Progress is the "
+                    "part of the hallway swept; Success at its end. A paused head stands still."),
+                lockstep::leaf<r1sim::Navigate>(
+                    "Navigate",
+                    "Drives the base through the hallway. Progress is the part of it driven; "
+                    "Success at its end. A paused base stands still."),
+                lockstep::leaf<r1sim::MissedAtMost>(
+                    "MissedAtMost", "Whether Swipe has missed no more objects than count."),
                 lockstep::leaf<r1sim::HoldCart>(
                     "HoldCart",
                     "Holds a cart straight with compliant arms. Perpetual: progress is 1 while the "
@@ -14,4 +32,8 @@ LOCKSTEP_PLUGIN("r1sim", "1.0", "A simulated humanoid on a wheeled base, scene b
                     "FollowPath",
                     "Drives the base along a straight path, the cart in front. Perpetual: progress "
                     "is 1 while the base is near the path, else 0. Success at the path's end. A "
-                    "paused base stands still."));
+                    "paused base stands still."),
+                lockstep::leaf<r1sim::DoTask>(
+                    "DoTask",
+                    "A manipulation task whose pace changes at random times. Progress is the part "
+                    "of it that is done; Success at its end. A paused task stands still."));

@@ -2,13 +2,15 @@
 #pragma once
 
 #include "cart.hpp"
+#include "hallway.hpp"
 
 namespace r1sim {
 
 struct World {
-  explicit World(lockstep::Run& run) : cart(run) {}
+  explicit World(lockstep::Run& run) : cart(run), hallway(run) {}
 
   CartScene cart;
+  HallwayScene hallway;
 };
 
 }  // namespace r1sim
