@@ -47,7 +47,7 @@ const std::vector<Layer> kThirdParty{
     {"tinyxml2", {"interpreter/document/"}},
     {"dlfcn.h", {"interpreter/plugin/"}},
     {"CLI/", {"interpreter/cli/"}},
-    {"nlohmann/", {"interpreter/observers/", "interpreter/cli/"}},
+    {"nlohmann/", {"interpreter/observers/", "interpreter/study/", "interpreter/cli/"}},
     {"fmt/",
      {"interpreter/core/", "interpreter/document/", "interpreter/definition/",
       "interpreter/plugin/", "interpreter/runtime/", "interpreter/observers/", "interpreter/study/",

@@ -21,7 +21,7 @@ struct Command {
 };
 
 extern const Command kRunCommand, kCheckCommand, kShowCommand, kNodesCommand, kSchemaCommand,
-    kLogCommand;
+    kLogCommand, kStudyCommand;
 
 // All of them, in the order of --help.
 std::span<const Command* const> commands();

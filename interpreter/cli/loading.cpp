@@ -119,7 +119,7 @@ int load(const std::string& path, const LoadOptions& options, Loaded& loaded,
   ResolveOptions resolve_options{options.main_tree,
                                  parse_pairs(options.values, "--set", diagnostics)};
   loaded.project = load_project(path, arguments, diagnostics);
-  loaded.plugins = std::make_unique<PluginSet>();
+  if (loaded.plugins == nullptr) loaded.plugins = std::make_shared<PluginSet>();
   Diagnostics refused;
   if (!load_plugins(options.plugins, loaded.project.get(), *loaded.plugins, refused)) {
     const int code = diagnostics.has_errors() ? exit_code_of(diagnostics) : kExitPluginRefused;

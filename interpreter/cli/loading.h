@@ -45,7 +45,7 @@ Catalog make_catalog(const PluginSet& plugins);
 
 struct Loaded {
   std::unique_ptr<Project> project;
-  std::unique_ptr<PluginSet> plugins;
+  std::shared_ptr<PluginSet> plugins;  // may be given: several trees that share their plugins
   Catalog catalog;
   std::optional<Definition> definition;
 };

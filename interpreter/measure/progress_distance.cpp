@@ -23,6 +23,12 @@ double spread(std::span<const double> progress) {
   return *most - *least;
 }
 
+void ProgressDistance::reset() {
+  has_last_ = false;
+  samples_ = 0;
+  sum_ = largest_spread_ = step_length_ = 0;
+}
+
 void ProgressDistance::sample(std::span<const double> progress) {
   ++samples_;
   sum_ += progress_distance(progress, scratch_);

@@ -20,6 +20,8 @@ class ProgressDistance {
  public:
   explicit ProgressDistance(std::size_t children) : last_(children), scratch_(children) {}
 
+  // As new, for the next run. No allocation.
+  void reset();
   // The samples that follow belong to a new activation: no step leads to the first of them.
   void begin_activation() { has_last_ = false; }
   void sample(std::span<const double> progress);

@@ -1,5 +1,7 @@
 #include "measure/synchronized_measure.h"
 
+#include <algorithm>
+
 #include "engine/synchronized.h"
 
 namespace lockstep {
@@ -19,6 +21,13 @@ std::vector<NodeIndex> children_of(const Tree& tree, NodeIndex node) {
     children.push_back(child);
   }
   return children;
+}
+
+void SynchronizedMeasure::reset() {
+  distance_.reset();
+  std::ranges::fill(held_, Held{});
+  last_ = Nanoseconds(0);
+  running_ = false;
 }
 
 void SynchronizedMeasure::after_tick(const SynchronizedTick& tick) {

@@ -32,6 +32,8 @@ class SynchronizedMeasure {
  public:
   explicit SynchronizedMeasure(std::size_t children) : distance_(children), held_(children) {}
 
+  // As new, for the next run. No allocation.
+  void reset();
   void after_tick(const SynchronizedTick& tick);
   void run_ended(Nanoseconds time) { pass_time(time); }
 

@@ -1,0 +1,240 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <thread>
+
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/exit_code.h"
+#include "cli/study_loading.h"
+#include "cli/study_progress.h"
+#include "cli/study_summary.h"
+#include "runtime/stop_signals.h"
+#include "study/folder.h"
+#include "study/merge.h"
+#include "study/workers.h"
+
+namespace lockstep {
+namespace {
+
+struct Options {
+  StudyOptions study;
+  unsigned jobs = 0;  // 0: all cores
+  std::string out;
+  bool resume = false;
+  bool json = false;
+  std::vector<std::string> parts;  // of `merge`
+};
+
+int fail(std::string_view message, int code = kExitUsage) {
+  print_error(message);
+  return code;
+}
+
+int print_summary(const Options& options, const StudyPlan& plan,
+                  const std::vector<SummaryRow>& rows) {
+  if (options.json) {
+    fmt::print("{}\n", summary_json(plan, rows));
+  } else {
+    fmt::print("{}", summary_table(plan, rows));
+  }
+  return flush_stdout() ? kExitSuccess : kExitUsage;
+}
+
+std::string out_directory(const Options& options) {
+  if (!options.out.empty()) return options.out;
+  return "study-" + std::filesystem::path(options.study.tree).stem().string();
+}
+
+// In single quotes, for a shell.
+std::string quoted(const std::string& text) {
+  if (!text.empty() && text.find_first_of(" \t\n\"'\\$`;&|<>()*?[]{}~#!") == std::string::npos) {
+    return text;
+  }
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+// How to see one run of the study again.
+std::string run_command(const Options& options, const StudyPlan& plan, std::uint64_t cell,
+                        std::uint64_t seed) {
+  const LoadOptions& load = options.study.load;
+  std::string text =
+      fmt::format("lockstep run {} --clock virtual --seed {} --rate {} --max-ticks {}",
+                  quoted(plan.tree_file), seed, cell_rate(plan, cell), plan.max_ticks);
+  const auto add = [&](const char* option, const std::string& value) {
+    text += fmt::format(" {} {}", option, quoted(value));
+  };
+  if (!load.main_tree.empty()) add("--tree", load.main_tree);
+  for (const std::string& pair : load.arguments) add("--arg", pair);
+  const auto values = cell_values(plan, cell);
+  for (std::size_t axis = 0; axis < values.size(); ++axis) {
+    if (plan.grid[axis].kind != GridAxis::Kind::Argument) continue;
+    add("--arg", plan.grid[axis].name + '=' + values[axis]);
+  }
+  for (const std::string& pair : load.values) add("--set", pair);
+  for (const std::string& plugin : load.plugins.plugins) add("--plugin", plugin);
+  for (const std::string& directory : load.plugins.directories) add("--plugin-path", directory);
+  return text;
+}
+
+int report(const StudyFault& fault, const Options& options, const LoadedStudy& study) {
+  const Tree& tree = study.cells[fault.row.cell].tree;
+  const NodeType& type = *tree.labels[fault.fault.node].type;
+  const std::string cell = cell_text(study.plan, fault.row.cell);
+  print_error(
+      fmt::format(
+          "the leaf '{}' ({} of plugin '{}') failed {}, in run {} of cell {}{}{}{}, seed "
+          "{}: {}",
+          tree.path(fault.fault.node), type.id, type.plugin,
+          fault.ticks == 0 ? "before the first tick" : fmt::format("in tick {}", fault.ticks - 1),
+          fault.row.run, fault.row.cell, cell.empty() ? "" : " (", cell, cell.empty() ? "" : ")",
+          fault.seed, fault.fault.message),
+      "see it again: " + run_command(options, study.plan, fault.row.cell, fault.seed));
+  return kExitLeafFault;
+}
+
+int make_study(const Options& options, const LoadedStudy& study) {
+  const StudyPlan& plan = study.plan;
+  StudyFolder folder(out_directory(options));
+  const auto there = folder.begin(plan, options.resume);
+  if (!there) return fail(folder.error());
+  StopSignals::install();
+  std::optional<StudyFault> fault;
+  {
+    StudyProgress progress(*there, row_count(plan));
+    fault = do_work({.plan = plan,
+                     .cells = study.cells,
+                     .measures = study.measures,
+                     .first_row = *there,
+                     .jobs = options.jobs,
+                     .stop_signal = StopSignals::received,
+                     .write =
+                         [&](std::string_view lines, std::uint64_t rows) {
+                           progress.add(rows);
+                           return folder.append(lines);
+                         },
+                     .idle = [&] { progress.show(); }});
+  }
+  if (!folder.error().empty()) return fail(folder.error());
+  if (fault) return report(*fault, options, study);
+  if (const int signal = StopSignals::received(); signal != 0) {
+    return fail("interrupted; the same command with --resume goes on", kExitSignal + signal);
+  }
+  const auto rows = folder.finish(plan);
+  return rows ? print_summary(options, plan, *rows) : fail(folder.error());
+}
+
+int run(const Options& options) {
+  LoadedStudy study;
+  Diagnostics diagnostics;
+  const int code = load_study(options.study, study, diagnostics);
+  print_diagnostics(diagnostics, Severity::Warning, stderr);
+  if (code != kExitSuccess) return code;
+  Diagnostics refused;
+  if (!study.plugins->initialize(refused)) {
+    print_diagnostics(refused, Severity::Warning, stderr);
+    return kExitPluginRefused;
+  }
+  return make_study(options, study);
+}
+
+int merge(const Options& options) {
+  StudyPlan plan;
+  std::string error;
+  const auto rows = merge_studies(options.parts, options.out, plan, error);
+  return rows ? print_summary(options, plan, *rows) : fail(error);
+}
+
+std::string check_count(const std::string& text) {
+  const bool good = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+  return good ? "" : fmt::format("'{}' is not a whole number from 0", text);
+}
+
+std::string check_positive(const std::string& text) {
+  return text == "0" ? std::string("expected 1 or more") : check_count(text);
+}
+
+void define_merge(CLI::App& app, const std::shared_ptr<Options>& options) {
+  app.add_option("parts", options->parts, "The directories of all parts")
+      ->type_name("DIR")
+      ->required();
+  app.add_option("--out", options->out, "Directory to write, new")->type_name("DIR")->required();
+  app.add_flag("--json", options->json, "Print the summary as JSON");
+}
+
+void define_runs(CLI::App& app, StudyOptions& options) {
+  app.add_option("--runs", options.runs, "How often each cell of the grid is run")
+      ->type_name("N")
+      ->check(check_positive);
+  app.add_option("--seed", options.seed, "All seeds of the runs are made from this one")
+      ->type_name("S")
+      ->check(check_count)
+      ->capture_default_str();
+  app.add_option("--grid", options.grid,
+                 "An <arg> of the tree, or seed, or rate, and its values; may be repeated: a cell "
+                 "for each combination")
+      ->type_name("NAME=V1,V2,...")
+      ->allow_extra_args(false);
+  app.add_option("--measure", options.measures,
+                 "progress-distance (the default), step-length, duration or "
+                 "predictability:NODE@P[=T]; may be repeated")
+      ->type_name("MEASURE")
+      ->allow_extra_args(false);
+  app.add_option("--rate", options.rate, "Ticks per second of the virtual clock")
+      ->type_name("HZ")
+      ->check(CLI::Range(0.001, 100000.0))
+      ->capture_default_str();
+  app.add_option("--max-ticks", options.max_ticks,
+                 "A run that comes so far ends there, with the result 'limit'")
+      ->type_name("N")
+      ->check(check_positive)
+      ->capture_default_str();
+  app.add_option("--shard", options.shard, "Make part I of N only; see `lockstep study merge`")
+      ->type_name("I/N");
+}
+
+std::function<int()> define(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  app.add_option("tree", options->study.tree, "Tree file")->type_name("TREE.xml");
+  define_runs(app, options->study);
+  options->jobs = std::max(1u, std::thread::hardware_concurrency());
+  app.add_option("--jobs", options->jobs, "Threads; the result does not depend on it")
+      ->type_name("J")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  app.add_option("--out", options->out, "Directory to write (default: study-<tree>)")
+      ->type_name("DIR");
+  app.add_flag("--resume", options->resume,
+               "Go on with the study that is in the directory, if there is one");
+  app.add_flag("--json", options->json, "Print the summary as JSON");
+  add_load_options(app, options->study.load);
+  CLI::App* parts = app.add_subcommand("merge", "Put the parts of a study together");
+  define_merge(*parts, options);
+  return [options, parts] {
+    if (parts->parsed()) return merge(*options);
+    if (options->study.tree.empty()) return fail("study: TREE.xml is required");
+    if (options->study.runs == 0) return fail("study: --runs is required");
+    return run(*options);
+  };
+}
+
+}  // namespace
+
+const Command kStudyCommand{
+    "study", "Run a tree many times, over a grid of arguments, and measure it",
+    "Writes runs.csv (a row per run), summary.csv (box-plot numbers) and study.json (how it was\n"
+    "made); the summary goes to stdout. See docs/studies.md.\n"
+    "Exit code: 0 made, 2 usage or a directory that cannot be used, 3 invalid tree, 4 plugin\n"
+    "refused, 5 leaf fault, 130 SIGINT, 143 SIGTERM (what was finished is on disk: --resume).\n"
+    "\n"
+    "Examples:\n"
+    "  lockstep study trees/predictability.xml --runs 1000 --grid barriers=0,5,50 \\\n"
+    "      --measure progress-distance --measure predictability:task@0.6\n"
+    "  lockstep study trees/predictability.xml --runs 1000 --shard 1/4 --out part-1\n"
+    "  lockstep study merge part-* --out study",
+    define};
+
+}  // namespace lockstep

@@ -1,0 +1,49 @@
+#include "cli/study_progress.h"
+
+#include <fmt/format.h>
+
+#include "cli/console.h"
+#include "observers/progress_bar.h"
+#include "observers/terminal.h"
+
+namespace lockstep {
+namespace {
+
+constexpr std::chrono::milliseconds kBarInterval{200};
+constexpr std::chrono::seconds kLineInterval{10};
+
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<std::uint64_t>(seconds + 0.5);
+  if (whole >= 3600)
+    return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+  return fmt::format("{}:{:02}", whole / 60, whole % 60);
+}
+
+}  // namespace
+
+StudyProgress::StudyProgress(std::uint64_t done, std::uint64_t total)
+    : is_terminal_(is_terminal(stderr)), before_(done), total_(total), done_(done) {}
+
+StudyProgress::~StudyProgress() {
+  if (is_visible_) fmt::print(stderr, "\r\x1b[K");
+}
+
+void StudyProgress::show() {
+  const auto now = Clock::now();
+  if (now - shown_ < (is_terminal_ ? Clock::duration(kBarInterval) : kLineInterval)) return;
+  shown_ = now;
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  const double rate = static_cast<double>(done_ - before_) / seconds;
+  const double left = static_cast<double>(total_ - done_);
+  const double part = static_cast<double>(done_) / static_cast<double>(total_);
+  std::string text =
+      fmt::format("{} of {} runs, {:.0f} %, {:.0f} runs/s", done_, total_, part * 100, rate);
+  if (rate > 0) text += fmt::format(", {} left", duration_text(left / rate));
+  if (!is_terminal_) return fmt::print(stderr, "{}\n", text);
+  const std::string bar = to_text({.progress = part}, has_unicode());
+  fmt::print(stderr, "\r{} {}\x1b[K", bar, text);
+  std::fflush(stderr);
+  is_visible_ = true;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,16 @@
+// The summary of a study on stdout.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "study/table.h"
+
+namespace lockstep {
+
+// Aligned, with a line of names above.
+std::string summary_table(const StudyPlan& plan, const std::vector<SummaryRow>& rows);
+// One line: an array of the rows of summary.csv, the values of the grid under "cell".
+std::string summary_json(const StudyPlan& plan, const std::vector<SummaryRow>& rows);
+
+}  // namespace lockstep

@@ -1,0 +1,83 @@
+// What a study is: the tree with its grid of arguments, how often each cell is run, and what is
+// measured. Names and numbers only, as study.json keeps them: no tree is loaded here, so parts of a
+// study can be put together on a machine that has neither the tree nor its plugins.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lockstep {
+
+struct GridAxis {
+  // An <arg> of the tree comes before the study's own names.
+  enum class Kind : std::uint8_t { Argument, Seed, Rate };
+  Kind kind = Kind::Argument;
+  std::string name;
+  std::vector<std::string> values;
+
+  friend bool operator==(const GridAxis&, const GridAxis&) = default;
+};
+
+// One number of each run.
+struct StudyColumn {
+  std::string measure;  // as --measure spells it
+  std::string node;     // the path of the node, or the tree's id for what is of the whole run
+
+  friend bool operator==(const StudyColumn&, const StudyColumn&) = default;
+};
+
+// Part 1 of 4 makes the runs 0, 4, 8, … of each cell.
+struct StudyShard {
+  std::uint64_t part = 1, of = 1;
+
+  friend bool operator==(const StudyShard&, const StudyShard&) = default;
+};
+
+struct StudyPlan {
+  std::string version;  // of lockstep
+  std::string tree_file;
+  std::string main_tree;                                   // the id
+  std::vector<std::pair<std::string, std::string>> files;  // path and text: the tree, its includes
+  std::vector<std::pair<std::string, std::string>> plugins;  // name and version
+  std::map<std::string, std::string> arguments;              // of the tree, but those of the grid
+  std::map<std::string, std::string> values;                 // --set
+  std::vector<GridAxis> grid;
+  std::uint64_t runs = 0;  // of each cell, all parts together
+  std::uint64_t seed = 0;
+  double rate = 100;
+  std::uint64_t max_ticks = 0;
+  std::vector<std::string> measures;
+  std::vector<StudyColumn> columns;
+  StudyShard shard;
+};
+
+// The cells are counted with the first axis as the slowest. Without an axis there is one.
+std::uint64_t cell_count(const StudyPlan& plan);
+// The value of each axis in a cell.
+std::vector<std::string> cell_values(const StudyPlan& plan, std::uint64_t cell);
+// "barriers=5, noise=0.01"; "" without a grid.
+std::string cell_text(const StudyPlan& plan, std::uint64_t cell);
+// In force in a cell: the plan's, or the value of an axis, which must be a number.
+std::uint64_t cell_seed(const StudyPlan& plan, std::uint64_t cell);
+double cell_rate(const StudyPlan& plan, std::uint64_t cell);
+
+struct StudyRow {
+  std::uint64_t cell = 0, run = 0;
+};
+
+// A part's rows, in their order: cell after cell, and its runs in each.
+std::uint64_t row_count(const StudyPlan& plan);
+StudyRow row_at(const StudyPlan& plan, std::uint64_t row);
+
+// The seed of one run, which `lockstep run --seed` takes. It depends on nothing but these, so
+// neither threads nor parts change a run: first(first(seed, cell), run), where first(a, b) is the
+// first number of stream b of seed a (core/random.h).
+std::uint64_t run_seed(std::uint64_t seed, std::uint64_t cell, std::uint64_t run);
+inline std::uint64_t run_seed(const StudyPlan& plan, StudyRow row) {
+  return run_seed(cell_seed(plan, row.cell), row.cell, row.run);
+}
+
+}  // namespace lockstep

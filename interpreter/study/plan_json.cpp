@@ -1,0 +1,130 @@
+#include "study/plan_json.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+namespace lockstep {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kFormat = 1;
+constexpr std::uint64_t kMostRows = std::uint64_t{1} << 48u;
+constexpr std::array<const char*, 3> kKinds{"argument", "seed", "rate"};
+
+Json pairs(const std::vector<std::pair<std::string, std::string>>& list, const char* first,
+           const char* second) {
+  Json array = Json::array();
+  for (const auto& [a, b] : list) array.push_back({{first, a}, {second, b}});
+  return array;
+}
+
+std::vector<std::pair<std::string, std::string>> pairs(const Json& array, const char* first,
+                                                       const char* second) {
+  std::vector<std::pair<std::string, std::string>> list;
+  for (const Json& it : array) list.emplace_back(it.at(first), it.at(second));
+  return list;
+}
+
+Json grid_json(const StudyPlan& plan) {
+  Json grid = Json::array();
+  for (const GridAxis& axis : plan.grid) {
+    grid.push_back({{"name", axis.name},
+                    {"is", kKinds[static_cast<std::size_t>(axis.kind)]},
+                    {"values", axis.values}});
+  }
+  return grid;
+}
+
+GridAxis axis_from(const Json& json) {
+  const std::string kind = json.at("is");
+  const auto found = std::ranges::find(kKinds, kind);
+  if (found == kKinds.end()) throw std::runtime_error("'is' of a grid is not known");
+  GridAxis axis{static_cast<GridAxis::Kind>(found - kKinds.begin()), json.at("name"),
+                json.at("values")};
+  if (axis.values.empty()) throw std::runtime_error("a grid has no values");
+  return axis;
+}
+
+Json json_of(const StudyPlan& plan) {
+  Json columns = Json::array();
+  for (const StudyColumn& it : plan.columns) {
+    columns.push_back({{"measure", it.measure}, {"node", it.node}});
+  }
+  Json json{{"lockstep_study", kFormat},
+            {"version", plan.version},
+            {"tree", plan.tree_file},
+            {"main_tree", plan.main_tree},
+            {"arguments", plan.arguments},
+            {"values", plan.values},
+            {"grid", grid_json(plan)},
+            {"runs", plan.runs},
+            {"seed", plan.seed},
+            {"rate", plan.rate},
+            {"max_ticks", plan.max_ticks},
+            {"measures", plan.measures},
+            {"columns", columns},
+            {"plugins", pairs(plan.plugins, "name", "version")},
+            {"files", pairs(plan.files, "path", "text")}};
+  if (plan.shard != StudyShard{}) {
+    json["shard"] = {{"part", plan.shard.part}, {"of", plan.shard.of}};
+  }
+  return json;
+}
+
+StudyPlan plan_of(const Json& json) {
+  if (json.at("lockstep_study") != kFormat) {
+    throw std::runtime_error("it is of another version of lockstep");
+  }
+  StudyPlan plan;
+  plan.version = json.at("version");
+  plan.tree_file = json.at("tree");
+  plan.main_tree = json.at("main_tree");
+  plan.arguments = json.at("arguments");
+  plan.values = json.at("values");
+  for (const Json& axis : json.at("grid")) plan.grid.push_back(axis_from(axis));
+  plan.runs = json.at("runs");
+  plan.seed = json.at("seed");
+  plan.rate = json.at("rate");
+  plan.max_ticks = json.at("max_ticks");
+  plan.measures = json.at("measures");
+  for (const Json& it : json.at("columns"))
+    plan.columns.push_back({it.at("measure"), it.at("node")});
+  plan.plugins = pairs(json.at("plugins"), "name", "version");
+  plan.files = pairs(json.at("files"), "path", "text");
+  if (json.contains("shard")) plan.shard = {json["shard"].at("part"), json["shard"].at("of")};
+  const auto [part, of] = plan.shard;
+  if (part < 1 || part > of || plan.runs < 1 || plan.runs > kMostRows ||
+      cell_count(plan) > kMostRows / plan.runs) {
+    throw std::runtime_error("its numbers do not fit together");
+  }
+  return plan;
+}
+
+}  // namespace
+
+std::string to_json(const StudyPlan& plan) {
+  // A text that is not UTF-8 was refused with the tree; a path need not be.
+  return json_of(plan).dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+std::optional<StudyPlan> plan_from_json(const std::string& text, std::string& error) {
+  try {
+    return plan_of(Json::parse(text));
+  } catch (const std::exception& exception) {
+    error = exception.what();
+    return std::nullopt;
+  }
+}
+
+std::string first_difference(const StudyPlan& one, const StudyPlan& other, bool with_shard) {
+  const Json a = Json::parse(to_json(one)), b = Json::parse(to_json(other));
+  for (const auto& [key, value] : a.items()) {
+    if (key != "shard" && b.at(key) != value) return key;
+  }
+  return with_shard && one.shard != other.shard ? "shard" : "";
+}
+
+}  // namespace lockstep

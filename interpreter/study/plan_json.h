@@ -1,0 +1,22 @@
+// study.json: all that is needed to make a study again, and nothing that differs from one machine
+// to the next.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "study/plan.h"
+
+namespace lockstep {
+
+// Ends with a newline. The same plan gives the same bytes.
+std::string to_json(const StudyPlan& plan);
+
+// On failure `error` says what was expected.
+std::optional<StudyPlan> plan_from_json(const std::string& text, std::string& error);
+
+// The first thing in which two plans differ, as study.json calls it; "" when they are of one study
+// (`with_shard` false: perhaps parts of it).
+std::string first_difference(const StudyPlan& one, const StudyPlan& other, bool with_shard);
+
+}  // namespace lockstep

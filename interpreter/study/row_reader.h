@@ -1,0 +1,46 @@
+// Reads a runs.csv and holds it against its plan, line by line: for a study that goes on, for parts
+// that are put together, for the summary.
+#pragma once
+
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "study/row_text.h"
+
+namespace lockstep {
+
+class RowReader {
+ public:
+  // `plan` must outlive the reader.
+  RowReader(const std::string& path, const StudyPlan& plan);
+
+  // The next line, with its end. "" at the end of the file, or before what is cut at the end, or
+  // before a line that the plan does not have there: then error() tells.
+  std::string_view next();
+  // The columns of the line that next() gave; NaN for an empty field.
+  const std::vector<double>& values() const { return values_; }
+
+  const std::string& error() const { return error_; }
+  std::uint64_t rows() const { return rows_; }    // so far
+  std::uint64_t bytes() const { return bytes_; }  // of them and the header
+
+ private:
+  bool read_line();
+  bool is_expected();
+  bool read_header();
+
+  const StudyPlan& plan_;
+  std::string path_;
+  std::ifstream file_;
+  std::string line_;
+  std::uint64_t cell_ = ~std::uint64_t{0};
+  std::string cell_text_;
+  fmt::memory_buffer beginning_;
+  std::vector<double> values_;
+  std::string error_;
+  std::uint64_t rows_ = 0, bytes_ = 0;
+};
+
+}  // namespace lockstep

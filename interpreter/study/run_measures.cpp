@@ -1,0 +1,128 @@
+#include "study/run_measures.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/suggest.h"
+#include "engine/synchronized.h"
+
+namespace lockstep {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+std::optional<NodeIndex> find_node(const Tree& tree, const std::string& name, std::string& error) {
+  std::vector<std::string> paths;
+  std::vector<std::string_view> names;
+  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
+    paths.push_back(tree.path(node));
+    names.push_back(tree.labels[node].segment);
+  }
+  const auto found = find_path(paths, name, error);
+  if (found) return static_cast<NodeIndex>(*found);
+  const std::string near = did_you_mean(name, names);
+  if (!near.empty()) error += ", " + near;
+  return std::nullopt;
+}
+
+}  // namespace
+
+RunMeasures::RunMeasures(const Tree& tree, std::span<const MeasureSpec> measures, double rate)
+    : rate_(rate) {
+  for (const MeasureSpec& measure : measures) {
+    switch (measure.kind) {
+      case MeasureKind::ProgressDistance:
+      case MeasureKind::StepLength:
+        add_distances(tree, measure);
+        break;
+      case MeasureKind::Duration:
+        durations_.push_back(add_column(measure, tree.id));
+        break;
+      case MeasureKind::Predictability:
+        add_instant(tree, measure);
+        break;
+    }
+  }
+}
+
+std::size_t RunMeasures::add_column(const MeasureSpec& measure, std::string node) {
+  columns_.push_back({to_text(measure), std::move(node)});
+  values_.push_back(kNone);
+  return columns_.size() - 1;
+}
+
+void RunMeasures::add_distances(const Tree& tree, const MeasureSpec& measure) {
+  if (distances_.empty()) {
+    for (const NodeIndex node : synchronized_nodes(tree)) {
+      distances_.push_back(
+          {SynchronizedProbe(tree, node), SynchronizedMeasure(tree.nodes[node].children), {}, {}});
+    }
+  }
+  for (Distance& distance : distances_) {
+    const std::size_t column = add_column(measure, tree.path(distance.probe.node()));
+    const bool is_sum = measure.kind == MeasureKind::ProgressDistance;
+    (is_sum ? distance.sum : distance.step_length) = column;
+  }
+}
+
+void RunMeasures::add_instant(const Tree& tree, const MeasureSpec& measure) {
+  const auto node = find_node(tree, measure.node, error_);
+  if (!node) return;
+  Instant instant{.node = *node,
+                  .parent = {},
+                  .child = 0,
+                  .target = measure.progress,
+                  .expected = measure.expected.value_or(0),
+                  .nearest = NearestInstant(measure.progress),
+                  .column = add_column(measure, tree.path(*node))};
+  const NodeIndex parent = tree.labels[*node].parent;
+  if (synchronization(tree.nodes[parent]) != Synchronization::None && parent != *node) {
+    const auto children = children_of(tree, parent);
+    instant.parent = parent;
+    instant.child = static_cast<std::size_t>(std::ranges::find(children, *node) - children.begin());
+  }
+  instants_.push_back(instant);
+}
+
+void RunMeasures::run_started(Ticker&, const RunStart&) {
+  for (Distance& distance : distances_) distance.measure.reset();
+  for (Instant& instant : instants_) instant.nearest = NearestInstant(instant.target);
+  std::ranges::fill(values_, kNone);
+}
+
+void RunMeasures::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds) {
+  for (Instant& instant : instants_) instant.seen = ticker.progress(instant.node);
+}
+
+void RunMeasures::after_tick(Ticker& ticker, const TickReport& report) {
+  for (Distance& distance : distances_) {
+    distance.measure.after_tick(distance.probe.read(ticker, report.time));
+  }
+  for (Instant& instant : instants_) {
+    // What a synchronized node has seen counts more than what was seen before its tick.
+    if (instant.parent && ticker.ticked(*instant.parent)) {
+      instant.seen = child_progress(ticker, *instant.parent)[instant.child];
+    }
+    instant.nearest.sample(static_cast<double>(report.tick), instant.seen);
+    instant.succeeded = ticker.status(instant.node) == Status::Success;
+  }
+}
+
+void RunMeasures::run_ended(Ticker&, const RunEnd& end) {
+  for (const Distance& distance : distances_) {
+    const ProgressDistance& measured = distance.measure.distance();
+    if (distance.sum) values_[*distance.sum] = measured.sum();
+    if (distance.step_length) values_[*distance.step_length] = measured.step_length();
+  }
+  for (Instant& instant : instants_) {
+    // No tick follows the last: what the node reached in it would not be seen.
+    if (instant.succeeded) instant.nearest.sample(static_cast<double>(end.ticks), 1);
+    if (instant.nearest.empty()) continue;
+    values_[instant.column] = instant.nearest.time() - instant.expected;
+  }
+  for (const std::size_t column : durations_) {
+    values_[column] = static_cast<double>(end.ticks) / rate_;
+  }
+}
+
+}  // namespace lockstep

@@ -1,0 +1,20 @@
+#include "study/study_run.h"
+
+namespace lockstep {
+
+StudyRun::StudyRun(const StudyCell& cell, std::span<const MeasureSpec> measures,
+                   std::uint64_t max_ticks, int (*stop_signal)())
+    : cell_(cell),
+      options_{.rate = cell.rate,
+               .max_ticks = max_ticks,
+               .timeout = std::nullopt,
+               .stop_signal = stop_signal},
+      measures_(cell.tree, measures, cell.rate) {}
+
+RunEnd StudyRun::run(std::uint64_t seed) {
+  run_.emplace(cell_.tree, RunOptions{seed, deadline_of(1, cell_.rate)});
+  VirtualClock clock;
+  return run_loop(*run_, clock, options_, observers_);
+}
+
+}  // namespace lockstep

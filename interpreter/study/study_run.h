@@ -1,0 +1,41 @@
+// The runs of one cell on one thread, one after the other, as `lockstep run --clock virtual` would
+// make each of them.
+#pragma once
+
+#include <span>
+
+#include "runtime/loop.h"
+#include "runtime/run.h"
+#include "study/run_measures.h"
+
+namespace lockstep {
+
+// One tree of the grid, shared by all threads.
+struct StudyCell {
+  Tree tree;
+  double rate = 100;
+  std::uint64_t seed = 0;
+  std::vector<std::size_t> columns = {};  // of the tree's columns, the place among the plan's
+};
+
+class StudyRun {
+ public:
+  // `stop_signal` may be null; nonzero ends a run, which then counts for nothing.
+  StudyRun(const StudyCell& cell, std::span<const MeasureSpec> measures, std::uint64_t max_ticks,
+           int (*stop_signal)());
+
+  RunEnd run(std::uint64_t seed);
+
+  // Of the last run.
+  std::span<const double> values() const { return measures_.values(); }
+  const Fault* fault() const { return run_ ? run_->fault() : nullptr; }
+
+ private:
+  const StudyCell& cell_;
+  LoopOptions options_;
+  RunMeasures measures_;
+  Observer* observers_[1] = {&measures_};
+  std::optional<Run> run_;
+};
+
+}  // namespace lockstep

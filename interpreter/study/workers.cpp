@@ -1,0 +1,151 @@
+#include "study/workers.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <limits>
+#include <semaphore>
+#include <thread>
+#include <vector>
+
+#include "study/row_text.h"
+
+namespace lockstep {
+namespace {
+
+constexpr std::uint64_t kRowsPerChunk = 16;
+constexpr std::uint64_t kChunksPerThread = 1024;  // that may wait for an earlier one
+constexpr std::chrono::milliseconds kWriteInterval{50};
+
+struct Chunk {
+  fmt::memory_buffer lines;
+  std::uint64_t rows = 0;
+  bool complete = true;  // false: nothing after it counts
+  std::optional<StudyFault> fault;
+  std::atomic<std::uint64_t> ready{0};  // 1 + the number of the chunk that is in it
+};
+
+// What the threads have in common.
+class Workshop {
+ public:
+  explicit Workshop(const StudyWork& work)
+      : work_(work),
+        rows_(row_count(work.plan)),
+        chunks_((rows_ - work.first_row + kRowsPerChunk - 1) / kRowsPerChunk),
+        ring_(kChunksPerThread * work.jobs) {}
+
+  std::optional<StudyFault> run();
+
+ private:
+  void make_chunks();
+  void make(std::uint64_t number, Chunk& chunk, std::optional<StudyRun>& run, std::uint64_t& cell);
+  void write_ready();
+  void write(Chunk& chunk);
+  Chunk& slot(std::uint64_t number) { return ring_[number % ring_.size()]; }
+
+  const StudyWork& work_;
+  const std::uint64_t rows_;
+  const std::uint64_t chunks_;
+  std::vector<Chunk> ring_;
+  std::atomic<std::uint64_t> next_{0};
+  std::atomic<std::uint64_t> limit_{std::numeric_limits<std::uint64_t>::max()};
+  std::atomic<std::uint64_t> written_{0};  // chunks; also those that count for nothing
+  std::counting_semaphore<> gone_{0};      // threads that have ended
+  bool closed_ = false;                    // nothing is written any more
+  std::optional<StudyFault> fault_;
+};
+
+void Workshop::make_chunks() {
+  std::optional<StudyRun> run;
+  std::uint64_t cell = 0;
+  for (;;) {
+    const std::uint64_t number = next_.fetch_add(1, std::memory_order_relaxed);
+    if (number >= chunks_ || number > limit_.load(std::memory_order_relaxed)) break;
+    std::uint64_t written = written_.load(std::memory_order_acquire);
+    while (number >= written + ring_.size()) {
+      written_.wait(written, std::memory_order_acquire);
+      written = written_.load(std::memory_order_acquire);
+    }
+    Chunk& chunk = slot(number);
+    make(number, chunk, run, cell);
+    if (!chunk.complete) {
+      std::uint64_t limit = limit_.load();
+      while (number < limit && !limit_.compare_exchange_weak(limit, number)) {
+      }
+    }
+    chunk.ready.store(number + 1, std::memory_order_release);
+  }
+  gone_.release();
+}
+
+void Workshop::make(std::uint64_t number, Chunk& chunk, std::optional<StudyRun>& run,
+                    std::uint64_t& cell) {
+  const std::uint64_t first = work_.first_row + number * kRowsPerChunk;
+  const std::uint64_t last = std::min(rows_, first + kRowsPerChunk);
+  std::string cell_text;
+  std::vector<double> values(work_.plan.columns.size(), std::numeric_limits<double>::quiet_NaN());
+  for (std::uint64_t index = first; index < last; ++index) {
+    const StudyRow row = row_at(work_.plan, index);
+    const StudyCell& at = work_.cells[row.cell];
+    if (!run || cell != row.cell) {
+      run.emplace(at, work_.measures, work_.plan.max_ticks, work_.stop_signal);
+      cell = row.cell;
+    }
+    if (index == first || row.run < work_.plan.shard.of) cell_text = row_cell(work_.plan, cell);
+    const std::uint64_t seed = run_seed(at.seed, row.cell, row.run);
+    const RunEnd end = run->run(seed);
+    if (end.reason == StopReason::Fault) {
+      chunk.fault = StudyFault{row, seed, *run->fault(), end.ticks};
+    }
+    if (end.reason == StopReason::Fault || end.reason == StopReason::Signal) {
+      chunk.complete = false;
+      return;
+    }
+    std::ranges::fill(values, std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t i = 0; i < at.columns.size(); ++i) values[at.columns[i]] = run->values()[i];
+    append_row_beginning(work_.plan, row, cell_text, chunk.lines);
+    append_row_end(end, values, chunk.lines);
+    ++chunk.rows;
+  }
+}
+
+void Workshop::write(Chunk& chunk) {
+  if (closed_) return;
+  if (!work_.write({chunk.lines.data(), chunk.lines.size()}, chunk.rows)) {
+    closed_ = true;
+    limit_ = 0;
+  }
+  fault_ = chunk.fault;
+  closed_ |= !chunk.complete;
+}
+
+void Workshop::write_ready() {
+  std::uint64_t number = written_.load();
+  while (slot(number).ready.load(std::memory_order_acquire) == number + 1) {
+    Chunk& chunk = slot(number);
+    write(chunk);
+    chunk.lines.clear();
+    chunk.rows = 0;
+    written_.store(++number, std::memory_order_release);
+  }
+  written_.notify_all();
+  if (work_.idle) work_.idle();
+}
+
+std::optional<StudyFault> Workshop::run() {
+  std::vector<std::jthread> threads;
+  for (unsigned job = 0; job < work_.jobs; ++job) threads.emplace_back([this] { make_chunks(); });
+  for (unsigned alive = work_.jobs; alive > 0;) {
+    if (gone_.try_acquire_for(kWriteInterval)) --alive;
+    write_ready();
+  }
+  return fault_;
+}
+
+}  // namespace
+
+std::optional<StudyFault> do_work(const StudyWork& work) {
+  return Workshop(work).run();
+}
+
+}  // namespace lockstep

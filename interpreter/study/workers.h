@@ -1,0 +1,42 @@
+// The threads of a study. They take the rows in chunks, in order, by counting up one number, and
+// share no lock; what they have made comes out in the order of the rows, whatever their number.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "study/study_run.h"
+
+namespace lockstep {
+
+// A leaf failed as a program, in this run.
+struct StudyFault {
+  StudyRow row;
+  std::uint64_t seed = 0;
+  Fault fault;
+  std::uint64_t ticks = 0;  // of the run; 0: before the first
+};
+
+struct StudyWork {
+  const StudyPlan& plan;
+  std::span<const StudyCell> cells;
+  std::span<const MeasureSpec> measures;
+  std::uint64_t first_row = 0;
+  unsigned jobs = 1;
+  int (*stop_signal)() = nullptr;
+  // Called on the caller's thread. Lines of runs.csv, in order, and how many; false ends the study.
+  std::function<bool(std::string_view lines, std::uint64_t rows)> write;
+  // Now and then, after writing.
+  std::function<void()> idle;
+};
+
+// Runs until all rows are made, a leaf fails or a signal comes. The fault is the first in the order
+// of the rows; all rows before it were written.
+std::optional<StudyFault> do_work(const StudyWork& work);
+
+}  // namespace lockstep
