@@ -2,15 +2,13 @@
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iostream>
 #include <system_error>
 
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
+#include "cli/log.h"
 #include "observers/recording_csv.h"
 #include "observers/recording_info.h"
 
@@ -22,41 +20,6 @@ struct Options {
   std::string out;
 };
 
-int cannot(std::string_view what, std::string_view path, int reason) {
-  print_error(fmt::format("cannot {} '{}': {}", what, printable(path), std::strerror(reason)));
-  return kExitUsage;
-}
-
-// A reader that stops reading, as `head` does, is no error.
-int end_of_output(bool written) {
-  if (!written && errno == EPIPE) std::exit(kExitSuccess);
-  return flush_stdout() ? kExitSuccess : kExitUsage;
-}
-
-int report(const RecordingReader& reader) {
-  if (!reader.error().empty()) {
-    print_error(reader.error());
-    return kExitInvalidTree;
-  }
-  if (!reader.cut().empty()) print_error(fmt::format("the recording is cut: {}", reader.cut()));
-  return kExitSuccess;
-}
-
-// Opens the recording and hands its reader to `use`.
-template <class Use>
-int with_recording(const std::string& path, Use use) {
-  std::ifstream file;
-  if (path != "-") {
-    std::error_code error;
-    if (std::filesystem::is_directory(path, error)) return cannot("read", path, EISDIR);
-    errno = 0;
-    file.open(path, std::ios::binary);
-    if (!file) return cannot("read", path, errno);
-  }
-  RecordingReader reader(path == "-" ? std::cin : file, path == "-" ? "stdin" : path);
-  return reader.error().empty() ? use(reader) : report(reader);
-}
-
 int csv_to_file(const Options& options, RecordingReader& reader) {
   std::error_code error;
   if (std::filesystem::equivalent(options.file, options.out, error)) {
@@ -64,19 +27,19 @@ int csv_to_file(const Options& options, RecordingReader& reader) {
     return kExitUsage;
   }
   std::FILE* out = std::fopen(options.out.c_str(), "wb");
-  if (out == nullptr) return cannot("write", options.out, errno);
+  if (out == nullptr) return cannot_use("write", options.out, errno);
   const bool written = write_csv(reader, out);
   const int reason = errno;
   if (std::fclose(out) != 0 || !written)
-    return cannot("write", options.out, written ? errno : reason);
-  return report(reader);
+    return cannot_use("write", options.out, written ? errno : reason);
+  return report_end(reader);
 }
 
 int csv(const Options& options) {
   return with_recording(options.file, [&](RecordingReader& reader) {
     if (!options.out.empty()) return csv_to_file(options, reader);
-    const int code = end_of_output(write_csv(reader, stdout));
-    const int read = report(reader);
+    const int code = end_of_stdout(write_csv(reader, stdout));
+    const int read = report_end(reader);
     return read == kExitSuccess ? code : read;
   });
 }
@@ -87,10 +50,10 @@ int info(const Options& options) {
       write_info(reader, stdout, wants_color(stdout));
     } catch (const std::system_error& error) {  // fmt cannot write
       errno = error.code().value();
-      return end_of_output(false);
+      return end_of_stdout(false);
     }
-    const int code = end_of_output(std::fflush(stdout) == 0);
-    const int read = report(reader);
+    const int code = end_of_stdout(std::fflush(stdout) == 0);
+    const int read = report_end(reader);
     return read == kExitSuccess ? code : read;
   });
 }
@@ -102,14 +65,16 @@ std::function<int()> define(CLI::App& app) {
       "csv", "One row per tick and active node: tick,time_s,node,path,status,progress,ticked,held");
   CLI::App* summary =
       app.add_subcommand("info", "What the recording is of, how it ended, and its measures");
-  for (CLI::App* command : {table, summary}) {
-    command->add_option("file", options->file, "The recording; - is stdin")
-        ->type_name("FILE.jsonl")
-        ->required();
-  }
+  for (CLI::App* command : {table, summary}) add_recording_file(*command, options->file);
   table->add_option("--out", options->out, "Write the table to this file instead of stdout")
       ->type_name("FILE");
-  return [options, table] { return table->parsed() ? csv(*options) : info(*options); };
+  const auto measures = define_log_measure(app);
+  const auto plot = define_log_plot(app);
+  return [=] {
+    if (measures.app->parsed()) return measures.run();
+    if (plot.app->parsed()) return plot.run();
+    return table->parsed() ? csv(*options) : info(*options);
+  };
 }
 
 }  // namespace
@@ -124,7 +89,9 @@ const Command kLogCommand{"log", "Read recordings that `lockstep run --record` h
                           "Examples:\n"
                           "  lockstep run trees/door_pulling.xml --record run.jsonl\n"
                           "  lockstep log info run.jsonl\n"
-                          "  lockstep log csv run.jsonl > run.csv",
+                          "  lockstep log csv run.jsonl > run.csv\n"
+                          "  lockstep log measure run.jsonl --measure predictability:arm@0.5\n"
+                          "  lockstep log plot run.jsonl --out progress.svg",
                           define};
 
 }  // namespace lockstep

@@ -93,7 +93,8 @@ std::string series_commands(const BoxPlot& plot, std::size_t series) {
   return fmt::format(
       "  data index {0} using 1:3:2:6:5 with candlesticks whiskerbars 0.5 lc rgb '{1}' lw 1.4 {2}, "
       "\\\n"
-      "  data index {0} using 1:4:4:4:4 with candlesticks lc rgb '{1}' lw 3 notitle, \\\n"
+      "  data index {0} using ($1-width/2):4:(width):(0) with vectors nohead lc rgb '{1}' lw 3 "
+      "notitle, \\\n"
       "  data index {0} using 1:7 with points pt 7 ps 0.75 lc rgb 'white' notitle, \\\n"
       "  data index {0} using 1:7 with points pt 6 ps 0.75 lw 1.4 lc rgb '{1}' notitle",
       series, color, title);
@@ -157,9 +158,9 @@ std::string box_plot_script(const BoxPlot& plot, PlotSize size) {
       "set grid ytics lt 1 lw 0.6 lc rgb '#dcdcdc'\n"
       "set border 3 lw 0.8 lc rgb '#404040'\n"
       "set xzeroaxis lt 1 lw 0.8 lc rgb '#404040'\n"
-      "set key outside right top reverse Left samplen 1.5 noenhanced\n"
+      "set key tmargin center horizontal reverse Left samplen 1.5 noenhanced\n"
       "set style fill solid 0.25 border\n";
-  text += fmt::format("set boxwidth {:.4g}\n", 0.75 * box_width(plot));
+  text += fmt::format("width = {:.4g}\nset boxwidth width\n", 0.75 * box_width(plot));
   text += gnuplot_terminal(plot.stem + ".svg", size) + "plot \\\n";
   for (std::size_t series = 0; series < plot.series.size(); ++series) {
     text += series_commands(plot, series) + (series + 1 < plot.series.size() ? ", \\\n" : "\n");

@@ -127,8 +127,8 @@ std::string failure(const Ended& ended) {
 }  // namespace
 
 std::string_view plot_color(std::size_t index) {
-  constexpr std::string_view kColors[] = {"#0072b2", "#d55e00", "#009e73",
-                                          "#cc79a7", "#e69f00", "#56b4e9"};
+  constexpr std::string_view kColors[] = {"#0072b2", "#e69f00", "#009e73",
+                                          "#cc79a7", "#56b4e9", "#d55e00"};
   return kColors[index % std::size(kColors)];
 }
 

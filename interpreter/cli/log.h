@@ -1,0 +1,37 @@
+// What the subcommands of `lockstep log` share: a recording is opened, read to its end and its end
+// told in one way. One file for each of the larger subcommands.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "observers/recording_reader.h"
+
+namespace CLI {
+class App;
+}
+
+namespace lockstep {
+
+// Adds the argument that names the recording.
+void add_recording_file(CLI::App& app, std::string& file);
+
+// Opens the recording, "-" being stdin, and returns what `use` does, or the exit code for a file
+// that is none.
+int with_recording(const std::string& path, const std::function<int(RecordingReader&)>& use);
+// Says what was wrong with the recording, or that it is cut. Returns the exit code.
+int report_end(const RecordingReader& reader);
+// Says that `path` cannot be read or written. Returns the exit code.
+int cannot_use(std::string_view verb, std::string_view path, int reason);
+// After all is written to stdout. A reader that stops reading, as `head` does, is no error.
+int end_of_stdout(bool written);
+
+struct LogSubcommand {
+  CLI::App* app;
+  std::function<int()> run;
+};
+LogSubcommand define_log_measure(CLI::App& log);
+LogSubcommand define_log_plot(CLI::App& log);
+
+}  // namespace lockstep

@@ -1,0 +1,53 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <system_error>
+
+#include "cli/console.h"
+#include "cli/exit_code.h"
+#include "cli/log.h"
+
+namespace lockstep {
+
+void add_recording_file(CLI::App& app, std::string& file) {
+  app.add_option("file", file, "The recording; - is stdin")->type_name("FILE.jsonl")->required();
+}
+
+int with_recording(const std::string& path, const std::function<int(RecordingReader&)>& use) {
+  std::ifstream file;
+  if (path != "-") {
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error)) return cannot_use("read", path, EISDIR);
+    errno = 0;
+    file.open(path, std::ios::binary);
+    if (!file) return cannot_use("read", path, errno);
+  }
+  RecordingReader reader(path == "-" ? std::cin : file, path == "-" ? "stdin" : path);
+  return reader.error().empty() ? use(reader) : report_end(reader);
+}
+
+int report_end(const RecordingReader& reader) {
+  if (!reader.error().empty()) {
+    print_error(reader.error());
+    return kExitInvalidTree;
+  }
+  if (!reader.cut().empty()) print_error(fmt::format("the recording is cut: {}", reader.cut()));
+  return kExitSuccess;
+}
+
+int cannot_use(std::string_view verb, std::string_view path, int reason) {
+  print_error(fmt::format("cannot {} '{}': {}", verb, printable(path), std::strerror(reason)));
+  return kExitUsage;
+}
+
+int end_of_stdout(bool written) {
+  if (!written && errno == EPIPE) std::exit(kExitSuccess);
+  return flush_stdout() ? kExitSuccess : kExitUsage;
+}
+
+}  // namespace lockstep

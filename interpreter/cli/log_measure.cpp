@@ -1,0 +1,70 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <vector>
+
+#include "cli/console.h"
+#include "cli/exit_code.h"
+#include "cli/log.h"
+#include "observers/recording_measures.h"
+
+namespace lockstep {
+namespace {
+
+struct Options {
+  std::string file;
+  std::vector<std::string> measures = {"progress-distance", "step-length", "duration"};
+  bool json = false;
+};
+
+int usage_error(const std::string& message) {
+  print_error(message);
+  return kExitUsage;
+}
+
+int print_measures(const Options& options, std::span<const MeasureSpec> measures,
+                   RecordingReader& reader) {
+  std::string error;
+  const auto values = measure_recording(reader, measures, error);
+  if (!error.empty()) return usage_error(printable(error));
+  if (!reader.error().empty()) return report_end(reader);
+  const std::string text = options.json ? to_json(values) + "\n" : to_table(values);
+  const bool written =
+      std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+  const int code = end_of_stdout(written);
+  report_end(reader);
+  return code;
+}
+
+int measure(const Options& options) {
+  std::vector<MeasureSpec> measures;
+  for (const std::string& text : options.measures) {
+    std::string error;
+    const auto spec = parse_measure(text, error);
+    if (!spec) return usage_error(fmt::format("--measure {}: {}", printable(text), error));
+    measures.push_back(*spec);
+  }
+  return with_recording(options.file, [&](RecordingReader& reader) {
+    return print_measures(options, measures, reader);
+  });
+}
+
+}  // namespace
+
+LogSubcommand define_log_measure(CLI::App& log) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* app =
+      log.add_subcommand("measure", "The measures of the run, by the names that a study uses");
+  add_recording_file(*app, options->file);
+  app->add_option("--measure", options->measures,
+                  "progress-distance, step-length, duration or predictability:NODE@P[=T]: the tick "
+                  "at which NODE's progress is nearest to P, minus T; may be repeated")
+      ->type_name("NAME")
+      ->allow_extra_args(false)
+      ->default_str("the first three");
+  app->add_flag("--json", options->json, "Print one line of JSON");
+  return {app, [options] { return measure(*options); }};
+}
+
+}  // namespace lockstep

@@ -1,0 +1,121 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "cli/console.h"
+#include "cli/exit_code.h"
+#include "cli/log.h"
+#include "measure/measure_spec.h"
+#include "observers/recorded_probe.h"
+#include "study/gnuplot.h"
+#include "study/progress_plot.h"
+
+namespace lockstep {
+namespace {
+
+struct Options {
+  std::string file;
+  std::string out;
+  std::string node;
+  PlotSize size;
+};
+
+int usage_error(const std::string& message) {
+  print_error(message);
+  return kExitUsage;
+}
+
+// The nodes to draw; none after an error, which it tells.
+std::vector<NodeIndex> chosen_nodes(const Options& options, const RecordingHeader& header) {
+  const auto nodes = synchronized_nodes(header);
+  if (nodes.empty()) {
+    print_error("the recording has no synchronized node, so there is nothing to draw");
+    return {};
+  }
+  if (options.node.empty()) return nodes;
+  std::vector<std::string> paths;
+  for (const NodeIndex node : nodes) paths.push_back(header.nodes[node].path);
+  std::string error;
+  const auto place = find_path(paths, options.node, error);
+  if (place) return {nodes[*place]};
+  print_error(fmt::format("--node: among the synchronized nodes: {}", printable(error)));
+  return {};
+}
+
+// The file as named for one node, a file for each of several: "x.svg" becomes "x-pull.svg", or
+// "x-Main_left_pull.svg" where two nodes are called so.
+std::filesystem::path image_of(const Options& options, const ProgressPlot& plot,
+                               std::span<const ProgressPlot> plots) {
+  std::filesystem::path image = options.out;
+  if (plots.size() == 1) return image;
+  const auto name_of = [](const ProgressPlot& one) {
+    return file_stem(one.node.path.substr(one.node.path.rfind('/') + 1));
+  };
+  std::string name = name_of(plot);
+  const auto same = std::count_if(plots.begin(), plots.end(), [&](const ProgressPlot& other) {
+    return name_of(other) == name;
+  });
+  if (same > 1) name = file_stem(plot.node.path);
+  const std::string stem = image.stem().string() + "-" + name;
+  return image.replace_filename(stem + image.extension().string());
+}
+
+int draw_all(const Options& options, std::span<const ProgressPlot> plots) {
+  int drawn = 0;
+  for (const ProgressPlot& plot : plots) {
+    if (plot.samples.empty()) {
+      print_error(fmt::format("no tick reached '{}'", printable(plot.node.path)));
+      continue;
+    }
+    const PlotResult result = draw(plot, image_of(options, plot, plots), options.size);
+    if (!result.ok()) return usage_error(result.error);
+    fmt::print("{}\n", printable(result.files.back().string()));
+    ++drawn;
+  }
+  if (!flush_stdout()) return kExitUsage;
+  return drawn > 0 ? kExitSuccess : kExitUsage;
+}
+
+int plot(const Options& options) {
+  if (!is_plot_image(options.out)) {
+    return usage_error(fmt::format("--out '{}': expected a name that ends in .svg or .png",
+                                   printable(options.out)));
+  }
+  return with_recording(options.file, [&](RecordingReader& reader) -> int {
+    const auto nodes = chosen_nodes(options, reader.header());
+    if (nodes.empty()) return kExitUsage;
+    const auto plots = progress_plots(reader, nodes);
+    if (const int code = report_end(reader); code != kExitSuccess) return code;
+    return draw_all(options, plots);
+  });
+}
+
+}  // namespace
+
+LogSubcommand define_log_plot(CLI::App& log) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* app = log.add_subcommand(
+      "plot", "Draw the progress of the children of each synchronized node over time (gnuplot)");
+  add_recording_file(*app, options->file);
+  app->add_option("--out", options->out,
+                  "The image: its name ends in .svg or .png; its data and its gnuplot script are "
+                  "written beside it. With several nodes, -NAME is added to it")
+      ->type_name("FILE")
+      ->required();
+  app->add_option("--node", options->node, "Only this node: its path, or the end of it")
+      ->type_name("NODE");
+  app->add_option("--width", options->size.width, "In pixels; a PNG has twice as many")
+      ->check(CLI::Range(200, 8000))
+      ->capture_default_str();
+  app->add_option("--height", options->size.height, "In pixels; a PNG has twice as many")
+      ->check(CLI::Range(150, 8000))
+      ->capture_default_str();
+  return {app, [options] { return plot(*options); }};
+}
+
+}  // namespace lockstep
