@@ -166,7 +166,7 @@ void define_merge(CLI::App& app, const std::shared_ptr<Options>& options) {
 }
 
 void define_runs(CLI::App& app, StudyOptions& options) {
-  app.add_option("--runs", options.runs, "How often each cell of the grid is run")
+  app.add_option("-n,--runs", options.runs, "How often each cell of the grid is run")
       ->type_name("N")
       ->check(check_positive);
   app.add_option("--seed", options.seed, "All seeds of the runs are made from this one")

@@ -2,6 +2,7 @@
 // of plugins and the blackboard are apart.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -28,6 +29,13 @@ struct RunState {
       : activity(tree.nodes.size(), Activity::Idle),
         last_tick(tree.nodes.size(), 0),
         bytes((tree.state_size + 7) / 8, 0) {}
+
+  // As new, without allocating.
+  void reset() {
+    std::ranges::fill(activity, Activity::Idle);
+    std::ranges::fill(last_tick, 0);
+    std::ranges::fill(bytes, 0);
+  }
 
   std::vector<Activity> activity;        // of each node
   std::vector<std::uint32_t> last_tick;  // number of the last tick that reached it; 0 = none yet

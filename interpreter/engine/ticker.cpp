@@ -67,7 +67,7 @@ void Ticker::set_fault(NodeIndex node, std::string message) {
 }
 
 void Ticker::reset() {
-  state_ = RunState(tree_);
+  state_.reset();
   now_ = Nanoseconds(0);
   tick_number_ = 0;
   faulted_ = false;

@@ -5,10 +5,28 @@
 
 namespace lockstep {
 
+namespace {
+
+// A study does this in every tick, and a few children are nearly sorted already.
+void copy_sorted(std::span<const double> from, std::span<double> to) {
+  constexpr std::size_t kFew = 16;
+  if (from.size() > kFew) {
+    std::copy(from.begin(), from.end(), to.begin());
+    std::sort(to.begin(), to.end());
+    return;
+  }
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    std::size_t at = i;
+    for (; at > 0 && to[at - 1] > from[i]; --at) to[at] = to[at - 1];
+    to[at] = from[i];
+  }
+}
+
+}  // namespace
+
 double progress_distance(std::span<const double> progress, std::span<double> scratch) {
-  std::copy(progress.begin(), progress.end(), scratch.begin());
   const auto sorted = scratch.first(progress.size());
-  std::sort(sorted.begin(), sorted.end());
+  copy_sorted(progress, sorted);
   // The gap between two neighbors is part of the distance of each pair that lies around it.
   double sum = 0;
   for (std::size_t i = 1; i < sorted.size(); ++i) {

@@ -53,54 +53,64 @@ struct LeafSet::Implementation {
   // What a run shares per plugin; seen by the plugin as its run context.
   struct Context {
     const lockstep_plugin* plugin;
+    NodeIndex node;  // the first leaf of the plugin
     std::unique_ptr<lockstep_caller> caller;
     LeafSlot slot;  // `self` is the context
     bool created = false;
   };
 
-  Implementation(const Tree& tree, Blackboard& blackboard, const LeafTime& time, std::uint64_t seed,
-                 LeafLog log)
-      : tree_(tree),
-        blackboard_(blackboard),
-        time_(time),
-        seed_(seed),
-        log_(std::move(log)),
-        slots_(tree.leaves.size()) {}
-  ~Implementation();
+  Implementation(const Tree& tree, Blackboard& blackboard, const LeafTime& time, LeafLog log);
+  ~Implementation() { destroy_all(); }
   Implementation(const Implementation&) = delete;
   Implementation& operator=(const Implementation&) = delete;
 
-  void create_all();
-  bool create_context(const LeafNode& leaf);
+  void create_all(std::uint64_t seed);
+  void destroy_all();
+  bool create_context(Context& context);
   bool create_leaf(std::uint32_t index);
   Context* find_context(const void* plugin);
-  std::unique_ptr<lockstep_caller> make_caller(std::string who, std::uint64_t stream,
-                                               LeafSlot& slot);
+  std::unique_ptr<lockstep_caller> make_caller(std::string who, LeafSlot& slot);
   bool fail(NodeIndex node, std::string message);
   void destroy(const lockstep_caller& caller, void (*function)(void*), void* object);
 
   const Tree& tree_;
-  Blackboard& blackboard_;
   const LeafTime& time_;
-  std::uint64_t seed_;
   LeafLog log_;
   // Plugins keep pointers to callers, and callers to slots: once made, none of them moves.
   std::vector<std::unique_ptr<Context>> contexts_;
   std::vector<LeafSlot> slots_;
-  std::vector<std::unique_ptr<lockstep_caller>> callers_;  // of the leaves that were created
+  std::vector<std::unique_ptr<lockstep_caller>> callers_;  // of the leaves
   std::optional<Fault> fault_;
 };
 
-LeafSet::Implementation::~Implementation() {
-  while (!callers_.empty()) {
-    const LeafSlot& slot = slots_[callers_.size() - 1];
-    if (slot.self != nullptr) destroy(*callers_.back(), slot.type->destroy, slot.self);
-    callers_.pop_back();
+LeafSet::Implementation::Implementation(const Tree& tree, Blackboard& blackboard,
+                                        const LeafTime& time, LeafLog log)
+    : tree_(tree), time_(time), log_(std::move(log)), slots_(tree.leaves.size()) {
+  for (const LeafNode& leaf : tree.leaves) {
+    if (find_context(leaf.type->origin) == nullptr) {
+      const auto* plugin = static_cast<const lockstep_plugin*>(leaf.type->origin);
+      contexts_.push_back(std::make_unique<Context>(Context{plugin, leaf.node, nullptr, {}}));
+      contexts_.back()->caller = make_caller(plugin->name, contexts_.back()->slot);
+    }
+    LeafSlot& slot = slots_[callers_.size()];
+    slot.type = static_cast<const lockstep_leaf_type*>(leaf.type->binding);
+    callers_.push_back(make_caller(tree.path(leaf.node), slot));
+    callers_.back()->ports = resolve_ports(tree, leaf, blackboard);
   }
-  while (!contexts_.empty()) {
-    const Context& context = *contexts_.back();
+}
+
+// In reverse order; what was not created is passed over.
+void LeafSet::Implementation::destroy_all() {
+  for (std::size_t index = slots_.size(); index-- > 0;) {
+    LeafSlot& slot = slots_[index];
+    if (slot.self != nullptr) destroy(*callers_[index], slot.type->destroy, slot.self);
+    slot = LeafSlot{.type = slot.type};
+  }
+  for (std::size_t index = contexts_.size(); index-- > 0;) {
+    Context& context = *contexts_[index];
     if (context.created) destroy(*context.caller, context.plugin->destroy_run, context.slot.self);
-    contexts_.pop_back();
+    context.created = false;
+    context.slot = {};
   }
 }
 
@@ -124,21 +134,17 @@ LeafSet::Implementation::Context* LeafSet::Implementation::find_context(const vo
 }
 
 std::unique_ptr<lockstep_caller> LeafSet::Implementation::make_caller(std::string who,
-                                                                      std::uint64_t stream,
                                                                       LeafSlot& slot) {
   return std::make_unique<lockstep_caller>(lockstep_caller{.who = std::move(who),
                                                            .ports = {},
-                                                           .random = RandomStream(seed_, stream),
+                                                           .random = RandomStream(0, 0),
                                                            .time = &time_,
                                                            .log = &log_,
                                                            .slot = &slot});
 }
 
-bool LeafSet::Implementation::create_context(const LeafNode& leaf) {
-  const auto* plugin = static_cast<const lockstep_plugin*>(leaf.type->origin);
-  contexts_.push_back(std::make_unique<Context>(Context{plugin, nullptr, {}}));
-  Context& context = *contexts_.back();
-  context.caller = make_caller(plugin->name, kFirstRunStream + contexts_.size(), context.slot);
+bool LeafSet::Implementation::create_context(Context& context) {
+  const lockstep_plugin* const plugin = context.plugin;
   if (plugin->create_run == nullptr) return true;
   std::string reason = call_plugin([&] {
     context.slot.self = plugin->create_run(&host_table(), context.caller.get());
@@ -147,42 +153,47 @@ bool LeafSet::Implementation::create_context(const LeafNode& leaf) {
   });
   if (reason.empty() && context.slot.error != nullptr) reason = context.slot.error;
   if (reason.empty()) return true;
-  return fail(leaf.node, fmt::format("the run context of plugin '{}' could not be created: {}",
-                                     plugin->name, reason));
+  return fail(context.node, fmt::format("the run context of plugin '{}' could not be created: {}",
+                                        plugin->name, reason));
 }
 
 bool LeafSet::Implementation::create_leaf(std::uint32_t index) {
   const LeafNode& leaf = tree_.leaves[index];
   LeafSlot& slot = slots_[index];
-  slot.type = static_cast<const lockstep_leaf_type*>(leaf.type->binding);
-  callers_.push_back(make_caller(tree_.path(leaf.node), index + std::uint64_t{1}, slot));
-  lockstep_caller& caller = *callers_.back();
-  caller.ports = resolve_ports(tree_, leaf, blackboard_);
   void* const context = find_context(leaf.type->origin)->slot.self;
-  std::string reason =
-      call_plugin([&] { slot.self = slot.type->create(&host_table(), &caller, context); });
+  std::string reason = call_plugin(
+      [&] { slot.self = slot.type->create(&host_table(), callers_[index].get(), context); });
   if (reason.empty() && slot.error != nullptr) reason = slot.error;
   if (reason.empty() && slot.self == nullptr) reason = "its create returned NULL without an error";
   return reason.empty() || fail(leaf.node, fmt::format("could not be created: {}", reason));
 }
 
-void LeafSet::Implementation::create_all() {
-  for (const LeafNode& leaf : tree_.leaves) {
-    if (find_context(leaf.type->origin) == nullptr && !create_context(leaf)) return;
+void LeafSet::Implementation::create_all(std::uint64_t seed) {
+  fault_.reset();
+  for (std::size_t index = 0; index < contexts_.size(); ++index) {
+    contexts_[index]->caller->random = RandomStream(seed, kFirstRunStream + index + 1);
+    if (!create_context(*contexts_[index])) return;
   }
   for (std::uint32_t index = 0; index < tree_.leaves.size(); ++index) {
+    callers_[index]->random = RandomStream(seed, index + std::uint64_t{1});
     if (!create_leaf(index)) return;
   }
 }
 
 LeafSet::LeafSet(const Tree& tree, Blackboard& blackboard, const LeafTime& time, std::uint64_t seed,
                  LeafLog log)
-    : it_(std::make_unique<Implementation>(tree, blackboard, time, seed, std::move(log))) {
-  it_->create_all();
+    : it_(std::make_unique<Implementation>(tree, blackboard, time, std::move(log))) {
+  create_all(seed);
 }
 
 LeafSet::~LeafSet() = default;
 
+void LeafSet::destroy_all() {
+  it_->destroy_all();
+}
+void LeafSet::create_all(std::uint64_t seed) {
+  it_->create_all(seed);
+}
 std::span<LeafSlot> LeafSet::slots() {
   return it_->slots_;
 }

@@ -33,6 +33,11 @@ class LeafSet {
           LeafLog log = {});
   // Destroys the leaves in reverse order, then the run contexts. No leaf may be running.
   ~LeafSet();
+  // The two halves of beginning anew, as if the set was made again: in between, the owner resets
+  // what the leaves see. Nothing of the host's is allocated again.
+  void destroy_all();
+  void create_all(std::uint64_t seed);
+
   LeafSet(const LeafSet&) = delete;
   LeafSet& operator=(const LeafSet&) = delete;
 

@@ -12,6 +12,15 @@ Run::~Run() {
   halt();
 }
 
+void Run::restart(std::uint64_t seed) {
+  halt();
+  leaves_.destroy_all();
+  blackboard_.reset(ticker_.tree());
+  time_.now = Nanoseconds(0);
+  leaves_.create_all(seed);
+  ticker_.reset();
+}
+
 void Run::set_now(Nanoseconds now) {
   time_.now = now;
   ticker_.set_now(now);

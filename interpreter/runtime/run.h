@@ -25,6 +25,10 @@ class Run {
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
 
+  // Ends the run as the destructor does and begins another one, as a new Run with this seed would,
+  // with the memory of this one.
+  void restart(std::uint64_t seed);
+
   // The time of the next tick, counted from the start of the run; for observers that look at the
   // run just before it.
   void set_now(Nanoseconds now);

@@ -12,7 +12,11 @@ StudyRun::StudyRun(const StudyCell& cell, std::span<const MeasureSpec> measures,
       measures_(cell.tree, measures, cell.rate) {}
 
 RunEnd StudyRun::run(std::uint64_t seed) {
-  run_.emplace(cell_.tree, RunOptions{seed, deadline_of(1, cell_.rate)});
+  if (run_) {
+    run_->restart(seed);
+  } else {
+    run_.emplace(cell_.tree, RunOptions{seed, deadline_of(1, cell_.rate)});
+  }
   VirtualClock clock;
   return run_loop(*run_, clock, options_, observers_);
 }
