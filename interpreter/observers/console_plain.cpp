@@ -44,8 +44,8 @@ void ConsolePlain::run_ended(Ticker& ticker, const RunEnd& end) {
   after_tick(ticker, {});
   tell_left_out();
   if (ticker.fault() != nullptr) print("fault: " + fault_text(ticker));
-  print(fmt::format("run ends: {} ({}) after {} ticks", result_text(end.status),
-                    to_string(end.reason), end.ticks));
+  print(fmt::format("run ends: {} ({}) after {}", result_text(end.status), to_string(end.reason),
+                    counted(end.ticks, "tick")));
 }
 
 void ConsolePlain::print(std::string_view text) {

@@ -43,13 +43,13 @@ void write_header(const RecordingHeader& header, std::FILE* out, bool color) {
 void write_end(const RecordingReader& reader, std::uint64_t ticks, double time, std::FILE* out,
                bool color) {
   if (const auto& end = reader.end()) {
-    fmt::print(out, "  {} ({}) after {} ticks, {:.3f} s", printable(end->result),
-               printable(end->reason), end->ticks, end->time);
+    fmt::print(out, "  {} ({}) after {}, {:.3f} s", printable(end->result), printable(end->reason),
+               counted(end->ticks, "tick"), end->time);
     fmt::print(out, "; {} overruns, {} deadlines skipped\n", end->overruns, end->skipped);
     if (!end->fault.empty()) fmt::print(out, "  fault: {}\n", printable(end->fault));
     return;
   }
-  fmt::print(out, "  {} ticks, {:.3f} s; {} {}\n", ticks, time,
+  fmt::print(out, "  {}, {:.3f} s; {} {}\n", counted(ticks, "tick"), time,
              styled("the recording is cut:", Style::Warning, color), reader.cut());
 }
 

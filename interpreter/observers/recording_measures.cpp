@@ -67,7 +67,8 @@ class Measuring {
   // A node that is not there is told in `error`.
   Measuring(const RecordingHeader& header, std::span<const MeasureSpec> measures,
             std::string& error)
-      : header_(header) {
+      : header_(header),
+        period_(header.rate_hz > 0 ? from_seconds(1 / header.rate_hz) : Nanoseconds(0)) {
     for (const NodeIndex node : synchronized_nodes(header)) nodes_.emplace_back(header, node);
     const auto paths = paths_of(header);
     for (const MeasureSpec& measure : measures) {
@@ -80,7 +81,7 @@ class Measuring {
 
   void after_tick(const RecordedTick& tick) {
     // A tick lasts until the next would begin, also the last.
-    duration_ = tick.time + 1 / header_.rate_hz;
+    duration_ = to_seconds(from_seconds(tick.time) + period_);
     for (Synchronized& node : nodes_) node.after_tick(tick);
     for (Instant& instant : instants_) instant.after_tick(tick);
   }
@@ -105,6 +106,7 @@ class Measuring {
 
  private:
   const RecordingHeader& header_;
+  Nanoseconds period_;
   std::vector<Synchronized> nodes_;
   std::vector<Instant> instants_;
   double duration_ = 0;

@@ -72,6 +72,10 @@ std::string_view result_text(Status status) {
   return is_complete(status) ? to_string(status) : std::string_view("stopped");
 }
 
+std::string counted(std::uint64_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
 std::string_view to_string(StopReason reason) {
   constexpr std::string_view kNames[] = {"completed", "fault", "timeout", "max_ticks", "signal"};
   return kNames[static_cast<unsigned>(reason)];
@@ -97,7 +101,7 @@ SynchronizedSummary summarize(const SynchronizedMeasure& measure, std::string pa
 
 void write_text(const SynchronizedSummary& node, std::FILE* out, bool color) {
   const auto name = styled(printable(node.path), Style::Strong, color);
-  fmt::print(out, "  {} ({}, {} ticks)\n", name, node.kind, node.samples);
+  fmt::print(out, "  {} ({}, {})\n", name, node.kind, counted(node.samples, "tick"));
   fmt::print(out, "    progress distance {:.6g}, mean {:.6g} a tick; largest spread {:.6g}, ",
              node.distance_sum, node.distance_mean, node.largest_spread);
   fmt::print(out, "longest step {:.6g}\n", node.step_length);
@@ -106,16 +110,16 @@ void write_text(const SynchronizedSummary& node, std::FILE* out, bool color) {
     width = std::max(width, printable(child.name).size());
   }
   for (const ChildSummary& child : node.children) {
-    fmt::print(out, "    {:<{}}  waited {:.3f} s in {} ticks\n", printable(child.name), width,
-               child.held_seconds, child.held_ticks);
+    fmt::print(out, "    {:<{}}  waited {:.3f} s in {}\n", printable(child.name), width,
+               child.held_seconds, counted(child.held_ticks, "tick"));
   }
 }
 
 void write_text(const Summary& summary, std::FILE* out, bool color) {
   const auto result = styled(result_text(summary.status), result_style(summary), color);
   const std::string reason = why(summary);
-  fmt::print(out, "{}{}{} after {} ticks, {:.3f} s\n", result, reason.empty() ? "" : ": ", reason,
-             summary.ticks, summary.seconds);
+  fmt::print(out, "{}{}{} after {}, {:.3f} s\n", result, reason.empty() ? "" : ": ", reason,
+             counted(summary.ticks, "tick"), summary.seconds);
   fmt::print(out, "{}", timing(summary));
   for (const SynchronizedSummary& node : summary.synchronized_nodes) write_text(node, out, color);
   for (const std::string& note : summary.notes) {

@@ -18,6 +18,9 @@ std::string_view result_text(Status status);
 // "completed", "fault", "timeout", "max_ticks" or "signal", as recordings and JSON spell it.
 std::string_view to_string(StopReason reason);
 
+// "1 tick", "2 ticks".
+std::string counted(std::uint64_t count, std::string_view noun);
+
 struct ChildSummary {
   std::string name;
   double held_seconds = 0;

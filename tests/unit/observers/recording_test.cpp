@@ -201,7 +201,7 @@ TEST_CASE("info measures a recording as the run was measured") {
         "  Test/ParallelAbsolute (ParallelAbsolute, 4 ticks)\n"
         "    progress distance 0.5, mean 0.125 a tick; largest spread 0.25, longest step 0.5\n"
         "    a  waited 0.000 s in 0 ticks\n"
-        "    b  waited 0.100 s in 1 ticks\n");
+        "    b  waited 0.100 s in 1 tick\n");
 }
 
 TEST_CASE("info says that a recording is cut") {
