@@ -59,10 +59,10 @@ LogSubcommand define_log_measure(CLI::App& log) {
   add_recording_file(*app, options->file);
   app->add_option("--measure", options->measures,
                   "progress-distance, step-length, duration or predictability:NODE@P[=T]: the tick "
-                  "at which NODE's progress is nearest to P, minus T; may be repeated")
+                  "at which NODE's progress is nearest to P, minus T; may be repeated. Default: "
+                  "the first three")
       ->type_name("NAME")
-      ->allow_extra_args(false)
-      ->default_str("the first three");
+      ->allow_extra_args(false);
   app->add_flag("--json", options->json, "Print one line of JSON");
   return {app, [options] { return measure(*options); }};
 }

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <system_error>
 #include <vector>
 
 #include "cli/console.h"
@@ -65,6 +66,17 @@ std::filesystem::path image_of(const Options& options, const ProgressPlot& plot,
   return image.replace_filename(stem + image.extension().string());
 }
 
+// What is drawn is written to three files: none may be the recording.
+bool would_replace_recording(const Options& options, std::filesystem::path image) {
+  for (const std::string& extension :
+       {image.extension().string(), std::string(".dat"), std::string(".gp")}) {
+    std::error_code error;
+    if (std::filesystem::equivalent(options.file, image.replace_extension(extension), error))
+      return true;
+  }
+  return false;
+}
+
 int draw_all(const Options& options, std::span<const ProgressPlot> plots) {
   int drawn = 0;
   for (const ProgressPlot& plot : plots) {
@@ -72,7 +84,11 @@ int draw_all(const Options& options, std::span<const ProgressPlot> plots) {
       print_error(fmt::format("no tick reached '{}'", printable(plot.node.path)));
       continue;
     }
-    const PlotResult result = draw(plot, image_of(options, plot, plots), options.size);
+    const auto image = image_of(options, plot, plots);
+    if (would_replace_recording(options, image)) {
+      return usage_error("the plot would be written over the recording");
+    }
+    const PlotResult result = draw(plot, image, options.size);
     if (!result.ok()) return usage_error(result.error);
     fmt::print("{}\n", printable(result.files.back().string()));
     ++drawn;

@@ -73,13 +73,20 @@ std::string y_range(const BoxPlot& plot) {
   return fmt::format("[{}:{}]", least < 0 ? "*" : "0", most > 0 ? "*" : "0");
 }
 
+// The text of a tic is a format.
+std::string tic_text(std::string_view label) {
+  std::string text;
+  for (const char c : label) text.append(c == '%' ? 2 : 1, c);
+  return gnuplot_string(text);
+}
+
 std::string x_tics(const BoxPlot& plot) {
   std::string tics;
   std::size_t letters = 0;
   for (std::size_t group = 0; group < plot.groups.size(); ++group) {
     letters += plot.groups[group].label.size() + 2;
-    tics += fmt::format("{}{} {}", group == 0 ? "" : ", ", gnuplot_string(plot.groups[group].label),
-                        group);
+    tics +=
+        fmt::format("{}{} {}", group == 0 ? "" : ", ", tic_text(plot.groups[group].label), group);
   }
   const bool crowded = letters > 64;
   return fmt::format("set xtics nomirror scale 0{} ({})\n", crowded ? " rotate by -35" : "", tics);
@@ -146,7 +153,7 @@ std::string box_plot_data(const BoxPlot& plot) {
 std::string box_plot_script(const BoxPlot& plot, PlotSize size) {
   std::string text = "# Made by lockstep. Box: quartiles; line: median; whiskers: minimum and ";
   text += fmt::format("maximum; circle: mean.\n# To draw it again: gnuplot {}.gp\n", plot.stem);
-  text += fmt::format("data = {}\nset encoding utf8\n", gnuplot_string(plot.stem + ".dat"));
+  text += fmt::format("data = {}\nset encoding utf8\n", gnuplot_file(plot.stem + ".dat"));
   text += fmt::format("set title {} noenhanced\n", gnuplot_string(plot.title));
   text += fmt::format("set xlabel {} noenhanced\n", gnuplot_string(plot.x_label));
   text += fmt::format("set ylabel {} noenhanced\n", gnuplot_string(plot.y_label));

@@ -132,13 +132,24 @@ std::string_view plot_color(std::size_t index) {
   return kColors[index % std::size(kColors)];
 }
 
+// In single quotes all is as it stands, but a quote at the beginning cannot be doubled there. In
+// double quotes a backquote would run a command; written as octal digits it is only a letter.
 std::string gnuplot_string(std::string_view text) {
-  std::string literal = "'";
-  for (const char c : printable(text)) {
-    literal += c;
-    if (c == '\'') literal += c;
+  const std::string visible = printable(text);
+  if (visible.find('\'') == std::string::npos) return "'" + visible + "'";
+  std::string literal = "\"";
+  for (const char c : visible) {
+    if (c == '"' || c == '\\' || c == '`' || c == '@' || c == '$') {
+      literal += fmt::format("\\{:03o}", c);
+    } else {
+      literal += c;
+    }
   }
-  return literal + "'";
+  return literal + "\"";
+}
+
+std::string gnuplot_file(std::string_view name) {
+  return gnuplot_string(std::string("./").append(name));
 }
 
 bool is_plot_image(const std::filesystem::path& image) {
@@ -146,7 +157,7 @@ bool is_plot_image(const std::filesystem::path& image) {
 }
 
 std::string gnuplot_terminal(const std::filesystem::path& image, PlotSize size) {
-  const std::string output = gnuplot_string(image.filename().string());
+  const std::string output = gnuplot_file(image.filename().string());
   if (image.extension() == ".svg") {
     return fmt::format(
         "set terminal svg noenhanced size {},{} font 'sans-serif,15' background 'white'\n"

@@ -19,6 +19,10 @@ std::string_view plot_color(std::size_t index);
 // visible as printable() does.
 std::string gnuplot_string(std::string_view text);
 
+// The same for a file in the script's directory, whatever its name: a name of gnuplot's that begins
+// with '<' or '|' would be a command.
+std::string gnuplot_file(std::string_view name);
+
 // The lines that choose what is drawn on, by the extension of `image`: .svg or .png.
 std::string gnuplot_terminal(const std::filesystem::path& image, PlotSize size);
 bool is_plot_image(const std::filesystem::path& image);

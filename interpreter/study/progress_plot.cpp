@@ -23,7 +23,8 @@ double strip_middle(std::size_t child) {
 class Collector {
  public:
   Collector(const RecordingHeader& header, NodeIndex node)
-      : probe_(header, node), period_(header.rate_hz > 0 ? 1 / header.rate_hz : 0) {
+      : probe_(header, node),
+        period_(header.rate_hz > 0 ? from_seconds(1 / header.rate_hz) : Nanoseconds(0)) {
     plot_.index = node;
     plot_.node = header.nodes[node];
     plot_.children = probe_.names();
@@ -49,7 +50,7 @@ class Collector {
 
   void add_end(const RecordedTick& recorded) {
     ProgressSample end = plot_.samples.back();
-    end.time = recorded.time + period_;
+    end.time = to_seconds(from_seconds(recorded.time) + period_);
     end.begins = false;
     for (std::size_t child = 0; child < probe_.children().size(); ++child) {
       if (recorded.nodes[probe_.children()[child]].status == Status::Success) {
@@ -61,7 +62,7 @@ class Collector {
   }
 
   RecordedProbe probe_;
-  double period_;
+  Nanoseconds period_;
   ProgressPlot plot_;
   bool running_ = false;
 };
@@ -200,8 +201,9 @@ std::string progress_plot_script(const ProgressPlot& plot, const std::filesystem
   const std::string stem = image.stem().string();
   std::string text = "# Made by lockstep: progress of the children of a synchronized node; below, ";
   text += fmt::format("when each was held.\n# To draw it again: gnuplot {}.gp\n", printable(stem));
-  text += fmt::format("data = {}\nset encoding utf8\n", gnuplot_string(stem + ".dat"));
+  text += fmt::format("data = {}\nset encoding utf8\n", gnuplot_file(stem + ".dat"));
   text += fmt::format("set title {} noenhanced\n", gnuplot_string(caption(plot)));
+  text += "set samples 2\n";  // a barrier is a straight line: two points, not a hundred
   text += "set xlabel 'time (s)'\nset ylabel 'progress'\n" + axes(plot);
   text +=
       "set xtics nomirror out scale 0.5\n"

@@ -1,0 +1,188 @@
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+
+using namespace lockstep::test;
+
+namespace {
+
+// The traces of the two synchronized nodes that are worked out by hand.
+const std::string kA1 =
+    "<ParallelAbsolute name=\"pull\" barriers=\"0.5;1\">"
+    "<Advance name=\"arm\" step=\"0.1\"/><Advance name=\"base\" step=\"0.3\"/></ParallelAbsolute>";
+const std::string kR1 =
+    "<ParallelRelative name=\"point\" delta=\"0.2\">"
+    "<Advance name=\"arm\" step=\"0.1\"/><Advance name=\"head\" step=\"0.3\"/></ParallelRelative>";
+
+std::string record(const TemporaryDirectory& directory, const std::string& node) {
+  const std::string tree = directory.file("tree.xml", tree_text(node));
+  const std::string file = directory.path("run.jsonl");
+  const Outcome outcome = lockstep::test::lockstep(
+      {"run", tree, "--clock", "virtual", "--view", "none", "--record", file});
+  REQUIRE(outcome.code == 0);
+  return file;
+}
+
+Outcome log(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "log");
+  return lockstep::test::lockstep(std::move(arguments));
+}
+
+double measure(const std::string& recording, const std::string& name) {
+  const Outcome outcome = log({"measure", recording, "--measure", name, "--json"});
+  REQUIRE(outcome.code == 0);
+  const auto json = nlohmann::json::parse(outcome.out);
+  REQUIRE(json.size() == 1);
+  CHECK(json[0]["measure"] == name);
+  return json[0]["value"];
+}
+
+bool is_svg(const std::string& file) {
+  return run({.arguments = {"--noout", "--nonet", file}, .program = "/usr/bin/xmllint"}).code == 0;
+}
+
+}  // namespace
+
+TEST_CASE("log measure gives the numbers of the worked traces") {
+  const TemporaryDirectory directory;
+  SECTION("absolute: two barriers") {
+    const std::string recording = record(directory, kA1);
+    CHECK(measure(recording, "progress-distance") == Approx(2.1));
+    // base: 0 .3 .6 .6 .6 .6 .9 1, so its step from .6 to .9
+    CHECK(measure(recording, "step-length") == Approx(0.3));
+    CHECK(measure(recording, "duration") == Approx(0.1));
+    CHECK(measure(recording, "predictability:base@0.6") == 2);
+    CHECK(measure(recording, "predictability:Main/pull/base@0.6=6") == -4);
+    // reached in the last tick, the tenth: no tick has seen it
+    CHECK(measure(recording, "predictability:arm@1") == 10);
+  }
+  SECTION("relative: delta 0.2") {
+    const std::string recording = record(directory, kR1);
+    CHECK(measure(recording, "progress-distance") == Approx(2.3));
+    CHECK(measure(recording, "duration") == Approx(0.1));
+  }
+}
+
+TEST_CASE("log measure prints a table, of what a study measures") {
+  const TemporaryDirectory directory;
+  const Outcome outcome = log({"measure", record(directory, kA1)});
+  CHECK(outcome.code == 0);
+  CHECK(outcome.err.empty());
+  CHECK(outcome.out ==
+        "node       measure            value\n"
+        "Main/pull  progress-distance  2.1\n"
+        "Main/pull  step-length        0.3\n"
+        "Main       duration           0.1\n");
+}
+
+TEST_CASE("log measure tells which name it does not know") {
+  const TemporaryDirectory directory;
+  const std::string recording = record(directory, kA1);
+  const std::pair<std::string, std::string> wrong[] = {
+      {"speed", "unknown measure 'speed', expected progress-distance, "},
+      {"duration:x", "expected nothing after 'duration'"},
+      {"predictability", "expected 'predictability:NODE@P'"},
+      {"predictability:@0.5", "expected 'predictability:NODE@P'"},
+      {"predictability:arm@1.5", "is '1.5', expected a number from 0 to 1"},
+      {"predictability:arm@0.5=soon", "is 'soon', expected a number of ticks"},
+      {"predictability:leg@0.5", "no node 'leg'"},
+  };
+  for (const auto& [name, message] : wrong) {
+    const Outcome outcome = log({"measure", recording, "--measure", name});
+    INFO(outcome.err);
+    CHECK(outcome.code == 2);
+    CHECK(contains(outcome.err, message));
+    CHECK(outcome.out.empty());
+  }
+}
+
+TEST_CASE("log measure: the end of a path must mean one node") {
+  const TemporaryDirectory directory;
+  const std::string recording =
+      record(directory,
+             "<Parallel><Sequence name=\"a\"><Advance name=\"arm\"/></Sequence>"
+             "<Sequence name=\"b\"><Advance name=\"arm\"/></Sequence></Parallel>");
+  CHECK(measure(recording, "predictability:a/arm@0.5") == 50);
+  const Outcome outcome = log({"measure", recording, "--measure", "predictability:arm@0.5"});
+  CHECK(outcome.code == 2);
+  CHECK(contains(outcome.err, "/a/arm' as well as "));
+}
+
+TEST_CASE("log plot draws an SVG or a PNG, with data and script beside it") {
+  const TemporaryDirectory directory;
+  const std::string recording = record(directory, GENERATE(kA1, kR1));
+  const Outcome svg = log({"plot", recording, "--out", directory.path("x.svg")});
+  CHECK(svg.code == 0);
+  CHECK(svg.err.empty());
+  CHECK(svg.out == directory.path("x.svg") + "\n");
+  CHECK(is_svg(directory.path("x.svg")));
+  CHECK(contains(read_file(directory.path("x.svg")), ">arm</text>"));
+  CHECK(log({"plot", recording, "--out", directory.path("x.png"), "--width", "300"}).code == 0);
+  CHECK(read_file(directory.path("x.png")).starts_with("\x89PNG\r\n\x1a\n"));
+  CHECK(contains(read_file(directory.path("x.gp")), "size 600,"));
+  // The last line leads to what the last tick reached: a period after it.
+  CHECK(contains(read_file(directory.path("x.dat")), "\n0.1 1 1 1 1\n"));
+}
+
+TEST_CASE("log plot draws a file for each synchronized node, or for the one that is named") {
+  const TemporaryDirectory directory;
+  const std::string recording =
+      record(directory, "<Sequence memory=\"true\">" + kA1 + kR1 + "</Sequence>");
+  const Outcome both = log({"plot", recording, "--out", directory.path("x.svg")});
+  CHECK(both.code == 0);
+  CHECK(both.out == directory.path("x-pull.svg") + "\n" + directory.path("x-point.svg") + "\n");
+  const Outcome one = log({"plot", recording, "--out", directory.path("y.svg"), "--node", "point"});
+  CHECK(one.code == 0);
+  CHECK(one.out == directory.path("y.svg") + "\n");
+  const Outcome none = log({"plot", recording, "--out", directory.path("z.svg"), "--node", "arm"});
+  CHECK(none.code == 2);
+  CHECK(contains(none.err, "no node 'arm'"));
+}
+
+TEST_CASE("log plot says what it cannot draw") {
+  const TemporaryDirectory directory;
+  const std::string plain = record(directory, "<Parallel><Advance name=\"arm\"/></Parallel>");
+  const Outcome none = log({"plot", plain, "--out", directory.path("x.svg")});
+  CHECK(none.code == 2);
+  CHECK(contains(none.err, "the recording has no synchronized node"));
+  CHECK(!std::filesystem::exists(directory.path("x.gp")));
+  const std::string recording = record(directory, kA1);
+  const Outcome format = log({"plot", recording, "--out", directory.path("x.pdf")});
+  CHECK(format.code == 2);
+  CHECK(contains(format.err, "expected a name that ends in .svg or .png"));
+  const Outcome nowhere = log({"plot", recording, "--out", directory.path("none/x.svg")});
+  CHECK(nowhere.code == 2);
+  CHECK(contains(nowhere.err, "No such file or directory"));
+  CHECK(log({"plot", recording}).code == 2);
+  const std::string text = read_file(recording);
+  const std::string named = directory.file("run.dat", text);
+  CHECK(log({"plot", named, "--out", directory.path("run.svg")}).code == 2);
+  CHECK((read_file(named) == text));
+}
+
+TEST_CASE("log plot without gnuplot names the package and leaves the data") {
+  const TemporaryDirectory directory;
+  const std::string recording = record(directory, kA1);
+  const Outcome outcome =
+      run({.arguments = {"log", "plot", recording, "--out", directory.path("x.svg")},
+           .environment = {{"PATH", directory.path("")}}});
+  CHECK(outcome.code == 2);
+  CHECK(outcome.out.empty());
+  CHECK(contains(outcome.err, "install the package 'gnuplot-nox'"));
+  CHECK(contains(read_file(directory.path("x.dat")), "# time_s"));
+}
+
+TEST_CASE("log measure and log plot read what a cut recording has") {
+  const TemporaryDirectory directory;
+  std::string text = read_file(record(directory, kA1));
+  text.resize(text.size() * 3 / 4);
+  const std::string cut = directory.file("cut.jsonl", text);
+  for (const Outcome& outcome :
+       {log({"measure", cut}), log({"plot", cut, "--out", directory.path("x.svg")})}) {
+    CHECK(outcome.code == 0);
+    CHECK(!outcome.out.empty());
+    CHECK(contains(outcome.err, "the recording is cut"));
+  }
+}

@@ -1,0 +1,288 @@
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "study/box_plot.h"
+#include "study/gnuplot.h"
+#include "study/progress_plot.h"
+
+using namespace lockstep;
+namespace fs = std::filesystem;
+
+namespace {
+
+class Directory {
+ public:
+  Directory() {
+    std::string name = (fs::temp_directory_path() / "lockstep-plot-XXXXXX").string();
+    REQUIRE(mkdtemp(name.data()) != nullptr);
+    path_ = name;
+  }
+  ~Directory() { fs::remove_all(path_); }
+  fs::path operator/(const std::string& name) const { return path_ / name; }
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+// The program's search path, for as long as this lives.
+class SearchPath {
+ public:
+  explicit SearchPath(const std::string& value) : before_(std::getenv("PATH")) {
+    setenv("PATH", value.c_str(), 1);
+  }
+  ~SearchPath() { setenv("PATH", before_.c_str(), 1); }
+
+ private:
+  std::string before_;
+};
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+bool is_xml(const fs::path& file) {
+  return std::system(("xmllint --noout --nonet '" + file.string() + "'").c_str()) == 0;
+}
+
+bool is_png(const fs::path& file) {
+  return text_of(file).starts_with("\x89PNG\r\n\x1a\n");
+}
+
+SampleSummary summary(double middle) {
+  return {.count = 5,
+          .min = middle - 2,
+          .q1 = middle - 1,
+          .median = middle,
+          .q3 = middle + 1,
+          .max = middle + 2,
+          .mean = middle + 0.5};
+}
+
+BoxPlot small_plot() {
+  BoxPlot plot;
+  plot.stem = "small";
+  plot.title = "t";
+  plot.x_label = "delta";
+  plot.y_label = "step length";
+  plot.groups = {{"1", {summary(3)}}, {"0.5", {summary(2)}}};
+  return plot;
+}
+
+// Two children; the second is held in the second of three samples.
+ProgressPlot small_progress() {
+  ProgressPlot plot;
+  plot.node.path = "Main/pull";
+  plot.node.synchronization = Synchronization::Absolute;
+  plot.node.barriers = {0.5, 1};
+  plot.children = {"arm", "base"};
+  plot.samples = {{0, true, {0, 0}, {false, false}},
+                  {0.1, false, {0.25, 0.5}, {false, true}},
+                  {0.2, false, {0.5, 0.5}, {false, false}}};
+  return plot;
+}
+
+}  // namespace
+
+TEST_CASE("box plots: the last grid name runs along x, the others make plots") {
+  const std::vector<std::string> names = {"noise", "barrier_count"};
+  std::vector<SummaryRow> rows;
+  for (const std::string noise : {"0", "0.02"}) {
+    for (const std::string count : {"0", "5"}) {
+      rows.push_back({{noise, count}, "Main/sync", "progress-distance", summary(1)});
+      rows.push_back({{noise, count}, "Main/sync/task", "predictability:task@0.6=600", summary(2)});
+    }
+  }
+  const auto plots = box_plots(names, rows);
+  REQUIRE(plots.size() == 4);
+  CHECK(plots[0].stem == "sync-progress-distance-noise_0");
+  CHECK(plots[0].title == "Main/sync:  noise = 0");
+  CHECK(plots[0].x_label == "barrier_count");
+  CHECK(plots[0].y_label == "progress distance");
+  REQUIRE(plots[0].groups.size() == 2);
+  CHECK(plots[0].groups[0].label == "0");
+  CHECK(plots[0].groups[1].label == "5");
+  CHECK(plots[1].y_label == "predictability distance at 0.6 (ticks)");
+  CHECK(plots[1].groups[1].boxes[0]->median == 2);
+  CHECK(plots[3].title == "Main/sync/task:  noise = 0.02");
+}
+
+TEST_CASE("box plots: without a grid there is one box; files never share a name") {
+  const std::vector<SummaryRow> rows = {{{}, "Main/a/sync", "duration", summary(1)},
+                                        {{}, "Main/b/sync", "duration", summary(2)}};
+  const auto plots = box_plots({}, rows);
+  REQUIRE(plots.size() == 2);
+  CHECK(plots[0].groups.size() == 1);
+  CHECK(plots[0].stem == "sync-duration");
+  CHECK(plots[1].stem == "sync-duration-2");
+}
+
+TEST_CASE("box plots: the data are the numbers, series by series") {
+  BoxPlot plot = small_plot();
+  CHECK(box_plot_data(plot) ==
+        "# x min q1 median q3 max mean n, and what stands at x\n"
+        "# \n"
+        "0 1 2 3 4 5 3.5 5 # 1\n"
+        "1 0 1 2 3 4 2.5 5 # 0.5\n");
+  plot.series = {"wait", "tick"};
+  plot.groups[0].boxes = {summary(3), std::nullopt};
+  plot.groups[1].boxes = {std::nullopt, summary(2)};
+  CHECK(box_plot_data(plot) ==
+        "# x min q1 median q3 max mean n, and what stands at x\n"
+        "# wait\n"
+        "-0.175 1 2 3 4 5 3.5 5 # 1\n"
+        "\n\n"
+        "# tick\n"
+        "1.175 0 1 2 3 4 2.5 5 # 0.5\n");
+}
+
+TEST_CASE("box plots: the script") {
+  const std::string script = box_plot_script(small_plot(), {.width = 300, .height = 200});
+  CHECK(contains(script,
+                 "set xlabel 'delta' noenhanced\nset ylabel 'step length' noenhanced\n"
+                 "set xtics nomirror scale 0 ('1' 0, '0.5' 1)\n"
+                 "set xrange [-0.6:1.6]\nset yrange [0:*]\n"));
+  CHECK(contains(script, "set terminal svg noenhanced size 300,200 "));
+  CHECK(contains(script,
+                 "set output './small.svg'\nplot \\\n  data index 0 using 1:3:2:6:5 with "
+                 "candlesticks whiskerbars 0.5 lc rgb '#0072b2' lw 1.4 notitle, \\\n"));
+  CHECK(script.ends_with("set output './small.png'\nreplot\n"));
+}
+
+TEST_CASE("box plots: gnuplot draws them, also when all is 0, below 0 or missing") {
+  const Directory directory;
+  BoxPlot plot = small_plot();
+  SECTION("as they come") {}
+  SECTION("all 0") {
+    plot.groups = {{"1", {SampleSummary{}}}};
+  }
+  SECTION("below 0") {
+    plot.groups = {{"1", {summary(-570)}}};
+  }
+  SECTION("a series without a box here") {
+    plot.series = {"wait", "tick"};
+    plot.groups[0].boxes.push_back(summary(1));
+  }
+  const PlotResult result = draw(plot, directory.path());
+  CHECK(result.error == "");
+  REQUIRE(result.files.size() == 4);
+  CHECK(result.files[2] == directory / "small.svg");
+  CHECK(is_xml(directory / "small.svg"));
+  CHECK(is_png(directory / "small.png"));
+}
+
+TEST_CASE("plots: any text is drawn as it is, and run by nobody") {
+  const Directory directory;
+  BoxPlot plot = small_plot();
+  const std::string mark = (directory / "mark").string();
+  plot.title = "it's `touch " + mark + "` \"$(touch " + mark + ")\" @x {/Bold y}_z \\";
+  plot.x_label = "';system('touch " + mark + "');'";
+  plot.y_label = "`touch " + mark + "` \" @x $y \\";
+  plot.groups[0].label = "a\nb\x1b 50%d %";
+  const PlotResult result = draw(plot, directory.path());
+  CHECK(result.error == "");
+  CHECK(!fs::exists(mark));
+  const std::string svg = text_of(directory / "small.svg");
+  CHECK(contains(svg, "it's `touch "));
+  CHECK(contains(svg, ">';system('touch "));
+  CHECK(contains(svg, ">`touch "));
+  CHECK(contains(svg, "` &quot; @x $y \\<") != contains(svg, "` \" @x $y \\<"));
+  CHECK(contains(svg, "@x {/Bold y}_z \\"));
+  CHECK(contains(svg, "a\\x0Ab\\x1B 50%d %<"));
+}
+
+TEST_CASE("plots: no name of a file is a command") {
+  const Directory directory;
+  for (const std::string stem : {"<touch mark", "|touch mark", "-", "it's"}) {
+    const PlotResult result = draw(small_progress(), directory / (stem + ".svg"));
+    CHECK(result.error == "");
+    CHECK(text_of(directory / (stem + ".svg")).starts_with("<?xml"));
+  }
+  CHECK(!fs::exists(directory / "mark"));
+}
+
+TEST_CASE("plots: without gnuplot there is the data, and the name of the package") {
+  const Directory directory;
+  PlotResult result;
+  {
+    const SearchPath nothing(directory.path().string());
+    result = draw(small_plot(), directory.path());
+  }
+  CHECK(result.gnuplot_missing);
+  CHECK(contains(result.error, "'gnuplot-nox'"));
+  CHECK(result.files == std::vector<fs::path>{directory / "small.dat", directory / "small.gp"});
+  CHECK(text_of(directory / "small.dat") == box_plot_data(small_plot()));
+  CHECK(!fs::exists(directory / "small.svg"));
+}
+
+TEST_CASE("plots: what gnuplot says of an error is told, and no half image stays") {
+  const Directory directory;
+  const PlotResult result = draw(PlotFiles{.directory = directory.path(),
+                                           .stem = "bad",
+                                           .data = "",
+                                           .script = "set terminal svg\nset output 'bad.svg'\n"
+                                                     "plot sin(x)\nplot sin(x) bogus\n",
+                                           .images = {"bad.svg"}});
+  CHECK(!result.gnuplot_missing);
+  CHECK(contains(result.error, "gnuplot has failed:\n"));
+  CHECK(contains(result.error, "\"./bad.gp\" line 4: unexpected or unrecognized token"));
+  CHECK(!fs::exists(directory / "bad.svg"));
+}
+
+TEST_CASE("plots: a directory that is not there is told") {
+  const Directory directory;
+  const PlotResult result = draw(small_plot(), directory / "none");
+  CHECK(contains(result.error, "small.dat': No such file or directory"));
+  CHECK(!result.gnuplot_missing);
+}
+
+TEST_CASE("progress plot: the data are the samples, and when each child was held") {
+  ProgressPlot plot = small_progress();
+  CHECK(progress_plot_data(plot) ==
+        "# time_s least most_allowed arm base\n"
+        "0 0 1 0 0\n"
+        "0.1 0.25 1 0.25 0.5\n"
+        "0.2 0.5 1 0.5 0.5\n"
+        "\n\n"
+        "# base is held: from_s to_s child\n"
+        "0.1 0.2 1\n");
+  plot.node.synchronization = Synchronization::Relative;
+  plot.node.delta = 0.7;
+  plot.samples[2] = {0.4, true, {0.5, 0.5}, {false, false}};
+  CHECK(progress_plot_data(plot) ==
+        "# time_s least most_allowed arm base\n"
+        "0 0 0.7 0 0\n"
+        "0.1 0.25 0.95 0.25 0.5\n"
+        "\n"
+        "0.4 0.5 1 0.5 0.5\n");
+}
+
+TEST_CASE("progress plot: the script draws barriers or the band of delta") {
+  ProgressPlot plot = small_progress();
+  const auto script = [&] { return progress_plot_script(plot, "x.svg", {}); };
+  CHECK(contains(script(), "set title 'Main/pull   (2 barriers)' noenhanced\n"));
+  CHECK(contains(script(),
+                 "  0.5 with lines lc rgb '#808080' lw 0.8 dt (6,4) title 'barrier', "
+                 "\\\n  1 with lines lc rgb '#808080' lw 0.8 dt (6,4) notitle, \\\n"
+                 "  data index 0 using 1:4 with lines lc rgb '#0072b2' lw 2.2 title "
+                 "'arm', \\\n"));
+  CHECK(contains(script(), "  data index 1 using 1:(-0.1325):1:2:"));
+  CHECK(!contains(script(), "data index 2"));
+  plot.node.synchronization = Synchronization::Relative;
+  plot.node.delta = 0.1;
+  CHECK(contains(script(), "set title 'Main/pull   (delta = 0.1)' noenhanced\n"));
+  CHECK(contains(script(), "  data index 0 using 1:2:3 with filledcurves "));
+  CHECK(!contains(script(), "'barrier'"));
+}
