@@ -1,9 +1,8 @@
 #include "engine/nodes/decorator.h"
+#include "engine/nodes/timed.h"
 
 namespace lockstep {
 namespace {
-
-constexpr unsigned kSeconds = 0;
 
 constexpr Parameter kParameters[] = {
     {.name = "seconds",
@@ -14,16 +13,8 @@ constexpr Parameter kParameters[] = {
      .range = {.min = 0, .max = 1e9, .min_excluded = true}},
 };
 
-struct State {
-  Nanoseconds start;
-};
-
 Status tick(Ticker& ticker, NodeIndex self) {
-  State& state = ticker.state<State>(self);
-  if (ticker.first_tick(self)) state.start = ticker.now();
-  if (ticker.now() - state.start < from_seconds(ticker.parameter(self, kSeconds).number)) {
-    return ticker.tick(self + 1);
-  }
+  if (!timed::is_over(ticker, self)) return ticker.tick(self + 1);
   ticker.halt(self + 1);
   return Status::Failure;
 }
@@ -38,6 +29,6 @@ const NodeKind kTimeout{
              .parameters = kParameters},
     .tick = tick,
     .progress = decorator::child_progress,
-    .state_size = sizeof(State)};
+    .state_size = sizeof(timed::State)};
 
 }  // namespace lockstep
