@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "core/diagnostics.h"
-#include "observers/recorded_probe.h"
 #include "study/gnuplot.h"
 
 namespace lockstep {
@@ -18,54 +17,6 @@ constexpr double kStripTop = -0.05, kStripStep = 0.055, kStripHeight = 0.034;
 double strip_middle(std::size_t child) {
   return kStripTop - kStripStep * (static_cast<double>(child) + 0.5);
 }
-
-// Collects the samples of one node.
-class Collector {
- public:
-  Collector(const RecordingHeader& header, NodeIndex node)
-      : probe_(header, node),
-        period_(header.rate_hz > 0 ? from_seconds(1 / header.rate_hz) : Nanoseconds(0)) {
-    plot_.index = node;
-    plot_.node = header.nodes[node];
-    plot_.children = probe_.names();
-  }
-
-  void after_tick(const RecordedTick& recorded) {
-    const SynchronizedTick tick = probe_.read(recorded);
-    if (tick.ticked) add(recorded.time, tick);
-    running_ = tick.status == Status::Running;
-    // What the last tick of an activation led to is in no later sample of it.
-    if (tick.ticked && !running_) add_end(recorded);
-  }
-
-  ProgressPlot plot() && { return std::move(plot_); }
-
- private:
-  void add(double time, const SynchronizedTick& tick) {
-    plot_.samples.push_back({.time = time,
-                             .begins = !running_,
-                             .progress = {tick.progress.begin(), tick.progress.end()},
-                             .held = {tick.held.begin(), tick.held.end()}});
-  }
-
-  void add_end(const RecordedTick& recorded) {
-    ProgressSample end = plot_.samples.back();
-    end.time = to_seconds(from_seconds(recorded.time) + period_);
-    end.begins = false;
-    for (std::size_t child = 0; child < probe_.children().size(); ++child) {
-      if (recorded.nodes[probe_.children()[child]].status == Status::Success) {
-        end.progress[child] = 1;
-      }
-      end.held[child] = false;
-    }
-    plot_.samples.push_back(std::move(end));
-  }
-
-  RecordedProbe probe_;
-  Nanoseconds period_;
-  ProgressPlot plot_;
-  bool running_ = false;
-};
 
 bool is_relative(const ProgressPlot& plot) {
   return plot.node.synchronization == Synchronization::Relative;
@@ -172,18 +123,6 @@ std::string axes(const ProgressPlot& plot) {
 }
 
 }  // namespace
-
-std::vector<ProgressPlot> progress_plots(RecordingReader& reader,
-                                         std::span<const NodeIndex> nodes) {
-  std::vector<Collector> collectors;
-  for (const NodeIndex node : nodes) collectors.emplace_back(reader.header(), node);
-  while (const auto tick = reader.next()) {
-    for (Collector& collector : collectors) collector.after_tick(*tick);
-  }
-  std::vector<ProgressPlot> plots;
-  for (Collector& collector : collectors) plots.push_back(std::move(collector).plot());
-  return plots;
-}
 
 std::string progress_plot_data(const ProgressPlot& plot) {
   std::string text = sample_lines(plot);
