@@ -103,10 +103,11 @@ TEST_CASE("box plots: the last grid name runs along x, the others make plots") {
     for (const std::string count : {"0", "5"}) {
       rows.push_back({{noise, count}, "Main/sync", "progress-distance", summary(1)});
       rows.push_back({{noise, count}, "Main/sync/task", "predictability:task@0.6=600", summary(2)});
+      rows.push_back({{noise, count}, "Main/sync", "step-length", summary(3)});
     }
   }
   const auto plots = box_plots(names, rows);
-  REQUIRE(plots.size() == 4);
+  REQUIRE(plots.size() == 6);
   CHECK(plots[0].stem == "sync-progress-distance-noise_0");
   CHECK(plots[0].title == "Main/sync:  noise = 0");
   CHECK(plots[0].x_label == "barrier_count");
@@ -116,7 +117,8 @@ TEST_CASE("box plots: the last grid name runs along x, the others make plots") {
   CHECK(plots[0].groups[1].label == "5");
   CHECK(plots[1].y_label == "predictability distance at 0.6 (ticks)");
   CHECK(plots[1].groups[1].boxes[0]->median == 2);
-  CHECK(plots[3].title == "Main/sync/task:  noise = 0.02");
+  CHECK(plots[2].y_label == "step length");
+  CHECK(plots[4].title == "Main/sync/task:  noise = 0.02");
 }
 
 TEST_CASE("box plots: without a grid there is one box; files never share a name") {
