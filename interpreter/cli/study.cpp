@@ -11,6 +11,7 @@
 #include "cli/study_progress.h"
 #include "cli/study_summary.h"
 #include "runtime/stop_signals.h"
+#include "study/box_plot.h"
 #include "study/folder.h"
 #include "study/merge.h"
 #include "study/workers.h"
@@ -24,6 +25,7 @@ struct Options {
   std::string out;
   bool resume = false;
   bool json = false;
+  bool no_plots = false;
   std::vector<std::string> parts;  // of `merge`
 };
 
@@ -40,6 +42,31 @@ int print_summary(const Options& options, const StudyPlan& plan,
     fmt::print("{}", summary_table(plan, rows));
   }
   return flush_stdout() ? kExitSuccess : kExitUsage;
+}
+
+// Box plots, beside the data. Without gnuplot there are the data.
+int draw_plots(const Options& options, const std::string& directory, const StudyPlan& plan,
+               const std::vector<SummaryRow>& rows) {
+  if (options.no_plots || plan.shard != StudyShard{}) return kExitSuccess;
+  std::vector<std::string> names;
+  for (const GridAxis& axis : plan.grid) names.push_back(axis.name);
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error) return fail(fmt::format("cannot make '{}': {}", directory, error.message()));
+  for (const BoxPlot& plot : box_plots(names, rows)) {
+    const PlotResult drawn = draw(plot, directory);
+    if (drawn.ok()) continue;
+    print_error(drawn.error);
+    return drawn.gnuplot_missing ? kExitSuccess : kExitUsage;
+  }
+  return kExitSuccess;
+}
+
+int finish(const Options& options, const StudyFolder& folder, const StudyPlan& plan,
+           const std::vector<SummaryRow>& rows) {
+  const int printed = print_summary(options, plan, rows);
+  const int drawn = draw_plots(options, folder.file("plots"), plan, rows);
+  return printed == kExitSuccess ? drawn : printed;
 }
 
 std::string out_directory(const Options& options) {
@@ -124,7 +151,7 @@ int make_study(const Options& options, const LoadedStudy& study) {
     return fail("interrupted; the same command with --resume goes on", kExitSignal + signal);
   }
   const auto rows = folder.finish(plan);
-  return rows ? print_summary(options, plan, *rows) : fail(folder.error());
+  return rows ? finish(options, folder, plan, *rows) : fail(folder.error());
 }
 
 int run(const Options& options) {
@@ -145,7 +172,7 @@ int merge(const Options& options) {
   StudyPlan plan;
   std::string error;
   const auto rows = merge_studies(options.parts, options.out, plan, error);
-  return rows ? print_summary(options, plan, *rows) : fail(error);
+  return rows ? finish(options, StudyFolder(options.out), plan, *rows) : fail(error);
 }
 
 std::string check_count(const std::string& text) {
@@ -163,6 +190,7 @@ void define_merge(CLI::App& app, const std::shared_ptr<Options>& options) {
       ->required();
   app.add_option("--out", options->out, "Directory to write, new")->type_name("DIR")->required();
   app.add_flag("--json", options->json, "Print the summary as JSON");
+  app.add_flag("--no-plots", options->no_plots, "Draw no box plots");
 }
 
 void define_runs(CLI::App& app, StudyOptions& options) {
@@ -210,6 +238,7 @@ std::function<int()> define(CLI::App& app) {
   app.add_flag("--resume", options->resume,
                "Go on with the study that is in the directory, if there is one");
   app.add_flag("--json", options->json, "Print the summary as JSON");
+  app.add_flag("--no-plots", options->no_plots, "Draw no box plots");
   add_load_options(app, options->study.load);
   CLI::App* parts = app.add_subcommand("merge", "Put the parts of a study together");
   define_merge(*parts, options);
@@ -225,8 +254,9 @@ std::function<int()> define(CLI::App& app) {
 
 const Command kStudyCommand{
     "study", "Run a tree many times, over a grid of arguments, and measure it",
-    "Writes runs.csv (a row per run), summary.csv (box-plot numbers) and study.json (how it was\n"
-    "made); the summary goes to stdout. See docs/studies.md.\n"
+    "Writes runs.csv (a row per run), summary.csv (box-plot numbers), study.json (how it was "
+    "made)\n"
+    "and, with gnuplot, plots/; the summary goes to stdout. See docs/studies.md.\n"
     "Exit code: 0 made, 2 usage or a directory that cannot be used, 3 invalid tree, 4 plugin\n"
     "refused, 5 leaf fault, 130 SIGINT, 143 SIGTERM (what was finished is on disk: --resume).\n"
     "\n"

@@ -9,7 +9,7 @@
 namespace lockstep {
 namespace {
 
-constexpr std::chrono::milliseconds kBarInterval{200};
+constexpr std::chrono::milliseconds kBarInterval{200};  // the first comes at once
 constexpr std::chrono::seconds kLineInterval{10};
 
 std::string duration_text(double seconds) {
@@ -22,7 +22,11 @@ std::string duration_text(double seconds) {
 }  // namespace
 
 StudyProgress::StudyProgress(std::uint64_t done, std::uint64_t total)
-    : is_terminal_(is_terminal(stderr)), before_(done), total_(total), done_(done) {}
+    : is_terminal_(is_terminal(stderr)),
+      before_(done),
+      total_(total),
+      done_(done),
+      shown_(is_terminal_ ? start_ - kBarInterval : start_) {}
 
 StudyProgress::~StudyProgress() {
   if (is_visible_) fmt::print(stderr, "\r\x1b[K");

@@ -27,7 +27,7 @@ class StudyProgress {
   const std::uint64_t total_;
   std::uint64_t done_;
   const Clock::time_point start_ = Clock::now();
-  Clock::time_point shown_ = start_;
+  Clock::time_point shown_;
   bool is_visible_ = false;
 };
 

@@ -1,0 +1,197 @@
+// However a study is made, at once or in parts, on one thread or many, with or without a kill in
+// between: the bytes are the same.
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "study/study_case.h"
+
+namespace lockstep::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Strings = std::vector<std::string>;
+
+// 4 cells of 23 runs: neither chunks nor shards come out even.
+const Strings kStudy{kPaper + "example5.xml",
+                     "--runs",
+                     "23",
+                     "--grid",
+                     "barrier_count=0,5",
+                     "--grid",
+                     "noise=0.01,0.05",
+                     "--measure",
+                     "progress-distance",
+                     "--measure",
+                     "predictability:a1@0.6=60"};
+
+Strings with(Strings arguments, const Strings& more) {
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+void write(const std::string& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+}  // namespace
+
+TEST_CASE("a study is the same twice, and on one thread or several") {
+  const StudyCase it;
+  it.make(with(kStudy, {"--jobs", "1"}), "one");
+  it.make(with(kStudy, {"--jobs", "1"}), "again");
+  it.make(with(kStudy, {"--jobs", "2"}), "two");
+  it.make(with(kStudy, {"--jobs", "7"}), "seven");
+  CHECK(it.bytes("one") == it.bytes("again"));
+  CHECK(it.bytes("one") == it.bytes("two"));
+  CHECK(it.bytes("one") == it.bytes("seven"));
+  it.make(with(kStudy, {"--seed", "8"}), "other");
+  CHECK(it.read("one", "runs.csv") != it.read("other", "runs.csv"));
+}
+
+TEST_CASE("a study has a row for each run of each cell, the first name varies slowest") {
+  const StudyCase it;
+  it.make(kStudy, "out");
+  const auto rows = lines(it.read("out", "runs.csv"));
+  REQUIRE(rows.size() == 1 + 4 * 23);
+  CHECK(rows[0] ==
+        "cell,barrier_count,noise,run,seed,ticks,result,progress-distance Example5/parallel,"
+        "predictability:a1@0.6=60 Example5/parallel/a1");
+  CHECK(rows[1].starts_with("0,0,0.01,0,"));
+  CHECK(rows[23].starts_with("0,0,0.01,22,"));
+  CHECK(rows[24].starts_with("1,0,0.05,0,"));
+  CHECK(rows[47].starts_with("2,5,0.01,0,"));
+  CHECK(rows[92].starts_with("3,5,0.05,22,"));
+  const auto summary = lines(it.read("out", "summary.csv"));
+  REQUIRE(summary.size() == 1 + 4 * 2);
+  CHECK(summary[0] == "barrier_count,noise,node,measure,min,q1,median,q3,max,mean,n");
+  CHECK(summary[1].starts_with("0,0.01,Example5/parallel,progress-distance,"));
+  CHECK(summary[1].ends_with(",23"));
+}
+
+TEST_CASE("parts put together are the study that one machine makes") {
+  const StudyCase it;
+  it.make(kStudy, "whole");
+  for (const std::string part : {"1", "2", "3", "4", "5"}) {
+    it.make(with(kStudy, {"--shard", part + "/5"}), "part" + part);
+  }
+  // In any order.
+  const Outcome merged = it.merge({"part3", "part1", "part5", "part2", "part4"}, "merged");
+  INFO(merged.err);
+  CHECK(merged.code == 0);
+  CHECK(it.bytes("merged") == it.bytes("whole"));
+}
+
+TEST_CASE("parts that do not fit together are refused, and why is said") {
+  const StudyCase it;
+  it.make(with(kStudy, {"--shard", "1/2"}), "a");
+  it.make(with(kStudy, {"--shard", "2/2"}), "b");
+  it.make(with(kStudy, {"--shard", "2/3"}), "third");
+  it.make(with(kStudy, {"--shard", "2/2", "--seed", "8"}), "seed");
+  const auto refused = [&](Strings parts, const std::string& why) {
+    const Outcome outcome = it.merge(std::move(parts), "merged");
+    INFO(outcome.err);
+    CHECK(outcome.code == 2);
+    CHECK(contains(outcome.err, why));
+    CHECK_FALSE(fs::exists(it.path("merged/summary.csv")));
+  };
+  refused({"a"}, "of 2 parts these are missing: 2");
+  refused({"a", "a"}, "are both part 1 of 2");
+  refused({"a", "third"}, "is one of 3 parts");
+  refused({"a", "seed"}, "its 'seed' differs");
+  refused({"a", "nowhere"}, "is not a study");
+  const std::string rows = it.read("b", "runs.csv");
+  write(it.path("b/runs.csv"), rows.substr(0, rows.size() / 2));
+  refused({"a", "b"}, "is not finished: it has");
+}
+
+TEST_CASE("a study cut at any byte goes on to the same bytes") {
+  const StudyCase it;
+  it.make(kStudy, "whole");
+  const std::string rows = it.read("whole", "runs.csv");
+  const std::size_t header = rows.find('\n') + 1;
+  const std::size_t line = rows.find('\n', header) + 1;
+  for (const std::size_t cut :
+       {std::size_t{0}, std::size_t{5}, header - 1, header, header + 1, line - 1, line, line + 3,
+        rows.size() / 3, rows.size() / 2, rows.size() - 1, rows.size()}) {
+    fs::remove_all(it.path("cut"));
+    fs::copy(it.path("whole"), it.path("cut"));
+    fs::remove(it.path("cut/summary.csv"));
+    write(it.path("cut/runs.csv"), rows.substr(0, cut));
+    INFO("cut at " << cut);
+    it.make(with(kStudy, {"--resume"}), "cut");
+    CHECK(it.bytes("cut") == it.bytes("whole"));
+  }
+}
+
+TEST_CASE("a kill before there was anything to run leaves a directory to begin in") {
+  const StudyCase it;
+  it.make(with(kStudy, {"--resume"}), "whole");  // nothing there yet is no error
+  fs::create_directory(it.path("cut"));
+  write(it.path("cut/study.json.new"), "{\"lockstep_st");
+  it.make(with(kStudy, {"--resume"}), "cut");
+  CHECK(it.bytes("cut") == it.bytes("whole"));
+}
+
+TEST_CASE("a directory with something else in it is left alone") {
+  const StudyCase it;
+  it.make(kStudy, "out");
+  const std::string before = it.bytes("out");
+  const auto refused = [&](const Strings& arguments, const std::string& out,
+                           const std::string& why) {
+    const Outcome outcome = it.study(arguments, out);
+    INFO(outcome.err);
+    CHECK(outcome.code == 2);
+    CHECK(contains(outcome.err, why));
+  };
+  refused(kStudy, "out", "go on with it by --resume");
+  refused(with(kStudy, {"--resume", "--seed", "8"}), "out", "its 'seed' differs");
+  refused(with(kStudy, {"--resume", "--shard", "1/2"}), "out", "its 'shard' differs");
+  CHECK(it.bytes("out") == before);
+
+  fs::create_directory(it.path("photos"));
+  it.file("photos/cat", "");
+  refused(kStudy, "photos", "is not empty and not a study");
+  CHECK_FALSE(fs::exists(it.path("photos/study.json")));
+
+  std::string rows = it.read("out", "runs.csv");
+  rows.replace(rows.find("\n1,") + 1, 1, "3");
+  write(it.path("out/runs.csv"), rows);
+  refused(with(kStudy, {"--resume"}), "out", "line 25: not the row");
+}
+
+TEST_CASE("a study that a signal ends goes on to the same bytes") {
+  const StudyCase it;
+  const Strings study{kPaper + "example5.xml", "--runs", "60000", "--jobs", "2"};
+  it.make(study, "whole");
+  for (const int number : {SIGINT, SIGTERM, SIGKILL}) {
+    fs::remove_all(it.path("cut"));
+    Process process({.arguments = with({"study", "--no-plots", "--out", it.path("cut")}, study)},
+                    Process::Output::Terminal);
+    REQUIRE(process.wait_for("runs/s"));
+    process.signal(number);
+    const Outcome outcome = process.finish();
+    CHECK(outcome.code == 128 + number);
+    if (number != SIGKILL) CHECK(contains(outcome.out, "--resume goes on"));
+    CHECK_FALSE(fs::exists(it.path("cut/summary.csv")));
+    CHECK(it.read("cut", "runs.csv").size() < it.read("whole", "runs.csv").size());
+    it.make(with(study, {"--resume"}), "cut");
+    CHECK((it.bytes("cut") == it.bytes("whole")));  // not printed: megabytes
+  }
+}
+
+TEST_CASE("a study in parts works under GNU parallel") {
+  const StudyCase it;
+  it.make(kStudy, "whole");
+  std::string command = LOCKSTEP_BINARY_DIR "/lockstep study";
+  for (const std::string& argument : kStudy) command += ' ' + argument;
+  command += " --jobs 1 --no-plots --shard {}/4 --out " + it.path("part-{}");
+  const Outcome made = run({.arguments = {"--will-cite", "-j2", command, ":::", "1", "2", "3", "4"},
+                            .program = "parallel"});
+  INFO(made.err);
+  REQUIRE(made.code == 0);
+  CHECK(it.merge({"part-1", "part-2", "part-3", "part-4"}, "merged").code == 0);
+  CHECK(it.bytes("merged") == it.bytes("whole"));
+}
+
+}  // namespace lockstep::test

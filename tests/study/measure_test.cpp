@@ -1,0 +1,155 @@
+// What a study measures: against traces worked out by hand, and against a single run of the
+// program.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "study/study_case.h"
+
+namespace lockstep::test {
+namespace {
+
+using Strings = std::vector<std::string>;
+
+// A synchronized node over two Advance leaves 'a' and 'b'.
+std::string pair_of(const std::string& node, const std::string& a, const std::string& b) {
+  const std::string tag = node.substr(0, node.find(' '));
+  return tree_text("<" + node + " name=\"sync\"><Advance name=\"a\" step=\"" + a +
+                   "\"/><Advance name=\"b\" step=\"" + b + "\"/></" + tag + ">");
+}
+
+struct Trace {
+  std::string name, node, a, b;
+  double ticks, distance;
+};
+
+// Section and name as in the paper's algorithms, worked by hand.
+const std::vector<Trace> kTraces{
+    {"A1", "ParallelAbsolute barriers=\"0.5;1\"", "0.1", "0.3", 10, 2.10},
+    {"A2", "ParallelAbsolute barriers=\"0.5;1\"", "0.1", "0.25", 10, 1.50},
+    {"A3", "ParallelAbsolute barriers=\"0.3\"", "0.2", "0.4", 5, 0.60},
+    {"R1", "ParallelRelative delta=\"0.2\"", "0.1", "0.3", 10, 2.30},
+    {"R2", "ParallelRelative delta=\"0\"", "0.2", "0.3", 7, 0.60},
+    {"R4", "ParallelRelative delta=\"1\"", "0.25", "0.5", 4, 1.00}};
+
+}  // namespace
+
+TEST_CASE("studies: every run without noise has the progress distance worked out by hand") {
+  const StudyCase it;
+  for (const Trace& trace : kTraces) {
+    INFO(trace.name);
+    const auto tree = it.file(trace.name + ".xml", pair_of(trace.node, trace.a, trace.b));
+    it.make({tree, "--runs", "3"}, trace.name);
+    const std::string runs = it.read(trace.name, "runs.csv");
+    for (const double ticks : column(runs, "ticks")) CHECK(ticks == trace.ticks);
+    for (const double distance : column(runs, "progress-distance Main/sync")) {
+      CHECK(distance == Approx(trace.distance).margin(1e-9));
+    }
+  }
+}
+
+TEST_CASE("studies: step length, duration and predictability of a known run") {
+  const StudyCase it;
+  const auto tree =
+      it.file("tree.xml", pair_of("ParallelAbsolute barriers=\"0.5;1\"", "0.1", "0.3"));
+  // A1: b stands at 0.6 from tick 2 on, until a has reached the barrier.
+  it.make({tree, "--runs", "1", "--rate", "50", "--measure", "step-length", "--measure", "duration",
+           "--measure", "predictability:b@0.6", "--measure", "predictability:sync/a@0.4=10",
+           "--measure", "predictability:a@1"},
+          "out");
+  const std::string runs = it.read("out", "runs.csv");
+  CHECK(column(runs, "step-length Main/sync").at(0) == Approx(0.3));
+  CHECK(column(runs, "duration Main") == std::vector<double>{0.2});
+  CHECK(column(runs, "predictability:b@0.6 Main/sync/b") == std::vector<double>{2});
+  CHECK(column(runs, "predictability:sync/a@0.4=10 Main/sync/a") == std::vector<double>{-6});
+  CHECK(column(runs, "predictability:a@1 Main/sync/a") == std::vector<double>{10});
+}
+
+TEST_CASE("studies: the seed of a run gives the same run to lockstep run, bit for bit") {
+  const StudyCase it;
+  const std::string tree = kPaper + "example5.xml";
+  it.make(
+      {tree, "--runs", "5", "--seed", "3", "--grid", "noise=0.01,0.05", "--rate", "30", "--measure",
+       "progress-distance", "--measure", "step-length", "--measure", "predictability:a2@0.6"},
+      "out");
+  for (const std::string& line : lines(it.read("out", "runs.csv"))) {
+    if (line.starts_with("cell")) continue;
+    const auto row = fields(line);
+    const Outcome run = lockstep({"run", tree, "--clock", "virtual", "--rate", "30", "--view",
+                                  "none", "--json", "--arg", "noise=" + row.at(1), "--seed",
+                                  row.at(3), "--record", it.path("run.jsonl")});
+    REQUIRE(run.code == 0);
+    const auto summary = nlohmann::json::parse(run.out);
+    CHECK(summary["ticks"] == std::stoull(row.at(4)));
+    const Outcome measured = lockstep({"log", "measure", it.path("run.jsonl"), "--json",
+                                       "--measure", "progress-distance", "--measure", "step-length",
+                                       "--measure", "predictability:a2@0.6"});
+    INFO(measured.err);
+    REQUIRE(measured.code == 0);
+    const auto values = nlohmann::json::parse(measured.out);
+    for (std::size_t i = 0; i < 3; ++i) CHECK(values.at(i)["value"] == std::stod(row.at(6 + i)));
+  }
+}
+
+TEST_CASE("studies: a run that does not end counts as limit, a Failure as failure") {
+  const StudyCase it;
+  const auto endless = it.file("endless.xml", tree_text("<AlwaysRunning/>"));
+  it.make({endless, "--runs", "1", "--measure", "duration", "--max-ticks", "20"}, "limit");
+  CHECK(contains(it.read("limit", "runs.csv"), ",20,limit,0.2\n"));
+  const auto failing = it.file("failing.xml", tree_text("<AlwaysFailure/>"));
+  it.make({failing, "--runs", "1", "--measure", "duration"}, "failure");
+  CHECK(contains(it.read("failure", "runs.csv"), ",1,failure,0.01\n"));
+}
+
+TEST_CASE("studies: cells with other nodes have other columns, the rest is left empty") {
+  const StudyCase it;
+  const auto tree = it.file(
+      "tree.xml",
+      "<root lockstep=\"1\" main_tree_to_execute=\"Main\"><arg name=\"how\"/>"
+      "<BehaviorTree ID=\"Main\"><SubTree ID=\"${how}\"/></BehaviorTree>"
+      "<BehaviorTree ID=\"plain\"><AlwaysSuccess/></BehaviorTree>"
+      "<BehaviorTree ID=\"sync\"><ParallelRelative delta=\"0\"><AlwaysSuccess/></ParallelRelative>"
+      "</BehaviorTree></root>");
+  it.make({tree, "--runs", "1", "--grid", "how=plain,sync"}, "out");
+  const auto rows = lines(it.read("out", "runs.csv"));
+  CHECK(rows.at(1).ends_with(",1,success,"));
+  CHECK(rows.at(2).ends_with(",1,success,0"));
+  CHECK(lines(it.read("out", "summary.csv")).size() == 2);
+}
+
+TEST_CASE("studies: a leaf that fails stops the study at the same run, whatever the threads") {
+  const StudyCase it;
+  // Only where the arm is slow does the tree get to the leaf that fails.
+  const auto tree =
+      it.file("tree.xml",
+              tree_text("<Fallback><Timeout seconds=\"0.5\"><Advance step=\"0.02\" noise=\"0.02\"/>"
+                        "</Timeout><Probe name=\"culprit\"/></Fallback>"));
+  const Strings study{tree,
+                      "--runs",
+                      "500",
+                      "--measure",
+                      "duration",
+                      "--plugin",
+                      LOCKSTEP_BINARY_DIR "/tests/abi/plugins/error_in_tick.so"};
+  Outcome first;
+  for (const std::string jobs : {"1", "2", "5"}) {
+    auto arguments = study;
+    arguments.insert(arguments.end(), {"--jobs", jobs});
+    const Outcome outcome = it.study(arguments, "out" + jobs);
+    INFO(outcome.err);
+    CHECK(outcome.code == 5);
+    CHECK(contains(outcome.err, "lost the arm"));
+    if (jobs == "1") first = outcome;
+    CHECK(outcome.err == first.err);
+    CHECK(it.read("out" + jobs, "runs.csv") == it.read("out1", "runs.csv"));
+  }
+  // The hint is a command that shows it again.
+  const auto at = first.err.find("lockstep run ");
+  REQUIRE(at != std::string::npos);
+  const std::string command =
+      LOCKSTEP_BINARY_DIR "/" + first.err.substr(at, first.err.find('\n', at) - at);
+  const Outcome again = run({.arguments = {"-c", command}, .program = "/bin/sh"});
+  INFO(command << '\n' << again.err);
+  CHECK(again.code == 5);
+}
+
+}  // namespace lockstep::test

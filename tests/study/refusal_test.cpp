@@ -1,0 +1,68 @@
+// What is wrong with a study is told before its first run, and nothing is written.
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "study/study_case.h"
+
+namespace lockstep::test {
+namespace {
+
+struct Refusal {
+  int code;
+  std::vector<std::string> arguments;
+  std::string message;
+};
+
+const std::vector<Refusal> kRefusals{
+    {2, {}, "--runs is required"},
+    {2, {"--runs", "0"}, "expected 1 or more"},
+    {2, {"--runs", "-3"}, "not a whole number"},
+    {2, {"--runs", "1", "--grid", "barier_count=1"}, "unknown name 'barier_count' in --grid"},
+    {2, {"--runs", "1", "--grid", "barier_count=1"}, "did you mean 'barrier_count'?"},
+    {2, {"--runs", "1", "--grid", "noise"}, "expected name=value"},
+    {2, {"--runs", "1", "--grid", "noise=1,1"}, "the value '1' is there twice"},
+    {2, {"--runs", "1", "--grid", "noise=0", "--grid", "noise=1"}, "given twice"},
+    {2, {"--runs", "1", "--grid", "noise=0", "--arg", "noise=1"}, "both by --grid and by --arg"},
+    {2, {"--runs", "1", "--grid", "seed=1,x"}, "'x' is not a whole number"},
+    {2, {"--runs", "1", "--grid", "rate=0"}, "'0' is not a number from 0.001"},
+    {2, {"--runs", "1", "--measure", "speed"}, "unknown measure 'speed'"},
+    {2, {"--runs", "1", "--measure", "predictability:a1@2"}, "expected a number from 0 to 1"},
+    {2, {"--runs", "1", "--measure", "predictability:a9@0.5"}, "did you mean 'a1'?"},
+    {2, {"--runs", "1", "--shard", "3/2"}, "expected I/N"},
+    {2, {"--runs", "1", "--shard", "1/2"}, "cannot be made in 2 parts"},
+    {3, {"--runs", "1", "--grid", "noise=0,much"}, "much"},
+};
+
+}  // namespace
+
+TEST_CASE("a study that cannot be made is refused before it is begun") {
+  const StudyCase it;
+  for (const Refusal& refusal : kRefusals) {
+    auto arguments = refusal.arguments;
+    arguments.insert(arguments.begin(), kPaper + "example5.xml");
+    const Outcome outcome = it.study(arguments, "out");
+    INFO(refusal.message << '\n' << outcome.err);
+    CHECK(outcome.code == refusal.code);
+    CHECK(contains(outcome.err, refusal.message));
+    CHECK_FALSE(std::filesystem::exists(it.path("out")));
+  }
+}
+
+TEST_CASE("what is wrong in several cells is told for all of them") {
+  const StudyCase it;
+  const Outcome outcome = it.study({kPaper + "example5.xml", "--runs", "1", "--grid",
+                                    "noise=0,much,0.1,more", "--grid", "barrier_count=1,few"},
+                                   "out");
+  CHECK(outcome.code == 3);
+  for (const char* value : {"much", "more", "few"}) CHECK(contains(outcome.err, value));
+}
+
+TEST_CASE("a tree without a synchronized node has no progress distance") {
+  const StudyCase it;
+  const auto tree = it.file("tree.xml", tree_text("<Advance/>"));
+  const Outcome outcome = it.study({tree, "--runs", "1"}, "out");
+  CHECK(outcome.code == 2);
+  CHECK(contains(outcome.err, "no synchronized node"));
+}
+
+}  // namespace lockstep::test

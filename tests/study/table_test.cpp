@@ -1,0 +1,87 @@
+// summary.csv from runs.csv, and the order and the seeds of the runs.
+#include "study/table.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <set>
+
+#include "study/row_text.h"
+#include "study/study_case.h"
+
+namespace lockstep::test {
+namespace {
+
+StudyPlan plan_of(std::uint64_t runs) {
+  StudyPlan plan;
+  plan.runs = runs;
+  plan.grid = {{GridAxis::Kind::Argument, "n", {"few", "many"}}};
+  plan.columns = {{"duration", "Main"}};
+  return plan;
+}
+
+// runs.csv with these values, row after row.
+std::string runs_csv(const StudyPlan& plan, const std::vector<double>& values) {
+  fmt::memory_buffer lines;
+  for (std::uint64_t row = 0; row < values.size(); ++row) {
+    const StudyRow at = row_at(plan, row);
+    append_row_beginning(plan, at, row_cell(plan, at.cell), lines);
+    append_row_end({}, std::span(&values[row], 1), lines);
+  }
+  return row_header(plan) + std::string(lines.data(), lines.size());
+}
+
+}  // namespace
+
+TEST_CASE("studies: the summary's quartiles are the medians of the halves") {
+  const TemporaryDirectory directory;
+  const StudyPlan plan = plan_of(5);
+  const auto file =
+      directory.file("runs.csv", runs_csv(plan, {10, 1, 4, 5, 2, std::nan(""), 8, 2, 1, 3}));
+  std::string error;
+  const auto rows = summarize_runs(file, plan, error);
+  CHECK(error.empty());
+  CHECK(summary_csv(plan, rows) ==
+        "n,node,measure,min,q1,median,q3,max,mean,n\n"
+        "few,Main,duration,1,1.5,4,7.5,10,4.4,5\n"
+        "many,Main,duration,1,1.5,2.5,5.5,8,3.5,4\n");
+}
+
+TEST_CASE("studies: a summary of too few rows is none") {
+  const TemporaryDirectory directory;
+  const StudyPlan plan = plan_of(5);
+  const auto file = directory.file("runs.csv", runs_csv(plan, {10, 1, 4}));
+  std::string error;
+  summarize_runs(file, plan, error);
+  CHECK(contains(error, "has 3 of 10 runs"));
+}
+
+TEST_CASE("studies: parts make each run once, with a seed of its own") {
+  StudyPlan plan = plan_of(23);
+  std::set<std::pair<std::uint64_t, std::uint64_t>> seen;
+  std::set<std::uint64_t> seeds;
+  for (plan.shard = {1, 5}; plan.shard.part <= 5; ++plan.shard.part) {
+    for (std::uint64_t row = 0; row < row_count(plan); ++row) {
+      const StudyRow at = row_at(plan, row);
+      CHECK(at.run % 5 == plan.shard.part - 1);
+      seen.emplace(at.cell, at.run);
+      seeds.insert(run_seed(plan, at));
+    }
+  }
+  CHECK(seen.size() == 2 * 23);
+  CHECK(seeds.size() == 2 * 23);
+}
+
+TEST_CASE("studies: a grid name seed or rate is in force in its cells") {
+  StudyPlan plan = plan_of(1);
+  plan.seed = 4;
+  plan.grid.push_back({GridAxis::Kind::Seed, "seed", {"7", "8"}});
+  plan.grid.push_back({GridAxis::Kind::Rate, "rate", {"50", "0.5"}});
+  REQUIRE(cell_count(plan) == 8);
+  CHECK(cell_text(plan, 6) == "n=many, seed=8, rate=50");
+  CHECK(cell_seed(plan, 6) == 8);
+  CHECK(cell_rate(plan, 6) == 50);
+  CHECK(cell_rate(plan, 7) == 0.5);
+  CHECK(cell_seed(plan_of(1), 0) == 0);
+}
+
+}  // namespace lockstep::test
