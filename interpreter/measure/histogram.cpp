@@ -13,11 +13,11 @@ std::size_t Histogram::bucket_of(std::uint64_t value) {
   return (shift + 1) * kPerOctave + ((value >> shift) - kPerOctave);
 }
 
-std::uint64_t Histogram::middle_of(std::size_t bucket) {
+std::uint64_t Histogram::largest_of(std::size_t bucket) {
   if (bucket < kPerOctave) return bucket;
   const std::size_t shift = bucket / kPerOctave - 1;
   const std::uint64_t lowest = (kPerOctave + bucket % kPerOctave) << shift;
-  return lowest + ((std::uint64_t{1} << shift) >> 1);
+  return lowest + ((std::uint64_t{1} << shift) - 1);
 }
 
 void Histogram::record(Nanoseconds duration) {
@@ -34,7 +34,7 @@ Nanoseconds Histogram::quantile(double fraction) const {
   std::uint64_t seen = 0;
   std::size_t bucket = 0;
   while ((seen += buckets_[bucket]) < rank) ++bucket;
-  return std::min(max_, Nanoseconds(static_cast<std::int64_t>(middle_of(bucket))));
+  return std::min(max_, Nanoseconds(static_cast<std::int64_t>(largest_of(bucket))));
 }
 
 }  // namespace lockstep

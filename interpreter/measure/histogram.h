@@ -16,8 +16,8 @@ class Histogram {
 
   std::uint64_t count() const { return count_; }
   Nanoseconds max() const { return max_; }  // exact
-  // The smallest duration that at least `fraction` (in [0, 1]) of all do not exceed, within 0.05 %;
-  // exact below 1024 ns; 0 when nothing was recorded.
+  // The smallest duration that at least `fraction` (in [0, 1]) of all do not exceed, never too
+  // small and at most 0.1 % too large; exact below 1024 ns; 0 when nothing was recorded.
   Nanoseconds quantile(double fraction) const;
 
  private:
@@ -25,7 +25,7 @@ class Histogram {
   static constexpr unsigned kBits = 10;
   static constexpr std::uint64_t kPerOctave = 1u << kBits;
   static std::size_t bucket_of(std::uint64_t value);
-  static std::uint64_t middle_of(std::size_t bucket);
+  static std::uint64_t largest_of(std::size_t bucket);
 
   std::vector<std::uint64_t> buckets_ = std::vector<std::uint64_t>((64 - kBits) * kPerOctave);
   std::uint64_t count_ = 0;

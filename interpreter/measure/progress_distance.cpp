@@ -42,15 +42,16 @@ double spread(std::span<const double> progress) {
 }
 
 void ProgressDistance::reset() {
-  has_last_ = false;
+  has_last_ = running_ = false;
   samples_ = 0;
   sum_ = largest_spread_ = step_length_ = 0;
 }
 
 void ProgressDistance::sample(std::span<const double> progress) {
   ++samples_;
+  if (progress.empty()) return;
   sum_ += progress_distance(progress, scratch_);
-  largest_spread_ = std::max(largest_spread_, spread(progress));
+  largest_spread_ = std::max(largest_spread_, scratch_.back() - scratch_.front());  // sorted now
   for (std::size_t child = 0; child < progress.size(); ++child) step(child, progress[child]);
   has_last_ = true;
 }

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "core/status.h"
+
 namespace lockstep {
 
 // The sum of |p_i - p_j| over all unordered pairs. `scratch` must be as long as `progress`; what it
@@ -27,6 +29,16 @@ class ProgressDistance {
   void sample(std::span<const double> progress);
   // The node has succeeded: each child's last step led to 1. That counts as a step, not a sample.
   void succeeded();
+  // All of these, after a tick of the run: did it reach the node, what is its status since, and
+  // what was the progress of its children.
+  void after_tick(bool ticked, Status status, std::span<const double> progress) {
+    if (ticked) {
+      if (!running_) begin_activation();
+      sample(progress);
+      if (status == Status::Success) succeeded();
+    }
+    running_ = status == Status::Running;
+  }
 
   std::uint64_t samples() const { return samples_; }
   double sum() const { return sum_; }
@@ -41,6 +53,7 @@ class ProgressDistance {
   std::vector<double> last_;
   std::vector<double> scratch_;
   bool has_last_ = false;
+  bool running_ = false;
   std::uint64_t samples_ = 0;
   double sum_ = 0;
   double largest_spread_ = 0;

@@ -27,21 +27,15 @@ void SynchronizedMeasure::reset() {
   distance_.reset();
   std::ranges::fill(held_, Held{});
   last_ = Nanoseconds(0);
-  running_ = false;
 }
 
 void SynchronizedMeasure::after_tick(const SynchronizedTick& tick) {
   pass_time(tick.time);
-  if (tick.ticked) {
-    if (!running_) distance_.begin_activation();
-    distance_.sample(tick.progress);
-    if (tick.status == Status::Success) distance_.succeeded();
-  }
+  distance_.after_tick(tick.ticked, tick.status, tick.progress);
   for (std::size_t child = 0; child < held_.size(); ++child) {
     held_[child].now = tick.ticked && tick.held[child];
     held_[child].ticks += held_[child].now;
   }
-  running_ = tick.status == Status::Running;
 }
 
 void SynchronizedMeasure::pass_time(Nanoseconds time) {

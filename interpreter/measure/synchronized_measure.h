@@ -52,7 +52,6 @@ class SynchronizedMeasure {
   ProgressDistance distance_;
   std::vector<Held> held_;
   Nanoseconds last_{0};
-  bool running_ = false;
 };
 
 // Reads the ticks of one node from a Ticker. No allocation after it is made.

@@ -23,13 +23,14 @@ void check_quantiles(const std::vector<Nanoseconds>& values) {
     const auto exact = static_cast<double>(exact_quantile(values, fraction).count());
     const auto found = static_cast<double>(histogram.quantile(fraction).count());
     INFO("fraction " << fraction << ", exact " << exact);
-    CHECK(std::abs(found - exact) <= 0.01 * exact);
+    CHECK(found >= exact);
+    CHECK(found <= 1.001 * exact);
   }
   CHECK(histogram.max() == *std::max_element(values.begin(), values.end()));
   CHECK(histogram.count() == values.size());
 }
 
-TEST_CASE("quantiles of the histogram are within one percent of the exact ones") {
+TEST_CASE("quantiles of the histogram are exact or at most a thousandth too large") {
   RandomStream random(7, 1);
   std::vector<Nanoseconds> even, wide;
   for (int i = 0; i < 20000; ++i) {
