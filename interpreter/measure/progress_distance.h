@@ -11,8 +11,8 @@
 
 namespace lockstep {
 
-// The sum of |p_i - p_j| over all unordered pairs. `scratch` must be as long as `progress`; what it
-// holds does not matter before or after. O(n log n), no allocation.
+// The sum of |p_i - p_j| over all unordered pairs. `scratch` must be as long as `progress`; it
+// holds them in order afterwards. O(n log n), no allocation.
 double progress_distance(std::span<const double> progress, std::span<double> scratch);
 
 // max p - min p; 0 for fewer than two.

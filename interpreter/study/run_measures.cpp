@@ -5,6 +5,7 @@
 
 #include "core/suggest.h"
 #include "engine/synchronized.h"
+#include "measure/synchronized_measure.h"
 
 namespace lockstep {
 namespace {
@@ -54,12 +55,11 @@ std::size_t RunMeasures::add_column(const MeasureSpec& measure, std::string node
 void RunMeasures::add_distances(const Tree& tree, const MeasureSpec& measure) {
   if (distances_.empty()) {
     for (const NodeIndex node : synchronized_nodes(tree)) {
-      distances_.push_back(
-          {SynchronizedProbe(tree, node), SynchronizedMeasure(tree.nodes[node].children), {}, {}});
+      distances_.push_back({node, ProgressDistance(tree.nodes[node].children), {}, {}});
     }
   }
   for (Distance& distance : distances_) {
-    const std::size_t column = add_column(measure, tree.path(distance.probe.node()));
+    const std::size_t column = add_column(measure, tree.path(distance.node));
     const bool is_sum = measure.kind == MeasureKind::ProgressDistance;
     (is_sum ? distance.sum : distance.step_length) = column;
   }
@@ -96,7 +96,10 @@ void RunMeasures::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds) {
 
 void RunMeasures::after_tick(Ticker& ticker, const TickReport& report) {
   for (Distance& distance : distances_) {
-    distance.measure.after_tick(distance.probe.read(ticker, report.time));
+    const bool ticked = ticker.ticked(distance.node);
+    distance.measure.after_tick(
+        ticked, ticker.status(distance.node),
+        ticked ? child_progress(ticker, distance.node) : std::span<const double>());
   }
   for (Instant& instant : instants_) {
     // What a synchronized node has seen counts more than what was seen before its tick.
@@ -110,7 +113,7 @@ void RunMeasures::after_tick(Ticker& ticker, const TickReport& report) {
 
 void RunMeasures::run_ended(Ticker&, const RunEnd& end) {
   for (const Distance& distance : distances_) {
-    const ProgressDistance& measured = distance.measure.distance();
+    const ProgressDistance& measured = distance.measure;
     if (distance.sum) values_[*distance.sum] = measured.sum();
     if (distance.step_length) values_[*distance.step_length] = measured.step_length();
   }

@@ -10,7 +10,7 @@
 
 #include "measure/measure_spec.h"
 #include "measure/predictability.h"
-#include "measure/synchronized_measure.h"
+#include "measure/progress_distance.h"
 #include "runtime/observer.h"
 #include "study/plan.h"
 
@@ -33,8 +33,8 @@ class RunMeasures final : public Observer {
 
  private:
   struct Distance {
-    SynchronizedProbe probe;
-    SynchronizedMeasure measure;
+    NodeIndex node;
+    ProgressDistance measure;
     std::optional<std::size_t> sum, step_length;  // their columns
   };
   struct Instant {
