@@ -1,6 +1,7 @@
 // What a study measures: against traces worked out by hand, and against a single run of the
 // program.
 #include <catch2/catch.hpp>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "study/study_case.h"
@@ -87,6 +88,27 @@ TEST_CASE("studies: the seed of a run gives the same run to lockstep run, bit fo
     REQUIRE(measured.code == 0);
     const auto values = nlohmann::json::parse(measured.out);
     for (std::size_t i = 0; i < 3; ++i) CHECK(values.at(i)["value"] == std::stod(row.at(6 + i)));
+  }
+}
+
+TEST_CASE("studies: no run sees what the run before it did to its world or its entries") {
+  const StudyCase it;
+  for (const std::string name : {"paper/experiment1", "paper/experiment3", "fetch_and_carry"}) {
+    INFO(name);
+    const std::string tree = LOCKSTEP_SOURCE_DIR "/trees/" + name + ".xml";
+    const std::string out = name.substr(name.find('/') + 1);
+    it.make({tree, "--runs", "6", "--jobs", "1", "--measure", "duration", "--max-ticks", "3000"},
+            out);
+    const auto rows = lines(it.read(out, "runs.csv"));
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+      const auto row = fields(rows[i]);  // cell,run,seed,ticks,result,…
+      const Outcome run = lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--json",
+                                    "--max-ticks", "3000", "--seed", row.at(2)});
+      const auto summary = nlohmann::json::parse(run.out);
+      CHECK(summary["ticks"] == std::stoull(row.at(3)));
+      const std::map<std::string, int> codes{{"success", 0}, {"failure", 1}, {"limit", 124}};
+      CHECK(run.code == codes.at(row.at(4)));
+    }
   }
 }
 

@@ -50,6 +50,34 @@ TEST_CASE("leaves live within the context of their run, and go in reverse") {
                               "destroy 1", "destroy 0", "destroy run"});
 }
 
+TEST_CASE("a set that begins anew is as if it was made again, with the seed that is given") {
+  lab = {};
+  Fixture fixture(2);
+  const std::uint64_t number = host.random_bits(fixture.leaf(1));
+  fixture.set->destroy_all();
+  lab.events.clear();
+  lab.leaves.clear();
+  fixture.set->create_all(7);
+  CHECK(lab.events == Strings{"create run", "create 0", "create 1"});
+  CHECK(host.random_bits(fixture.leaf(1)) == number);
+  fixture.set->destroy_all();
+  lab.leaves.clear();
+  fixture.set->create_all(8);
+  CHECK(host.random_bits(fixture.leaf(1)) != number);
+}
+
+TEST_CASE("a set that could not be made may be made again") {
+  lab = {};
+  lab.leaf_that_fails = 1;
+  Fixture fixture(2);
+  REQUIRE(fixture.set->fault());
+  fixture.set->destroy_all();
+  lab = {};
+  fixture.set->create_all(7);
+  CHECK_FALSE(fixture.set->fault());
+  CHECK(lab.events == Strings{"create run", "create 0", "create 1"});
+}
+
 TEST_CASE("after a leaf that cannot be created no other is, and those before it are destroyed") {
   lab = {};
   lab.leaf_that_fails = 1;
