@@ -121,7 +121,7 @@ TEST_CASE("box plots: the last grid name runs along x, the others make plots") {
   CHECK(plots[4].title == "Main/sync/task:  noise = 0.02");
 }
 
-TEST_CASE("box plots: without a grid there is one box; files never share a name") {
+TEST_CASE("box plots: without a grid there is one box, files never share a name") {
   const std::vector<SummaryRow> rows = {{{}, "Main/a/sync", "duration", summary(1)},
                                         {{}, "Main/b/sync", "duration", summary(2)}};
   const auto plots = box_plots({}, rows);
