@@ -7,6 +7,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
+#include "cli/study_fault.h"
 #include "cli/study_loading.h"
 #include "cli/study_progress.h"
 #include "cli/study_summary.h"
@@ -74,55 +75,6 @@ std::string out_directory(const Options& options) {
   return "study-" + std::filesystem::path(options.study.tree).stem().string();
 }
 
-// In single quotes, for a shell.
-std::string quoted(const std::string& text) {
-  if (!text.empty() && text.find_first_of(" \t\n\"'\\$`;&|<>()*?[]{}~#!") == std::string::npos) {
-    return text;
-  }
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
-// How to see one run of the study again.
-std::string run_command(const Options& options, const StudyPlan& plan, std::uint64_t cell,
-                        std::uint64_t seed) {
-  const LoadOptions& load = options.study.load;
-  std::string text =
-      fmt::format("lockstep run {} --clock virtual --seed {} --rate {} --max-ticks {}",
-                  quoted(plan.tree_file), seed, cell_rate(plan, cell), plan.max_ticks);
-  const auto add = [&](const char* option, const std::string& value) {
-    text += fmt::format(" {} {}", option, quoted(value));
-  };
-  if (!load.main_tree.empty()) add("--tree", load.main_tree);
-  for (const std::string& pair : load.arguments) add("--arg", pair);
-  const auto values = cell_values(plan, cell);
-  for (std::size_t axis = 0; axis < values.size(); ++axis) {
-    if (plan.grid[axis].kind != GridAxis::Kind::Argument) continue;
-    add("--arg", plan.grid[axis].name + '=' + values[axis]);
-  }
-  for (const std::string& pair : load.values) add("--set", pair);
-  for (const std::string& plugin : load.plugins.plugins) add("--plugin", plugin);
-  for (const std::string& directory : load.plugins.directories) add("--plugin-path", directory);
-  return text;
-}
-
-int report(const StudyFault& fault, const Options& options, const LoadedStudy& study) {
-  const Tree& tree = study.cells[fault.row.cell].tree;
-  const NodeType& type = *tree.labels[fault.fault.node].type;
-  const std::string cell = cell_text(study.plan, fault.row.cell);
-  print_error(
-      fmt::format(
-          "the leaf '{}' ({} of plugin '{}') failed {}, in run {} of cell {}{}{}{}, seed "
-          "{}: {}",
-          tree.path(fault.fault.node), type.id, type.plugin,
-          fault.ticks == 0 ? "before the first tick" : fmt::format("in tick {}", fault.ticks - 1),
-          fault.row.run, fault.row.cell, cell.empty() ? "" : " (", cell, cell.empty() ? "" : ")",
-          fault.seed, fault.fault.message),
-      "see it again: " + run_command(options, study.plan, fault.row.cell, fault.seed));
-  return kExitLeafFault;
-}
-
 int make_study(const Options& options, const LoadedStudy& study) {
   const StudyPlan& plan = study.plan;
   StudyFolder folder(out_directory(options));
@@ -146,7 +98,11 @@ int make_study(const Options& options, const LoadedStudy& study) {
                      .idle = [&] { progress.show(); }});
   }
   if (!folder.error().empty()) return fail(folder.error());
-  if (fault) return report(*fault, options, study);
+  if (fault) {
+    print_error(fault_text(*fault, study),
+                "see it again: " + run_command(options.study, study.plan, *fault));
+    return kExitLeafFault;
+  }
   if (const int signal = StopSignals::received(); signal != 0) {
     return fail("interrupted; the same command with --resume goes on", kExitSignal + signal);
   }
