@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "cli/console.h"
 #include "observers/progress_bar.h"
 #include "observers/terminal.h"
@@ -13,7 +15,7 @@ constexpr std::chrono::milliseconds kBarInterval{200};  // the first comes at on
 constexpr std::chrono::seconds kLineInterval{10};
 
 std::string duration_text(double seconds) {
-  const auto whole = static_cast<std::uint64_t>(seconds + 0.5);
+  const auto whole = std::llround(seconds);
   if (whole >= 3600)
     return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
   return fmt::format("{}:{:02}", whole / 60, whole % 60);

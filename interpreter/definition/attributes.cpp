@@ -11,7 +11,7 @@
 namespace lockstep {
 namespace {
 
-std::string join_hints(std::string first, const std::string& second) {
+std::string join_hints(const std::string& first, const std::string& second) {
   if (first.empty()) return second;
   return second.empty() ? first : first + "; " + second;
 }

@@ -17,7 +17,7 @@ class Scope {
   // The scope of the main tree.
   explicit Scope(std::vector<BlackboardEntry>& entries) : entries_(entries) {}
   // A SubTree's own scope inside `outer`; `prefix` names it in messages ("grasp/").
-  Scope(Scope& outer, std::string prefix, bool autoremap)
+  Scope(Scope& outer, const std::string& prefix, bool autoremap)
       : entries_(outer.entries_),
         outer_(&outer),
         prefix_(outer.prefix_ + prefix),

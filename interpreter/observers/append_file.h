@@ -16,10 +16,10 @@ namespace lockstep {
 
 class AppendFile {
  public:
-  static constexpr std::size_t kFull = 64 * 1024;
+  static constexpr std::size_t kFull = 64u << 10;  // bytes
   static constexpr std::chrono::milliseconds kLongestDelay{100};
   // With so much collected, line_done() waits for the disk: memory must end somewhere.
-  static constexpr std::size_t kMost = 16 * 1024 * 1024;
+  static constexpr std::size_t kMost = 16u << 20;
 
   // Creates the file, or empties it; error() tells when that is not possible.
   explicit AppendFile(const std::string& path);
