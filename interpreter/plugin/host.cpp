@@ -5,6 +5,8 @@
 #include <cstring>
 #include <new>
 
+#include "core/utf8.h"
+
 namespace lockstep {
 namespace {
 
@@ -106,14 +108,10 @@ void set_error(const lockstep_caller* caller, const char* message) {
   lockstep_caller& it = mine(caller);
   if (it.slot->error != nullptr) return;  // the first is the cause
   if (message == nullptr || *message == '\0') message = "unknown error";
-  std::size_t length = strnlen(message, it.error.size());
-  if (length == it.error.size()) {
-    // Cut before a character of UTF-8, not in it.
-    --length;
-    while (length > 0 && (static_cast<unsigned char>(message[length]) & 0xc0u) == 0x80u) --length;
-  }
-  std::memcpy(it.error.data(), message, length);
-  it.error[length] = '\0';
+  const std::string_view all(message, strnlen(message, it.error.size()));
+  const std::string_view text = utf8_front(all, lockstep_caller::kMaxErrorLength);
+  std::memcpy(it.error.data(), text.data(), text.size());
+  it.error[text.size()] = '\0';
   it.slot->error = it.error.data();
 }
 

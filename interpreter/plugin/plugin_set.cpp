@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <exception>
-#include <ranges>
 #include <utility>
 
 #include "plugin/descriptor.h"
@@ -80,9 +79,9 @@ std::optional<Refusal> PluginSet::Plugin::check_against(const Plugin& newcomer,
 PluginSet::PluginSet() = default;
 
 PluginSet::~PluginSet() {
-  for (const auto& plugin : plugins_ | std::views::reverse) {
-    const auto deinit = plugin->descriptors.plugin.deinit;
-    if (!plugin->initialized || deinit == nullptr) continue;
+  for (auto plugin = plugins_.rbegin(); plugin != plugins_.rend(); ++plugin) {
+    const auto deinit = (*plugin)->descriptors.plugin.deinit;
+    if (!(*plugin)->initialized || deinit == nullptr) continue;
     try {
       deinit();
     } catch (...) {  // NOLINT(bugprone-empty-catch): the work is done, nobody is left to tell
