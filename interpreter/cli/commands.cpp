@@ -13,8 +13,8 @@
 namespace lockstep {
 
 std::span<const Command* const> commands() {
-  static constexpr const Command* kAll[] = {&kRunCommand,    &kCheckCommand, &kShowCommand,
-                                            &kNodesCommand,  &kSchemaCommand, &kLogCommand,
+  static constexpr const Command* kAll[] = {&kRunCommand,   &kCheckCommand,  &kShowCommand,
+                                            &kNodesCommand, &kSchemaCommand, &kLogCommand,
                                             &kStudyCommand};
   return kAll;
 }

@@ -185,8 +185,8 @@ typedef struct lockstep_plugin {
 
   /* [load] (optional) Before the first leaf; false refuses to work, with the reason that set_error
    * was told. The caller is the plugin itself: it has no ports, no time and no random numbers, its
-   * log is not shown, and it is valid until init returns. Not called again unless deinit came in between. Listing the
-   * descriptors (`lockstep nodes`, `lockstep check`) does not call it. */
+   * log is not shown, and it is valid until init returns. Not called again unless deinit came in
+   * between. Listing the descriptors (`lockstep nodes`, `lockstep check`) does not call it. */
   bool (*init)(const lockstep_host* host, const lockstep_caller* caller);
   /* [load] (optional) After the last leaf, if init returned true (or is NULL). */
   void (*deinit)(void);
