@@ -63,7 +63,7 @@ std::string_view to_string(ValueType type) {
 
 std::string_view expected_text(ValueType type) {
   constexpr std::string_view kTexts[] = {"true or false", "a whole number", "a number", "text",
-                                         "numbers separated by ';'"};
+                                         "a list such as 0.25;0.5"};
   return kTexts[static_cast<unsigned>(type)];
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/identifier.h"
 #include "core/suggest.h"
 #include "definition/attributes.h"
 #include "definition/scope.h"
@@ -91,8 +92,8 @@ class Expander {
   static void for_each_remapping(const Document& document, std::uint32_t element, Visit visit) {
     for (const Attribute& attribute : document.attributes(element)) {
       const bool is_own = is_common_attribute(attribute.name) || attribute.name == "ID" ||
-                          attribute.name == "_autoremap";
-      if (!is_own) visit(attribute);
+                          attribute.name.starts_with('_');
+      if (!is_own && is_identifier(attribute.name)) visit(attribute);  // else reported already
     }
   }
 
