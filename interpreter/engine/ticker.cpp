@@ -5,8 +5,8 @@
 
 namespace lockstep {
 
-Ticker::Ticker(const Tree& tree, std::span<LeafSlot> leaves)
-    : tree_(tree), leaves_(leaves), state_(tree) {}
+Ticker::Ticker(const Tree& tree, std::span<LeafSlot> leaves, FaultPolicy policy)
+    : tree_(tree), leaves_(leaves), state_(tree), policy_(policy) {}
 
 Status Ticker::tick_root(Nanoseconds now) {
   set_now(now);

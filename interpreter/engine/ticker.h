@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/clock.h"
 #include "engine/leaf_slot.h"
@@ -20,10 +21,16 @@ struct Fault {
   std::string message;  // "threw …", "returned status 7, …"
 };
 
+// What a fault means to the run.
+enum class FaultPolicy : std::uint8_t {
+  Stop,  // the run ends
+  Fail,  // the leaf's activation ends with Failure; the tree goes on
+};
+
 class Ticker {
  public:
   // `tree` and `leaves` (one for each Tree::leaves, in order) must outlive the ticker.
-  Ticker(const Tree& tree, std::span<LeafSlot> leaves);
+  Ticker(const Tree& tree, std::span<LeafSlot> leaves, FaultPolicy policy = FaultPolicy::Stop);
 
   // --- for node kinds, inside a tick -------------------------------------------------------------
 
@@ -73,6 +80,8 @@ class Ticker {
   }
   LeafSlot& leaf(NodeIndex node) { return leaves_[tree_.nodes[node].params]; }
 
+  // Under FaultPolicy::Fail the fault is noted in tolerated() and the leaf's slot is marked failed:
+  // its tick, or the next one, returns Failure.
   void set_fault(NodeIndex node, std::string message);
   bool faulted() const { return faulted_; }
 
@@ -100,6 +109,8 @@ class Ticker {
   void reset();
 
   const Fault* fault() const { return faulted_ ? &fault_ : nullptr; }
+  // Since the last tick_root began: the faults that the run goes on after.
+  std::span<const Fault> tolerated() const { return tolerated_; }
   std::uint32_t tick_number() const { return tick_number_; }  // of the last tick; the first is 1
   bool ticked(NodeIndex node) const {
     return tick_number_ != 0 && state_.last_tick[node] == tick_number_;
@@ -117,8 +128,10 @@ class Ticker {
   RunState state_;
   Nanoseconds now_{0};
   std::uint32_t tick_number_ = 0;
+  const FaultPolicy policy_;
   bool faulted_ = false;
   Fault fault_;
+  std::vector<Fault> tolerated_;
 };
 
 }  // namespace lockstep

@@ -8,11 +8,21 @@
 #include <string_view>
 #include <vector>
 
+#include "core/clock.h"
 #include "core/diagnostics.h"
 #include "core/node_type.h"
 #include "lockstep/leaf.h"
 
 namespace lockstep {
+
+// Isolated: the plugin lives in a process of its own. See isolated_plugin.h.
+enum class Isolation : bool { InProcess, Isolated };
+
+struct IsolationOptions {
+  std::string leafhost;                               // path of the program lockstep-leafhost
+  Nanoseconds hang_limit = std::chrono::seconds(10);  // 0 = never
+  bool all = false;                                   // whatever a load function is told
+};
 
 class PluginSet {
  public:
@@ -23,14 +33,21 @@ class PluginSet {
   PluginSet(const PluginSet&) = delete;
   PluginSet& operator=(const PluginSet&) = delete;
 
+  // How plugins are isolated, for those loaded from now on. `leafhost` is the program
+  // lockstep-leafhost. A plugin that takes longer than `hang_limit` to return from a call is
+  // killed.
+  void set_isolation(IsolationOptions options);
+
   // Opens a shared object. On false, one error tells why; the set is as before. Opening the same
   // file again does nothing. `where` is the place in a tree that asked for it, if any.
-  bool load_file(const std::string& path, Diagnostics& diagnostics, SourceLocation where = {});
+  bool load_file(const std::string& path, Diagnostics& diagnostics, SourceLocation where = {},
+                 Isolation isolation = Isolation::InProcess);
 
   // Opens <name>.so from the first of `directories` that has it, unless a plugin of this name is
   // there already: one opened by its path takes the place of one found by its name.
   bool load_named(std::string_view name, std::span<const std::string> directories,
-                  Diagnostics& diagnostics, SourceLocation where = {});
+                  Diagnostics& diagnostics, SourceLocation where = {},
+                  Isolation isolation = Isolation::InProcess);
 
   // A plugin that is linked in; for tests. `origin` stands for its path in messages. The plugin and
   // all that it points to must outlive the set.

@@ -1,6 +1,6 @@
 // The fixed-rate loop: ticks a run at absolute deadlines until it ends, with its observers around
 // each tick. Deadlines are multiples of the period from the start, so there is no drift; those that
-// a late tick has missed are skipped, never made up for in a bunch.
+// a late tick has missed are dealt with by an OverrunPolicy.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +13,19 @@
 
 namespace lockstep {
 
+// What becomes of deadlines that a late tick has missed.
+enum class OverrunPolicy : std::uint8_t {
+  Skip,     // passed over: the next tick is at the next deadline to come
+  CatchUp,  // each still gets its tick, one right after the other, until the run is back in time
+  Fail,     // the run ends
+};
+
 struct LoopOptions {
   double rate = 100;                       // Hz, in [0.001, 100000]
   std::optional<std::uint64_t> max_ticks;  // stop after this many
   std::optional<Nanoseconds> timeout;      // stop before the first tick at or after this time
   int (*stop_signal)() = nullptr;          // asked before each tick: nonzero = stop
+  OverrunPolicy overrun = OverrunPolicy::Skip;
 };
 
 // Time of the deadline of tick k, since the start.

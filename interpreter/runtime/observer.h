@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
 
 #include "core/clock.h"
 #include "core/status.h"
@@ -16,13 +18,22 @@ struct RunStart {
 };
 
 struct TickReport {
-  std::uint64_t tick = 0;           // counts from 0
-  Nanoseconds time{0};              // when it began, since the run began
-  Status status = Status::Running;  // of the root
-  std::uint64_t skipped = 0;        // deadlines that this tick came too late for, beyond its own
+  std::uint64_t tick = 0;              // counts from 0
+  Nanoseconds time{0};                 // when it began, since the run began
+  Status status = Status::Running;     // of the root
+  std::uint64_t skipped = 0;           // deadlines that this tick came too late for, beyond its own
+  std::span<const Fault> faults = {};  // of leaves in this tick that the run goes on after
 };
 
-enum class StopReason : std::uint8_t { Completed, Fault, Timeout, MaxTicks, Signal };
+enum class StopReason : std::uint8_t { Completed, Fault, Timeout, MaxTicks, Signal, Overrun };
+
+// The tick that took longest, from its begin until the root had its status; real time only.
+struct WorstTick {
+  std::uint64_t tick = 0;
+  Nanoseconds took{0};            // 0: there is none
+  std::optional<NodeIndex> leaf;  // whose call took most of it, when calls were timed
+  Nanoseconds leaf_took{0};
+};
 
 struct RunEnd {
   StopReason reason = StopReason::Completed;
@@ -32,6 +43,7 @@ struct RunEnd {
   Nanoseconds time{0};         // from the start of the first tick to the end of the last
   std::uint64_t overruns = 0;  // ticks that ended after the next deadline
   std::uint64_t skipped = 0;   // deadlines passed over because of them
+  WorstTick worst;
 };
 
 class Observer {

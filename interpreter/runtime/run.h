@@ -7,6 +7,7 @@
 #include "engine/blackboard.h"
 #include "engine/ticker.h"
 #include "plugin/leaf_set.h"
+#include "plugin/leaf_watch.h"
 
 namespace lockstep {
 
@@ -14,6 +15,8 @@ struct RunOptions {
   std::uint64_t seed = 0;
   Nanoseconds period = std::chrono::milliseconds(10);
   LeafLog log = {};
+  FaultPolicy on_fault = FaultPolicy::Stop;
+  LeafWatch* watch = nullptr;  // must outlive the run; null: nothing is watched and nothing costs
 };
 
 class Run {

@@ -1,0 +1,83 @@
+// Which function of which plugin this thread is in, for whoever has to name the culprit of a crash
+// or a hang: two plain stores per call. Written by the thread that calls; read by its own signal
+// handlers and by the watchdog. Knows nothing of time.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+
+namespace lockstep {
+
+enum class PluginFunction : std::uint8_t {
+  None,  // in the host's own code
+  Load,  // dlopen: the constructors of the shared object
+  Init,
+  CreateRun,
+  Create,
+  Start,
+  Tick,
+  Halt,
+  Pause,
+  Resume,
+  Progress,
+  Destroy,
+  DestroyRun,
+  Deinit,
+};
+
+// "tick", "create_run", as lockstep/leaf.h spells them.
+const char* name_of(PluginFunction function);
+
+// Who is called. It lives as long as a mark can point to it.
+struct CallSite {
+  std::string leaf;    // "Main/arm (Advance of plugin 'motion')"; "" for a function of the plugin
+  std::string plugin;  // its name
+};
+
+// One for each thread; see this_thread().
+class CallMark {
+ public:
+  static CallMark& this_thread();
+
+  void enter(const CallSite& site, PluginFunction function) {
+    site_.store(&site, std::memory_order_relaxed);
+    serial_ += 1u << 8;
+    call_.store(serial_ | static_cast<std::uint32_t>(function), std::memory_order_release);
+  }
+  void leave() { call_.store(serial_, std::memory_order_release); }
+
+  // The tick that the thread is in, for the message only; public numbers, from 0.
+  void set_tick(std::uint64_t tick) { tick_.store(tick, std::memory_order_relaxed); }
+
+  // A call as another thread sees it: two looks that are equal have seen the same call.
+  struct Look {
+    const CallSite* site = nullptr;
+    std::uint32_t call = 0;  // a number of the call; the low byte is its function
+
+    PluginFunction function() const { return static_cast<PluginFunction>(call & 0xff); }
+    friend bool operator==(const Look&, const Look&) = default;
+  };
+  Look look() const;
+  std::uint64_t tick() const { return tick_.load(std::memory_order_relaxed); }
+  static constexpr std::uint64_t kNoTick = ~std::uint64_t{0};  // before the first
+
+ private:
+  std::atomic<const CallSite*> site_{nullptr};
+  std::atomic<std::uint32_t> call_{0};
+  std::uint32_t serial_ = 0;
+  std::atomic<std::uint64_t> tick_{kNoTick};
+};
+
+// Marks a call for the time of its scope, also when an exception ends it.
+class MarkedCall {
+ public:
+  MarkedCall(const CallSite& site, PluginFunction function) {
+    CallMark::this_thread().enter(site, function);
+  }
+  ~MarkedCall() { CallMark::this_thread().leave(); }
+  MarkedCall(const MarkedCall&) = delete;
+  MarkedCall& operator=(const MarkedCall&) = delete;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,34 @@
+// The last words of a process that a plugin brings down: a fatal signal, exit() inside a call, or a
+// hang that the watchdog has found. Names the leaf, its plugin and the tick, writes what the
+// recording still holds, then a backtrace, and ends the process with an exit code of its own. All
+// of it is async-signal-safe. Process-wide.
+#pragma once
+
+#include <pthread.h>
+
+#include "plugin/call_mark.h"
+
+namespace lockstep {
+
+class CrashReport {
+ public:
+  // From now on SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT and exit() of this process end with a
+  // report and `exit_code`. `last_words` may be null; it must be async-signal-safe, and is called
+  // once, after the culprit is named and before the backtrace.
+  static void install(int exit_code, void (*last_words)());
+
+  // Gives this thread a stack on which the report of a stack overflow can be written. Needed once
+  // for each thread that calls leaves.
+  static void prepare_thread();
+
+  // exit() is a crash as long as a run goes on: begin() .. end(). (A leaf may call it from a thread
+  // of its own.)
+  static void begin_run();
+  static void end_run();
+
+  // Reports that `thread` has been in a call for too long, with its backtrace, and ends the
+  // process. Called by the watchdog's thread.
+  [[noreturn]] static void hang(pthread_t thread, const CallMark& mark, double seconds);
+};
+
+}  // namespace lockstep

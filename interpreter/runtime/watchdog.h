@@ -1,0 +1,35 @@
+// A thread that looks at the calls of the tick thread and speaks up when one does not return. It
+// costs the tick thread nothing. It also takes the stop signals, so that a leaf which blocks them
+// in the tick thread cannot keep a run from being stopped.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "core/clock.h"
+#include "plugin/call_mark.h"
+
+namespace lockstep {
+
+struct WatchdogOptions {
+  Nanoseconds hang_limit{0};  // a call that lasts longer ends the process; 0 = never
+  Nanoseconds halt_limit{0};  // a halt that lasts longer is told once; 0 = never
+  // On the watchdog's thread.
+  std::function<void(const CallMark::Look& call, Nanoseconds lasts)> on_long_halt;
+  std::function<void(const CallMark::Look& call, Nanoseconds lasts)> on_hang;  // may not return
+};
+
+class Watchdog {
+ public:
+  // Watches the calls of the thread that constructs it.
+  explicit Watchdog(WatchdogOptions options);
+  ~Watchdog();
+  Watchdog(const Watchdog&) = delete;
+  Watchdog& operator=(const Watchdog&) = delete;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> it_;
+};
+
+}  // namespace lockstep
