@@ -43,6 +43,8 @@ int exit_code_of(const RunEnd& end) {
       return kExitLimit;
     case StopReason::Signal:
       return kExitSignal + end.signal;
+    case StopReason::Overrun:
+      return kExitOverrun;
   }
   return kExitLeafFault;
 }

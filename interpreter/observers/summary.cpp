@@ -27,6 +27,8 @@ std::string why(const Summary& summary) {
       return "the tick limit was reached";
     case StopReason::Signal:
       return fmt::format("signal: {}", strsignal(summary.signal));
+    case StopReason::Overrun:
+      return "a tick missed the next deadline";
   }
   return {};
 }
@@ -77,7 +79,8 @@ std::string counted(std::uint64_t count, std::string_view noun) {
 }
 
 std::string_view to_string(StopReason reason) {
-  constexpr std::string_view kNames[] = {"completed", "fault", "timeout", "max_ticks", "signal"};
+  constexpr std::string_view kNames[] = {"completed", "fault",  "timeout",
+                                         "max_ticks", "signal", "overrun"};
   return kNames[static_cast<unsigned>(reason)];
 }
 
