@@ -89,12 +89,14 @@ PluginSet::~PluginSet() {
   }
 }
 
-bool PluginSet::load_file(const std::string& path, Diagnostics& diagnostics, SourceLocation where) {
+bool PluginSet::load_file(const std::string& path, Diagnostics& diagnostics, SourceLocation where,
+                          Isolation /*isolation*/) {
   return open({path, {}, std::move(where)}, diagnostics);
 }
 
 bool PluginSet::load_named(std::string_view name, std::span<const std::string> directories,
-                           Diagnostics& diagnostics, SourceLocation where) {
+                           Diagnostics& diagnostics, SourceLocation where,
+                           Isolation /*isolation*/) {
   if (!is_plugin_name(name)) {
     diagnostics.error(std::move(where), fmt::format("'{}' is not the name of a plugin", name),
                       "a plugin is named by letters, digits, '_' and '-', without path and '.so'");
