@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "measure/histogram.h"
+#include "core/histogram.h"
 #include "measure/synchronized_measure.h"
 #include "observers/summary.h"
 #include "runtime/observer.h"

@@ -29,31 +29,35 @@ enum class PluginFunction : std::uint8_t {
 // "tick", "create_run", as lockstep/leaf.h spells them.
 const char* name_of(PluginFunction function);
 
-// Who is called. It lives as long as a mark can point to it.
+// Who is called, in words for a message. One that `of` gave lives until the process ends, because a
+// watchdog may look at it whenever it likes; the same words give the same one.
 struct CallSite {
-  std::string leaf;    // "Main/arm (Advance of plugin 'motion')"; "" for a function of the plugin
+  std::string leaf;    // "'Main/arm' (Advance of plugin 'motion')"; "": a function of the plugin
   std::string plugin;  // its name
+
+  static const CallSite& of(std::string leaf, std::string plugin);
 };
 
 // One for each thread; see this_thread().
 class CallMark {
  public:
+  // Async-signal-safe.
   static CallMark& this_thread();
 
   void enter(const CallSite& site, PluginFunction function) {
-    site_.store(&site, std::memory_order_relaxed);
+    site_.store(&site, std::memory_order_release);
     serial_ += 1u << 8;
     call_.store(serial_ | static_cast<std::uint32_t>(function), std::memory_order_release);
   }
   void leave() { call_.store(serial_, std::memory_order_release); }
 
-  // The tick that the thread is in, for the message only; public numbers, from 0.
+  // The tick that the thread is in or was in last, for the message only; public numbers, from 0.
   void set_tick(std::uint64_t tick) { tick_.store(tick, std::memory_order_relaxed); }
 
   // A call as another thread sees it: two looks that are equal have seen the same call.
   struct Look {
-    const CallSite* site = nullptr;
-    std::uint32_t call = 0;  // a number of the call; the low byte is its function
+    const CallSite* site = nullptr;  // outside of a call: of the last one
+    std::uint32_t call = 0;          // a number of the call; the low byte is its function
 
     PluginFunction function() const { return static_cast<PluginFunction>(call & 0xff); }
     friend bool operator==(const Look&, const Look&) = default;

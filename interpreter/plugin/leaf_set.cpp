@@ -6,7 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "core/diagnostics.h"
+#include "plugin/call_mark.h"
+#include "plugin/float_mode.h"
 #include "plugin/host.h"
+#include "plugin/leaf_watch.h"
 
 namespace lockstep {
 namespace {
@@ -16,8 +20,9 @@ constexpr std::uint64_t kFirstRunStream = std::uint64_t{1} << 32;
 
 // Calls a plugin, which should let no exception out. Returns the reason when it does, else "".
 template <class Call>
-std::string call_plugin(Call call) {
+std::string call_plugin(const CallSite& site, PluginFunction function, Call call) {
   try {
+    const MarkedCall marked(site, function);
     call();
     return {};
   } catch (const std::exception& exception) {
@@ -25,6 +30,12 @@ std::string call_plugin(Call call) {
   } catch (...) {
     return "threw an exception that is not a std::exception";
   }
+}
+
+const CallSite& site_of(const Tree& tree, const LeafNode& leaf) {
+  return CallSite::of(fmt::format("'{}' ({} of plugin '{}')", printable(tree.path(leaf.node)),
+                                  leaf.type->id, leaf.type->plugin),
+                      std::string(leaf.type->plugin));
 }
 
 std::vector<BoundPort> resolve_ports(const Tree& tree, const LeafNode& leaf,
@@ -55,11 +66,13 @@ struct LeafSet::Implementation {
     const lockstep_plugin* plugin;
     NodeIndex node;  // the first leaf of the plugin
     std::unique_ptr<lockstep_caller> caller;
+    const CallSite* site;
     LeafSlot slot;  // `self` is the context
     bool created = false;
   };
 
-  Implementation(const Tree& tree, Blackboard& blackboard, const LeafTime& time, LeafLog log);
+  Implementation(const Tree& tree, Blackboard& blackboard, const LeafTime& time, LeafLog log,
+                 LeafWatch* watch);
   ~Implementation() { destroy_all(); }
   Implementation(const Implementation&) = delete;
   Implementation& operator=(const Implementation&) = delete;
@@ -68,57 +81,92 @@ struct LeafSet::Implementation {
   void destroy_all();
   bool create_context(Context& context);
   bool create_leaf(std::uint32_t index);
+  void destroy_leaf(std::size_t index);
+  void destroy_context(const Context& context);
   Context* find_context(const void* plugin);
   std::unique_ptr<lockstep_caller> make_caller(std::string who, LeafSlot& slot);
   bool fail(NodeIndex node, std::string message);
-  void destroy(const lockstep_caller& caller, void (*function)(void*), void* object);
+  void warn(const lockstep_caller& caller, const std::string& message);
+  // Calls a function that is not called while ticking. Returns why it failed, or "".
+  template <class Call>
+  std::string call(const lockstep_caller& caller, const CallSite& site, PluginFunction function,
+                   Call call);
 
   const Tree& tree_;
   const LeafTime& time_;
   LeafLog log_;
+  LeafWatch* const watch_;
   // Plugins keep pointers to callers, and callers to slots: once made, none of them moves.
   std::vector<std::unique_ptr<Context>> contexts_;
   std::vector<LeafSlot> slots_;
   std::vector<std::unique_ptr<lockstep_caller>> callers_;  // of the leaves
+  std::vector<const CallSite*> sites_;                     // of the leaves
   std::optional<Fault> fault_;
 };
 
 LeafSet::Implementation::Implementation(const Tree& tree, Blackboard& blackboard,
-                                        const LeafTime& time, LeafLog log)
-    : tree_(tree), time_(time), log_(std::move(log)), slots_(tree.leaves.size()) {
+                                        const LeafTime& time, LeafLog log, LeafWatch* watch)
+    : tree_(tree), time_(time), log_(std::move(log)), watch_(watch), slots_(tree.leaves.size()) {
   for (const LeafNode& leaf : tree.leaves) {
     if (find_context(leaf.type->origin) == nullptr) {
       const auto* plugin = static_cast<const lockstep_plugin*>(leaf.type->origin);
-      contexts_.push_back(std::make_unique<Context>(Context{plugin, leaf.node, nullptr, {}}));
+      contexts_.push_back(std::make_unique<Context>(
+          Context{plugin, leaf.node, nullptr, &CallSite::of("", plugin->name), {}}));
       contexts_.back()->caller = make_caller(plugin->name, contexts_.back()->slot);
     }
     LeafSlot& slot = slots_[callers_.size()];
     slot.type = static_cast<const lockstep_leaf_type*>(leaf.type->binding);
     callers_.push_back(make_caller(tree.path(leaf.node), slot));
+    sites_.push_back(&site_of(tree, leaf));
     callers_.back()->ports = resolve_ports(tree, leaf, blackboard);
   }
 }
 
 // In reverse order; what was not created is passed over.
 void LeafSet::Implementation::destroy_all() {
+  if (watch_ != nullptr) watch_->remove(slots_);
   for (std::size_t index = slots_.size(); index-- > 0;) {
     LeafSlot& slot = slots_[index];
-    if (slot.self != nullptr) destroy(*callers_[index], slot.type->destroy, slot.self);
+    if (slot.self != nullptr) destroy_leaf(index);
     slot = LeafSlot{.type = slot.type};
   }
   for (std::size_t index = contexts_.size(); index-- > 0;) {
     Context& context = *contexts_[index];
-    if (context.created) destroy(*context.caller, context.plugin->destroy_run, context.slot.self);
+    if (context.created) destroy_context(context);
     context.created = false;
     context.slot = {};
   }
 }
 
-void LeafSet::Implementation::destroy(const lockstep_caller& caller, void (*function)(void*),
-                                      void* object) {
-  const std::string reason = call_plugin([&] { function(object); });
-  if (reason.empty()) return;
-  host_table().log(&caller, LOCKSTEP_LOG_WARNING, fmt::format("its destroy {}", reason).c_str());
+void LeafSet::Implementation::destroy_leaf(std::size_t index) {
+  const LeafSlot& slot = slots_[index];
+  const std::string reason = call(*callers_[index], *sites_[index], PluginFunction::Destroy,
+                                  [&] { slot.type->destroy(slot.self); });
+  if (!reason.empty()) warn(*callers_[index], "its destroy " + reason);
+}
+
+void LeafSet::Implementation::destroy_context(const Context& context) {
+  const std::string reason = call(*context.caller, *context.site, PluginFunction::DestroyRun,
+                                  [&] { context.plugin->destroy_run(context.slot.self); });
+  if (!reason.empty()) warn(*context.caller, "its destroy_run " + reason);
+}
+
+void LeafSet::Implementation::warn(const lockstep_caller& caller, const std::string& message) {
+  host_table().log(&caller, LOCKSTEP_LOG_WARNING, message.c_str());
+}
+
+template <class Call>
+std::string LeafSet::Implementation::call(const lockstep_caller& caller, const CallSite& site,
+                                          PluginFunction function, Call call) {
+  const FloatMode mode = FloatMode::current();
+  std::string reason = call_plugin(site, function, call);
+  if (FloatMode::current() != mode) {
+    mode.restore();
+    warn(caller, fmt::format("its {} has changed the rounding mode or the floating-point "
+                             "exceptions; they were set back",
+                             name_of(function)));
+  }
+  return reason;
 }
 
 bool LeafSet::Implementation::fail(NodeIndex node, std::string message) {
@@ -146,7 +194,7 @@ std::unique_ptr<lockstep_caller> LeafSet::Implementation::make_caller(std::strin
 bool LeafSet::Implementation::create_context(Context& context) {
   const lockstep_plugin* const plugin = context.plugin;
   if (plugin->create_run == nullptr) return true;
-  std::string reason = call_plugin([&] {
+  std::string reason = call(*context.caller, *context.site, PluginFunction::CreateRun, [&] {
     context.slot.self = plugin->create_run(&host_table(), context.caller.get());
     // What came with an error is a context that must go; NULL is one only without an error.
     context.created = context.slot.self != nullptr || context.slot.error == nullptr;
@@ -161,8 +209,9 @@ bool LeafSet::Implementation::create_leaf(std::uint32_t index) {
   const LeafNode& leaf = tree_.leaves[index];
   LeafSlot& slot = slots_[index];
   void* const context = find_context(leaf.type->origin)->slot.self;
-  std::string reason = call_plugin(
-      [&] { slot.self = slot.type->create(&host_table(), callers_[index].get(), context); });
+  std::string reason = call(*callers_[index], *sites_[index], PluginFunction::Create, [&] {
+    slot.self = slot.type->create(&host_table(), callers_[index].get(), context);
+  });
   if (reason.empty() && slot.error != nullptr) reason = slot.error;
   if (reason.empty() && slot.self == nullptr) reason = "its create returned NULL without an error";
   return reason.empty() || fail(leaf.node, fmt::format("could not be created: {}", reason));
@@ -178,11 +227,12 @@ void LeafSet::Implementation::create_all(std::uint64_t seed) {
     callers_[index]->random = RandomStream(seed, index + std::uint64_t{1});
     if (!create_leaf(index)) return;
   }
+  if (watch_ != nullptr) watch_->insert(tree_, slots_, sites_);
 }
 
 LeafSet::LeafSet(const Tree& tree, Blackboard& blackboard, const LeafTime& time, std::uint64_t seed,
-                 LeafLog log)
-    : it_(std::make_unique<Implementation>(tree, blackboard, time, std::move(log))) {
+                 LeafLog log, LeafWatch* watch)
+    : it_(std::make_unique<Implementation>(tree, blackboard, time, std::move(log), watch)) {
   create_all(seed);
 }
 

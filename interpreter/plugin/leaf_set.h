@@ -24,13 +24,16 @@ struct LeafTime {
 using LeafLog =
     std::function<void(std::string_view who, lockstep_log_level level, std::string_view message)>;
 
+class LeafWatch;
+
 class LeafSet {
  public:
   // Creates the run context of every plugin in the tree, then every leaf in pre-order. All
   // references must outlive the set. When a leaf cannot be created, fault() says so and the set
   // must not be ticked. `seed` and a leaf's place in the tree give its stream of random numbers.
+  // With a `watch`, the slots hold watched leaves.
   LeafSet(const Tree& tree, Blackboard& blackboard, const LeafTime& time, std::uint64_t seed,
-          LeafLog log = {});
+          LeafLog log = {}, LeafWatch* watch = nullptr);
   // Destroys the leaves in reverse order, then the run contexts. No leaf may be running.
   ~LeafSet();
   // The two halves of beginning anew, as if the set was made again: in between, the owner resets

@@ -8,7 +8,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "core/clock.h"
@@ -22,6 +21,7 @@ struct LeafWatchOptions {
   // A call that takes longer is told to on_slow, at most once a second for all leaves. None: calls
   // are not timed.
   std::optional<Nanoseconds> budget;
+  Clock* clock = nullptr;  // that times the calls; null: the wall clock
   // Both on the tick thread, after the call.
   std::function<void(NodeIndex leaf, PluginFunction function, Nanoseconds took)> on_slow;
   // The leaf has changed the rounding mode or the floating-point exceptions; told once per leaf.
@@ -35,29 +35,32 @@ class LeafWatch {
   LeafWatch(const LeafWatch&) = delete;
   LeafWatch& operator=(const LeafWatch&) = delete;
 
-  // For LeafSet. Puts itself in front of every created leaf of `slots`; `remove` undoes it.
-  void insert(const Tree& tree, std::span<LeafSlot> slots);
+  // For LeafSet. Puts itself in front of every leaf of `slots`, which have been created; `remove`
+  // undoes it, and does nothing when it was not there. `sites` has one for each slot. The mode of
+  // floating-point that leaves must keep is the one of now. Always the same tree.
+  void insert(const Tree& tree, std::span<LeafSlot> slots, std::span<const CallSite* const> sites);
   void remove(std::span<LeafSlot> slots);
 
-  // For the owner of the run, around a tick of the root.
+  // For the owner of the run, before a tick of the root, by its number from 0.
   void begin_tick(std::uint64_t tick);
 
   struct Slowest {
     NodeIndex leaf = 0;
     PluginFunction function = PluginFunction::None;
-    Nanoseconds took{0};  // 0: no call was timed
+    Nanoseconds took{0};
   };
-  // The longest call since begin_tick.
+  // The longest call since begin_tick; its function is None when none was timed.
   Slowest slowest() const;
 
-  // What is known of a leaf that was over its budget at least once.
+  // What is known of a leaf that was over its budget at least once, in all runs of this watch.
   struct Timing {
     NodeIndex leaf = 0;
-    std::uint64_t calls = 0;        // of tick
-    std::uint64_t over_budget = 0;  // of these
-    Nanoseconds p50{0}, p99{0}, max{0};
+    std::uint64_t ticks = 0;        // calls of tick
+    std::uint64_t over_budget = 0;  // calls of any function that took longer
+    Nanoseconds p50{0}, p99{0};     // of tick, at most a sixteenth too large
+    Nanoseconds max{0};             // of any function, exact
   };
-  // Of the leaves that were over their budget, the worst first.
+  // Of the leaves that were over their budget, the one with the longest call first.
   std::vector<Timing> over_budget() const;
 
  private:

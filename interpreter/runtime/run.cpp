@@ -5,8 +5,9 @@ namespace lockstep {
 Run::Run(const Tree& tree, const RunOptions& options)
     : blackboard_(tree),
       time_{.now = Nanoseconds(0), .period = options.period},
-      leaves_(tree, blackboard_, time_, options.seed, options.log),
-      ticker_(tree, leaves_.slots()) {}
+      watch_(options.watch),
+      leaves_(tree, blackboard_, time_, options.seed, options.log, options.watch),
+      ticker_(tree, leaves_.slots(), options.on_fault) {}
 
 Run::~Run() {
   halt();
@@ -28,6 +29,7 @@ void Run::set_now(Nanoseconds now) {
 
 Status Run::tick(Nanoseconds now) {
   set_now(now);
+  if (watch_ != nullptr) watch_->begin_tick(ticker_.tick_number());  // which counts from 1
   return ticker_.tick_root(now);
 }
 

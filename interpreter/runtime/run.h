@@ -44,10 +44,12 @@ class Run {
   const Fault* fault() const;
   Ticker& ticker() { return ticker_; }
   Nanoseconds period() const { return time_.period; }
+  LeafWatch* watch() const { return watch_; }  // null: nobody watches
 
  private:
   Blackboard blackboard_;
   LeafTime time_;
+  LeafWatch* watch_;
   LeafSet leaves_;
   Ticker ticker_;
 };

@@ -1,4 +1,4 @@
-#include "measure/histogram.h"
+#include "core/histogram.h"
 
 #include <algorithm>
 #include <bit>
@@ -6,17 +6,19 @@
 
 namespace lockstep {
 
-// Values below kPerOctave have a bucket each; above, the top kBits + 1 bits of a value name it.
-std::size_t Histogram::bucket_of(std::uint64_t value) {
-  if (value < kPerOctave) return value;
-  const auto shift = static_cast<unsigned>(std::bit_width(value)) - 1 - kBits;
-  return (shift + 1) * kPerOctave + ((value >> shift) - kPerOctave);
+Histogram::Histogram(unsigned bits) : bits_(bits), buckets_((64 - std::size_t{bits}) << bits) {}
+
+// Values below 2^bits have a bucket each; above, the top bits + 1 bits of a value name it.
+std::size_t Histogram::bucket_of(std::uint64_t value) const {
+  if (value >> bits_ == 0) return value;
+  const auto shift = static_cast<unsigned>(std::bit_width(value)) - 1 - bits_;
+  return (std::size_t{shift} << bits_) + (value >> shift);
 }
 
-std::uint64_t Histogram::largest_of(std::size_t bucket) {
-  if (bucket < kPerOctave) return bucket;
-  const std::size_t shift = bucket / kPerOctave - 1;
-  const std::uint64_t lowest = (kPerOctave + bucket % kPerOctave) << shift;
+std::uint64_t Histogram::largest_of(std::size_t bucket) const {
+  if (bucket >> bits_ == 0) return bucket;
+  const std::size_t shift = (bucket >> bits_) - 1;
+  const std::uint64_t lowest = (bucket - (shift << bits_)) << shift;
   return lowest + ((std::uint64_t{1} << shift) - 1);
 }
 

@@ -1,0 +1,58 @@
+#include "plugin/call_mark.h"
+
+#include <array>
+#include <mutex>
+#include <set>
+#include <tuple>
+#include <utility>
+
+namespace lockstep {
+namespace {
+
+constinit thread_local CallMark t_mark;
+
+// A signal handler may read it.
+static_assert(std::atomic<const CallSite*>::is_always_lock_free &&
+              std::atomic<std::uint32_t>::is_always_lock_free &&
+              std::atomic<std::uint64_t>::is_always_lock_free);
+
+struct Less {
+  bool operator()(const CallSite& a, const CallSite& b) const {
+    return std::tie(a.plugin, a.leaf) < std::tie(b.plugin, b.leaf);
+  }
+};
+
+}  // namespace
+
+const char* name_of(PluginFunction function) {
+  static constexpr std::array kNames{"none",     "load",    "init",        "create_run", "create",
+                                     "start",    "tick",    "halt",        "pause",      "resume",
+                                     "progress", "destroy", "destroy_run", "deinit"};
+  static_assert(kNames.size() == static_cast<std::size_t>(PluginFunction::Deinit) + 1);
+  return kNames[static_cast<std::size_t>(function)];
+}
+
+const CallSite& CallSite::of(std::string leaf, std::string plugin) {
+  // Never destroyed: threads outlive the end of main.
+  static auto& mutex = *new std::mutex;
+  static auto& sites = *new std::set<CallSite, Less>;
+  const std::lock_guard lock(mutex);
+  return *sites.insert({std::move(leaf), std::move(plugin)}).first;
+}
+
+CallMark& CallMark::this_thread() {
+  return t_mark;
+}
+
+// What was read between two equal looks at `call_` belongs to that call.
+CallMark::Look CallMark::look() const {
+  std::uint32_t before = call_.load(std::memory_order_acquire);
+  while (true) {
+    const CallSite* const site = site_.load(std::memory_order_acquire);
+    const std::uint32_t after = call_.load(std::memory_order_acquire);
+    if (before == after) return {site, after};
+    before = after;
+  }
+}
+
+}  // namespace lockstep
