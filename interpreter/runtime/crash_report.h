@@ -14,20 +14,22 @@ class CrashReport {
  public:
   // From now on SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT and exit() of this process end with a
   // report and `exit_code`. `last_words` may be null; it must be async-signal-safe, and is called
-  // once, after the culprit is named and before the backtrace.
+  // once, after the culprit is named and before the backtrace. What is not caught: _exit(),
+  // SIGKILL, and a stack overflow in a thread that was not prepared. A process that a plugin forks
+  // off is none of our business: its end is as without us.
   static void install(int exit_code, void (*last_words)());
 
-  // Gives this thread a stack on which the report of a stack overflow can be written. Needed once
-  // for each thread that calls leaves.
+  // Gives this thread, until it ends, a stack on which the report of a stack overflow can be
+  // written. Needed once for each of our threads: a thread without one is taken for a plugin's.
   static void prepare_thread();
 
-  // exit() is a crash as long as a run goes on: begin() .. end(). (A leaf may call it from a thread
-  // of its own.)
+  // exit() and quick_exit() are a crash inside a call, and in any thread as long as a run goes on:
+  // begin_run() .. end_run(). (A leaf may call it from a thread of its own.)
   static void begin_run();
   static void end_run();
 
-  // Reports that `thread` has been in a call for too long, with its backtrace, and ends the
-  // process. Called by the watchdog's thread.
+  // Reports that `thread`, whose mark is given, has been in a call for too long, with its backtrace
+  // when it still takes a signal, and ends the process. Called by the watchdog's thread.
   [[noreturn]] static void hang(pthread_t thread, const CallMark& mark, double seconds);
 };
 

@@ -1,0 +1,42 @@
+// A stack for the signal handlers of one thread, who must not need the thread's own: it may have
+// overflowed. Used by crash_report.cpp.
+#pragma once
+
+#include <signal.h>
+#include <sys/mman.h>
+
+#include <cstddef>
+
+namespace lockstep {
+
+class AlternateStack {
+ public:
+  // For the thread that constructs it, which must destroy it too. Without memory there is none.
+  AlternateStack() {
+    void* const memory = mmap(nullptr, kSize, PROT_READ | PROT_WRITE,
+                              MAP_PRIVATE | MAP_ANONYMOUS | MAP_STACK, -1, 0);
+    if (memory == MAP_FAILED) return;
+    stack_t stack{};
+    stack.ss_sp = memory;
+    stack.ss_size = kSize;
+    if (sigaltstack(&stack, &before_) == 0) {
+      memory_ = memory;
+    } else {
+      munmap(memory, kSize);
+    }
+  }
+  ~AlternateStack() {
+    if (memory_ == nullptr) return;
+    sigaltstack(&before_, nullptr);
+    munmap(memory_, kSize);
+  }
+  AlternateStack(const AlternateStack&) = delete;
+  AlternateStack& operator=(const AlternateStack&) = delete;
+
+ private:
+  static constexpr std::size_t kSize = 256 * 1024;  // the kernel's part alone can be 12 KB
+  void* memory_ = nullptr;
+  stack_t before_{};
+};
+
+}  // namespace lockstep

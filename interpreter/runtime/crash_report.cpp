@@ -1,0 +1,184 @@
+#include "runtime/crash_report.h"
+
+#include <execinfo.h>
+#include <signal.h>
+#include <sys/syscall.h>
+#include <ucontext.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cstdlib>
+#include <ctime>
+
+#include "runtime/alternate_stack.h"
+#include "runtime/crash_text.h"
+
+namespace lockstep {
+namespace {
+
+constexpr std::array kFatalSignals{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+constexpr unsigned kLongestReport = 5;  // seconds; then the process ends without the rest
+constexpr int kMostFrames = 64;
+
+// Written by install(), before anything can crash.
+int g_exit_code = 1;
+void (*g_last_words)() = nullptr;
+pid_t g_process = 0;
+
+std::atomic<int> g_runs{0};
+std::atomic<pid_t> g_reporter{0};  // the thread that writes the report
+constinit thread_local bool t_is_prepared = false;
+
+// What hang() tells the thread that hangs. Written before the flag.
+pthread_t g_hung_thread;
+Crash g_hang;
+std::atomic<bool> g_is_hung{false};
+
+struct Registers {
+  std::uint64_t stack = 0;
+  void* instruction = nullptr;
+};
+
+Registers registers_of(const void* context) {
+  [[maybe_unused]] const auto& machine = static_cast<const ucontext_t*>(context)->uc_mcontext;
+#if defined(__x86_64__)
+  return {static_cast<std::uint64_t>(machine.gregs[REG_RSP]),
+          reinterpret_cast<void*>(machine.gregs[REG_RIP])};  // NOLINT: an address
+#elif defined(__aarch64__)
+  return {machine.sp, reinterpret_cast<void*>(machine.pc)};
+#else
+  return {};
+#endif
+}
+
+// The first thread that crashes reports, others wait for its end. A crash of the report itself ends
+// the process at once, and so does a report that gets stuck.
+void begin_report() {
+  const auto thread = static_cast<pid_t>(syscall(SYS_gettid));
+  pid_t reporter = 0;
+  if (!g_reporter.compare_exchange_strong(reporter, thread)) {
+    if (reporter == thread) _exit(g_exit_code);
+    while (true) pause();
+  }
+  struct sigaction action {};
+  action.sa_handler = [](int) { _exit(g_exit_code); };
+  sigaction(SIGALRM, &action, nullptr);
+  sigset_t unblocked;
+  sigemptyset(&unblocked);
+  sigaddset(&unblocked, SIGALRM);
+  for (const int number : kFatalSignals) sigaddset(&unblocked, number);
+  pthread_sigmask(SIG_UNBLOCK, &unblocked, nullptr);
+  alarm(kLongestReport);
+}
+
+// From the instruction that crashed, when it is among them: what was called before is the handler.
+void write_backtrace(const void* instruction) {
+  std::array<void*, kMostFrames> frames;
+  const int count = backtrace(frames.data(), kMostFrames);
+  int first = 0;
+  while (first < count && frames[static_cast<std::size_t>(first)] != instruction) ++first;
+  if (first == count) first = 0;
+  SignalText title;
+  (title << "lockstep: backtrace:\n").write_to(STDERR_FILENO);
+  backtrace_symbols_fd(frames.data() + first, count - first, STDERR_FILENO);
+}
+
+enum class Backtrace : bool { No, Yes };
+
+[[noreturn]] void report(const Crash& crash, Backtrace wanted, const void* instruction = nullptr) {
+  SignalText text;
+  describe(crash, text);
+  text.write_to(STDERR_FILENO);
+  if (g_last_words != nullptr) g_last_words();
+  if (wanted == Backtrace::Yes) write_backtrace(instruction);
+  _exit(g_exit_code);
+}
+
+Crash crash_here(CrashKind kind) {
+  const CallMark& mark = CallMark::this_thread();
+  return {
+      .kind = kind, .call = mark.look(), .tick = mark.tick(), .is_foreign_thread = !t_is_prepared};
+}
+
+Crash crash_of(int number, const siginfo_t& info, const Registers& registers) {
+  constexpr std::uint64_t kNear = 64 * 1024;
+  Crash crash = crash_here(CrashKind::Signal);
+  crash.signal = number;
+  crash.code = info.si_code;
+  if (info.si_code <= 0) {  // somebody's kill() or raise()
+    if (info.si_pid != getpid()) crash.sender = info.si_pid;
+    return crash;
+  }
+  crash.address = reinterpret_cast<std::uintptr_t>(info.si_addr);
+  crash.is_stack_overflow =
+      number == SIGSEGV && crash.address + kNear - registers.stack < 2 * kNear;
+  return crash;
+}
+
+void on_fatal_signal(int number, siginfo_t* info, void* context) {
+  if (getpid() != g_process) {  // a process that a leaf has forked off
+    signal(number, SIG_DFL);
+    raise(number);
+    return;
+  }
+  begin_report();
+  const Registers registers = registers_of(context);
+  if (number == SIGABRT && g_is_hung && pthread_equal(pthread_self(), g_hung_thread) != 0) {
+    report(g_hang, Backtrace::Yes, registers.instruction);
+  }
+  report(crash_of(number, *info, registers), Backtrace::Yes, registers.instruction);
+}
+
+void at_process_end() {
+  if (getpid() != g_process) return;
+  const Crash crash = crash_here(CrashKind::Exit);
+  if (g_runs == 0 && crash.call.function() == PluginFunction::None) return;
+  begin_report();
+  report(crash, Backtrace::Yes);
+}
+
+}  // namespace
+
+void CrashReport::install(int exit_code, void (*last_words)()) {
+  g_exit_code = exit_code;
+  g_last_words = last_words;
+  g_process = getpid();
+  prepare_thread();
+  std::array<void*, 1> frame;
+  backtrace(frame.data(), 1);  // the first call loads a library, which a signal handler must not
+  struct sigaction action {};
+  action.sa_sigaction = on_fatal_signal;
+  action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER;
+  sigfillset(&action.sa_mask);
+  for (const int number : kFatalSignals) sigdelset(&action.sa_mask, number);
+  for (const int number : kFatalSignals) sigaction(number, &action, nullptr);
+  static const bool registered =
+      std::atexit(at_process_end) == 0 && std::at_quick_exit(at_process_end) == 0;
+  static_cast<void>(registered);
+}
+
+void CrashReport::prepare_thread() {
+  static thread_local const AlternateStack stack;
+  t_is_prepared = true;
+}
+
+void CrashReport::begin_run() {
+  ++g_runs;
+}
+void CrashReport::end_run() {
+  --g_runs;
+}
+
+void CrashReport::hang(pthread_t thread, const CallMark& mark, double seconds) {
+  g_hung_thread = thread;
+  g_hang = {.kind = CrashKind::Hang, .call = mark.look(), .tick = mark.tick(), .seconds = seconds};
+  g_is_hung = true;
+  pthread_kill(thread, SIGABRT);
+  const timespec pause_time{.tv_sec = 0, .tv_nsec = 5'000'000};
+  for (int look = 0; look < 40 && g_reporter == 0; ++look) nanosleep(&pause_time, nullptr);
+  begin_report();
+  report(g_hang, Backtrace::No);
+}
+
+}  // namespace lockstep

@@ -1,0 +1,154 @@
+#include "runtime/crash_text.h"
+
+#include <signal.h>
+
+namespace lockstep {
+namespace {
+
+bool is_inside_call(const Crash& crash) {
+  return crash.call.function() != PluginFunction::None;
+}
+
+void put_site(const CallSite& site, SignalText& text) {
+  if (site.leaf.empty()) {
+    text << "the plugin '" << site.plugin << "'";
+  } else {
+    text << "the leaf " << site.leaf;
+  }
+}
+
+void put_culprit(const Crash& crash, SignalText& text) {
+  // A call that hung may have returned while that is being told.
+  if (is_inside_call(crash) || (crash.kind == CrashKind::Hang && crash.call.site != nullptr)) {
+    return put_site(*crash.call.site, text);
+  }
+  text << (crash.is_foreign_thread ? "a thread that a plugin has started" : "lockstep");
+}
+
+// "tick 12", "its halt function"
+void put_function(const Crash& crash, SignalText& text) {
+  const PluginFunction function = crash.call.function();
+  if (function == PluginFunction::Tick && crash.tick != CallMark::kNoTick) {
+    text << "tick " << crash.tick;
+  } else if (function == PluginFunction::Load) {
+    text << "the loading of its shared object";
+  } else if (function == PluginFunction::None) {
+    text << "a call";
+  } else {
+    text << "its " << name_of(function) << " function";
+  }
+}
+
+// " (tick 12)" where the function does not say it
+void put_tick(const Crash& crash, SignalText& text) {
+  switch (crash.call.function()) {
+    case PluginFunction::Start:
+    case PluginFunction::Halt:
+    case PluginFunction::Pause:
+    case PluginFunction::Resume:
+    case PluginFunction::Progress:
+      if (crash.tick != CallMark::kNoTick) text << " (tick " << crash.tick << ")";
+      break;
+    default:
+      break;
+  }
+}
+
+void put_place(const Crash& crash, SignalText& text) {
+  if (!is_inside_call(crash)) return;
+  text << " in ";
+  put_function(crash, text);
+  put_tick(crash, text);
+}
+
+const char* name_of_signal(int number) {
+  switch (number) {
+    case SIGSEGV:
+      return "SIGSEGV";
+    case SIGBUS:
+      return "SIGBUS";
+    case SIGFPE:
+      return "SIGFPE";
+    case SIGILL:
+      return "SIGILL";
+    default:
+      return "SIGABRT";
+  }
+}
+
+const char* meaning_of(const Crash& crash) {
+  switch (crash.signal) {
+    case SIGSEGV:
+      return crash.is_stack_overflow ? "the stack has overflowed" : "invalid memory reference";
+    case SIGBUS:
+      return "memory that is not there";
+    case SIGFPE:
+      return crash.code == FPE_INTDIV ? "division of an integer by zero" : "erroneous arithmetic";
+    case SIGILL:
+      return "illegal instruction";
+    default:
+      return "abort() or a failed assertion";
+  }
+}
+
+void put_signal(const Crash& crash, SignalText& text) {
+  put_culprit(crash, text);
+  text << " crashed";
+  put_place(crash, text);
+  text << ": " << name_of_signal(crash.signal) << ", " << meaning_of(crash);
+  // A positive code is the kernel's: it knows an address.
+  if ((crash.signal == SIGSEGV || crash.signal == SIGBUS) && crash.code > 0) {
+    (text << " (address ").hexadecimal(crash.address) << ")";
+  }
+}
+
+void put_foreign_signal(const Crash& crash, SignalText& text) {
+  text << "process " << static_cast<std::uint64_t>(crash.sender) << " sent "
+       << name_of_signal(crash.signal) << " while ";
+  put_culprit(crash, text);
+  text << (is_inside_call(crash) ? " was" : " was at work");
+  put_place(crash, text);
+}
+
+void put_event(const Crash& crash, SignalText& text) {
+  if (crash.kind == CrashKind::Signal) {
+    return crash.sender != 0 ? put_foreign_signal(crash, text) : put_signal(crash, text);
+  }
+  put_culprit(crash, text);
+  if (crash.kind == CrashKind::Exit) {
+    text << " called exit()";
+    put_place(crash, text);
+    if (!is_inside_call(crash)) text << " during the run";
+  } else {
+    text << " has not returned from ";
+    put_function(crash, text);
+    (text << " for ").tenths(crash.seconds) << " s";
+    put_tick(crash, text);
+  }
+}
+
+void put_hints(const Crash& crash, SignalText& text) {
+  if (crash.sender != 0) return;
+  if (is_inside_call(crash) || crash.is_foreign_thread || crash.kind == CrashKind::Hang) {
+    text << "  hint: run it with --isolate, and the run outlives this plugin\n"
+            "  hint: the author of the plugin needs the backtrace; c++filt makes it readable\n";
+    return;
+  }
+  text << "  hint: a plugin may have overwritten memory: with --isolate none can\n"
+          "  hint: otherwise it is a defect of lockstep: please report it, with the backtrace\n";
+  if (crash.call.site == nullptr) return;
+  text << "  hint: the last call was to ";
+  put_site(*crash.call.site, text);
+  text << "\n";
+}
+
+}  // namespace
+
+void describe(const Crash& crash, SignalText& text) {
+  text << "lockstep: error: ";
+  put_event(crash, text);
+  text << "\n";
+  put_hints(crash, text);
+}
+
+}  // namespace lockstep

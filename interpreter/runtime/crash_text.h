@@ -1,0 +1,32 @@
+// What a crash report says of the crash: a text of what is known, and nothing else. Everything here
+// is async-signal-safe. Used by crash_report.cpp.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+
+#include "plugin/call_mark.h"
+#include "runtime/signal_text.h"
+
+namespace lockstep {
+
+enum class CrashKind : std::uint8_t { Signal, Exit, Hang };
+
+struct Crash {
+  CrashKind kind;
+  CallMark::Look call;             // of the thread that crashed
+  std::uint64_t tick;              // as in CallMark
+  bool is_foreign_thread = false;  // not one of lockstep's own
+  int signal = 0;                  // the rest of a signal: its number,
+  int code = 0;                    // si_code,
+  std::uint64_t address = 0;       // si_addr,
+  bool is_stack_overflow = false;  // whether that is just beyond the stack,
+  pid_t sender = 0;                // and the other process that sent it, if any
+  double seconds = 0;              // of a hang
+};
+
+// Lines for a person: what happened, and hints what to do.
+void describe(const Crash& crash, SignalText& text);
+
+}  // namespace lockstep
