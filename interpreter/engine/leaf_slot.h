@@ -9,7 +9,7 @@ struct LeafSlot {
   const lockstep_leaf_type* type = nullptr;
   void* self = nullptr;
   bool started = false;         // the activation began, so it has to be halted
-  bool failed = false;          // a tolerated fault: its tick, or the next one, is a Failure
+  bool failed = false;          // a tolerated fault in this activation, which ends in a Failure
   const char* error = nullptr;  // set by the host's set_error: the reason, valid until taken
 };
 

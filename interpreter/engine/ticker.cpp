@@ -61,6 +61,11 @@ double Ticker::progress(NodeIndex node) {
 }
 
 void Ticker::set_fault(NodeIndex node, std::string message) {
+  if (policy_ == FaultPolicy::Fail) {
+    leaf(node).failed = true;
+    tolerated_.push_back({node, std::move(message)});
+    return;
+  }
   if (faulted_) return;  // the first is the cause
   faulted_ = true;
   fault_ = Fault{node, std::move(message)};
@@ -72,6 +77,7 @@ void Ticker::reset() {
   tick_number_ = 0;
   faulted_ = false;
   fault_ = {};
+  tolerated_.clear();
 }
 
 }  // namespace lockstep

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/clock.h"
@@ -109,8 +110,10 @@ class Ticker {
   void reset();
 
   const Fault* fault() const { return faulted_ ? &fault_ : nullptr; }
-  // Since the last tick_root began: the faults that the run goes on after.
+  // The faults that the run goes on after, in order, since they were last taken: those of a tick,
+  // and those of progress that was asked for before it.
   std::span<const Fault> tolerated() const { return tolerated_; }
+  std::vector<Fault> take_tolerated() { return std::exchange(tolerated_, {}); }
   std::uint32_t tick_number() const { return tick_number_; }  // of the last tick; the first is 1
   bool ticked(NodeIndex node) const {
     return tick_number_ != 0 && state_.last_tick[node] == tick_number_;

@@ -23,8 +23,8 @@ std::map<std::string, LeafScript> scripts(std::string_view text) {
 
 }  // namespace
 
-ScriptedRun::ScriptedRun(std::string_view tree, std::string_view leaves)
-    : tree_(tree_from_text(tree)), slots_(tree_.leaves.size()), ticker_(tree_, slots_) {
+ScriptedRun::ScriptedRun(std::string_view tree, std::string_view leaves, FaultPolicy policy)
+    : tree_(tree_from_text(tree)), slots_(tree_.leaves.size()), ticker_(tree_, slots_, policy) {
   const auto by_name = scripts(leaves);
   for (std::uint32_t number = 0; number < slots_.size(); ++number) {
     const auto script = by_name.find(leaf_name(number));

@@ -15,7 +15,8 @@ class ScriptedRun {
  public:
   // `leaves`: "a=RRS b+.1 c=R~0,1", a script for each leaf of the tree. Throws
   // std::invalid_argument.
-  ScriptedRun(std::string_view tree, std::string_view leaves);
+  ScriptedRun(std::string_view tree, std::string_view leaves,
+              FaultPolicy policy = FaultPolicy::Stop);
   ScriptedRun(const ScriptedRun&) = delete;
   ScriptedRun& operator=(const ScriptedRun&) = delete;
 

@@ -12,8 +12,9 @@ namespace {
 
 // One tick as a row expects it: "R[a b] halt[b] =.5".
 struct Step {
-  std::string calls;   // without the suffix
+  std::string calls;   // without what follows
   std::string suffix;  // what stands after '=': a progress, or the leaf at fault
+  std::string faults;  // what stands after '!': the leaves at fault, "a,b"
   bool every_call = false;
 };
 
@@ -34,19 +35,32 @@ std::vector<std::string> words(std::string_view text) {
   return words;
 }
 
+// What stands behind the first `mark` in `word`, which is shortened by it.
+std::string cut_off(std::string& word, char mark) {
+  const auto at = word.find(mark);
+  if (at == std::string::npos) return {};
+  std::string rest = word.substr(at + 1);
+  word.resize(at);
+  return rest;
+}
+
+// A line of the message that compares what was expected with what came.
+std::string line(const std::string& calls, const std::string& suffix, const std::string& faults) {
+  return "\n    " + calls + (suffix.empty() ? "" : " =" + suffix) +
+         (faults.empty() ? "" : " !" + faults);
+}
+
 std::vector<Step> parse_expected(std::string_view text) {
   std::vector<Step> steps;
   for (std::string& word : words(text)) {
-    if (std::islower(static_cast<unsigned char>(word[0])) != 0 && word != "stop") {
+    if (std::islower(static_cast<unsigned char>(word[0])) != 0 && !word.starts_with("stop")) {
       steps.back().calls += " " + word;
       continue;
     }
     Step& step = steps.emplace_back();
     step.every_call = word.find('{') != std::string::npos;
-    if (const auto equal = word.find('='); equal != std::string::npos) {
-      step.suffix = word.substr(equal + 1);
-      word.resize(equal);
-    }
+    step.faults = cut_off(word, '!');
+    step.suffix = cut_off(word, '=');
     step.calls = word;
   }
   return steps;
@@ -82,14 +96,14 @@ std::string summary(const ScriptedRun& run, char status) {
 
 class Row {
  public:
-  explicit Row(const TickRow& row) : row_(row), run_(row.tree, row.leaves) {}
+  Row(const TickRow& row, FaultPolicy policy) : row_(row), run_(row.tree, row.leaves, policy) {}
 
   void check() {
     const auto steps = parse_expected(row_.expected);
     std::string expected, got;
     for (const Step& step : steps) {
-      expected += "\n    " + step.calls + (step.suffix.empty() ? "" : " =" + step.suffix);
-      got += "\n    " + play(step);
+      expected += line(step.calls, step.suffix, step.faults);
+      got += play(step);
     }
     UNSCOPED_INFO("law:    " << row_.law);
     UNSCOPED_INFO("tree:   " << row_.tree);
@@ -102,17 +116,25 @@ class Row {
     run_.events.clear();
     if (step.calls.starts_with("stop")) {
       run_.ticker().halt_all();
-      return "stop" + summary(run_, ' ').substr(3);
+      return line("stop" + summary(run_, ' ').substr(3), "", faults());
     }
     const Status status = run_.tick(tick_++ * from_seconds(row_.period));
     const Fault* fault = run_.ticker().fault();
     const char letter = fault != nullptr ? 'X' : "IRSF"[static_cast<int>(status)];
-    std::string got = step.every_call ? every_call(run_, letter) : summary(run_, letter);
-    if (!step.suffix.empty()) got += " =" + suffix(step.suffix, fault);
-    return got;
+    const std::string got = step.every_call ? every_call(run_, letter) : summary(run_, letter);
+    const std::string suffix = step.suffix.empty() ? "" : suffix_of(step.suffix, fault);
+    return line(got, suffix, faults());
   }
 
-  std::string suffix(std::string_view expected, const Fault* fault) {
+  std::string faults() {
+    std::string names;
+    for (const Fault& fault : run_.ticker().take_tolerated()) {
+      names += (names.empty() ? "" : ",") + run_.tree().labels[fault.node].name;
+    }
+    return names;
+  }
+
+  std::string suffix_of(std::string_view expected, const Fault* fault) {
     if (fault != nullptr) return run_.tree().labels[fault->node].name;
     const double progress = run_.ticker().progress(0);
     std::string_view number = expected;
@@ -127,8 +149,8 @@ class Row {
 
 }  // namespace
 
-void check_rows(std::span<const TickRow> rows) {
-  for (const TickRow& row : rows) Row(row).check();
+void check_rows(std::span<const TickRow> rows, FaultPolicy policy) {
+  for (const TickRow& row : rows) Row(row, policy).check();
 }
 
 }  // namespace lockstep::test

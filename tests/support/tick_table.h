@@ -6,11 +6,14 @@
 //   R{start a, tick a}     a tick with everything that its leaves were told, in order.
 //   R[a]=.5                the progress of the root after the tick is .5.
 //   X[a]=a                 a tick that ends in a fault of leaf a (and halts what still runs).
-//   stop                   not a tick: the owner halts the run.
+//   F[a]!a                 leaf a was at fault in the tick, and the run goes on; stop!a: in its
+//   halt. stop                   not a tick: the owner halts the run.
 #pragma once
 
 #include <span>
 #include <string_view>
+
+#include "engine/ticker.h"
 
 namespace lockstep::test {
 
@@ -23,6 +26,6 @@ struct TickRow {
 };
 
 // Fails the Catch test for each row that does not hold, showing law, tree, expected and got.
-void check_rows(std::span<const TickRow> rows);
+void check_rows(std::span<const TickRow> rows, FaultPolicy policy = FaultPolicy::Stop);
 
 }  // namespace lockstep::test

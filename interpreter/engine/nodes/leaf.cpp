@@ -1,5 +1,6 @@
 // The leaves of plugins: the only place where the engine calls the C ABI. Whatever a leaf does
-// against its contract becomes a fault here.
+// against its contract becomes a fault here. A fault that the run goes on after marks the leaf's
+// slot until the activation has ended, with a Failure or a halt.
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -38,21 +39,39 @@ void call(Ticker& ticker, NodeIndex self, void (*function)(void*)) {
   take_error(ticker, self, leaf);
 }
 
-// The first tick of an activation, or the first after a pause. False: it must not be ticked.
-bool prepare(Ticker& ticker, NodeIndex self, LeafSlot& leaf) {
+void halt(Ticker& ticker, NodeIndex self) {
+  LeafSlot& leaf = ticker.leaf(self);
+  if (leaf.started) call(ticker, self, leaf.type->halt);
+  leaf.failed = false;
+}
+
+// No function of the leaf is called any more but halt, in its time.
+bool is_out(const Ticker& ticker, const LeafSlot& leaf) {
+  return leaf.failed || ticker.faulted();
+}
+
+// What a tick returns once the leaf is out.
+Status out(Ticker& ticker, NodeIndex self) {
+  if (ticker.faulted()) return Status::Running;  // halted at the end of the run, in its order
+  halt(ticker, self);
+  return Status::Failure;
+}
+
+// The first tick of an activation, or the first after a pause.
+void prepare(Ticker& ticker, NodeIndex self, LeafSlot& leaf) {
   if (ticker.activity(self) == Activity::Paused) {
-    call(ticker, self, leaf.type->resume);
+    if (!leaf.failed) call(ticker, self, leaf.type->resume);
   } else {
     leaf.started = false;
     call(ticker, self, leaf.type->start);
-    leaf.started = !ticker.faulted();
+    leaf.started = !is_out(ticker, leaf);
   }
-  return !ticker.faulted();
 }
 
+// Running when the leaf is out.
 template <bool kIsCondition>
 Status checked(Ticker& ticker, NodeIndex self, LeafSlot& leaf, lockstep_status result) {
-  if (take_error(ticker, self, leaf) || ticker.faulted()) return Status::Running;
+  if (take_error(ticker, self, leaf) || is_out(ticker, leaf)) return Status::Running;
   if (result == LOCKSTEP_SUCCESS) return Status::Success;
   if (result == LOCKSTEP_FAILURE) return Status::Failure;
   if (result == LOCKSTEP_RUNNING && !kIsCondition) return Status::Running;
@@ -66,17 +85,12 @@ Status checked(Ticker& ticker, NodeIndex self, LeafSlot& leaf, lockstep_status r
 template <bool kIsCondition>
 Status tick(Ticker& ticker, NodeIndex self) {
   LeafSlot& leaf = ticker.leaf(self);
-  if (ticker.activity(self) != Activity::Running && !prepare(ticker, self, leaf)) {
-    return Status::Running;
-  }
+  if (ticker.activity(self) != Activity::Running) prepare(ticker, self, leaf);
+  if (is_out(ticker, leaf)) return out(ticker, self);
   lockstep_status result = LOCKSTEP_RUNNING;
   guarded(ticker, self, [&] { result = leaf.type->tick(leaf.self); });
-  return checked<kIsCondition>(ticker, self, leaf, result);
-}
-
-void halt(Ticker& ticker, NodeIndex self) {
-  const LeafSlot& leaf = ticker.leaf(self);
-  if (leaf.started) call(ticker, self, leaf.type->halt);
+  const Status status = checked<kIsCondition>(ticker, self, leaf, result);
+  return leaf.failed ? out(ticker, self) : status;
 }
 
 void pause(Ticker& ticker, NodeIndex self) {
@@ -85,7 +99,7 @@ void pause(Ticker& ticker, NodeIndex self) {
 
 double progress(Ticker& ticker, NodeIndex self) {
   LeafSlot& leaf = ticker.leaf(self);
-  if (leaf.type->progress == nullptr) return 0.0;
+  if (leaf.type->progress == nullptr || leaf.failed) return 0.0;
   double reported = 0.0;
   guarded(ticker, self, [&] { reported = leaf.type->progress(leaf.self); });
   if (take_error(ticker, self, leaf)) return 0.0;
