@@ -23,9 +23,9 @@ struct LeafWatchOptions {
   std::optional<Nanoseconds> budget;
   Clock* clock = nullptr;  // that times the calls; null: the wall clock
   // Both on the tick thread, after the call.
-  std::function<void(NodeIndex leaf, PluginFunction function, Nanoseconds took)> on_slow;
+  std::function<void(NodeIndex leaf, PluginFunction function, Nanoseconds took)> on_slow = {};
   // The leaf has changed the rounding mode or the floating-point exceptions; told once per leaf.
-  std::function<void(NodeIndex leaf, PluginFunction function)> on_float_mode;
+  std::function<void(NodeIndex leaf, PluginFunction function)> on_float_mode = {};
 };
 
 class LeafWatch {

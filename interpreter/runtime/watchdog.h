@@ -15,8 +15,9 @@ struct WatchdogOptions {
   Nanoseconds hang_limit{0};  // a call that lasts longer ends the process; 0 = never
   Nanoseconds halt_limit{0};  // a halt that lasts longer is told once; 0 = never
   // On the watchdog's thread.
-  std::function<void(const CallMark::Look& call, Nanoseconds lasts)> on_long_halt;
-  std::function<void(const CallMark::Look& call, Nanoseconds lasts)> on_hang;  // may not return
+  std::function<void(const CallMark::Look& call, Nanoseconds lasts)> on_long_halt = {};
+  std::function<void(const CallMark::Look& call, Nanoseconds lasts)> on_hang =
+      {};  // may not return
 };
 
 class Watchdog {

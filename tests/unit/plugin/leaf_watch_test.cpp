@@ -1,0 +1,291 @@
+// What stands between the engine and a leaf when a run is watched, and that nothing does when not.
+#include "plugin/leaf_watch.h"
+
+#include <catch2/catch.hpp>
+#include <cfenv>
+#include <optional>
+#include <stdexcept>
+
+#include "lockstep/leaf.h"
+#include "plugin/float_mode.h"
+#include "runtime/run.h"
+#include "unit/plugin/probe_plugin.h"
+
+namespace lockstep::test {
+namespace {
+
+using namespace std::chrono_literals;
+using Strings = std::vector<std::string>;
+
+// Stands still but for the calls that take time.
+class CallClock final : public Clock {
+ public:
+  Nanoseconds now() override {
+    ++reads;
+    return time;
+  }
+  void sleep_until(Nanoseconds) override {}
+  bool is_real() const override { return true; }
+
+  Nanoseconds time{1h};
+  int reads = 0;
+};
+
+struct Fixture {
+  explicit Fixture(std::uint32_t full, std::uint32_t bare = 0, LeafWatchOptions options = {})
+      : probe(full, bare), watch(completed(std::move(options))), blackboard(probe.tree()) {
+    set.emplace(
+        probe.tree(), blackboard, time, 1,
+        [this](std::string_view who, lockstep_log_level, std::string_view text) {
+          log.push_back(std::string(who) + ": " + std::string(text));
+        },
+        &watch);
+  }
+  ~Fixture() { on_probe_call = nullptr; }
+  Fixture(const Fixture&) = delete;
+  Fixture& operator=(const Fixture&) = delete;
+
+  LeafWatchOptions completed(LeafWatchOptions options) {
+    options.clock = &clock;
+    options.on_slow = [this](NodeIndex leaf, PluginFunction function, Nanoseconds took) {
+      slow.push_back(std::to_string(leaf) + " " + name_of(function) + " " +
+                     std::to_string(took / 1ms));
+    };
+    options.on_float_mode = [this](NodeIndex leaf, PluginFunction function) {
+      changed.push_back(std::to_string(leaf) + " " + name_of(function));
+    };
+    return options;
+  }
+
+  LeafSlot& slot(std::size_t leaf = 0) { return set->slots()[leaf]; }
+  // A call of tick that takes this long.
+  void tick(std::size_t leaf, Nanoseconds took) {
+    on_probe_call = [this, took](PluginFunction, void*) { clock.time += took; };
+    slot(leaf).type->tick(slot(leaf).self);
+    on_probe_call = nullptr;
+  }
+
+  ProbeTree probe;
+  CallClock clock;
+  Strings slow, changed, log;
+  LeafWatch watch;
+  Blackboard blackboard;
+  LeafTime time;
+  std::optional<LeafSet> set;
+};
+
+const lockstep_leaf_type* own_type(const Tree& tree, std::size_t leaf) {
+  return static_cast<const lockstep_leaf_type*>(tree.leaves[leaf].type->binding);
+}
+
+TEST_CASE("without a watch the slots hold the plugin's own leaves") {
+  const ProbeTree probe(1, 1);
+  Blackboard blackboard(probe.tree());
+  const LeafTime time;
+  std::vector<void*> created;
+  on_probe_call = [&](PluginFunction function, void* self) {
+    if (function == PluginFunction::Create) created.push_back(self);
+  };
+  LeafSet set(probe.tree(), blackboard, time, 1);
+  on_probe_call = nullptr;
+  for (std::size_t leaf = 0; leaf < 2; ++leaf) {
+    CHECK(set.slots()[leaf].type == own_type(probe.tree(), leaf));
+    CHECK(set.slots()[leaf].self == created[leaf]);
+  }
+}
+
+TEST_CASE("a watched leaf has the functions that the leaf has") {
+  Fixture fixture(1, 1);
+  const lockstep_leaf_type& full = *fixture.slot(0).type;
+  const lockstep_leaf_type& bare = *fixture.slot(1).type;
+  CHECK(&full != own_type(fixture.probe.tree(), 0));
+  CHECK((full.start && full.tick && full.halt && full.pause && full.resume && full.progress));
+  CHECK(bare.tick != nullptr);
+  CHECK_FALSE((bare.start || bare.halt || bare.pause || bare.resume || bare.progress));
+  CHECK_FALSE((bare.get_extension || full.get_extension));
+}
+
+TEST_CASE("every call reaches its leaf, marked with its function, site and tick") {
+  Fixture fixture(2);
+  std::vector<void*> leaves;
+  Strings seen;
+  on_probe_call = [&](PluginFunction function, void* self) {
+    if (function == PluginFunction::Create) return leaves.push_back(self);
+    if (function == PluginFunction::Destroy || leaves.size() < 2) return;
+    const CallMark& mark = CallMark::this_thread();
+    REQUIRE(mark.look().function() == function);
+    seen.push_back(std::string(name_of(function)) + (self == leaves[1] ? " 1 " : " 0 ") +
+                   mark.look().site->leaf + " " + std::to_string(mark.tick()));
+  };
+  fixture.set->destroy_all();
+  fixture.set->create_all(1);
+  fixture.watch.begin_tick(12);
+  const auto [type, self] = std::pair(fixture.slot(1).type, fixture.slot(1).self);
+  type->start(self);
+  CHECK(type->tick(self) == LOCKSTEP_RUNNING);
+  type->pause(self);
+  CHECK(type->progress(self) == 0.25);
+  type->resume(self);
+  type->halt(self);
+  const std::string rest = " 1 'Main/leaf0/leaf1' (Full of plugin 'probe') 12";
+  CHECK(seen == Strings{"start" + rest, "tick" + rest, "pause" + rest, "progress" + rest,
+                        "resume" + rest, "halt" + rest});
+  CHECK(CallMark::this_thread().look().function() == PluginFunction::None);
+}
+
+TEST_CASE("the watch is gone before leaves are destroyed, and back when they are made again") {
+  Fixture fixture(2);
+  const lockstep_leaf_type* const watched = fixture.slot().type;
+  std::vector<void*> created, destroyed;
+  on_probe_call = [&](PluginFunction function, void* self) {
+    if (function == PluginFunction::Create) created.push_back(self);
+    if (function == PluginFunction::Destroy) destroyed.insert(destroyed.begin(), self);
+  };
+  fixture.set->destroy_all();
+  CHECK(fixture.slot().type == own_type(fixture.probe.tree(), 0));
+  fixture.set->create_all(1);
+  CHECK(fixture.slot().type == watched);
+  destroyed.clear();
+  fixture.set.reset();
+  CHECK(destroyed == created);
+}
+
+TEST_CASE("an exception of a watched leaf is a fault of the run") {
+  const ProbeTree probe(1);
+  LeafWatch watch({.budget = 1s});
+  Run run(probe.tree(), {.log = {}, .watch = &watch});
+  CHECK(run.watch() == &watch);
+  std::uint64_t tick = 0;
+  on_probe_call = [&](PluginFunction function, void*) {
+    tick = CallMark::this_thread().tick();
+    if (function == PluginFunction::Tick && tick == 2) throw std::runtime_error("no arm");
+  };
+  for (int i = 0; i < 3; ++i) {
+    REQUIRE(run.fault() == nullptr);
+    run.tick(i * 10ms);
+  }
+  on_probe_call = nullptr;
+  CHECK(tick == 2);
+  REQUIRE(run.fault() != nullptr);
+  CHECK(run.fault()->message == "threw an exception: no arm");
+  CHECK(CallMark::this_thread().look().function() == PluginFunction::None);
+  CHECK(watch.slowest().function != PluginFunction::None);  // it was timed, too
+}
+
+TEST_CASE("a leaf that changes the rounding mode has it set back, and is told of once") {
+  Fixture fixture(2);
+  const FloatMode before = FloatMode::current();
+  on_probe_call = [](PluginFunction, void*) { std::fesetround(FE_UPWARD); };
+  for (const std::size_t leaf : {0, 1, 1, 0}) {
+    fixture.slot(leaf).type->tick(fixture.slot(leaf).self);
+    CHECK(std::fegetround() == FE_TONEAREST);
+    CHECK(FloatMode::current() == before);
+  }
+  on_probe_call = nullptr;
+  CHECK(fixture.changed == Strings{"0 tick", "1 tick"});
+}
+
+TEST_CASE("long double is set back, too") {
+  Fixture fixture(1);
+  volatile long double one = 1, three = 3;
+  const long double third = one / three;
+  on_probe_call = [](PluginFunction, void*) { std::fesetround(FE_UPWARD); };
+  fixture.slot().type->halt(fixture.slot().self);
+  on_probe_call = nullptr;
+  CHECK(one / three == third);
+}
+
+TEST_CASE("what a computation raises is no change of the mode") {
+  Fixture fixture(1);
+  on_probe_call = [](PluginFunction, void*) { std::feraiseexcept(FE_ALL_EXCEPT); };
+  fixture.slot().type->tick(fixture.slot().self);
+  on_probe_call = nullptr;
+  CHECK(fixture.changed.empty());
+  CHECK(std::fetestexcept(FE_OVERFLOW) != 0);
+  std::feclearexcept(FE_ALL_EXCEPT);
+}
+
+TEST_CASE("a leaf whose create changes the rounding mode has it set back, and a line in the log") {
+  Fixture fixture(1);
+  fixture.set->destroy_all();
+  on_probe_call = [](PluginFunction function, void*) {
+    if (function == PluginFunction::Create) std::fesetround(FE_DOWNWARD);
+  };
+  fixture.set->create_all(1);
+  CHECK(std::fegetround() == FE_TONEAREST);
+  CHECK(fixture.log == Strings{"Main/leaf0: its create has changed the rounding mode or the "
+                               "floating-point exceptions; they were set back"});
+}
+
+TEST_CASE("a call over the budget counts, and is told of with what it took") {
+  Fixture fixture(2, 0, {.budget = 5ms});
+  for (const auto took : {1ms, 5ms, 6ms, 7ms, 2ms}) fixture.tick(1, took);
+  CHECK(fixture.slow == Strings{"1 tick 6"});
+  const std::vector<LeafWatch::Timing> over = fixture.watch.over_budget();
+  REQUIRE(over.size() == 1);  // leaf 0 was not called
+  CHECK(over[0].leaf == 1);
+  CHECK(over[0].ticks == 5);
+  CHECK(over[0].over_budget == 2);
+  CHECK(over[0].max == 7ms);
+  CHECK((over[0].p50 >= 5ms && over[0].p50 <= 5313us));
+  CHECK(over[0].p99 == 7ms);
+}
+
+TEST_CASE("slow calls are told of once a second, whichever leaf it is, and all count") {
+  Fixture fixture(2, 0, {.budget = 5ms});
+  const Nanoseconds start = fixture.clock.time;
+  const auto call_at = [&](Nanoseconds end, std::size_t leaf) {
+    fixture.clock.time = start + end - 10ms;
+    fixture.tick(leaf, 10ms);
+  };
+  call_at(100ms, 0);
+  call_at(200ms, 1);
+  call_at(1099ms, 0);
+  call_at(1100ms, 1);
+  call_at(2099ms, 1);
+  call_at(2100ms, 0);
+  CHECK(fixture.slow == Strings{"0 tick 10", "1 tick 10", "0 tick 10"});
+  const auto over = fixture.watch.over_budget();
+  REQUIRE(over.size() == 2);
+  CHECK(over[0].over_budget + over[1].over_budget == 6);
+}
+
+TEST_CASE("a slow halt counts, though it is no tick, and the longest call comes first") {
+  Fixture fixture(2, 0, {.budget = 5ms});
+  fixture.tick(0, 6ms);
+  on_probe_call = [&](PluginFunction, void*) { fixture.clock.time += 1500ms; };
+  fixture.slot(1).type->halt(fixture.slot(1).self);
+  on_probe_call = nullptr;
+  CHECK(fixture.slow == Strings{"0 tick 6", "1 halt 1500"});
+  const auto over = fixture.watch.over_budget();
+  REQUIRE(over.size() == 2);
+  CHECK((over[0].leaf == 1 && over[0].ticks == 0 && over[0].over_budget == 1));
+  CHECK(over[0].max == 1500ms);
+  CHECK(over[1].leaf == 0);
+}
+
+TEST_CASE("the slowest call is that of the tick that goes on") {
+  Fixture fixture(3, 0, {.budget = 1s});
+  fixture.watch.begin_tick(0);
+  CHECK(fixture.watch.slowest().function == PluginFunction::None);
+  fixture.tick(0, 2ms);
+  fixture.tick(1, 3ms);
+  fixture.tick(2, 1ms);
+  CHECK(fixture.watch.slowest().leaf == 1);
+  CHECK(fixture.watch.slowest().function == PluginFunction::Tick);
+  CHECK(fixture.watch.slowest().took == 3ms);
+  fixture.watch.begin_tick(1);
+  fixture.tick(2, 1ms);
+  CHECK(fixture.watch.slowest().leaf == 2);
+}
+
+TEST_CASE("calls are not timed when there is no budget") {
+  Fixture fixture(1);
+  fixture.tick(0, 1s);
+  CHECK(fixture.clock.reads == 0);
+  CHECK(fixture.watch.slowest().function == PluginFunction::None);
+  CHECK(fixture.watch.over_budget().empty());
+}
+
+}  // namespace
+}  // namespace lockstep::test

@@ -1,0 +1,31 @@
+// A plugin that is linked into the test: a leaf with every function and one with as few as allowed,
+// each of which does what the test wants it to do.
+#pragma once
+
+#include <functional>
+
+#include "engine/tree.h"
+#include "lockstep/leaf.h"
+#include "plugin/call_mark.h"
+#include "plugin/plugin_set.h"
+
+namespace lockstep::test {
+
+// Called in every function of the plugin, with its leaf (or run context). On this thread.
+inline thread_local std::function<void(PluginFunction function, void* self)> on_probe_call;
+
+class ProbeTree {
+ public:
+  // Without nodes when there is more than one leaf: such a tree cannot be ticked.
+  explicit ProbeTree(std::uint32_t full_leaves, std::uint32_t bare_leaves = 0);
+
+  const Tree& tree() const { return tree_; }
+
+ private:
+  void add_leaf(const NodeType& type);
+
+  PluginSet plugins_;
+  Tree tree_;
+};
+
+}  // namespace lockstep::test

@@ -1,0 +1,247 @@
+// Processes that end with a report. Each is a child of the test.
+#include "runtime/crash_report.h"
+
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <thread>
+
+#include "unit/runtime/forked_child.h"
+
+namespace lockstep::test {
+namespace {
+
+constexpr int kCrashed = 42;
+const CallSite& leaf = CallSite::of("'Main/arm' (Advance of plugin 'motion')", "motion");
+const std::string kLeaf = "lockstep: error: the leaf 'Main/arm' (Advance of plugin 'motion') ";
+
+void say(const char* text) {
+  if (write(STDERR_FILENO, text, std::strlen(text)) < 0) _exit(99);
+}
+void last_words() {
+  say("last words\n");
+}
+
+// What sanitizers would find before the processor does.
+#define LOCKSTEP_UNCHECKED __attribute__((noinline, no_sanitize("address", "undefined", "thread")))
+
+LOCKSTEP_UNCHECKED void write_to(std::uintptr_t address) {
+  volatile std::uintptr_t hidden = address;
+  *reinterpret_cast<volatile char*>(hidden) = 1;  // NOLINT: it must crash
+}
+
+LOCKSTEP_UNCHECKED void divide_by_zero() {
+#if defined(__x86_64__)
+  volatile int seven = 7, zero = 0;
+  volatile int result = seven / zero;  // NOLINT: it must crash
+  static_cast<void>(result);
+#else
+  raise(SIGFPE);
+#endif
+}
+
+LOCKSTEP_UNCHECKED int overflow(int depth) {  // NOLINT(misc-no-recursion)
+  volatile char frame[8192];
+  frame[0] = static_cast<char>(depth);
+  return depth < 0 ? 0 : overflow(depth + 1) + frame[0];
+}
+
+// `body` in the leaf's tick 12.
+Ended in_tick(const std::function<void()>& body, void (*words)() = last_words) {
+  return in_child([&] {
+    CrashReport::install(kCrashed, words);
+    CrashReport::begin_run();
+    CallMark::this_thread().set_tick(12);
+    const MarkedCall call(leaf, PluginFunction::Tick);
+    body();
+  });
+}
+
+// `body` while a run goes on, outside of all calls.
+Ended in_run(const std::function<void()>& body) {
+  return in_child([&] {
+    CrashReport::install(kCrashed, last_words);
+    CrashReport::begin_run();
+    body();
+  });
+}
+
+bool has(const Ended& ended, const std::string& text) {
+  return ended.said.find(text) != std::string::npos;
+}
+
+void check_report(const Ended& ended, const std::string& first_line) {
+  INFO(ended.said << "exit code " << ended.exit_code << ", signal " << ended.signal);
+  CHECK(ended.exit_code == kCrashed);
+  CHECK(ended.said.substr(0, ended.said.find('\n')) == first_line);
+  const std::size_t words = ended.said.find("\nlast words\n");
+  const std::size_t backtrace = ended.said.find("\nlockstep: backtrace:\n");
+  CHECK(words != std::string::npos);
+  CHECK(backtrace != std::string::npos);
+  CHECK(words < backtrace);
+  CHECK(ended.said.find("test_", backtrace) != std::string::npos);  // this program's own frames
+}
+
+TEST_CASE("a crash is told with leaf, tick and signal, then come the last words and a backtrace") {
+  check_report(in_tick([] { write_to(0x10); }),
+               kLeaf + "crashed in tick 12: SIGSEGV, invalid memory reference (address 0x10)");
+  check_report(in_tick([] { divide_by_zero(); }),
+               kLeaf + "crashed in tick 12: SIGFPE, division of an integer by zero");
+  check_report(in_tick([] { std::abort(); }),
+               kLeaf + "crashed in tick 12: SIGABRT, abort() or a failed assertion");
+  check_report(in_tick([] { raise(SIGILL); }),
+               kLeaf + "crashed in tick 12: SIGILL, illegal instruction");
+  check_report(in_tick([] { raise(SIGBUS); }),
+               kLeaf + "crashed in tick 12: SIGBUS, memory that is not there");
+}
+
+TEST_CASE("a stack overflow is told on a stack of its own") {
+  const Ended ended = in_tick([] { overflow(0); });
+  CHECK(ended.exit_code == kCrashed);
+  CHECK(has(ended, kLeaf + "crashed in tick 12: SIGSEGV, the stack has overflowed (address 0x"));
+  CHECK(has(ended, "last words\n"));
+  CHECK(has(ended, "lockstep: backtrace:\n"));
+}
+
+TEST_CASE("a stack overflow in a thread that was prepared is told, too") {
+  const Ended ended = in_run([] {
+    std::thread([] {
+      CrashReport::prepare_thread();
+      const MarkedCall call(leaf, PluginFunction::Create);
+      overflow(0);
+    }).join();
+  });
+  CHECK(ended.exit_code == kCrashed);
+  CHECK(has(ended, kLeaf + "crashed in its create function: SIGSEGV, the stack has overflowed"));
+}
+
+TEST_CASE("exit inside a call is a crash") {
+  check_report(in_tick([] { std::exit(0); }), kLeaf + "called exit() in tick 12");
+  check_report(in_tick([] { std::quick_exit(0); }), kLeaf + "called exit() in tick 12");
+}
+
+TEST_CASE("exit in a thread of a plugin is a crash while a run goes on") {
+  check_report(in_run([] { std::thread([] { std::quick_exit(0); }).join(); }),
+               "lockstep: error: a thread that a plugin has started called exit() during the run");
+}
+
+TEST_CASE("exit without a run is an exit") {
+  const Ended ended = in_child([] {
+    CrashReport::install(kCrashed, last_words);
+    CrashReport::begin_run();
+    CrashReport::end_run();
+    { const MarkedCall call(leaf, PluginFunction::Tick); }
+    std::quick_exit(7);
+  });
+  CHECK(ended.exit_code == 7);
+  CHECK(ended.said.empty());
+}
+
+TEST_CASE("a crash in a thread that a plugin started is not that of a leaf") {
+  check_report(
+      in_tick([] { std::thread([] { write_to(0x10); }).join(); }),
+      "lockstep: error: a thread that a plugin has started crashed: SIGSEGV, invalid memory "
+      "reference (address 0x10)");
+}
+
+TEST_CASE("a crash of our own is told as such") {
+  const Ended ended = in_run([] { write_to(0x10); });
+  check_report(ended,
+               "lockstep: error: lockstep crashed: SIGSEGV, invalid memory reference "
+               "(address 0x10)");
+  CHECK(has(ended, "a defect of lockstep"));
+}
+
+TEST_CASE("a crash of the report itself ends the process at once") {
+  const Ended ended = in_tick([] { std::abort(); }, [] { write_to(0x10); });
+  CHECK(ended.exit_code == kCrashed);
+  CHECK(has(ended, "crashed in tick 12"));
+  CHECK_FALSE(has(ended, "SIGSEGV"));
+  CHECK_FALSE(has(ended, "backtrace:"));
+}
+
+TEST_CASE("of two threads that crash at once one reports") {
+  const Ended ended = in_run([] {
+    std::atomic<int> ready{0};
+    const auto crash = [&] {
+      ++ready;
+      while (ready < 2) std::this_thread::yield();
+      write_to(0x10);
+    };
+    std::thread other(crash);
+    crash();
+  });
+  CHECK(ended.exit_code == kCrashed);
+  CHECK(ended.said.find("lockstep: error:") == ended.said.rfind("lockstep: error:"));
+  CHECK(has(ended, "lockstep: backtrace:\n"));
+}
+
+// A thread that tells that the caller of this function hangs. It must not return before that.
+std::thread tell_hang() {
+  return std::thread([thread = pthread_self(), &mark = CallMark::this_thread()] {
+    CrashReport::hang(thread, mark, 2);
+  });
+}
+
+TEST_CASE("a hang is told with the backtrace of the thread that hangs") {
+  check_report(in_tick([] { tell_hang().join(); }),
+               kLeaf + "has not returned from tick 12 for 2.0 s");
+}
+
+TEST_CASE("a hang of a thread that takes no signal is told without a backtrace") {
+  const Ended ended = in_tick([] {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, nullptr);
+    tell_hang().join();
+  });
+  CHECK(ended.exit_code == kCrashed);
+  CHECK(has(ended, kLeaf + "has not returned from tick 12 for 2.0 s"));
+  CHECK(has(ended, "last words\n"));
+  CHECK_FALSE(has(ended, "backtrace:\n"));
+}
+
+TEST_CASE("what a process does that a leaf forks off is its own matter") {
+  const auto status_of = [](void (*end)()) {
+    const pid_t child = fork();
+    if (child == 0) end();
+    int status = 0;
+    waitpid(child, &status, 0);
+    return status;
+  };
+  const Ended ended = in_tick([&] {
+    const int aborted = status_of([] { std::abort(); });
+    const int crashed = status_of([] { write_to(0x10); });
+    const int left = status_of([] { std::quick_exit(7); });
+    const bool good = WIFSIGNALED(aborted) && WTERMSIG(aborted) == SIGABRT &&
+                      WIFSIGNALED(crashed) && WTERMSIG(crashed) == SIGSEGV && WIFEXITED(left) &&
+                      WEXITSTATUS(left) == 7;
+    _exit(good ? 0 : 1);
+  });
+  CHECK(ended.exit_code == 0);
+  CHECK(ended.said.empty());
+}
+
+TEST_CASE("a fatal signal from another process is told as such") {
+  const Ended ended = in_tick([] {
+    const pid_t crashing = getpid();
+    if (fork() == 0) {
+      kill(crashing, SIGABRT);
+      _exit(0);
+    }
+    while (true) pause();
+  });
+  CHECK(ended.exit_code == kCrashed);
+  CHECK(has(ended,
+            " sent SIGABRT while the leaf 'Main/arm' (Advance of plugin 'motion') was in "
+            "tick 12\n"));
+}
+
+}  // namespace
+}  // namespace lockstep::test

@@ -1,0 +1,104 @@
+// The words of a crash report.
+#include "runtime/crash_text.h"
+
+#include <signal.h>
+
+#include <catch2/catch.hpp>
+#include <string>
+
+namespace lockstep::test {
+namespace {
+
+const CallSite& kLeaf = CallSite::of("'Main/arm' (Advance of plugin 'motion')", "motion");
+const CallSite& kPlugin = CallSite::of("", "motion");
+
+CallMark::Look in(const CallSite& site, PluginFunction function) {
+  return {&site, static_cast<std::uint32_t>(function)};
+}
+
+std::string first_line(const Crash& crash) {
+  SignalText text;
+  describe(crash, text);
+  return std::string(text.text().substr(0, text.text().find('\n')));
+}
+
+Crash segv(const CallMark::Look& call) {
+  return {.kind = CrashKind::Signal,
+          .call = call,
+          .tick = 12,
+          .signal = SIGSEGV,
+          .code = SEGV_MAPERR,
+          .address = 0x1f};
+}
+
+TEST_CASE("a crash is told with the function it was in") {
+  const std::string begin = "lockstep: error: the leaf 'Main/arm' (Advance of plugin 'motion') ";
+  const std::string end = ": SIGSEGV, invalid memory reference (address 0x1f)";
+  using F = PluginFunction;
+  CHECK(first_line(segv(in(kLeaf, F::Tick))) == begin + "crashed in tick 12" + end);
+  CHECK(first_line(segv(in(kLeaf, F::Halt))) ==
+        begin + "crashed in its halt function (tick 12)" + end);
+  CHECK(first_line(segv(in(kLeaf, F::Create))) == begin + "crashed in its create function" + end);
+  Crash before_ticks = segv(in(kLeaf, F::Start));
+  before_ticks.tick = CallMark::kNoTick;
+  CHECK(first_line(before_ticks) == begin + "crashed in its start function" + end);
+  CHECK(first_line(segv(in(kPlugin, F::Init))) ==
+        "lockstep: error: the plugin 'motion' crashed in its init function" + end);
+  CHECK(first_line(segv(in(kPlugin, F::Load))) ==
+        "lockstep: error: the plugin 'motion' crashed in the loading of its shared object" + end);
+}
+
+TEST_CASE("a crash outside of all calls is somebody else's") {
+  Crash crash = segv({});
+  const std::string end = " crashed: SIGSEGV, invalid memory reference (address 0x1f)";
+  CHECK(first_line(crash) == "lockstep: error: lockstep" + end);
+  crash.is_foreign_thread = true;
+  CHECK(first_line(crash) == "lockstep: error: a thread that a plugin has started" + end);
+}
+
+TEST_CASE("a crash of lockstep tells the last call, which may have overwritten memory") {
+  SignalText text;
+  describe(segv({&kLeaf, 0x500}), text);
+  CHECK(std::string(text.text()).find("the last call was to the leaf 'Main/arm'") !=
+        std::string::npos);
+}
+
+TEST_CASE("exit and hang are told with the function they were in") {
+  const std::string begin = "lockstep: error: the leaf 'Main/arm' (Advance of plugin 'motion') ";
+  Crash crash{.kind = CrashKind::Exit, .call = in(kLeaf, PluginFunction::Tick), .tick = 0};
+  CHECK(first_line(crash) == begin + "called exit() in tick 0");
+  crash.call = {};
+  crash.is_foreign_thread = true;
+  CHECK(first_line(crash) ==
+        "lockstep: error: a thread that a plugin has started called exit() during the run");
+  crash = {
+      .kind = CrashKind::Hang, .call = in(kLeaf, PluginFunction::Tick), .tick = 3, .seconds = 1.96};
+  CHECK(first_line(crash) == begin + "has not returned from tick 3 for 2.0 s");
+  crash.call = in(kLeaf, PluginFunction::Resume);
+  CHECK(first_line(crash) ==
+        begin + "has not returned from its resume function for 2.0 s (tick 3)");
+  crash.call = {&kLeaf, 0x100};  // it just has
+  CHECK(first_line(crash) == begin + "has not returned from a call for 2.0 s");
+}
+
+TEST_CASE("a signal from another process is not the leaf's") {
+  Crash crash = segv(in(kLeaf, PluginFunction::Tick));
+  crash.code = SI_USER;
+  crash.sender = 4711;
+  CHECK(first_line(crash) ==
+        "lockstep: error: process 4711 sent SIGSEGV while the leaf 'Main/arm' (Advance of plugin "
+        "'motion') was in tick 12");
+  crash.call = {};
+  CHECK(first_line(crash) ==
+        "lockstep: error: process 4711 sent SIGSEGV while lockstep was at work");
+}
+
+TEST_CASE("a text that is too long is cut") {
+  SignalText text;
+  for (int i = 0; i < 1000; ++i) text << "0123456789";
+  CHECK(text.text().size() == 4096);
+  CHECK(text.text().substr(4090) == "012345");
+}
+
+}  // namespace
+}  // namespace lockstep::test
