@@ -36,6 +36,7 @@ int report_end(const RecordingReader& reader) {
     print_error(reader.error());
     return kExitInvalidTree;
   }
+  if (const std::string gaps = reader.gaps(); !gaps.empty()) print_error(gaps);
   if (!reader.cut().empty()) print_error(fmt::format("the recording is cut: {}", reader.cut()));
   return kExitSuccess;
 }

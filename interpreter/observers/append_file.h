@@ -1,61 +1,82 @@
-// A file that only grows, written by a thread of its own: a slow disk must not delay a tick. Text
-// is written with write(2) in pieces of whole lines, so that a file cut by a kill can be read up to
-// its last whole line. The first error is kept and ends the writing.
+// A file that only grows, written by a thread of its own: whoever has lines to write never waits
+// for the disk. Between the two is a queue of fixed size; what does not fit is refused. Whole lines
+// are written, so that a file cut by a kill can be read up to its last whole line. The first error
+// ends the writing.
 #pragma once
 
-#include <fmt/format.h>
+#include <sys/types.h>
 
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
-#include <mutex>
 #include <string>
+#include <string_view>
 #include <thread>
+
+#include "observers/bell.h"
+#include "observers/line_ring.h"
 
 namespace lockstep {
 
 class AppendFile {
  public:
-  static constexpr std::size_t kFull = 64u << 10;  // bytes
+  static constexpr std::size_t kQueue = 8u << 20;  // bytes
+  // A line is written at the latest so long after push(), or when so much is collected.
   static constexpr std::chrono::milliseconds kLongestDelay{100};
-  // With so much collected, line_done() waits for the disk: memory must end somewhere.
-  static constexpr std::size_t kMost = 16u << 20;
+  static constexpr std::size_t kFull = 64u << 10;  // bytes
+  static constexpr std::chrono::milliseconds kLongestEmergency{500};
 
   // Creates the file, or empties it; error() tells when that is not possible.
-  explicit AppendFile(const std::string& path);
+  explicit AppendFile(const std::string& path, std::size_t queue = kQueue);
   // Flushes.
   ~AppendFile();
   AppendFile(const AppendFile&) = delete;
   AppendFile& operator=(const AppendFile&) = delete;
 
-  // Append a whole line here, then call line_done(). One thread at a time.
-  fmt::memory_buffer& buffer() { return buffer_; }
-  // Hands over what is collected when it is much (kFull) or old (kLongestDelay of real time).
-  void line_done();
+  // One thread at a time calls these three. `lines` are whole: they end in '\n'.
+
+  // Never waits. False: the queue is full, or writing has failed; nothing was taken.
+  bool push(std::string_view lines);
+  // Returns when they are written, or writing has failed. They may be longer than the queue.
+  void write(std::string_view lines);
   // Returns when all is written, or writing has failed.
   void flush();
 
+  bool failed() const { return failed_.load(std::memory_order_acquire); }
   // "" while all is well, else "cannot write 'x': No space left on device".
   const std::string& error() const;
 
- private:
-  void hand_over(std::unique_lock<std::mutex>& lock);
-  void write_until_stopped();
-  void write(const fmt::memory_buffer& text);
-  void fail(const char* what);
+  // For a crash handler, on any thread: async-signal-safe. Has what was pushed to any file of this
+  // process written out, by its thread or, when that does not answer, right here. Gives up after
+  // kLongestEmergency on a disk that does not take it.
+  static void emergency_flush();
 
-  std::string path_;
+ private:
+  enum class Failure { Told, Silent };
+
+  void write_until_stopped();
+  void write_out(Failure failure);
+  void write_some(Failure failure);
+  void count_written(std::size_t count);
+  void cut_back();
+  void fail(const char* what);
+  void save(std::chrono::nanoseconds deadline);
+  bool claim();
+  void release();
+
+  const std::string path_;
   int file_ = -1;
-  fmt::memory_buffer buffer_;
-  std::chrono::steady_clock::time_point handed_over_ = std::chrono::steady_clock::now();
   std::string error_;  // not touched any more once failed_
   std::atomic<bool> failed_{false};
 
-  std::mutex mutex_;  // for what follows
-  std::condition_variable work_, done_;
-  fmt::memory_buffer pending_;  // handed over, not yet taken by the thread
-  bool writing_ = false;
-  bool stopping_ = false;
+  LineRing ring_;
+  std::uint64_t called_for_ = 0;  // bytes that had been pushed when the thread was last woken
+  Bell work_;                     // for the thread
+  Bell done_;                     // of the thread
+  std::atomic<bool> stopping_{false};
+
+  // The thread that takes lines out and writes them; 0: none. So no byte is written twice.
+  std::atomic<pid_t> claim_{0};
+  std::size_t unfinished_ = 0;  // bytes at the end of the file that are not a whole line
   std::thread thread_;
 };
 

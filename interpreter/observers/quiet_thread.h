@@ -1,4 +1,5 @@
-// A thread that takes no signals: they are for the tick thread, whose sleep they must end.
+// A thread that takes no signals: they are for the tick thread, whose sleep they must end. Those of
+// a crash are for whoever crashes.
 #pragma once
 
 #include <signal.h>
@@ -12,6 +13,7 @@ template <class Function>
 std::thread quiet_thread(Function function) {
   sigset_t all, before;
   sigfillset(&all);
+  for (const int crash : {SIGSEGV, SIGBUS, SIGFPE, SIGILL}) sigdelset(&all, crash);
   pthread_sigmask(SIG_SETMASK, &all, &before);
   std::thread thread(std::move(function));
   pthread_sigmask(SIG_SETMASK, &before, nullptr);

@@ -1,25 +1,27 @@
 #include "observers/recorder.h"
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
-#include "measure/synchronized_measure.h"
+#include "observers/recording_text.h"
 #include "observers/statistics.h"
 
 namespace lockstep {
 namespace {
 
-// Nanoseconds as exact seconds, "0.03", where a double would say 0.030000000000000002.
-void append_seconds(fmt::memory_buffer& out, Nanoseconds time) {
-  const auto total = static_cast<std::uint64_t>(time.count());
-  fmt::format_to(std::back_inserter(out), "{}.{:09}", total / 1'000'000'000, total % 1'000'000'000);
-  std::size_t size = out.size();
-  while (out[size - 1] == '0' && out[size - 2] != '.') --size;
-  out.resize(size);
+// The longest line of a tick without faults, and the line before it that tells of lost ticks.
+std::size_t most_of_line(const Tree& tree) {
+  constexpr std::size_t kMostOfRest = 256;
+  return kMostOfRest + tree.nodes.size() * RecordingDelta::kMostOfNode;
 }
 
-void append(fmt::memory_buffer& out, std::string_view text) {
-  out.append(text.data(), text.data() + text.size());
+// A line that is longer than the queue could never be written, so the queue has room for several.
+// (Only the messages of faults have no limit. A line that is too long because of them is lost, the
+// one after it is not.)
+std::size_t queue_of(const Tree& tree, std::size_t wanted) {
+  constexpr std::size_t kLines = 4;
+  return std::max(wanted, kLines * most_of_line(tree));
 }
 
 }  // namespace
@@ -27,66 +29,65 @@ void append(fmt::memory_buffer& out, std::string_view text) {
 Recorder::Recorder(const Tree& tree, RecorderOptions options)
     : tree_(tree),
       options_(std::move(options)),
-      file_(options_.path),
-      synchronized_nodes_(synchronized_nodes(tree)),
-      progress_(tree.nodes.size()),
-      last_(tree.nodes.size()) {}
-
-void Recorder::run_started(Ticker&, const RunStart& start) {
-  append(file_.buffer(), to_json(RecordingHeader{.tree = tree_.id,
-                                                 .file = options_.tree_file,
-                                                 .version = LOCKSTEP_VERSION,
-                                                 .rate_hz = options_.rate_hz,
-                                                 .clock = start.real_time ? "wall" : "virtual",
-                                                 .seed = options_.seed,
-                                                 .arguments = options_.arguments,
-                                                 .nodes = describe(tree_)}));
-  end_line();
-  flush();
+      file_(options_.path, queue_of(tree, options_.queue)),
+      delta_(tree) {
+  line_.reserve(most_of_line(tree));
 }
 
+void Recorder::run_started(Ticker&, const RunStart& start) {
+  may_wait_ = !start.real_time;
+  write(to_json(RecordingHeader{.tree = tree_.id,
+                                .file = options_.tree_file,
+                                .version = LOCKSTEP_VERSION,
+                                .rate_hz = options_.rate_hz,
+                                .clock = start.real_time ? "wall" : "virtual",
+                                .seed = options_.seed,
+                                .arguments = options_.arguments,
+                                .nodes = describe(tree_)}));
+}
+
+// Also when the file has failed: what leaves are asked must not depend on a disk.
 void Recorder::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds) {
-  for (NodeIndex node = 0; node < progress_.size(); ++node) {
-    progress_[node] = ticker.status(node) == Status::Idle ? 0.0 : ticker.progress(node);
-  }
+  delta_.before_tick(ticker);
 }
 
 void Recorder::after_tick(Ticker& ticker, const TickReport& report) {
-  take_snapshots(ticker);
-  fmt::memory_buffer& out = file_.buffer();
-  fmt::format_to(std::back_inserter(out), "{{\"tick\":{},\"time_s\":", report.tick);
-  append_seconds(out, report.time);
-  append(out, ",\"nodes\":[");
-  write_changes(ticker);
-  append(out, "]}");
-  end_line();
-}
-
-// What a synchronized node has seen counts more than what was seen before its tick.
-void Recorder::take_snapshots(Ticker& ticker) {
-  for (const NodeIndex node : synchronized_nodes_) {
-    if (!ticker.ticked(node)) continue;
-    NodeIndex child = node + 1;
-    for (const double progress : child_progress(ticker, node)) {
-      progress_[child] = progress;
-      child = ticker.end_of(child);
+  if (!failed()) {
+    write_line(ticker, report);
+    if (push()) {
+      delta_.keep();
+      gap_ = 0;
+    } else if (!failed()) {
+      if (gap_ == 0) gap_from_ = report.tick;
+      ++gap_;
+      ++lost_;
     }
   }
+  tell_error();
 }
 
-void Recorder::write_changes(Ticker& ticker) {
-  const char* separator = "";
-  for (NodeIndex node = 0; node < last_.size(); ++node) {
-    const RecordedState now{.status = ticker.status(node),
-                            .progress = progress_[node],
-                            .ticked = ticker.ticked(node),
-                            .held = ticker.held(node)};
-    if (now == last_[node]) continue;
-    last_[node] = now;
-    fmt::format_to(std::back_inserter(file_.buffer()), "{}[{},\"{}\",{},{:d},{:d}]", separator,
-                   node, to_string(now.status), now.progress, now.ticked, now.held);
-    separator = ",";
+// A gap is told together with the line after it: either both are in the file or none.
+void Recorder::write_line(Ticker& ticker, const TickReport& report) {
+  line_.clear();
+  if (gap_ > 0) append_lost(line_, gap_, gap_from_);
+  fmt::format_to(std::back_inserter(line_), "{{\"tick\":{},\"time_s\":", report.tick);
+  append_seconds(line_, report.time);
+  append_text(line_, ",\"nodes\":[");
+  delta_.append(ticker, line_);
+  line_.push_back(']');
+  if (!report.faults.empty()) {
+    append_text(line_, ",\"faults\":");
+    append_faults(line_, report.faults);
   }
+  append_text(line_, "}\n");
+}
+
+bool Recorder::push() {
+  const std::string_view line(line_.data(), line_.size());
+  if (file_.push(line)) return true;
+  if (!may_wait_) return false;
+  file_.flush();
+  return file_.push(line);
 }
 
 void Recorder::run_ended(Ticker& ticker, const RunEnd& end) {
@@ -97,26 +98,24 @@ void Recorder::run_ended(Ticker& ticker, const RunEnd& end) {
                       .ticks = end.ticks,
                       .time = to_seconds(end.time),
                       .overruns = end.overruns,
-                      .skipped = end.skipped};
+                      .skipped = end.skipped,
+                      .lost = lost_};
   if (end.reason == StopReason::Signal) closing.signal = end.signal;
-  append(file_.buffer(), to_json(closing));
-  end_line();
-  flush();
+  write(to_json(closing));
 }
 
-void Recorder::end_line() {
-  file_.buffer().push_back('\n');
-  file_.line_done();
-  tell_error();
-}
-
-void Recorder::flush() {
-  file_.flush();
+// The first and the last line are not lost, even if the run has to wait for them.
+void Recorder::write(const std::string& line) {
+  line_.clear();
+  if (gap_ > 0) append_lost(line_, gap_, gap_from_);
+  append_text(line_, line);
+  line_.push_back('\n');
+  file_.write({line_.data(), line_.size()});
   tell_error();
 }
 
 void Recorder::tell_error() {
-  if (error_told_ || error().empty()) return;
+  if (error_told_ || !failed()) return;
   error_told_ = true;
   if (options_.on_error) options_.on_error(error());
 }

@@ -1,13 +1,15 @@
 // Writes a run to a file as JSON Lines, one line per tick with what changed: docs/recording.md. On
-// a virtual clock the same run gives the same bytes. Allocates nothing per tick once warm.
+// a virtual clock the same run gives the same bytes. Allocates nothing per tick, and on a real
+// clock never waits for the disk: ticks for which there is no room are left out, counted, and told
+// in the recording itself.
 #pragma once
 
 #include <functional>
 #include <string>
-#include <vector>
 
 #include "observers/append_file.h"
 #include "observers/recording.h"
+#include "observers/recording_delta.h"
 #include "runtime/observer.h"
 
 namespace lockstep {
@@ -18,8 +20,10 @@ struct RecorderOptions {
   double rate_hz = 0;
   std::uint64_t seed = 0;
   std::map<std::string, std::string, std::less<>> arguments = {};
-  // Called once, on the tick thread, when the recording cannot be written. The run goes on.
+  // Called once, on the tick thread, when the recording cannot be written. Nothing is written after
+  // it; whether the run goes on is the caller's choice.
   std::function<void(const std::string& error)> on_error = {};
+  std::size_t queue = AppendFile::kQueue;  // bytes that may wait for the disk, at least
 };
 
 class Recorder final : public Observer {
@@ -31,22 +35,27 @@ class Recorder final : public Observer {
   void after_tick(Ticker& ticker, const TickReport& report) override;
   void run_ended(Ticker& ticker, const RunEnd& end) override;
 
+  // Cheap enough to be asked in each tick.
+  bool failed() const { return file_.failed(); }
   // "" while all is well. Known from construction on when the file cannot be created.
   const std::string& error() const { return file_.error(); }
+  // Ticks that the recording does not have because the disk was too slow.
+  std::uint64_t lost() const { return lost_; }
 
  private:
-  void take_snapshots(Ticker& ticker);
-  void write_changes(Ticker& ticker);
-  void end_line();
-  void flush();
+  void write_line(Ticker& ticker, const TickReport& report);
+  bool push();
+  void write(const std::string& line);
   void tell_error();
 
   const Tree& tree_;
   RecorderOptions options_;
   AppendFile file_;
-  std::vector<NodeIndex> synchronized_nodes_;
-  std::vector<double> progress_;     // at the start of this tick
-  std::vector<RecordedState> last_;  // as in the line before
+  RecordingDelta delta_;
+  fmt::memory_buffer line_;
+  bool may_wait_ = false;  // time stands still, so waiting for the disk delays nothing
+  std::uint64_t lost_ = 0;
+  std::uint64_t gap_ = 0, gap_from_ = 0;  // of these, the last ones, which no line tells yet
   bool error_told_ = false;
 };
 

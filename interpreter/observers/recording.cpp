@@ -63,6 +63,7 @@ std::string to_json(const RecordedEnd& end) {
   json["time_s"] = end.time;
   json["overruns"] = end.overruns;
   json["skipped"] = end.skipped;
+  if (end.lost > 0) json["lost"] = end.lost;
   return one_line({{"end", std::move(json)}});
 }
 

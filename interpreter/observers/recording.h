@@ -49,6 +49,13 @@ struct RecordedTick {
   std::uint64_t tick = 0;
   double time = 0;  // seconds
   std::span<const RecordedState> nodes;
+  std::uint64_t faults = 0;  // of leaves in this tick that the run went on after
+};
+
+// Ticks in a row that have no line: the disk was too slow for them.
+struct RecordedGap {
+  std::uint64_t ticks = 0;
+  std::uint64_t from = 0;  // the first
 };
 
 struct RecordedEnd {
@@ -58,6 +65,7 @@ struct RecordedEnd {
   std::uint64_t ticks = 0;
   double time = 0;  // seconds
   std::uint64_t overruns = 0, skipped = 0;
+  std::uint64_t lost = 0;  // ticks that have no line
 };
 
 // The header's part about the nodes.

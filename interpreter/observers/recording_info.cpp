@@ -53,16 +53,29 @@ void write_end(const RecordingReader& reader, std::uint64_t ticks, double time, 
              styled("the recording is cut:", Style::Warning, color), reader.cut());
 }
 
+void write_warnings(const RecordingReader& reader, std::uint64_t faults, std::FILE* out,
+                    bool color) {
+  if (const std::string gaps = reader.gaps(); !gaps.empty()) {
+    fmt::print(out, "  {}\n", styled(gaps, Style::Warning, color));
+  }
+  if (faults > 0) {
+    fmt::print(out, "  {}\n",
+               styled(counted(faults, "fault") + " of leaves that the run went on after",
+                      Style::Warning, color));
+  }
+}
+
 }  // namespace
 
 void write_info(RecordingReader& reader, std::FILE* out, bool color) {
   const RecordingHeader& header = reader.header();
   std::vector<Replayed> nodes;
   for (const NodeIndex node : synchronized_nodes(header)) nodes.emplace_back(header, node);
-  std::uint64_t ticks = 0;
+  std::uint64_t ticks = 0, faults = 0;
   double time = 0;
   while (const auto tick = reader.next()) {
     ++ticks;
+    faults += tick->faults;
     time = tick->time;
     for (Replayed& node : nodes) node.after_tick(*tick);
   }
@@ -70,6 +83,7 @@ void write_info(RecordingReader& reader, std::FILE* out, bool color) {
   if (reader.end()) time = reader.end()->time;
   write_header(header, out, color);
   write_end(reader, ticks, time, out, color);
+  write_warnings(reader, faults, out, color);
   for (Replayed& node : nodes) write_text(node.summary(header, time), out, color);
 }
 

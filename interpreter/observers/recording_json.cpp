@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 
 namespace lockstep {
 namespace {
@@ -90,19 +91,32 @@ double progress_from(const Json& json) {
   throw BadLine("a node's change has a progress that is not in [0, 1]");
 }
 
+std::uint64_t index_from(const Json& json, std::size_t nodes) {
+  const auto index = json.get<std::uint64_t>();
+  if (index < nodes) return index;
+  throw BadLine(fmt::format("no node {}, expected 0 to {}", index, nodes - 1));
+}
+
 void apply(const Json& change, std::vector<RecordedState>& states) {
   constexpr std::size_t kFields = 5;
   if (!change.is_array() || change.size() != kFields || !change[0].is_number_unsigned()) {
     throw BadLine("a node's change is not [index, status, progress, ticked, held]");
   }
-  const auto index = change[0].get<std::uint64_t>();
-  if (index >= states.size()) {
-    throw BadLine(fmt::format("no node {}, expected 0 to {}", index, states.size() - 1));
+  states[index_from(change[0], states.size())] = {.status = status_from(change[1]),
+                                                  .progress = progress_from(change[2]),
+                                                  .ticked = flag_from(change[3]),
+                                                  .held = flag_from(change[4])};
+}
+
+std::uint64_t count_faults(const Json& faults, std::size_t nodes) {
+  for (const Json& fault : faults) {
+    if (!fault.is_array() || fault.size() != 2 || !fault[0].is_number_unsigned() ||
+        !fault[1].is_string()) {
+      throw BadLine("a fault is not [index, message]");
+    }
+    index_from(fault[0], nodes);
   }
-  states[index] = {.status = status_from(change[1]),
-                   .progress = progress_from(change[2]),
-                   .ticked = flag_from(change[3]),
-                   .held = flag_from(change[4])};
+  return faults.size();
 }
 
 }  // namespace
@@ -143,16 +157,25 @@ RecordedEnd end_from(const Json& line) {
                   .ticks = whole(json, "ticks"),
                   .time = number(json, "time_s"),
                   .overruns = whole(json, "overruns"),
-                  .skipped = whole(json, "skipped")};
+                  .skipped = whole(json, "skipped"),
+                  .lost = json.contains("lost") ? whole(json, "lost") : 0};
   if (json.contains("fault")) end.fault = text(json, "fault");
   if (json.contains("signal")) end.signal = static_cast<std::int64_t>(whole(json, "signal"));
   return end;
+}
+
+RecordedGap gap_from(const Json& line) {
+  const Json& json = member(line, "lost");
+  const RecordedGap gap{.ticks = whole(json, "ticks"), .from = whole(json, "from")};
+  if (gap.ticks > 0 && gap.ticks - 1 <= UINT64_MAX - gap.from) return gap;
+  throw BadLine(fmt::format("no {} ticks can be lost from tick {} on", gap.ticks, gap.from));
 }
 
 RecordedTick tick_from(const Json& line, std::vector<RecordedState>& states) {
   RecordedTick tick{.tick = whole(line, "tick"), .time = number(line, "time_s"), .nodes = {}};
   for (const Json& change : list(line, "nodes")) apply(change, states);
   tick.nodes = states;
+  if (line.contains("faults")) tick.faults = count_faults(list(line, "faults"), states.size());
   return tick;
 }
 

@@ -15,6 +15,7 @@ struct BadLine : std::runtime_error {
 
 RecordingHeader header_from(const nlohmann::json& line);
 RecordedEnd end_from(const nlohmann::json& line);
+RecordedGap gap_from(const nlohmann::json& line);
 
 // Takes over the changes of one tick's line into `states`; the tick's number and time are returned.
 RecordedTick tick_from(const nlohmann::json& line, std::vector<RecordedState>& states);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "observers/recording_json.h"
@@ -24,24 +25,48 @@ RecordingReader::RecordingReader(std::istream& in, std::string name)
 }
 
 std::optional<RecordedTick> RecordingReader::next() {
-  if (!error_.empty()) return std::nullopt;
-  const auto line = next_line();
-  if (!line) return std::nullopt;
-  read_line(*line, [this](const nlohmann::json& json) {
-    if (end_) throw BadLine("a line after the closing line");
-    if (json.is_object() && json.contains("end")) {
-      end_ = end_from(json);
-      return;
-    }
-    const std::uint64_t last = tick_.tick;
-    tick_ = tick_from(json, states_);
-    if (std::exchange(has_tick_, true) && tick_.tick <= last) {
-      throw BadLine(fmt::format("tick {} comes after tick {}", tick_.tick, last));
-    }
-  });
-  if (!error_.empty() || last_line_cut_) return std::nullopt;
-  // Lines after the closing one must not be there: reading on finds them.
-  return end_ ? next() : std::optional(tick_);
+  // Also after the closing line: nothing must come there, and only reading on finds that.
+  while (error_.empty()) {
+    const auto line = next_line();
+    if (!line) return std::nullopt;
+    bool is_tick = false;
+    read_line(*line, [&](const nlohmann::json& json) { is_tick = read_further(json); });
+    if (!error_.empty() || last_line_cut_) return std::nullopt;
+    if (is_tick) return tick_;
+  }
+  return std::nullopt;
+}
+
+// Any line but the header. True: of a tick.
+bool RecordingReader::read_further(const nlohmann::json& json) {
+  if (end_) throw BadLine("a line after the closing line");
+  if (json.is_object() && json.contains("end")) {
+    end_ = end_from(json);
+    return false;
+  }
+  if (json.is_object() && json.contains("lost")) {
+    const RecordedGap gap = gap_from(json);
+    in_order(gap.from, gap.from + (gap.ticks - 1));
+    if (!first_gap_) first_gap_ = gap;
+    lost_ += gap.ticks;
+    return false;
+  }
+  tick_ = tick_from(json, states_);
+  in_order(tick_.tick, tick_.tick);
+  return true;
+}
+
+void RecordingReader::in_order(std::uint64_t first, std::uint64_t last) {
+  if (last_ && first <= *last_) {
+    throw BadLine(fmt::format("tick {} comes after tick {}", first, *last_));
+  }
+  last_ = last;
+}
+
+std::string RecordingReader::gaps() const {
+  if (!first_gap_) return {};
+  return fmt::format("{} tick{} missing, the first is {}: the disk was too slow", lost_,
+                     lost_ == 1 ? " is" : "s are", first_gap_->from);
 }
 
 std::string RecordingReader::cut() const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <istream>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,11 +26,18 @@ class RecordingReader {
   const RecordingHeader& header() const { return header_; }
   // The closing line, once it has been read.
   const std::optional<RecordedEnd>& end() const { return end_; }
+  // Of the lines read so far: the first gap, and the number of ticks in all of them.
+  const std::optional<RecordedGap>& first_gap() const { return first_gap_; }
+  std::uint64_t lost() const { return lost_; }
+  // "" when there is no gap, else "2 ticks are missing, the first is 7: the disk was too slow".
+  std::string gaps() const;
   // After the last tick: "" when the recording is whole, else how it ends.
   std::string cut() const;
 
  private:
   std::optional<std::string> next_line();
+  bool read_further(const nlohmann::json& json);
+  void in_order(std::uint64_t first, std::uint64_t last);
   void fail(const std::string& message);
   template <class Read>
   void read_line(const std::string& line, Read read);
@@ -43,7 +51,9 @@ class RecordingReader {
   std::optional<RecordedEnd> end_;
   std::vector<RecordedState> states_;
   RecordedTick tick_;
-  bool has_tick_ = false;
+  std::optional<std::uint64_t> last_;  // tick that was read or lost
+  std::optional<RecordedGap> first_gap_;
+  std::uint64_t lost_ = 0;
 };
 
 }  // namespace lockstep

@@ -88,6 +88,20 @@ TEST_CASE("a recording that ends early is read, and that is said") {
   }
 }
 
+TEST_CASE("a recording with lost ticks is read, and that is said") {
+  const TemporaryDirectory directory;
+  std::string text = read_file(record(directory));
+  const auto begin = text.find("{\"tick\":9"), end = text.find("{\"end\"");
+  text.replace(begin, end - begin, "{\"lost\":{\"ticks\":1,\"from\":9}}\n");
+  const std::string lossy = directory.file("lossy.jsonl", text);
+  for (const std::string command : {"csv", "info", "measure"}) {
+    const Outcome outcome = log({command, lossy});
+    CHECK(outcome.code == 0);
+    CHECK(!outcome.out.empty());
+    CHECK(contains(outcome.err, "1 tick is missing, the first is 9: the disk was too slow"));
+  }
+}
+
 TEST_CASE("what is no recording, or a damaged one, ends with 3") {
   const TemporaryDirectory directory;
   std::string text = read_file(record(directory));

@@ -114,6 +114,44 @@ TEST_CASE("progress of a child is what its synchronized node used, not what was 
   CHECK(table.find("2,0.2,2,Test/Repeat/ParallelRelative/a,running,0,1,0\n") != std::string::npos);
 }
 
+TEST_CASE("faults that the run went on after are in their tick, and counted") {
+  const TemporaryPath file;
+  {
+    WatchedRun run("Sequence(a b)", "a=RRS b=S");
+    run.faults[1] = {{1, "said \"no\"\n"}, {2, "broke \xff"}};
+    Recorder recorder(run.run.tree(), {.path = file.path(), .tree_file = "a.xml"});
+    run.watch({&recorder});
+  }
+  const std::string text = file.text();
+  CHECK(text.find(R"("time_s":0.1,"nodes":[],"faults":[[1,"said \"no\"\n"],[2,"broke )"
+                  "\xef\xbf\xbd\"]]}\n") != std::string::npos);
+  CHECK(text.find("faults", text.find("\"tick\":2")) == std::string::npos);
+  std::istringstream in(text);
+  RecordingReader reader(in, "run.jsonl");
+  TextFile out;
+  write_info(reader, out.get());
+  CHECK(out.text().find("\n  2 faults of leaves that the run went on after\n") !=
+        std::string::npos);
+  CHECK(csv_of(text).find("broke") == std::string::npos);
+}
+
+TEST_CASE("lost ticks have no rows, and info tells of them") {
+  std::string text = kRecording;
+  const std::size_t begin = text.find("{\"tick\":1"), end = text.find("{\"tick\":3");
+  text.replace(begin, end - begin, "{\"lost\":{\"ticks\":2,\"from\":1}}\n");
+  const std::string table = csv_of(text);
+  CHECK(table.find("\n1,") == std::string::npos);
+  CHECK(table.find("\n2,") == std::string::npos);
+  CHECK(table.find("\n3,0.3,2,Test/ParallelAbsolute/b,success,1,0,0\n") != std::string::npos);
+  std::istringstream in(text);
+  RecordingReader reader(in, "run.jsonl");
+  TextFile out;
+  write_info(reader, out.get());
+  CHECK(reader.lost() == 2);
+  CHECK(out.text().find("\n  2 ticks are missing, the first is 1: the disk was too slow\n") !=
+        std::string::npos);
+}
+
 TEST_CASE("names with commas and quotes are quoted") {
   CHECK(csv_field("a/b") == "a/b");
   CHECK(csv_field("a,b") == "\"a,b\"");
@@ -176,6 +214,19 @@ TEST_CASE("what is wrong with a recording is told with its line") {
        "run.jsonl:3: a node's change has a progress that is not in [0, 1]"},
       {replaced(kRecording, "0.5,0,1]", "0.5,0]"),
        "run.jsonl:3: a node's change is not [index, status, progress, ticked, held]"},
+      {replaced(kRecording, "{\"tick\":1", "{\"lost\":{\"ticks\":2,\"from\":1}}\n{\"tick\":1"),
+       "run.jsonl:4: tick 1 comes after tick 2"},
+      {replaced(kRecording, "{\"tick\":1", "{\"lost\":{\"ticks\":2,\"from\":0}}\n{\"tick\":1"),
+       "run.jsonl:3: tick 0 comes after tick 0"},
+      {replaced(kRecording, "{\"tick\":1", "{\"lost\":{\"ticks\":0,\"from\":1}}\n{\"tick\":1"),
+       "run.jsonl:3: no 0 ticks can be lost from tick 1 on"},
+      {replaced(kRecording, "{\"tick\":1",
+                "{\"lost\":{\"ticks\":2,\"from\":18446744073709551615}}\n{\"tick\":1"),
+       "run.jsonl:3: no 2 ticks can be lost from tick 18446744073709551615 on"},
+      {replaced(kRecording, "0.5,0,1]]", "0.5,0,1]],\"faults\":[[3,\"x\"]]"),
+       "run.jsonl:3: no node 3, expected 0 to 2"},
+      {replaced(kRecording, "0.5,0,1]]", "0.5,0,1]],\"faults\":[[1]]"),
+       "run.jsonl:3: a fault is not [index, message]"},
       {std::string(kRecording) + "{}\n", "run.jsonl:7: a line after the closing line"},
   };
   for (const auto& [text, expected] : cases) {

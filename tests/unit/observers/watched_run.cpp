@@ -11,19 +11,22 @@ namespace lockstep::test {
 RunEnd WatchedRun::watch(std::initializer_list<Observer*> observers, std::uint64_t max_ticks) {
   Ticker& ticker = run.ticker();
   for (Observer* observer : observers) observer->run_started(ticker, start);
-  RunEnd end{.reason = StopReason::MaxTicks};
+  RunEnd end;
+  end.reason = StopReason::MaxTicks;
   while (end.ticks < max_ticks && end.reason == StopReason::MaxTicks) {
     const std::uint64_t tick = end.ticks++;
     const Nanoseconds now = start.period * static_cast<std::int64_t>(tick);
     for (Observer* observer : observers) observer->before_tick(ticker, tick, now);
     end.status = ticker.tick_root(now);
     end.time = now;
-    const TickReport report{.tick = tick, .time = now, .status = end.status};
+    const TickReport report{
+        .tick = tick, .time = now, .status = end.status, .skipped = 0, .faults = faults[tick]};
     for (Observer* observer : observers) observer->after_tick(ticker, report);
     if (is_complete(end.status)) end.reason = StopReason::Completed;
     if (ticker.fault() != nullptr) end.reason = StopReason::Fault;
   }
   ticker.halt_all();
+  end.worst = worst;
   for (Observer* observer : observers) observer->run_ended(ticker, end);
   return end;
 }

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <initializer_list>
+#include <map>
 #include <string>
+#include <vector>
 
 #include "runtime/observer.h"
 #include "support/scripted_run.h"
@@ -16,6 +18,9 @@ struct WatchedRun {
   RunEnd watch(std::initializer_list<Observer*> observers, std::uint64_t max_ticks = 1000);
 
   ScriptedRun run;
+  // What the observers are told of, besides what the leaves do.
+  std::map<std::uint64_t, std::vector<Fault>> faults;  // by tick
+  WorstTick worst;
   RunStart start{.period = std::chrono::milliseconds(100), .real_time = false};
 };
 

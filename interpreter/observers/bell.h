@@ -1,0 +1,24 @@
+// One thread waits, any other rings: a futex. Ringing never waits and is async-signal-safe; it is a
+// system call, so not for each tick. Used by append_file.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+
+namespace lockstep {
+
+class Bell {
+ public:
+  // How often it has been rung. Ask before looking at what the bell is about, then wait for more.
+  std::uint32_t rung() const { return rung_.load(std::memory_order_acquire); }
+  void ring();
+  // Returns once it has been rung since `seen`, or after `longest`, or for no reason.
+  void wait(std::uint32_t seen, std::chrono::nanoseconds longest);
+
+ private:
+  std::atomic<std::uint32_t> rung_{0};
+  static_assert(std::atomic<std::uint32_t>::is_always_lock_free);
+};
+
+}  // namespace lockstep
