@@ -10,6 +10,7 @@
 #include "engine/synchronized.h"
 #include "measure/synchronized_measure.h"
 #include "observers/quiet_thread.h"
+#include "observers/statistics.h"
 #include "observers/terminal.h"
 
 namespace lockstep {
@@ -58,6 +59,7 @@ void ConsoleLive::after_tick(Ticker& ticker, const TickReport& report) {
   header_.time = report.time;
   header_.overruns += report.skipped > 0;
   header_.result = report.status;
+  for (const Fault& fault : report.faults) print(fault_text(tree_, fault, report.tick));
   activity_ = ticker.run_state().activity;
   const auto now = std::chrono::steady_clock::now();
   if (now - published_ < kFrame) return;

@@ -31,7 +31,8 @@ void ConsolePlain::before_tick(Ticker&, std::uint64_t tick, Nanoseconds time) {
   time_ = time;
 }
 
-void ConsolePlain::after_tick(Ticker& ticker, const TickReport&) {
+void ConsolePlain::after_tick(Ticker& ticker, const TickReport& report) {
+  for (const Fault& fault : report.faults) tell_fault(fault);
   for (Watched& node : nodes_) tell_held(ticker, node);
   for (std::size_t i = 0; i < leaves_.size(); ++i) {
     const Status now = ticker.status(leaves_[i]);
@@ -63,8 +64,13 @@ bool ConsolePlain::may_print() {
 }
 
 void ConsolePlain::tell_left_out() {
-  const std::uint64_t left_out = budget_.take_left_out();
+  const std::uint64_t left_out = budget_.take_left_out() + fault_budget_.take_left_out();
   if (left_out > 0) print(fmt::format("... {} lines left out", left_out));
+}
+
+void ConsolePlain::tell_fault(const Fault& fault) {
+  if (!fault_budget_.take(real_time_())) return;
+  print(fmt::format("{}: failed: {}; counted as Failure", tree_.path(fault.node), fault.message));
 }
 
 void ConsolePlain::tell_leaf(NodeIndex leaf, Status before, Status now) {

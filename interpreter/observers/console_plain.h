@@ -1,5 +1,6 @@
 // Tells a run as plain lines, for logs and for whatever is not a terminal: who starts, completes,
-// is halted, who waits for whom. Prints at most 200 lines at once and one a second after that.
+// is halted, who waits for whom, which leaf's fault was counted as Failure. Prints at most 200
+// lines at once and one a second after that.
 #pragma once
 
 #include <atomic>
@@ -16,6 +17,8 @@ namespace lockstep {
 class ConsolePlain final : public Observer {
  public:
   static constexpr std::int64_t kBurst = 200;
+  // Apart: a fault must not be left out because of who started and completed before it.
+  static constexpr std::int64_t kBurstOfFaults = 20;
   // A child that is held for less, on the run's clock, is not told: under a small delta that would
   // be every other tick.
   static constexpr Nanoseconds kShortestWait = std::chrono::milliseconds(100);
@@ -45,6 +48,7 @@ class ConsolePlain final : public Observer {
   };
   bool may_print();
   void tell_left_out();
+  void tell_fault(const Fault& fault);
   void tell_leaf(NodeIndex leaf, Status before, Status now);
   void tell_held(Ticker& ticker, Watched& node);
   void tell_wait(const Watched& node, std::size_t child, std::string_view text);
@@ -53,6 +57,7 @@ class ConsolePlain final : public Observer {
   std::FILE* out_;
   RealTime real_time_;
   LineBudget budget_{kBurst};
+  LineBudget fault_budget_{kBurstOfFaults};
   std::vector<NodeIndex> leaves_;
   std::vector<Status> last_;  // of each leaf
   std::vector<Watched> nodes_;

@@ -1,5 +1,7 @@
 #include "observers/statistics.h"
 
+#include <fmt/format.h>
+
 namespace lockstep {
 
 Statistics::Statistics(const Tree& tree) : tree_(tree) {
@@ -17,6 +19,12 @@ void Statistics::after_tick(Ticker& ticker, const TickReport& report) {
   if (report.tick > 0) periods_.record(report.time - last_start_);
   last_start_ = report.time;
   for (Measured& node : nodes_) node.measure.after_tick(node.probe.read(ticker, report.time));
+  for (const Fault& fault : report.faults) note(fault, report.tick);
+}
+
+void Statistics::note(const Fault& fault, std::uint64_t tick) {
+  ++faults_;
+  if (faults_ <= kMostFaults) fault_notes_.push_back(fault_text(tree_, fault, tick));
 }
 
 void Statistics::run_ended(Ticker& ticker, const RunEnd& end) {
@@ -35,8 +43,15 @@ Summary Statistics::summary() const {
                   .period = {},
                   .overruns = end_.overruns,
                   .skipped = end_.skipped,
+                  .worst = worst_tick(),
+                  .faults = faults_,
+                  .tick_budget = {},
+                  .over_budget = {},
                   .synchronized_nodes = {},
-                  .notes = {}};
+                  .notes = fault_notes_};
+  if (faults_ > kMostFaults) {
+    summary.notes.push_back(fmt::format("and {} more", counted(faults_ - kMostFaults, "fault")));
+  }
   if (real_time_ && periods_.count() > 0) {
     summary.period = PeriodSummary{.p50 = to_seconds(periods_.quantile(0.5)),
                                    .p99 = to_seconds(periods_.quantile(0.99)),
@@ -44,6 +59,15 @@ Summary Statistics::summary() const {
   }
   for (const Measured& node : nodes_) summary.synchronized_nodes.push_back(summary_of(node));
   return summary;
+}
+
+std::optional<WorstTickSummary> Statistics::worst_tick() const {
+  const WorstTick& worst = end_.worst;
+  if (!real_time_ || worst.took == Nanoseconds(0)) return std::nullopt;
+  return WorstTickSummary{.tick = worst.tick,
+                          .took = to_seconds(worst.took),
+                          .leaf = worst.leaf ? tree_.path(*worst.leaf) : "",
+                          .leaf_took = to_seconds(worst.leaf_took)};
 }
 
 SynchronizedSummary Statistics::summary_of(const Measured& measured) const {
@@ -54,6 +78,11 @@ SynchronizedSummary Statistics::summary_of(const Measured& measured) const {
   const NodeIndex node = measured.probe.node();
   return summarize(measured.measure, tree_.path(node), std::string(tree_.labels[node].type->id),
                    children);
+}
+
+std::string fault_text(const Tree& tree, const Fault& fault, std::uint64_t tick) {
+  return fmt::format("the leaf '{}' failed in tick {}: {}; counted as Failure",
+                     tree.path(fault.node), tick, fault.message);
 }
 
 std::string fault_text(const Ticker& ticker) {

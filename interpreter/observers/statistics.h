@@ -1,5 +1,5 @@
 // Measures a run for its summary: tick periods, and every synchronized node. Allocates nothing
-// while the run ticks. Prints nothing itself.
+// while the run ticks (only a leaf's fault is noted as text). Prints nothing itself.
 #pragma once
 
 #include <vector>
@@ -13,6 +13,8 @@ namespace lockstep {
 
 class Statistics final : public Observer {
  public:
+  static constexpr std::size_t kMostFaults = 5;  // that are told one by one
+
   explicit Statistics(const Tree& tree);
 
   void run_started(Ticker& ticker, const RunStart& start) override;
@@ -27,6 +29,8 @@ class Statistics final : public Observer {
     SynchronizedProbe probe;
     SynchronizedMeasure measure;
   };
+  void note(const Fault& fault, std::uint64_t tick);
+  std::optional<WorstTickSummary> worst_tick() const;
   SynchronizedSummary summary_of(const Measured& measured) const;
 
   const Tree& tree_;
@@ -35,9 +39,13 @@ class Statistics final : public Observer {
   bool real_time_ = false;
   Nanoseconds last_start_{0};
   std::string fault_;
+  std::uint64_t faults_ = 0;  // that the run went on after
+  std::vector<std::string> fault_notes_;
   RunEnd end_;
 };
 
+// "the leaf 'Door/pull/arm' failed in tick 12: threw …; counted as Failure"
+std::string fault_text(const Tree& tree, const Fault& fault, std::uint64_t tick);
 // "Door/pull/arm: threw …", or "" when there is no fault.
 std::string fault_text(const Ticker& ticker);
 

@@ -48,6 +48,25 @@ std::string timing(const Summary& summary) {
                      summary.skipped);
 }
 
+std::string worst_tick(const Summary& summary) {
+  if (!summary.worst) return {};
+  const WorstTickSummary& worst = *summary.worst;
+  std::string text = fmt::format("  worst tick {}: {:.3f} ms", worst.tick, worst.took * 1e3);
+  if (!worst.leaf.empty()) {
+    text += fmt::format(", of which {:.3f} ms in {}", worst.leaf_took * 1e3, printable(worst.leaf));
+  }
+  return text + "\n";
+}
+
+void write_over_budget(const Summary& summary, std::FILE* out, bool color) {
+  for (const LeafTimingSummary& leaf : summary.over_budget) {
+    fmt::print(out, "  {} of {:.6g} ms: {} {} of {}, p50 {:.3f} ms, p99 {:.3f} ms, max {:.3f} ms\n",
+               styled("over the tick budget", Style::Warning, color),
+               summary.tick_budget.value_or(0) * 1e3, printable(leaf.path), leaf.over_budget,
+               counted(leaf.calls, "tick"), leaf.p50 * 1e3, leaf.p99 * 1e3, leaf.max * 1e3);
+  }
+}
+
 Json json_of(const SynchronizedSummary& node) {
   Json children = Json::array();
   for (const ChildSummary& child : node.children) {
@@ -66,6 +85,28 @@ Json json_of(const SynchronizedSummary& node) {
 
 Json json_of(const PeriodSummary& period) {
   return {{"p50_s", period.p50}, {"p99_s", period.p99}, {"max_s", period.max}};
+}
+
+Json json_of(const WorstTickSummary& worst) {
+  Json json = {{"tick", worst.tick}, {"took_s", worst.took}};
+  if (!worst.leaf.empty()) {
+    json["leaf"] = worst.leaf;
+    json["leaf_took_s"] = worst.leaf_took;
+  }
+  return json;
+}
+
+Json json_of(const std::vector<LeafTimingSummary>& leaves) {
+  Json list = Json::array();
+  for (const LeafTimingSummary& leaf : leaves) {
+    list.push_back({{"leaf", leaf.path},
+                    {"ticks", leaf.calls},
+                    {"over_budget", leaf.over_budget},
+                    {"p50_s", leaf.p50},
+                    {"p99_s", leaf.p99},
+                    {"max_s", leaf.max}});
+  }
+  return list;
 }
 
 }  // namespace
@@ -123,7 +164,8 @@ void write_text(const Summary& summary, std::FILE* out, bool color) {
   const std::string reason = why(summary);
   fmt::print(out, "{}{}{} after {}, {:.3f} s\n", result, reason.empty() ? "" : ": ", reason,
              counted(summary.ticks, "tick"), summary.seconds);
-  fmt::print(out, "{}", timing(summary));
+  fmt::print(out, "{}{}", timing(summary), worst_tick(summary));
+  write_over_budget(summary, out, color);
   for (const SynchronizedSummary& node : summary.synchronized_nodes) write_text(node, out, color);
   for (const std::string& note : summary.notes) {
     fmt::print(out, "{} {}\n", styled("note:", Style::Warning, color), printable(note));
@@ -139,6 +181,10 @@ std::string to_json(const Summary& summary) {
   json["period"] = summary.period ? json_of(*summary.period) : Json();
   json["overruns"] = summary.overruns;
   json["skipped"] = summary.skipped;
+  json["worst_tick"] = summary.worst ? json_of(*summary.worst) : Json();
+  json["faults"] = summary.faults;
+  json["tick_budget_s"] = summary.tick_budget ? Json(*summary.tick_budget) : Json();
+  json["over_budget"] = json_of(summary.over_budget);
   json["synchronized_nodes"] = Json::array();
   for (const auto& node : summary.synchronized_nodes) {
     json["synchronized_nodes"].push_back(json_of(node));

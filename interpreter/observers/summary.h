@@ -15,7 +15,8 @@ namespace lockstep {
 
 // "success", "failure", or "stopped" when the tree was still running.
 std::string_view result_text(Status status);
-// "completed", "fault", "timeout", "max_ticks" or "signal", as recordings and JSON spell it.
+// "completed", "fault", "timeout", "max_ticks", "signal" or "overrun", as recordings and JSON spell
+// it.
 std::string_view to_string(StopReason reason);
 
 // "1 tick", "2 ticks".
@@ -43,6 +44,21 @@ struct PeriodSummary {
   double p50 = 0, p99 = 0, max = 0;  // seconds from the start of a tick to the start of the next
 };
 
+// Of a leaf whose ticks were over the budget.
+struct LeafTimingSummary {
+  std::string path;
+  std::uint64_t calls = 0, over_budget = 0;  // ticks of the leaf, and those that were over it
+  double p50 = 0, p99 = 0, max = 0;          // seconds
+};
+
+// The tick that took longest.
+struct WorstTickSummary {
+  std::uint64_t tick = 0;
+  double took = 0;   // seconds
+  std::string leaf;  // whose call took most of it, or "" when calls were not timed
+  double leaf_took = 0;
+};
+
 struct Summary {
   Status status = Status::Running;  // of the root after the last tick
   StopReason reason = StopReason::Completed;
@@ -52,6 +68,10 @@ struct Summary {
   double seconds = 0;
   std::optional<PeriodSummary> period;  // real time only, and from two ticks on
   std::uint64_t overruns = 0, skipped = 0;
+  std::optional<WorstTickSummary> worst;  // real time only
+  std::uint64_t faults = 0;               // of leaves that the run went on after
+  std::optional<double> tick_budget;      // seconds
+  std::vector<LeafTimingSummary> over_budget;
   std::vector<SynchronizedSummary> synchronized_nodes;
   std::vector<std::string> notes;  // what else the user must know: a recording that is cut, …
 };

@@ -57,6 +57,19 @@ TEST_CASE("plain lines tell who is halted and what failed") {
   CHECK(fault.find("run ends: stopped (fault) after 2 ticks\n") != std::string::npos);
 }
 
+TEST_CASE("a fault that the run goes on after is told at once, however much was told before") {
+  TextFile out;
+  WatchedRun run("Repeat(a)", "a=RS...");
+  run.faults[500] = {{1, "threw\x1b[2J"}};
+  run.faults[501].assign(ConsolePlain::kBurstOfFaults + 9, {1, "again"});
+  ConsolePlain console(run.run.tree(), out.get(), frozen);
+  run.watch({&console}, 1000);
+  const std::string text = out.text();
+  CHECK(text.find("    50.000 s  tick 500     Test/Repeat/a: failed: threw\\x1B[2J; counted as "
+                  "Failure\n") != std::string::npos);
+  CHECK(text.find("... 810 lines left out\n") != std::string::npos);  // 800 of them not faults
+}
+
 TEST_CASE("a leaf that completes the same way in each tick is told once") {
   const std::string text = plain("Sequence(a? b)", "a=S b=R", 50);
   CHECK(text.find("a: success") == text.rfind("a: success"));

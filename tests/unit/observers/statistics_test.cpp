@@ -90,6 +90,58 @@ TEST_CASE("the summary as text") {
   CHECK(text_of(summary, true).starts_with("\x1b[32msuccess\x1b[0m after"));
 }
 
+TEST_CASE("faults that the run went on after are counted, and the first of them told") {
+  WatchedRun run("Sequence(a)", "a=RRRS");
+  run.faults[1] = {{1, "threw"}, {1, "threw again"}};
+  run.faults[2] = {{1, "x"}, {1, "x"}, {1, "x"}, {1, "not told"}, {1, "not told"}};
+  const Summary summary = summary_of(run);
+  CHECK(summary.faults == 7);
+  REQUIRE(summary.notes.size() == Statistics::kMostFaults + 1);
+  CHECK(summary.notes[0] ==
+        "the leaf 'Test/Sequence/a' failed in tick 1: threw; counted as Failure");
+  CHECK(summary.notes[2] == "the leaf 'Test/Sequence/a' failed in tick 2: x; counted as Failure");
+  CHECK(summary.notes[5] == "and 2 faults more");
+  CHECK(to_json(summary).find(R"("faults":7,)") != std::string::npos);
+}
+
+TEST_CASE("the worst tick is told with its leaf, on a real clock only") {
+  WatchedRun run("Sequence(a)", "a=RS");
+  run.worst = {.tick = 1, .took = Nanoseconds(8'200'000), .leaf = {}, .leaf_took = {}};
+  CHECK_FALSE(summary_of(run).worst);
+  run.start.real_time = true;
+  WatchedRun real("Sequence(a)", "a=RS");
+  real.start.real_time = true;
+  real.worst = run.worst;
+  const Summary without_leaf = summary_of(real);
+  CHECK(text_of(without_leaf).find("\n  worst tick 1: 8.200 ms\n") != std::string::npos);
+  CHECK(to_json(without_leaf).find(R"("worst_tick":{"tick":1,"took_s":0.0082},)") !=
+        std::string::npos);
+  Summary summary = without_leaf;
+  summary.worst->leaf = "Test/Sequence/a";
+  summary.worst->leaf_took = 0.0079;
+  CHECK(text_of(summary).find("\n  worst tick 1: 8.200 ms, of which 7.900 ms in "
+                              "Test/Sequence/a\n") != std::string::npos);
+  CHECK(
+      to_json(summary).find(R"("took_s":0.0082,"leaf":"Test/Sequence/a","leaf_took_s":0.0079})") !=
+      std::string::npos);
+}
+
+TEST_CASE("leaves over the tick budget are told with their times") {
+  Summary summary;
+  summary.tick_budget = 0.01;
+  summary.over_budget = {{.path = "Main/arm",
+                          .calls = 120,
+                          .over_budget = 3,
+                          .p50 = 0.0001,
+                          .p99 = 0.012,
+                          .max = 0.015}};
+  CHECK(text_of(summary).find("  over the tick budget of 10 ms: Main/arm 3 of 120 ticks, "
+                              "p50 0.100 ms, p99 12.000 ms, max 15.000 ms\n") != std::string::npos);
+  CHECK(to_json(summary).find(
+            R"("tick_budget_s":0.01,"over_budget":[{"leaf":"Main/arm","ticks":120,"over_budget":3,)"
+            R"("p50_s":0.0001,"p99_s":0.012,"max_s":0.015}],)") != std::string::npos);
+}
+
 TEST_CASE("why a run stopped") {
   Summary summary;
   summary.reason = StopReason::Timeout;
@@ -108,7 +160,8 @@ TEST_CASE("the summary as JSON") {
   WatchedRun run("ParallelRelative[delta=.5](a b)", "a+.25 b+.5");
   CHECK(to_json(summary_of(run)) ==
         R"({"result":"success","reason":"completed","ticks":4,"time_s":0.3,"period":null,)"
-        R"("overruns":0,"skipped":0,"synchronized_nodes":[{"path":"Test/ParallelRelative",)"
+        R"("overruns":0,"skipped":0,"worst_tick":null,"faults":0,"tick_budget_s":null,)"
+        R"("over_budget":[],"synchronized_nodes":[{"path":"Test/ParallelRelative",)"
         R"("kind":"ParallelRelative","samples":4,"progress_distance":1.0,)"
         R"("progress_distance_mean":0.25,"largest_spread":0.5,"step_length":0.5,"children":[)"
         R"({"name":"a","held_s":0.0,"held_ticks":0},{"name":"b","held_s":0.0,"held_ticks":0}]}],)"
