@@ -1,32 +1,13 @@
 #include "runtime/loop.h"
 
 #include <algorithm>
-#include <cmath>
+#include <vector>
 
 namespace lockstep {
 namespace {
 
 // A stop signal that comes between the look at it and the sleep does not end the sleep.
 constexpr Nanoseconds kLongestSleep = std::chrono::milliseconds(100);
-
-// deadline_of at one rate. Where the period is a whole number of nanoseconds, as at 100 Hz, the
-// product is the same number: a division can take longer than the tick of a small tree.
-class Deadlines {
- public:
-  explicit Deadlines(double rate) : rate_(rate) {
-    const double period = 1e9 / rate;
-    const bool is_whole = period == std::floor(period) && std::fma(period, rate, -1e9) == 0;
-    if (is_whole) period_ = static_cast<std::uint64_t>(period);
-  }
-
-  Nanoseconds at(std::uint64_t k) const {
-    return period_ != 0 ? Nanoseconds(k * period_) : deadline_of(k, rate_);
-  }
-
- private:
-  double rate_;
-  std::uint64_t period_ = 0;  // 0: not whole
-};
 
 class Loop {
  public:
@@ -44,7 +25,7 @@ class Loop {
       observer->run_started(run_.ticker(), {run_.period(), is_real_});
     }
     if (run_.fault() != nullptr) end_.reason = StopReason::Fault;
-    while (run_.fault() == nullptr && may_tick() && tick()) wait_for_next();
+    while (run_.fault() == nullptr && may_tick() && tick() && meet_next()) wait();
     end_.time = clock_.now() - start_;
     run_.halt();
     for (Observer* observer : observers_) observer->run_ended(run_.ticker(), end_);
@@ -80,7 +61,10 @@ class Loop {
     run_.set_now(now);
     for (Observer* observer : observers_) observer->before_tick(ticker, end_.ticks, now);
     end_.status = run_.tick(now);
-    const TickReport report{end_.ticks, now, end_.status, skipped_before_};
+    if (is_real_) note_worst(clock_.now() - start_ - now);
+    // Of the loop's own: an observer that asks for progress may add to the ticker's.
+    const std::vector<Fault> faults = ticker.take_tolerated();
+    const TickReport report{end_.ticks, now, end_.status, skipped_before_, faults};
     for (Observer* observer : observers_) observer->after_tick(ticker, report);
     ++end_.ticks;
     if (run_.fault() != nullptr) return stop(StopReason::Fault);
@@ -88,23 +72,40 @@ class Loop {
     return true;
   }
 
-  void wait_for_next() {
-    ++deadline_;
-    skipped_before_ = 0;
-    if (is_real_) skip_missed();
-    const Nanoseconds deadline = start_ + deadlines_.at(deadline_);
-    do {  // any signal ends a sleep, only a stop signal ends the wait
-      clock_.sleep_until(is_real_ ? std::min(deadline, clock_.now() + kLongestSleep) : deadline);
-    } while (clock_.now() < deadline && !stop_requested());
+  void note_worst(Nanoseconds took) {
+    if (took <= end_.worst.took) return;
+    end_.worst = WorstTick();
+    end_.worst.tick = end_.ticks;
+    end_.worst.took = took;
+    if (run_.watch() == nullptr) return;
+    const LeafWatch::Slowest slowest = run_.watch()->slowest();
+    if (slowest.took * 2 < took) return;
+    end_.worst.leaf = slowest.leaf;
+    end_.worst.leaf_took = slowest.took;
   }
 
-  void skip_missed() {
-    const Nanoseconds late = clock_.now() - start_ - deadlines_.at(deadline_);
-    if (late < Nanoseconds(0)) return;
+  // Chooses the deadline that the next tick waits for. False: the run ends because it has passed.
+  bool meet_next() {
+    ++deadline_;
+    skipped_before_ = 0;
+    if (!is_real_) return true;
+    const Nanoseconds now = clock_.now() - start_;
+    if (now <= deadlines_.at(deadline_)) return true;
     ++end_.overruns;
-    const auto passed = static_cast<std::uint64_t>(to_seconds(late) * options_.rate) + 1;
-    deadline_ += passed;
-    end_.skipped += skipped_before_ = passed;
+    if (options_.overrun == OverrunPolicy::Fail) return stop(StopReason::Overrun);
+    if (options_.overrun == OverrunPolicy::CatchUp) return true;
+    const std::uint64_t next = deadlines_.first_from(now);
+    end_.skipped += skipped_before_ = next - deadline_;
+    deadline_ = next;
+    return true;
+  }
+
+  // Any signal ends a sleep, only a stop signal ends the wait.
+  void wait() {
+    const Nanoseconds deadline = start_ + deadlines_.at(deadline_);
+    for (auto now = clock_.now(); now < deadline && !stop_requested(); now = clock_.now()) {
+      clock_.sleep_until(is_real_ ? std::min(deadline, now + kLongestSleep) : deadline);
+    }
   }
 
   Run& run_;
@@ -120,10 +121,6 @@ class Loop {
 };
 
 }  // namespace
-
-Nanoseconds deadline_of(std::uint64_t k, double rate) {
-  return Nanoseconds(std::llround(static_cast<long double>(k) * 1e9L / rate));
-}
 
 RunEnd run_loop(Run& run, Clock& clock, const LoopOptions& options,
                 std::span<Observer* const> observers) {

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "core/clock.h"
+#include "runtime/deadlines.h"
 #include "runtime/observer.h"
 #include "runtime/run.h"
 
@@ -27,9 +28,6 @@ struct LoopOptions {
   int (*stop_signal)() = nullptr;          // asked before each tick: nonzero = stop
   OverrunPolicy overrun = OverrunPolicy::Skip;
 };
-
-// Time of the deadline of tick k, since the start.
-Nanoseconds deadline_of(std::uint64_t k, double rate);
 
 // Runs to the end: every running leaf is halted, every observer has heard of it.
 RunEnd run_loop(Run& run, Clock& clock, const LoopOptions& options,

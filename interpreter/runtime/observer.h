@@ -22,7 +22,7 @@ struct TickReport {
   Nanoseconds time{0};                 // when it began, since the run began
   Status status = Status::Running;     // of the root
   std::uint64_t skipped = 0;           // deadlines that this tick came too late for, beyond its own
-  std::span<const Fault> faults = {};  // of leaves in this tick that the run goes on after
+  std::span<const Fault> faults = {};  // of leaves, since the last report; the run goes on
 };
 
 enum class StopReason : std::uint8_t { Completed, Fault, Timeout, MaxTicks, Signal, Overrun };
@@ -52,7 +52,7 @@ class Observer {
   virtual void run_started(Ticker&, const RunStart&) {}
   virtual void before_tick(Ticker&, std::uint64_t /*tick*/, Nanoseconds /*time*/) {}
   virtual void after_tick(Ticker&, const TickReport&) {}
-  // After every running leaf was halted.
+  // After every running leaf was halted. Ticker::tolerated() has the faults since the last report.
   virtual void run_ended(Ticker&, const RunEnd&) {}
 };
 
