@@ -39,6 +39,7 @@ const std::vector<Layer> kLayers{
      {"core/", "document/", "definition/", "engine/", "plugin/", "runtime/", "measure/",
       "observers/", "study/", "lockstep/leaf.h"}},
     {"interpreter/main.cpp", {"cli/"}},
+    {"interpreter/leafhost.cpp", {"plugin/", "runtime/"}},
     {"plugins/", {"lockstep/"}},
 };
 

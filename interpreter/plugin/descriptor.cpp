@@ -79,7 +79,7 @@ NodeType node_type(const lockstep_plugin& plugin, const Descriptors::Leaf& leaf)
 std::optional<Refusal> read_descriptors(const lockstep_plugin& entry, std::size_t exported_size,
                                         Descriptors& descriptors) {
   if (auto refusal = check_handshake(entry, exported_size)) return refusal;
-  lockstep_plugin& plugin = descriptors.plugin;
+  lockstep_plugin& plugin = descriptors.plugin;  // what else there is in it stays
   plugin = covered_copy(&entry, entry.struct_size);
   if (auto refusal = check_plugin(plugin)) return refusal;
   for (std::uint32_t index = 0; index < plugin.leaf_type_count; ++index) {

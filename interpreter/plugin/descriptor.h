@@ -14,9 +14,15 @@
 
 namespace lockstep {
 
+class IsolatedPlugin;
+
+struct HostedPlugin : lockstep_plugin {
+  IsolatedPlugin* isolated = nullptr;  // null: its functions are the plugin's own
+};
+
 struct Descriptors {
   // Full size: what the plugin's own, perhaps shorter, structs do not cover is zero.
-  lockstep_plugin plugin{};
+  HostedPlugin plugin{};
   struct Leaf {
     lockstep_leaf_type type{};
     std::vector<Parameter> parameters;  // its ports, in order

@@ -47,9 +47,15 @@ bool get_double_list(const lockstep_caller* caller, std::uint32_t port, const do
   return true;
 }
 
+void note_written(std::vector<Value*>& written, Value* entry) {
+  if (std::ranges::find(written, entry) == written.end()) written.push_back(entry);
+}
+
 Value* writable(const lockstep_caller* caller, std::uint32_t port, ValueType type) {
   if (port >= caller->ports.size() || caller->ports[port].type != type) return nullptr;
-  return caller->ports[port].write;
+  Value* const entry = caller->ports[port].write;
+  if (caller->written != nullptr && entry != nullptr) note_written(*caller->written, entry);
+  return entry;
 }
 
 template <class T, ValueType type>

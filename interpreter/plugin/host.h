@@ -32,6 +32,9 @@ struct lockstep_caller {
   lockstep::RandomStream random;
   const lockstep::LeafTime* time;
   const lockstep::LeafLog* log;
-  lockstep::LeafSlot* slot;  // its `error` tells of set_error
+  lockstep::LeafSlot* slot;                 // its `error` tells of set_error
+  const lockstep_plugin* plugin = nullptr;  // of a run: whose run context it is
+  // Collects the entries that are set, for a process that only mirrors them; null: nobody asks.
+  std::vector<lockstep::Value*>* written = nullptr;
   std::array<char, kMaxErrorLength + 1> error{};
 };

@@ -113,6 +113,7 @@ LeafSet::Implementation::Implementation(const Tree& tree, Blackboard& blackboard
       contexts_.push_back(std::make_unique<Context>(
           Context{plugin, leaf.node, nullptr, &CallSite::of("", plugin->name), {}}));
       contexts_.back()->caller = make_caller(plugin->name, contexts_.back()->slot);
+      contexts_.back()->caller->plugin = plugin;
     }
     LeafSlot& slot = slots_[callers_.size()];
     slot.type = static_cast<const lockstep_leaf_type*>(leaf.type->binding);

@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <exception>
+#include <filesystem>
 #include <utility>
 
 #include "plugin/descriptor.h"
-#include "plugin/host.h"
+#include "plugin/initialize.h"
+#include "plugin/isolated/isolated_plugin.h"
 #include "plugin/plugin_path.h"
 #include "plugin/shared_object.h"
 
@@ -27,22 +28,10 @@ std::optional<Refusal> check_expected_name(std::string_view name, std::string_vi
                  fmt::format("name the file '{}.so', or give the plugin the file's name", name)};
 }
 
-// The reason why init did not work, or "".
-std::string init_failure(const lockstep_plugin& plugin) {
-  if (plugin.init == nullptr) return {};
-  static const LeafTime no_time;
-  static const LeafLog no_log;
-  LeafSlot slot;
-  lockstep_caller caller{plugin.name, {}, RandomStream(0, 0), &no_time, &no_log, &slot};
-  try {
-    const bool works = plugin.init(&host_table(), &caller);
-    if (slot.error != nullptr) return fmt::format("refuses to work: {}", slot.error);
-    return works ? "" : "refuses to work: its init returned false";
-  } catch (const std::exception& exception) {
-    return fmt::format("refuses to work: its init threw an exception: {}", exception.what());
-  } catch (...) {
-    return "refuses to work: its init threw an exception that is not a std::exception";
-  }
+// Two names of one file.
+bool is_same_file(const std::string& one, const std::string& other) {
+  std::error_code error;
+  return std::filesystem::equivalent(one, other, error);
 }
 
 }  // namespace
@@ -50,10 +39,14 @@ std::string init_failure(const lockstep_plugin& plugin) {
 struct PluginSet::Plugin {
   const lockstep_plugin* entry;  // the plugin's own constant
   std::string origin;
-  Descriptors descriptors;
+  std::unique_ptr<IsolatedPlugin> isolated = {};  // null: it lives in this process
+  Descriptors descriptors = {};
   bool initialized = false;
 
   std::string_view name() const { return descriptors.plugin.name; }
+  std::string initialize() const {
+    return isolated != nullptr ? isolated->initialize() : initialize_plugin(descriptors.plugin);
+  }
 
   // What keeps two plugins from living in one set.
   static std::optional<Refusal> check_against(const Plugin& newcomer, const Plugin& other);
@@ -80,6 +73,7 @@ PluginSet::PluginSet() = default;
 
 PluginSet::~PluginSet() {
   for (auto plugin = plugins_.rbegin(); plugin != plugins_.rend(); ++plugin) {
+    (*plugin)->isolated.reset();
     const auto deinit = (*plugin)->descriptors.plugin.deinit;
     if (!(*plugin)->initialized || deinit == nullptr) continue;
     try {
@@ -89,14 +83,17 @@ PluginSet::~PluginSet() {
   }
 }
 
+void PluginSet::set_isolation(IsolationOptions options) {
+  isolation_ = std::move(options);
+}
+
 bool PluginSet::load_file(const std::string& path, Diagnostics& diagnostics, SourceLocation where,
-                          Isolation /*isolation*/) {
-  return open({path, {}, std::move(where)}, diagnostics);
+                          Isolation isolation) {
+  return open({path, {}, std::move(where), isolation}, diagnostics);
 }
 
 bool PluginSet::load_named(std::string_view name, std::span<const std::string> directories,
-                           Diagnostics& diagnostics, SourceLocation where,
-                           Isolation /*isolation*/) {
+                           Diagnostics& diagnostics, SourceLocation where, Isolation isolation) {
   if (!is_plugin_name(name)) {
     diagnostics.error(std::move(where), fmt::format("'{}' is not the name of a plugin", name),
                       "a plugin is named by letters, digits, '_' and '-', without path and '.so'");
@@ -109,30 +106,49 @@ bool PluginSet::load_named(std::string_view name, std::span<const std::string> d
   if (auto refusal = find_plugin_file(name, directories, path)) {
     return refuse(std::string(name), std::move(*refusal), diagnostics, std::move(where));
   }
-  return open({std::move(path), name, std::move(where)}, diagnostics);
+  return open({std::move(path), name, std::move(where), isolation}, diagnostics);
 }
 
 bool PluginSet::add(const lockstep_plugin& plugin, std::string origin, Diagnostics& diagnostics,
                     SourceLocation where) {
-  return accept(plugin, 0, {std::move(origin), {}, std::move(where)}, diagnostics);
+  const Request request{std::move(origin), {}, std::move(where)};
+  return accept(std::make_unique<Plugin>(Plugin{&plugin, request.origin}), 0, request, diagnostics);
 }
 
 bool PluginSet::open(const Request& request, Diagnostics& diagnostics) {
+  if (std::ranges::any_of(
+          plugins_, [&](const auto& it) { return is_same_file(it->origin, request.origin); })) {
+    return true;
+  }
+  if (isolation_.all || request.isolation == Isolation::Isolated) {
+    return open_isolated(request, diagnostics);
+  }
   SharedObject object;
   ExportedConstant constant;
   auto refusal = open_shared_object(request.origin, object);
   if (!refusal) refusal = find_constant(object, LOCKSTEP_PLUGIN_ENTRY, constant);
   if (refusal) return refuse(request.origin, std::move(*refusal), diagnostics, request.where);
-  return accept(*static_cast<const lockstep_plugin*>(constant.address), constant.size, request,
+  const auto* const entry = static_cast<const lockstep_plugin*>(constant.address);
+  return accept(std::make_unique<Plugin>(Plugin{entry, request.origin}), constant.size, request,
                 diagnostics);
 }
 
-bool PluginSet::accept(const lockstep_plugin& entry, std::size_t size, const Request& request,
+bool PluginSet::open_isolated(const Request& request, Diagnostics& diagnostics) {
+  std::unique_ptr<IsolatedPlugin> isolated;
+  auto refusal = IsolatedPlugin::open(request.origin, isolation_, isolated);
+  if (refusal) return refuse(request.origin, std::move(*refusal), diagnostics, request.where);
+  auto plugin = std::make_unique<Plugin>(Plugin{&isolated->entry(), request.origin});
+  plugin->descriptors.plugin.isolated = isolated.get();
+  plugin->isolated = std::move(isolated);
+  return accept(std::move(plugin), 0, request, diagnostics);
+}
+
+bool PluginSet::accept(std::unique_ptr<Plugin> plugin, std::size_t size, const Request& request,
                        Diagnostics& diagnostics) {
+  const lockstep_plugin& entry = *plugin->entry;
   if (std::ranges::any_of(plugins_, [&](const auto& it) { return it->entry == &entry; })) {
     return true;
   }
-  auto plugin = std::make_unique<Plugin>(Plugin{&entry, request.origin, {}});
   auto refusal = read_descriptors(entry, size, plugin->descriptors);
   if (!refusal) refusal = check_expected_name(plugin->name(), request.expected_name);
   for (const auto& other : plugins_) {
@@ -146,7 +162,7 @@ bool PluginSet::accept(const lockstep_plugin& entry, std::size_t size, const Req
 bool PluginSet::initialize(Diagnostics& diagnostics) {
   for (const auto& plugin : plugins_) {
     if (plugin->initialized) continue;
-    if (std::string failure = init_failure(plugin->descriptors.plugin); !failure.empty()) {
+    if (std::string failure = plugin->initialize(); !failure.empty()) {
       return refuse(plugin->origin, {std::move(failure), "its author knows what it waits for"},
                     diagnostics, {});
     }
@@ -168,7 +184,8 @@ std::vector<PluginSet::Info> PluginSet::list() const {
   std::vector<Info> list;
   for (const auto& plugin : plugins_) {
     const lockstep_plugin& it = plugin->descriptors.plugin;
-    list.push_back({text(it.name), text(it.version), text(it.doc), plugin->origin});
+    list.push_back({text(it.name), text(it.version), text(it.doc), plugin->origin,
+                    plugin->isolated != nullptr});
   }
   return list;
 }

@@ -15,7 +15,7 @@
 
 namespace lockstep {
 
-// Isolated: the plugin lives in a process of its own. See isolated_plugin.h.
+// Isolated: the plugin lives in a process of its own. See isolated/isolated_plugin.h.
 enum class Isolation : bool { InProcess, Isolated };
 
 struct IsolationOptions {
@@ -39,7 +39,8 @@ class PluginSet {
   void set_isolation(IsolationOptions options);
 
   // Opens a shared object. On false, one error tells why; the set is as before. Opening the same
-  // file again does nothing. `where` is the place in a tree that asked for it, if any.
+  // file again does nothing, isolated or not: the first one decides. `where` is the place in a tree
+  // that asked for it, if any.
   bool load_file(const std::string& path, Diagnostics& diagnostics, SourceLocation where = {},
                  Isolation isolation = Isolation::InProcess);
 
@@ -63,9 +64,10 @@ class PluginSet {
   // lockstep_leaf_type, both in full size whatever the plugin's age. Valid as long as the set.
   std::vector<const NodeType*> types() const;
 
-  // name, version, doc and path of each plugin, in the order of loading.
+  // Of each plugin, in the order of loading.
   struct Info {
     std::string name, version, doc, path;
+    bool isolated = false;
   };
   std::vector<Info> list() const;
 
@@ -75,11 +77,14 @@ class PluginSet {
     std::string origin;
     std::string_view expected_name;  // "" = any
     SourceLocation where;
+    Isolation isolation = Isolation::InProcess;
   };
   bool open(const Request& request, Diagnostics& diagnostics);
-  bool accept(const lockstep_plugin& entry, std::size_t size, const Request& request,
+  bool open_isolated(const Request& request, Diagnostics& diagnostics);
+  bool accept(std::unique_ptr<Plugin> plugin, std::size_t size, const Request& request,
               Diagnostics& diagnostics);
 
+  IsolationOptions isolation_;
   std::vector<std::unique_ptr<Plugin>> plugins_;
 };
 

@@ -1,5 +1,6 @@
 // Leaves that break the contract while they run: the run ends with the reason, the leaf is told
-// what a leaf that ends is told, and nothing unwinds through the engine.
+// what a leaf that ends is told, and nothing unwinds through the engine. All of it also when the
+// plugin is isolated, with the same words.
 #include <catch2/catch.hpp>
 
 #include "abi/support/plugins.h"
@@ -30,8 +31,9 @@ LeafLog log_into(Strings& calls) {
 }
 
 // Runs the plugin's leaf, asking for its progress after each tick; then halts and destroys it.
-Outcome run(const std::string& plugin, int max_ticks = 2) {
+Outcome run_once(const std::string& plugin, int max_ticks, Isolation isolation) {
   PluginSet plugins;
+  set_isolation(plugins, isolation);
   Diagnostics diagnostics;
   REQUIRE(plugins.load_file(plugin_path(plugin), diagnostics));
   REQUIRE(plugins.initialize(diagnostics));
@@ -49,6 +51,13 @@ Outcome run(const std::string& plugin, int max_ticks = 2) {
     if (run.fault() != nullptr) outcome.fault = run.fault()->message;
   }
   return outcome;
+}
+
+Outcome run(const std::string& plugin, int max_ticks = 2) {
+  const Outcome in_process = run_once(plugin, max_ticks, Isolation::InProcess);
+  INFO(plugin);
+  CHECK(run_once(plugin, max_ticks, Isolation::Isolated) == in_process);
+  return in_process;
 }
 
 TEST_CASE("a leaf that keeps the contract runs, whatever the minor it was built for") {

@@ -86,6 +86,7 @@ TEST_CASE("a plugin that breaks the contract is refused with one error") {
   for (const Case& it : kCases) {
     const std::string path = plugin_path(it.plugin);
     CHECK(refusal(path) == Strings{said(path, it.message, it.hint)});
+    CHECK(refusal(path, Isolation::Isolated) == Strings{said(path, it.message, it.hint)});
   }
 }
 
@@ -93,9 +94,11 @@ TEST_CASE("what is not a shared object for this machine is refused before the li
   const std::string build = "build it as a MODULE or SHARED library (docs/plugins.md)";
   const std::string directory = LOCKSTEP_ABI_PLUGINS;
 
-  CHECK(refusal("/nowhere/x.so") ==
-        Strings{said("/nowhere/x.so", "does not exist",
-                     "check the path; a tree names plugins without path and without '.so'")});
+  for (const Isolation isolation : {Isolation::InProcess, Isolation::Isolated}) {
+    CHECK(refusal("/nowhere/x.so", isolation) ==
+          Strings{said("/nowhere/x.so", "does not exist",
+                       "check the path; a tree names plugins without path and without '.so'")});
+  }
   CHECK(refusal(directory) ==
         Strings{said(directory, "is not a shared object: it is a directory", build)});
 
@@ -165,13 +168,17 @@ TEST_CASE("a plugin whose init fails is named") {
       {"init_explains", "refuses to work: no license", ""},
       {"throws_in_init",
        "refuses to work: its init threw an exception that is not a std::exception", ""}};
-  for (const Case& it : kInit) {
-    PluginSet plugins;
-    Diagnostics diagnostics;
-    REQUIRE(plugins.load_file(plugin_path(it.plugin), diagnostics));
-    CHECK_FALSE(plugins.initialize(diagnostics));
-    REQUIRE(diagnostics.all().size() == 1);
-    CHECK(diagnostics.all()[0].message == "plugin '" + plugin_path(it.plugin) + "' " + it.message);
+  for (const Isolation isolation : {Isolation::InProcess, Isolation::Isolated}) {
+    for (const Case& it : kInit) {
+      PluginSet plugins;
+      set_isolation(plugins, isolation);
+      Diagnostics diagnostics;
+      REQUIRE(plugins.load_file(plugin_path(it.plugin), diagnostics));
+      CHECK_FALSE(plugins.initialize(diagnostics));
+      REQUIRE(diagnostics.all().size() == 1);
+      CHECK(diagnostics.all()[0].message ==
+            "plugin '" + plugin_path(it.plugin) + "' " + it.message);
+    }
   }
 }
 

@@ -1,4 +1,5 @@
-// The plugins of tests/abi/plugins: loaded by name, and a tree of one of their leaves.
+// The plugins of tests/abi/plugins: loaded by name, into this process or one of their own, and a
+// tree of one of their leaves.
 #pragma once
 
 #include <string>
@@ -13,6 +14,14 @@ inline std::string plugin_path(const std::string& name) {
   return std::string(LOCKSTEP_ABI_PLUGINS) + "/" + name + ".so";
 }
 
+// A set whose plugins are isolated, or not; everything a test of the contract says holds for both.
+inline void set_isolation(PluginSet& plugins, Isolation isolation,
+                          Nanoseconds hang_limit = std::chrono::seconds(20)) {
+  plugins.set_isolation({.leafhost = LOCKSTEP_BINARY_DIR "/lockstep-leafhost",
+                         .hang_limit = hang_limit,
+                         .all = isolation == Isolation::Isolated});
+}
+
 // "message | hint" of each diagnostic.
 inline std::vector<std::string> texts(const Diagnostics& diagnostics) {
   std::vector<std::string> texts;
@@ -21,8 +30,10 @@ inline std::vector<std::string> texts(const Diagnostics& diagnostics) {
 }
 
 // What `PluginSet::load_file` says of the file.
-inline std::vector<std::string> refusal(const std::string& path) {
+inline std::vector<std::string> refusal(const std::string& path,
+                                        Isolation isolation = Isolation::InProcess) {
   PluginSet plugins;
+  set_isolation(plugins, isolation);
   Diagnostics diagnostics;
   const bool loaded = plugins.load_file(path, diagnostics);
   std::vector<std::string> result = texts(diagnostics);

@@ -1,0 +1,32 @@
+// lockstep-leafhost: the process in which an isolated plugin lives. Started by lockstep only.
+#include <cstdio>
+#include <string_view>
+
+#include "plugin/isolated/served_plugin.h"
+
+namespace {
+
+constexpr int kExitUsage = 2;
+
+constexpr const char* kHelp =
+    "lockstep-leafhost: the process in which lockstep keeps a plugin that it isolates\n"
+    "\n"
+    "It is started by lockstep ('lockstep run --isolate', or <plugin name=\"...\" "
+    "isolate=\"true\"/>\n"
+    "in a tree), one for each plugin and run, and ends with it. There is nothing to do by hand.\n";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string_view first = argc > 1 ? argv[1] : "";
+  if (first == "--help" || first == "-h") {
+    std::fputs(kHelp, stdout);
+    return 0;
+  }
+  if (argc != 2 || !lockstep::ServedPlugin::has_host()) {
+    std::fputs("lockstep-leafhost: is started by lockstep only; 'lockstep run --isolate' does it\n",
+               stderr);
+    return kExitUsage;
+  }
+  return lockstep::ServedPlugin::serve(argv[1]);
+}

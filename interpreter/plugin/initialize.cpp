@@ -1,0 +1,30 @@
+#include "plugin/initialize.h"
+
+#include <fmt/format.h>
+
+#include <exception>
+
+#include "plugin/call_mark.h"
+#include "plugin/host.h"
+
+namespace lockstep {
+
+std::string initialize_plugin(const lockstep_plugin& plugin) {
+  if (plugin.init == nullptr) return {};
+  static const LeafTime no_time;
+  static const LeafLog no_log;
+  LeafSlot slot;
+  lockstep_caller caller{plugin.name, {}, RandomStream(0, 0), &no_time, &no_log, &slot};
+  try {
+    const MarkedCall mark(CallSite::of("", plugin.name), PluginFunction::Init);
+    const bool works = plugin.init(&host_table(), &caller);
+    if (slot.error != nullptr) return fmt::format("refuses to work: {}", slot.error);
+    return works ? "" : "refuses to work: its init returned false";
+  } catch (const std::exception& exception) {
+    return fmt::format("refuses to work: its init threw an exception: {}", exception.what());
+  } catch (...) {
+    return "refuses to work: its init threw an exception that is not a std::exception";
+  }
+}
+
+}  // namespace lockstep

@@ -1,0 +1,39 @@
+// What a leafhost says of a call: how it ended, its result, and the error that the leaf has set.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "plugin/isolated/message.h"
+
+namespace lockstep {
+
+enum class Outcome : std::uint8_t { Returned, Threw, ThrewForeign, TooLarge };
+
+struct Answer {
+  Outcome outcome = Outcome::Returned;
+  std::uint64_t result = 0;     // a status, the bits of a double, or whether there is an object
+  std::string_view error = {};  // "" = none
+  std::string_view what = {};   // of a std::exception
+};
+
+inline void write_answer(const Answer& answer, MessageWriter& message) {
+  message.put(answer.outcome);
+  message.put(answer.result);
+  message.put_text(answer.error);
+  message.put_text(answer.what);
+}
+
+inline Answer read_answer(MessageReader& message) {
+  Answer answer;
+  answer.outcome = message.get<Outcome>();
+  answer.result = message.get<std::uint64_t>();
+  answer.error = message.text();
+  answer.what = message.text();
+  return answer;
+}
+
+// Stands for an exception that is not a std::exception.
+struct ForeignException {};
+
+}  // namespace lockstep

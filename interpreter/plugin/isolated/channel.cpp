@@ -1,0 +1,162 @@
+#include "plugin/isolated/channel.h"
+
+#include <fcntl.h>
+#include <linux/futex.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <climits>
+#include <cstring>
+
+namespace lockstep {
+namespace {
+
+constexpr std::uint64_t kMagic = 0x31306b6c6b636f6cu;
+constexpr std::size_t kPage = 4096;
+constexpr std::size_t kFirstMapping = std::size_t{64} << 10;
+constexpr Nanoseconds kSpinTime = std::chrono::microseconds(50);
+constexpr Nanoseconds kLongestSleep = std::chrono::seconds(1);
+constexpr std::uint32_t kNobody = 2;  // whose turn it is when there is no other side any more
+
+// Not the private kind: the other side is another process.
+void futex_wait(std::atomic<std::uint32_t>& word, std::uint32_t expected, Nanoseconds at_most) {
+  const timespec time{static_cast<time_t>(at_most.count() / 1'000'000'000),
+                      static_cast<long>(at_most.count() % 1'000'000'000)};
+  syscall(SYS_futex, &word, FUTEX_WAIT, expected, &time, nullptr, 0);
+}
+void futex_wake(std::atomic<std::uint32_t>& word) {
+  syscall(SYS_futex, &word, FUTEX_WAKE, INT_MAX, nullptr, nullptr, 0);
+}
+
+void relax() {
+#if defined(__x86_64__) || defined(__i386__)
+  __builtin_ia32_pause();
+#elif defined(__aarch64__)
+  asm volatile("yield");
+#endif
+}
+
+// With one processor, who spins keeps the other from answering.
+Nanoseconds useful_spin_time() {
+  cpu_set_t set;
+  const bool known = sched_getaffinity(0, sizeof set, &set) == 0;
+  return known && CPU_COUNT(&set) > 1 ? kSpinTime : Nanoseconds(0);
+}
+
+}  // namespace
+
+Nanoseconds monotonic_now() {
+  return std::chrono::steady_clock::now().time_since_epoch();
+}
+
+std::size_t Channel::message_offset() {
+  return (sizeof(Control) + kPage - 1) / kPage * kPage;
+}
+
+int Channel::create_memory() {
+  const int memory = memfd_create("lockstep-leafhost", MFD_CLOEXEC | MFD_ALLOW_SEALING);
+  if (memory < 0) return -1;
+  const bool sized = ftruncate(memory, static_cast<off_t>(message_offset() + kLargest)) == 0;
+  if (sized && pwrite(memory, &kMagic, sizeof kMagic, offsetof(Control, magic)) == sizeof kMagic &&
+      fcntl(memory, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL) == 0) {
+    return memory;
+  }
+  close(memory);
+  return -1;
+}
+
+bool Channel::open(int memory, Side side) {
+  struct stat info {};
+  const auto whole = static_cast<off_t>(message_offset() + kLargest);
+  if (fstat(memory, &info) != 0 || info.st_size != whole) return false;
+  const auto map = [&](std::size_t size, std::size_t offset) {
+    void* const at =
+        mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, memory, static_cast<off_t>(offset));
+    return at == MAP_FAILED ? nullptr : at;
+  };
+  control_ = static_cast<Control*>(map(message_offset(), 0));
+  if (control_ == nullptr || control_->magic != kMagic) return false;
+  message_ = static_cast<std::byte*>(map(kFirstMapping, message_offset()));
+  mapped_ = message_ == nullptr ? 0 : kFirstMapping;
+  side_ = side;
+  spin_time_ = useful_spin_time();
+  return message_ != nullptr;
+}
+
+Channel::~Channel() {
+  if (message_ != nullptr) munmap(message_, mapped_);
+  if (control_ != nullptr) munmap(control_, message_offset());
+}
+
+bool Channel::reserve(std::size_t size) {
+  if (size <= mapped_) return true;
+  const std::size_t wanted = std::bit_ceil(size);
+  void* const moved = mremap(message_, mapped_, wanted, MREMAP_MAYMOVE);
+  if (moved == MAP_FAILED) return false;
+  message_ = static_cast<std::byte*>(moved);
+  mapped_ = wanted;
+  return true;
+}
+
+void Channel::send(std::span<const std::byte> message) {
+  // An empty message is none: without memory the other side is told nonsense, which ends it.
+  const bool fits = message.size() <= kLargest && reserve(message.size());
+  if (fits && !message.empty()) std::memcpy(message_, message.data(), message.size());
+  control_->length.store(fits ? message.size() : 0, std::memory_order_relaxed);
+  const auto other = 1 - static_cast<std::uint32_t>(side_);
+  control_->turn.store(other);
+  if (control_->sleeps[other].exchange(0) != 0) futex_wake(control_->turn);
+}
+
+bool Channel::is_mine() const {
+  return control_->turn.load() == static_cast<std::uint32_t>(side_);
+}
+
+bool Channel::spin(const std::atomic<bool>& gone) const {
+  if (is_mine()) return true;
+  if (spin_time_ == Nanoseconds(0)) return false;
+  const Nanoseconds end = monotonic_now() + spin_time_;
+  do {
+    for (int look = 0; look < 32; ++look) {
+      if (is_mine()) return true;
+      relax();
+    }
+  } while (!gone.load(std::memory_order_relaxed) && monotonic_now() < end);
+  return false;
+}
+
+Channel::Wait Channel::wait(std::optional<Nanoseconds> deadline, const std::atomic<bool>& gone) {
+  if (spin(gone)) return Wait::Received;
+  auto& sleeps = control_->sleeps[static_cast<std::uint32_t>(side_)];
+  for (;;) {
+    sleeps.store(1);
+    const std::uint32_t turn = control_->turn.load();
+    if (turn == static_cast<std::uint32_t>(side_)) break;
+    if (gone.load()) return Wait::Given_up;
+    const Nanoseconds left = deadline ? *deadline - monotonic_now() : kLongestSleep;
+    if (left <= Nanoseconds(0)) return Wait::Late;
+    futex_wait(control_->turn, turn, std::min(left, kLongestSleep));
+  }
+  sleeps.store(0);
+  return Wait::Received;
+}
+
+void Channel::wake() {
+  auto other = 1 - static_cast<std::uint32_t>(side_);
+  control_->turn.compare_exchange_strong(other, kNobody);
+  futex_wake(control_->turn);
+}
+
+std::optional<std::span<const std::byte>> Channel::received() {
+  const std::uint64_t length = control_->length.load(std::memory_order_relaxed);
+  if (length == 0 || length > kLargest || !reserve(length)) return std::nullopt;
+  copy_.assign(message_, message_ + length);
+  return copy_;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,74 @@
+// The memory that a host and its leafhost share: one message at a time, in turns, and the ring of
+// log lines. Whoever waits for its turn spins for a moment, then sleeps on a futex. Knows nothing
+// of what the messages say.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/clock.h"
+#include "plugin/isolated/log_ring.h"
+
+namespace lockstep {
+
+class Channel {
+ public:
+  // The largest message. What is not used costs no memory.
+  static constexpr std::size_t kLargest = std::size_t{64} << 20;
+
+  enum class Side : std::uint32_t { Host, Leafhost };
+
+  // Memory of its own, sealed so that the other side cannot shrink it under us; -1: errno tells.
+  static int create_memory();
+  // False when `memory` is not what create_memory made; `side` is who we are.
+  bool open(int memory, Side side);
+
+  Channel() = default;
+  ~Channel();
+  Channel(const Channel&) = delete;
+  Channel& operator=(const Channel&) = delete;
+
+  // Hands the turn to the other side. The message must not be larger than kLargest.
+  void send(std::span<const std::byte> message);
+
+  enum class Wait : std::uint8_t { Received, Late, Given_up };
+  // Until it is our turn, `deadline` of the monotonic clock has passed, or wake() was called after
+  // `gone` became true.
+  Wait wait(std::optional<Nanoseconds> deadline, const std::atomic<bool>& gone);
+  // Lets wait() look at `gone`. From any thread.
+  void wake();
+
+  // A copy of what the other side sent; nothing when it cannot be a message.
+  std::optional<std::span<const std::byte>> received();
+  LogRing& log_ring() { return control_->log; }
+
+ private:
+  struct Control {
+    std::uint64_t magic;
+    alignas(64) std::atomic<std::uint32_t> turn;
+    std::atomic<std::uint32_t> sleeps[2];
+    std::atomic<std::uint64_t> length;
+    alignas(64) LogRing log;
+  };
+  bool is_mine() const;
+  bool spin(const std::atomic<bool>& gone) const;
+  bool reserve(std::size_t size);
+  static std::size_t message_offset();
+
+  Control* control_ = nullptr;
+  std::byte* message_ = nullptr;  // as much of it as was needed so far
+  std::size_t mapped_ = 0;
+  Side side_ = Side::Host;
+  Nanoseconds spin_time_{0};
+  std::vector<std::byte> copy_;
+};
+
+// CLOCK_MONOTONIC.
+Nanoseconds monotonic_now();
+
+}  // namespace lockstep

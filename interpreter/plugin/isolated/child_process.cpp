@@ -1,0 +1,137 @@
+#include "plugin/isolated/child_process.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+namespace lockstep {
+namespace {
+
+// What posix_spawn is to do in the child, before the program begins.
+class SpawnPlan {
+ public:
+  SpawnPlan() {
+    posix_spawn_file_actions_init(&actions_);
+    posix_spawnattr_init(&attributes_);
+  }
+  ~SpawnPlan() {
+    posix_spawn_file_actions_destroy(&actions_);
+    posix_spawnattr_destroy(&attributes_);
+  }
+  SpawnPlan(const SpawnPlan&) = delete;
+  SpawnPlan& operator=(const SpawnPlan&) = delete;
+
+  // A leaf that prints must not mix into our data; nothing else of ours is handed down.
+  void set_descriptors(int memory, int lifeline) {
+    const bool has_errors = fcntl(STDERR_FILENO, F_GETFD) >= 0;
+    posix_spawn_file_actions_addopen(&actions_, 0, "/dev/null", O_RDONLY, 0);
+    if (!has_errors) posix_spawn_file_actions_addopen(&actions_, 2, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions_, 2, 1);
+    posix_spawn_file_actions_adddup2(&actions_, memory, ChildProcess::kMemory);
+    posix_spawn_file_actions_adddup2(&actions_, lifeline, ChildProcess::kLifeline);
+    posix_spawn_file_actions_addclosefrom_np(&actions_, ChildProcess::kLifeline + 1);
+  }
+
+  // Ctrl-C of a terminal is for us, who then halt the leaves in order: hence a group of its own.
+  void set_attributes() {
+    sigset_t signals;
+    sigemptyset(&signals);
+    posix_spawnattr_setsigmask(&attributes_, &signals);
+    sigfillset(&signals);
+    posix_spawnattr_setsigdefault(&attributes_, &signals);
+    posix_spawnattr_setpgroup(&attributes_, 0);
+    posix_spawnattr_setflags(
+        &attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+  }
+
+  int spawn(pid_t& pid, const std::string& program, const std::string& argument) const {
+    std::string name = "lockstep-leafhost";
+    std::string last = argument;
+    char* arguments[] = {name.data(), last.data(), nullptr};
+    return posix_spawn(&pid, program.c_str(), &actions_, &attributes_, arguments, environ);
+  }
+
+ private:
+  posix_spawn_file_actions_t actions_;
+  posix_spawnattr_t attributes_;
+};
+
+// A copy above the numbers that the child gives them, so that none overwrites the other.
+class HighCopy {
+ public:
+  explicit HighCopy(int descriptor) : copy_(fcntl(descriptor, F_DUPFD_CLOEXEC, 10)) {}
+  ~HighCopy() {
+    if (copy_ >= 0) close(copy_);
+  }
+  HighCopy(const HighCopy&) = delete;
+  HighCopy& operator=(const HighCopy&) = delete;
+  int get() const { return copy_; }
+
+ private:
+  int copy_;
+};
+
+std::string description(const siginfo_t& info) {
+  if (info.si_code == CLD_EXITED) return fmt::format("ended with exit code {}", info.si_status);
+  const char* const name = sigabbrev_np(info.si_status);
+  const char* const text = sigdescr_np(info.si_status);
+  if (name == nullptr) return fmt::format("was killed by signal {}", info.si_status);
+  return fmt::format("was killed by SIG{} ({})", name, text == nullptr ? "" : text);
+}
+
+std::string error_text(int error) {
+  return std::strerror(error);  // NOLINT(concurrency-mt-unsafe): known errors, constant texts
+}
+
+}  // namespace
+
+std::string ChildProcess::start(const std::string& program, const std::string& argument, int memory,
+                                int lifeline) {
+  const HighCopy memory_copy(memory);
+  const HighCopy lifeline_copy(lifeline);
+  if (memory_copy.get() < 0 || lifeline_copy.get() < 0) return error_text(errno);
+  SpawnPlan plan;
+  plan.set_descriptors(memory_copy.get(), lifeline_copy.get());
+  plan.set_attributes();
+  pid_t pid = -1;
+  if (const int error = plan.spawn(pid, program, argument); error != 0) return error_text(error);
+  pid_ = pid;
+  descriptor_ = static_cast<int>(syscall(SYS_pidfd_open, pid, 0));
+  if (descriptor_ >= 0) return {};
+  const std::string reason = error_text(errno);
+  kill();
+  reap();
+  return fmt::format("it cannot be watched: {}", reason);
+}
+
+ChildProcess::~ChildProcess() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+void ChildProcess::kill() {
+  const std::lock_guard lock(mutex_);
+  if (pid_ > 0) ::kill(-pid_, SIGKILL);
+}
+
+std::string ChildProcess::reap() {
+  siginfo_t info{};
+  // First without taking its number away: as long as it is a zombie, the number of its group cannot
+  // be somebody else's.
+  while (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOWAIT) != 0 && errno == EINTR) {
+  }
+  const std::lock_guard lock(mutex_);
+  ::kill(-pid_, SIGKILL);
+  while (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED) != 0 && errno == EINTR) {
+  }
+  pid_ = -1;
+  return description(info);
+}
+
+}  // namespace lockstep

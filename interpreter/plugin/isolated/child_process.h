@@ -1,0 +1,42 @@
+// A child process in a process group of its own: started with two descriptors, killed with all its
+// offspring, reaped once. It dies with its parent: its lifeline ends. Knows nothing of plugins.
+#pragma once
+
+#include <sys/types.h>
+
+#include <mutex>
+#include <string>
+
+namespace lockstep {
+
+class ChildProcess {
+ public:
+  // What the program finds under these numbers, beside 0 (empty), 1 and 2 (our standard error).
+  static constexpr int kMemory = 3;
+  static constexpr int kLifeline = 4;
+
+  // Runs `program argument`. "" or why not. The descriptors stay the caller's.
+  std::string start(const std::string& program, const std::string& argument, int memory,
+                    int lifeline);
+
+  ChildProcess() = default;
+  // It must have been reaped.
+  ~ChildProcess();
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  // Becomes readable when the process has ended.
+  int descriptor() const { return descriptor_; }
+  // SIGKILL to it and its group, unless it has been reaped. From any thread.
+  void kill();
+  // Waits for its end, kills what is left of its group, and says how it ended: "was killed by
+  // SIGSEGV (Segmentation fault)", "ended with exit code 3".
+  std::string reap();
+
+ private:
+  std::mutex mutex_;
+  pid_t pid_ = -1;  // -1: none, or reaped
+  int descriptor_ = -1;
+};
+
+}  // namespace lockstep

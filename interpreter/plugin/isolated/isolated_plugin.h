@@ -1,0 +1,55 @@
+// A plugin that lives in processes of its own, one for each run that goes on at the same time. To
+// the rest of the program it is an ordinary plugin, whose functions are proxies (remote_run.h).
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plugin/isolated/descriptor_message.h"
+#include "plugin/isolated/session.h"
+#include "plugin/plugin_set.h"
+#include "plugin/refusal.h"
+
+namespace lockstep {
+
+class IsolatedPlugin {
+ public:
+  // Starts the first process, which opens the file, checks it and describes the plugin.
+  static std::optional<Refusal> open(const std::string& path, const IsolationOptions& options,
+                                     std::unique_ptr<IsolatedPlugin>& plugin);
+  // Deinitializes the plugin in each of its processes and ends them. No run may go on.
+  ~IsolatedPlugin();
+  IsolatedPlugin(const IsolatedPlugin&) = delete;
+  IsolatedPlugin& operator=(const IsolatedPlugin&) = delete;
+
+  // As long as this lives.
+  const lockstep_plugin& entry() const { return descriptors_.plugin; }
+  // The place of a leaf type among those of the plugin, by its id, which is the very pointer that
+  // entry() has.
+  std::optional<std::uint32_t> index_of(const lockstep_leaf_type& type) const;
+
+  // Calls init in the first process. "" or why it did not work.
+  std::string initialize();
+
+  // A process for one run, initialized; null: `failure` says why. From any thread.
+  std::unique_ptr<Session> acquire(std::string& failure);
+  void release(std::unique_ptr<Session> session);
+
+ private:
+  IsolatedPlugin(std::string path, IsolationOptions options);
+  std::optional<Refusal> start(Session& session);
+  std::optional<Refusal> describe(MessageReader description);
+
+  std::string path_;
+  IsolationOptions options_;
+  OwnedDescriptors descriptors_;
+  std::vector<std::byte> description_;  // what descriptors_ was made of
+
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Session>> idle_;  // initialized, but for the first of all
+};
+
+}  // namespace lockstep

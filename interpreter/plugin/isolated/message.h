@@ -1,0 +1,62 @@
+// What a host and a leafhost say to each other, as bytes: both are of one build on one machine, so
+// numbers are copied as they lie. A reader trusts nothing: a plugin may have written anything.
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "core/value.h"
+
+namespace lockstep {
+
+class MessageWriter {
+ public:
+  void clear() { bytes_.clear(); }
+  template <class T>
+  void put(T value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    append(&value, sizeof value);
+  }
+  void put_text(std::string_view text);
+  // A text that may be absent, as in the descriptors.
+  void put_text_or_null(const char* text);
+  void put_value(const Value& value);
+  std::span<const std::byte> bytes() const { return bytes_; }
+
+ private:
+  void append(const void* data, std::size_t size);
+
+  std::vector<std::byte> bytes_;  // keeps its capacity
+};
+
+// Once something is missing or impossible, everything read is empty and good() is false.
+class MessageReader {
+ public:
+  explicit MessageReader(std::span<const std::byte> bytes) : rest_(bytes) {}
+  template <class T>
+  T get() {
+    static_assert(std::is_trivially_copyable_v<T> && !std::is_same_v<T, bool>);
+    T value{};
+    if (const std::byte* data = take(sizeof value)) std::memcpy(&value, data, sizeof value);
+    return value;
+  }
+  std::string_view text();
+  bool has_text();  // what put_text_or_null wrote before the text
+  // Into `value`, whose memory is used again. False: not a value of any type.
+  bool value_into(Value& value);
+  std::span<const std::byte> rest() const { return rest_; }
+  bool good() const { return good_; }
+
+ private:
+  const std::byte* take(std::size_t size);
+  bool fail();
+
+  std::span<const std::byte> rest_;
+  bool good_ = true;
+};
+
+}  // namespace lockstep

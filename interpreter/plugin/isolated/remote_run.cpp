@@ -1,0 +1,241 @@
+#include "plugin/isolated/remote_run.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <stdexcept>
+
+#include "plugin/descriptor.h"
+#include "plugin/host.h"
+#include "plugin/isolated/answer.h"
+#include "plugin/isolated/isolated_plugin.h"
+#include "plugin/isolated/remote_entries.h"
+
+namespace lockstep {
+namespace {
+
+// One run in the other process, seen by LeafSet as the run context of the plugin.
+class RemoteRun {
+ public:
+  RemoteRun(IsolatedPlugin& plugin, std::unique_ptr<Session> session, const lockstep_caller& caller)
+      : plugin_(plugin), session_(std::move(session)), caller_(caller) {
+    session_->set_listener(0, &caller);
+  }
+  ~RemoteRun() {
+    session_->set_listener(0, nullptr);
+    plugin_.release(std::move(session_));
+  }
+  RemoteRun(const RemoteRun&) = delete;
+  RemoteRun& operator=(const RemoteRun&) = delete;
+
+  const IsolatedPlugin& plugin() const { return plugin_; }
+  const lockstep_caller& caller() const { return caller_; }
+  Session& session() { return *session_; }
+  RemoteEntries& entries() { return entries_; }
+  std::uint32_t next_number() { return ++last_number_; }
+
+ private:
+  IsolatedPlugin& plugin_;
+  std::unique_ptr<Session> session_;
+  const lockstep_caller& caller_;
+  RemoteEntries entries_;
+  std::uint32_t last_number_ = 0;  // of a leaf; 0 is the run itself
+};
+
+struct RemoteLeaf {
+  RemoteLeaf(RemoteRun& its_run, const lockstep_caller& its_caller)
+      : run(its_run), caller(its_caller), number(its_run.next_number()) {
+    for (const BoundPort& port : caller.ports) {
+      ports.push_back(port.read == nullptr ? RemoteEntries::kNone : run.entries().number_of(port));
+    }
+    run.session().set_listener(number, &caller);
+  }
+  ~RemoteLeaf() { run.session().set_listener(number, nullptr); }
+  RemoteLeaf(const RemoteLeaf&) = delete;
+  RemoteLeaf& operator=(const RemoteLeaf&) = delete;
+
+  RemoteRun& run;
+  const lockstep_caller& caller;
+  std::uint32_t number;
+  std::vector<std::uint32_t> ports;  // which entry each is bound to
+};
+
+MessageWriter& begin(RemoteRun& run, PluginFunction function, std::uint32_t number,
+                     const lockstep_caller& caller) {
+  MessageWriter& request = run.session().begin_request(function);
+  request.put(number);
+  request.put(caller.time->now);
+  request.put(caller.time->period);
+  return request;
+}
+
+void fail(const lockstep_caller& caller, const std::string& reason) {
+  host_table().set_error(&caller, reason.c_str());
+}
+
+void fail_too_large(const lockstep_caller& caller) {
+  fail(caller, fmt::format("the values of its ports are larger than the {} MiB that an isolated "
+                           "plugin can exchange in a call",
+                           Channel::kLargest >> 20));
+}
+
+// Repeats here what the plugin did there. The result's bits.
+std::uint64_t take_answer(RemoteRun& run, const lockstep_caller& caller) {
+  MessageReader message = run.session().answer();
+  const Answer answer = read_answer(message);
+  if (!message.good() || !run.entries().read(message)) {
+    run.session().reject_answer();
+    fail(caller, run.session().last_words());
+    return 0;
+  }
+  if (answer.outcome == Outcome::TooLarge) {
+    run.entries().forget();
+    fail_too_large(caller);
+  }
+  if (!answer.error.empty()) fail(caller, std::string(answer.error));
+  if (answer.outcome == Outcome::Threw) throw std::runtime_error(std::string(answer.what));
+  if (answer.outcome == Outcome::ThrewForeign) throw ForeignException();
+  return answer.result;
+}
+
+// Sends what begin() began. The result's bits; 0 when there is none, which the caller's error
+// tells.
+std::uint64_t finish(RemoteRun& run, const lockstep_caller& caller,
+                     std::span<const std::uint32_t> ports) {
+  Session& session = run.session();
+  run.entries().write(ports, session.request());
+  if (!session.request_fits()) {
+    run.entries().forget();
+    fail_too_large(caller);
+    return 0;
+  }
+  if (session.call(caller.who)) return take_answer(run, caller);
+  fail(caller, session.last_words());
+  return 0;
+}
+
+std::uint64_t call(void* leaf, PluginFunction function) {
+  RemoteLeaf& it = *static_cast<RemoteLeaf*>(leaf);
+  begin(it.run, function, it.number, it.caller);
+  return finish(it.run, it.caller, it.ports);
+}
+
+// The end of a leaf or a run: nobody will ask for its error, so it becomes a line of the log.
+void finish_end(RemoteRun& run, const lockstep_caller& caller,
+                std::span<const std::uint32_t> ports) {
+  finish(run, caller, ports);
+  if (caller.slot->error == nullptr || !run.session().is_gone()) return;
+  const std::string text = fmt::format("its destroy did not return: {}", caller.slot->error);
+  host_table().log(&caller, LOCKSTEP_LOG_WARNING, text.c_str());
+}
+
+void* create_run(const lockstep_host* /*host*/, const lockstep_caller* caller) {
+  IsolatedPlugin& plugin = *static_cast<const HostedPlugin*>(caller->plugin)->isolated;
+  std::string failure;
+  auto session = plugin.acquire(failure);
+  if (session == nullptr) {
+    fail(*caller, failure);
+    return nullptr;
+  }
+  auto run = std::make_unique<RemoteRun>(plugin, std::move(session), *caller);
+  begin(*run, PluginFunction::CreateRun, 0, *caller).put(caller->random);
+  // What came there with an error and without a context is not destroyed there either.
+  const bool created = finish(*run, *caller, {}) != 0;
+  return created ? run.release() : nullptr;
+}
+
+void destroy_run(void* context) {
+  const std::unique_ptr<RemoteRun> run(static_cast<RemoteRun*>(context));
+  if (run->session().is_gone()) return;
+  begin(*run, PluginFunction::DestroyRun, 0, run->caller());
+  finish_end(*run, run->caller(), {});
+}
+
+void write_creation(const RemoteLeaf& leaf, std::uint32_t type, MessageWriter& request) {
+  request.put(leaf.caller.random);
+  request.put(type);
+  request.put_text(leaf.caller.who);
+  request.put(static_cast<std::uint32_t>(leaf.ports.size()));
+  for (std::size_t index = 0; index < leaf.ports.size(); ++index) {
+    const BoundPort& port = leaf.caller.ports[index];
+    request.put(port.type);
+    request.put(static_cast<std::uint8_t>(port.write != nullptr));
+    request.put(leaf.ports[index]);
+  }
+}
+
+void* create(const lockstep_host* /*host*/, const lockstep_caller* caller, void* run_context) {
+  RemoteRun& run = *static_cast<RemoteRun*>(run_context);
+  const auto type = run.plugin().index_of(*caller->slot->type);
+  auto leaf = std::make_unique<RemoteLeaf>(run, *caller);
+  write_creation(*leaf, type.value(), begin(run, PluginFunction::Create, leaf->number, *caller));
+  const bool created = finish(run, *caller, leaf->ports) != 0;
+  return created ? leaf.release() : nullptr;
+}
+
+void destroy(void* self) {
+  const std::unique_ptr<RemoteLeaf> leaf(static_cast<RemoteLeaf*>(self));
+  if (leaf->run.session().is_gone()) return;
+  begin(leaf->run, PluginFunction::Destroy, leaf->number, leaf->caller);
+  finish_end(leaf->run, leaf->caller, leaf->ports);
+}
+
+void start(void* leaf) {
+  call(leaf, PluginFunction::Start);
+}
+lockstep_status tick(void* leaf) {
+  return static_cast<lockstep_status>(call(leaf, PluginFunction::Tick));
+}
+// Where there is no process, there is nothing to halt.
+void halt(void* leaf) {
+  if (!static_cast<RemoteLeaf*>(leaf)->run.session().is_gone()) call(leaf, PluginFunction::Halt);
+}
+void pause(void* leaf) {
+  call(leaf, PluginFunction::Pause);
+}
+void resume(void* leaf) {
+  call(leaf, PluginFunction::Resume);
+}
+double progress(void* leaf) {
+  return std::bit_cast<double>(call(leaf, PluginFunction::Progress));
+}
+
+}  // namespace
+
+const lockstep_plugin& remote_plugin() {
+  static constexpr lockstep_plugin kPlugin{.abi_major = 0,
+                                           .abi_minor = 0,
+                                           .struct_size = 0,
+                                           .name = nullptr,
+                                           .version = nullptr,
+                                           .doc = nullptr,
+                                           .leaf_type_count = 0,
+                                           .leaf_types = nullptr,
+                                           .init = nullptr,
+                                           .deinit = nullptr,
+                                           .create_run = create_run,
+                                           .destroy_run = destroy_run,
+                                           .get_extension = nullptr};
+  return kPlugin;
+}
+
+const lockstep_leaf_type& remote_leaf_type() {
+  static constexpr lockstep_leaf_type kType{.struct_size = 0,
+                                            .kind = 0,
+                                            .id = nullptr,
+                                            .doc = nullptr,
+                                            .port_count = 0,
+                                            .ports = nullptr,
+                                            .create = create,
+                                            .destroy = destroy,
+                                            .start = start,
+                                            .tick = tick,
+                                            .halt = halt,
+                                            .pause = pause,
+                                            .resume = resume,
+                                            .progress = progress,
+                                            .get_extension = nullptr};
+  return kType;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,16 @@
+// The other end of an isolated plugin, in the process that has it loaded: answers the calls of the
+// host one after the other. To the plugin it is the host.
+#pragma once
+
+#include <string>
+
+namespace lockstep {
+
+// Serves the plugin in `path` over the descriptors of ChildProcess until the host ends it; the
+// process's exit code. Nothing when this process was not started by a host.
+struct ServedPlugin {
+  static bool has_host();
+  static int serve(const std::string& path);
+};
+
+}  // namespace lockstep

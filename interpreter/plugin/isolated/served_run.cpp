@@ -1,0 +1,203 @@
+#include "plugin/isolated/served_run.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <exception>
+
+#include "core/diagnostics.h"
+#include "plugin/isolated/channel.h"
+#include "plugin/isolated/remote_entries.h"
+
+namespace lockstep {
+namespace {
+
+constexpr std::uint32_t kMostEntries = std::uint32_t{1} << 24;
+
+void call_if_there(void (*function)(void*), void* self) {
+  if (function != nullptr) function(self);
+}
+
+bool is_destroy(PluginFunction function) {
+  return function == PluginFunction::Destroy || function == PluginFunction::DestroyRun;
+}
+
+}  // namespace
+
+std::unique_ptr<ServedRun::Object> ServedRun::make_object(std::uint32_t number, std::string who,
+                                                          RandomStream random) {
+  auto object = std::make_unique<Object>();
+  object->number = number;
+  object->log = [this, number](std::string_view, lockstep_log_level level, std::string_view text) {
+    log_.write(number, level, text);
+  };
+  object->caller = std::make_unique<lockstep_caller>(lockstep_caller{.who = std::move(who),
+                                                                     .ports = {},
+                                                                     .random = random,
+                                                                     .time = &time_,
+                                                                     .log = &object->log,
+                                                                     .slot = &object->slot,
+                                                                     .written = &written_});
+  return object;
+}
+
+// Whatever was left of a run before it, which the host has given up, is forgotten.
+ServedRun::Object* ServedRun::create_run(MessageReader& request) {
+  objects_.clear();
+  entries_.clear();
+  numbers_.clear();
+  const auto random = request.get<std::uint64_t>();
+  auto run = make_object(0, descriptors_.plugin.name, std::bit_cast<RandomStream>(random));
+  run->site = &CallSite::of("", descriptors_.plugin.name);
+  return (objects_[0] = std::move(run)).get();
+}
+
+Value* ServedRun::entry(std::uint32_t number) {
+  if (number >= kMostEntries) return nullptr;
+  while (number >= entries_.size()) {
+    numbers_.emplace(&entries_.emplace_back(), static_cast<std::uint32_t>(numbers_.size()));
+  }
+  return &entries_[number];
+}
+
+bool ServedRun::read_ports(MessageReader& request, std::vector<BoundPort>& ports) {
+  const auto count = request.get<std::uint32_t>();
+  for (std::uint32_t index = 0; index < count && request.good(); ++index) {
+    BoundPort& port = ports.emplace_back();
+    port.type = request.get<ValueType>();
+    const bool is_writable = request.get<std::uint8_t>() != 0;
+    const auto number = request.get<std::uint32_t>();
+    if (number == RemoteEntries::kNone) continue;
+    Value* const value = entry(number);
+    port.read = value;
+    if (is_writable) port.write = value;
+  }
+  return request.good();
+}
+
+ServedRun::Object* ServedRun::create_leaf(std::uint32_t number, MessageReader& request) {
+  const auto random = request.get<std::uint64_t>();
+  const auto type = request.get<std::uint32_t>();
+  std::string who(request.text());
+  if (type >= descriptors_.leaves.size() || number == 0) return nullptr;
+  auto leaf = make_object(number, std::move(who), std::bit_cast<RandomStream>(random));
+  leaf->type = &descriptors_.leaves[type]->type;
+  leaf->site = &CallSite::of(fmt::format("'{}' ({} of plugin '{}')", printable(leaf->caller->who),
+                                         leaf->type->id, descriptors_.plugin.name),
+                             descriptors_.plugin.name);
+  if (!read_ports(request, leaf->caller->ports)) return nullptr;
+  return (objects_[number] = std::move(leaf)).get();
+}
+
+ServedRun::Object* ServedRun::find(std::uint32_t number) {
+  const auto found = objects_.find(number);
+  return found == objects_.end() ? nullptr : found->second.get();
+}
+
+bool ServedRun::read_entries(MessageReader& request) {
+  for (auto number = request.get<std::uint32_t>(); number != RemoteEntries::kNone;
+       number = request.get<std::uint32_t>()) {
+    Value* const value = entry(number);
+    if (value == nullptr || !request.value_into(*value)) return false;
+  }
+  return request.good();
+}
+
+std::uint64_t ServedRun::call_run(Object& object, PluginFunction function) {
+  const lockstep_plugin& plugin = descriptors_.plugin;
+  if (plugin.create_run == nullptr) return 1;
+  if (function == PluginFunction::CreateRun) {
+    object.slot.self = plugin.create_run(&host_table(), object.caller.get());
+    return object.slot.self != nullptr || object.slot.error == nullptr ? 1 : 0;
+  }
+  plugin.destroy_run(object.slot.self);
+  return 0;
+}
+
+std::uint64_t ServedRun::call_leaf(Object& object, PluginFunction function) {
+  const lockstep_leaf_type& type = *object.type;
+  void* const self = object.slot.self;
+  switch (function) {
+    case PluginFunction::Start:
+      call_if_there(type.start, self);
+      break;
+    case PluginFunction::Halt:
+      call_if_there(type.halt, self);
+      break;
+    case PluginFunction::Pause:
+      call_if_there(type.pause, self);
+      break;
+    case PluginFunction::Resume:
+      call_if_there(type.resume, self);
+      break;
+    case PluginFunction::Destroy:
+      type.destroy(self);
+      break;
+    case PluginFunction::Tick:
+      return static_cast<std::uint64_t>(type.tick(self));
+    case PluginFunction::Progress:
+      return type.progress == nullptr ? 0 : std::bit_cast<std::uint64_t>(type.progress(self));
+    default:
+      break;
+  }
+  return 0;
+}
+
+std::uint64_t ServedRun::call(Object& object, PluginFunction function) {
+  const MarkedCall mark(*object.site, function);
+  if (object.type == nullptr) return call_run(object, function);
+  if (function != PluginFunction::Create) return call_leaf(object, function);
+  object.slot.self =
+      object.type->create(&host_table(), object.caller.get(), objects_.at(0)->slot.self);
+  return object.slot.self != nullptr ? 1 : 0;
+}
+
+void ServedRun::write_entries(MessageWriter& answer) const {
+  for (const Value* value : written_) {
+    // A set that failed for want of memory may have left nothing there.
+    if (std::holds_alternative<std::monostate>(*value)) continue;
+    answer.put(numbers_.at(value));
+    answer.put_value(*value);
+  }
+  answer.put(RemoteEntries::kNone);
+}
+
+void ServedRun::perform(Object& object, PluginFunction function, MessageWriter& message) {
+  Answer answer;
+  std::string what;
+  written_.clear();
+  try {
+    answer.result = call(object, function);
+  } catch (const std::exception& exception) {
+    answer.outcome = Outcome::Threw;
+    what = exception.what();
+  } catch (...) {
+    answer.outcome = Outcome::ThrewForeign;
+  }
+  answer.what = what;
+  if (object.slot.error != nullptr) answer.error = object.slot.error;
+  write_answer(answer, message);
+  write_entries(message);
+  if (message.bytes().size() > Channel::kLargest) {
+    message.clear();
+    write_answer({.outcome = Outcome::TooLarge, .result = answer.result}, message);
+    message.put(RemoteEntries::kNone);
+  }
+  object.slot.error = nullptr;
+  const bool creates = function == PluginFunction::Create;
+  if (is_destroy(function) || (creates && answer.result == 0)) objects_.erase(object.number);
+}
+
+bool ServedRun::answer(PluginFunction function, MessageReader& request, MessageWriter& answer) {
+  const auto number = request.get<std::uint32_t>();
+  time_.now = request.get<Nanoseconds>();
+  time_.period = request.get<Nanoseconds>();
+  Object* const object = function == PluginFunction::CreateRun ? create_run(request)
+                         : function == PluginFunction::Create  ? create_leaf(number, request)
+                                                               : find(number);
+  if (object == nullptr || !read_entries(request)) return false;
+  perform(*object, function, answer);
+  return true;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,57 @@
+// The leaves of one run and their run context in a leafhost, with the values that their ports are
+// bound to. Each call is told by a message and told of by a message.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "plugin/call_mark.h"
+#include "plugin/descriptor.h"
+#include "plugin/host.h"
+#include "plugin/isolated/answer.h"
+#include "plugin/isolated/host_log.h"
+#include "plugin/isolated/message.h"
+
+namespace lockstep {
+
+class ServedRun {
+ public:
+  ServedRun(const Descriptors& descriptors, HostLog& log) : descriptors_(descriptors), log_(log) {}
+
+  // Does what the request says, once its function has been read. False: it makes no sense.
+  bool answer(PluginFunction function, MessageReader& request, MessageWriter& answer);
+
+ private:
+  struct Object {
+    std::uint32_t number;
+    const lockstep_leaf_type* type;  // null: the run itself
+    LeafSlot slot;
+    LeafLog log;
+    const CallSite* site;
+    std::unique_ptr<lockstep_caller> caller;
+  };
+  std::unique_ptr<Object> make_object(std::uint32_t number, std::string who, RandomStream random);
+  Object* create_run(MessageReader& request);
+  Object* create_leaf(std::uint32_t number, MessageReader& request);
+  Object* find(std::uint32_t number);
+  bool read_ports(MessageReader& request, std::vector<BoundPort>& ports);
+  bool read_entries(MessageReader& request);
+  Value* entry(std::uint32_t number);
+  std::uint64_t call(Object& object, PluginFunction function);
+  std::uint64_t call_run(Object& object, PluginFunction function);
+  static std::uint64_t call_leaf(Object& object, PluginFunction function);
+  void write_entries(MessageWriter& answer) const;
+  void perform(Object& object, PluginFunction function, MessageWriter& answer);
+
+  const Descriptors& descriptors_;
+  HostLog& log_;
+  LeafTime time_;
+  std::unordered_map<std::uint32_t, std::unique_ptr<Object>> objects_;
+  std::deque<Value> entries_;  // none of them moves
+  std::unordered_map<const Value*, std::uint32_t> numbers_;
+  std::vector<Value*> written_;  // in this call
+};
+
+}  // namespace lockstep

@@ -1,0 +1,95 @@
+/* A leaf that dies, or never returns, in the function that its port 'where' names, in the way that
+ * 'how' names; else it runs for ever. `log` it does when it is created, so that a line comes before
+ * the end. */
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "lockstep/leaf.h"
+
+static const lockstep_host* g_host;
+
+static bool port_is(const lockstep_caller* caller, uint32_t port, const char* word) {
+  const char* text = "";
+  size_t length = 0;
+  g_host->get_string(caller, port, &text, &length);
+  return strcmp(text, word) == 0;
+}
+
+/* A signal that ends the process also where a sanitizer listens for it. */
+static void die_by(int signal_number) {
+  signal(signal_number, SIG_DFL);
+  raise(signal_number);
+}
+
+static void reached(const lockstep_caller* caller, const char* function) {
+  if (!port_is(caller, 0, function)) return;
+  if (port_is(caller, 1, "segv")) die_by(SIGSEGV);
+  if (port_is(caller, 1, "abort")) die_by(SIGABRT);
+  if (port_is(caller, 1, "exit")) exit(3);
+  if (port_is(caller, 1, "_exit")) _exit(4);
+  while (port_is(caller, 1, "hang")) pause();
+}
+
+static void* create(const lockstep_host* host, const lockstep_caller* caller, void* run_context) {
+  (void)run_context;
+  g_host = host;
+  host->log(caller, LOCKSTEP_LOG_INFO, "create");
+  reached(caller, "create");
+  return (void*)caller;
+}
+static void destroy(void* leaf) {
+  reached((const lockstep_caller*)leaf, "destroy");
+}
+static void start(void* leaf) {
+  reached((const lockstep_caller*)leaf, "start");
+}
+static lockstep_status tick(void* leaf) {
+  reached((const lockstep_caller*)leaf, "tick");
+  return LOCKSTEP_RUNNING;
+}
+static void halt(void* leaf) {
+  reached((const lockstep_caller*)leaf, "halt");
+}
+static double progress(void* leaf) {
+  reached((const lockstep_caller*)leaf, "progress");
+  return 0.25;
+}
+
+#define PORT(variable, name)              \
+  static const lockstep_port variable = { \
+      sizeof(lockstep_port), LOCKSTEP_STRING, LOCKSTEP_INPUT, name, "", NULL, NULL}
+PORT(where_port, "where");
+PORT(how_port, "how");
+static const lockstep_port* const ports[] = {&where_port, &how_port};
+static const lockstep_leaf_type leaf_type = {sizeof(lockstep_leaf_type),
+                                             LOCKSTEP_ACTION,
+                                             "Crash",
+                                             NULL,
+                                             2,
+                                             ports,
+                                             create,
+                                             destroy,
+                                             start,
+                                             tick,
+                                             halt,
+                                             NULL,
+                                             NULL,
+                                             progress,
+                                             NULL};
+static const lockstep_leaf_type* const leaf_types[] = {&leaf_type};
+
+const lockstep_plugin lockstep_plugin_entry = {LOCKSTEP_ABI_MAJOR,
+                                               LOCKSTEP_ABI_MINOR,
+                                               sizeof(lockstep_plugin),
+                                               "crash",
+                                               "1.0.0",
+                                               NULL,
+                                               1,
+                                               leaf_types,
+                                               NULL,
+                                               NULL,
+                                               NULL,
+                                               NULL,
+                                               NULL};

@@ -1,0 +1,154 @@
+// A leaf that shows what reaches it: it copies each of its inputs to the output of its type, draws
+// random numbers, tells its process, and logs from a thread of its own.
+#include <unistd.h>
+
+#include <cstring>
+#include <string>
+#include <thread>
+
+#include "lockstep/leaf.h"
+
+namespace {
+
+enum Port : std::uint32_t {
+  kBoolIn,
+  kIntIn,
+  kDoubleIn,
+  kStringIn,
+  kListIn,
+  kBoolOut,
+  kIntOut,
+  kDoubleOut,
+  kStringOut,
+  kListOut,
+  kRandom,
+  kProcess,
+  kSeen,
+  kSpeak,
+  kGrow
+};
+
+struct Echo {
+  const lockstep_host* host;
+  const lockstep_caller* caller;
+  std::thread speaker = {};
+};
+
+void* create(const lockstep_host* host, const lockstep_caller* caller, void*) {
+  return new Echo{host, caller};
+}
+void destroy(void* leaf) {
+  auto* const it = static_cast<Echo*>(leaf);
+  if (it->speaker.joinable()) it->speaker.join();
+  delete it;
+}
+
+void copy_scalars(const Echo& it) {
+  bool flag = false;
+  std::int64_t whole = 0;
+  double number = 0;
+  if (it.host->get_bool(it.caller, kBoolIn, &flag)) it.host->set_bool(it.caller, kBoolOut, flag);
+  if (it.host->get_int(it.caller, kIntIn, &whole)) it.host->set_int(it.caller, kIntOut, whole);
+  if (it.host->get_double(it.caller, kDoubleIn, &number)) {
+    it.host->set_double(it.caller, kDoubleOut, number);
+  }
+}
+
+void copy_lists(const Echo& it) {
+  const char* text = nullptr;
+  const double* list = nullptr;
+  std::size_t size = 0;
+  if (it.host->get_string(it.caller, kStringIn, &text, &size)) {
+    it.host->set_string(it.caller, kStringOut, text, size);
+    // What has just been set is seen through every port of the entry.
+    if (it.host->get_string(it.caller, kStringIn, &text, &size)) {
+      it.host->set_int(it.caller, kSeen, static_cast<std::int64_t>(size));
+    }
+  }
+  if (it.host->get_double_list(it.caller, kListIn, &list, &size)) {
+    it.host->set_double_list(it.caller, kListOut, list, size);
+  }
+}
+
+void grow(const Echo& it) {
+  std::int64_t size = 0;
+  if (!it.host->get_int(it.caller, kGrow, &size) || size == 0) return;
+  const std::string text(static_cast<std::size_t>(size), 'x');
+  it.host->set_string(it.caller, kStringOut, text.data(), text.size());
+}
+
+lockstep_status tick(void* leaf) {
+  Echo& it = *static_cast<Echo*>(leaf);
+  copy_scalars(it);
+  copy_lists(it);
+  grow(it);
+  it.host->set_double(it.caller, kRandom, it.host->random(it.caller) + it.host->now(it.caller));
+  it.host->set_int(it.caller, kProcess, getpid());
+  bool speak = false;
+  if (it.host->get_bool(it.caller, kSpeak, &speak) && speak && !it.speaker.joinable()) {
+    it.speaker = std::thread([host = it.host, caller = it.caller] {
+      host->log(caller, LOCKSTEP_LOG_WARNING, "from another thread");
+    });
+  }
+  return LOCKSTEP_RUNNING;
+}
+
+constexpr lockstep_port port(lockstep_type type, lockstep_direction direction, const char* name,
+                             const char* default_value) {
+  return {sizeof(lockstep_port), type, direction, name, default_value, nullptr, nullptr};
+}
+
+constexpr lockstep_port kPorts[] = {
+    port(LOCKSTEP_BOOL, LOCKSTEP_INPUT, "bool_in", "false"),
+    port(LOCKSTEP_INT, LOCKSTEP_INPUT, "int_in", "0"),
+    port(LOCKSTEP_DOUBLE, LOCKSTEP_INPUT, "double_in", "0"),
+    port(LOCKSTEP_STRING, LOCKSTEP_INPUT, "string_in", ""),
+    port(LOCKSTEP_DOUBLE_LIST, LOCKSTEP_INPUT, "list_in", "0"),
+    port(LOCKSTEP_BOOL, LOCKSTEP_OUTPUT, "bool_out", nullptr),
+    port(LOCKSTEP_INT, LOCKSTEP_OUTPUT, "int_out", nullptr),
+    port(LOCKSTEP_DOUBLE, LOCKSTEP_OUTPUT, "double_out", nullptr),
+    port(LOCKSTEP_STRING, LOCKSTEP_OUTPUT, "string_out", nullptr),
+    port(LOCKSTEP_DOUBLE_LIST, LOCKSTEP_OUTPUT, "list_out", nullptr),
+    port(LOCKSTEP_DOUBLE, LOCKSTEP_OUTPUT, "random", nullptr),
+    port(LOCKSTEP_INT, LOCKSTEP_OUTPUT, "process", nullptr),
+    port(LOCKSTEP_INT, LOCKSTEP_OUTPUT, "seen", nullptr),
+    port(LOCKSTEP_BOOL, LOCKSTEP_INPUT, "speak", "false"),
+    port(LOCKSTEP_INT, LOCKSTEP_INPUT, "grow", "0"),
+};
+constexpr const lockstep_port* kPortList[] = {&kPorts[0],  &kPorts[1],  &kPorts[2],  &kPorts[3],
+                                              &kPorts[4],  &kPorts[5],  &kPorts[6],  &kPorts[7],
+                                              &kPorts[8],  &kPorts[9],  &kPorts[10], &kPorts[11],
+                                              &kPorts[12], &kPorts[13], &kPorts[14]};
+
+constexpr lockstep_leaf_type kType = {sizeof(lockstep_leaf_type),
+                                      LOCKSTEP_ACTION,
+                                      "Echo",
+                                      nullptr,
+                                      15,
+                                      kPortList,
+                                      create,
+                                      destroy,
+                                      nullptr,
+                                      tick,
+                                      nullptr,
+                                      nullptr,
+                                      nullptr,
+                                      nullptr,
+                                      nullptr};
+constexpr const lockstep_leaf_type* kTypes[] = {&kType};
+
+}  // namespace
+
+extern "C" const lockstep_plugin lockstep_plugin_entry = {LOCKSTEP_ABI_MAJOR,
+                                                          LOCKSTEP_ABI_MINOR,
+                                                          sizeof(lockstep_plugin),
+                                                          "echo",
+                                                          "1.0.0",
+                                                          nullptr,
+                                                          1,
+                                                          kTypes,
+                                                          nullptr,
+                                                          nullptr,
+                                                          nullptr,
+                                                          nullptr,
+                                                          nullptr};

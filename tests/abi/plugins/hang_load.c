@@ -1,0 +1,6 @@
+#include <unistd.h>
+
+__attribute__((constructor)) static void hang(void) {
+  for (;;) pause();
+}
+#include "entry.h"
