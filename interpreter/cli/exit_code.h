@@ -12,8 +12,8 @@ enum ExitCode : int {
   kExitLeafFault = 5,
   kExitLeafCrash = 6,  // a plugin crashed or hung in this process
   kExitOverrun = 7,    // --overrun fail
-  kExitLimit = 124,   // --timeout or --max-ticks
-  kExitSignal = 128,  // + the signal
+  kExitLimit = 124,    // --timeout or --max-ticks
+  kExitSignal = 128,   // + the signal
 };
 
 }  // namespace lockstep

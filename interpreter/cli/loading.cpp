@@ -9,10 +9,17 @@
 #include <filesystem>
 
 #include "cli/exit_code.h"
+#include "definition/plugin_requests.h"
 #include "engine/node_kind.h"
 
 namespace lockstep {
 namespace {
+
+// "" when the system does not tell.
+std::filesystem::path program_directory() {
+  std::error_code error;
+  return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+}
 
 // "name=value" pairs; a later one replaces an earlier one.
 Arguments parse_pairs(const std::vector<std::string>& pairs, std::string_view option,
@@ -38,15 +45,30 @@ int exit_code_of(const Diagnostics& diagnostics) {
   return diagnostics.has_errors() ? kExitUsage : kExitSuccess;
 }
 
-bool load_plugins(const PluginOptions& options, const Project* project, PluginSet& plugins,
-                  Diagnostics& diagnostics) {
-  bool good = load_given_plugins(options, plugins, diagnostics);
-  if (project == nullptr) return good;
+// Loads what the trees ask for. Places are looked up only for what was refused.
+bool load_requested_plugins(const PluginOptions& options, const Project& project,
+                            PluginSet& plugins, Diagnostics& diagnostics) {
+  bool good = true;
   const auto directories = plugin_directories(options);
-  for (const PluginRequest& request : requested_plugins(*project, diagnostics)) {
-    good &= plugins.load_named(request.name, directories, diagnostics, request.where);
+  for (const PluginRequest& request : requested_plugins(project, diagnostics)) {
+    const auto isolation = request.isolate ? Isolation::Isolated : Isolation::InProcess;
+    Diagnostics refused;
+    good &= plugins.load_named(request.name, directories, refused, {}, isolation);
+    for (Diagnostic diagnostic : refused.all()) {
+      diagnostic.location = request.where();
+      diagnostics.add(std::move(diagnostic));
+    }
   }
   return good;
+}
+
+// Where lockstep-leafhost is: beside this program in a build directory, else where it is installed.
+std::string leafhost_path() {
+  const auto directory = program_directory();
+  const auto beside = directory / "lockstep-leafhost";
+  std::error_code error;
+  if (std::filesystem::exists(beside, error)) return beside.string();
+  return (directory / LOCKSTEP_LEAFHOST_FROM_BIN).lexically_normal().string();
 }
 
 }  // namespace
@@ -60,6 +82,9 @@ void add_plugin_options(CLI::App& app, PluginOptions& options) {
                  "Search plugins in this directory first; may be repeated")
       ->type_name("DIR")
       ->allow_extra_args(false);
+  app.add_flag("--isolate", options.isolate,
+               "Keep every plugin in a process of its own, which may crash or hang without harm; "
+               "for one plugin: <plugin name=\"…\" isolate=\"true\"/>");
 }
 
 void add_load_options(CLI::App& app, LoadOptions& options) {
@@ -84,10 +109,7 @@ std::vector<std::string> plugin_directories(const PluginOptions& options) {
       if (!directory.empty()) directories.push_back(directory);
     }
   }
-  std::error_code error;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (!error) {
-    const auto beside = program.parent_path();
+  if (const auto beside = program_directory(); !beside.empty()) {
     directories.push_back((beside / "plugins").string());  // in a build directory
     directories.push_back((beside / LOCKSTEP_PLUGINS_FROM_BIN).lexically_normal().string());
   }
@@ -96,6 +118,9 @@ std::vector<std::string> plugin_directories(const PluginOptions& options) {
 
 bool load_given_plugins(const PluginOptions& options, PluginSet& plugins,
                         Diagnostics& diagnostics) {
+  plugins.set_isolation({.leafhost = leafhost_path(),
+                         .hang_limit = from_seconds(options.hang_limit),
+                         .all = options.isolate});
   bool good = true;
   const auto directories = plugin_directories(options);
   for (const std::string& plugin : options.plugins) {
@@ -121,12 +146,14 @@ int load(const std::string& path, const LoadOptions& options, Loaded& loaded,
   loaded.project = load_project(path, arguments, diagnostics);
   if (loaded.plugins == nullptr) loaded.plugins = std::make_shared<PluginSet>();
   Diagnostics refused;
-  if (!load_plugins(options.plugins, loaded.project.get(), *loaded.plugins, refused)) {
-    const int code = diagnostics.has_errors() ? exit_code_of(diagnostics) : kExitPluginRefused;
-    for (const Diagnostic& diagnostic : refused.all()) diagnostics.add(diagnostic);
-    return code;  // without its leaves, most of the tree would be called unknown
+  bool good = load_given_plugins(options.plugins, *loaded.plugins, refused);
+  if (loaded.project != nullptr) {
+    good &= load_requested_plugins(options.plugins, *loaded.project, *loaded.plugins, refused);
   }
+  const int code_so_far = exit_code_of(diagnostics);
   for (const Diagnostic& diagnostic : refused.all()) diagnostics.add(diagnostic);
+  // Without its leaves, most of the tree would be called unknown.
+  if (!good) return code_so_far == kExitSuccess ? kExitPluginRefused : code_so_far;
   if (loaded.project != nullptr) {
     loaded.catalog = make_catalog(*loaded.plugins);
     loaded.definition = resolve(*loaded.project, loaded.catalog, resolve_options, diagnostics);

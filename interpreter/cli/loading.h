@@ -21,6 +21,8 @@ namespace lockstep {
 struct PluginOptions {
   std::vector<std::string> plugins;      // --plugin: a path, or a name to search for
   std::vector<std::string> directories;  // --plugin-path
+  bool isolate = false;                  // --isolate
+  double hang_limit = 10;                // seconds, of an isolated plugin; 0 = never
 };
 
 struct LoadOptions {
@@ -30,6 +32,7 @@ struct LoadOptions {
   std::string main_tree;               // --tree
 };
 
+// --plugin, --plugin-path and --isolate.
 void add_plugin_options(CLI::App& app, PluginOptions& options);
 // The plugin options, --arg, --set and --tree.
 void add_load_options(CLI::App& app, LoadOptions& options);

@@ -54,37 +54,6 @@ std::optional<std::string_view> choose_main(const Project& project, const Checke
 
 }  // namespace
 
-std::vector<PluginRequest> requested_plugins(const Project& project, Diagnostics& diagnostics) {
-  std::vector<PluginRequest> requests;
-  for (const auto& document : project.documents) {
-    const Reporter report(*document, diagnostics);
-    const auto elements = document->elements();
-    for (std::uint32_t child = 1; child < elements[0].end; child = elements[child].end) {
-      if (elements[child].tag != "plugin") continue;
-      if (elements[child].end > child + 1) {
-        report.at_element(child + 1, "'plugin' takes no elements inside");
-      }
-      for (const Attribute& attribute : document->attributes(child)) {
-        if (attribute.name == "name") continue;
-        report.at_attribute(child, attribute.name,
-                            fmt::format("'plugin' has no attribute '{}'", attribute.name),
-                            "attributes of 'plugin': name (a tree names plugins, never paths)");
-      }
-      const Attribute* name = document->find_attribute(child, "name");
-      if (name == nullptr) {
-        report.at_element(child, "'plugin' needs the attribute 'name'",
-                          "write <plugin name=\"…\"/>");
-        continue;
-      }
-      const bool known = std::ranges::any_of(
-          requests, [&](const PluginRequest& request) { return request.name == name->value; });
-      if (!known)
-        requests.push_back({std::string(name->value), document->locate_value(child, "name")});
-    }
-  }
-  return requests;
-}
-
 std::optional<Definition> resolve(const Project& project, const Catalog& catalog,
                                   const ResolveOptions& options, Diagnostics& diagnostics) {
   CheckedTrees trees = check_trees(project, catalog, diagnostics);

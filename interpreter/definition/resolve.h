@@ -4,7 +4,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "core/diagnostics.h"
 #include "definition/catalog.h"
@@ -17,14 +16,6 @@ struct ResolveOptions {
   std::string main_tree;                                   // "": main_tree_to_execute, or the only
   std::map<std::string, std::string, std::less<>> values;  // `--set key=value`
 };
-
-struct PluginRequest {
-  std::string name;
-  SourceLocation where;
-};
-
-// What <plugin name="…"/> asks for, each name once, in the order of the documents.
-std::vector<PluginRequest> requested_plugins(const Project& project, Diagnostics& diagnostics);
 
 // Nothing when there are errors. Warnings and notes are reported as well.
 std::optional<Definition> resolve(const Project& project, const Catalog& catalog,

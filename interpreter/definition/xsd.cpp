@@ -76,7 +76,13 @@ constexpr std::string_view kPrologue = R"xsd(<?xml version="1.0" encoding="UTF-8
       <xs:choice minOccurs="0" maxOccurs="unbounded">
         <xs:element name="plugin">
           <xs:annotation><xs:documentation>A plugin that the trees of this file need, by its name.</xs:documentation></xs:annotation>
-          <xs:complexType><xs:group ref="nothing"/><xs:attribute name="name" type="nodeName" use="required"/></xs:complexType>
+          <xs:complexType>
+            <xs:group ref="nothing"/>
+            <xs:attribute name="name" type="nodeName" use="required"/>
+            <xs:attribute name="isolate" type="boolean">
+              <xs:annotation><xs:documentation>true: the plugin runs in a process of its own, so that it cannot bring down the run.</xs:documentation></xs:annotation>
+            </xs:attribute>
+          </xs:complexType>
         </xs:element>
         <xs:element name="arg">
           <xs:annotation><xs:documentation>A load-time argument: --arg name=value gives it, ${name} uses it.</xs:documentation></xs:annotation>

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "definition/plugin_requests.h"
 #include "definition/resolve.h"
 #include "engine/compile.h"
 #include "runtime/run.h"

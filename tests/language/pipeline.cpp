@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "cli/loading.h"
+#include "definition/plugin_requests.h"
 #include "definition/resolve.h"
 #include "engine/compile.h"
 #include "language/robot_plugin.h"

@@ -1,0 +1,45 @@
+// What keeps an eye on the plugins of `lockstep run`, and how it tells what it sees: slow leaves,
+// halts that do not return, hangs, changed modes, memory that grows.
+#pragma once
+
+#include <signal.h>
+
+#include <functional>
+#include <string>
+
+#include "cli/run_options.h"
+#include "observers/summary.h"
+#include "plugin/leaf_watch.h"
+#include "runtime/watchdog.h"
+
+namespace lockstep {
+
+// "'Main/arm' (Advance of plugin 'motion')".
+std::string describe_leaf(const Tree& tree, NodeIndex leaf);
+
+class RunWatch {
+ public:
+  // `print` shows a line to the person; from any thread.
+  RunWatch(const Tree& tree, const RunCommandOptions& options,
+           std::function<void(const std::string& line)> print);
+
+  LeafWatch& leaves() { return leaves_; }
+  // On the tick thread, while the leaves still live.
+  void run_ended();
+  void add_to(Summary& summary) const;
+
+ private:
+  LeafWatchOptions leaf_watch_options();
+  WatchdogOptions watchdog_options();
+
+  const Tree& tree_;
+  const RunCommandOptions& options_;
+  std::function<void(const std::string& line)> print_;
+  LeafWatch leaves_;
+  Watchdog watchdog_;
+  sigset_t signal_mask_;            // of the tick thread, as it was
+  std::size_t memory_at_start_;     // bytes
+  std::vector<std::string> notes_;  // for the summary
+};
+
+}  // namespace lockstep

@@ -1,0 +1,232 @@
+// A plugin whose leaf misbehaves as its ports say: `how`, in the function `where`, at its n-th call
+// (`at`, from 1). Everything else that it does is right. It logs its calls when `loud`.
+#include <cfenv>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <pthread.h>
+#include <unistd.h>
+#include <unwind.h>
+
+#include "lockstep/leaf.h"
+
+namespace {
+
+enum Port : std::uint32_t { kHow, kWhere, kAt, kTicks, kNumber };
+
+[[noreturn]] void for_ever() {
+  while (true) usleep(1000);
+}
+
+// Deeper until the stack ends; what it returns keeps the compiler from making a loop of it.
+volatile bool g_deeper = true;
+int overflow(int depth) {
+  volatile char block[4096];
+  block[0] = static_cast<char>(depth);
+  return g_deeper ? overflow(depth + 1) + block[0] : 0;
+}
+
+void divide_by_zero() {
+  volatile int zero = 0;
+  volatile int result = 1 / zero;
+  static_cast<void>(result);
+  std::raise(SIGFPE);  // where the machine divides by zero without a word
+}
+
+void throw_foreign() {
+  static _Unwind_Exception exception;
+  std::memcpy(&exception.exception_class, "ROBOTFOR", 8);
+  exception.exception_cleanup = nullptr;
+  _Unwind_RaiseException(&exception);
+}
+
+struct Leaf {
+  const lockstep_host* host;
+  const lockstep_caller* caller;
+  std::int64_t ticks = 0;
+  std::int64_t calls = 0;  // of the function `where`
+  bool nonsense = false;   // the function has to return it
+
+  std::string text(Port port) const {
+    const char* value = "";
+    std::size_t length = 0;
+    host->get_string(caller, port, &value, &length);
+    return {value, length};
+  }
+  std::int64_t number(Port port) const {
+    std::int64_t value = 0;
+    host->get_int(caller, port, &value);
+    return value;
+  }
+
+  void misbehave_in(const char* function);
+  void misbehave(const std::string& how);
+  void call_from_another_thread() const;
+};
+
+void Leaf::misbehave_in(const char* function) {
+  if (text(kWhere) != function || ++calls != number(kAt)) return;
+  misbehave(text(kHow));
+}
+
+void Leaf::misbehave(const std::string& how) {
+  if (how == "throw exception") throw std::runtime_error("out of reach");
+  if (how == "throw int") throw 7;  // NOLINT
+  if (how == "throw foreign") throw_foreign();
+  if (how == "exit thread") pthread_exit(nullptr);
+  if (how == "set error") host->set_error(caller, "lost the arm");
+  if (how == "hang") for_ever();
+  if (how == "hang deaf") {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_BLOCK, &all, nullptr);
+    for_ever();
+  }
+  if (how == "late") usleep(300'000);
+  if (how == "exit") std::exit(3);
+  if (how == "_exit") _exit(3);
+  if (how == "abort") std::abort();
+  if (how == "segv") *reinterpret_cast<volatile int*>(8) = 1;  // NOLINT
+  if (how == "segv in a thread") std::thread([] { std::raise(SIGSEGV); }).join();
+  if (how == "fpe") divide_by_zero();
+  if (how == "overflow") overflow(0);
+  if (how == "kill") std::raise(SIGKILL);
+  if (how == "print") {
+    std::puts("printed by a leaf");
+    static_cast<void>(!write(STDOUT_FILENO, "written by a leaf\n", 18));
+  }
+  if (how == "leak") {
+    constexpr std::size_t kSize = 128u << 20;
+    std::memset(std::malloc(kSize), 1, kSize);  // NOLINT: it is meant to be lost
+  }
+  if (how == "block signals") {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_BLOCK, &all, nullptr);
+  }
+  if (how == "round up") std::fesetround(FE_UPWARD);
+  if (how == "leave a thread") std::thread(for_ever).detach();
+  if (how == "foreign call") call_from_another_thread();
+  if (how == "nonsense") nonsense = true;
+}
+
+// What only log may do.
+void Leaf::call_from_another_thread() const {
+  std::thread([this] {
+    double value = 0;
+    const bool got = host->get_double(caller, kNumber, &value);
+    const bool set = host->set_double(caller, kNumber, 42);
+    host->set_error(caller, "from another thread");
+    host->log(caller, LOCKSTEP_LOG_INFO,
+              got || set ? "a foreign thread was served" : "a foreign thread was refused");
+  }).join();
+}
+
+Leaf& leaf_of(void* leaf) {
+  return *static_cast<Leaf*>(leaf);
+}
+
+void* create(const lockstep_host* host, const lockstep_caller* caller, void*) {
+  auto leaf = std::make_unique<Leaf>(Leaf{host, caller});
+  leaf->misbehave_in("create");
+  return leaf->nonsense ? nullptr : leaf.release();
+}
+void destroy(void* leaf) {
+  const std::unique_ptr<Leaf> owned(static_cast<Leaf*>(leaf));
+  owned->misbehave_in("destroy");
+}
+void start(void* leaf) {
+  leaf_of(leaf).ticks = 0;
+  leaf_of(leaf).misbehave_in("start");
+}
+lockstep_status tick(void* leaf) {
+  Leaf& it = leaf_of(leaf);
+  it.misbehave_in("tick");
+  if (it.nonsense) return 7;
+  return ++it.ticks < it.number(kTicks) ? LOCKSTEP_RUNNING : LOCKSTEP_SUCCESS;
+}
+void halt(void* leaf) {
+  leaf_of(leaf).misbehave_in("halt");
+}
+void pause(void* leaf) {
+  leaf_of(leaf).misbehave_in("pause");
+}
+void resume(void* leaf) {
+  leaf_of(leaf).misbehave_in("resume");
+}
+double progress(void* leaf) {
+  Leaf& it = leaf_of(leaf);
+  it.misbehave_in("progress");
+  const std::string how = it.text(kWhere) == "progress" ? it.text(kHow) : "";
+  if (how == "nan") return std::numeric_limits<double>::quiet_NaN();
+  if (how == "infinite") return std::numeric_limits<double>::infinity();
+  if (how == "-3") return -3;
+  if (how == "7") return 7;
+  return static_cast<double>(it.ticks) / static_cast<double>(it.number(kTicks));
+}
+
+bool g_never_deinit = false;
+bool init(const lockstep_host*, const lockstep_caller*) {
+  const char* how = std::getenv("HOSTILE_INIT");
+  if (how != nullptr && std::strcmp(how, "segv") == 0) std::raise(SIGSEGV);
+  if (how != nullptr && std::strcmp(how, "hang") == 0) for_ever();
+  g_never_deinit = std::getenv("HOSTILE_DEINIT") != nullptr;
+  return true;
+}
+void deinit() {
+  if (g_never_deinit) for_ever();
+}
+
+constexpr lockstep_port port(lockstep_type type, lockstep_direction direction, const char* name,
+                             const char* value) {
+  return {sizeof(lockstep_port), type, direction, name, value, nullptr, nullptr};
+}
+constexpr lockstep_port kHowPort = port(LOCKSTEP_STRING, LOCKSTEP_INPUT, "how", "");
+constexpr lockstep_port kWherePort = port(LOCKSTEP_STRING, LOCKSTEP_INPUT, "where", "tick");
+constexpr lockstep_port kAtPort = port(LOCKSTEP_INT, LOCKSTEP_INPUT, "at", "1");
+constexpr lockstep_port kTicksPort = port(LOCKSTEP_INT, LOCKSTEP_INPUT, "ticks", "5");
+constexpr lockstep_port kNumberPort = port(LOCKSTEP_DOUBLE, LOCKSTEP_INOUT, "number", "1");
+constexpr const lockstep_port* kPorts[] = {&kHowPort, &kWherePort, &kAtPort, &kTicksPort,
+                                           &kNumberPort};
+
+constexpr lockstep_leaf_type kMisbehave = {sizeof(lockstep_leaf_type),
+                                           LOCKSTEP_ACTION,
+                                           "Misbehave",
+                                           "Does what no leaf should",
+                                           5,
+                                           kPorts,
+                                           create,
+                                           destroy,
+                                           start,
+                                           tick,
+                                           halt,
+                                           pause,
+                                           resume,
+                                           progress,
+                                           nullptr};
+constexpr const lockstep_leaf_type* kLeaves[] = {&kMisbehave};
+
+}  // namespace
+
+extern "C" LOCKSTEP_EXPORT const lockstep_plugin lockstep_plugin_entry = {LOCKSTEP_ABI_MAJOR,
+                                                                          LOCKSTEP_ABI_MINOR,
+                                                                          sizeof(lockstep_plugin),
+                                                                          "hostile",
+                                                                          "1.0",
+                                                                          "For tests",
+                                                                          1,
+                                                                          kLeaves,
+                                                                          init,
+                                                                          deinit,
+                                                                          nullptr,
+                                                                          nullptr,
+                                                                          nullptr};

@@ -1,0 +1,30 @@
+// Trees around the leaf of hostile.cpp, and the program that runs them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/program.h"
+
+namespace lockstep::test {
+
+// What the leaf does wrong, and in which of its functions.
+struct Misdeed {
+  std::string how;
+  std::string where = "tick";
+};
+
+// A tree that comes to that function: a Fallback of the leaf, in what that needs, and of
+// AlwaysSuccess. The leaf is 'Main/plan/…/arm'.
+std::string hostile_tree(const Misdeed& misdeed);
+
+enum class Where { InProcess, Isolated };
+
+// Runs that tree with the options, until it ends.
+Outcome run_hostile(const Misdeed& misdeed, Where where, std::vector<std::string> options = {},
+                    std::map<std::string, std::string> environment = {});
+
+// The processes that have this text in their command line, by their ids.
+std::vector<pid_t> processes_with(const std::string& text);
+
+}  // namespace lockstep::test

@@ -1,0 +1,123 @@
+// Leaves that misbehave, one row each: what becomes of the run when they live in its process, and
+// when they live in one of their own. docs/reliability.md has the same rows in words.
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "reliability/hostile_tree.h"
+
+namespace lockstep::test {
+namespace {
+
+using nlohmann::json;
+using Strings = std::vector<std::string>;
+
+constexpr int kFault = 5;
+constexpr int kCrash = 6;
+
+const Strings kFast = {"--clock", "virtual"};
+const Strings kShortLimits = {"--hang-limit", "0.3", "--halt-limit", "0.1"};
+
+Strings with(Strings options, const Strings& more) {
+  options.insert(options.end(), more.begin(), more.end());
+  return options;
+}
+
+void check(const Outcome& outcome, int code, const Strings& texts) {
+  INFO(outcome.err);
+  CHECK(outcome.code == code);
+  for (const std::string& text : texts) {
+    INFO(text);
+    CHECK(contains(outcome.err, text));
+  }
+}
+
+// A misdeed that can be caught is a fault, wherever the plugin lives, in the same words; and a
+// Failure when the user says so.
+void check_fault(const Misdeed& misdeed, const std::string& message) {
+  INFO(misdeed.how << " in " << misdeed.where);
+  for (const Where where : {Where::InProcess, Where::Isolated}) {
+    INFO((where == Where::Isolated ? "isolated" : "in-process"));
+    check(run_hostile(misdeed, where, kFast), kFault,
+          {"arm' (Misbehave of plugin 'hostile') failed", message});
+    const Outcome outcome =
+        run_hostile(misdeed, where, with(kFast, {"--on-fault", "fail", "--json"}));
+    check(outcome, 0, {});
+    CHECK(json::parse(outcome.out)["result"] == "success");
+    CHECK(contains(outcome.out, message));
+  }
+}
+
+// One that brings down its process: all that is left in-process is to say who it was. Isolated it
+// is a fault like any other.
+void check_crash(const Misdeed& misdeed, const std::string& in_process,
+                 const std::string& isolated) {
+  INFO(misdeed.how << " in " << misdeed.where);
+  check(run_hostile(misdeed, Where::InProcess, kFast), kCrash,
+        {"arm' (Misbehave of plugin 'hostile')", in_process, "backtrace"});
+  check(run_hostile(misdeed, Where::Isolated, kFast), kFault,
+        {"arm' (Misbehave of plugin 'hostile') failed", isolated});
+  const Outcome outcome =
+      run_hostile(misdeed, Where::Isolated, with(kFast, {"--on-fault", "fail", "--json"}));
+  check(outcome, 0, {});
+  CHECK(json::parse(outcome.out)["result"] == "success");
+}
+
+}  // namespace
+
+TEST_CASE("a leaf that throws is a fault") {
+  for (const std::string where : {"start", "tick", "halt", "pause", "resume", "progress"}) {
+    check_fault({"throw exception", where}, "threw an exception: out of reach");
+  }
+  check_fault({"throw int"}, "threw an exception that is not a std::exception");
+  check_fault({"throw foreign"}, "threw an exception that is not a std::exception");
+}
+
+TEST_CASE("a leaf that sets an error is a fault") {
+  for (const std::string where : {"start", "tick", "halt", "progress"}) {
+    check_fault({"set error", where}, "lost the arm");
+  }
+}
+
+TEST_CASE("a status that does not exist is a fault") {
+  check_fault({"nonsense"}, "returned status 7, expected running (1), success (2) or failure (3)");
+}
+
+TEST_CASE("a progress that is not a number is a fault; one out of range is clamped") {
+  check_fault({"nan", "progress"}, "reported a progress that is not a number");
+  for (const std::string how : {"infinite", "-3", "7"}) {
+    for (const Where where : {Where::InProcess, Where::Isolated}) {
+      const TemporaryDirectory directory;
+      const std::string file = directory.path("run.jsonl");
+      const Outcome outcome =
+          run_hostile({how, "progress"}, where, with(kFast, {"--record", file}));
+      check(outcome, 0, {});
+      const Outcome csv = lockstep({"log", "csv", file});
+      const std::string progress = how == "-3" ? "0" : "1";
+      CHECK(contains(csv.out, "/arm,running," + progress + ","));
+    }
+  }
+}
+
+TEST_CASE("a leaf that cannot be created ends the run before its first tick") {
+  for (const Where where : {Where::InProcess, Where::Isolated}) {
+    check(run_hostile({"throw exception", "create"}, where, kFast), kFault,
+          {"failed before the first tick: could not be created: threw an exception: out of reach"});
+    check(run_hostile({"nonsense", "create"}, where, kFast), kFault,
+          {"could not be created: its create returned NULL without an error"});
+  }
+}
+
+TEST_CASE("a leaf that crashes brings down its own process only") {
+  for (const std::string where : {"create", "start", "tick", "progress"}) {
+    if (where != "create") check_crash({"segv", where}, "SIGSEGV", "killed by SIGSEGV");
+  }
+  check_crash({"fpe"}, "SIGFPE", "killed by SIGFPE");
+  check_crash({"abort"}, "SIGABRT", "killed by SIGABRT");
+  check_crash({"overflow"}, "SIGSEGV", "killed by SIGSEGV");
+  check_crash({"exit"}, "called exit", "ended with exit code 3");
+  check_crash({"exit thread"}, "SIGABRT", "killed by SIGABRT");
+}
+
+}  // namespace lockstep::test

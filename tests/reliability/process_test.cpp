@@ -1,0 +1,151 @@
+// What a leaf can do to the process it lives in, beyond ending it: stdout, memory, signals, modes,
+// threads; and what is left of a run that was killed.
+#include <signal.h>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "reliability/hostile_tree.h"
+
+namespace lockstep::test {
+namespace {
+
+using nlohmann::json;
+using Strings = std::vector<std::string>;
+
+constexpr Where kBoth[] = {Where::InProcess, Where::Isolated};
+
+// A tree that runs until it is stopped, after the leaf has done its misdeed.
+std::string endless_tree(const Misdeed& misdeed) {
+  return "<root lockstep=\"1\"><plugin name=\"hostile\"/><BehaviorTree ID=\"Main\">"
+         "<Misbehave name=\"arm\" how=\"" +
+         misdeed.how + "\" where=\"" + misdeed.where +
+         "\" ticks=\"1000000000\"/></BehaviorTree></root>";
+}
+
+}  // namespace
+
+TEST_CASE("what a leaf prints does not mix with the results") {
+  for (const Where where : kBoth) {
+    const Outcome outcome = run_hostile({"print"}, where, {"--clock", "virtual", "--json"});
+    INFO(outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(json::parse(outcome.out)["result"] == "success");
+    CHECK(contains(outcome.err, "printed by a leaf"));
+    CHECK(contains(outcome.err, "written by a leaf"));
+  }
+}
+
+TEST_CASE("a leaf that leaks is told by the memory it takes, and whose it is when isolated") {
+  const Outcome in_process = run_hostile({"leak"}, Where::InProcess, {"--clock", "virtual"});
+  CHECK(in_process.code == 0);
+  CHECK(contains(in_process.out, "memory grew by 1"));
+  const Outcome isolated = run_hostile({"leak"}, Where::Isolated, {"--clock", "virtual"});
+  CHECK(isolated.code == 0);
+  CHECK_FALSE(contains(isolated.out, "memory grew by"));  // it went with the plugin's process
+}
+
+TEST_CASE("a leaf that blocks all signals cannot keep a run from being stopped") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("tree.xml", endless_tree({"block signals"}));
+  for (const Where where : kBoth) {
+    Strings arguments = {"run",    tree,   "--plugin-path", LOCKSTEP_HOSTILE_DIRECTORY,
+                         "--view", "plain"};
+    if (where == Where::Isolated) arguments.emplace_back("--isolate");
+    Process process({.arguments = arguments});
+    REQUIRE(process.wait_for("Main/arm: started"));
+    process.signal(SIGINT);
+    const Outcome outcome = process.finish();
+    CHECK(outcome.code == 130);
+    CHECK(contains(outcome.err, "Main/arm: halted"));
+    CHECK(contains(outcome.out, "changed the signal mask") == (where == Where::InProcess));
+  }
+}
+
+TEST_CASE("a rounding mode that a leaf changes is set back, and it is named") {
+  const Outcome in_process = run_hostile({"round up"}, Where::InProcess, {"--clock", "virtual"});
+  CHECK(in_process.code == 0);
+  CHECK(contains(in_process.err,
+                 "arm' (Misbehave of plugin 'hostile') changed the floating-point mode in tick"));
+  const Outcome isolated = run_hostile({"round up"}, Where::Isolated, {"--clock", "virtual"});
+  CHECK(isolated.code == 0);
+  CHECK_FALSE(contains(isolated.err, "floating-point"));
+}
+
+TEST_CASE("a thread that a leaf leaves behind does not outlive the program") {
+  for (const Where where : kBoth) {
+    CHECK(run_hostile({"leave a thread"}, where, {"--clock", "virtual"}).code == 0);
+  }
+}
+
+TEST_CASE("a crash in a thread of a plugin is told as such") {
+  const Outcome in_process =
+      run_hostile({"segv in a thread"}, Where::InProcess, {"--clock", "virtual"});
+  CHECK(in_process.code == 6);
+  CHECK(contains(in_process.err, "thread"));
+  CHECK(run_hostile({"segv in a thread"}, Where::Isolated, {"--clock", "virtual"}).code == 5);
+}
+
+TEST_CASE("the host refuses a thread that is not the run's, but for log") {
+  for (const Where where : kBoth) {
+    const Outcome outcome =
+        run_hostile({"foreign call"}, where, {"--clock", "virtual", "--view", "plain"});
+    INFO(outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(contains(outcome.err, "a foreign thread was refused"));
+    CHECK_FALSE(contains(outcome.err, "a foreign thread was served"));
+  }
+}
+
+TEST_CASE("an isolated plugin leaves no process behind, however its run ends") {
+  for (const std::string how : {"", "segv", "hang", "leave a thread", "kill"}) {
+    INFO(how);
+    const Outcome outcome =
+        run_hostile({how}, Where::Isolated, {"--clock", "virtual", "--hang-limit", "0.2"});
+    CHECK(outcome.code == (how.empty() || how == "leave a thread" ? 0 : 5));
+    CHECK(processes_with(LOCKSTEP_HOSTILE_DIRECTORY "/hostile.so").empty());
+  }
+}
+
+TEST_CASE("killed with SIGKILL, a run leaves no process and a recording that can be read") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("tree.xml", endless_tree({""}));
+  const std::string file = directory.path("run.jsonl");
+  Process process({.arguments = {"run", tree, "--plugin-path", LOCKSTEP_HOSTILE_DIRECTORY,
+                                 "--isolate", "--view", "plain", "--record", file}});
+  REQUIRE(process.wait_for("Main/arm: started"));
+  while (lines(read_file(file)).size() < 3) {  // the first flush of ticks
+  }
+  process.signal(SIGKILL);
+  CHECK(process.finish().code == 128 + SIGKILL);
+  while (!processes_with(LOCKSTEP_HOSTILE_DIRECTORY "/hostile.so").empty()) {
+  }
+  const Outcome info = lockstep({"log", "info", file});
+  CHECK(info.code == 0);
+  CHECK(contains(info.err, "cut"));
+}
+
+TEST_CASE("after a crash in this process, the recording is whole up to the last completed tick") {
+  for (const std::string how : {"segv", "exit", "abort", "overflow", "hang"}) {
+    INFO(how);
+    const TemporaryDirectory directory;
+    const std::string file = directory.path("run.jsonl");
+    const std::string tree =
+        directory.file("tree.xml",
+                       "<root lockstep=\"1\"><plugin name=\"hostile\"/><BehaviorTree "
+                       "ID=\"Main\"><Misbehave at=\"8\" "
+                       "how=\"" +
+                           how + "\" ticks=\"100\"/></BehaviorTree></root>");
+    const Outcome outcome =
+        lockstep({"run", tree, "--plugin-path", LOCKSTEP_HOSTILE_DIRECTORY, "--record", file,
+                  "--clock", "virtual", "--hang-limit", "0.2"});
+    INFO(outcome.err);
+    CHECK(outcome.code == 6);
+    CHECK(contains(outcome.err, "tick 7"));
+    const auto recording = lines(read_file(file));
+    REQUIRE(recording.size() == 8);  // the header and the ticks 0 to 6
+    CHECK(json::parse(recording.back())["tick"] == 6);
+  }
+}
+
+}  // namespace lockstep::test
