@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "plugin/isolated/served_plugin.h"
+#include "runtime/crash_report.h"
 
 namespace {
 
@@ -28,5 +29,7 @@ int main(int argc, char** argv) {
                stderr);
     return kExitUsage;
   }
+  // The host tells that its process died; who was called, and where, is known only here.
+  lockstep::CrashReport::install(lockstep::CrashReport::kAsWithoutReport, nullptr);
   return lockstep::ServedPlugin::serve(argv[1]);
 }

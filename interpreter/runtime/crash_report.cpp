@@ -92,13 +92,20 @@ enum class Backtrace : bool { No, Yes };
   text.write_to(STDERR_FILENO);
   if (g_last_words != nullptr) g_last_words();
   if (wanted == Backtrace::Yes) write_backtrace(instruction);
+  if (g_exit_code == CrashReport::kAsWithoutReport && crash.kind == CrashKind::Signal) {
+    signal(crash.signal, SIG_DFL);
+    raise(crash.signal);
+  }
   _exit(g_exit_code);
 }
 
 Crash crash_here(CrashKind kind) {
   const CallMark& mark = CallMark::this_thread();
-  return {
-      .kind = kind, .call = mark.look(), .tick = mark.tick(), .is_foreign_thread = !t_is_prepared};
+  return {.kind = kind,
+          .call = mark.look(),
+          .tick = mark.tick(),
+          .is_foreign_thread = !t_is_prepared,
+          .is_isolated = g_exit_code == CrashReport::kAsWithoutReport};
 }
 
 Crash crash_of(int number, const siginfo_t& info, const Registers& registers) {
@@ -131,7 +138,7 @@ void on_fatal_signal(int number, siginfo_t* info, void* context) {
 }
 
 void at_process_end() {
-  if (getpid() != g_process) return;
+  if (getpid() != g_process || g_exit_code == CrashReport::kAsWithoutReport) return;
   const Crash crash = crash_here(CrashKind::Exit);
   if (g_runs == 0 && crash.call.function() == PluginFunction::None) return;
   begin_report();

@@ -18,6 +18,9 @@ class CrashReport {
   // SIGKILL, and a stack overflow in a thread that was not prepared. A process that a plugin forks
   // off is none of our business: its end is as without us.
   static void install(int exit_code, void (*last_words)());
+  // An exit code that is none: after its report the process ends by the signal that ended it, and
+  // exit() is left alone, for a parent that wants to know.
+  static constexpr int kAsWithoutReport = -1;
 
   // Gives this thread, until it ends, a stack on which the report of a stack overflow can be
   // written. Needed once for each of our threads: a thread without one is taken for a plugin's.

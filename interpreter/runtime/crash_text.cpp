@@ -129,9 +129,14 @@ void put_event(const Crash& crash, SignalText& text) {
 
 void put_hints(const Crash& crash, SignalText& text) {
   if (crash.sender != 0) return;
+  constexpr const char* kForAuthor =
+      "  hint: the author of the plugin needs the backtrace; c++filt makes it readable\n";
+  if (crash.is_isolated) {
+    text << kForAuthor;
+    return;
+  }
   if (is_inside_call(crash) || crash.is_foreign_thread || crash.kind == CrashKind::Hang) {
-    text << "  hint: run it with --isolate, and the run outlives this plugin\n"
-            "  hint: the author of the plugin needs the backtrace; c++filt makes it readable\n";
+    text << "  hint: run it with --isolate, and the run outlives this plugin\n" << kForAuthor;
     return;
   }
   text << "  hint: a plugin may have overwritten memory: with --isolate none can\n"

@@ -24,6 +24,7 @@ struct Crash {
   bool is_stack_overflow = false;  // whether that is just beyond the stack,
   pid_t sender = 0;                // and the other process that sent it, if any
   double seconds = 0;              // of a hang
+  bool is_isolated = false;        // in a process that holds nothing but the plugin
 };
 
 // Lines for a person: what happened, and hints what to do.

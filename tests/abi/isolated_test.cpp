@@ -9,6 +9,7 @@
 #include <catch2/catch.hpp>
 #include <cerrno>
 #include <condition_variable>
+#include <cstdio>
 #include <filesystem>
 #include <iterator>
 #include <mutex>
@@ -190,6 +191,51 @@ TEST_CASE("isolated: a process that dies in a call is an error of the leaf, and 
       CHECK(leaves.error_of(0, step.call) == death.error);
       CHECK(leaves.log == Strings{"Test/leaf0: create"});
     }
+  }
+}
+
+// What this process and its children write to standard error in between.
+class StandardError {
+ public:
+  StandardError() : file_(std::tmpfile()), before_(dup(STDERR_FILENO)) {
+    dup2(fileno(file_), STDERR_FILENO);
+  }
+  ~StandardError() {
+    dup2(before_, STDERR_FILENO);
+    close(before_);
+    std::fclose(file_);
+  }
+  StandardError(const StandardError&) = delete;
+  StandardError& operator=(const StandardError&) = delete;
+  std::string text() {
+    std::string text(1 << 16, '\0');
+    const auto size = pread(fileno(file_), text.data(), text.size(), 0);
+    text.resize(size < 0 ? 0 : static_cast<std::size_t>(size));
+    return text;
+  }
+
+ private:
+  std::FILE* file_;
+  int before_;
+};
+
+TEST_CASE("isolated: a process that crashes says where, and dies as it would have") {
+  const NothingRemains nothing_remains;
+  for (const char* how : {"raise", "overflow"}) {
+    INFO(how);
+    std::string report;
+    {
+      StandardError error;
+      Leaves leaves("crash", {crash_in("tick", how)}, Isolation::Isolated,
+                    std::chrono::seconds(20));
+      CHECK(leaves.tick() == "its process was killed by SIGSEGV (Segmentation fault)");
+      report = error.text();
+    }
+    INFO(report);
+    CHECK(report.find("the leaf 'Test/leaf0' (Crash of plugin 'crash') crashed in its tick") !=
+          std::string::npos);
+    CHECK(report.find("--isolate") == std::string::npos);  // it is
+    CHECK(report.find("crash.so") != std::string::npos);
   }
 }
 

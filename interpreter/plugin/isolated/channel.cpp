@@ -19,7 +19,9 @@ namespace {
 constexpr std::uint64_t kMagic = 0x31306b6c6b636f6cu;
 constexpr std::size_t kPage = 4096;
 constexpr std::size_t kFirstMapping = std::size_t{64} << 10;
-constexpr Nanoseconds kSpinTime = std::chrono::microseconds(50);
+constexpr Nanoseconds kLongestSpin = std::chrono::microseconds(50);
+constexpr Nanoseconds kShortestSpin = std::chrono::microseconds(1);
+constexpr unsigned kWaitsPerTry = 64;
 constexpr Nanoseconds kLongestSleep = std::chrono::seconds(1);
 constexpr std::uint32_t kNobody = 2;  // whose turn it is when there is no other side any more
 
@@ -45,7 +47,7 @@ void relax() {
 Nanoseconds useful_spin_time() {
   cpu_set_t set;
   const bool known = sched_getaffinity(0, sizeof set, &set) == 0;
-  return known && CPU_COUNT(&set) > 1 ? kSpinTime : Nanoseconds(0);
+  return known && CPU_COUNT(&set) > 1 ? kLongestSpin : Nanoseconds(0);
 }
 
 }  // namespace
@@ -84,7 +86,8 @@ bool Channel::open(int memory, Side side) {
   message_ = static_cast<std::byte*>(map(kFirstMapping, message_offset()));
   mapped_ = message_ == nullptr ? 0 : kFirstMapping;
   side_ = side;
-  spin_time_ = useful_spin_time();
+  longest_spin_ = useful_spin_time();
+  spin_time_ = longest_spin_;
   return message_ != nullptr;
 }
 
@@ -117,10 +120,7 @@ bool Channel::is_mine() const {
   return control_->turn.load() == static_cast<std::uint32_t>(side_);
 }
 
-bool Channel::spin(const std::atomic<bool>& gone) const {
-  if (is_mine()) return true;
-  if (spin_time_ == Nanoseconds(0)) return false;
-  const Nanoseconds end = monotonic_now() + spin_time_;
+bool Channel::spin_until(Nanoseconds end, const std::atomic<bool>& gone) const {
   do {
     for (int look = 0; look < 32; ++look) {
       if (is_mine()) return true;
@@ -128,6 +128,18 @@ bool Channel::spin(const std::atomic<bool>& gone) const {
     }
   } while (!gone.load(std::memory_order_relaxed) && monotonic_now() < end);
   return false;
+}
+
+// Spinning that does not help, because the other side sleeps or has no processor, keeps it from
+// getting one: then it becomes shorter, but for a try now and then.
+bool Channel::spin(const std::atomic<bool>& gone) {
+  if (is_mine()) return true;
+  if (longest_spin_ == Nanoseconds(0)) return false;
+  if (++waits_ % kWaitsPerTry == 0) spin_time_ = longest_spin_;
+  const bool helped = spin_until(monotonic_now() + spin_time_, gone);
+  spin_time_ =
+      helped ? std::min(spin_time_ * 2, longest_spin_) : std::max(spin_time_ / 2, kShortestSpin);
+  return helped;
 }
 
 Channel::Wait Channel::wait(std::optional<Nanoseconds> deadline, const std::atomic<bool>& gone) {

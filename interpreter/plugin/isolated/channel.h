@@ -56,7 +56,8 @@ class Channel {
     alignas(64) LogRing log;
   };
   bool is_mine() const;
-  bool spin(const std::atomic<bool>& gone) const;
+  bool spin(const std::atomic<bool>& gone);
+  bool spin_until(Nanoseconds end, const std::atomic<bool>& gone) const;
   bool reserve(std::size_t size);
   static std::size_t message_offset();
 
@@ -64,7 +65,9 @@ class Channel {
   std::byte* message_ = nullptr;  // as much of it as was needed so far
   std::size_t mapped_ = 0;
   Side side_ = Side::Host;
+  Nanoseconds longest_spin_{0};
   Nanoseconds spin_time_{0};
+  unsigned waits_ = 0;
   std::vector<std::byte> copy_;
 };
 

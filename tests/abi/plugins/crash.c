@@ -1,6 +1,7 @@
 /* A leaf that dies, or never returns, in the function that its port 'where' names, in the way that
  * 'how' names; else it runs for ever. `log` it does when it is created, so that a line comes before
  * the end. */
+#include <limits.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,6 +18,14 @@ static bool port_is(const lockstep_caller* caller, uint32_t port, const char* wo
   return strcmp(text, word) == 0;
 }
 
+static volatile int g_depth;
+
+static int overflow(int depth) {
+  volatile char frame[4096];
+  frame[0] = (char)depth;
+  return g_depth == INT_MAX ? 0 : overflow(depth + 1) + frame[0];
+}
+
 /* A signal that ends the process also where a sanitizer listens for it. */
 static void die_by(int signal_number) {
   signal(signal_number, SIG_DFL);
@@ -27,6 +36,8 @@ static void reached(const lockstep_caller* caller, const char* function) {
   if (!port_is(caller, 0, function)) return;
   if (port_is(caller, 1, "segv")) die_by(SIGSEGV);
   if (port_is(caller, 1, "abort")) die_by(SIGABRT);
+  if (port_is(caller, 1, "raise")) raise(SIGSEGV);
+  if (port_is(caller, 1, "overflow")) g_depth = overflow(1);
   if (port_is(caller, 1, "exit")) exit(3);
   if (port_is(caller, 1, "_exit")) _exit(4);
   while (port_is(caller, 1, "hang")) pause();
