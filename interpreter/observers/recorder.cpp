@@ -13,7 +13,7 @@ namespace {
 // The longest line of a tick without faults, and the line before it that tells of lost ticks.
 std::size_t most_of_line(const Tree& tree) {
   constexpr std::size_t kMostOfRest = 256;
-  return kMostOfRest + tree.nodes.size() * RecordingDelta::kMostOfNode;
+  return kMostOfRest + tree.nodes.size() * kMostOfNode;
 }
 
 // A line that is longer than the queue could never be written, so the queue has room for several.

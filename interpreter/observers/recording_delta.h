@@ -12,9 +12,6 @@ namespace lockstep {
 
 class RecordingDelta {
  public:
-  // No node's part of a line is longer: [4294967295,"success",0.12345678901234567,1,0] and a comma.
-  static constexpr std::size_t kMostOfNode = 64;
-
   explicit RecordingDelta(const Tree& tree);
 
   // Asks every running node for its progress.

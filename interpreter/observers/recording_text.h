@@ -20,6 +20,8 @@ inline void append_text(fmt::memory_buffer& out, std::string_view text) {
 // Nanoseconds as exact seconds, "0.03", where a double would say 0.030000000000000002.
 void append_seconds(fmt::memory_buffer& out, Nanoseconds time);
 
+// No node's part of a line is longer: [4294967295,"success",0.12345678901234567,1,0] and a comma.
+constexpr std::size_t kMostOfNode = 64;
 // [3,"running",0.25,1,0]
 void append_node(fmt::memory_buffer& out, NodeIndex node, const RecordedState& state);
 

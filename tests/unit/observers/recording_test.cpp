@@ -6,6 +6,7 @@
 #include "observers/recording_csv.h"
 #include "observers/recording_info.h"
 #include "observers/recording_reader.h"
+#include "observers/recording_text.h"
 #include "unit/observers/watched_run.h"
 
 namespace lockstep {
@@ -58,6 +59,26 @@ TEST_CASE("a recording, byte by byte") {
 TEST_CASE("a tick in which nothing changes is a line without nodes") {
   const std::string text = record("Sequence(a)", "a=R", 3);
   CHECK(text.find("{\"tick\":2,\"time_s\":0.2,\"nodes\":[]}\n") != std::string::npos);
+}
+
+TEST_CASE("numbers are written with as many digits as are needed, and no more") {
+  const auto text_of = [](double progress) {
+    fmt::memory_buffer out;
+    append_node(out, 4294967295, {.status = Status::Success, .progress = progress, .held = true});
+    CHECK(out.size() < kMostOfNode);
+    return std::string(out.data(), out.size());
+  };
+  const auto expected = [](const std::string& progress) {
+    return "[4294967295,\"success\"," + progress + ",0,1]";
+  };
+  CHECK(text_of(0) == expected("0"));
+  CHECK(text_of(-0.0) == expected("-0"));
+  CHECK(text_of(1) == expected("1"));
+  CHECK(text_of(0.3) == expected("0.3"));
+  CHECK(text_of(0.1 + 0.2) == expected("0.30000000000000004"));
+  CHECK(text_of(0.00012345678901234567) == expected("0.00012345678901234567"));
+  CHECK(text_of(1e-5) == expected("1e-05"));
+  CHECK(text_of(2.2250738585072014e-308) == expected("2.2250738585072014e-308"));
 }
 
 TEST_CASE("the closing line of a run with a fault names the leaf") {
