@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
+#include <stdexcept>
 
 #include "unit/runtime/timed_leaf.h"
 
@@ -277,6 +278,32 @@ TEST_CASE("the worst tick names the leaf that took at least half of it") {
   CHECK(end.worst.took == milliseconds(first + second + 2));
   CHECK(end.worst.leaf == named);
   CHECK(end.worst.leaf_took == (named ? Nanoseconds(milliseconds(5)) : Nanoseconds(0)));
+}
+
+TEST_CASE("a report has the faults that the run goes on after") {
+  struct Faults final : Observer {
+    void after_tick(Ticker&, const TickReport& report) override {
+      for (const Fault& fault : report.faults) {
+        told.push_back(std::to_string(report.tick) + " " + std::to_string(fault.node) + " " +
+                       fault.message);
+      }
+    }
+    std::vector<std::string> told;
+  } faults;
+  Fixture fixture(2);
+  std::uint64_t ticks = 0;
+  TimedLeaves::on_tick = [&](std::uint32_t leaf) {
+    if (leaf == 1 && ++ticks == 3) throw std::runtime_error("no arm");
+  };
+  RunOptions run_options;
+  run_options.on_fault = FaultPolicy::Fail;
+  Run run(fixture.timed.tree, run_options);
+  Observer* const observers[] = {&faults};
+  const RunEnd end =
+      run_loop(run, fixture.clock, options_at(100, 10, OverrunPolicy::Skip), observers);
+  CHECK(end.reason == StopReason::Completed);
+  CHECK(end.status == Status::Failure);
+  CHECK(faults.told == std::vector<std::string>{"2 2 threw an exception: no arm"});
 }
 
 TEST_CASE("on a virtual clock nothing is late and no tick is the worst") {
