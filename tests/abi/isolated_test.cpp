@@ -1,7 +1,10 @@
 // Plugins in processes of their own: whatever becomes of such a process, its leaves have a fault
 // and nothing else happens; and as long as it lives, nobody can tell it from this one.
 #include <fmt/format.h>
+#include <poll.h>
 #include <signal.h>
+#include <spawn.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -10,7 +13,9 @@
 #include <cerrno>
 #include <condition_variable>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <mutex>
 #include <thread>
@@ -72,7 +77,11 @@ Tree leaves_of(const NodeType& type, const std::vector<std::vector<Value>>& rows
   for (const auto& row : rows) {
     const auto node = static_cast<NodeIndex>(tree.nodes.size());
     tree.nodes.push_back(Node{&kPluginAction, node + 1, 0, node, 0});
-    tree.labels.push_back(NodeLabel{"leaf", fmt::format("leaf{}", node), &type, node});
+    static constexpr std::string_view kNames[] = {"leaf0", "leaf1"};
+    NodeLabel& label = tree.labels.emplace_back();
+    label.name = kNames[node];
+    label.type = &type;
+    label.parent = node;
     tree.leaves.push_back(LeafNode{node, &type, static_cast<std::uint32_t>(tree.ports.size())});
     for (std::uint32_t port = 0; port < type.parameters.size(); ++port) {
       if (port >= row.size()) {
@@ -273,8 +282,7 @@ TEST_CASE("isolated: the end of a leaf that kills its process is a line in the l
           "fault)"});
 }
 
-TEST_CASE(
-    "isolated: the other leaves of a process that is gone know why; there is nothing to halt") {
+TEST_CASE("isolated: the other leaves of a process that is gone know why and are not halted") {
   const NothingRemains nothing_remains;
   Leaves leaves("crash", {crash_in("tick", "segv"), kNoCrash});
   CHECK(leaves.tick(1).empty());
@@ -298,6 +306,63 @@ TEST_CASE("isolated: a process that somebody kills between two calls is gone") {
   // The one when it is known before the call, the other when the call finds out.
   CHECK((error == "its process is gone: it was killed by SIGKILL (Killed)" ||
          error == "its process was killed by SIGKILL (Killed)"));
+}
+
+// Whether the process, of whomever it is the child, is gone soon.
+bool is_ending(pid_t process) {
+  const int descriptor = static_cast<int>(syscall(SYS_pidfd_open, process, 0));
+  if (descriptor < 0) return errno == ESRCH;
+  pollfd end{descriptor, POLLIN, 0};
+  const bool ended = poll(&end, 1, 20'000) == 1;
+  close(descriptor);
+  return ended;
+}
+
+TEST_CASE("isolated: what a plugin has started ends with its process") {
+  const NothingRemains nothing_remains;
+  pid_t offspring = 0;
+  {
+    Leaves leaves("crash", {crash_in("tick", "fork")}, Isolation::Isolated,
+                  std::chrono::seconds(20));
+    CHECK(leaves.tick().empty());
+    REQUIRE(leaves.log.size() == 2);
+    offspring = std::stoi(leaves.log[1].substr(leaves.log[1].find(' ')));
+    REQUIRE(kill(offspring, 0) == 0);
+  }
+  CHECK(is_ending(offspring));
+}
+
+constexpr const char* kDoomed = "isolated: a host that is about to be killed";
+
+// Not a test: the program that the next one runs.
+TEST_CASE("isolated: a host that is about to be killed", "[.]") {
+  if (std::getenv("LOCKSTEP_TEST_DOOMED") == nullptr) return;
+  Leaves leaves("crash", {crash_in("tick", "fork"), crash_in("tick", "hang")}, Isolation::Isolated,
+                std::chrono::seconds(100));
+  leaves.tick(0);
+  std::ofstream(std::getenv("LOCKSTEP_TEST_DOOMED")) << leaves.log.back().substr(13) << std::flush;
+  std::thread([] { kill(getpid(), SIGKILL); }).detach();
+  leaves.tick(1);
+}
+
+TEST_CASE("isolated: nothing outlives a host that is killed") {
+  const std::string path = fmt::format("{}/doomed_{}", LOCKSTEP_ABI_PLUGINS, getpid());
+  const std::string variable = "LOCKSTEP_TEST_DOOMED=" + path;
+  std::string name = "/proc/self/exe", test = kDoomed, variable_text = variable;
+  std::vector<char*> variables{variable_text.data()};
+  for (char** it = environ; *it != nullptr; ++it) variables.push_back(*it);
+  variables.push_back(nullptr);
+  char* arguments[] = {name.data(), test.data(), nullptr};
+  pid_t host = 0;
+  REQUIRE(posix_spawn(&host, name.c_str(), nullptr, nullptr, arguments, variables.data()) == 0);
+  int status = 0;
+  REQUIRE(waitpid(host, &status, 0) == host);
+  CHECK((WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL));
+  pid_t offspring = 0;
+  std::ifstream(path) >> offspring;
+  fs::remove(path);
+  REQUIRE(offspring > 0);
+  CHECK(is_ending(offspring));  // it is of the group of its process
 }
 
 TEST_CASE("isolated: a run that begins anew after a crash has a new process") {

@@ -24,13 +24,13 @@ inline void write_answer(const Answer& answer, MessageWriter& message) {
   message.put_text(answer.what);
 }
 
-inline Answer read_answer(MessageReader& message) {
-  Answer answer;
+// False: the message makes no sense.
+inline bool read_answer(MessageReader& message, Answer& answer) {
   answer.outcome = message.get<Outcome>();
   answer.result = message.get<std::uint64_t>();
   answer.error = message.text();
   answer.what = message.text();
-  return answer;
+  return message.good() && answer.outcome <= Outcome::TooLarge;
 }
 
 // Stands for an exception that is not a std::exception.

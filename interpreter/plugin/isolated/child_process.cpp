@@ -112,6 +112,10 @@ std::string ChildProcess::start(const std::string& program, const std::string& a
 }
 
 ChildProcess::~ChildProcess() {
+  if (pid_ > 0) {
+    kill();
+    reap();
+  }
   if (descriptor_ >= 0) close(descriptor_);
 }
 

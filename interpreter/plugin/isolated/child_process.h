@@ -20,7 +20,7 @@ class ChildProcess {
                     int lifeline);
 
   ChildProcess() = default;
-  // It must have been reaped.
+  // Kills and reaps it, unless that is done.
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;

@@ -99,7 +99,7 @@ std::unique_ptr<Session> IsolatedPlugin::acquire(std::string& failure) {
   }
   auto session = std::make_unique<Session>();
   if (auto refusal = start(*session)) {
-    failure = "plugin " + refusal->message;
+    failure = refusal->message;
   } else {
     failure = initialize_in(*session);
   }

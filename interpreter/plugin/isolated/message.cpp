@@ -96,7 +96,8 @@ bool MessageReader::value_into(Value& value) {
       list.resize(count);
       const std::byte* const data = take(count * sizeof(double));
       if (count != 0) std::memcpy(list.data(), data, count * sizeof(double));
-      return std::ranges::all_of(list, [](double it) { return std::isfinite(it); }) || fail();
+      const bool finite = std::ranges::all_of(list, [](double it) { return std::isfinite(it); });
+      return (good_ && finite) || fail();
     }
   }
   return fail();

@@ -82,8 +82,8 @@ void fail_too_large(const lockstep_caller& caller) {
 // Repeats here what the plugin did there. The result's bits.
 std::uint64_t take_answer(RemoteRun& run, const lockstep_caller& caller) {
   MessageReader message = run.session().answer();
-  const Answer answer = read_answer(message);
-  if (!message.good() || !run.entries().read(message)) {
+  Answer answer;
+  if (!read_answer(message, answer) || !run.entries().read(message)) {
     run.session().reject_answer();
     fail(caller, run.session().last_words());
     return 0;

@@ -3,6 +3,7 @@
  * the end. */
 #include <limits.h>
 #include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -32,6 +33,15 @@ static void die_by(int signal_number) {
   raise(signal_number);
 }
 
+/* Starts a process that never ends, and logs its number. */
+static void leave_offspring(const lockstep_caller* caller) {
+  char text[32];
+  const pid_t child = fork();
+  while (child == 0) pause();
+  snprintf(text, sizeof text, "%d", (int)child);
+  g_host->log(caller, LOCKSTEP_LOG_INFO, text);
+}
+
 static void reached(const lockstep_caller* caller, const char* function) {
   if (!port_is(caller, 0, function)) return;
   if (port_is(caller, 1, "segv")) die_by(SIGSEGV);
@@ -40,6 +50,7 @@ static void reached(const lockstep_caller* caller, const char* function) {
   if (port_is(caller, 1, "overflow")) g_depth = overflow(1);
   if (port_is(caller, 1, "exit")) exit(3);
   if (port_is(caller, 1, "_exit")) _exit(4);
+  if (port_is(caller, 1, "fork")) leave_offspring(caller);
   while (port_is(caller, 1, "hang")) pause();
 }
 
