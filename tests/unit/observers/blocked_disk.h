@@ -2,6 +2,7 @@
 #pragma once
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -48,6 +49,9 @@ class BlockedDisk {
  private:
   void read_all() {
     char bytes[kPage];
+    // A pipe that no writer has opened yet would be at its end.
+    pollfd writer{pipe_, POLLIN, 0};
+    ::poll(&writer, 1, -1);
     while (true) {
       const ssize_t count = ::read(pipe_, bytes, sizeof bytes);
       if (count <= 0) return;
