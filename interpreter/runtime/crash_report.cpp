@@ -158,6 +158,7 @@ void CrashReport::install(int exit_code, void (*last_words)()) {
   action.sa_sigaction = on_fatal_signal;
   action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER;
   sigfillset(&action.sa_mask);
+  sigdelset(&action.sa_mask, SIGALRM);
   for (const int number : kFatalSignals) sigdelset(&action.sa_mask, number);
   for (const int number : kFatalSignals) sigaction(number, &action, nullptr);
   static const bool registered =

@@ -67,7 +67,7 @@ TEST_CASE("a look from another thread never mixes two calls") {
   });
   while (watched == nullptr) std::this_thread::yield();
   int mixed = 0, ticks = 0, halts = 0;
-  for (int look = 0; look < 200'000 || ticks == 0 || halts == 0; ++look) {
+  for (int look = 0; look < 5'000'000 || ticks == 0 || halts == 0; ++look) {
     const CallMark::Look seen = watched.load()->look();
     if (seen.function() == PluginFunction::None) continue;
     const bool is_tick = seen.function() == PluginFunction::Tick;
