@@ -17,7 +17,7 @@ Ended in_child(const std::function<void()>& body) {
     dup2(ends[1], STDERR_FILENO);
     close(ends[0]);
     close(ends[1]);
-    alarm(60);  // a test that fails should end
+    alarm(30);  // a test that fails should end
     body();
     _exit(0);
   }
