@@ -7,6 +7,8 @@
 #include <thread>
 #include <utility>
 
+#include "runtime/crash_report.h"
+
 namespace lockstep {
 
 template <class Function>
@@ -15,7 +17,10 @@ std::thread quiet_thread(Function function) {
   sigfillset(&all);
   for (const int crash : {SIGSEGV, SIGBUS, SIGFPE, SIGILL}) sigdelset(&all, crash);
   pthread_sigmask(SIG_SETMASK, &all, &before);
-  std::thread thread(std::move(function));
+  std::thread thread([function = std::move(function)]() mutable {
+    CrashReport::prepare_thread();
+    function();
+  });
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
   return thread;
 }

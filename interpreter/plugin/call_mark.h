@@ -42,6 +42,8 @@ struct CallSite {
 class CallMark {
  public:
   // Async-signal-safe.
+  static constexpr std::uint32_t kBounded = 0x80;
+
   static CallMark& this_thread();
 
   void enter(const CallSite& site, PluginFunction function) {
@@ -50,6 +52,10 @@ class CallMark {
     call_.store(serial_ | static_cast<std::uint32_t>(function), std::memory_order_release);
   }
   void leave() { call_.store(serial_, std::memory_order_release); }
+  // Somebody else sees to it that this call returns in time.
+  void set_bounded() {
+    call_.store(call_.load(std::memory_order_relaxed) | kBounded, std::memory_order_release);
+  }
 
   // The tick that the thread is in or was in last, for the message only; public numbers, from 0.
   void set_tick(std::uint64_t tick) { tick_.store(tick, std::memory_order_relaxed); }
@@ -59,7 +65,8 @@ class CallMark {
     const CallSite* site = nullptr;  // outside of a call: of the last one
     std::uint32_t call = 0;          // a number of the call; the low byte is its function
 
-    PluginFunction function() const { return static_cast<PluginFunction>(call & 0xff); }
+    PluginFunction function() const { return static_cast<PluginFunction>(call & 0x7f); }
+    bool is_bounded() const { return (call & kBounded) != 0; }
     friend bool operator==(const Look&, const Look&) = default;
   };
   Look look() const;

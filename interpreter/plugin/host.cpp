@@ -15,10 +15,17 @@ lockstep_caller& mine(const lockstep_caller* caller) {
   return const_cast<lockstep_caller&>(*caller);  // NOLINT: every caller is made non-constant
 }
 
+// Another thread than the run's, from which only log may be called: it must find nothing to read
+// or to change while a tick goes on.
+bool is_foreign(const lockstep_caller* caller) {
+  return caller->time->thread != nullptr && caller->time->thread != this_thread_id();
+}
+
 // The port's value when it has one of this type.
 template <class T>
 const T* readable(const lockstep_caller* caller, std::uint32_t port) {
-  if (port >= caller->ports.size() || caller->ports[port].read == nullptr) return nullptr;
+  if (is_foreign(caller) || port >= caller->ports.size()) return nullptr;
+  if (caller->ports[port].read == nullptr) return nullptr;
   return std::get_if<T>(caller->ports[port].read);
 }
 
@@ -52,7 +59,8 @@ void note_written(std::vector<Value*>& written, Value* entry) {
 }
 
 Value* writable(const lockstep_caller* caller, std::uint32_t port, ValueType type) {
-  if (port >= caller->ports.size() || caller->ports[port].type != type) return nullptr;
+  if (is_foreign(caller) || port >= caller->ports.size()) return nullptr;
+  if (caller->ports[port].type != type) return nullptr;
   Value* const entry = caller->ports[port].write;
   if (caller->written != nullptr && entry != nullptr) note_written(*caller->written, entry);
   return entry;
@@ -111,6 +119,7 @@ bool set_double_list(const lockstep_caller* caller, std::uint32_t port, const do
 }
 
 void set_error(const lockstep_caller* caller, const char* message) {
+  if (is_foreign(caller)) return;
   lockstep_caller& it = mine(caller);
   if (it.slot->error != nullptr) return;  // the first is the cause
   if (message == nullptr || *message == '\0') message = "unknown error";
@@ -122,17 +131,17 @@ void set_error(const lockstep_caller* caller, const char* message) {
 }
 
 double now(const lockstep_caller* caller) {
-  return to_seconds(caller->time->now);
+  return is_foreign(caller) ? 0 : to_seconds(caller->time->now);
 }
 double tick_period(const lockstep_caller* caller) {
   return to_seconds(caller->time->period);
 }
 
 std::uint64_t random_bits(const lockstep_caller* caller) {
-  return mine(caller).random.next();
+  return is_foreign(caller) ? 0 : mine(caller).random.next();
 }
 double random_double(const lockstep_caller* caller) {
-  return mine(caller).random.next_double();
+  return is_foreign(caller) ? 0 : mine(caller).random.next_double();
 }
 
 void log(const lockstep_caller* caller, lockstep_log_level level, const char* message) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "plugin/call_mark.h"
 #include "plugin/descriptor.h"
 #include "plugin/initialize.h"
 #include "plugin/isolated/isolated_plugin.h"
@@ -77,6 +78,8 @@ PluginSet::~PluginSet() {
     const auto deinit = (*plugin)->descriptors.plugin.deinit;
     if (!(*plugin)->initialized || deinit == nullptr) continue;
     try {
+      const MarkedCall mark(CallSite::of("", (*plugin)->descriptors.plugin.name),
+                            PluginFunction::Deinit);
       deinit();
     } catch (...) {  // NOLINT(bugprone-empty-catch): the work is done, nobody is left to tell
     }

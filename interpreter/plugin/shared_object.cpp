@@ -6,7 +6,9 @@
 
 #include <string_view>
 
+#include "plugin/call_mark.h"
 #include "plugin/elf_file.h"
+#include "plugin/float_mode.h"
 
 namespace lockstep {
 namespace {
@@ -36,7 +38,12 @@ std::optional<Refusal> open_shared_object(const std::string& path, SharedObject&
   if (auto refusal = inspect_elf_file(path)) return refusal;
   // A name without a slash would be searched in the system's library directories.
   const std::string file = path.find('/') == path.npos ? "./" + path : path;
-  object.handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  const FloatMode mode = FloatMode::current();
+  {
+    const MarkedCall mark(CallSite::of("", path), PluginFunction::Load);
+    object.handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  }
+  mode.restore();
   if (object.handle != nullptr) return std::nullopt;
   const std::string error = linker_error(file);
   return Refusal{fmt::format("cannot be loaded: {}", error), hint_for(error)};

@@ -4,13 +4,24 @@ namespace lockstep {
 
 Run::Run(const Tree& tree, const RunOptions& options)
     : blackboard_(tree),
-      time_{.now = Nanoseconds(0), .period = options.period},
+      time_{.now = Nanoseconds(0), .period = options.period, .thread = this_thread_id()},
       watch_(options.watch),
       leaves_(tree, blackboard_, time_, options.seed, options.log, options.watch),
       ticker_(tree, leaves_.slots(), options.on_fault) {}
 
 Run::~Run() {
   halt();
+}
+
+void Run::halt() {
+  adopt_thread();
+  ticker_.halt_all();
+}
+
+// A run may be ticked by one thread now and by another later. Written only then, for the sake of
+// threads that have no business to look.
+void Run::adopt_thread() {
+  if (time_.thread != this_thread_id()) time_.thread = this_thread_id();
 }
 
 void Run::restart(std::uint64_t seed) {
@@ -23,6 +34,7 @@ void Run::restart(std::uint64_t seed) {
 }
 
 void Run::set_now(Nanoseconds now) {
+  adopt_thread();
   time_.now = now;
   ticker_.set_now(now);
 }

@@ -38,7 +38,7 @@ class Run {
   // One tick of the root at `now`; see Ticker::tick_root.
   Status tick(Nanoseconds now);
   // Halts every running leaf, in order.
-  void halt() { ticker_.halt_all(); }
+  void halt();
 
   // Null while every leaf has kept its contract.
   const Fault* fault() const;
@@ -47,6 +47,8 @@ class Run {
   LeafWatch* watch() const { return watch_; }  // null: nobody watches
 
  private:
+  void adopt_thread();
+
   Blackboard blackboard_;
   LeafTime time_;
   LeafWatch* watch_;

@@ -112,7 +112,8 @@ void Watchdog::Implementation::look(Nanoseconds elapsed) {
       !std::exchange(halt_told, true) && options.on_long_halt) {
     options.on_long_halt(call, lasts);
   }
-  if (is_over(options.hang_limit) && !std::exchange(hang_told, true) && options.on_hang) {
+  if (!call.is_bounded() && is_over(options.hang_limit) && !std::exchange(hang_told, true) &&
+      options.on_hang) {
     options.on_hang(call, lasts);
   }
 }

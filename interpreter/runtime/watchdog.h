@@ -12,7 +12,7 @@
 namespace lockstep {
 
 struct WatchdogOptions {
-  Nanoseconds hang_limit{0};  // a call that lasts longer ends the process; 0 = never
+  Nanoseconds hang_limit{0};  // a call that lasts longer, unless it is bounded; 0 = never
   Nanoseconds halt_limit{0};  // a halt that lasts longer is told once; 0 = never
   // On the watchdog's thread.
   std::function<void(const CallMark::Look& call, Nanoseconds lasts)> on_long_halt = {};

@@ -39,10 +39,8 @@ std::string hostile_tree(const Misdeed& misdeed) {
 Outcome run_hostile(const Misdeed& misdeed, Where where, std::vector<std::string> options,
                     std::map<std::string, std::string> environment) {
   const TemporaryDirectory directory;
-  std::vector<std::string> arguments = {
-      "run",           directory.file("tree.xml", hostile_tree(misdeed)),
-      "--plugin-path", LOCKSTEP_HOSTILE_DIRECTORY,
-      "--view",        "none"};
+  std::vector<std::string> arguments = {"run", directory.file("tree.xml", hostile_tree(misdeed)),
+                                        "--plugin-path", LOCKSTEP_HOSTILE_DIRECTORY};
   if (where == Where::Isolated) arguments.emplace_back("--isolate");
   arguments.insert(arguments.end(), options.begin(), options.end());
   return run({.arguments = arguments, .environment = std::move(environment)});

@@ -190,6 +190,7 @@ void ServedRun::perform(Object& object, PluginFunction function, MessageWriter& 
 
 bool ServedRun::answer(PluginFunction function, MessageReader& request, MessageWriter& answer) {
   const auto number = request.get<std::uint32_t>();
+  time_.thread = this_thread_id();
   time_.now = request.get<Nanoseconds>();
   time_.period = request.get<Nanoseconds>();
   Object* const object = function == PluginFunction::CreateRun ? create_run(request)

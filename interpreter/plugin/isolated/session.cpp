@@ -141,8 +141,7 @@ bool Session::call(std::string_view who) {
     last_words_ = epitaph();
     return false;
   }
-  // From here on it is our own time: whoever watches for hangs of leaves is not meant.
-  CallMark::this_thread().leave();
+  CallMark::this_thread().set_bounded();  // by hang_limit_
   channel_.send(request_.bytes());
   const auto result = channel_.wait(deadline(), gone_);
   if (result == Channel::Wait::Received) {

@@ -15,6 +15,8 @@
  *   [run]   called by the thread that ticks this run. One run is ticked by one thread at a time;
  *           the leaves of one run are never called at the same time. Other runs of the same plugin
  *           may be ticked by other threads at that moment: what they share must be guarded.
+ *           A function of the host with this mark refuses other threads: get and set return false,
+ *           set_error does nothing, numbers are 0.
  *   [any]   may be called from any thread, as long as the leaf exists.
  *
  * Memory. Descriptors and every string in them belong to the plugin and stay valid and unchanged
