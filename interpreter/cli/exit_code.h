@@ -12,6 +12,7 @@ enum ExitCode : int {
   kExitLeafFault = 5,
   kExitLeafCrash = 6,  // a plugin crashed or hung in this process
   kExitOverrun = 7,    // --overrun fail
+  kExitRecording = 8,  // --on-record-error stop
   kExitLimit = 124,    // --timeout or --max-ticks
   kExitSignal = 128,   // + the signal
 };

@@ -34,6 +34,8 @@ int exit_code_of(const RunEnd& end) {
       return kExitSignal + end.signal;
     case StopReason::Overrun:
       return kExitOverrun;
+    case StopReason::Recording:
+      return kExitRecording;
   }
   return kExitLeafFault;
 }
@@ -75,14 +77,15 @@ class RunCommand {
       print_diagnostics(refused, Severity::Warning, stderr);
       return kExitPluginRefused;
     }
-    const int code = run_tree();
-    guard.print_results([this] { print_summary(); });
+    const auto end = run_tree();
+    if (end) guard.print_results([this] { print_summary(); });
     plugins.reset();
-    return code;
+    return end ? exit_code_of(*end) : kExitUsage;
   }
 
  private:
-  int run_tree() {
+  // Nothing when the system refuses what the user asks of it.
+  std::optional<RunEnd> run_tree() {
     WallClock wall_clock;
     VirtualClock virtual_clock;
     Clock& clock = options_.is_wall() ? static_cast<Clock&>(wall_clock) : virtual_clock;
@@ -90,14 +93,14 @@ class RunCommand {
     std::optional<Fault> fault;
     {
       Run run(tree_, run_options());
-      if (!make_realtime()) return kExitUsage;
-      end = run_loop(run, clock, options_.loop(), observers());
+      if (!make_realtime()) return std::nullopt;
+      end = run_loop(run, clock, loop_options(), observers());
       if (run.fault() != nullptr) fault = *run.fault();
       watch_.run_ended();
     }
     view_.close();
     if (fault) print_error(describe(*fault, tree_, end));
-    return exit_code_of(end);
+    return end;
   }
 
   // Threads that were started before keep their priority and their processors.
@@ -128,6 +131,14 @@ class RunCommand {
     return recorder;
   }
 
+  LoopOptions loop_options() {
+    LoopOptions loop = options_.loop();
+    if (recorder_ && options_.stop_on_record_error) {
+      loop.recording_failed = [this] { return recorder_->failed(); };
+    }
+    return loop;
+  }
+
   std::span<Observer* const> observers() {
     observers_ = {&statistics_};
     if (recorder_) observers_.push_back(&*recorder_);
@@ -139,6 +150,10 @@ class RunCommand {
   void print_summary() {
     Summary summary = statistics_.summary();
     if (recorder_ && !recorder_->error().empty()) summary.notes.push_back(recorder_->error());
+    if (recorder_ && recorder_->lost() != 0) {
+      summary.notes.push_back(fmt::format("the recording lacks {}: the disk was too slow",
+                                          counted(recorder_->lost(), "tick")));
+    }
     watch_.add_to(summary);
     if (options_.json) {
       fmt::print("{}\n", to_json(summary));
@@ -201,7 +216,7 @@ const Command kRunCommand{
     "run", "Run a tree at a fixed rate until it completes",
     "The summary goes to stdout, everything else to stderr.\n"
     "Exit code: 0 Success, 1 Failure, 2 usage, 3 invalid tree, 4 plugin refused, 5 leaf fault,\n"
-    "6 a plugin crashed or hung, 7 --overrun fail,\n"
+    "6 a plugin crashed or hung, 7 --overrun fail, 8 --on-record-error stop,\n"
     "124 --timeout or --max-ticks, 130 SIGINT, 143 SIGTERM (running leaves are halted in order; a\n"
     "second signal ends the program at once).\n"
     "\n"

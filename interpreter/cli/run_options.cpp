@@ -130,6 +130,9 @@ void define_run_options(CLI::App& app, RunCommandOptions& options) {
   app.add_option("--record", options.record,
                  "Write a recording (JSON Lines; see docs/recording.md)")
       ->type_name("FILE.jsonl");
+  add_choice<bool>(app, "--on-record-error", options.stop_on_record_error,
+                   {{"stop", true}, {"go-on", false}},
+                   "When the recording cannot be written any more, as on a full disk");
   app.add_option("--view", options.view,
                  "On stderr while it runs: live (a terminal), plain lines, none; auto = live on a "
                  "terminal, else plain")

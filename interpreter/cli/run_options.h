@@ -28,6 +28,7 @@ struct RunCommandOptions {
   double halt_limit = 1;  // seconds; 0 = never. The hang limit is among the plugin options.
 
   std::string record;
+  bool stop_on_record_error = false;
   std::string view = "auto";
   bool json = false;
 

@@ -29,6 +29,8 @@ std::string why(const Summary& summary) {
       return fmt::format("signal: {}", strsignal(summary.signal));
     case StopReason::Overrun:
       return "a tick missed the next deadline";
+    case StopReason::Recording:
+      return "the recording cannot be written";
   }
   return {};
 }
@@ -120,8 +122,8 @@ std::string counted(std::uint64_t count, std::string_view noun) {
 }
 
 std::string_view to_string(StopReason reason) {
-  constexpr std::string_view kNames[] = {"completed", "fault",  "timeout",
-                                         "max_ticks", "signal", "overrun"};
+  constexpr std::string_view kNames[] = {"completed", "fault",   "timeout",  "max_ticks",
+                                         "signal",    "overrun", "recording"};
   return kNames[static_cast<unsigned>(reason)];
 }
 

@@ -38,6 +38,9 @@ class Loop {
       end_.signal = options_.stop_signal();
       return stop(StopReason::Signal);
     }
+    if (options_.recording_failed && options_.recording_failed()) {
+      return stop(StopReason::Recording);
+    }
     if (options_.max_ticks && end_.ticks >= *options_.max_ticks) return stop(StopReason::MaxTicks);
     if (options_.timeout && clock_.now() - start_ >= *options_.timeout) {
       return stop(StopReason::Timeout);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 
@@ -27,6 +28,7 @@ struct LoopOptions {
   std::optional<Nanoseconds> timeout;      // stop before the first tick at or after this time
   int (*stop_signal)() = nullptr;          // asked before each tick: nonzero = stop
   OverrunPolicy overrun = OverrunPolicy::Skip;
+  std::function<bool()> recording_failed = {};  // asked before each tick: true = stop
 };
 
 // Runs to the end: every running leaf is halted, every observer has heard of it.

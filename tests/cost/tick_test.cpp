@@ -1,0 +1,181 @@
+// What a tick may not do: allocate, lock, call the system. Counted, not believed: the allocator and
+// the locks of this program are replaced by ones that count, and the ticks of a child process
+// happen in a mode in which the kernel kills it for any system call.
+#include <dlfcn.h>
+#include <linux/seccomp.h>
+#include <pthread.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <new>
+
+#include "definition/resolve.h"
+#include "engine/compile.h"
+#include "observers/statistics.h"
+#include "plugin/plugin_set.h"
+#include "runtime/loop.h"
+#include "runtime/run.h"
+
+namespace {
+thread_local bool t_counting = false;
+std::atomic<int> g_allocations{0};
+std::atomic<int> g_locks{0};
+}  // namespace
+
+// Sanitizers have an allocator and locks of their own.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define LOCKSTEP_COUNTS 1
+
+void* operator new(std::size_t size) {
+  if (t_counting) ++g_allocations;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+  if (t_counting) ++g_allocations;
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  operator delete(memory);
+}
+
+extern "C" int pthread_mutex_lock(pthread_mutex_t* mutex) {
+  using Lock = int (*)(pthread_mutex_t*);
+  static const auto lock = reinterpret_cast<Lock>(dlsym(RTLD_NEXT, "pthread_mutex_lock"));
+  if (t_counting) ++g_locks;
+  return lock(mutex);
+}
+#else
+#define LOCKSTEP_COUNTS 0
+#endif
+
+namespace lockstep::test {
+namespace {
+
+// Every kind of node, over leaves of a plugin in C++ that have ports and read them; it runs on.
+constexpr const char* kTree = R"(
+<root lockstep="1">
+  <BehaviorTree ID="Main">
+    <Parallel success_count="7">
+      <ParallelAbsolute barriers="0.3;0.6"><Advance step="1e-9"/><Advance step="2e-9"/></ParallelAbsolute>
+      <ParallelRelative delta="1e-8"><Advance step="1e-9"/><Advance step="9e-9"/></ParallelRelative>
+      <Sequence><Advance step="1"/><Fallback><AlwaysFailure/><Advance step="0"/></Fallback></Sequence>
+      <Sequence memory="true"><Advance step="0.5"/><Wait seconds="1e6"/></Sequence>
+      <KeepRunningUntilFailure><Sequence><SubTree ID="Part"/><Inverter><AlwaysFailure/></Inverter></Sequence></KeepRunningUntilFailure>
+      <Repeat times="-1"><Sequence><Advance step="0.5"/><Delay seconds="0.02"><AlwaysSuccess/></Delay></Sequence></Repeat>
+      <KeepRunningUntilFailure><ForceSuccess><Timeout seconds="0.03"><Advance step="0"/></Timeout></ForceSuccess></KeepRunningUntilFailure>
+    </Parallel>
+  </BehaviorTree>
+  <BehaviorTree ID="Part"><RunOnce><AlwaysSuccess/></RunOnce></BehaviorTree>
+</root>)";
+
+class TickingTree {
+ public:
+  TickingTree() {
+    Diagnostics diagnostics;
+    REQUIRE(plugins_.load_file(LOCKSTEP_BINARY_DIR "/plugins/motion.so", diagnostics));
+    REQUIRE(plugins_.initialize(diagnostics));
+    Catalog catalog;
+    for (const NodeKind* kind : built_in_kinds()) catalog.add(&kind->type);
+    for (const NodeType* type : plugins_.types()) catalog.add(type);
+    const auto project = load_project_text("cost.xml", kTree, {}, diagnostics);
+    const auto definition = resolve(*project, catalog, {}, diagnostics);
+    for (const Diagnostic& it : diagnostics.all()) UNSCOPED_INFO(it.message);
+    REQUIRE(definition);
+    tree_ = compile(*definition);
+  }
+  const Tree& tree() const { return tree_; }
+
+ private:
+  PluginSet plugins_;
+  Tree tree_;
+};
+
+// As `lockstep run` ticks it: watched, and with the measures of the summary.
+class WatchedRun {
+ public:
+  explicit WatchedRun(const Tree& tree)
+      : watch_({.budget = std::chrono::seconds(1)}),
+        statistics_(tree),
+        run_(tree, {.watch = &watch_}) {}
+
+  void tick(std::uint64_t count) {
+    for (std::uint64_t i = 0; i < count; ++i, ++tick_) {
+      const Nanoseconds now = deadline_of(tick_, 100);
+      const Status status = run_.tick(now);
+      statistics_.after_tick(run_.ticker(), {tick_, now, status});
+    }
+  }
+  const Fault* fault() const { return run_.fault(); }
+  Status status() { return run_.ticker().status(0); }
+
+ private:
+  LeafWatch watch_;
+  Statistics statistics_;
+  Run run_;
+  std::uint64_t tick_ = 0;
+};
+
+}  // namespace
+
+TEST_CASE("a tick allocates nothing and locks nothing") {
+  if (LOCKSTEP_COUNTS == 0) return WARN("not counted under sanitizers");
+  const TickingTree tree;
+  WatchedRun run(tree.tree());
+  run.tick(10);
+  g_allocations = g_locks = 0;
+  t_counting = true;
+  run.tick(1000);
+  t_counting = false;
+  CHECK(run.status() == Status::Running);
+  CHECK(run.fault() == nullptr);
+  CHECK(g_allocations == 0);
+  CHECK(g_locks == 0);
+}
+
+TEST_CASE("the counters count") {
+  if (LOCKSTEP_COUNTS == 0) return WARN("not counted under sanitizers");
+  pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
+  g_allocations = g_locks = 0;
+  t_counting = true;
+  delete new int(1);
+  pthread_mutex_lock(&mutex);
+  t_counting = false;
+  pthread_mutex_unlock(&mutex);
+  CHECK(g_allocations == 2);
+  CHECK(g_locks == 1);
+}
+
+namespace {
+
+// Runs `work` in a child that may not call the system; true when it came through.
+template <class Work>
+bool survives_without_system_calls(Work work) {
+  const pid_t child = fork();
+  if (child == 0) {
+    prctl(PR_SET_SECCOMP, SECCOMP_MODE_STRICT);
+    work();
+    syscall(SYS_exit, 0);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+}  // namespace
+
+TEST_CASE("a tick calls the system for nothing") {
+  if (LOCKSTEP_COUNTS == 0) return WARN("sanitizers call the system as they like");
+  const TickingTree tree;
+  WatchedRun run(tree.tree());
+  run.tick(10);
+  CHECK(survives_without_system_calls([&run] { run.tick(1000); }));
+  CHECK_FALSE(survives_without_system_calls([] { getppid(); }));
+}
+
+}  // namespace lockstep::test
