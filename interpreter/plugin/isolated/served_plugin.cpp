@@ -137,10 +137,10 @@ int ServedPlugin::serve(const std::string& path) {
   fcntl(ChildProcess::kLifeline, F_SETFD, FD_CLOEXEC);
   watch_host();
   // Never destroyed: threads of the plugin may log until the process ends.
-  auto& channel = *new Channel;
+  static auto& channel = *new Channel;
   if (!channel.open(ChildProcess::kMemory, Channel::Side::Leafhost)) return 1;
   close(ChildProcess::kMemory);
-  auto& server = *new Server(path, channel);
+  static auto& server = *new Server(path, channel);
   while (server.serve()) {
   }
   return 0;
