@@ -1,9 +1,10 @@
 #include "engine/compile.h"
 
 #include <algorithm>
+#include <deque>
 #include <unordered_map>
-#include <unordered_set>
 
+#include "engine/name_table.h"
 #include "engine/nodes/kinds.h"
 
 namespace lockstep {
@@ -23,7 +24,10 @@ const NodeKind* kind_of(const NodeType& type) {
 
 class Compiler {
  public:
-  explicit Compiler(const Definition& definition) : definition_(definition) {}
+  explicit Compiler(const Definition& definition)
+      : definition_(definition),
+        constants_(definition.values.size(), kNone),
+        cells_(definition.values.size(), kNone) {}
 
   Tree compile() {
     tree_.id = definition_.id;
@@ -37,8 +41,18 @@ class Compiler {
   }
 
  private:
+  static constexpr std::uint32_t kNone = 0xffffffff;
+
+  const NodeKind* kind(const NodeType& type) {
+    if (&type != last_type_) {
+      last_type_ = &type;
+      last_kind_ = kind_of(type);
+    }
+    return last_kind_;
+  }
+
   void add(const DefinitionNode& from) {
-    Node node{.kind = kind_of(*from.type),
+    Node node{.kind = kind(*from.type),
               .end = from.end,
               .children = from.children,
               .params = 0,
@@ -66,21 +80,23 @@ class Compiler {
 
   // Subtrees that are used often share their constants.
   std::uint32_t add_constant(std::uint32_t value) {
-    const auto next = static_cast<std::uint32_t>(tree_.constants.size());
-    const auto [entry, is_new] = constants_.try_emplace(value, next);
-    if (is_new) tree_.constants.push_back(definition_.values[value]);
-    return entry->second;
+    std::uint32_t& constant = constants_[value];
+    if (constant == kNone) {
+      constant = static_cast<std::uint32_t>(tree_.constants.size());
+      tree_.constants.push_back(definition_.values[value]);
+    }
+    return constant;
   }
 
   std::uint32_t add_parameters(const DefinitionNode& from) {
     if (from.type->parameters.empty()) return 0;
-    const auto next = static_cast<std::uint32_t>(tree_.cells.size());
-    const auto [entry, is_new] = cells_.try_emplace(from.first, next);
-    if (!is_new) return entry->second;
+    std::uint32_t& first = cells_[from.first];
+    if (first != kNone) return first;
+    first = static_cast<std::uint32_t>(tree_.cells.size());
     for (std::size_t i = 0; i < from.type->parameters.size(); ++i) {
       tree_.cells.push_back(cell(from.type->parameters[i], definition_.values[from.first + i]));
     }
-    return next;
+    return first;
   }
 
   Cell cell(const Parameter& parameter, const Value& value) {
@@ -100,34 +116,62 @@ class Compiler {
   }
 
   void add_labels() {
+    auto names = std::make_shared<std::string>();
+    const auto is_own = [](const DefinitionNode& node) {
+      return node.name.data() != node.type->id.data();
+    };
+    std::size_t bytes = 0;
+    for (const DefinitionNode& node : definition_.nodes)
+      bytes += is_own(node) ? node.name.size() : 0;
+    names->reserve(bytes);  // exactly, so that the views stay
     tree_.labels.reserve(definition_.nodes.size());
     for (const DefinitionNode& node : definition_.nodes) {
-      std::string name(node.name);
-      tree_.labels.push_back({name, name, node.type, node.parent});
+      std::string_view name = node.type->id;
+      if (is_own(node)) {
+        names->append(node.name);
+        name = std::string_view(*names).substr(names->size() - node.name.size());
+      }
+      tree_.labels.push_back({.name = name, .type = node.type, .parent = node.parent});
     }
+    tree_.names = std::move(names);
     for (NodeIndex node = 0; node < tree_.nodes.size(); ++node) {
       if (tree_.nodes[node].children > 1) make_segments_unique(node);
     }
   }
 
+  template <class Visit>
+  void for_each_child(NodeIndex parent, Visit visit) const {
+    const NodeIndex end = tree_.nodes[parent].end;
+    for (NodeIndex child = parent + 1; child < end; child = tree_.nodes[child].end) visit(child);
+  }
+
   // The second child called "arm" becomes "arm#2", or the next number that is free.
   void make_segments_unique(NodeIndex parent) {
-    std::unordered_set<std::string> used;
-    std::unordered_map<std::string, std::uint32_t> last;
-    const NodeIndex end = tree_.nodes[parent].end;
-    for (NodeIndex child = parent + 1; child < end; child = tree_.nodes[child].end) {
-      NodeLabel& label = tree_.labels[child];
-      std::uint32_t& number = last.try_emplace(label.name, 1).first->second;
-      while (!used.insert(label.segment).second) {
-        label.segment = label.name + "#" + std::to_string(++number);
-      }
-    }
+    bool numbered = false;  // else nobody is called "arm#2" from the start
+    for_each_child(parent, [&](NodeIndex child) {
+      numbered |= tree_.labels[child].name.find('#') != std::string_view::npos;
+    });
+    NameTable taken(tree_.nodes[parent].children * (numbered ? 2 : 1), names_);
+    std::deque<std::string> segments;
+    for_each_child(parent, [&](NodeIndex child) {
+      std::uint32_t& repeat = tree_.labels[child].repeat;
+      const auto [last, is_new] = taken.insert(tree_.labels[child].name, 1);
+      if (is_new) return;
+      repeat = *last;
+      do {
+        ++repeat;
+      } while (numbered && !taken.insert(segments.emplace_back(tree_.segment(child)), 1).second);
+      *last = repeat;
+    });
   }
 
   const Definition& definition_;
   Tree tree_;
-  std::unordered_map<std::uint32_t, std::uint32_t> constants_;
-  std::unordered_map<std::uint32_t, std::uint32_t> cells_;
+  std::vector<std::uint32_t> constants_;  // of each value of the definition: its constant
+  std::vector<std::uint32_t> cells_;      // of each first value of a node: its first cell
+  std::vector<NameTable::Entry> names_;   // the memory of the tables
+  const NodeType* last_type_ = nullptr;
+  const NodeKind* last_kind_ = nullptr;
 };
 
 }  // namespace

@@ -2,16 +2,18 @@
 
 namespace lockstep {
 
+std::string Tree::segment(NodeIndex node) const {
+  const NodeLabel& label = labels[node];
+  std::string segment(label.name);
+  if (label.repeat != 0) segment.append("#").append(std::to_string(label.repeat));
+  return segment;
+}
+
 std::string Tree::path(NodeIndex node) const {
-  std::vector<std::string_view> segments;
-  for (NodeIndex at = node;; at = labels[at].parent) {
-    segments.push_back(labels[at].segment);
-    if (at == labels[at].parent) break;
-  }
+  std::vector<NodeIndex> way{node};
+  while (way.back() != labels[way.back()].parent) way.push_back(labels[way.back()].parent);
   std::string path = id;
-  for (auto segment = segments.rbegin(); segment != segments.rend(); ++segment) {
-    path.append("/").append(*segment);
-  }
+  for (auto at = way.rbegin(); at != way.rend(); ++at) path.append("/").append(segment(*at));
   return path;
 }
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/value.h"
@@ -54,10 +55,10 @@ struct Slot {
 };
 
 struct NodeLabel {
-  std::string name;     // the name attribute, else the id
-  std::string segment;  // its part of the path: the name, made unique among its siblings
+  std::string_view name;  // the name attribute, in Tree::names; else the type's id
   const NodeType* type;
-  NodeIndex parent;  // the root is its own
+  NodeIndex parent;          // the root is its own
+  std::uint32_t repeat = 0;  // makes the name unique among its siblings: Tree::segment
 };
 
 struct Tree {
@@ -71,7 +72,11 @@ struct Tree {
   std::size_t state_size = 0;     // bytes of all node states
   std::string id;                 // of the main BehaviorTree
   std::vector<NodeLabel> labels;  // not touched while ticking
+  // What the labels' names point into; a copy of the tree shares it.
+  std::shared_ptr<const std::string> names;
 
+  // A node's part of the path: its name, or "name#2" for the second sibling of that name.
+  std::string segment(NodeIndex node) const;
   // "OpenDoor/pull/arm": the tree's id and the segments down to the node.
   std::string path(NodeIndex node) const;
 };

@@ -14,13 +14,14 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 std::optional<NodeIndex> find_node(const Tree& tree, const std::string& name, std::string& error) {
   std::vector<std::string> paths;
-  std::vector<std::string_view> names;
   for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
     paths.push_back(tree.path(node));
-    names.push_back(tree.labels[node].segment);
   }
   const auto found = find_path(paths, name, error);
   if (found) return static_cast<NodeIndex>(*found);
+  std::vector<std::string> segments;
+  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) segments.push_back(tree.segment(node));
+  const std::vector<std::string_view> names(segments.begin(), segments.end());
   const std::string near = did_you_mean(name, names);
   if (!near.empty()) error += ", " + near;
   return std::nullopt;

@@ -194,6 +194,15 @@ TEST_CASE("names and paths") {
        R"(<Parallel name="p"><Wait seconds="1"/><Wait seconds="1"/>
           <Wait name="Wait" seconds="1"/></Parallel>)",
        "T/p T/p/Wait T/p/Wait#2 T/p/Wait#3"},
+      {"a name that looks numbered takes that number",
+       R"(<Parallel name="p"><Wait name="a#2" seconds="1"/><Wait name="a" seconds="1"/>
+          <Wait name="a" seconds="1"/></Parallel>)",
+       "T/p T/p/a#2 T/p/a T/p/a#3"},
+      {"or gets one itself where it is taken",
+       R"(<Parallel name="p"><Wait name="a" seconds="1"/><Wait name="a" seconds="1"/>
+          <Wait name="a#2" seconds="1"/><Wait name="a" seconds="1"/>
+          <Wait name="a#2#2" seconds="1"/></Parallel>)",
+       "T/p T/p/a T/p/a#2 T/p/a#2#2 T/p/a#3 T/p/a#2#2#2"},
       {"equal names elsewhere are not",
        R"(<Parallel name="p"><Inverter><Wait seconds="1"/></Inverter><Wait seconds="1"/>
           </Parallel>)",

@@ -38,8 +38,8 @@ ScriptedRun::ScriptedRun(std::string_view tree, std::string_view leaves, FaultPo
   }
 }
 
-const std::string& ScriptedRun::leaf_name(std::uint32_t leaf) const {
-  return tree_.labels[tree_.leaves[leaf].node].name;
+std::string ScriptedRun::leaf_name(std::uint32_t leaf) const {
+  return std::string(tree_.labels[tree_.leaves[leaf].node].name);
 }
 
 Status ScriptedRun::tick(Nanoseconds now) {

@@ -27,7 +27,7 @@ class ScriptedRun {
 
   const Tree& tree() const { return tree_; }
   Ticker& ticker() { return ticker_; }
-  const std::string& leaf_name(std::uint32_t leaf) const;
+  std::string leaf_name(std::uint32_t leaf) const;
   EventLog events;  // since it was last cleared
 
  private:

@@ -79,7 +79,7 @@ std::string summary(const ScriptedRun& run, char status) {
   std::string ticks, rest;
   Call open = Call::Tick;
   for (const Event& event : run.events) {
-    const std::string& name = run.leaf_name(event.leaf);
+    const std::string name = run.leaf_name(event.leaf);
     if (event.call == Call::Tick) {
       ticks += (ticks.empty() ? "" : " ") + name;
     } else if (event.call != Call::Start) {
@@ -129,13 +129,13 @@ class Row {
   std::string faults() {
     std::string names;
     for (const Fault& fault : run_.ticker().take_tolerated()) {
-      names += (names.empty() ? "" : ",") + run_.tree().labels[fault.node].name;
+      names.append(names.empty() ? "" : ",").append(run_.tree().labels[fault.node].name);
     }
     return names;
   }
 
   std::string suffix_of(std::string_view expected, const Fault* fault) {
-    if (fault != nullptr) return run_.tree().labels[fault->node].name;
+    if (fault != nullptr) return std::string(run_.tree().labels[fault->node].name);
     const double progress = run_.ticker().progress(0);
     std::string_view number = expected;
     const bool same = std::abs(take_number(number) - progress) < 1e-9;

@@ -51,7 +51,7 @@ inline Tree tree_of(const NodeType& leaf, std::int64_t ticks) {
   tree.ports = {PortBinding{PortBinding::kUnbound, 0}};
   tree.constants = {Value(ticks)};
   tree.id = "Test";
-  tree.labels = {NodeLabel{"probe", "probe", &leaf, 0}};
+  tree.labels = {NodeLabel{"probe", &leaf, 0}};
   return tree;
 }
 

@@ -12,6 +12,10 @@ namespace {
 
 using test::tree_from_text;
 
+std::string draw(const Tree& tree, const Snapshot& now, const DrawOptions& options) {
+  return lockstep::draw(shape_of(tree), now, options);
+}
+
 Snapshot snapshot(std::vector<NodeView> nodes) {
   return {.header = {.rate_hz = 10, .tick = 4, .time = std::chrono::milliseconds(400)},
           .nodes = std::move(nodes)};
@@ -122,7 +126,7 @@ TEST_CASE("a view never has more lines or columns than the terminal") {
 
 TEST_CASE("names cannot send control sequences to the terminal") {
   Tree tree = tree_from_text("Sequence(a)");
-  tree.labels[1].segment = "a\x1b[2J";
+  tree.labels[1].name = "a\x1b[2J";
   const std::string text = draw(tree, snapshot({{}, {}}), kPlain);
   CHECK(text.find('\x1b') == std::string::npos);
   CHECK(text.find("a\\x1B[2J") != std::string::npos);

@@ -98,16 +98,17 @@ const lockstep_plugin& lab_plugin() {
 Tree lab_tree(const NodeType& type, std::uint32_t leaves) {
   Tree tree;
   tree.id = "Test";
-  tree.labels.push_back({"root", "root", nullptr, 0});
+  tree.labels.push_back({"root", nullptr, 0});
   tree.constants = {Value(true), Value(0.5)};
   tree.slots = {{"count", ValueType::Int, {}},
                 {"speed", ValueType::Double, Value(1.5)},
                 {"text", ValueType::String, Value("hello")},
                 {"list", ValueType::DoubleList, Value(std::vector{1.0, 2.0, 3.0})}};
   for (std::uint32_t leaf = 0; leaf < leaves; ++leaf) {
-    const std::string name = "lab" + std::to_string(leaf);
+    constexpr std::string_view kNames[] = {"lab0", "lab1", "lab2", "lab3",
+                                           "lab4", "lab5", "lab6", "lab7"};
     tree.leaves.push_back({leaf + 1, &type, static_cast<std::uint32_t>(tree.ports.size())});
-    tree.labels.push_back({name, name, &type, 0});
+    tree.labels.push_back({kNames[leaf], &type, 0});
     tree.ports.push_back({.constant = 0});
     for (std::uint32_t slot = 0; slot < 4; ++slot) tree.ports.push_back({.slot = slot});
     tree.ports.push_back({.constant = 1});

@@ -86,9 +86,9 @@ ProbeTree::ProbeTree(std::uint32_t full_leaves, std::uint32_t bare_leaves) {
 
 void ProbeTree::add_leaf(const NodeType& type) {
   const auto node = static_cast<NodeIndex>(tree_.leaves.size());
-  const std::string name = "leaf" + std::to_string(node);
+  const std::string& name = names_.emplace_back("leaf" + std::to_string(node));
   tree_.leaves.push_back({node, &type, 0});
-  tree_.labels.push_back({name, name, &type, 0});
+  tree_.labels.push_back({name, &type, 0});
 }
 
 }  // namespace lockstep::test

@@ -2,6 +2,7 @@
 // each of which does what the test wants it to do.
 #pragma once
 
+#include <deque>
 #include <functional>
 
 #include "engine/tree.h"
@@ -25,6 +26,7 @@ class ProbeTree {
   void add_leaf(const NodeType& type);
 
   PluginSet plugins_;
+  std::deque<std::string> names_;
   Tree tree_;
 };
 
