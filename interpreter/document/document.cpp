@@ -76,9 +76,11 @@ bool Document::Implementation::check(Diagnostics& diagnostics) {
     report(std::move(*fault), diagnostics);
     return false;
   }
-  auto [faults, readable] = check_well_formed(text);
-  for (auto& fault : faults) report(std::move(fault), diagnostics);
-  return readable;
+  auto found = check_well_formed(text);
+  for (auto& fault : found.faults) report(std::move(fault), diagnostics);
+  elements.reserve(found.elements);
+  attributes.reserve(found.attributes);
+  return found.readable;
 }
 
 bool Document::Implementation::read(Diagnostics& diagnostics) {

@@ -36,7 +36,7 @@ class Loader {
       : arguments_(given, diagnostics), diagnostics_(diagnostics) {}
 
   std::unique_ptr<Project> load(const std::string& path, std::string text) {
-    if (!add(path, std::move(text))) return nullptr;
+    if (!add({path, identity_of(path)}, std::move(text))) return nullptr;
     arguments_.check_given();
     for (const auto& document : project_->documents) substitute(*document);
     project_->arguments = arguments_.take();
@@ -49,7 +49,7 @@ class Loader {
     std::string identity;
   };
 
-  bool add(const std::string& path, std::string text);
+  bool add(const Reading& file, std::string text);
   void include(Document& document, std::uint32_t element);
   // The chain of files that `next` would close, or "".
   std::string cycle(const Reading& next) const;
@@ -71,10 +71,9 @@ void Loader::for_each_child(Document& document, std::string_view tag, Visit visi
     if (elements[i].tag == tag) visit(i);
 }
 
-bool Loader::add(const std::string& path, std::string text) {
-  const auto identity = identity_of(path);
-  read_.insert(identity);
-  auto parsed = Document::parse(path, std::move(text), diagnostics_);
+bool Loader::add(const Reading& file, std::string text) {
+  read_.insert(file.identity);
+  auto parsed = Document::parse(file.path, std::move(text), diagnostics_);
   if (!parsed) return false;
   auto& document = *project_->documents.emplace_back(std::move(parsed));
   if (!is_root(document)) {
@@ -83,7 +82,7 @@ bool Loader::add(const std::string& path, std::string text) {
                                    document.elements()[0].tag));
     return true;
   }
-  open_.push_back({path, identity});
+  open_.push_back(file);
   // All arguments of a file before its includes: an included file sees those of its includer.
   for_each_child(document, "arg", [&](auto i) { arguments_.declare(document, i); });
   for_each_child(document, "include", [&](auto i) { include(document, i); });
@@ -106,7 +105,7 @@ void Loader::include(Document& document, std::uint32_t element) {
     return fail(fmt::format("includes are nested deeper than {} levels", kMaxIncludeDepth));
   auto [text, failure] = read_file(path, Document::kMaxBytes);
   if (!failure.empty()) return fail(fmt::format("cannot read '{}': {}", path, failure));
-  add(path, std::move(text));
+  add(next, std::move(text));
 }
 
 std::string Loader::cycle(const Reading& next) const {
@@ -118,7 +117,16 @@ std::string Loader::cycle(const Reading& next) const {
   return chain.empty() ? chain : chain + next.path;
 }
 
+// A character reference may stand for a part of "${", so it counts too.
+bool may_use_arguments(const Document& document) {
+  const auto has = [&](std::string_view part) {
+    return document.text().find(part) != std::string_view::npos;
+  };
+  return has("${") || has("&#");
+}
+
 void Loader::substitute(Document& document) {
+  if (!may_use_arguments(document)) return;
   const auto elements = document.elements();
   const auto is_read = [&](std::uint32_t i) {
     return is_root(document) && (elements[i].tag == "arg" || elements[i].tag == "include");

@@ -3,18 +3,29 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <utility>
 
 namespace lockstep {
 namespace {
 
-constexpr bool is_name_start(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == ':' ||
-         static_cast<unsigned char>(c) >= 0x80;
-}
+enum CharacterClass : std::uint8_t { Other, NameStart, NamePart };
 
-constexpr bool is_name_part(char c) {
-  return is_name_start(c) || (c >= '0' && c <= '9') || c == '-' || c == '.';
+// A look at this table for each byte of a file is what the check of a correct one costs.
+constexpr auto kClasses = [] {
+  std::array<CharacterClass, 256> classes{};
+  for (unsigned c = 'a'; c <= 'z'; ++c) classes[c] = NameStart;
+  for (unsigned c = 'A'; c <= 'Z'; ++c) classes[c] = NameStart;
+  for (unsigned c = 0x80; c <= 0xFF; ++c) classes[c] = NameStart;
+  classes['_'] = classes[':'] = NameStart;
+  for (unsigned c = '0'; c <= '9'; ++c) classes[c] = NamePart;
+  classes['-'] = classes['.'] = NamePart;
+  return classes;
+}();
+
+constexpr CharacterClass class_of(char c) {
+  return kClasses[static_cast<unsigned char>(c)];
 }
 
 }  // namespace
@@ -59,7 +70,7 @@ Token Scanner::inside_tag() {
     return {empty ? TokenKind::EmptyTagEnd : TokenKind::TagEnd, begin, name};
   }
   if (rest().empty()) return fail(tag_begin_, fmt::format("the tag '<{}' is not closed", tag_));
-  if (!is_name_start(text_[begin])) {
+  if (class_of(text_[begin]) != NameStart) {
     const auto hint = fmt::format("the tag '<{}' needs '>' or '/>' at its end", tag_);
     return fail(begin, fmt::format("unexpected '{}' in the tag '<{}'", text_[begin], tag_), hint);
   }
@@ -132,14 +143,14 @@ Token Scanner::fail(std::size_t offset, std::string message, std::string hint) {
 
 std::string_view Scanner::take_name() {
   const auto begin = position_;
-  if (begin == text_.size() || !is_name_start(text_[begin])) return {};
-  while (position_ < text_.size() && is_name_part(text_[position_])) ++position_;
+  if (begin == text_.size() || class_of(text_[begin]) != NameStart) return {};
+  while (position_ < text_.size() && class_of(text_[position_]) != Other) ++position_;
   return text_.substr(begin, position_ - begin);
 }
 
 bool Scanner::skip_blanks() {
   const auto begin = position_;
-  position_ = std::min(text_.find_first_not_of(kXmlBlanks, begin), text_.size());
+  while (position_ < text_.size() && is_xml_blank(text_[position_])) ++position_;
   return position_ > begin;
 }
 

@@ -70,6 +70,8 @@ class Scanner {
   std::optional<XmlFault> fault_;
 };
 
-constexpr std::string_view kXmlBlanks = " \t\r\n";
+constexpr bool is_xml_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
 
 }  // namespace lockstep

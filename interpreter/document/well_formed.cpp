@@ -68,6 +68,7 @@ class Checker {
                    fmt::format("elements are nested deeper than {} levels", kMaxElementDepth),
                    "the XML reader's limit is 100, and it needs two of them; use a SubTree"});
     open_.push_back({token.name, token.begin});
+    ++result_.elements;
     has_root_ = true;
     prolog_ = false;
   }
@@ -77,6 +78,7 @@ class Checker {
       return stop({token.begin, fmt::format("'{}' has more than {} attributes", open_.back().name,
                                             kMaxAttributes)});
     attributes_.push_back({token.name, token.begin});
+    ++result_.attributes;
     for (auto at = token.value.find('&'); at != std::string_view::npos;
          at = token.value.find('&', at + 1)) {
       if (!read_reference(token.value.substr(at)))
@@ -86,6 +88,9 @@ class Checker {
   }
 
   void end_attributes() {
+    const std::size_t count = attributes_.size();
+    const bool are_two = count == 2 && attributes_[0].name != attributes_[1].name;
+    if (count < 2 || are_two) return attributes_.clear();
     // Stable: of two with one name the second is the fault.
     std::stable_sort(attributes_.begin(), attributes_.end(),
                      [](const Opened& a, const Opened& b) { return a.name < b.name; });
@@ -109,13 +114,13 @@ class Checker {
   }
 
   void text(const Token& token) {
-    const auto first = token.value.find_first_not_of(kXmlBlanks);
-    if (first == std::string_view::npos) {
+    const auto* first = std::find_if_not(token.value.begin(), token.value.end(), is_xml_blank);
+    const bool blank = first == token.value.end();
+    if (blank) {
       // A blank CDATA section is text to the reader, and outside of the root not XML.
       if (!open_.empty() || text_[token.begin] != '<') return;
     }
-    const auto offset =
-        first == std::string_view::npos ? token.begin : scanner_.offset_of(token.value) + first;
+    const auto offset = blank ? token.begin : static_cast<std::size_t>(first - text_.data());
     if (open_.empty())
       return stop(
           {offset, fmt::format("text {} the root element", has_root_ ? "after" : "before")});

@@ -21,7 +21,9 @@ std::optional<XmlFault> check_encoding(std::string_view text);
 
 struct WellFormed {
   std::vector<XmlFault> faults;
-  bool readable = true;  // false: a fault is such that the reader refuses the text
+  bool readable = true;        // false: a fault is such that the reader refuses the text
+  std::size_t elements = 0;    // how many there are
+  std::size_t attributes = 0;  // of all elements
 };
 
 WellFormed check_well_formed(std::string_view text);
