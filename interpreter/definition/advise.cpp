@@ -9,7 +9,10 @@ namespace {
 class Adviser {
  public:
   Adviser(const Project& project, const Definition& definition, Diagnostics& diagnostics)
-      : project_(project), definition_(definition), diagnostics_(diagnostics) {}
+      : project_(project),
+        definition_(definition),
+        diagnostics_(diagnostics),
+        acting_(find_acting()) {}
 
   void advise() const {
     for (std::uint32_t node = 0; node < definition_.nodes.size(); ++node) {
@@ -37,23 +40,29 @@ class Adviser {
     return std::get<bool>(definition_.values[at(node).first]);
   }
 
-  // Whether ticking this node anew after Success does work again. A Fallback that begins with a
-  // condition asks first, so it does not.
-  bool acts_again(std::uint32_t node) const {
+  // Of each node: whether ticking it anew after Success does work again. Descendants come first.
+  std::vector<bool> find_acting() const {
+    std::vector<bool> acts(definition_.nodes.size(), false);  // at first: whether a child does
+    for (auto node = static_cast<std::uint32_t>(acts.size()); node-- > 0;) {
+      acts[node] = acts_again(node, acts[node]);
+      if (acts[node]) acts[at(node).parent] = true;
+    }
+    return acts;
+  }
+
+  // A Fallback that begins with a condition asks first, so it does not.
+  bool acts_again(std::uint32_t node, bool child_acts) const {
     const NodeType& type = *at(node).type;
     if (type.category == NodeCategory::Action) return !type.id.starts_with("Always");
-    if (type.id == "RunOnce" || type.category == NodeCategory::Condition) return false;
-    if (type.id == "Fallback" && at(node + 1).type->category == NodeCategory::Condition)
+    if (!child_acts || type.id == "RunOnce" || type.category == NodeCategory::Condition)
       return false;
-    bool acts = false;
-    for_each_child(node, [&](std::uint32_t child) { acts |= acts_again(child); });
-    return acts;
+    return type.id != "Fallback" || at(node + 1).type->category != NodeCategory::Condition;
   }
 
   void sequence_restarts(std::uint32_t sequence) const {
     std::uint32_t earlier = 0;
     for_each_child(sequence, [&](std::uint32_t child) {
-      if (!acts_again(child)) return;
+      if (!acting_[child]) return;
       if (earlier != 0) {
         add(earlier, Severity::Warning,
             fmt::format("'{}' is started again in every tick in which '{}' runs", at(earlier).name,
@@ -115,6 +124,7 @@ class Adviser {
   const Project& project_;
   const Definition& definition_;
   Diagnostics& diagnostics_;
+  const std::vector<bool> acting_;
 };
 
 }  // namespace

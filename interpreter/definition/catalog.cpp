@@ -1,5 +1,7 @@
 #include "definition/catalog.h"
 
+#include <algorithm>
+
 namespace lockstep {
 
 void Catalog::add(const NodeType* type) {
@@ -15,6 +17,7 @@ const NodeType* Catalog::find(std::string_view id) const {
 std::vector<std::string_view> Catalog::ids() const {
   std::vector<std::string_view> ids;
   for (const auto& entry : by_id_) ids.push_back(entry.first);
+  std::ranges::sort(ids);
   return ids;
 }
 

@@ -1,9 +1,9 @@
 // What nodes exist: the built-ins and the leaves of the plugins, by id.
 #pragma once
 
-#include <map>
 #include <span>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "core/node_type.h"
@@ -21,7 +21,7 @@ class Catalog {
 
  private:
   std::vector<const NodeType*> types_;
-  std::map<std::string_view, const NodeType*> by_id_;
+  std::unordered_map<std::string_view, const NodeType*> by_id_;
 };
 
 }  // namespace lockstep

@@ -35,13 +35,19 @@ class TreeChecker {
       : project_(project), catalog_(catalog), diagnostics_(diagnostics) {}
 
   CheckedTrees check() {
-    for (document_ = 0; document_ < project_.documents.size(); ++document_) check_document();
+    std::size_t elements = 0;
+    for (const auto& document : project_.documents) elements += document->elements().size();
+    trees_.nodes.reserve(elements);
+    for (document_ = 0; document_ < project_.documents.size(); ++document_) {
+      elements_ = document().elements();
+      check_document();
+    }
     return std::move(trees_);
   }
 
  private:
   const Document& document() const { return *project_.documents[document_]; }
-  const Element& element(std::uint32_t index) const { return document().elements()[index]; }
+  const Element& element(std::uint32_t index) const { return elements_[index]; }
 
   void check_document() {
     if (element(0).tag != "root") return;  // told when it was read
@@ -242,6 +248,7 @@ class TreeChecker {
   CheckedTrees trees_;
   std::map<std::string_view, std::pair<std::uint32_t, std::uint32_t>> places_;
   std::uint32_t document_ = 0;
+  std::span<const Element> elements_;  // of the document
 };
 
 }  // namespace

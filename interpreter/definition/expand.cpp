@@ -26,6 +26,7 @@ class Expander {
   Definition expand(std::string_view main) {
     definition_.id = main;
     definition_.values = std::move(trees_.values);
+    definition_.nodes.reserve(trees_.nodes.size());  // without subtrees, all that will be needed
     Scope scope(definition_.entries);
     for (const auto& [key, text] : options_.values) scope.set_text(key, text);
     add(trees_.roots.at(main), 0, scope);
