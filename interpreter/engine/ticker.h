@@ -123,7 +123,7 @@ class Ticker {
 
  private:
   void forget_descendants(NodeIndex node);
-  void end_activation(NodeIndex node);
+  NodeIndex end_activation(NodeIndex node);
   std::byte* state_bytes() { return reinterpret_cast<std::byte*>(state_.bytes.data()); }
 
   const Tree& tree_;

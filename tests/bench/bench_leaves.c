@@ -79,7 +79,60 @@ static const lockstep_leaf_type kAdvance = {sizeof(lockstep_leaf_type),
                                             progress,
                                             NULL};
 
-static const lockstep_leaf_type* const kLeaves[] = {&kSucceed, &kFail, &kRun, &kAdvance};
+/* One that reads the first `reads` of its four inputs in each tick. */
+typedef struct reader {
+  const lockstep_host* host;
+  const lockstep_caller* caller;
+  int64_t reads;
+  double sum;
+} reader;
+enum { kReadsPort = 4 };
+
+static void* create_reader(const lockstep_host* host, const lockstep_caller* caller,
+                           void* run_context) {
+  reader* self = calloc(1, sizeof(reader));
+  (void)run_context;
+  self->host = host;
+  self->caller = caller;
+  host->get_int(caller, kReadsPort, &self->reads);
+  return self;
+}
+static lockstep_status read_ports(void* leaf) {
+  reader* self = leaf;
+  uint32_t port = 0;
+  for (; port < self->reads; ++port) {
+    double value = 0;
+    self->host->get_double(self->caller, port, &value);
+    self->sum += value;
+  }
+  return LOCKSTEP_SUCCESS;
+}
+
+#define INPUT(type, name, value) \
+  { sizeof(lockstep_port), type, LOCKSTEP_INPUT, name, value, NULL, NULL }
+static const lockstep_port kInputs[] = {
+    INPUT(LOCKSTEP_DOUBLE, "a", "1"), INPUT(LOCKSTEP_DOUBLE, "b", "2"),
+    INPUT(LOCKSTEP_DOUBLE, "c", "3"), INPUT(LOCKSTEP_DOUBLE, "d", "4"),
+    INPUT(LOCKSTEP_INT, "reads", "0")};
+static const lockstep_port* const kInputList[] = {&kInputs[0], &kInputs[1], &kInputs[2],
+                                                  &kInputs[3], &kInputs[4]};
+static const lockstep_leaf_type kRead = {sizeof(lockstep_leaf_type),
+                                         LOCKSTEP_ACTION,
+                                         "BenchRead",
+                                         NULL,
+                                         5,
+                                         kInputList,
+                                         create_reader,
+                                         free,
+                                         NULL,
+                                         read_ports,
+                                         NULL,
+                                         NULL,
+                                         NULL,
+                                         NULL,
+                                         NULL};
+
+static const lockstep_leaf_type* const kLeaves[] = {&kSucceed, &kFail, &kRun, &kAdvance, &kRead};
 
 LOCKSTEP_EXPORT const lockstep_plugin lockstep_plugin_entry = {LOCKSTEP_ABI_MAJOR,
                                                                LOCKSTEP_ABI_MINOR,
@@ -87,7 +140,7 @@ LOCKSTEP_EXPORT const lockstep_plugin lockstep_plugin_entry = {LOCKSTEP_ABI_MAJO
                                                                "bench_leaves",
                                                                NULL,
                                                                NULL,
-                                                               4,
+                                                               5,
                                                                kLeaves,
                                                                NULL,
                                                                NULL,

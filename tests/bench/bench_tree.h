@@ -12,17 +12,16 @@
 
 namespace lockstep {
 
-// `opening` with `leaves` leaves inside, compiled.
+// A compiled tree of the built-in nodes and the leaves of bench_leaves.
 class BenchTree {
  public:
-  BenchTree(const std::string& control, const std::string& attributes, const std::string& leaf,
-            std::int64_t leaves) {
-    std::string text =
-        fmt::format("<root lockstep=\"1\"><BehaviorTree ID=\"B\"><{} {}>", control, attributes);
-    for (std::int64_t i = 0; i < leaves; ++i) text += fmt::format("<{}/>", leaf);
-    text += fmt::format("</{}></BehaviorTree></root>", control);
+  // `node` is the root node, as XML.
+  explicit BenchTree(const std::string& node) {
+    const std::string text =
+        fmt::format("<root lockstep=\"1\"><BehaviorTree ID=\"B\">{}</BehaviorTree></root>", node);
     Diagnostics diagnostics;
     plugins_.load_file(LOCKSTEP_BENCH_LEAVES, diagnostics);
+    plugins_.load_file(LOCKSTEP_BENCH_SDK, diagnostics);
     const auto project = load_project_text("bench.xml", text, {}, diagnostics);
     Catalog catalog;
     for (const NodeKind* kind : built_in_kinds()) catalog.add(&kind->type);
@@ -31,7 +30,19 @@ class BenchTree {
     if (!definition) std::abort();
     tree_ = compile(*definition);
   }
+  // One control node with so many leaves.
+  BenchTree(const std::string& control, const std::string& attributes, const std::string& leaf,
+            std::int64_t leaves)
+      : BenchTree(fmt::format("<{} {}>{}</{}>", control, attributes,
+                              repeated(fmt::format("<{}/>", leaf), leaves), control)) {}
+
   const Tree& tree() const { return tree_; }
+
+  static std::string repeated(const std::string& text, std::int64_t times) {
+    std::string all;
+    for (std::int64_t i = 0; i < times; ++i) all += text;
+    return all;
+  }
 
  private:
   PluginSet plugins_;
