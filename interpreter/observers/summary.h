@@ -15,8 +15,8 @@ namespace lockstep {
 
 // "success", "failure", or "stopped" when the tree was still running.
 std::string_view result_text(Status status);
-// "completed", "fault", "timeout", "max_ticks", "signal", "overrun" or "recording", as recordings and JSON spell
-// it.
+// "completed", "fault", "timeout", "max_ticks", "signal", "overrun" or "recording", as recordings
+// and JSON spell it.
 std::string_view to_string(StopReason reason);
 
 // "1 tick", "2 ticks".

@@ -25,7 +25,15 @@ struct TickReport {
   std::span<const Fault> faults = {};  // of leaves, since the last report; the run goes on
 };
 
-enum class StopReason : std::uint8_t { Completed, Fault, Timeout, MaxTicks, Signal, Overrun, Recording };
+enum class StopReason : std::uint8_t {
+  Completed,
+  Fault,
+  Timeout,
+  MaxTicks,
+  Signal,
+  Overrun,
+  Recording
+};
 
 // The tick that took longest, from its begin until the root had its status; real time only.
 struct WorstTick {

@@ -13,8 +13,8 @@ std::string watch(std::string_view tree, std::string_view leaves, int ticks, dou
   std::string reports;
   int tick = 0;
   StallWatch watch(run.tree(), from_seconds(limit), [&](const Standstill& found) {
-    reports += std::string(run.tree().labels[found.child].name) + "@" + std::to_string(tick) + " since " +
-               std::to_string(found.since.count() / 100'000'000) + ";";
+    reports += std::string(run.tree().labels[found.child].name) + "@" + std::to_string(tick) +
+               " since " + std::to_string(found.since.count() / 100'000'000) + ";";
   });
   for (; tick < ticks; ++tick) {
     const auto now = std::chrono::milliseconds(100) * tick;
