@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "core/diagnostics.h"
@@ -16,33 +15,21 @@
 namespace lockstep {
 namespace {
 
-constexpr std::string_view kHideCursor = "\x1b[?25l";
-constexpr std::string_view kShowCursor = "\x1b[?25h";
-constexpr std::string_view kClearRestOfLine = "\x1b[K";
-constexpr std::string_view kClearBelow = "\x1b[J";
-
 void write(std::FILE* out, std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), out);
   std::fflush(out);
-}
-
-std::string with_cleared_line_ends(std::string_view text) {
-  std::string cleared;
-  for (const char character : text) {
-    if (character == '\n') cleared += kClearRestOfLine;
-    cleared += character;
-  }
-  return cleared;
 }
 
 }  // namespace
 
 ConsoleLive::ConsoleLive(const Tree& tree, const LiveOptions& options)
     : tree_(tree),
+      shape_(shape_of(tree)),
       options_(options),
       synchronized_nodes_(synchronized_nodes(tree)),
       activity_(tree.nodes.size()),
-      snapshots_(Snapshot{.header = {}, .nodes = std::vector<NodeView>(tree.nodes.size())}) {}
+      snapshots_(Snapshot{.header = {}, .nodes = std::vector<NodeView>(tree.nodes.size())}),
+      screen_(options.out) {}
 
 ConsoleLive::~ConsoleLive() {
   stop();
@@ -57,7 +44,7 @@ void ConsoleLive::run_started(Ticker&, const RunStart& start) {
 void ConsoleLive::after_tick(Ticker& ticker, const TickReport& report) {
   header_.tick = report.tick;
   header_.time = report.time;
-  header_.overruns += report.skipped > 0;
+  *header_.overruns += report.skipped > 0;
   header_.result = report.status;
   for (const Fault& fault : report.faults) print(fault_text(tree_, fault, report.tick));
   activity_ = ticker.run_state().activity;
@@ -87,10 +74,7 @@ void ConsoleLive::publish(Ticker& ticker) {
 void ConsoleLive::take_progress(Ticker& ticker, NodeIndex node, std::vector<NodeView>& views) {
   NodeIndex child = node + 1;
   for (const double used : child_progress(ticker, node)) {
-    const Activity activity = views[child].activity;
-    if (activity != Activity::Idle) {
-      views[child].progress = activity == Activity::Success ? 1.0 : used;
-    }
+    views[child].progress = shown_progress(views[child].activity, used);
     child = ticker.end_of(child);
   }
 }
@@ -123,7 +107,7 @@ void ConsoleLive::stop() {
 }
 
 void ConsoleLive::draw_until_stopped() {
-  write(options_.out, kHideCursor);
+  screen_.begin();
   bool stopped = false;
   while (!stopped) {
     draw_frame();
@@ -131,22 +115,19 @@ void ConsoleLive::draw_until_stopped() {
     stopped = wake_.wait_for(lock, kFrame, [this] { return stopping_; });
   }
   draw_frame();
-  write(options_.out, kShowCursor);
+  screen_.end();
 }
 
 void ConsoleLive::draw_frame() {
   const std::string printed = take_printed();
   if (!snapshots_.take() && printed.empty()) return;
   const TerminalSize size = terminal_size(options_.out);
-  const std::string frame = draw(tree_, snapshots_.front(),
+  const std::string frame = draw(shape_, snapshots_.front(),
                                  {.width = size.width,
                                   .height = size.height,
                                   .color = options_.color,
                                   .unicode = options_.unicode});
-  std::string text = lines_on_screen_ == 0 ? "" : fmt::format("\r\x1b[{}A", lines_on_screen_);
-  text += with_cleared_line_ends(printed + frame);
-  write(options_.out, text.append(kClearBelow));
-  lines_on_screen_ = static_cast<std::size_t>(std::count(frame.begin(), frame.end(), '\n'));
+  screen_.show(printed, frame);
 }
 
 std::string ConsoleLive::take_printed() {
@@ -157,11 +138,6 @@ std::string ConsoleLive::take_printed() {
   printed_.clear();
   left_out_ = 0;
   return text;
-}
-
-void restore_cursor(int terminal) {
-  // In a signal handler there is nobody to tell that it failed.
-  [[maybe_unused]] const auto written = ::write(terminal, kShowCursor.data(), kShowCursor.size());
 }
 
 }  // namespace lockstep

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "observers/screen.h"
 #include "observers/tree_view.h"
 #include "observers/triple_buffer.h"
 #include "runtime/observer.h"
@@ -50,6 +51,7 @@ class ConsoleLive final : public Observer {
   std::string take_printed();
 
   const Tree& tree_;
+  const TreeShape shape_;
   LiveOptions options_;
   std::vector<NodeIndex> synchronized_nodes_;
 
@@ -60,7 +62,7 @@ class ConsoleLive final : public Observer {
   TripleBuffer<Snapshot> snapshots_;
 
   // The drawing thread's.
-  std::size_t lines_on_screen_ = 0;
+  Screen screen_;
 
   std::mutex mutex_;  // for what follows
   std::condition_variable wake_;
@@ -70,8 +72,5 @@ class ConsoleLive final : public Observer {
   bool stopping_ = false;
   std::thread thread_;
 };
-
-// Makes the cursor visible again. May be called in a signal handler.
-void restore_cursor(int terminal);
 
 }  // namespace lockstep

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "engine/synchronized.h"
-#include "measure/synchronized_measure.h"
 #include "observers/progress_bar.h"
 #include "observers/summary.h"
 #include "observers/text_line.h"
@@ -38,7 +36,7 @@ Look look_of(Activity activity) {
 
 class View {
  public:
-  View(const Tree& tree, const Snapshot& snapshot, const DrawOptions& options)
+  View(const TreeShape& tree, const Snapshot& snapshot, const DrawOptions& options)
       : tree_(tree), snapshot_(snapshot), options_(options) {}
 
   std::string draw() const {
@@ -55,16 +53,14 @@ class View {
 
  private:
   TextLine new_line() const { return {options_.width, options_.color, options_.unicode}; }
-  NodeIndex parent(NodeIndex node) const { return tree_.labels[node].parent; }
   bool is_synchronized(NodeIndex node) const {
-    return synchronization(tree_.nodes[node]) != Synchronization::None;
+    return tree_.nodes[node].synchronization != Synchronization::None;
   }
-  bool has_bar(NodeIndex node) const { return node != 0 && is_synchronized(parent(node)); }
-  std::size_t depth(NodeIndex node) const {
-    std::size_t depth = 0;
-    for (; node != parent(node); node = parent(node)) ++depth;
-    return depth;
+  bool has_bar(NodeIndex node) const {
+    const auto parent = tree_.nodes[node].parent;
+    return parent && is_synchronized(*parent);
   }
+  std::size_t indent(NodeIndex node) const { return 2 * tree_.nodes[node].depth; }
 
   std::string header() const {
     const Snapshot::Header& is = snapshot_.header;
@@ -72,9 +68,9 @@ class View {
     line.add(tree_.id, Style::Strong);
     line.add(fmt::format("  {:.6g} Hz{}  tick {}  {:.3f} s", is.rate_hz,
                          is.real_time ? "" : " (virtual)", is.tick, to_seconds(is.time)));
-    if (is.real_time) {
-      const Style style = is.overruns == 0 ? Style::Plain : Style::Warning;
-      line.add(fmt::format("  overruns {}", is.overruns), style);
+    if (is.real_time && is.overruns) {
+      const Style style = *is.overruns == 0 ? Style::Plain : Style::Warning;
+      line.add(fmt::format("  overruns {}", *is.overruns), style);
     }
     if (is.ended) {
       const bool complete = is_complete(is.result);
@@ -90,7 +86,7 @@ class View {
     if (node == 0 || is_synchronized(node) || has_bar(node)) return 0;
     const bool running = status_of(snapshot_.nodes[node].activity) == Status::Running;
     if (!running) return 3;
-    return tree_.nodes[node].children == 0 ? 1 : 2;
+    return tree_.nodes[node].children.empty() ? 1 : 2;
   }
 
   // In the order of the tree; one row is kept for the note when nodes are left out.
@@ -107,32 +103,31 @@ class View {
 
   std::string row(NodeIndex node) const {
     const Look look = look_of(snapshot_.nodes[node].activity);
-    const std::string segment = tree_.segment(node);
-    const std::string_view id = tree_.labels[node].type->id;
+    const ShapeNode& shape = tree_.nodes[node];
     TextLine line = new_line();
-    line.fill_to(2 * depth(node));
+    line.fill_to(indent(node));
     line.add(options_.unicode ? look.unicode : look.ascii, look.style);
     line.add(" ");
-    line.add(segment, is_synchronized(node) ? Style::Strong : Style::Plain);
+    line.add(shape.segment, is_synchronized(node) ? Style::Strong : Style::Plain);
     if (has_bar(node)) add_bar(line, node, look.style);
-    if (!has_bar(node) && segment != id) {
-      line.add(fmt::format(" ({})", id), Style::Dim);
+    if (!has_bar(node) && shape.segment != shape.kind) {
+      line.add(fmt::format(" ({})", shape.kind), Style::Dim);
     }
     return line.text() + "\n";
   }
 
   void add_bar(TextLine& line, NodeIndex node, Style style) const {
-    const NodeIndex self = parent(node);
-    const auto children = children_of(tree_, self);
+    const NodeIndex self = *tree_.nodes[node].parent;
+    const ShapeNode& parent = tree_.nodes[self];
     std::vector<double> progress;
     std::size_t name = 0, place = 0;
-    for (std::size_t child = 0; child < children.size(); ++child) {
-      progress.push_back(snapshot_.nodes[children[child]].progress);
-      name = std::max(name, columns(tree_.segment(children[child])));
-      if (children[child] == node) place = child;
+    for (const NodeIndex child : parent.children) {
+      if (child == node) place = progress.size();
+      progress.push_back(snapshot_.nodes[child].progress);
+      name = std::max(name, columns(tree_.nodes[child].segment));
     }
-    line.fill_to(2 * depth(node) + 3 + std::min<std::size_t>(name, 24));
-    line.add(bar(self, progress, place), style);
+    line.fill_to(indent(node) + 3 + std::min<std::size_t>(name, 24));
+    line.add(bar(parent, progress, place), style);
     line.add(fmt::format(" {:.2f}", progress[place]));
     // Under a parent that is held itself, the parent says what is waited for.
     if (snapshot_.nodes[node].activity != Activity::Paused ||
@@ -140,31 +135,42 @@ class View {
       return;
     }
     line.add("  ");
-    line.add(waiting_text(tree_, self, progress, place), Style::Warning);
+    line.add(waiting(parent, progress, place), Style::Warning);
   }
 
-  std::string bar(NodeIndex self, const std::vector<double>& progress, std::size_t place) const {
+  std::string waiting(const ShapeNode& parent, const std::vector<double>& progress,
+                      std::size_t place) const {
+    return waiting_text(
+        {.synchronization = parent.synchronization,
+         .barriers = parent.barriers,
+         .delta = parent.delta,
+         .name_of = [&](std::size_t child) { return tree_.nodes[parent.children[child]].segment; }},
+        progress, place);
+  }
+
+  std::string bar(const ShapeNode& parent, const std::vector<double>& progress,
+                  std::size_t place) const {
     ProgressBar bar{.progress = progress[place],
-                    .marks = barriers(tree_, self),
+                    .marks = parent.barriers,
                     .cells = std::clamp<std::size_t>(options_.width / 4, 8, 40)};
     double limit = 1;
-    if (synchronization(tree_.nodes[self]) == Synchronization::Relative) {
+    if (parent.synchronization == Synchronization::Relative) {
       bar.band_begin = *std::min_element(progress.begin(), progress.end());
-      bar.band_end = std::min(1.0, bar.band_begin + delta(tree_, self));
+      bar.band_end = std::min(1.0, bar.band_begin + parent.delta);
       limit = bar.band_end;
       bar.marks = {&limit, 1};
     }
     return to_text(bar, options_.unicode);
   }
 
-  const Tree& tree_;
+  const TreeShape& tree_;
   const Snapshot& snapshot_;
   const DrawOptions& options_;
 };
 
 }  // namespace
 
-std::string draw(const Tree& tree, const Snapshot& snapshot, const DrawOptions& options) {
+std::string draw(const TreeShape& tree, const Snapshot& snapshot, const DrawOptions& options) {
   return View(tree, snapshot, options).draw();
 }
 

@@ -2,16 +2,26 @@
 // the command line say it the same way.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 
-#include "engine/tree.h"
+#include "engine/synchronized.h"
 #include "measure/stall.h"
 
 namespace lockstep {
 
+// A synchronized node, of a tree that runs or of a recording.
+struct WaitedAt {
+  Synchronization synchronization = Synchronization::None;
+  std::span<const double> barriers = {};
+  double delta = 0;
+  std::function<std::string(std::size_t child)> name_of;
+};
+
 // "waits for base at barrier 0.5" or "waits for base, 0.12 ahead (delta 0.1)". `progress` is that
-// of all children of `node`, as the node used it; `child` is the number of the one that is held.
+// of all children of the node, as it used it; `child` is the number of the one that is held.
+std::string waiting_text(const WaitedAt& node, std::span<const double> progress, std::size_t child);
 std::string waiting_text(const Tree& tree, NodeIndex node, std::span<const double> progress,
                          std::size_t child);
 

@@ -12,6 +12,10 @@ namespace {
 
 using test::tree_from_text;
 
+std::string draw(const Tree& tree, const Snapshot& now, const DrawOptions& options) {
+  return lockstep::draw(shape_of(tree), now, options);
+}
+
 Snapshot snapshot(std::vector<NodeView> nodes) {
   return {.header = {.rate_hz = 10, .tick = 4, .time = std::chrono::milliseconds(400)},
           .nodes = std::move(nodes)};

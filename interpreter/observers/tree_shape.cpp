@@ -1,0 +1,50 @@
+#include "observers/tree_shape.h"
+
+#include <utility>
+
+namespace lockstep {
+namespace {
+
+// A parent comes before its children.
+void add(TreeShape& shape, ShapeNode node) {
+  if (node.parent) {
+    ShapeNode& parent = shape.nodes[*node.parent];
+    node.depth = parent.depth + 1;
+    parent.children.push_back(static_cast<NodeIndex>(shape.nodes.size()));
+  }
+  shape.nodes.push_back(std::move(node));
+}
+
+}  // namespace
+
+// Not by way of paths: those of a deep tree are long.
+TreeShape shape_of(const Tree& tree) {
+  TreeShape shape{.id = tree.id};
+  for (NodeIndex index = 0; index < tree.nodes.size(); ++index) {
+    const NodeLabel& label = tree.labels[index];
+    ShapeNode node{
+        .segment = tree.segment(index), .kind = std::string(label.type->id), .parent = {}};
+    if (label.parent != index) node.parent = label.parent;
+    node.synchronization = synchronization(tree.nodes[index]);
+    const auto list = barriers(tree, index);
+    node.barriers.assign(list.begin(), list.end());
+    if (node.synchronization == Synchronization::Relative) node.delta = delta(tree, index);
+    add(shape, std::move(node));
+  }
+  return shape;
+}
+
+TreeShape shape_of(const RecordingHeader& header) {
+  TreeShape shape{.id = header.tree};
+  for (const RecordedNode& node : header.nodes) {
+    add(shape, {.segment = node.path.substr(node.path.rfind('/') + 1),
+                .kind = node.kind,
+                .parent = node.parent,
+                .synchronization = node.synchronization,
+                .barriers = node.barriers,
+                .delta = node.delta});
+  }
+  return shape;
+}
+
+}  // namespace lockstep
