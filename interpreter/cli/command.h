@@ -21,7 +21,7 @@ struct Command {
 };
 
 extern const Command kRunCommand, kCheckCommand, kShowCommand, kNodesCommand, kSchemaCommand,
-    kLogCommand, kStudyCommand;
+    kLogCommand, kReplayCommand, kStudyCommand;
 
 // All of them, in the order of --help.
 std::span<const Command* const> commands();

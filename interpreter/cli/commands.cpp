@@ -13,9 +13,9 @@
 namespace lockstep {
 
 std::span<const Command* const> commands() {
-  static constexpr const Command* kAll[] = {&kRunCommand,   &kCheckCommand,  &kShowCommand,
-                                            &kNodesCommand, &kSchemaCommand, &kLogCommand,
-                                            &kStudyCommand};
+  static constexpr const Command* kAll[] = {&kRunCommand,    &kCheckCommand,  &kShowCommand,
+                                            &kNodesCommand,  &kSchemaCommand, &kLogCommand,
+                                            &kReplayCommand, &kStudyCommand};
   return kAll;
 }
 

@@ -70,9 +70,11 @@ std::function<int()> define(CLI::App& app) {
       ->type_name("FILE");
   const auto measures = define_log_measure(app);
   const auto plot = define_log_plot(app);
+  const auto difference = define_log_diff(app);
   return [=] {
     if (measures.app->parsed()) return measures.run();
     if (plot.app->parsed()) return plot.run();
+    if (difference.app->parsed()) return difference.run();
     return table->parsed() ? csv(*options) : info(*options);
   };
 }
@@ -83,16 +85,17 @@ const Command kLogCommand{"log", "Read recordings that `lockstep run --record` h
                           "A recording that ends early, as after a kill, is read up to its last "
                           "whole line; a message on\n"
                           "stderr says so.\n"
-                          "Exit code: 0 read, 2 usage, a file that cannot be read, or a plot "
-                          "without gnuplot, 3 not a\n"
-                          "recording or a damaged one.\n"
+                          "Exit code: 0 read, 1 two recordings differ, 2 usage, a file that "
+                          "cannot be read, or a plot\n"
+                          "without gnuplot, 3 not a recording or a damaged one.\n"
                           "\n"
                           "Examples:\n"
                           "  lockstep run trees/door_pulling.xml --record run.jsonl\n"
                           "  lockstep log info run.jsonl\n"
                           "  lockstep log csv run.jsonl > run.csv\n"
                           "  lockstep log measure run.jsonl --measure predictability:arm@0.5\n"
-                          "  lockstep log plot run.jsonl --out progress.svg",
+                          "  lockstep log plot run.jsonl --out progress.svg\n"
+                          "  lockstep log diff run.jsonl again.jsonl",
                           define};
 
 }  // namespace lockstep

@@ -21,6 +21,7 @@ void add_recording_file(CLI::App& app, std::string& file);
 // that is none.
 int with_recording(const std::string& path, const std::function<int(RecordingReader&)>& use);
 // Says what was wrong with the recording, or that it is cut. Returns the exit code.
+int report_end(const RecordingOutcome& outcome);
 int report_end(const RecordingReader& reader);
 // Says that `path` cannot be read or written. Returns the exit code.
 int cannot_use(std::string_view verb, std::string_view path, int reason);
@@ -33,5 +34,6 @@ struct LogSubcommand {
 };
 LogSubcommand define_log_measure(CLI::App& log);
 LogSubcommand define_log_plot(CLI::App& log);
+LogSubcommand define_log_diff(CLI::App& log);
 
 }  // namespace lockstep

@@ -31,14 +31,18 @@ int with_recording(const std::string& path, const std::function<int(RecordingRea
   return reader.error().empty() ? use(reader) : report_end(reader);
 }
 
-int report_end(const RecordingReader& reader) {
-  if (!reader.error().empty()) {
-    print_error(reader.error());
+int report_end(const RecordingOutcome& outcome) {
+  if (!outcome.error.empty()) {
+    print_error(outcome.error);
     return kExitInvalidTree;
   }
-  if (const std::string gaps = reader.gaps(); !gaps.empty()) print_error(gaps);
-  if (!reader.cut().empty()) print_error(fmt::format("the recording is cut: {}", reader.cut()));
+  if (!outcome.gaps.empty()) print_error(outcome.gaps);
+  if (!outcome.cut.empty()) print_error(fmt::format("the recording is cut: {}", outcome.cut));
   return kExitSuccess;
+}
+
+int report_end(const RecordingReader& reader) {
+  return report_end(reader.outcome());
 }
 
 int cannot_use(std::string_view verb, std::string_view path, int reason) {

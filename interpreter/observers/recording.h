@@ -45,11 +45,19 @@ struct RecordedState {
   friend bool operator==(const RecordedState&, const RecordedState&) = default;
 };
 
+// Of a leaf; the run went on after it.
+struct RecordedFault {
+  NodeIndex node = 0;
+  std::string message;
+
+  friend bool operator==(const RecordedFault&, const RecordedFault&) = default;
+};
+
 struct RecordedTick {
   std::uint64_t tick = 0;
   double time = 0;  // seconds
   std::span<const RecordedState> nodes;
-  std::uint64_t faults = 0;  // of leaves in this tick that the run went on after
+  std::vector<RecordedFault> faults = {};
 };
 
 // Ticks in a row that have no line: the disk was too slow for them.

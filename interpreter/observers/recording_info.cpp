@@ -75,7 +75,7 @@ void write_info(RecordingReader& reader, std::FILE* out, bool color) {
   double time = 0;
   while (const auto tick = reader.next()) {
     ++ticks;
-    faults += tick->faults;
+    faults += tick->faults.size();
     time = tick->time;
     for (Replayed& node : nodes) node.after_tick(*tick);
   }

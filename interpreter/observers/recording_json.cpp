@@ -35,6 +35,14 @@ double number(const Json& object, const char* key) {
   return member_as<double>(object, key, "a number");
 }
 
+// What fits into nanoseconds.
+double seconds(const Json& object, const char* key) {
+  constexpr double kMost = 9e9;
+  const double value = number(object, key);
+  if (value >= 0 && value <= kMost) return value;
+  throw BadLine(fmt::format("'{}' is not a time in seconds", key));
+}
+
 std::uint64_t whole(const Json& object, const char* key) {
   const Json& value = member(object, key);
   if (!value.is_number_unsigned()) throw BadLine(fmt::format("'{}' is not a whole number", key));
@@ -59,12 +67,19 @@ RecordedNode node_from(const Json& json, std::size_t index) {
     if (parent >= index) throw BadLine(fmt::format("parent of node {} comes after it", index));
     node.parent = static_cast<NodeIndex>(parent);
   }
+  const auto is_progress = [](double value) { return value >= 0 && value <= 1; };
   if (json.contains("barriers")) {
     node.synchronization = Synchronization::Absolute;
     node.barriers = member_as<std::vector<double>>(json, "barriers", "a list of numbers");
+    if (!std::ranges::all_of(node.barriers, is_progress)) {
+      throw BadLine(fmt::format("a barrier of node {} is not in [0, 1]", index));
+    }
   } else if (json.contains("delta")) {
     node.synchronization = Synchronization::Relative;
     node.delta = number(json, "delta");
+    if (!is_progress(node.delta)) {
+      throw BadLine(fmt::format("the delta of node {} is not in [0, 1]", index));
+    }
   }
   return node;
 }
@@ -108,15 +123,16 @@ void apply(const Json& change, std::vector<RecordedState>& states) {
                                                   .held = flag_from(change[4])};
 }
 
-std::uint64_t count_faults(const Json& faults, std::size_t nodes) {
-  for (const Json& fault : faults) {
+std::vector<RecordedFault> faults_from(const Json& list, std::size_t nodes) {
+  std::vector<RecordedFault> faults;
+  for (const Json& fault : list) {
     if (!fault.is_array() || fault.size() != 2 || !fault[0].is_number_unsigned() ||
         !fault[1].is_string()) {
       throw BadLine("a fault is not [index, message]");
     }
-    index_from(fault[0], nodes);
+    faults.push_back({static_cast<NodeIndex>(index_from(fault[0], nodes)), fault[1]});
   }
-  return faults.size();
+  return faults;
 }
 
 }  // namespace
@@ -155,7 +171,7 @@ RecordedEnd end_from(const Json& line) {
                   .fault = {},
                   .signal = {},
                   .ticks = whole(json, "ticks"),
-                  .time = number(json, "time_s"),
+                  .time = seconds(json, "time_s"),
                   .overruns = whole(json, "overruns"),
                   .skipped = whole(json, "skipped"),
                   .lost = json.contains("lost") ? whole(json, "lost") : 0};
@@ -172,10 +188,10 @@ RecordedGap gap_from(const Json& line) {
 }
 
 RecordedTick tick_from(const Json& line, std::vector<RecordedState>& states) {
-  RecordedTick tick{.tick = whole(line, "tick"), .time = number(line, "time_s"), .nodes = {}};
+  RecordedTick tick{.tick = whole(line, "tick"), .time = seconds(line, "time_s"), .nodes = {}};
   for (const Json& change : list(line, "nodes")) apply(change, states);
   tick.nodes = states;
-  if (line.contains("faults")) tick.faults = count_faults(list(line, "faults"), states.size());
+  if (line.contains("faults")) tick.faults = faults_from(list(line, "faults"), states.size());
   return tick;
 }
 

@@ -37,6 +37,33 @@ std::optional<RecordedTick> RecordingReader::next() {
   return std::nullopt;
 }
 
+RecordingReader::Place RecordingReader::place() const {
+  return {.bytes = bytes_,
+          .lines = line_,
+          .tick = tick_,
+          .states = states_,
+          .first_gap = first_gap_,
+          .lost = lost_};
+}
+
+bool RecordingReader::go_to(const Place& place) {
+  in_.clear();
+  if (!in_.seekg(static_cast<std::streamoff>(place.bytes))) return false;
+  bytes_ = place.bytes;
+  line_ = place.lines;
+  tick_ = place.tick;
+  states_ = place.states;
+  tick_.nodes = states_;
+  last_ = tick_.tick;
+  first_gap_ = place.first_gap;
+  lost_ = place.lost;
+  // A tick is neither behind the closing line nor behind an error.
+  end_.reset();
+  error_.clear();
+  last_line_cut_ = false;
+  return true;
+}
+
 // Any line but the header. True: of a tick.
 bool RecordingReader::read_further(const nlohmann::json& json) {
   if (end_) throw BadLine("a line after the closing line");
@@ -79,6 +106,7 @@ std::optional<std::string> RecordingReader::next_line() {
   std::string line;
   if (!std::getline(in_, line)) return std::nullopt;
   ++line_;
+  bytes_ += line.size() + 1;
   return line;
 }
 

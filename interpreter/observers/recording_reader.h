@@ -13,13 +13,35 @@
 
 namespace lockstep {
 
+// What is known of a recording once it has been read; each "" when there is nothing to tell.
+struct RecordingOutcome {
+  std::string error, gaps, cut;    // as RecordingReader tells them
+  std::optional<RecordedEnd> end;  // the closing line
+};
+
 class RecordingReader {
  public:
   // `in` must outlive the reader; `name` is how errors call it. Reads the header: check error().
   RecordingReader(std::istream& in, std::string name);
 
-  // The next tick, or nothing at the end or after an error. Valid until the next call.
+  // The next tick, or nothing at the end or after an error. Its nodes are valid until the next
+  // call.
   std::optional<RecordedTick> next();
+
+  // Where the reader stands, after a tick: all it needs to go on from there.
+  struct Place {
+    std::uint64_t bytes = 0;  // of the file, that have been read
+    std::size_t lines = 0;    // the same
+    RecordedTick tick;
+    std::vector<RecordedState> states;
+    std::optional<RecordedGap> first_gap;
+    std::uint64_t lost = 0;
+  };
+  Place place() const;
+  std::uint64_t bytes_read() const { return bytes_; }
+  // To where this reader once stood: next() gives the tick after place.tick. The file must not have
+  // been changed before `bytes`, and be one that can seek. False when it is not.
+  bool go_to(const Place& place);
 
   // "" while all is well, else "run.jsonl:12: no node 99, expected 0 to 4".
   const std::string& error() const { return error_; }
@@ -33,6 +55,7 @@ class RecordingReader {
   std::string gaps() const;
   // After the last tick: "" when the recording is whole, else how it ends.
   std::string cut() const;
+  RecordingOutcome outcome() const { return {error_, gaps(), cut(), end_}; }
 
  private:
   std::optional<std::string> next_line();
@@ -46,6 +69,7 @@ class RecordingReader {
   std::string name_;
   std::string error_;
   std::size_t line_ = 0;
+  std::uint64_t bytes_ = 0;
   bool last_line_cut_ = false;
   RecordingHeader header_;
   std::optional<RecordedEnd> end_;

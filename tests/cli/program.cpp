@@ -3,7 +3,9 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <pty.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -53,6 +55,11 @@ struct Pipe {
   }
 };
 
+bool is_raw(int terminal) {
+  termios now{};
+  return tcgetattr(terminal, &now) == 0 && (now.c_lflag & (ICANON | ECHO)) != (ICANON | ECHO);
+}
+
 // Appends what can be read at once; false at the end.
 bool append(int file, std::string& text) {
   char buffer[65536];
@@ -60,6 +67,10 @@ bool append(int file, std::string& text) {
   if (count <= 0) return false;  // a terminal whose program has ended gives EIO
   text.append(buffer, static_cast<std::size_t>(count));
   return true;
+}
+
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) / 1e6;
 }
 
 }  // namespace
@@ -115,6 +126,7 @@ bool Process::read_more() {
   constexpr int kPatience = 60'000;
   REQUIRE(poll(files, 2, kPatience) > 0);
   if (files[0].revents != 0 && !append(out_, outcome_.out)) {
+    outcome_.terminal_is_raw = is_raw(out_);
     close(out_);
     out_ = -1;
   }
@@ -132,12 +144,19 @@ bool Process::wait_for(const std::string& text) {
   return true;
 }
 
+void Process::type(const std::string& keys) const {
+  REQUIRE(write(out_, keys.data(), keys.size()) == static_cast<ssize_t>(keys.size()));
+}
+
 Outcome Process::finish() {
   while (read_more()) {
   }
   int status = 0;
-  REQUIRE(waitpid(pid_, &status, 0) == pid_);
+  rusage used{};
+  REQUIRE(wait4(pid_, &status, 0, &used) == pid_);
   pid_ = -1;
+  outcome_.cpu_seconds = seconds(used.ru_utime) + seconds(used.ru_stime);
+  outcome_.peak_megabytes = static_cast<double>(used.ru_maxrss) / 1024;
   outcome_.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return outcome_;
 }

@@ -14,6 +14,9 @@ struct Outcome {
   int code = -1;  // 128 + the signal when one killed it
   std::string out;
   std::string err;
+  bool terminal_is_raw = false;  // does not show what is typed, as the program has left it
+  double cpu_seconds = 0;
+  double peak_megabytes = 0;  // resident
 };
 
 struct Call {
@@ -40,6 +43,10 @@ class Process {
   // Reads on until its output holds `text`; false when it ended without.
   bool wait_for(const std::string& text);
   void signal(int number) const { kill(pid_, number); }
+  // Keys on its terminal.
+  void type(const std::string& keys) const;
+  // Forgets what it has printed so far.
+  void clear_output() { outcome_ = {}; }
   Outcome finish();
 
  private:

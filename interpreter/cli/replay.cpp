@@ -1,0 +1,160 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/exit_code.h"
+#include "cli/log.h"
+#include "cli/replay_session.h"
+#include "observers/terminal.h"
+
+namespace lockstep {
+namespace {
+
+struct Options {
+  std::string file;
+  std::optional<std::uint64_t> at;
+  double speed = 1;
+  bool print = false;
+};
+
+int no_such_tick(std::uint64_t tick, std::uint64_t first, std::uint64_t last) {
+  print_error(fmt::format("--at {}: the recording has ticks {} to {}", tick, first, last));
+  return kExitUsage;
+}
+
+int no_ticks() {
+  print_error("the recording has no tick that could be shown");
+  return kExitUsage;
+}
+
+// The tick that was asked for, else the last before it. Reads in one go, as from a pipe.
+struct Search {
+  Moment found;
+  std::uint64_t ticks = 0, first = 0, last = 0;
+};
+
+Search search(RecordingReader& reader, std::optional<std::uint64_t> at) {
+  Search search;
+  std::uint64_t expected = 0;
+  while (const auto tick = reader.next()) {
+    if (search.ticks++ == 0) search.first = tick->tick;
+    search.last = tick->tick;
+    if (!at || tick->tick <= *at) take(*tick, tick->tick - expected, search.found);
+    expected = tick->tick + 1;
+  }
+  return search;
+}
+
+int print_tick(const Options& options, RecordingReader& reader) {
+  const Search found = search(reader, options.at);
+  const int code = report_end(reader);
+  if (found.ticks == 0) return code == kExitSuccess ? no_ticks() : code;
+  if (options.at && (*options.at < found.first || *options.at > found.last)) {
+    return no_such_tick(*options.at, found.first, found.last);
+  }
+  const Moment& moment = found.found;
+  if (options.at && moment.tick != *options.at) {
+    print_error(fmt::format("tick {} is not in the recording: {} is the last before it",
+                            *options.at, moment.tick));
+  }
+  constexpr unsigned kUnlimited = 1'000'000;
+  const TreeShape shape = shape_of(reader.header());
+  const bool ended = moment.tick == found.last && reader.end();
+  const std::string text =
+      draw_moment(shape, snapshot_of(reader.header(), shape, moment, ended), moment,
+                  {.width = kUnlimited,
+                   .height = kUnlimited,
+                   .color = wants_color(stdout),
+                   .unicode = has_unicode()});
+  const bool written =
+      std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+  const int out = end_of_stdout(written);
+  return code == kExitSuccess ? out : code;
+}
+
+int play(const Options& options, RecordingReader& reader) {
+  const RecordingHeader& header = reader.header();
+  fmt::print("reading ...");  // what is large takes seconds
+  std::fflush(stdout);
+  RecordingTimeline timeline(reader);
+  fmt::print("\r\x1b[K");
+  std::fflush(stdout);
+  const RecordingOutcome& outcome = timeline.outcome();
+  if (timeline.size() == 0) {
+    const int code = report_end(outcome);
+    return code == kExitSuccess ? no_ticks() : code;
+  }
+  if (options.at) {
+    if (*options.at < timeline.first_tick() || *options.at > timeline.last_tick()) {
+      const int code = report_end(outcome);
+      no_such_tick(*options.at, timeline.first_tick(), timeline.last_tick());
+      return code == kExitSuccess ? kExitUsage : code;
+    }
+    timeline.go_to_tick(*options.at);
+  }
+  const int code = play_on_terminal(header, timeline, options.speed);
+  const int read = report_end(outcome);
+  return code == kExitSuccess ? read : code;
+}
+
+int replay(const Options& options) {
+  // Here, since CLI::Range lets nan pass.
+  if (!(options.speed >= ReplayPlayer::kSlowest && options.speed <= ReplayPlayer::kFastest)) {
+    print_error(fmt::format("--speed: expected a number from {} to {}", ReplayPlayer::kSlowest,
+                            ReplayPlayer::kFastest));
+    return kExitUsage;
+  }
+  return with_recording(options.file, [&](RecordingReader& reader) {
+    const bool interactive =
+        !options.print && options.file != "-" && is_terminal(stdin) && is_terminal(stdout);
+    return interactive ? play(options, reader) : print_tick(options, reader);
+  });
+}
+
+std::function<int()> define(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  add_recording_file(app, options->file);
+  app.add_option("--at", options->at, "Begin at this tick; without a terminal: print it")
+      ->type_name("TICK")
+      ->check([](const std::string& text) {
+        const bool good =
+            !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+        return good ? "" : fmt::format("'{}' is not a whole number from 0", text);
+      });
+  app.add_option("--speed", options->speed, "1: as recorded; 0.1: ten times as slow")
+      ->type_name("X")
+      ->capture_default_str();
+  app.add_flag("--print", options->print, "Print one tick and end, also on a terminal");
+  return [options] { return replay(*options); };
+}
+
+}  // namespace
+
+const Command kReplayCommand{
+    "replay", "Watch a run again, from its recording",
+    "On a terminal the recording plays as the live view of the run did. Keys:\n"
+    "  space           pause, go on\n"
+    "  right, n        one tick forward\n"
+    "  left, p         one tick back\n"
+    "  g TICK enter    go to that tick\n"
+    "  home, end       go to the first, the last tick\n"
+    "  + -             twice, half the speed\n"
+    "  q, Ctrl-C       quit\n"
+    "Otherwise, and with --print, the tree as of one tick is printed to stdout: that of --at, "
+    "else\n"
+    "the last.\n"
+    "Exit code: 0 read, 2 usage or a file that cannot be read, 3 not a recording or a damaged "
+    "one,\n"
+    "130 Ctrl-C.\n"
+    "\n"
+    "Examples:\n"
+    "  lockstep replay run.jsonl\n"
+    "  lockstep replay run.jsonl --at 400 --speed 0.1\n"
+    "  lockstep replay run.jsonl --at 400 --print",
+    define};
+
+}  // namespace lockstep

@@ -1,0 +1,126 @@
+#include "cli/replay_session.h"
+
+#include <poll.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <utility>
+
+#include "cli/console.h"
+#include "cli/exit_code.h"
+#include "observers/raw_terminal.h"
+#include "observers/screen.h"
+#include "observers/terminal.h"
+#include "runtime/stop_signals.h"
+
+namespace lockstep {
+namespace {
+
+using RealTime = std::chrono::steady_clock;
+
+constexpr double kFrame = 0.03;    // seconds; an eye needs no more
+constexpr double kPatience = 0.2;  // a signal may arrive just before we wait
+constexpr char kSuspend = '\x1a';  // Ctrl-Z
+
+class Session {
+ public:
+  Session(const RecordingHeader& header, RecordingTimeline& timeline, double speed)
+      : header_(header), shape_(shape_of(header)), player_(timeline, speed) {}
+
+  int play() {
+    screen_.begin();
+    while (!player_.has_quit() && !player_.timeline().failed() && StopSignals::received() == 0) {
+      show();
+      const bool may_read = wait();
+      pass_time();
+      if (!may_read) {
+        press(decoder_.idle());
+      } else if (!read_keys()) {
+        break;
+      }
+    }
+    show();
+    screen_.end();
+    return StopSignals::received() == 0 ? kExitSuccess : kExitSignal + StopSignals::received();
+  }
+
+ private:
+  void show() {
+    const RecordingTimeline& timeline = player_.timeline();
+    const TerminalSize size = terminal_size(stdout);
+    const bool ended = timeline.at_end() && timeline.outcome().end;
+    std::string frame =
+        draw_replay(shape_, snapshot_of(header_, shape_, timeline.now(), ended), player_,
+                    {.width = size.width,
+                     .height = size.height,
+                     .color = wants_color(stdout),
+                     .unicode = has_unicode()});
+    if (frame == shown_) return;
+    screen_.show("", frame);
+    shown_ = std::move(frame);
+  }
+
+  // Until a key or the next frame. True when there may be a key.
+  bool wait() const {
+    const double seconds =
+        std::min(kPatience, std::max(kFrame, player_.wait().value_or(kPatience)));
+    pollfd keys{STDIN_FILENO, POLLIN, 0};
+    return poll(&keys, 1, static_cast<int>(seconds * 1000)) > 0;
+  }
+
+  void pass_time() {
+    const auto now = RealTime::now();
+    player_.pass(std::chrono::duration<double>(now - std::exchange(last_, now)).count());
+  }
+
+  // False when the terminal is gone.
+  bool read_keys() {
+    char bytes[64];
+    const ssize_t count = read(STDIN_FILENO, bytes, sizeof bytes);
+    if (count <= 0) return count < 0 && errno == EINTR;
+    for (const char byte : std::string_view(bytes, static_cast<std::size_t>(count))) {
+      if (byte == kSuspend) {
+        suspend();
+      } else {
+        press(decoder_.take(byte));
+      }
+    }
+    return true;
+  }
+
+  void press(std::optional<Key> key) {
+    if (key) player_.press(*key);
+  }
+
+  void suspend() {
+    screen_.end();
+    terminal_.suspend();
+    screen_.begin();
+    shown_.clear();
+    last_ = RealTime::now();
+  }
+
+  const RecordingHeader& header_;
+  const TreeShape shape_;
+  ReplayPlayer player_;
+  RawTerminal terminal_{STDIN_FILENO, STDOUT_FILENO};
+  Screen screen_{stdout};
+  KeyDecoder decoder_;
+  std::string shown_;
+  RealTime::time_point last_ = RealTime::now();
+};
+
+}  // namespace
+
+int play_on_terminal(const RecordingHeader& header, RecordingTimeline& timeline, double speed) {
+  StopSignals::install(&RawTerminal::restore);
+  const int code = Session(header, timeline, speed).play();
+  if (!timeline.failed()) return code;
+  print_error("the recording was changed while it was read");
+  return kExitInvalidTree;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,13 @@
+// A replay on a terminal: hands keys and the time that passes to a ReplayPlayer and draws what
+// comes of it.
+#pragma once
+
+#include "observers/replay_view.h"
+
+namespace lockstep {
+
+// stdin has the keys, stdout is the screen; both are a terminal. Until it is quit. Returns the exit
+// code.
+int play_on_terminal(const RecordingHeader& header, RecordingTimeline& timeline, double speed);
+
+}  // namespace lockstep

@@ -1,0 +1,81 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+
+using namespace lockstep::test;
+using nlohmann::json;
+
+namespace {
+
+Outcome call(std::vector<std::string> arguments) {
+  return lockstep::test::lockstep(std::move(arguments));
+}
+
+std::string record(const TemporaryDirectory& directory, const std::string& name,
+                   const std::string& step) {
+  const std::string file = directory.path(name);
+  const std::string tree = directory.file(
+      name + ".xml",
+      tree_text("<Sequence memory=\"true\"><Advance name=\"arm\" step=\"0.25\"/><Advance "
+                "name=\"base\" step=\"" +
+                step + "\"/></Sequence>"));
+  REQUIRE(call({"run", tree, "--clock", "virtual", "--view", "none", "--record", file}).code == 0);
+  return file;
+}
+
+}  // namespace
+
+TEST_CASE("two recordings of the same run do not differ, though their files have other names") {
+  const TemporaryDirectory directory;
+  const std::string a = record(directory, "a", "0.5"), b = record(directory, "b", "0.5");
+  const Outcome outcome = call({"log", "diff", a, b});
+  CHECK(outcome.code == 0);
+  CHECK(outcome.out == "");
+  CHECK(outcome.err == "");
+  const Outcome as_json = call({"log", "diff", a, b, "--json"});
+  CHECK(as_json.code == 0);
+  CHECK(json::parse(as_json.out)["same"] == true);
+}
+
+TEST_CASE("the first tick in which two runs differ, as text and as JSON") {
+  const TemporaryDirectory directory;
+  const std::string a = record(directory, "a", "0.5"), b = record(directory, "b", "0.25");
+  const Outcome outcome = call({"log", "diff", a, b});
+  CHECK(outcome.code == 1);
+  const auto text = lines(outcome.out);
+  REQUIRE(text.size() > 4);
+  CHECK(text[0] == "--- " + a);
+  CHECK(text[1] == "+++ " + b);
+  CHECK(text[2].starts_with("@@ tick "));
+  CHECK(contains(outcome.out,
+                 "\n Main/Sequence/base\n-  success, progress 0.5, ticked\n"
+                 "+  running, progress 0.25, ticked\n"));
+  const json told = json::parse(call({"log", "diff", a, b, "--json"}).out);
+  CHECK(told["same"] == false);
+  CHECK(told["first_tick"]["nodes"].back()["path"] == "Main/Sequence/base");
+  CHECK(told["first_tick"]["nodes"].back()["b"]["progress"] == 0.25);
+  CHECK(told["ticks"]["a"] < told["ticks"]["b"]);
+  CHECK(told["end"][0]["what"] == "ticks");
+}
+
+TEST_CASE("what log diff cannot read") {
+  const TemporaryDirectory directory;
+  const std::string a = record(directory, "a", "0.5");
+  CHECK(call({"log", "diff", a, directory.path("missing")}).code == 2);
+  CHECK(call({"log", "diff", a}).code == 2);
+  CHECK(call({"log", "diff", "-", "-"}).code == 2);
+  CHECK(call({"log", "diff", a, a, "--tolerance", "-1"}).code == 2);
+  CHECK(call({"log", "diff", a, directory.file("none", "{}\n")}).code == 3);
+  const std::string text = read_file(a);
+  const Outcome damaged = call({"log", "diff", a, directory.file("damaged", text + "x\n")});
+  CHECK(damaged.code == 3);
+  CHECK(contains(damaged.err, "not JSON"));
+  const std::string cut_text = text.substr(0, text.rfind("{\"end\""));
+  const Outcome cut = call({"log", "diff", a, directory.file("cut", cut_text)});
+  CHECK(cut.code == 1);
+  CHECK(contains(cut.err, "the recording is cut"));
+  CHECK(contains(cut.out, "@@ end @@\n-result success\n"));
+  const Outcome from_pipe = run({.arguments = {"log", "diff", a, "-"}, .input = text});
+  CHECK(from_pipe.code == 0);
+}

@@ -1,0 +1,109 @@
+#include "unit/observers/random_recording.h"
+
+#include <fmt/format.h>
+
+#include "observers/recording_text.h"
+
+namespace lockstep::test {
+namespace {
+
+std::size_t below(std::mt19937& random, std::size_t limit) {
+  return std::uniform_int_distribution<std::size_t>(0, limit - 1)(random);
+}
+
+RecordedState random_state(std::mt19937& random) {
+  return {.status = static_cast<Status>(below(random, 4)),
+          .progress = static_cast<double>(below(random, 1001)) / 1000,
+          .ticked = below(random, 2) == 1,
+          .held = below(random, 4) == 0};
+}
+
+void append_line(const Moment& moment, const std::vector<RecordedState>& before,
+                 fmt::memory_buffer& out) {
+  if (moment.lost > 0) append_lost(out, moment.lost, moment.tick - moment.lost);
+  append_text(out,
+              fmt::format("{{\"tick\":{},\"time_s\":{},\"nodes\":[", moment.tick, moment.time));
+  bool first = true;
+  for (std::size_t node = 0; node < before.size(); ++node) {
+    if (moment.nodes[node] == before[node]) continue;
+    if (!first) out.push_back(',');
+    first = false;
+    append_node(out, static_cast<NodeIndex>(node), moment.nodes[node]);
+  }
+  out.push_back(']');
+  if (!moment.faults.empty()) {
+    std::vector<Fault> faults;
+    for (const RecordedFault& fault : moment.faults) faults.push_back({fault.node, fault.message});
+    append_text(out, ",\"faults\":");
+    append_faults(out, faults);
+  }
+  append_text(out, "}\n");
+}
+
+}  // namespace
+
+std::string RandomRecording::text() const {
+  fmt::memory_buffer out;
+  append_text(out, to_json(header) + "\n");
+  std::vector<RecordedState> before(header.nodes.size());
+  for (const Moment& moment : ticks) {
+    append_line(moment, before, out);
+    before = moment.nodes;
+  }
+  append_text(out, to_json(end) + "\n");
+  return fmt::to_string(out);
+}
+
+RandomRecording random_recording(std::mt19937& random, const RandomRecordingOptions& options) {
+  RandomRecording recording;
+  recording.header = {.tree = "Main",
+                      .file = "a.xml",
+                      .version = "0.1.0",
+                      .rate_hz = 10,
+                      .clock = "virtual",
+                      .arguments = {},
+                      .nodes = {}};
+  recording.header.nodes.push_back(
+      {.path = "Main/root", .kind = "Parallel", .name = "root", .parent = {}, .barriers = {}});
+  for (std::size_t node = 1; node < options.nodes; ++node) {
+    recording.header.nodes.push_back({.path = fmt::format("Main/root/{}", node),
+                                      .kind = "Advance",
+                                      .name = fmt::to_string(node),
+                                      .parent = 0,
+                                      .barriers = {}});
+  }
+  std::uint64_t tick = 0;
+  std::vector<RecordedState> nodes(options.nodes);
+  for (std::size_t number = 0; number < options.ticks; ++number) {
+    const std::uint64_t lost = options.gaps && below(random, 8) == 0 ? 1 + below(random, 5) : 0;
+    tick += lost;
+    for (RecordedState& state : nodes) {
+      if (below(random, 3) == 0) state = random_state(random);
+    }
+    Moment moment{.number = number,
+                  .tick = tick,
+                  .time = static_cast<double>(tick) / 10,
+                  .nodes = nodes,
+                  .faults = {},
+                  .lost = lost};
+    if (below(random, 10) == 0) {
+      moment.faults.push_back(
+          {static_cast<NodeIndex>(below(random, options.nodes)), fmt::format("fault {}", number)});
+    }
+    recording.ticks.push_back(moment);
+    recording.end.lost += lost;
+    ++tick;
+  }
+  recording.end.result = "stopped";
+  recording.end.reason = "max_ticks";
+  recording.end.ticks = tick;
+  return recording;
+}
+
+RecordedState other_state(std::mt19937& random, const RecordedState& state) {
+  RecordedState other = state;
+  while (other == state) other = random_state(random);
+  return other;
+}
+
+}  // namespace lockstep::test
