@@ -94,7 +94,8 @@ Status tick(Ticker& ticker, NodeIndex self) {
 }
 
 void pause(Ticker& ticker, NodeIndex self) {
-  call(ticker, self, ticker.leaf(self).type->pause);
+  LeafSlot& leaf = ticker.leaf(self);
+  if (!leaf.failed) call(ticker, self, leaf.type->pause);
 }
 
 double progress(Ticker& ticker, NodeIndex self) {
