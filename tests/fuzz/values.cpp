@@ -1,0 +1,79 @@
+// Any text as a value of each type: what parses is written as text that parses to the same value.
+// As the barriers of a tree: what is accepted rises and lies in (0, 1].
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+#include "core/value.h"
+#include "definition/resolve.h"
+#include "engine/compile.h"
+
+namespace {
+
+using namespace lockstep;
+
+void require(bool holds) {
+  if (!holds) std::abort();
+}
+
+bool is_finite(const Value& value) {
+  if (const auto* number = std::get_if<double>(&value)) return std::isfinite(*number);
+  if (const auto* list = std::get_if<std::vector<double>>(&value)) {
+    for (const double number : *list) {
+      if (!std::isfinite(number)) return false;
+    }
+  }
+  return true;
+}
+
+void check_values(std::string_view text) {
+  for (const ValueType type : {ValueType::Bool, ValueType::Int, ValueType::Double,
+                               ValueType::String, ValueType::DoubleList}) {
+    const auto value = parse_value(type, text);
+    if (!value) continue;
+    require(value->index() == 1 + static_cast<std::size_t>(type) && is_finite(*value));
+    require(parse_value(type, to_text(*value)) == value);
+  }
+}
+
+// Every byte as XML can say it; those that it cannot are left out.
+std::string attribute(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x20 || c == '\t' || c == '\n' || c == '\r') out += fmt::format("&#{};", byte);
+  }
+  return out;
+}
+
+void check_barriers(std::string_view text) {
+  const std::string file = fmt::format(
+      "<root lockstep=\"1\"><BehaviorTree ID=\"A\"><ParallelAbsolute barriers=\"{}\">"
+      "<AlwaysSuccess/></ParallelAbsolute></BehaviorTree></root>",
+      attribute(text));
+  Catalog catalog;
+  for (const NodeKind* kind : built_in_kinds()) catalog.add(&kind->type);
+  Diagnostics diagnostics;
+  const auto project = load_project_text("/nowhere/tree.xml", file, {}, diagnostics);
+  require(project != nullptr);
+  const auto definition = resolve(*project, catalog, {}, diagnostics);
+  require(definition.has_value() != diagnostics.has_errors());
+  if (!definition) return;
+  double before = 0;
+  for (const double barrier : compile(*definition).numbers) {
+    require(barrier > before && barrier <= 1);
+    before = barrier;
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  check_values(text);
+  check_barriers(text);
+  return 0;
+}
