@@ -102,7 +102,19 @@ RandomRecording random_recording(std::mt19937& random, const RandomRecordingOpti
 
 RecordedState other_state(std::mt19937& random, const RecordedState& state) {
   RecordedState other = state;
-  while (other == state) other = random_state(random);
+  switch (below(random, 4)) {
+    case 0:
+      other.status = static_cast<Status>((static_cast<unsigned>(state.status) + 1) % 4);
+      break;
+    case 1:
+      other.progress = state.progress == 0 ? 1 : 0;
+      break;
+    case 2:
+      other.ticked = !state.ticked;
+      break;
+    default:
+      other.held = !state.held;
+  }
   return other;
 }
 

@@ -25,7 +25,7 @@ struct RandomRecordingOptions {
 };
 
 RandomRecording random_recording(std::mt19937& random, const RandomRecordingOptions& options = {});
-// Any state but this one.
+// The same but for one of its members.
 RecordedState other_state(std::mt19937& random, const RecordedState& state);
 
 }  // namespace lockstep::test
