@@ -60,10 +60,12 @@ class Adviser {
   }
 
   void sequence_restarts(std::uint32_t sequence) const {
+    constexpr int kMostTold = 10;  // the first few show what is meant
+    int told = 0;
     std::uint32_t earlier = 0;
     for_each_child(sequence, [&](std::uint32_t child) {
       if (!acting_[child]) return;
-      if (earlier != 0) {
+      if (earlier != 0 && told++ < kMostTold) {
         add(earlier, Severity::Warning,
             fmt::format("'{}' is started again in every tick in which '{}' runs", at(earlier).name,
                         at(child).name),
