@@ -12,9 +12,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "core/histogram.h"
 #include "definition/resolve.h"
 #include "engine/compile.h"
-#include "measure/histogram.h"
 #include "runtime/loop.h"
 #include "runtime/realtime.h"
 #include "runtime/run.h"
@@ -154,10 +154,9 @@ int main(int argc, char** argv) {
   app.add_option("--benchmark_out", out, "Write the results as JSON");
   app.add_option("--benchmark_out_format", format, "json");
   CLI11_PARSE(app, argc, argv);
-  Diagnostics missing;
-  apply(realtime, missing);
-  for (const Diagnostic& problem : missing.all()) fmt::print(stderr, "{}\n", problem.message);
-  if (missing.has_errors()) return 1;
+  const auto missing = apply_realtime(realtime);
+  for (const RealtimeProblem& problem : missing) fmt::print(stderr, "{}\n", problem.message);
+  if (!missing.empty()) return 1;
 
   const Tree tree = endless_tree();
   Json results = Json::array();
