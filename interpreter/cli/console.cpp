@@ -38,7 +38,11 @@ void print_diagnostics(Diagnostics& diagnostics, Severity least, std::FILE* out)
     fmt::print(out, "{}", render(shown, wants_color(out)));
   }
   const std::size_t errors = diagnostics.count(Severity::Error);
-  if (errors > 1) fmt::print(out, "{} errors\n", errors);
+  if (errors > Diagnostics::kMaxKept) {
+    fmt::print(out, "{} errors, of which {} are shown\n", errors, Diagnostics::kMaxKept);
+  } else if (errors > 1) {
+    fmt::print(out, "{} errors\n", errors);
+  }
 }
 
 bool flush_stdout() {

@@ -86,6 +86,11 @@ auto identity(const Diagnostic& d) {
 }  // namespace
 
 void Diagnostics::add(Diagnostic diagnostic) {
+  const auto severity = static_cast<std::size_t>(diagnostic.severity);
+  if (++added_[severity] > kMaxKept) {
+    ++lost_[severity];
+    return;
+  }
   all_.push_back(std::move(diagnostic));
 }
 
@@ -100,8 +105,9 @@ bool Diagnostics::has_errors() const {
 }
 
 std::size_t Diagnostics::count(Severity severity) const {
-  return static_cast<std::size_t>(std::count_if(
-      all_.begin(), all_.end(), [&](const Diagnostic& d) { return d.severity == severity; }));
+  const auto kept = std::count_if(all_.begin(), all_.end(),
+                                  [&](const Diagnostic& d) { return d.severity == severity; });
+  return static_cast<std::size_t>(kept) + lost_[static_cast<std::size_t>(severity)];
 }
 
 void Diagnostics::sort() {

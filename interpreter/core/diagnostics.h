@@ -2,6 +2,8 @@
 // command line renders the list.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -28,18 +30,25 @@ struct Diagnostic {
 
 class Diagnostics {
  public:
+  // Of each severity that are kept; the others are only counted. Who reads the thousandth?
+  static constexpr std::size_t kMaxKept = 1000;
+
   void add(Diagnostic diagnostic);
   void error(SourceLocation location, std::string message, std::string hint = {},
              std::string excerpt = {});
 
   bool has_errors() const;
-  std::size_t count(Severity severity) const;
+  // No further error is kept, so that it need not be worded.
+  bool is_full() const { return added_[0] >= kMaxKept; }
+  std::size_t count(Severity severity) const;  // also those that were not kept
   // By file in the order of first mention, then line, then column; equal entries once.
   void sort();
   const std::vector<Diagnostic>& all() const { return all_; }
 
  private:
   std::vector<Diagnostic> all_;
+  std::array<std::size_t, 3> added_{};  // of each severity
+  std::array<std::size_t, 3> lost_{};   // of those, not kept
 };
 
 std::string_view to_string(Severity severity);

@@ -199,6 +199,7 @@ class TreeChecker {
 
   void unknown(const Reporter& report, std::uint32_t index, std::string_view id,
                const Attribute* attribute) const {
+    if (report.is_full()) return report.at_element(index, "unknown node");
     auto known = catalog_.ids();
     std::string hint = did_you_mean(id, known);
     if (hint.empty() && trees_.roots.contains(id)) {

@@ -11,6 +11,8 @@
 namespace lockstep {
 namespace {
 
+constexpr std::size_t kMaxPlugins = 256;  // each may be a process
+
 std::optional<PluginRequest> read_plugin(const Document& document, std::uint32_t element,
                                          Diagnostics& diagnostics) {
   const Reporter report(document, diagnostics);
@@ -53,6 +55,11 @@ std::vector<PluginRequest> requested_plugins(const Project& project, Diagnostics
       if (!request) continue;
       const auto known = std::ranges::find(requests, request->name, &PluginRequest::name);
       if (known == requests.end()) {
+        if (requests.size() == kMaxPlugins) {
+          Reporter(*document, diagnostics)
+              .at_element(child, fmt::format("more than {} plugins", kMaxPlugins));
+          return requests;
+        }
         requests.push_back(*request);
       } else {
         known->isolate |= request->isolate;

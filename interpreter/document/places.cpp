@@ -6,21 +6,44 @@
 
 namespace lockstep {
 
-Lines::Lines(std::string_view text) : text_(text), starts_{0} {
-  for (auto end = text.find('\n'); end != std::string_view::npos; end = text.find('\n', end + 1))
-    starts_.push_back(end + 1);
+namespace {
+
+constexpr std::size_t kBlock = 1024;
+
+std::uint32_t count_ends(std::string_view text) {
+  return static_cast<std::uint32_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+}  // namespace
+
+Lines::Lines(std::string_view text) : text_(text), ends_{0} {
+  ends_.reserve(text.size() / kBlock + 2);
+  for (std::size_t begin = 0; begin < text.size(); begin += kBlock)
+    ends_.push_back(ends_.back() + count_ends(text.substr(begin, kBlock)));
 }
 
 LineColumn Lines::locate(std::size_t offset) const {
-  const auto after = std::upper_bound(starts_.begin(), starts_.end(), offset);
-  const auto column = offset - *(after - 1) + 1;
-  return {static_cast<std::uint32_t>(after - starts_.begin()), static_cast<std::uint32_t>(column)};
+  const auto block = offset / kBlock;
+  const auto line =
+      1 + ends_[block] + count_ends(text_.substr(block * kBlock, offset - block * kBlock));
+  return {line, static_cast<std::uint32_t>(offset - start_of(line) + 1)};
+}
+
+std::size_t Lines::start_of(std::uint32_t number) const {
+  if (number == 1) return 0;
+  // The line end before it is the n-th of its block.
+  const auto after = std::lower_bound(ends_.begin(), ends_.end(), number - 1);
+  const auto block = static_cast<std::size_t>(after - ends_.begin()) - 1;
+  auto end = block * kBlock;
+  for (auto n = number - 1 - ends_[block]; n > 0; --n) end = text_.find('\n', end) + 1;
+  return end;
 }
 
 std::string_view Lines::line(std::uint32_t number) const {
-  if (number == 0 || number > starts_.size()) return {};
-  const auto begin = starts_[number - 1];
-  auto line = text_.substr(begin, std::min(text_.find('\n', begin), text_.size()) - begin);
+  if (number == 0 || number > ends_.back() + 1) return {};
+  const auto begin = start_of(number);
+  const auto end = number > ends_.back() ? text_.size() : start_of(number + 1) - 1;
+  auto line = text_.substr(begin, end - begin);
   if (line.ends_with('\r')) line.remove_suffix(1);
   return line;
 }

@@ -36,6 +36,7 @@ class Loader {
       : arguments_(given, diagnostics), diagnostics_(diagnostics) {}
 
   std::unique_ptr<Project> load(const std::string& path, std::string text) {
+    bytes_ = text.size();
     if (!add({path, identity_of(path)}, std::move(text))) return nullptr;
     arguments_.check_given();
     for (const auto& document : project_->documents) substitute(*document);
@@ -62,6 +63,7 @@ class Loader {
   Diagnostics& diagnostics_;
   std::vector<Reading> open_;   // the chain of includes that is being read
   std::set<std::string> read_;  // identities
+  std::size_t bytes_ = 0;       // of all files
 };
 
 template <class Visit>
@@ -105,6 +107,10 @@ void Loader::include(Document& document, std::uint32_t element) {
     return fail(fmt::format("includes are nested deeper than {} levels", kMaxIncludeDepth));
   auto [text, failure] = read_file(path, Document::kMaxBytes);
   if (!failure.empty()) return fail(fmt::format("cannot read '{}': {}", path, failure));
+  bytes_ += text.size();
+  if (bytes_ > Document::kMaxBytes)
+    return fail(fmt::format("with '{}' the files are larger than {} MiB together", path,
+                            Document::kMaxBytes >> 20u));
   add(next, std::move(text));
 }
 

@@ -15,6 +15,7 @@ class Reporter {
       : document_(document), diagnostics_(diagnostics) {}
 
   bool has_errors() const { return diagnostics_.has_errors(); }
+  bool is_full() const { return diagnostics_.is_full(); }
 
   void at_element(std::uint32_t element, std::string message, std::string hint = {},
                   Severity severity = Severity::Error) const {

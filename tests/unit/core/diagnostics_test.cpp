@@ -132,3 +132,18 @@ TEST_CASE("only errors are errors") {
   CHECK(render(diagnostics.all()[0], false) == "warning: w\n");
   CHECK(render(diagnostics.all()[1], false) == "note: n\n");
 }
+
+TEST_CASE("diagnostics beyond the thousandth of a severity are counted, not kept") {
+  Diagnostics diagnostics;
+  for (std::uint32_t line = 1; line <= 1500; ++line) {
+    diagnostics.add({Severity::Warning, {"a.xml", line, 1}, "unused", "", ""});
+  }
+  CHECK_FALSE(diagnostics.has_errors());
+  for (std::uint32_t line = 1; line <= 1002; ++line) {
+    diagnostics.error({"a.xml", line, 1}, "wrong");
+  }
+  diagnostics.sort();
+  CHECK(diagnostics.all().size() == 2000);
+  CHECK(diagnostics.count(Severity::Warning) == 1500);
+  CHECK(diagnostics.count(Severity::Error) == 1002);
+}

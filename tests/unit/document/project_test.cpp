@@ -1,5 +1,6 @@
 #include "document/project.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -124,10 +125,15 @@ TEST_CASE("a main file that cannot be read is no project") {
   CHECK(files.told()[0].find("Is a directory") != std::string::npos);
 }
 
-TEST_CASE("a file without end is read up to the limit") {
-  Diagnostics diagnostics;
-  CHECK_FALSE(load_project("/dev/zero", {}, diagnostics));
-  CHECK(told(diagnostics) == Lines{"/dev/zero: the file is larger than 64 MiB"});
+TEST_CASE("only regular files are read: others could block or never end") {
+  Files files;
+  const std::string fifo = files / "fifo.xml";
+  REQUIRE(mkfifo(fifo.c_str(), 0600) == 0);
+  for (const std::string& path : {std::string("/dev/zero"), std::string("/dev/null"), fifo}) {
+    Diagnostics diagnostics;
+    CHECK_FALSE(load_project(path, {}, diagnostics));
+    CHECK(told(diagnostics) == Lines{path + ": cannot be read: it is not a regular file"});
+  }
 }
 
 TEST_CASE("all files are checked in one pass") {

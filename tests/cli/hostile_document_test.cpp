@@ -1,0 +1,353 @@
+// Tree files that are meant to break the reader. Each ends in an error that says where and what, or
+// in a correct run, in a second and 256 MB; a terminal never gets what is in them raw.
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+
+#include "cli/program.h"
+
+namespace lockstep::test {
+namespace {
+
+using Strings = std::vector<std::string>;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr double kMaxSeconds = 60;
+constexpr double kMaxMegabytes = 8192;
+#else
+constexpr double kMaxSeconds = 3;  // of processor time; one, but this machine may be slow or busy
+constexpr double kMaxMegabytes = 256;
+#endif
+// A million nodes are a legal tree, which takes what it takes.
+constexpr double kMillionNodes = 2 * kMaxMegabytes;
+constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
+
+const std::string kHead = "<root lockstep=\"1\" main_tree_to_execute=\"A\">\n";
+const std::string kTree = "<BehaviorTree ID=\"A\"><AlwaysSuccess/></BehaviorTree>\n";
+
+std::string in_tree(const std::string& nodes) {
+  return kHead + "<BehaviorTree ID=\"A\">" + nodes + "</BehaviorTree></root>";
+}
+
+void check_cost(const Outcome& outcome, double megabytes) {
+  INFO(outcome.err.substr(0, 2000));
+  CHECK(outcome.cpu_seconds < kMaxSeconds);
+  CHECK(outcome.peak_megabytes < megabytes);
+  CHECK(outcome.err.size() < 1 << 20);
+  CHECK(outcome.code < 128);
+}
+
+// The big ones are written piece by piece: what this process holds counts as its child's.
+struct Hostile {
+  std::string name;
+  std::function<void(const TemporaryDirectory&, std::ostream&)> write;
+  int code;
+  std::string message;  // in stderr; "$" stands for the path of the file
+  double megabytes = kMaxMegabytes;
+};
+
+void check_all(const std::vector<Hostile>& files) {
+  for (const Hostile& hostile : files) {
+    const TemporaryDirectory directory;
+    const std::string path = directory.path("tree.xml");
+    {
+      std::ofstream out(path, std::ios::binary);
+      hostile.write(directory, out);
+    }
+    const Outcome outcome = lockstep::test::lockstep({"check", path});
+    INFO(hostile.name);
+    INFO(fmt::format("{:.2f} s, {:.0f} MB", outcome.cpu_seconds, outcome.peak_megabytes));
+    if (std::getenv("LOCKSTEP_TELL_COST") != nullptr) {
+      WARN(fmt::format("{}: {:.2f} s, {:.0f} MB, {}", hostile.name, outcome.cpu_seconds,
+                       outcome.peak_megabytes, outcome.err.substr(0, 300)));
+    }
+    check_cost(outcome, hostile.megabytes);
+    CHECK(outcome.code == hostile.code);
+    std::string message = hostile.message;
+    if (message.starts_with('$')) message.replace(0, 1, path);
+    CHECK(contains(outcome.err, message));
+  }
+}
+
+auto text(std::string it) {
+  return [it = std::move(it)](const TemporaryDirectory&, std::ostream& out) { out << it; };
+}
+
+// `head`, then `part` so many times with {} replaced by the count, {1} by the next, then `tail`.
+auto many(std::string head, int times, std::string part, std::string tail) {
+  return [=](const TemporaryDirectory&, std::ostream& out) {
+    out << head;
+    for (int i = 0; i < times; ++i) out << fmt::format(fmt::runtime(part), i, i + 1);
+    out << tail;
+  };
+}
+
+// A tree that is right, with a comment that makes the file so long.
+auto padded(std::size_t bytes) {
+  return [=](const TemporaryDirectory&, std::ostream& out) {
+    const std::string begin = kHead + kTree + "<!--";
+    const std::string end = "--></root>";
+    const std::string line(1023, 'x');
+    out << begin;
+    std::size_t left = bytes - begin.size() - end.size();
+    for (; left >= 1024; left -= 1024) out << line << '\n';
+    out << line.substr(0, left) << end;
+  };
+}
+
+auto including(std::string path) {
+  return text(kHead + "<include path=\"" + path + "\"/>\n" + kTree + "</root>");
+}
+
+}  // namespace
+
+TEST_CASE("a document that is deep or wide is refused or checked in time and memory") {
+  constexpr int kMany = 1'000'000;
+  const std::string sequence = "<BehaviorTree ID=\"A\"><Sequence>";
+  const std::string end = "</Sequence></BehaviorTree></root>";
+  check_all({
+      {"10,000 elements inside each other",
+       many(kHead + "<BehaviorTree ID=\"A\">", 10'000, "<Sequence>", ""), 3,
+       "$:2:982: error: elements are nested deeper than 98 levels"},
+      {"10,000 trees inside each other",
+       many(kHead + "<BehaviorTree ID=\"A\"><SubTree ID=\"T0\"/></BehaviorTree>", 10'000,
+            "<BehaviorTree ID=\"T{0}\"><SubTree ID=\"T{1}\"/></BehaviorTree>\n", "</root>"),
+       3, "$:"},
+      {"a million siblings", many(kHead + sequence, kMany, "<AlwaysSuccess/>", end), 0, "",
+       kMillionNodes},
+      {"a million siblings, all unknown", many(kHead + sequence, kMany, "<X{}/>\n", end), 3,
+       "$:2:32: error: unknown node 'X0'", kMillionNodes},
+      {"a million siblings, all unknown, in one line", many(kHead + sequence, kMany, "<X{}/>", end),
+       3, "$:2:32: error: unknown node 'X0'", kMillionNodes},
+      {"a million siblings, all empty", many(kHead + sequence, kMany, "<Sequence/>\n", end), 3,
+       "$:2:32: error:", kMillionNodes},
+      {"100,000 trees",
+       many(kHead + kTree, 100'000, "<BehaviorTree ID=\"T{}\"><AlwaysSuccess/></BehaviorTree>\n",
+            "</root>"),
+       0, ""},
+      {"100,000 plugins", many(kHead, 100'000, "<plugin name=\"p{}\"/>\n", kTree + "</root>"), 4,
+       "$:258:1: error: more than 256 plugins"},
+      {"100,000 arguments", many(kHead, 100'000, "<arg name=\"a{}\"/>\n", kTree + "</root>"), 3,
+       "$:2:1: error: argument 'a0' has no default"},
+      {"100,000 includes", many(kHead, 100'000, "<include path=\"f{}.xml\"/>\n", kTree + "</root>"),
+       3, "$:2:16: error: cannot read '"},
+      {"100,000 attributes",
+       many(kHead + "<BehaviorTree ID=\"A\"><AlwaysSuccess", 100'000, " a{}=\"\"",
+            "/></BehaviorTree></root>"),
+       3, "$:2:"},
+      {"a billion nodes by subtrees of subtrees",
+       many(kHead + "<BehaviorTree ID=\"A\"><SubTree ID=\"T0\"/></BehaviorTree>\n", 30,
+            "<BehaviorTree ID=\"T{0}\"><Sequence><SubTree ID=\"U{0}\"/><SubTree ID=\"U{0}\"/>"
+            "</Sequence></BehaviorTree><BehaviorTree ID=\"U{0}\"><Sequence><SubTree ID=\"T{1}\"/>"
+            "</Sequence></BehaviorTree>\n",
+            "</root>"),
+       3, "$:"},
+  });
+}
+
+TEST_CASE("a document that is long is refused or checked in time and memory") {
+  const auto attribute = [](std::size_t megabytes) {
+    return [=](const TemporaryDirectory&, std::ostream& out) {
+      out << kHead << "<BehaviorTree ID=\"A\"><AlwaysSuccess name=\"";
+      const std::string megabyte(std::size_t{1} << 20, 'n');
+      for (std::size_t i = 0; i < megabytes; ++i) out << megabyte;
+      out << "\"/></BehaviorTree></root>";
+    };
+  };
+  const auto bytes = [](std::size_t count, char byte) {
+    return [=](const TemporaryDirectory&, std::ostream& out) {
+      const std::string block(std::size_t{1} << 16, byte);
+      out << kHead;
+      for (std::size_t i = 0; i < count; i += block.size()) out << block;
+    };
+  };
+  check_all({
+      {"an attribute of 100 MB", attribute(100), 3, "$: error: the file is larger than 64 MiB"},
+      {"an attribute of 30 MB", attribute(30), 0, ""},
+      {"64 MiB", padded(kMaxBytes), 0, ""},
+      {"64 MiB and a byte", padded(kMaxBytes + 1), 3, "$: error: the file is larger than 64 MiB"},
+      {"60 MB of '<'", bytes(60'000'000, '<'), 3, "$:2:1: error:"},
+      {"60 MB of '&'", bytes(60'000'000, '&'), 3, "$:2:1: error:"},
+      {"60 MB of line ends", bytes(60'000'000, '\n'), 3, "$:1:1: error: '<root>' is not closed"},
+  });
+}
+
+TEST_CASE("bytes that are no text, and entities, are refused where they stand") {
+  using namespace std::string_literals;
+  const std::string laughs =
+      "<!DOCTYPE lolz [<!ENTITY a \"lol\"><!ENTITY b \"&a;&a;&a;&a;&a;&a;&a;&a;\">"
+      "<!ENTITY c \"&b;&b;&b;&b;&b;&b;&b;&b;\">]>\n";
+  check_all({
+      {"an entity of one's own", text(laughs + in_tree("<AlwaysSuccess name=\"&c;\"/>")), 3,
+       "$:1:16: error: definitions in a DOCTYPE are not supported"},
+      {"an external entity",
+       text("<!DOCTYPE r [<!ENTITY x SYSTEM \"file:///etc/passwd\">]>\n" + kHead + kTree +
+            "</root>"),
+       3, "$:1:13: error: definitions in a DOCTYPE are not supported"},
+      {"an entity that is not declared", text(in_tree("<AlwaysSuccess name=\"&c;\"/>")), 3,
+       "$:2:43: error: '&' begins no reference that is known"},
+      {"a NUL", text(kHead + "<!--\0-->"s + kTree + "</root>"), 3, "$:2:5: error: NUL byte"},
+      {"only NULs", text(std::string(1000, '\0')), 3, "$:1:1: error: NUL byte"},
+      {"a NUL as a reference", text(in_tree("<AlwaysSuccess name=\"&#0;\"/>")), 3,
+       "$:2:43: error:"},
+      {"not UTF-8", text(in_tree("<AlwaysSuccess name=\"\xC3(\"/>")), 3,
+       "$:2:43: error: byte \\xC3 is not UTF-8"},
+      {"a surrogate", text(in_tree("<AlwaysSuccess name=\"\xED\xA0\x80\"/>")), 3,
+       "$:2:43: error: byte \\xED is not UTF-8"},
+      {"too long for UTF-8", text(in_tree("<AlwaysSuccess name=\"\xC0\xAF\"/>")), 3,
+       "$:2:43: error: byte \\xC0 is not UTF-8"},
+      {"UTF-16", text("\xFF\xFE<\0r\0o\0o\0t\0/\0>\0"s), 3, "$:1:1: error: the file is in UTF-16"},
+      {"UTF-16, the other way", text("\xFE\xFF\0<\0r\0o\0o\0t\0/\0>"s), 3,
+       "$:1:1: error: the file is in UTF-16"},
+      {"nothing", text(""), 3, "$:1:1: error: the file is empty"},
+  });
+}
+
+TEST_CASE("includes neither hang nor multiply") {
+  const auto linked = [](const char* target, const char* name, auto write) {
+    return [=](const TemporaryDirectory& directory, std::ostream& out) {
+      REQUIRE(symlink(target, directory.path(name).c_str()) == 0);
+      write(directory, out);
+    };
+  };
+  const auto fifo = [](const TemporaryDirectory& directory, std::ostream& out) {
+    REQUIRE(mkfifo(directory.path("fifo").c_str(), 0600) == 0);
+    including("fifo")(directory, out);
+  };
+  // Each includes the next one twice: 2^25 files, if each were read each time.
+  const auto bomb = [](const TemporaryDirectory& directory, std::ostream& out) {
+    including("0.xml")(directory, out);
+    for (int i = 0; i < 25; ++i) {
+      const std::string next = fmt::format("<include path=\"{}.xml\"/>", i + 1);
+      directory.file(fmt::format("{}.xml", i), "<root lockstep=\"1\">" + next + next + "</root>");
+    }
+    directory.file("25.xml", "<root lockstep=\"1\"/>");
+  };
+  const auto chain = [](const TemporaryDirectory& directory, std::ostream& out) {
+    including("0.xml")(directory, out);
+    for (int i = 0; i < 1000; ++i) {
+      directory.file(fmt::format("{}.xml", i),
+                     fmt::format("<root lockstep=\"1\"><include path=\"{}.xml\"/></root>", i + 1));
+    }
+  };
+  const auto together = [](const TemporaryDirectory& directory, std::ostream& out) {
+    out << kHead;
+    for (int i = 0; i < 8; ++i) {
+      out << fmt::format("<include path=\"{}.xml\"/>\n", i);
+      std::ofstream part(directory.path(fmt::format("{}.xml", i)), std::ios::binary);
+      part << "<root lockstep=\"1\"><!--" << std::string(20'000'000, 'x') << "--></root>";
+    }
+    out << kTree << "</root>";
+  };
+  const std::string at = "$:2:16: error: ";
+  check_all({
+      {"a device", including("/dev/zero"), 3,
+       at + "cannot read '/dev/zero': it is not a regular file"},
+      {"a named pipe", fifo, 3, at},
+      {"a directory", including("."), 3, at},
+      {"a file of the kernel that blocks", including("/proc/kmsg"), 3, at},
+      {"itself", including("tree.xml"), 3, at + "include cycle: "},
+      {"itself through a link", linked("tree.xml", "link.xml", including("link.xml")), 3,
+       at + "include cycle: "},
+      {"a link to itself", linked("loop.xml", "loop.xml", including("loop.xml")), 3, at},
+      {"a bomb", bomb, 0, ""},
+      {"a chain", chain, 3, "includes are nested deeper than 32 levels"},
+      {"160 MB in 8 files", together, 3, "are larger than 64 MiB together"},
+      {"not a tree", including("/etc/passwd"), 3, "/etc/passwd:1:1: error: "},
+  });
+}
+
+TEST_CASE("a plugin is a name, never a path") {
+  for (const std::string name :
+       {"../../x", "/tmp/x", "x.so", ".", "", "a b", "&#x9B;2J", "x&#10;y"}) {
+    const TemporaryDirectory directory;
+    directory.file("x.so", "");
+    const std::string path =
+        directory.file("tree.xml", kHead + "<plugin name=\"" + name + "\"/>\n" + kTree + "</root>");
+    const Outcome outcome =
+        lockstep::test::lockstep({"check", path, "--plugin-path", directory.path("a/b")});
+    INFO(outcome.err);
+    CHECK(outcome.code == 4);
+    CHECK(contains(outcome.err, path + ":2:15: error: '"));
+    CHECK(contains(outcome.err, "is not the name of a plugin"));
+  }
+}
+
+TEST_CASE("arguments that expand to megabytes are refused") {
+  const auto doubling = [](int times, std::string tail) {
+    return [=](const TemporaryDirectory&, std::ostream& out) {
+      out << kHead << "<arg name=\"a0\" default=\"0123456789abcdef\"/>\n";
+      for (int i = 1; i <= times; ++i) {
+        out << fmt::format("<arg name=\"a{0}\" default=\"${{a{1}}}${{a{1}}}\"/>\n", i, i - 1);
+      }
+      out << tail << "</root>";
+    };
+  };
+  const auto uses = [](int times) {
+    std::string nodes = "<BehaviorTree ID=\"A\"><Sequence>\n";
+    for (int i = 0; i < times; ++i) nodes += "<AlwaysSuccess name=\"${a15}\"/>\n";
+    return nodes + "</Sequence></BehaviorTree>";
+  };
+  check_all({
+      {"30 times doubled", doubling(30, kTree), 3,
+       "$:19:26: error: the value of 'default' is larger than 1 MiB"},
+      {"40 times half a megabyte", doubling(15, uses(40)), 0, ""},
+      {"100,000 times half a megabyte", doubling(15, uses(100'000)), 3,
+       "error: values with arguments are larger than 64 MiB together"},
+  });
+}
+
+TEST_CASE("names with escape sequences never reach the terminal raw") {
+  // U+009B is the one-character form of ESC [; 0x07 rings; U+202E turns the line around.
+  const std::string evil =
+      "&#x9B;2J&#x85;&#x7F;\xC2\x9B"
+      "31m";
+  const auto clean = [](const std::string& text) {
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      const auto byte = static_cast<unsigned char>(text[i]);
+      if ((byte < 0x20 && byte != '\n') || byte == 0x7f) return false;
+      if (byte == 0xC2 && static_cast<unsigned char>(text[i + 1]) < 0xA0) return false;
+    }
+    return true;
+  };
+  const TemporaryDirectory directory;
+  const std::string good =
+      directory.file("good.xml", in_tree("<Sequence name=\"" + evil + "\"><AlwaysSuccess name=\"a" +
+                                         evil + "\"/></Sequence>"));
+  const std::string recording = directory.path("run.jsonl");
+  const std::vector<Strings> commands = {
+      {"check", good},
+      {"show", good},
+      {"show", good, "--format", "dot"},
+      {"run", good, "--view", "plain", "--clock", "virtual", "--record", recording},
+      {"log", "info", recording},
+      {"check", directory.file("unknown.xml", in_tree("<Sequence " + std::string("x='") + evil +
+                                                      "' name='" + evil + "'/>"))},
+      {"check", directory.file("plugin.xml", kHead + "<plugin name='" + evil + "'/></root>")},
+      {"check", directory.file("include.xml", kHead + "<include path='" + evil + "'/></root>")},
+      {"check", directory.file("subtree.xml", in_tree("<SubTree ID='" + evil + "'/>"))},
+      {"check", directory.file("key.xml", in_tree("<Wait seconds='{" + evil + "}'/>"))},
+      {"check", directory.file("raw.xml", in_tree("<Wait seconds='\x1b[2J'/>"))},
+      {"check", directory.file("\x1b[31mname\x07.xml", "<root>")},
+      {"check", "\x1b[31mnowhere.xml"},
+      {"check", good, "--tree", "\x1b[31m"},
+      {"check", good, "--arg", "\x1b[31m=1"},
+      {"check", good, "--set", "\x1b[31m=1"},
+      {"check", good, "--plugin", "\x1b[31m"},
+      {"\x1b[31m"},
+      {"run", good, "--\x1b[31m"}};
+  for (const Strings& command : commands) {
+    const Outcome outcome = lockstep::test::lockstep(command);
+    INFO(command.back() << '\n' << outcome.out << outcome.err);
+    CHECK(clean(outcome.out));
+    CHECK(clean(outcome.err));
+    CHECK(outcome.code < 5);
+  }
+}
+
+}  // namespace lockstep::test
