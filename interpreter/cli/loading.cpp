@@ -1,25 +1,18 @@
 #include "cli/loading.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 
 #include "cli/exit_code.h"
+#include "cli/plugin_directories.h"
 #include "definition/plugin_requests.h"
 #include "engine/node_kind.h"
 
 namespace lockstep {
 namespace {
-
-// "" when the system does not tell.
-std::filesystem::path program_directory() {
-  std::error_code error;
-  return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
-}
 
 // "name=value" pairs; a later one replaces an earlier one.
 Arguments parse_pairs(const std::vector<std::string>& pairs, std::string_view option,
@@ -102,18 +95,8 @@ void add_load_options(CLI::App& app, LoadOptions& options) {
   add_plugin_options(app, options.plugins);
 }
 
-std::vector<std::string> plugin_directories(const PluginOptions& options) {
-  std::vector<std::string> directories = options.directories;
-  if (const char* path = std::getenv("LOCKSTEP_PLUGIN_PATH")) {
-    for (const std::string& directory : CLI::detail::split(path, ':')) {
-      if (!directory.empty()) directories.push_back(directory);
-    }
-  }
-  if (const auto beside = program_directory(); !beside.empty()) {
-    directories.push_back((beside / "plugins").string());  // in a build directory
-    directories.push_back((beside / LOCKSTEP_PLUGINS_FROM_BIN).lexically_normal().string());
-  }
-  return directories;
+bool is_plugin_file(const std::string& plugin) {
+  return plugin.find('/') != std::string::npos || plugin.ends_with(".so");
 }
 
 bool load_given_plugins(const PluginOptions& options, PluginSet& plugins,
@@ -121,12 +104,12 @@ bool load_given_plugins(const PluginOptions& options, PluginSet& plugins,
   plugins.set_isolation({.leafhost = leafhost_path(),
                          .hang_limit = from_seconds(options.hang_limit),
                          .all = options.isolate});
+  if (!check_plugin_options(options, diagnostics)) return false;
   bool good = true;
   const auto directories = plugin_directories(options);
   for (const std::string& plugin : options.plugins) {
-    const bool is_file = plugin.find('/') != std::string::npos || plugin.ends_with(".so");
-    good &= is_file ? plugins.load_file(plugin, diagnostics)
-                    : plugins.load_named(plugin, directories, diagnostics);
+    good &= is_plugin_file(plugin) ? plugins.load_file(plugin, diagnostics)
+                                   : plugins.load_named(plugin, directories, diagnostics);
   }
   return good;
 }

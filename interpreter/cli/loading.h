@@ -37,8 +37,8 @@ void add_plugin_options(CLI::App& app, PluginOptions& options);
 // The plugin options, --arg, --set and --tree.
 void add_load_options(CLI::App& app, LoadOptions& options);
 
-// --plugin-path, then LOCKSTEP_PLUGIN_PATH, then where plugins are installed beside this program.
-std::vector<std::string> plugin_directories(const PluginOptions& options);
+// Whether a --plugin is a file, and not a name to search for.
+bool is_plugin_file(const std::string& plugin);
 
 // Loads what --plugin names. On false, errors tell why.
 bool load_given_plugins(const PluginOptions& options, PluginSet& plugins, Diagnostics& diagnostics);

@@ -12,6 +12,7 @@
 #include "plugin/isolated/isolated_plugin.h"
 #include "plugin/plugin_path.h"
 #include "plugin/shared_object.h"
+#include "plugin/trust.h"
 
 namespace lockstep {
 namespace {
@@ -105,6 +106,7 @@ bool PluginSet::load_named(std::string_view name, std::span<const std::string> d
   if (std::ranges::any_of(plugins_, [&](const auto& it) { return it->name() == name; })) {
     return true;
   }
+  warn_of_writable_directories(directories, where, diagnostics);
   std::string path;
   if (auto refusal = find_plugin_file(name, directories, path)) {
     return refuse(std::string(name), std::move(*refusal), diagnostics, std::move(where));
@@ -123,6 +125,7 @@ bool PluginSet::open(const Request& request, Diagnostics& diagnostics) {
           plugins_, [&](const auto& it) { return is_same_file(it->origin, request.origin); })) {
     return true;
   }
+  warn_of_writable_plugin(request.origin, request.where, diagnostics);
   if (isolation_.all || request.isolation == Isolation::Isolated) {
     return open_isolated(request, diagnostics);
   }

@@ -1,0 +1,134 @@
+// Who may decide what code is loaded: writable directories, and a program with more rights than its
+// user. What the rules are for is in docs/security.md.
+#include <sys/stat.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "cli/program.h"
+
+namespace lockstep::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A directory 'd' with the plugin motion, and a tree that uses it.
+struct Installed {
+  TemporaryDirectory directory;
+  std::string plugins = directory.path("d");
+  std::string plugin = plugins + "/motion.so";
+  std::string tree = directory.file("tree.xml", tree_text("<Advance/>"));
+
+  Installed() {
+    REQUIRE(chmod(directory.path("").c_str(), 0755) == 0);
+    REQUIRE(mkdir(plugins.c_str(), 0755) == 0);
+    fs::copy_file(LOCKSTEP_BINARY_DIR "/plugins/motion.so", plugin);
+    permit(plugin, 0755);
+    permit(plugins, 0755);
+  }
+  static void permit(const std::string& path, mode_t mode) {
+    REQUIRE(chmod(path.c_str(), mode) == 0);
+  }
+};
+
+constexpr const char* kWarning = "warning: everyone may write to the plugin";
+
+}  // namespace
+
+TEST_CASE("a plugin that everyone may replace is warned of, and loaded") {
+  const Installed it;
+  struct Row {
+    mode_t directory, plugin;
+    std::string warning;  // "" = none
+  };
+  const Row rows[] = {{0755, 0755, ""},
+                      {0775, 0775, ""},
+                      {0777, 0755, "directory '" + it.plugins + "'"},
+                      {01777, 0755, "directory '" + it.plugins + "'"},
+                      {0755, 0757, "'" + it.plugin + "'"}};
+  const std::vector<std::string> by_name = {"check", it.tree, "--plugin-path", it.plugins};
+  const std::vector<std::string> by_file = {"check", it.tree, "--plugin", it.plugin};
+  for (const Row& row : rows) {
+    Installed::permit(it.plugin, row.plugin);
+    Installed::permit(it.plugins, row.directory);
+    for (const auto& arguments : {by_name, by_file}) {
+      const Outcome outcome = lockstep::test::lockstep(arguments);
+      INFO(outcome.err);
+      CHECK(outcome.code == 0);
+      CHECK(contains(outcome.err, kWarning) == !row.warning.empty());
+      if (row.warning.empty()) continue;
+      CHECK(contains(outcome.err, kWarning + (" " + row.warning)));
+      CHECK(contains(outcome.err, "hint: chmod o-w '"));
+    }
+  }
+}
+
+TEST_CASE("a directory that everyone may write to is warned of when it is searched first") {
+  const Installed it;
+  const std::string open = it.directory.path("open");
+  REQUIRE(mkdir(open.c_str(), 0755) == 0);
+  Installed::permit(open, 0777);
+  const Outcome outcome = lockstep::test::lockstep(
+      {"check", it.tree, "--plugin-path", open, "--plugin-path", it.plugins});
+  CHECK(outcome.code == 0);
+  CHECK(contains(outcome.err, kWarning + (" directory '" + open + "'")));
+}
+
+TEST_CASE(
+    "entries of the search path in the environment: empty ones are not the working directory") {
+  const Installed it;
+  const auto check = [&](const std::string& path) {
+    return run({.arguments = {"-c", "cd \"$0\" && \"$1\" check \"$2\"", it.plugins,
+                              LOCKSTEP_BINARY_DIR "/lockstep", it.tree},
+                .environment = {{"LOCKSTEP_PLUGIN_PATH", path}},
+                .program = "/bin/sh"});
+  };
+  Installed::permit(it.plugins, 0777);
+  CHECK(contains(check(":").err, kWarning) == false);
+  CHECK(contains(check("").err, kWarning) == false);
+  CHECK(contains(check("/nowhere::" + it.plugins).err, kWarning));
+}
+
+TEST_CASE("a program with more rights than its user takes no relative path and no environment") {
+  const Installed it;
+  struct statvfs system {};
+  REQUIRE(statvfs(it.plugins.c_str(), &system) == 0);
+  if (geteuid() != 0 || (system.f_flag & ST_NOSUID) != 0) {
+    WARN("skipped: needs root, to make a setuid program, and a file system that allows it");
+    return;
+  }
+  const std::string program = it.directory.path("lockstep");
+  fs::copy_file(LOCKSTEP_BINARY_DIR "/lockstep", program);
+  Installed::permit(program, 04755);
+  Installed::permit(it.tree, 0644);
+  const auto check = [&](std::vector<std::string> options, const std::string& path) {
+    std::vector<std::string> arguments = {
+        "--reuid=65534",        "--clear-groups", "/bin/sh", "-c",   "cd \"$0\" && exec \"$@\"",
+        it.directory.path("d"), program,          "check",   it.tree};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return run({.arguments = arguments,
+                .environment = {{"LOCKSTEP_PLUGIN_PATH", path}},
+                .program = "/usr/bin/setpriv"});
+  };
+  const Outcome absolute = check({"--plugin-path", it.plugins}, "/nowhere");
+  CHECK(absolute.code == 0);
+  CHECK(contains(absolute.err, "warning: LOCKSTEP_PLUGIN_PATH is not read"));
+
+  const Outcome environment = check({}, it.plugins);
+  CHECK(environment.code == 4);
+  CHECK(contains(environment.err, "plugin 'motion' is not found"));
+  CHECK_FALSE(contains(environment.err, it.plugins));
+
+  const Outcome relative = check({"--plugin-path", "."}, "");
+  CHECK(relative.code == 4);
+  CHECK(contains(relative.err, "--plugin-path .: relative, which a program with more rights"));
+  CHECK(contains(relative.err, "plugin 'motion' is not found"));  // not looked for there either
+
+  const Outcome file = check({"--plugin", "./motion.so"}, "");
+  CHECK(file.code == 4);
+  CHECK(contains(file.err, "--plugin ./motion.so: relative"));
+}
+
+}  // namespace lockstep::test
