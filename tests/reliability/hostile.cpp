@@ -1,5 +1,6 @@
 // A plugin whose leaf misbehaves as its ports say: `how`, in the function `where`, at its n-th call
-// (`at`, from 1). Everything else that it does is right. It logs its calls when `loud`.
+// (`at`, from 1), or in each call with the probability `chance`. Everything else that it does is
+// right. It logs its calls when `loud`.
 #include <cfenv>
 #include <cmath>
 #include <csignal>
@@ -11,6 +12,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <pthread.h>
@@ -21,7 +23,7 @@
 
 namespace {
 
-enum Port : std::uint32_t { kHow, kWhere, kAt, kTicks, kNumber };
+enum Port : std::uint32_t { kHow, kWhere, kAt, kTicks, kNumber, kChance };
 
 [[noreturn]] void for_ever() {
   while (true) usleep(1000);
@@ -74,8 +76,11 @@ struct Leaf {
 };
 
 void Leaf::misbehave_in(const char* function) {
-  if (text(kWhere) != function || ++calls != number(kAt)) return;
-  misbehave(text(kHow));
+  if (text(kWhere) != function) return;
+  ++calls;
+  double chance = 0;
+  host->get_double(caller, kChance, &chance);
+  if (chance > 0 ? host->random(caller) < chance : calls == number(kAt)) misbehave(text(kHow));
 }
 
 void Leaf::misbehave(const std::string& how) {
@@ -151,7 +156,7 @@ void start(void* leaf) {
 lockstep_status tick(void* leaf) {
   Leaf& it = leaf_of(leaf);
   it.misbehave_in("tick");
-  if (it.nonsense) return 7;
+  if (std::exchange(it.nonsense, false)) return 7;
   return ++it.ticks < it.number(kTicks) ? LOCKSTEP_RUNNING : LOCKSTEP_SUCCESS;
 }
 void halt(void* leaf) {
@@ -195,14 +200,15 @@ constexpr lockstep_port kWherePort = port(LOCKSTEP_STRING, LOCKSTEP_INPUT, "wher
 constexpr lockstep_port kAtPort = port(LOCKSTEP_INT, LOCKSTEP_INPUT, "at", "1");
 constexpr lockstep_port kTicksPort = port(LOCKSTEP_INT, LOCKSTEP_INPUT, "ticks", "5");
 constexpr lockstep_port kNumberPort = port(LOCKSTEP_DOUBLE, LOCKSTEP_INOUT, "number", "1");
-constexpr const lockstep_port* kPorts[] = {&kHowPort, &kWherePort, &kAtPort, &kTicksPort,
-                                           &kNumberPort};
+constexpr lockstep_port kChancePort = port(LOCKSTEP_DOUBLE, LOCKSTEP_INPUT, "chance", "0");
+constexpr const lockstep_port* kPorts[] = {&kHowPort,   &kWherePort,  &kAtPort,
+                                           &kTicksPort, &kNumberPort, &kChancePort};
 
 constexpr lockstep_leaf_type kMisbehave = {sizeof(lockstep_leaf_type),
                                            LOCKSTEP_ACTION,
                                            "Misbehave",
                                            "Does what no leaf should",
-                                           5,
+                                           6,
                                            kPorts,
                                            create,
                                            destroy,
