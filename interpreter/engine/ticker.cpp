@@ -5,6 +5,16 @@
 #include <utility>
 
 namespace lockstep {
+namespace {
+
+// Of the next eight nodes: no byte is 0 (S. E. Anderson, "Bit Twiddling Hacks").
+bool has_no_idle(const Activity* first) {
+  std::uint64_t block = 0;
+  std::memcpy(&block, first, sizeof block);
+  return ((block - 0x0101010101010101u) & ~block & 0x8080808080808080u) == 0;
+}
+
+}  // namespace
 
 Ticker::Ticker(const Tree& tree, std::span<LeafSlot> leaves, FaultPolicy policy)
     : tree_(tree), leaves_(leaves), state_(tree), policy_(policy) {}
@@ -15,23 +25,22 @@ Status Ticker::tick_root(Nanoseconds now) {
   return tick(0);
 }
 
-// Eight nodes at a time. Where all eight are idle, so is the whole subtree of the first: a subtree
-// that was not reached costs nothing, however large it is.
+// A subtree that was not reached costs nothing, however large it is: below an idle node all are
+// idle. Where all are active, eight nodes at a time.
 void Ticker::forget_descendants(NodeIndex node) {
   constexpr NodeIndex kBlock = sizeof(std::uint64_t);
   Activity* const all = state_.activity.data();
   const NodeIndex end = tree_.nodes[node].end;
-  NodeIndex at = node + 1;
-  for (; end - at >= kBlock; at += kBlock) {
-    std::uint64_t block = 0;
-    std::memcpy(&block, all + at, kBlock);
-    if (block != 0) {
+  for (NodeIndex at = node + 1; at < end;) {
+    if (all[at] == Activity::Idle) {
+      at = tree_.nodes[at].end;
+    } else if (end - at >= kBlock && has_no_idle(all + at)) {
       std::memset(all + at, 0, kBlock);
-    } else if (const NodeIndex next = tree_.nodes[at].end; next - at > kBlock) {
-      at = next - kBlock;
+      at += kBlock;
+    } else {
+      all[at++] = Activity::Idle;
     }
   }
-  for (; at < end; ++at) all[at] = Activity::Idle;
 }
 
 // Returns the next node that may not be idle.
@@ -71,17 +80,6 @@ void Ticker::pause(NodeIndex node) {
     state_.activity[at] = Activity::Paused;
     if (it.kind->pause != nullptr) it.kind->pause(*this, at);
     ++at;
-  }
-}
-
-double Ticker::progress(NodeIndex node) {
-  switch (status(node)) {
-    case Status::Running:
-      return tree_.nodes[node].kind->progress(*this, node);
-    case Status::Success:
-      return 1.0;
-    default:
-      return 0.0;
   }
 }
 

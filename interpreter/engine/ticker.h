@@ -59,7 +59,11 @@ class Ticker {
   void pause(NodeIndex node);
 
   // In [0, 1]: 1 on Success, 0 when idle or failed.
-  double progress(NodeIndex node);
+  double progress(NodeIndex node) {
+    const Status now = status(node);
+    if (now == Status::Running) return tree_.nodes[node].kind->progress(*this, node);
+    return now == Status::Success ? 1.0 : 0.0;
+  }
 
   // True until the node has been Running: the first tick of an activation.
   bool first_tick(NodeIndex node) const { return status(node) != Status::Running; }

@@ -61,6 +61,8 @@ Status out(Ticker& ticker, NodeIndex self) {
 void prepare(Ticker& ticker, NodeIndex self, LeafSlot& leaf) {
   if (ticker.activity(self) == Activity::Paused) {
     if (!leaf.failed) call(ticker, self, leaf.type->resume);
+  } else if (leaf.type->start == nullptr) {
+    leaf.started = true;
   } else {
     leaf.started = false;
     call(ticker, self, leaf.type->start);
@@ -71,7 +73,11 @@ void prepare(Ticker& ticker, NodeIndex self, LeafSlot& leaf) {
 // Running when the leaf is out.
 template <bool kIsCondition>
 Status checked(Ticker& ticker, NodeIndex self, LeafSlot& leaf, lockstep_status result) {
-  if (take_error(ticker, self, leaf) || is_out(ticker, leaf)) return Status::Running;
+  if (leaf.error != nullptr) [[unlikely]] {
+    take_error(ticker, self, leaf);
+    return Status::Running;
+  }
+  if (is_out(ticker, leaf)) return Status::Running;
   if (result == LOCKSTEP_SUCCESS) return Status::Success;
   if (result == LOCKSTEP_FAILURE) return Status::Failure;
   if (result == LOCKSTEP_RUNNING && !kIsCondition) return Status::Running;
@@ -98,17 +104,23 @@ void pause(Ticker& ticker, NodeIndex self) {
   if (!leaf.failed) call(ticker, self, leaf.type->pause);
 }
 
-double progress(Ticker& ticker, NodeIndex self) {
-  LeafSlot& leaf = ticker.leaf(self);
-  if (leaf.type->progress == nullptr || leaf.failed) return 0.0;
-  double reported = 0.0;
-  guarded(ticker, self, [&] { reported = leaf.type->progress(leaf.self); });
+double corrected(Ticker& ticker, NodeIndex self, LeafSlot& leaf, double reported) {
   if (take_error(ticker, self, leaf)) return 0.0;
   if (std::isnan(reported)) {
     ticker.set_fault(self, "reported a progress that is not a number");
     return 0.0;
   }
   return std::clamp(reported, 0.0, 1.0);
+}
+
+double progress(Ticker& ticker, NodeIndex self) {
+  LeafSlot& leaf = ticker.leaf(self);
+  if (leaf.type->progress == nullptr || leaf.failed) return 0.0;
+  double reported = 0.0;
+  guarded(ticker, self, [&] { reported = leaf.type->progress(leaf.self); });
+  if (leaf.error == nullptr && reported >= 0.0 && reported <= 1.0) [[likely]]
+    return reported;
+  return corrected(ticker, self, leaf, reported);
 }
 
 }  // namespace
