@@ -151,7 +151,7 @@ TEST_CASE("however a replay ends, the terminal is as it was") {
   CHECK(!outcome.terminal_is_raw);
 }
 
-TEST_CASE("--print prints on a terminal too") {
+TEST_CASE("replay --print prints on a terminal too") {
   const TemporaryDirectory directory;
   const Outcome outcome =
       Process({.arguments = {"replay", record(directory), "--at", "1", "--print"},

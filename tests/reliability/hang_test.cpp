@@ -60,7 +60,7 @@ TEST_CASE("a leaf that hangs with all signals blocked is found as well") {
   CHECK(contains(outcome.err, "has not returned from tick 0"));
 }
 
-TEST_CASE("a halt that does not return in time is named; if it returns late, the run goes on") {
+TEST_CASE("a halt that does not return in time is named, if it returns late, the run goes on") {
   for (const Where where : {Where::InProcess, Where::Isolated}) {
     const Outcome outcome =
         run_hostile({"late", "halt"}, where,

@@ -46,6 +46,10 @@ Outcome run_hostile(const Misdeed& misdeed, Where where, std::vector<std::string
   return run({.arguments = arguments, .environment = std::move(environment)});
 }
 
+OwnPlugin::OwnPlugin() {
+  fs::copy_file(LOCKSTEP_HOSTILE_DIRECTORY "/hostile.so", directory_.path("hostile.so"));
+}
+
 std::vector<pid_t> processes_with(const std::string& text) {
   std::vector<pid_t> found;
   for (const auto& entry : fs::directory_iterator("/proc")) {

@@ -27,4 +27,15 @@ Outcome run_hostile(const Misdeed& misdeed, Where where, std::vector<std::string
 // The processes that have this text in their command line, by their ids.
 std::vector<pid_t> processes_with(const std::string& text);
 
+// A copy of the plugin, by whose path its processes are told from those of other tests.
+class OwnPlugin {
+ public:
+  OwnPlugin();
+  std::string directory() const { return directory_.path(""); }
+  bool has_processes() const { return !processes_with(directory_.path("hostile.so")).empty(); }
+
+ private:
+  TemporaryDirectory directory_;
+};
+
 }  // namespace lockstep::test

@@ -84,7 +84,7 @@ TEST_CASE("a status that does not exist is a fault") {
   check_fault({"nonsense"}, "returned status 7, expected running (1), success (2) or failure (3)");
 }
 
-TEST_CASE("a progress that is not a number is a fault; one out of range is clamped") {
+TEST_CASE("a progress that is not a number is a fault, one out of range is clamped") {
   check_fault({"nan", "progress"}, "reported a progress that is not a number");
   for (const std::string how : {"infinite", "-3", "7"}) {
     for (const Where where : {Where::InProcess, Where::Isolated}) {

@@ -98,27 +98,30 @@ TEST_CASE("the host refuses a thread that is not the run's, but for log") {
 }
 
 TEST_CASE("an isolated plugin leaves no process behind, however its run ends") {
+  const OwnPlugin plugin;
   for (const std::string how : {"", "segv", "hang", "leave a thread", "kill"}) {
     INFO(how);
-    const Outcome outcome =
-        run_hostile({how}, Where::Isolated, {"--clock", "virtual", "--hang-limit", "0.2"});
+    const Outcome outcome = run_hostile({how}, Where::Isolated,
+                                        {"--clock", "virtual", "--hang-limit", "0.2", "--plugin",
+                                         plugin.directory() + "hostile.so"});
     CHECK(outcome.code == (how.empty() || how == "leave a thread" ? 0 : 5));
-    CHECK(processes_with(LOCKSTEP_HOSTILE_DIRECTORY "/hostile.so").empty());
+    CHECK_FALSE(plugin.has_processes());
   }
 }
 
 TEST_CASE("killed with SIGKILL, a run leaves no process and a recording that can be read") {
+  const OwnPlugin plugin;
   const TemporaryDirectory directory;
   const std::string tree = directory.file("tree.xml", endless_tree({""}));
   const std::string file = directory.path("run.jsonl");
-  Process process({.arguments = {"run", tree, "--plugin-path", LOCKSTEP_HOSTILE_DIRECTORY,
-                                 "--isolate", "--view", "plain", "--record", file}});
+  Process process({.arguments = {"run", tree, "--plugin-path", plugin.directory(), "--isolate",
+                                 "--view", "plain", "--record", file}});
   REQUIRE(process.wait_for("Main/arm: started"));
   while (lines(read_file(file)).size() < 3) {  // the first flush of ticks
   }
   process.signal(SIGKILL);
   CHECK(process.finish().code == 128 + SIGKILL);
-  while (!processes_with(LOCKSTEP_HOSTILE_DIRECTORY "/hostile.so").empty()) {
+  while (plugin.has_processes()) {
   }
   const Outcome info = lockstep({"log", "info", file});
   CHECK(info.code == 0);

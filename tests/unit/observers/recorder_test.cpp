@@ -55,7 +55,7 @@ void check_same(const RecordedTick& one, const RecordedTick& other) {
   REQUIRE(std::equal(one.nodes.begin(), one.nodes.end(), other.nodes.begin(), other.nodes.end()));
 }
 
-TEST_CASE("a disk that is too slow loses ticks; the recording says which, the rest is right") {
+TEST_CASE("a disk that is too slow loses ticks, the recording says which, the rest is right") {
   // `a` completes while nothing is written, and changes no more.
   const std::string leaves = "a=" + std::string(400, 'R') + "S b=R";
   BlockedDisk disk;

@@ -99,7 +99,7 @@ TEST_CASE("progress within the tolerance is the same, a status never") {
   CHECK(!diff_of(one.text(), other.text(), {.tolerance = 1}).same());
 }
 
-TEST_CASE("what differs in the headers and the ends; names and versions do not count") {
+TEST_CASE("what differs in the headers and the ends, names and versions do not count") {
   std::mt19937 random(7);
   RandomRecording one = random_recording(random, {.ticks = 3, .gaps = false});
   one.header.arguments = {{"x", "1"}, {"y", "2"}};

@@ -197,7 +197,7 @@ TEST_CASE("a replay keeps the recorded times, at its speed, and stops at the end
   CHECK(!played.player.paused());
 }
 
-TEST_CASE("a paused replay stands still; steps pause it") {
+TEST_CASE("a paused replay stands still, steps pause it") {
   Played played(with_gap());
   played.press(" ");
   played.player.pass(100);
