@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <memory>
 
+#include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
@@ -120,11 +121,7 @@ std::function<int()> define(CLI::App& app) {
   add_recording_file(app, options->file);
   app.add_option("--at", options->at, "Begin at this tick; without a terminal: print it")
       ->type_name("TICK")
-      ->check([](const std::string& text) {
-        const bool good =
-            !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-        return good ? "" : fmt::format("'{}' is not a whole number from 0", text);
-      });
+      ->check(check_count);
   app.add_option("--speed", options->speed, "1: as recorded; 0.1: ten times as slow")
       ->type_name("X")
       ->capture_default_str();

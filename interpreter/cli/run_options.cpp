@@ -5,16 +5,11 @@
 #include <CLI/CLI.hpp>
 #include <map>
 
+#include "cli/checks.h"
 #include "runtime/stop_signals.h"
 
 namespace lockstep {
 namespace {
-
-// CLI11 reads -1 as the largest number there is.
-std::string check_count(const std::string& text) {
-  const bool good = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-  return good ? "" : fmt::format("'{}' is not a whole number from 0", text);
-}
 
 // An option whose value is one of some words.
 template <class T>
@@ -38,6 +33,7 @@ void define_loop_options(CLI::App& app, RunCommandOptions& options) {
   app.add_option("--rate", options.rate, "Ticks per second")
       ->type_name("HZ")
       ->check(CLI::Range(0.001, 100000.0))
+      ->check(check_is_number)
       ->capture_default_str();
   app.add_option("--clock", options.clock,
                  "wall, or virtual: the same run, as fast as the machine allows")
@@ -56,12 +52,14 @@ void define_loop_options(CLI::App& app, RunCommandOptions& options) {
       });
   app.add_option("--timeout", options.timeout, "Stop after S seconds of the run's clock")
       ->type_name("S")
-      ->check(CLI::Range(0.0, 1e9));
+      ->check(CLI::Range(0.0, 1e9))
+      ->check(check_is_number);
   app.add_option("--stall", options.stall,
                  "Report a child that stands still for S seconds while others wait for it; 0 = "
                  "never")
       ->type_name("S")
       ->check(CLI::Range(0.0, 1e9))
+      ->check(check_is_number)
       ->capture_default_str();
 }
 
@@ -76,7 +74,8 @@ void define_time_options(CLI::App& app, RunCommandOptions& options) {
                  "Report a leaf that takes longer than MS milliseconds; 0 = do not time leaves "
                  "(default: the period)")
       ->type_name("MS")
-      ->check(CLI::Range(0.0, 1e9));
+      ->check(CLI::Range(0.0, 1e9))
+      ->check(check_is_number);
   app.add_flag("--realtime", options.realtime.realtime,
                "Tick with real-time priority (SCHED_FIFO), memory locked and timer slack 1 ns; "
                "needs privileges");
@@ -95,11 +94,13 @@ void define_fault_options(CLI::App& app, RunCommandOptions& options) {
                  "program, or, isolated, the plugin's process; 0 = never")
       ->type_name("S")
       ->check(CLI::Range(0.0, 1e6))
+      ->check(check_is_number)
       ->capture_default_str();
   app.add_option("--halt-limit", options.halt_limit,
                  "Name a leaf that does not return from halt for S seconds; 0 = never")
       ->type_name("S")
       ->check(CLI::Range(0.0, 1e6))
+      ->check(check_is_number)
       ->capture_default_str();
 }
 

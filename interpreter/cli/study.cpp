@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <thread>
 
+#include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
@@ -131,11 +132,6 @@ int merge(const Options& options) {
   return rows ? finish(options, StudyFolder(options.out), plan, *rows) : fail(error);
 }
 
-std::string check_count(const std::string& text) {
-  const bool good = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-  return good ? "" : fmt::format("'{}' is not a whole number from 0", text);
-}
-
 std::string check_positive(const std::string& text) {
   return text == "0" ? std::string("expected 1 or more") : check_count(text);
 }
@@ -170,6 +166,7 @@ void define_runs(CLI::App& app, StudyOptions& options) {
   app.add_option("--rate", options.rate, "Ticks per second of the virtual clock")
       ->type_name("HZ")
       ->check(CLI::Range(0.001, 100000.0))
+      ->check(check_is_number)
       ->capture_default_str();
   app.add_option("--max-ticks", options.max_ticks,
                  "A run that comes so far ends there, with the result 'limit'")

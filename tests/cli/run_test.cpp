@@ -35,6 +35,19 @@ struct Simulation {
 
 }  // namespace
 
+TEST_CASE("an option that wants a number refuses one that is none") {
+  const Simulation it("<AlwaysSuccess/>");
+  for (const std::string option :
+       {"--rate", "--timeout", "--stall", "--tick-budget", "--hang-limit"}) {
+    for (const std::string number : {"nan", "-1", "inf", "fast"}) {
+      const Outcome outcome = it.run({option, number});
+      INFO(option << ' ' << number);
+      CHECK(outcome.code == 2);
+      CHECK(contains(outcome.err, option));
+    }
+  }
+}
+
 TEST_CASE("Success is 0 and Failure is 1") {
   CHECK(Simulation("<AlwaysSuccess/>").run().code == 0);
   CHECK(Simulation("<AlwaysFailure/>").run().code == 1);
