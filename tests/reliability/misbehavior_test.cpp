@@ -120,4 +120,16 @@ TEST_CASE("a leaf that crashes brings down its own process only") {
   check_crash({"exit thread"}, "SIGABRT", "killed by SIGABRT");
 }
 
+TEST_CASE("a tree can isolate one plugin by itself") {
+  const TemporaryDirectory directory;
+  std::string text = hostile_tree({"segv"});
+  const std::string plain = "<plugin name=\"hostile\"/>";
+  text.replace(text.find(plain), plain.size(),
+               "<plugin name=\"hostile\" isolate=\"true\"/><plugin name=\"motion\"/>");
+  const Outcome outcome =
+      lockstep({"run", directory.file("tree.xml", text), "--plugin-path",
+                LOCKSTEP_HOSTILE_DIRECTORY, "--clock", "virtual", "--on-fault", "fail"});
+  check(outcome, 0, {"killed by SIGSEGV"});
+}
+
 }  // namespace lockstep::test
