@@ -119,6 +119,10 @@ void Leaf::misbehave(const std::string& how) {
     pthread_sigmask(SIG_BLOCK, &all, nullptr);
   }
   if (how == "round up") std::fesetround(FE_UPWARD);
+  if (how == "tell rounding") {
+    host->log(caller, LOCKSTEP_LOG_INFO,
+              std::fegetround() == FE_TONEAREST ? "rounds to nearest" : "rounds otherwise");
+  }
   if (how == "leave a thread") std::thread(for_ever).detach();
   if (how == "foreign call") call_from_another_thread();
   if (how == "nonsense") nonsense = true;
@@ -177,6 +181,13 @@ double progress(void* leaf) {
   if (how == "-3") return -3;
   if (how == "7") return 7;
   return static_cast<double>(it.ticks) / static_cast<double>(it.number(kTicks));
+}
+
+// What a shared object can do before anybody has asked it for anything.
+__attribute__((constructor)) void load() {
+  const char* how = std::getenv("HOSTILE_LOAD");
+  if (how != nullptr && std::strcmp(how, "segv") == 0) std::raise(SIGSEGV);
+  if (how != nullptr && std::strcmp(how, "round up") == 0) std::fesetround(FE_UPWARD);
 }
 
 bool g_never_deinit = false;

@@ -76,6 +76,36 @@ TEST_CASE("a rounding mode that a leaf changes is set back, and it is named") {
   CHECK_FALSE(contains(isolated.err, "floating-point"));
 }
 
+TEST_CASE("a rounding mode that loading a plugin changes is set back") {
+  for (const Where where : kBoth) {
+    const Outcome outcome = run_hostile({"tell rounding"}, where, {"--clock", "virtual"},
+                                        {{"HOSTILE_LOAD", "round up"}});
+    INFO(outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(contains(outcome.err, "rounds to nearest"));
+  }
+}
+
+TEST_CASE("a plugin that crashes while it is loaded is named, or refused") {
+  const std::map<std::string, std::string> environment = {{"HOSTILE_LOAD", "segv"}};
+  const Outcome in_process = run_hostile({""}, Where::InProcess, {}, environment);
+  CHECK(in_process.code == 6);
+  CHECK(contains(in_process.err, "hostile.so"));
+  const Outcome isolated = run_hostile({""}, Where::Isolated, {}, environment);
+  CHECK(isolated.code == 4);
+  CHECK(contains(isolated.err, "killed by SIGSEGV"));
+}
+
+TEST_CASE("what cannot be caught in this process is a fault in another") {
+  CHECK(run_hostile({"_exit"}, Where::InProcess, {"--clock", "virtual"}).code == 3);
+  CHECK(run_hostile({"kill"}, Where::InProcess, {"--clock", "virtual"}).code == 128 + SIGKILL);
+  for (const std::string how : {"_exit", "kill"}) {
+    const Outcome outcome = run_hostile({how}, Where::Isolated, {"--clock", "virtual"});
+    CHECK(outcome.code == 5);
+    CHECK(contains(outcome.err, how == "kill" ? "killed by SIGKILL" : "ended with exit code 3"));
+  }
+}
+
 TEST_CASE("a thread that a leaf leaves behind does not outlive the program") {
   for (const Where where : kBoth) {
     CHECK(run_hostile({"leave a thread"}, where, {"--clock", "virtual"}).code == 0);
