@@ -7,6 +7,7 @@
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/loading.h"
+#include "core/printable_json.h"
 
 namespace lockstep {
 namespace {
@@ -45,7 +46,7 @@ int check(const Options& options) {
   }
   if (json) {
     constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
-    fmt::print("{}\n", all.dump(2, ' ', false, kReplace));
+    fmt::print("{}\n", printable_json(all.dump(2, ' ', false, kReplace)));
   }
   return flush_stdout() ? worst : kExitUsage;
 }

@@ -126,7 +126,7 @@ int load(const std::string& path, const LoadOptions& options, Loaded& loaded,
   const Arguments arguments = parse_pairs(options.arguments, "--arg", diagnostics);
   ResolveOptions resolve_options{options.main_tree,
                                  parse_pairs(options.values, "--set", diagnostics)};
-  loaded.project = load_project(path, arguments, diagnostics);
+  loaded.project = load_project(path, arguments, diagnostics, options.main_file);
   if (loaded.plugins == nullptr) loaded.plugins = std::make_shared<PluginSet>();
   Diagnostics refused;
   bool good = load_given_plugins(options.plugins, *loaded.plugins, refused);

@@ -30,6 +30,7 @@ struct LoadOptions {
   std::vector<std::string> arguments;  // --arg name=value
   std::vector<std::string> values;     // --set key=value
   std::string main_tree;               // --tree
+  MainFile main_file = MainFile::MayBePipe;
 };
 
 // --plugin, --plugin-path and --isolate.

@@ -38,7 +38,8 @@ int csv_to_file(const Options& options, RecordingReader& reader) {
 int csv(const Options& options) {
   return with_recording(options.file, [&](RecordingReader& reader) {
     if (!options.out.empty()) return csv_to_file(options, reader);
-    const int code = end_of_stdout(write_csv(reader, stdout));
+    const auto names = is_terminal(stdout) ? CsvNames::Printable : CsvNames::Exact;
+    const int code = end_of_stdout(write_csv(reader, stdout, names));
     const int read = report_end(reader);
     return read == kExitSuccess ? code : read;
   });

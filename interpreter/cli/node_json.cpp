@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/node_reference.h"
+#include "core/printable_json.h"
 
 namespace lockstep {
 namespace {
@@ -57,7 +58,7 @@ std::string nodes_as_json(NodeTypes types) {
                    {"has_progress", type->has_progress},
                    {"parameters", std::move(parameters)}});
   }
-  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return printable_json(all.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n";
 }
 
 }  // namespace lockstep

@@ -193,13 +193,14 @@ void last_words() {
 
 int run(const RunCommandOptions& options) {
   StdoutGuard guard;
-  StopSignals::install(last_words);
   const CrashScope crash_scope(last_words);
   Loaded loaded;
   Diagnostics diagnostics;
   const int code = load(options.tree, options.load, loaded, diagnostics);
   print_diagnostics(diagnostics, Severity::Warning, stderr);
   if (!loaded.definition) return code;
+  // Until here a signal ends the program as it ends any other: there is nothing to halt or to save.
+  StopSignals::install(last_words);
   const Tree tree = compile(*loaded.definition);
   return RunCommand(options, loaded, tree).run(loaded.plugins, guard);
 }

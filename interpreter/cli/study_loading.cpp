@@ -190,6 +190,7 @@ void StudyLoader::add_columns(StudyCell& cell, std::uint64_t number) {
 int StudyLoader::load_cell(std::uint64_t number) {
   StudyPlan& plan = study_.plan;
   LoadOptions options = options_.load;
+  options.main_file = MainFile::IsRegular;  // it is read for every cell
   const auto values = cell_values(plan, number);
   for (std::size_t axis = 0; axis < values.size(); ++axis) {
     if (plan.grid[axis].kind != GridAxis::Kind::Argument) continue;

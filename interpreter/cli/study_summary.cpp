@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/diagnostics.h"
+#include "core/printable_json.h"
 #include "observers/text_line.h"
 
 namespace lockstep {
@@ -80,7 +81,7 @@ std::string summary_json(const StudyPlan& plan, const std::vector<SummaryRow>& r
                      {"mean", it.mean},
                      {"n", it.count}});
   }
-  return array.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return printable_json(array.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace lockstep

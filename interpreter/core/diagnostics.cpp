@@ -15,23 +15,18 @@ namespace {
 // A tab in an excerpt stays, so that the caret below can repeat it and align at any tab width.
 enum class Tabs : bool { Escaped, Kept };
 
-bool is_control(std::string_view character) {
-  const auto byte = static_cast<unsigned char>(character[0]);
-  if (character.size() == 1) return byte < 0x20 || byte == 0x7F;
-  // U+0080 to U+009F: some terminals obey them.
-  return byte == 0xC2 && static_cast<unsigned char>(character[1]) < 0xA0;
-}
-
 // Appends the first character of `text` so that a terminal only shows it. Returns its bytes.
 std::size_t append_visible(std::string& out, std::string_view text, Tabs tabs) {
   const auto length = utf8_length(text);
   const auto character = text.substr(0, std::max<std::size_t>(length, 1));
+  const char32_t code = length > 0 ? code_point(character) : 0;
   const bool plain_tab = tabs == Tabs::Kept && character == "\t";
-  if (plain_tab || (length > 0 && !is_control(character))) {
+  if (plain_tab || (length > 0 && !is_obeyed_by_terminals(code))) {
     out += character;
+  } else if (length > 1) {
+    fmt::format_to(std::back_inserter(out), "\\u{:04X}", static_cast<unsigned>(code));
   } else {
-    for (const char c : character)
-      fmt::format_to(std::back_inserter(out), "\\x{:02X}", static_cast<unsigned char>(c));
+    fmt::format_to(std::back_inserter(out), "\\x{:02X}", static_cast<unsigned char>(character[0]));
   }
   return character.size();
 }

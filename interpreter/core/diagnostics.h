@@ -57,7 +57,7 @@ std::string_view to_string(Severity severity);
 // ending in a newline. Control characters are made visible. `color` adds ANSI colors.
 std::string render(const Diagnostic& diagnostic, bool color);
 
-// `text` with every control character and every byte that is not UTF-8 written as \xNN.
+// `text` so that a terminal only shows it: what it would obey, or is not UTF-8, as \xNN or \uNNNN.
 std::string printable(std::string_view text);
 
 }  // namespace lockstep

@@ -1,5 +1,8 @@
 #include "core/utf8.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace lockstep {
 namespace {
 
@@ -43,6 +46,24 @@ std::string_view utf8_front(std::string_view text, std::size_t bytes) {
   auto length = bytes;
   for (int step = 0; step < 3 && length > 0 && is_continuation(text[length]); ++step) --length;
   return text.substr(0, length);
+}
+
+char32_t code_point(std::string_view character) {
+  const auto first = static_cast<unsigned char>(character[0]);
+  char32_t code = first < 0x80 ? first : first & (0x7Fu >> character.size());
+  for (const char next : character.substr(1)) {
+    code = code << 6u | (static_cast<unsigned char>(next) & 0x3Fu);
+  }
+  return code;
+}
+
+bool is_obeyed_by_terminals(char32_t code) {
+  constexpr struct {
+    char32_t first, last;
+  } kObeyed[] = {{0x00, 0x1F},     {0x7F, 0x9F},     {0x61C, 0x61C},
+                 {0x200E, 0x200F}, {0x2028, 0x202E}, {0x2066, 0x2069}};
+  return std::any_of(std::begin(kObeyed), std::end(kObeyed),
+                     [code](auto block) { return code >= block.first && code <= block.last; });
 }
 
 }  // namespace lockstep

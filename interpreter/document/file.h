@@ -1,5 +1,5 @@
-// Reading a whole file, with the system's reason when that fails. Only a regular one: a device or a
-// named pipe could block, never end, or do something when it is opened.
+// Reading a whole file, with the system's reason when that fails. Only a regular one, or, where the
+// user has named it, a pipe: a device could block, never end, or do something when it is opened.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,14 @@ struct FileText {
   std::string failure;  // "" when the text is there
 };
 
+enum class FileKinds : bool { Regular, RegularOrPipe };
+
 // At most a little more than `limit` bytes, so that the reader of the text sees that it is too
-// much, whatever size the system tells.
-FileText read_file(const std::string& path, std::size_t limit);
+// much, whatever size the system tells. Waits for who writes to a pipe, as long as that takes.
+FileText read_file(const std::string& path, std::size_t limit,
+                   FileKinds kinds = FileKinds::Regular);
+
+// The same of stdin, unless it is a terminal or another device.
+FileText read_stdin(std::size_t limit);
 
 }  // namespace lockstep

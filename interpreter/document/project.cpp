@@ -148,13 +148,17 @@ void Loader::substitute(Document& document) {
 }  // namespace
 
 std::unique_ptr<Project> load_project(const std::string& path, const Arguments& arguments,
-                                      Diagnostics& diagnostics) {
-  auto [text, failure] = read_file(path, Document::kMaxBytes);
+                                      Diagnostics& diagnostics, MainFile main) {
+  const bool is_stdin = main == MainFile::MayBePipe && path == "-";
+  const auto kinds = main == MainFile::MayBePipe ? FileKinds::RegularOrPipe : FileKinds::Regular;
+  auto [text, failure] =
+      is_stdin ? read_stdin(Document::kMaxBytes) : read_file(path, Document::kMaxBytes, kinds);
+  const std::string name = is_stdin ? "stdin" : path;
   if (!failure.empty()) {
-    diagnostics.error({path}, "cannot be read: " + failure);
+    diagnostics.error({name}, "cannot be read: " + failure);
     return nullptr;
   }
-  return load_project_text(path, std::move(text), arguments, diagnostics);
+  return load_project_text(name, std::move(text), arguments, diagnostics);
 }
 
 std::unique_ptr<Project> load_project_text(const std::string& path, std::string text,

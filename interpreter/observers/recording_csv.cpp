@@ -4,6 +4,8 @@
 
 #include <iterator>
 
+#include "core/diagnostics.h"
+
 namespace lockstep {
 namespace {
 
@@ -23,9 +25,11 @@ std::string csv_field(std::string_view text) {
   return quoted + '"';
 }
 
-bool write_csv(RecordingReader& reader, std::FILE* out) {
+bool write_csv(RecordingReader& reader, std::FILE* out, CsvNames names) {
   std::vector<std::string> paths;
-  for (const RecordedNode& node : reader.header().nodes) paths.push_back(csv_field(node.path));
+  for (const RecordedNode& node : reader.header().nodes) {
+    paths.push_back(csv_field(names == CsvNames::Printable ? printable(node.path) : node.path));
+  }
   std::string rows = "tick,time_s,node,path,status,progress,ticked,held\n";
   while (const auto tick = reader.next()) {
     for (std::size_t index = 0; index < tick->nodes.size(); ++index) {

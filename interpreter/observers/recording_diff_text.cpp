@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/diagnostics.h"
+#include "core/printable_json.h"
 #include "observers/recording_diff.h"
 #include "observers/style.h"
 #include "observers/summary.h"
@@ -134,7 +135,7 @@ std::string to_json(const RecordingDiff& diff) {
                      {"ticks", {{"a", diff.ticks_a}, {"b", diff.ticks_b}}},
                      {"end", json_of(diff.end)},
                      {"notes", diff.notes}};
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return printable_json(json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace lockstep

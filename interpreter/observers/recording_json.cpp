@@ -43,6 +43,14 @@ double seconds(const Json& object, const char* key) {
   throw BadLine(fmt::format("'{}' is not a time in seconds", key));
 }
 
+// 0 is that of no clock. The rest is more than any can do, and its period fits into nanoseconds.
+double rate(const Json& object, const char* key) {
+  constexpr double kLeast = 1e-6, kMost = 1e9;
+  const double value = number(object, key);
+  if (value == 0 || (value >= kLeast && value <= kMost)) return value;
+  throw BadLine(fmt::format("'{}' is not a number of ticks per second", key));
+}
+
 std::uint64_t whole(const Json& object, const char* key) {
   const Json& value = member(object, key);
   if (!value.is_number_unsigned()) throw BadLine(fmt::format("'{}' is not a whole number", key));
@@ -148,12 +156,14 @@ RecordingHeader header_from(const Json& line) {
   RecordingHeader header{.tree = text(line, "tree"),
                          .file = text(line, "file"),
                          .version = text(line, "version"),
-                         .rate_hz = number(line, "rate_hz"),
+                         .rate_hz = rate(line, "rate_hz"),
                          .clock = text(line, "clock"),
                          .seed = whole(line, "seed"),
                          .arguments = {},
                          .nodes = {}};
-  for (const auto& [name, value] : member(line, "arguments").items()) {
+  const Json& arguments = member(line, "arguments");
+  if (!arguments.is_object()) throw BadLine("'arguments' is not a JSON object");
+  for (const auto& [name, value] : arguments.items()) {
     if (!value.is_string()) throw BadLine(fmt::format("argument '{}' is not a string", name));
     header.arguments[name] = value.get<std::string>();
   }

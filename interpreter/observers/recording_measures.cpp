@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/diagnostics.h"
+#include "core/printable_json.h"
 #include "measure/predictability.h"
 #include "observers/recorded_probe.h"
 
@@ -129,7 +130,8 @@ std::string to_json(std::span<const MeasuredValue> values) {
     json.push_back(
         {{"node", value.node}, {"measure", to_text(value.measure)}, {"value", value.value}});
   }
-  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  return printable_json(
+      json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
 std::string to_table(std::span<const MeasuredValue> values) {

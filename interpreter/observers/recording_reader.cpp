@@ -9,15 +9,15 @@
 
 namespace lockstep {
 
-RecordingReader::RecordingReader(std::istream& in, std::string name)
-    : in_(in), name_(std::move(name)) {
-  const auto line = next_line();
-  if (!line) {
+RecordingReader::RecordingReader(std::istream& in, std::string name, Limits limits)
+    : in_(in), name_(std::move(name)), limits_(limits) {
+  if (!next_line()) {
+    if (!error_.empty()) return;
     line_ = 1;
     fail("the file is empty, expected a recording");
     return;
   }
-  read_line(*line, [this](const nlohmann::json& json) {
+  read_line([this](const nlohmann::json& json) {
     header_ = header_from(json);
     states_.resize(header_.nodes.size());
   });
@@ -27,10 +27,9 @@ RecordingReader::RecordingReader(std::istream& in, std::string name)
 std::optional<RecordedTick> RecordingReader::next() {
   // Also after the closing line: nothing must come there, and only reading on finds that.
   while (error_.empty()) {
-    const auto line = next_line();
-    if (!line) return std::nullopt;
+    if (!next_line()) return std::nullopt;
     bool is_tick = false;
-    read_line(*line, [&](const nlohmann::json& json) { is_tick = read_further(json); });
+    read_line([&](const nlohmann::json& json) { is_tick = read_further(json); });
     if (!error_.empty() || last_line_cut_) return std::nullopt;
     if (is_tick) return tick_;
   }
@@ -102,18 +101,31 @@ std::string RecordingReader::cut() const {
   return fmt::format("it ends after line {} without a closing line", line_);
 }
 
-std::optional<std::string> RecordingReader::next_line() {
-  std::string line;
-  if (!std::getline(in_, line)) return std::nullopt;
+bool RecordingReader::next_line() {
+  text_.clear();
+  char part[1u << 12u];
+  while (true) {
+    in_.getline(part, sizeof part);
+    const auto count = static_cast<std::size_t>(in_.gcount());
+    const bool goes_on = in_.fail() && !in_.eof() && count > 0;
+    const bool has_end = in_.good();  // gcount() counts it
+    if (count == 0 && text_.empty()) return false;
+    text_.append(part, has_end ? count - 1 : count);
+    if (!goes_on) break;
+    in_.clear();
+    if (text_.size() > limits_.line) break;
+  }
   ++line_;
-  bytes_ += line.size() + 1;
-  return line;
+  bytes_ += text_.size() + 1;
+  if (text_.size() <= limits_.line) return true;
+  fail(fmt::format("the line is longer than {} bytes", limits_.line));
+  return false;
 }
 
 // Only the last line can lack its newline, and only there is broken JSON a sign of a kill.
 template <class Read>
-void RecordingReader::read_line(const std::string& line, Read read) {
-  const auto json = nlohmann::json::parse(line, nullptr, false);
+void RecordingReader::read_line(Read read) {
+  const auto json = nlohmann::json::parse(text_, nullptr, false);
   if (json.is_discarded()) {
     last_line_cut_ = in_.eof();
     if (!last_line_cut_) fail("not JSON");

@@ -21,8 +21,14 @@ struct RecordingOutcome {
 
 class RecordingReader {
  public:
+  // A line that is longer is refused, before it takes more memory.
+  struct Limits {
+    std::size_t line = std::size_t{256} << 20u;  // bytes
+  };
+
   // `in` must outlive the reader; `name` is how errors call it. Reads the header: check error().
-  RecordingReader(std::istream& in, std::string name);
+  RecordingReader(std::istream& in, std::string name) : RecordingReader(in, std::move(name), {}) {}
+  RecordingReader(std::istream& in, std::string name, Limits limits);
 
   // The next tick, or nothing at the end or after an error. Its nodes are valid until the next
   // call.
@@ -58,15 +64,17 @@ class RecordingReader {
   RecordingOutcome outcome() const { return {error_, gaps(), cut(), end_}; }
 
  private:
-  std::optional<std::string> next_line();
+  bool next_line();  // false at the end, and after an error
   bool read_further(const nlohmann::json& json);
   void in_order(std::uint64_t first, std::uint64_t last);
   void fail(const std::string& message);
   template <class Read>
-  void read_line(const std::string& line, Read read);
+  void read_line(Read read);
 
   std::istream& in_;
   std::string name_;
+  Limits limits_;
+  std::string text_;  // of the line
   std::string error_;
   std::size_t line_ = 0;
   std::uint64_t bytes_ = 0;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/diagnostics.h"
+#include "core/printable_json.h"
 #include "observers/style.h"
 
 namespace lockstep {
@@ -147,7 +148,7 @@ SynchronizedSummary summarize(const SynchronizedMeasure& measure, std::string pa
 
 void write_text(const SynchronizedSummary& node, std::FILE* out, bool color) {
   const auto name = styled(printable(node.path), Style::Strong, color);
-  fmt::print(out, "  {} ({}, {})\n", name, node.kind, counted(node.samples, "tick"));
+  fmt::print(out, "  {} ({}, {})\n", name, printable(node.kind), counted(node.samples, "tick"));
   fmt::print(out, "    progress distance {:.6g}, mean {:.6g} a tick; largest spread {:.6g}, ",
              node.distance_sum, node.distance_mean, node.largest_spread);
   fmt::print(out, "longest step {:.6g}\n", node.step_length);
@@ -192,7 +193,7 @@ std::string to_json(const Summary& summary) {
     json["synchronized_nodes"].push_back(json_of(node));
   }
   json["notes"] = summary.notes;
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return printable_json(json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace lockstep

@@ -38,6 +38,9 @@
 #ifndef LEAF_ID
 #define LEAF_ID "Probe"
 #endif
+#ifndef LEAF_DOC
+#define LEAF_DOC "runs and logs its calls"
+#endif
 #ifndef LEAF_CREATE
 #define LEAF_CREATE probe_create
 #endif
@@ -86,10 +89,9 @@ static const lockstep_port the_port = {PORT_SIZE,    PORT_TYPE, PORT_DIRECTION, 
 MAYBE_UNUSED static const lockstep_port* const the_ports[] = {&the_port, &the_port};
 
 static const lockstep_leaf_type the_leaf_type = {
-    LEAF_SIZE,  LEAF_KIND,     LEAF_ID,     "runs and logs its calls",
-    PORT_COUNT, PORT_LIST,     LEAF_CREATE, LEAF_DESTROY,
-    LEAF_START, LEAF_TICK,     LEAF_HALT,   NULL,
-    NULL,       LEAF_PROGRESS, NULL};
+    LEAF_SIZE, LEAF_KIND,   LEAF_ID,      LEAF_DOC,      PORT_COUNT,
+    PORT_LIST, LEAF_CREATE, LEAF_DESTROY, LEAF_START,    LEAF_TICK,
+    LEAF_HALT, NULL,        NULL,         LEAF_PROGRESS, NULL};
 MAYBE_UNUSED static const lockstep_leaf_type* const the_leaf_types[] = {&the_leaf_type,
                                                                         &the_leaf_type};
 

@@ -78,7 +78,8 @@ TEST_CASE("nothing raw reaches a terminal") {
       {"\x1b[2J", "\\x1B[2J"},
       {"a\nb\tc\x7f", "a\\x0Ab\\x09c\\x7F"},
       {"\0"s, "\\x00"},
-      {"\xc2\x9b", "\\xC2\\x9B"},                    // CSI in one code point
+      {"\u009b", "\\u009B"},  // CSI in one code point
+      {"a\u202egpj.x\u2066\u2069", "a\\u202Egpj.x\\u2066\\u2069"},
       {"\xff", "\\xFF"},                             // never in UTF-8
       {"\xc3", "\\xC3"},                             // cut
       {"\xc0\xaf", "\\xC0\\xAF"},                    // overlong

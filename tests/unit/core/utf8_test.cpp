@@ -30,6 +30,24 @@ TEST_CASE("every code point but the surrogates has its length, and no part of it
   CHECK(wrong == 0);
 }
 
+TEST_CASE("a character has the code point that it was made from") {
+  std::size_t wrong = 0;
+  for (std::uint32_t code = 0; code <= 0x10FFFF; ++code) wrong += code_point(encode(code)) != code;
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("terminals obey control characters, line ends and direction marks, nothing else") {
+  std::u32string obeyed;
+  for (char32_t code = 0; code <= 0x10FFFF; ++code) {
+    if (is_obeyed_by_terminals(code) && code >= 0xA0) obeyed += code;
+  }
+  CHECK(obeyed ==
+        U"\u061c\u200e\u200f\u2028\u2029\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069");
+  for (char32_t code = 0; code < 0xA0; ++code) {
+    CHECK(is_obeyed_by_terminals(code) == (code < ' ' || code >= 0x7F));
+  }
+}
+
 TEST_CASE("other sequences are not UTF-8") {
   for (const auto* bytes : {"", "\x80", "\xc0\x80", "\xc1\xbf", "\xe0\x9f\xbf", "\xf0\x8f\xbf\xbf",
                             "\xf4\x90\x80\x80", "\xf5\x80\x80\x80", "\xff", "\xe2\x82x"})
