@@ -1,6 +1,5 @@
 #include "cli/replay_session.h"
 
-#include <poll.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -14,6 +13,7 @@
 #include "observers/raw_terminal.h"
 #include "observers/screen.h"
 #include "observers/terminal.h"
+#include "observers/terminal_wait.h"
 #include "runtime/stop_signals.h"
 
 namespace lockstep {
@@ -34,13 +34,11 @@ class Session {
     screen_.begin();
     while (!player_.has_quit() && !player_.timeline().failed() && StopSignals::received() == 0) {
       show();
-      const bool may_read = wait();
+      const TerminalEvent event = wait();
       pass_time();
-      if (!may_read) {
-        press(decoder_.idle());
-      } else if (!read_keys()) {
-        break;
-      }
+      if (event == TerminalEvent::Resize) redraw();
+      if (event == TerminalEvent::None) press(decoder_.idle());
+      if (event == TerminalEvent::Key && !read_keys()) break;
     }
     show();
     screen_.end();
@@ -63,12 +61,15 @@ class Session {
     shown_ = std::move(frame);
   }
 
-  // Until a key or the next frame. True when there may be a key.
-  bool wait() const {
-    const double seconds =
-        std::min(kPatience, std::max(kFrame, player_.wait().value_or(kPatience)));
-    pollfd keys{STDIN_FILENO, POLLIN, 0};
-    return poll(&keys, 1, static_cast<int>(seconds * 1000)) > 0;
+  // Until a key, another size of the window, or the next frame.
+  TerminalEvent wait() const {
+    return wait_.wait(std::min(kPatience, std::max(kFrame, player_.wait().value_or(kPatience))));
+  }
+
+  // From the top: nobody knows how the terminal has laid out anew what was there.
+  void redraw() {
+    screen_.clear();
+    shown_.clear();
   }
 
   void pass_time() {
@@ -107,6 +108,7 @@ class Session {
   const TreeShape shape_;
   ReplayPlayer player_;
   RawTerminal terminal_{STDIN_FILENO, STDOUT_FILENO};
+  TerminalWait wait_{STDIN_FILENO};
   Screen screen_{stdout};
   KeyDecoder decoder_;
   std::string shown_;

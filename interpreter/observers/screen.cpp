@@ -12,6 +12,7 @@ constexpr std::string_view kHideCursor = "\x1b[?25l";
 constexpr std::string_view kShowCursor = "\x1b[?25h";
 constexpr std::string_view kClearRestOfLine = "\x1b[K";
 constexpr std::string_view kClearBelow = "\x1b[J";
+constexpr std::string_view kClearAll = "\x1b[H\x1b[2J";
 
 void append_with_cleared_line_ends(std::string& to, std::string_view text) {
   for (const char character : text) {
@@ -28,6 +29,11 @@ void Screen::begin() {
 
 void Screen::end() {
   write(kShowCursor);
+}
+
+void Screen::clear() {
+  write(kClearAll);
+  lines_ = 0;
 }
 
 void Screen::show(std::string_view above, std::string_view frame) {

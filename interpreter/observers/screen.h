@@ -14,6 +14,8 @@ class Screen {
   // Hides the cursor, and shows it again.
   void begin();
   void end();
+  // Empties the whole screen; the next frame begins at its top.
+  void clear();
   // In place of the last frame; `above` are whole lines that scroll by above it.
   void show(std::string_view above, std::string_view frame);
 

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <pty.h>
+#include <sys/ioctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <termios.h>
@@ -146,6 +147,11 @@ bool Process::wait_for(const std::string& text) {
 
 void Process::type(const std::string& keys) const {
   REQUIRE(write(out_, keys.data(), keys.size()) == static_cast<ssize_t>(keys.size()));
+}
+
+void Process::resize(unsigned short rows, unsigned short columns) const {
+  const winsize size{rows, columns, 0, 0};
+  REQUIRE(ioctl(out_, TIOCSWINSZ, &size) == 0);
 }
 
 Outcome Process::finish() {

@@ -45,6 +45,8 @@ class Process {
   void signal(int number) const { kill(pid_, number); }
   // Keys on its terminal.
   void type(const std::string& keys) const;
+  // Another size of its terminal.
+  void resize(unsigned short rows, unsigned short columns) const;
   // Forgets what it has printed so far.
   void clear_output() { outcome_ = {}; }
   Outcome finish();

@@ -121,6 +121,36 @@ TEST_CASE("keys on a terminal: steps, jumps, the end, and the terminal as it was
   CHECK(contains(outcome.out, "\x1b[?25h"));
 }
 
+TEST_CASE("a replay is drawn anew when the window gets another size, also while it is paused") {
+  const TemporaryDirectory directory;
+  const std::string file = record(directory, kTree);
+  Process process(
+      {.arguments = {"replay", file, "--speed", "0.001"}, .environment = {{"NO_COLOR", "1"}}},
+      Process::Output::Terminal);
+  REQUIRE(process.wait_for("plays  tick 0 of 3"));
+  process.type(" ");
+  REQUIRE(process.wait_for("paused  tick 0 of 3"));
+  const auto redrawn = [&](unsigned short rows, unsigned short columns) {
+    process.clear_output();
+    process.resize(rows, columns);
+    REQUIRE(process.wait_for("\x1b[H\x1b[2J"));
+    REQUIRE(process.wait_for("q quit"));
+    process.clear_output();
+  };
+  redrawn(40, 200);  // everything had its place before
+  redrawn(40, 90);
+  process.resize(40, 30);  // the keys do not fit any more
+  REQUIRE(process.wait_for("\x1b[H\x1b[2J"));
+  REQUIRE(process.wait_for("space go on"));
+  process.type("n");
+  REQUIRE(process.wait_for("tick 1 of 3"));
+  process.type("q");
+  const Outcome outcome = process.finish();
+  CHECK(outcome.code == 0);
+  CHECK(!contains(outcome.out, "q quit"));
+  CHECK(!outcome.terminal_is_raw);
+}
+
 TEST_CASE("a replay plays by itself to the end") {
   const TemporaryDirectory directory;
   Process process({.arguments = {"replay", record(directory), "--speed", "1000"}},

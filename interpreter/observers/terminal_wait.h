@@ -1,0 +1,28 @@
+// Waits for what a terminal has to tell: a key, or that its window has another size now. One at a
+// time, in a process with one thread; used by the replay.
+#pragma once
+
+#include <csignal>
+#include <cstdint>
+
+namespace lockstep {
+
+enum class TerminalEvent : std::uint8_t { None, Key, Resize };
+
+class TerminalWait {
+ public:
+  explicit TerminalWait(int keys);
+  ~TerminalWait();
+  TerminalWait(const TerminalWait&) = delete;
+  TerminalWait& operator=(const TerminalWait&) = delete;
+
+  // A new size that came between two calls is not missed. None also after other signals.
+  TerminalEvent wait(double seconds) const;
+
+ private:
+  int keys_;
+  sigset_t before_{};
+  struct sigaction action_before_ {};
+};
+
+}  // namespace lockstep
