@@ -5,11 +5,16 @@
 #include <algorithm>
 
 #include "core/suggest.h"
+#include "core/utf8.h"
 #include "definition/definition.h"
 #include "document/reporter.h"
 
 namespace lockstep {
 namespace {
+
+// Paths are in recordings, in messages, and in what a leaf knows of itself.
+constexpr std::uint64_t kMaxPathBytes = std::uint64_t{128} << 20u;
+constexpr std::size_t kShownBytes = 100;
 
 // Depth-first over the graph of trees, with a stack of its own: a chain of subtrees may be long.
 class ReferenceChecker {
@@ -31,6 +36,7 @@ class ReferenceChecker {
     std::uint32_t next = 0;  // the node to look at next
     std::uint64_t size = 0;  // expanded
     std::uint32_t depth = 0;
+    std::uint64_t paths = 0;  // bytes of the paths of all its nodes, from its own root on
   };
 
   void visit(std::string_view root) {
@@ -47,7 +53,7 @@ class ReferenceChecker {
 
   void open(std::string_view id) {
     const std::uint32_t root = trees_.roots.at(id);
-    visits_[id] = {State::Open, root, trees_.nodes[root].end - root, 0};
+    visits_[id] = {State::Open, root, trees_.nodes[root].end - root, 0, 0};
     chain_.push_back(id);
   }
 
@@ -88,6 +94,7 @@ class ReferenceChecker {
   void close(std::string_view id) {
     Visit& visit = visits_[id];
     visit.state = State::Done;
+    visit.paths = path_bytes(id);
     chain_.pop_back();
     const CheckedNode& root = trees_.nodes[trees_.roots.at(id)];
     if (visit.size > kMaxNodes) {
@@ -100,7 +107,33 @@ class ReferenceChecker {
           root,
           fmt::format("the tree '{}' is {} nodes deep with its subtrees expanded", id, visit.depth),
           fmt::format("the limit is {}", kMaxDepth));
+    } else if (visit.paths > kMaxPathBytes) {
+      too_large(root,
+                fmt::format("the paths of all nodes in the tree '{}' are larger than {} MiB "
+                            "together with its subtrees expanded",
+                            utf8_front(id, kShownBytes), kMaxPathBytes >> 20u),
+                "a long name, or a deep place, counts for each node below it");
     }
+  }
+
+  // Once all trees in it are done.
+  std::uint64_t path_bytes(std::string_view id) const {
+    const std::uint32_t root = trees_.roots.at(id);
+    std::vector<std::uint64_t> lengths;  // of the last node at each depth
+    std::uint64_t sum = 0;
+    for (std::uint32_t i = root; i < trees_.nodes[root].end; ++i) {
+      const CheckedNode& node = trees_.nodes[i];
+      lengths.resize(node.depth + 1u);
+      lengths.back() = node.name.size() + 1 + (node.depth == 0 ? 0 : lengths[node.depth - 1u]);
+      sum += lengths.back();
+      if (node.subtree.empty()) continue;
+      const auto subtree = visits_.find(node.subtree);
+      if (subtree == visits_.end()) continue;  // unknown
+      const Visit& below = subtree->second;
+      sum += below.paths + lengths.back() * std::min<std::uint64_t>(below.size, kMaxNodes);
+      sum = std::min<std::uint64_t>(sum, 1ull << 60u);
+    }
+    return sum;
   }
 
   void too_large(const CheckedNode& root, std::string message, std::string hint) {

@@ -7,8 +7,8 @@
 namespace lockstep {
 
 // Reports references to unknown trees, trees that contain themselves (with the chain), and trees
-// that are larger or deeper than kMaxNodes or kMaxDepth once expanded. False when a tree contains
-// itself or exceeds a limit: it cannot be expanded then.
+// that are larger or deeper than kMaxNodes or kMaxDepth once expanded, or whose paths are too long.
+// False when a tree contains itself or exceeds a limit: it cannot be expanded then.
 bool check_references(const Project& project, const CheckedTrees& trees, Diagnostics& diagnostics);
 
 }  // namespace lockstep

@@ -23,7 +23,7 @@ class RecordingReader {
  public:
   // A line that is longer is refused, before it takes more memory.
   struct Limits {
-    std::size_t line = std::size_t{256} << 20u;  // bytes
+    std::size_t line = std::size_t{1} << 30u;  // bytes; the header of the largest tree has fewer
   };
 
   // `in` must outlive the reader; `name` is how errors call it. Reads the header: check error().

@@ -111,6 +111,16 @@ TEST_CASE("a document that is deep or wide is refused or checked in time and mem
   constexpr int kMany = 1'000'000;
   const std::string sequence = "<BehaviorTree ID=\"A\"><Sequence>";
   const std::string end = "</Sequence></BehaviorTree></root>";
+  std::string deep, up;
+  for (int i = 0; i < 90; ++i) {
+    deep += "<Inverter>";
+    up += "</Inverter>";
+  }
+  const auto leaves = [](int count) {
+    std::string all;
+    for (int i = 0; i < count; ++i) all += "<AlwaysSuccess/>";
+    return all;
+  };
   check_all({
       {"10,000 elements inside each other",
        many(kHead + "<BehaviorTree ID=\"A\">", 10'000, "<Sequence>", ""), 3,
@@ -148,6 +158,19 @@ TEST_CASE("a document that is deep or wide is refused or checked in time and mem
             "</Sequence></BehaviorTree>\n",
             "</root>"),
        3, "$:"},
+      {"100,000 nodes 900 deep",
+       many(kHead + "<BehaviorTree ID=\"A\">" + deep + "<SubTree ID=\"T0\"/>" + up, 9,
+            "</BehaviorTree><BehaviorTree ID=\"T{0}\">" + deep + "<SubTree ID=\"T{1}\"/>" + up,
+            "</BehaviorTree><BehaviorTree ID=\"T9\"><Sequence>" + leaves(100'000) + end),
+       3, "error: the paths of all nodes in the tree 'T"},
+      {"a name of a megabyte above 120 nodes",
+       text(kHead + "<BehaviorTree ID=\"A\"><Sequence name=\"" + std::string(1u << 20u, 'n') +
+            "\">" + leaves(120) + end),
+       0, ""},
+      {"a name of a megabyte above 130 nodes",
+       text(kHead + "<BehaviorTree ID=\"A\"><Sequence name=\"" + std::string(1u << 20u, 'n') +
+            "\">" + leaves(130) + end),
+       3, "$:2:22: error: the paths of all nodes in the tree 'A' are larger than 128 MiB"},
   });
 }
 
