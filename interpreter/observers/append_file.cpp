@@ -2,14 +2,15 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/uio.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <ctime>
 #include <system_error>
 
+#include "observers/packet_printer.h"
 #include "observers/quiet_thread.h"
 
 namespace lockstep {
@@ -50,7 +51,8 @@ std::chrono::nanoseconds now() {
 
 }  // namespace
 
-AppendFile::AppendFile(const std::string& path, std::size_t queue) : path_(path), ring_(queue) {
+AppendFile::AppendFile(const std::string& path, std::size_t queue)
+    : path_(path), ring_(queue), text_(kText) {
   file_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
   if (file_ < 0) {
     fail("open");
@@ -74,21 +76,21 @@ const std::string& AppendFile::error() const {
   return failed() ? error_ : kNone;
 }
 
-bool AppendFile::push(std::string_view lines) {
-  if (failed() || !ring_.push(lines)) return false;
+bool AppendFile::push(const Packet& packet) {
+  if (failed() || !ring_.push(packet)) return false;
   const std::uint64_t pushed = ring_.pushed();
-  if (pushed - called_for_ >= kFull) {
+  if (pushed - called_for_ >= std::min(kFull, ring_.size() / 2)) {
     called_for_ = pushed;
     work_.ring();
   }
   return true;
 }
 
-void AppendFile::write(std::string_view lines) {
+void AppendFile::write(const Packet& packet) {
   flush();
   if (failed()) return;
-  ring_.grow(lines.size());
-  ring_.push(lines);
+  ring_.grow(packet_size(packet));
+  ring_.push(packet);
   flush();
 }
 
@@ -115,37 +117,50 @@ void AppendFile::write_until_stopped() {
   }
 }
 
-// Nothing is written after an error: a gap in the middle would be worse than a short file.
+// Nothing is written after an error: a gap in the middle would be worse than a short file. A packet
+// stays in the ring until its text is in the file, and the text follows from the ring alone. So a
+// crash in the middle of this costs nothing: the handler begins it anew, and leaves out what is
+// written.
 void AppendFile::write_out(Failure failure) {
-  while (!failed() && !ring_.empty()) write_some(failure);
+  PacketPrinter printer(ring_);
+  std::uint64_t known = written_;
+  while (!failed() && !ring_.empty()) {
+    std::string_view text = printer.print(text_);
+    const std::uint64_t again = std::min<std::uint64_t>(known, text.size());
+    known -= again;
+    write_text(text.substr(again), failure);
+    if (failed()) return;
+    written_ = printer.unfinished_text();
+    ring_.take_until(printer.finished());
+  }
 }
 
-void AppendFile::write_some(Failure failure) {
-  const auto [first, second] = ring_.front();
-  // writev does not write to what it is given.
-  const std::array<iovec, 2> pieces{{{const_cast<char*>(first.data()), first.size()},
-                                     {const_cast<char*>(second.data()), second.size()}}};
-  const ssize_t written = ::writev(file_, pieces.data(), second.empty() ? 1 : 2);
-  if (written >= 0) return count_written(static_cast<std::size_t>(written));
-  if (errno == EINTR) return;
+void AppendFile::write_text(std::string_view text, Failure failure) {
+  while (!failed() && !text.empty()) {
+    const ssize_t count = ::write(file_, text.data(), text.size());
+    if (count >= 0) {
+      const auto written = static_cast<std::size_t>(count);
+      count_written(text.substr(0, written));
+      text.remove_prefix(written);
+    } else if (errno != EINTR) {
+      give_up(failure);
+    }
+  }
+}
+
+void AppendFile::count_written(std::string_view text) {
+  written_ += text.size();
+  unfinished_ += text.size();
+  const auto newline = text.rfind('\n');
+  if (newline != std::string_view::npos) unfinished_ = text.size() - newline - 1;
+}
+
+void AppendFile::give_up(Failure failure) {
   const int reason = errno;
   cut_back();
   errno = reason;
   if (failure == Failure::Told) return fail("write");
   failed_.store(true, std::memory_order_release);
-}
-
-void AppendFile::count_written(std::size_t count) {
-  const auto [first, second] = ring_.front();
-  const std::string_view of_first = first.substr(0, count);
-  const std::string_view of_second = second.substr(0, count - of_first.size());
-  unfinished_ += count;
-  if (const auto newline = of_second.rfind('\n'); newline != std::string_view::npos) {
-    unfinished_ = of_second.size() - newline - 1;
-  } else if (const auto earlier = of_first.rfind('\n'); earlier != std::string_view::npos) {
-    unfinished_ = count - earlier - 1;
-  }
-  ring_.take(count);
 }
 
 // A disk that fills up takes a part of a line. Counted from the end: somebody may have emptied the
@@ -177,7 +192,7 @@ void AppendFile::emergency_flush() {
 }
 
 void AppendFile::save(std::chrono::nanoseconds deadline) {
-  // Later lines, of a tick thread that still runs, are not waited for: it might never end.
+  // Later packets, of a tick thread that still runs, are not waited for: it might never end.
   const std::uint64_t until = ring_.pushed();
   const auto is_done = [&] { return failed() || ring_.taken() >= until; };
   // When the crash is in the thread that writes, there is nobody to wait for.

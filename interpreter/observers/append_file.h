@@ -1,7 +1,7 @@
-// A file that only grows, written by a thread of its own: whoever has lines to write never waits
-// for the disk. Between the two is a queue of fixed size; what does not fit is refused. Whole lines
-// are written, so that a file cut by a kill can be read up to its last whole line. The first error
-// ends the writing.
+// A file that only grows, written by a thread of its own: whoever has something to write never
+// waits for the disk, nor for numbers to become text. Between the two is a queue of packets, of
+// fixed size; what does not fit is refused. Whole lines are written, so that a file cut by a kill
+// can be read up to its last whole line. The first error ends the writing.
 #pragma once
 
 #include <sys/types.h>
@@ -11,18 +11,21 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <vector>
 
 #include "observers/bell.h"
-#include "observers/line_ring.h"
+#include "observers/packet_ring.h"
 
 namespace lockstep {
 
 class AppendFile {
  public:
   static constexpr std::size_t kQueue = 8u << 20;  // bytes
-  // A line is written at the latest so long after push(), or when so much is collected.
+  // A packet is written at the latest so long after push(), or when so much is collected, or half
+  // of what the queue takes.
   static constexpr std::chrono::milliseconds kLongestDelay{100};
   static constexpr std::size_t kFull = 64u << 10;  // bytes
+  static constexpr std::size_t kText = 64u << 10;  // bytes that are written at once
   static constexpr std::chrono::milliseconds kLongestEmergency{500};
 
   // Creates the file, or empties it; error() tells when that is not possible.
@@ -32,12 +35,12 @@ class AppendFile {
   AppendFile(const AppendFile&) = delete;
   AppendFile& operator=(const AppendFile&) = delete;
 
-  // One thread at a time calls these three. `lines` are whole: they end in '\n'.
+  // One thread at a time calls these three. A packet is of whole lines: its text ends in '\n'.
 
   // Never waits. False: the queue is full, or writing has failed; nothing was taken.
-  bool push(std::string_view lines);
-  // Returns when they are written, or writing has failed. They may be longer than the queue.
-  void write(std::string_view lines);
+  bool push(const Packet& packet);
+  // Returns when it is written, or writing has failed. It may be longer than the queue.
+  void write(const Packet& packet);
   // Returns when all is written, or writing has failed.
   void flush();
 
@@ -55,8 +58,9 @@ class AppendFile {
 
   void write_until_stopped();
   void write_out(Failure failure);
-  void write_some(Failure failure);
-  void count_written(std::size_t count);
+  void write_text(std::string_view text, Failure failure);
+  void count_written(std::string_view text);
+  void give_up(Failure failure);
   void cut_back();
   void fail(const char* what);
   void save(std::chrono::nanoseconds deadline);
@@ -68,15 +72,17 @@ class AppendFile {
   std::string error_;  // not touched any more once failed_
   std::atomic<bool> failed_{false};
 
-  LineRing ring_;
+  PacketRing ring_;
   std::uint64_t called_for_ = 0;  // bytes that had been pushed when the thread was last woken
   Bell work_;                     // for the thread
   Bell done_;                     // of the thread
   std::atomic<bool> stopping_{false};
 
-  // The thread that takes lines out and writes them; 0: none. So no byte is written twice.
+  // The thread that takes packets out and writes them; 0: none. So no byte is written twice.
   std::atomic<pid_t> claim_{0};
-  std::size_t unfinished_ = 0;  // bytes at the end of the file that are not a whole line
+  std::vector<char> text_;     // what it prints to
+  std::uint64_t written_ = 0;  // bytes of the text of the packets in the ring, in the file already
+  std::uint64_t unfinished_ = 0;  // bytes at the end of the file that are not a whole line
   std::thread thread_;
 };
 

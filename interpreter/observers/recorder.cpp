@@ -1,7 +1,6 @@
 #include "observers/recorder.h"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "observers/recording_text.h"
@@ -10,18 +9,13 @@
 namespace lockstep {
 namespace {
 
-// The longest line of a tick without faults, and the line before it that tells of lost ticks.
-std::size_t most_of_line(const Tree& tree) {
-  constexpr std::size_t kMostOfRest = 256;
-  return kMostOfRest + tree.nodes.size() * kMostOfNode;
-}
-
-// A line that is longer than the queue could never be written, so the queue has room for several.
-// (Only the messages of faults have no limit. A line that is too long because of them is lost, the
+// A packet that is longer than the queue could never be written, so the queue has room for several.
+// (Only the messages of faults have no limit. A tick that is too long because of them is lost, the
 // one after it is not.)
 std::size_t queue_of(const Tree& tree, std::size_t wanted) {
-  constexpr std::size_t kLines = 4;
-  return std::max(wanted, kLines * most_of_line(tree));
+  constexpr std::size_t kTicks = 4;
+  const std::size_t longest = packet_size(tree.nodes.size(), kPacketCell);
+  return std::max(wanted, kTicks * longest);
 }
 
 }  // namespace
@@ -30,9 +24,7 @@ Recorder::Recorder(const Tree& tree, RecorderOptions options)
     : tree_(tree),
       options_(std::move(options)),
       file_(options_.path, queue_of(tree, options_.queue)),
-      delta_(tree) {
-  line_.reserve(most_of_line(tree));
-}
+      delta_(tree) {}
 
 void Recorder::run_started(Ticker&, const RunStart& start) {
   may_wait_ = !start.real_time;
@@ -53,8 +45,7 @@ void Recorder::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds) {
 
 void Recorder::after_tick(Ticker& ticker, const TickReport& report) {
   if (!failed()) {
-    write_line(ticker, report);
-    if (push()) {
+    if (push_tick(ticker, report)) {
       delta_.keep();
       gap_ = 0;
     } else if (!failed()) {
@@ -66,28 +57,21 @@ void Recorder::after_tick(Ticker& ticker, const TickReport& report) {
   tell_error();
 }
 
-// A gap is told together with the line after it: either both are in the file or none.
-void Recorder::write_line(Ticker& ticker, const TickReport& report) {
-  line_.clear();
-  if (gap_ > 0) append_lost(line_, gap_, gap_from_);
-  fmt::format_to(std::back_inserter(line_), "{{\"tick\":{},\"time_s\":", report.tick);
-  append_seconds(line_, report.time);
-  append_text(line_, ",\"nodes\":[");
-  delta_.append(ticker, line_);
-  line_.push_back(']');
-  if (!report.faults.empty()) {
-    append_text(line_, ",\"faults\":");
-    append_faults(line_, report.faults);
-  }
-  append_text(line_, "}\n");
+// A gap is told together with what comes after it: either both are in the file or none.
+PacketHead Recorder::head() const {
+  return {.lost = gap_, .lost_from = gap_from_};
 }
 
-bool Recorder::push() {
-  const std::string_view line(line_.data(), line_.size());
-  if (file_.push(line)) return true;
+bool Recorder::push_tick(Ticker& ticker, const TickReport& report) {
+  const std::string line_end = tick_end(report.faults);
+  Packet packet{.head = head(), .nodes = delta_.changes(ticker), .text = line_end};
+  packet.head.is_tick = 1;
+  packet.head.tick = report.tick;
+  packet.head.time = report.time.count();
+  if (file_.push(packet)) return true;
   if (!may_wait_) return false;
   file_.flush();
-  return file_.push(line);
+  return file_.push(packet);
 }
 
 void Recorder::run_ended(Ticker& ticker, const RunEnd& end) {
@@ -106,11 +90,8 @@ void Recorder::run_ended(Ticker& ticker, const RunEnd& end) {
 
 // The first and the last line are not lost, even if the run has to wait for them.
 void Recorder::write(const std::string& line) {
-  line_.clear();
-  if (gap_ > 0) append_lost(line_, gap_, gap_from_);
-  append_text(line_, line);
-  line_.push_back('\n');
-  file_.write({line_.data(), line_.size()});
+  const std::string text = line + '\n';
+  file_.write({.head = head(), .text = text});
   tell_error();
 }
 

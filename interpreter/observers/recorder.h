@@ -1,7 +1,7 @@
 // Writes a run to a file as JSON Lines, one line per tick with what changed: docs/recording.md. On
-// a virtual clock the same run gives the same bytes. Allocates nothing per tick, and on a real
-// clock never waits for the disk: ticks for which there is no room are left out, counted, and told
-// in the recording itself.
+// a virtual clock the same run gives the same bytes. Allocates nothing per tick, leaves the
+// printing to the thread that writes, and on a real clock never waits for the disk: ticks for which
+// there is no room are left out, counted, and told in the recording itself.
 #pragma once
 
 #include <functional>
@@ -43,8 +43,8 @@ class Recorder final : public Observer {
   std::uint64_t lost() const { return lost_; }
 
  private:
-  void write_line(Ticker& ticker, const TickReport& report);
-  bool push();
+  PacketHead head() const;
+  bool push_tick(Ticker& ticker, const TickReport& report);
   void write(const std::string& line);
   void tell_error();
 
@@ -52,7 +52,6 @@ class Recorder final : public Observer {
   RecorderOptions options_;
   AppendFile file_;
   RecordingDelta delta_;
-  fmt::memory_buffer line_;
   bool may_wait_ = false;  // time stands still, so waiting for the disk delays nothing
   std::uint64_t lost_ = 0;
   std::uint64_t gap_ = 0, gap_from_ = 0;  // of these, the last ones, which no line tells yet

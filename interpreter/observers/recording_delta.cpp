@@ -1,40 +1,98 @@
 #include "observers/recording_delta.h"
 
+#include <cstring>
+
+#include "engine/synchronized.h"
 #include "engine/ticker.h"
 #include "measure/synchronized_measure.h"
-#include "observers/recording_text.h"
 
 namespace lockstep {
+namespace {
+
+constexpr std::uint8_t kMoved = 16;     // above NodeChange::kTicked
+constexpr std::uint8_t kUnknown = 255;  // no Activity
+
+std::uint64_t eight(const void* bytes) {
+  std::uint64_t block = 0;
+  std::memcpy(&block, bytes, sizeof block);
+  return block;
+}
+
+// Visits each index at which two arrays of bytes differ.
+template <class Byte, class Visit>
+void for_each_difference(std::span<const Byte> one, const std::uint8_t* other, Visit visit) {
+  std::size_t at = 0;
+  for (; at + 8 <= one.size(); at += 8) {
+    if (eight(&one[at]) == eight(other + at)) continue;
+    for (std::size_t i = at; i < at + 8; ++i) {
+      if (static_cast<std::uint8_t>(one[i]) != other[i]) visit(static_cast<NodeIndex>(i));
+    }
+  }
+  for (; at < one.size(); ++at) {
+    if (static_cast<std::uint8_t>(one[at]) != other[at]) visit(static_cast<NodeIndex>(at));
+  }
+}
+
+// Simple enough for the compiler to do many nodes at a time.
+void put_states(const RunState& run, std::uint32_t tick, const std::uint8_t* moved,
+                std::uint8_t* states) {
+  const std::uint8_t ticked = tick != 0 ? NodeChange::kTicked : 0;  // 0: there was none yet
+  const Activity* const activity = run.activity.data();
+  const std::uint32_t* const last = run.last_tick.data();
+  const std::size_t count = run.activity.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto of_tick = static_cast<std::uint8_t>(last[i] == tick ? ticked : 0);
+    states[i] =
+        static_cast<std::uint8_t>(static_cast<std::uint8_t>(activity[i]) | of_tick | moved[i]);
+  }
+}
+
+}  // namespace
 
 RecordingDelta::RecordingDelta(const Tree& tree)
     : synchronized_nodes_(synchronized_nodes(tree)),
       progress_(tree.nodes.size()),
-      kept_(tree.nodes.size()) {
-  changes_.reserve(tree.nodes.size());
-}
+      source_(tree.nodes.size()),
+      moved_(tree.nodes.size()),
+      state_(tree.nodes.size()),
+      kept_(tree.nodes.size()),
+      kept_progress_(tree.nodes.size()),
+      changes_(tree.nodes.size()) {}
 
+// Only running nodes are asked. Of all others the progress follows from their Activity, so it is
+// looked at when that has become another one.
 void RecordingDelta::before_tick(Ticker& ticker) {
-  for (NodeIndex node = 0; node < progress_.size(); ++node) progress_[node] = ticker.progress(node);
+  const std::span<const Activity> activity = ticker.run_state().activity;
+  for_each_difference(activity, source_.data(), [&](NodeIndex node) {
+    set_progress(node, ticker.progress(node));
+    const bool running = status_of(activity[node]) == Status::Running;
+    source_[node] = running ? kUnknown : static_cast<std::uint8_t>(activity[node]);
+  });
 }
 
-void RecordingDelta::append(Ticker& ticker, fmt::memory_buffer& out) {
+std::span<const NodeChange> RecordingDelta::changes(Ticker& ticker) {
   take_snapshots(ticker);
-  changes_.clear();
-  for (NodeIndex node = 0; node < kept_.size(); ++node) {
-    const RecordedState now{.status = ticker.status(node),
-                            .progress = progress_[node],
-                            .ticked = ticker.ticked(node),
-                            .held = ticker.held(node)};
-    if (now != kept_[node]) changes_.push_back({node, now});
-  }
-  for (const Change& change : changes_) {
-    if (&change != changes_.data()) out.push_back(',');
-    append_node(out, change.node, change.state);
-  }
+  put_states(ticker.run_state(), ticker.tick_number(), moved_.data(), state_.data());
+  NodeChange* next = changes_.data();
+  for_each_difference(std::span<const std::uint8_t>(state_), kept_.data(), [&](NodeIndex node) {
+    const auto state = static_cast<std::uint8_t>(state_[node] & ~kMoved);
+    *next++ = {.progress = progress_[node], .node = node, .state = state};
+  });
+  count_ = static_cast<std::size_t>(next - changes_.data());
+  return {changes_.data(), count_};
 }
 
 void RecordingDelta::keep() {
-  for (const Change& change : changes_) kept_[change.node] = change.state;
+  for (const NodeChange& change : std::span(changes_).first(count_)) {
+    kept_[change.node] = change.state;
+    kept_progress_[change.node] = change.progress;
+    moved_[change.node] = 0;
+  }
+}
+
+void RecordingDelta::set_progress(NodeIndex node, double progress) {
+  progress_[node] = progress;
+  moved_[node] = progress != kept_progress_[node] ? kMoved : 0;
 }
 
 // What a synchronized node has seen counts more than what was seen before its tick.
@@ -43,7 +101,8 @@ void RecordingDelta::take_snapshots(Ticker& ticker) {
     if (!ticker.ticked(node)) continue;
     NodeIndex child = node + 1;
     for (const double progress : child_progress(ticker, node)) {
-      progress_[child] = progress;
+      set_progress(child, progress);
+      source_[child] = kUnknown;
       child = ticker.end_of(child);
     }
   }

@@ -5,24 +5,32 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 namespace lockstep {
-
-void append_seconds(fmt::memory_buffer& out, Nanoseconds time) {
-  const auto total = static_cast<std::uint64_t>(time.count());
-  fmt::format_to(std::back_inserter(out), "{}.{:09}", total / 1'000'000'000, total % 1'000'000'000);
-  std::size_t size = out.size();
-  while (out[size - 1] == '0' && out[size - 2] != '.') --size;
-  out.resize(size);
-}
-
 namespace {
 
 char* put(char* to, std::string_view text) {
   return std::copy(text.begin(), text.end(), to);
+}
+
+template <class Integer>
+char* put_integer(char* to, Integer number) {
+  return std::to_chars(to, to + std::numeric_limits<Integer>::digits10 + 1, number).ptr;
+}
+
+char* put_seconds(char* to, Nanoseconds time) {
+  constexpr std::uint64_t kSecond = 1'000'000'000;
+  const auto total = static_cast<std::uint64_t>(time.count());
+  to = put_integer(to, total / kSecond);
+  // A digit more, so that none of the fraction's zeros is left out.
+  char digits[24];
+  const char* end = put_integer(digits, kSecond + total % kSecond);
+  while (end[-1] == '0' && end > digits + 2) --end;
+  digits[0] = '.';
+  return std::copy<const char*>(digits, end, to);
 }
 
 // Of nodes that change, most have not begun, have ended, or stand where their parent does: writing
@@ -35,34 +43,38 @@ char* put_progress(char* to, double progress) {
 
 }  // namespace
 
-void append_node(fmt::memory_buffer& out, NodeIndex node, const RecordedState& state) {
+char* put_lost(char* to, std::uint64_t ticks, std::uint64_t from) {
+  to = put_integer(put(to, "{\"lost\":{\"ticks\":"), ticks);
+  to = put_integer(put(to, ",\"from\":"), from);
+  return put(to, "}}\n");
+}
+
+char* put_tick(char* to, std::uint64_t tick, Nanoseconds time) {
+  to = put_integer(put(to, "{\"tick\":"), tick);
+  to = put_seconds(put(to, ",\"time_s\":"), time);
+  return put(to, ",\"nodes\":[");
+}
+
+char* put_node(char* to, NodeIndex node, const RecordedState& state) {
   constexpr std::string_view kStatus[] = {",\"idle\",", ",\"running\",", ",\"success\",",
                                           ",\"failure\","};
   constexpr std::string_view kFlags[] = {",0,0]", ",0,1]", ",1,0]", ",1,1]"};
-  const std::size_t before = out.size();
-  out.resize(before + kMostOfNode);
-  char* to = put(out.data() + before, "[");
-  to = std::to_chars(to, to + std::numeric_limits<NodeIndex>::digits10 + 1, node).ptr;
+  to = put_integer(put(to, "["), node);
   to = put(to, kStatus[static_cast<unsigned>(state.status)]);
   to = put_progress(to, state.progress);
-  to = put(to, kFlags[2 * state.ticked + state.held]);
-  out.resize(static_cast<std::size_t>(to - out.data()));
+  return put(to, kFlags[2 * state.ticked + state.held]);
 }
 
-void append_faults(fmt::memory_buffer& out, std::span<const Fault> faults) {
+std::string tick_end(std::span<const Fault> faults) {
+  if (faults.empty()) return "]}\n";
   constexpr std::size_t kMostOfMessage = 4096;
-  out.push_back('[');
+  std::string text = "],\"faults\":[";
   for (const Fault& fault : faults) {
-    if (&fault != faults.data()) out.push_back(',');
+    if (&fault != faults.data()) text += ',';
     const nlohmann::json json = {fault.node, fault.message.substr(0, kMostOfMessage)};
-    append_text(out, json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    text += json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   }
-  out.push_back(']');
-}
-
-void append_lost(fmt::memory_buffer& out, std::uint64_t ticks, std::uint64_t from) {
-  fmt::format_to(std::back_inserter(out), "{{\"lost\":{{\"ticks\":{},\"from\":{}}}}}\n", ticks,
-                 from);
+  return text + "]}\n";
 }
 
 }  // namespace lockstep

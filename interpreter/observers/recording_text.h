@@ -1,11 +1,10 @@
-// The pieces of a recording's lines that are written in every tick. Used by recorder and
-// recording_delta.
+// The pieces of a recording's lines that are written in every tick. Those that put something are
+// async-signal-safe: into room that the caller has, at most so much of it; they return its end.
+// Used by packet_printer and recorder.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <span>
-#include <string_view>
+#include <string>
 
 #include "core/clock.h"
 #include "engine/ticker.h"
@@ -13,22 +12,22 @@
 
 namespace lockstep {
 
-inline void append_text(fmt::memory_buffer& out, std::string_view text) {
-  out.append(text.data(), text.data() + text.size());
-}
-
-// Nanoseconds as exact seconds, "0.03", where a double would say 0.030000000000000002.
-void append_seconds(fmt::memory_buffer& out, Nanoseconds time);
-
-// No node's part of a line is longer: [4294967295,"success",0.12345678901234567,1,0] and a comma.
-constexpr std::size_t kMostOfNode = 64;
-// [3,"running",0.25,1,0]
-void append_node(fmt::memory_buffer& out, NodeIndex node, const RecordedState& state);
-
-// [[3,"threw …"],…]; of a long message only the beginning.
-void append_faults(fmt::memory_buffer& out, std::span<const Fault> faults);
-
 // {"lost":{"ticks":2,"from":7}} and the end of the line.
-void append_lost(fmt::memory_buffer& out, std::uint64_t ticks, std::uint64_t from);
+constexpr std::size_t kMostOfLost = 80;
+char* put_lost(char* to, std::uint64_t ticks, std::uint64_t from);
+
+// {"tick":3,"time_s":0.03,"nodes":[ with the exact time, where a double would say
+// 0.030000000000000002.
+constexpr std::size_t kMostOfTick = 80;
+char* put_tick(char* to, std::uint64_t tick, Nanoseconds time);
+
+// [3,"running",0.25,1,0]. The longest: [4294967295,"success",0.00012345678901234567,1,0] and a
+// comma.
+constexpr std::size_t kMostOfNode = 64;
+char* put_node(char* to, NodeIndex node, const RecordedState& state);
+
+// What ends a tick's line: ]} or ],"faults":[[3,"threw …"],…]} and a newline; of a long message
+// only the beginning. Allocates only if there are faults.
+std::string tick_end(std::span<const Fault> faults);
 
 }  // namespace lockstep

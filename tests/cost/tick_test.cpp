@@ -6,6 +6,7 @@
 #include <linux/seccomp.h>
 #include <pthread.h>
 #include <sys/prctl.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -18,6 +19,7 @@
 
 #include "definition/resolve.h"
 #include "engine/compile.h"
+#include "observers/recorder.h"
 #include "observers/statistics.h"
 #include "plugin/plugin_set.h"
 #include "runtime/loop.h"
@@ -94,19 +96,25 @@ class TickingTree {
   Tree tree_;
 };
 
-// As `lockstep run` ticks it: watched, and with the measures of the summary.
+// As `lockstep run` ticks it: watched, with the measures of the summary, and maybe a recorder.
 class WatchedRun {
  public:
-  explicit WatchedRun(const Tree& tree)
+  explicit WatchedRun(const Tree& tree, Recorder* recorder = nullptr)
       : watch_({.budget = std::chrono::seconds(1)}),
         statistics_(tree),
-        run_(tree, {.watch = &watch_}) {}
+        recorder_(recorder),
+        run_(tree, {.watch = &watch_}) {
+    if (recorder_ != nullptr) recorder_->run_started(run_.ticker(), {});
+  }
 
   void tick(std::uint64_t count) {
     for (std::uint64_t i = 0; i < count; ++i, ++tick_) {
       const Nanoseconds now = deadline_of(tick_, 100);
-      const Status status = run_.tick(now);
-      statistics_.after_tick(run_.ticker(), {tick_, now, status});
+      run_.set_now(now);
+      if (recorder_ != nullptr) recorder_->before_tick(run_.ticker(), tick_, now);
+      const TickReport report{tick_, now, run_.tick(now)};
+      statistics_.after_tick(run_.ticker(), report);
+      if (recorder_ != nullptr) recorder_->after_tick(run_.ticker(), report);
     }
   }
   const Fault* fault() const { return run_.fault(); }
@@ -115,6 +123,7 @@ class WatchedRun {
  private:
   LeafWatch watch_;
   Statistics statistics_;
+  Recorder* recorder_;
   Run run_;
   std::uint64_t tick_ = 0;
 };
@@ -131,6 +140,21 @@ TEST_CASE("a tick allocates nothing and locks nothing") {
   t_counting = false;
   CHECK(run.status() == Status::Running);
   CHECK(run.fault() == nullptr);
+  CHECK(g_allocations == 0);
+  CHECK(g_locks == 0);
+}
+
+TEST_CASE("recording a tick allocates nothing and locks nothing") {
+  const TickingTree tree;
+  Recorder recorder(tree.tree(), {.path = "/dev/null", .tree_file = "cost.xml"});
+  WatchedRun run(tree.tree(), &recorder);
+  run.tick(10);
+  g_allocations = g_locks = 0;
+  t_counting = true;
+  run.tick(1000);
+  t_counting = false;
+  CHECK(run.status() == Status::Running);
+  CHECK(recorder.lost() == 0);
   CHECK(g_allocations == 0);
   CHECK(g_locks == 0);
 }
@@ -175,13 +199,55 @@ bool survives_without_system_calls(Work work) {
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
+// What `work` allocates in a child that has none of this process's other threads; -1: it crashed.
+template <class Work>
+int allocations_alone(Work work) {
+  const pid_t child = fork();
+  if (child == 0) {
+    g_allocations = g_locks = 0;
+    t_counting = true;
+    work();
+    _exit(g_allocations + g_locks);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+off_t size_of(const std::string& path) {
+  struct stat file {};
+  return ::stat(path.c_str(), &file) == 0 ? file.st_size : -1;
+}
+
 }  // namespace
+
+TEST_CASE("a recording in an emergency is printed without allocating or locking") {
+  const TickingTree tree;
+  char path[] = "/tmp/lockstep-XXXXXX";
+  ::close(mkstemp(path));
+  {
+    Recorder recorder(tree.tree(), {.path = path, .tree_file = "cost.xml"});
+    WatchedRun run(tree.tree(), &recorder);
+    const off_t before = size_of(path);
+    CHECK(allocations_alone([&] {
+            run.tick(100);
+            AppendFile::emergency_flush();
+          }) == 0);
+    CHECK(size_of(path) > before + 100 * 40);
+  }
+  ::unlink(path);
+}
 
 TEST_CASE("a tick calls the system for nothing") {
   const TickingTree tree;
   WatchedRun run(tree.tree());
   run.tick(10);
   CHECK(survives_without_system_calls([&run] { run.tick(1000); }));
+  Recorder recorder(tree.tree(), {.path = "/dev/null", .tree_file = "cost.xml"});
+  WatchedRun recorded(tree.tree(), &recorder);
+  recorded.tick(10);
+  // So few that nobody has to be woken for them.
+  CHECK(survives_without_system_calls([&recorded] { recorded.tick(50); }));
   CHECK_FALSE(survives_without_system_calls([] { getppid(); }));
 }
 

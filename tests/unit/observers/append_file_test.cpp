@@ -16,10 +16,14 @@ namespace {
 using test::BlockedDisk;
 using test::TemporaryPath;
 
-constexpr std::size_t kQueue = 5000;  // bytes; lines do not end where it ends
+constexpr std::size_t kQueue = 5000;  // bytes; packets do not end where it ends
 
 std::string line(int number) {
   return "line " + std::to_string(number) + "\n";
+}
+
+Packet packet(std::string_view text) {
+  return {.text = text};
 }
 
 std::string lines(int first, int last) {
@@ -30,14 +34,14 @@ std::string lines(int first, int last) {
 
 // Pushes until the queue is full; the number of the first line that was refused.
 int push_until_full(AppendFile& file, int number = 0) {
-  while (file.push(line(number))) ++number;
+  while (file.push(packet(line(number)))) ++number;
   return number;
 }
 
 TEST_CASE("a line that was pushed is written soon, without anything else happening") {
   const TemporaryPath path;
   AppendFile file(path.path());
-  CHECK(file.push("line\n"));
+  CHECK(file.push(packet("line\n")));
   // A test that waits forever has failed.
   while (path.text().empty()) std::this_thread::yield();
   CHECK(path.text() == "line\n");
@@ -63,11 +67,11 @@ TEST_CASE("a full queue refuses whole lines, waits for nothing, and goes on when
 TEST_CASE("lines go around the end of the queue") {
   const TemporaryPath path;
   {
-    AppendFile file(path.path(), 100);
+    AppendFile file(path.path(), 200);
     for (int number = 0; number < 1000; ++number) {
-      if (file.push(line(number))) continue;
+      if (file.push(packet(line(number)))) continue;
       file.flush();
-      REQUIRE(file.push(line(number)));
+      REQUIRE(file.push(packet(line(number))));
     }
   }
   CHECK(path.text() == lines(0, 1000));
@@ -75,12 +79,12 @@ TEST_CASE("lines go around the end of the queue") {
 
 TEST_CASE("write waits, also for lines that are longer than the queue") {
   const TemporaryPath path;
-  AppendFile file(path.path(), 10);
-  file.push("1\n");
-  file.write(lines(0, 1000));
+  AppendFile file(path.path(), 100);
+  REQUIRE(file.push(packet("1\n")));
+  file.write(packet(lines(0, 1000)));
   CHECK(path.text() == "1\n" + lines(0, 1000));
   // The queue is as long as that now.
-  CHECK(file.push(lines(0, 1000)));
+  CHECK(file.push(packet(lines(0, 1000))));
 }
 
 // Files of this process cannot be longer, as on a disk that is full.
@@ -106,9 +110,9 @@ TEST_CASE("a file that cannot grow ends after its last whole line") {
   {
     AppendFile file(path.path(), kQueue);
     const FileSizeLimit limit(11);  // in the middle of the second line
-    file.write(lines(0, 3));
+    file.write(packet(lines(0, 3)));
     error = file.error();
-    accepted = file.push(line(3));
+    accepted = file.push(packet(line(3)));
   }
   CHECK(error == "cannot write '" + path.path() + "': File too large");
   CHECK_FALSE(accepted);
@@ -119,10 +123,10 @@ TEST_CASE("a file that was emptied by others is not filled up when it is cut bac
   const TemporaryPath path;
   {
     AppendFile file(path.path(), kQueue);
-    file.write(lines(0, 100));
+    file.write(packet(lines(0, 100)));
     REQUIRE(::truncate(path.path().c_str(), 0) == 0);
     const FileSizeLimit limit(11);
-    file.write(lines(100, 103));
+    file.write(packet(lines(100, 103)));
   }
   CHECK(path.text() == line(100));
 }
@@ -160,7 +164,7 @@ TEST_CASE("what was pushed before a crash is in the file") {
   const TemporaryPath path;
   const int code = in_child([&]() -> int {
     AppendFile file(path.path());
-    file.push(lines(0, 1000));
+    file.push(packet(lines(0, 1000)));
     crash();
   });
   CHECK(code == kSaved);
@@ -172,7 +176,7 @@ TEST_CASE("a crash handler writes by itself when the thread does not answer") {
   AppendFile file(path.path());
   // A fork has the file and its queue, but not the thread.
   const int code = in_child([&]() -> int {
-    file.push(lines(0, 1000));
+    file.push(packet(lines(0, 1000)));
     crash();
   });
   CHECK(code == kSaved);
@@ -183,7 +187,7 @@ TEST_CASE("a crash handler does not wait forever, not even where it writes by it
   BlockedDisk disk;
   AppendFile file(disk.path());
   CHECK(in_child([&]() -> int {
-          file.push(lines(0, 2000));  // more than the pipe takes
+          file.push(packet(lines(0, 2000)));  // more than the pipe takes
           crash();
         }) == kSaved);
 }
@@ -192,7 +196,7 @@ TEST_CASE("a crash handler does not interfere with a thread that is stuck in a w
   BlockedDisk disk;
   AppendFile file(disk.path());
   const std::string all = lines(0, 2000);  // more than the pipe takes
-  REQUIRE(file.push(all));
+  REQUIRE(file.push(packet(all)));
   const auto begin = std::chrono::steady_clock::now();
   AppendFile::emergency_flush();
   CHECK(std::chrono::steady_clock::now() - begin >= AppendFile::kLongestEmergency);

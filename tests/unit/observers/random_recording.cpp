@@ -11,6 +11,13 @@ std::size_t below(std::mt19937& random, std::size_t limit) {
   return std::uniform_int_distribution<std::size_t>(0, limit - 1)(random);
 }
 
+// The pieces of text that the recorder is made of, put together in another way.
+template <class Put>
+std::string text_of(Put put) {
+  char text[kMostOfLost + kMostOfTick + kMostOfNode];
+  return {text, put(text)};
+}
+
 RecordedState random_state(std::mt19937& random) {
   return {.status = static_cast<Status>(below(random, 4)),
           .progress = static_cast<double>(below(random, 1001)) / 1000,
@@ -18,40 +25,34 @@ RecordedState random_state(std::mt19937& random) {
           .held = below(random, 4) == 0};
 }
 
-void append_line(const Moment& moment, const std::vector<RecordedState>& before,
-                 fmt::memory_buffer& out) {
-  if (moment.lost > 0) append_lost(out, moment.lost, moment.tick - moment.lost);
-  append_text(out,
-              fmt::format("{{\"tick\":{},\"time_s\":{},\"nodes\":[", moment.tick, moment.time));
+void append_line(const Moment& moment, const std::vector<RecordedState>& before, std::string& out) {
+  if (moment.lost > 0) {
+    out += text_of([&](char* to) { return put_lost(to, moment.lost, moment.tick - moment.lost); });
+  }
+  out += fmt::format("{{\"tick\":{},\"time_s\":{},\"nodes\":[", moment.tick, moment.time);
   bool first = true;
   for (std::size_t node = 0; node < before.size(); ++node) {
     if (moment.nodes[node] == before[node]) continue;
-    if (!first) out.push_back(',');
+    if (!first) out += ',';
     first = false;
-    append_node(out, static_cast<NodeIndex>(node), moment.nodes[node]);
+    out += text_of(
+        [&](char* to) { return put_node(to, static_cast<NodeIndex>(node), moment.nodes[node]); });
   }
-  out.push_back(']');
-  if (!moment.faults.empty()) {
-    std::vector<Fault> faults;
-    for (const RecordedFault& fault : moment.faults) faults.push_back({fault.node, fault.message});
-    append_text(out, ",\"faults\":");
-    append_faults(out, faults);
-  }
-  append_text(out, "}\n");
+  std::vector<Fault> faults;
+  for (const RecordedFault& fault : moment.faults) faults.push_back({fault.node, fault.message});
+  out += tick_end(faults);
 }
 
 }  // namespace
 
 std::string RandomRecording::text() const {
-  fmt::memory_buffer out;
-  append_text(out, to_json(header) + "\n");
+  std::string out = to_json(header) + "\n";
   std::vector<RecordedState> before(header.nodes.size());
   for (const Moment& moment : ticks) {
     append_line(moment, before, out);
     before = moment.nodes;
   }
-  append_text(out, to_json(end) + "\n");
-  return fmt::to_string(out);
+  return out + to_json(end) + "\n";
 }
 
 RandomRecording random_recording(std::mt19937& random, const RandomRecordingOptions& options) {

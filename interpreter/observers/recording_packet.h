@@ -1,0 +1,60 @@
+// What the tick thread hands to the thread that writes a recording: numbers, whose text comes about
+// there. In memory of one process only, never in a file. Used by recorder, recording_delta,
+// append_file and packet_printer.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+#include "engine/run_state.h"
+
+namespace lockstep {
+
+// What a tick line says of one node.
+struct NodeChange {
+  static constexpr std::uint8_t kTicked = 8;  // above the bits of an Activity
+
+  double progress = 0;
+  NodeIndex node = 0;
+  std::uint8_t state = 0;  // Activity, and kTicked
+
+  Activity activity() const { return static_cast<Activity>(state & (kTicked - 1)); }
+  bool ticked() const { return (state & kTicked) != 0; }
+};
+
+struct PacketHead {
+  std::uint64_t lost = 0, lost_from = 0;  // a line before all else, if there are lost ticks
+  std::uint64_t tick = 0;
+  std::int64_t time = 0;    // ns
+  std::uint64_t text = 0;   // bytes; what is pushed counts, not what is said here
+  std::uint32_t nodes = 0;  // how many, likewise
+  std::uint32_t is_tick = 0;
+};
+
+// After its head come the changes of nodes, then text as it is in the file: of a tick what follows
+// its nodes, of anything else whole lines.
+struct Packet {
+  PacketHead head = {};
+  std::span<const NodeChange> nodes = {};
+  std::string_view text = {};
+};
+
+// The ring keeps packets apart by so many bytes, so a change never goes over its end.
+constexpr std::size_t kPacketCell = 16;
+static_assert(sizeof(NodeChange) == kPacketCell && sizeof(PacketHead) % kPacketCell == 0);
+static_assert(std::is_trivially_copyable_v<NodeChange> && std::is_trivially_copyable_v<PacketHead>);
+
+// Without the cells' padding.
+constexpr std::uint64_t packet_size(std::uint64_t nodes, std::uint64_t text) {
+  return sizeof(PacketHead) + sizeof(NodeChange) * nodes + text;
+}
+constexpr std::uint64_t packet_size(const PacketHead& head) {
+  return packet_size(head.nodes, head.text);
+}
+constexpr std::uint64_t packet_size(const Packet& packet) {
+  return packet_size(packet.nodes.size(), packet.text.size());
+}
+
+}  // namespace lockstep
