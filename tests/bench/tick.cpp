@@ -1,40 +1,86 @@
 // Nanoseconds per node of a tick, beside the floor: as many calls through a table of function
-// pointers. The leaves are in real shared objects.
+// pointers. The leaves are in real shared objects. Then a whole tick under each observer.
 #include <benchmark/benchmark.h>
 #include <dlfcn.h>
 
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <functional>
+
 #include "bench/bench_tree.h"
+#include "observers/console_live.h"
+#include "observers/recorder.h"
+#include "observers/statistics.h"
 #include "runtime/run.h"
 
 namespace {
 
 using namespace lockstep;
 
-std::size_t node_count(const BenchTree& bench) {
-  return bench.tree().nodes.size();
+// As many calls into the same shared object, and nothing else.
+class FloorOfCalls {
+ public:
+  explicit FloorOfCalls(std::size_t calls) {
+    void* library = dlopen(LOCKSTEP_BENCH_LEAVES, RTLD_NOW);
+    const auto& plugin =
+        *static_cast<const lockstep_plugin*>(dlsym(library, LOCKSTEP_PLUGIN_ENTRY));
+    table_.assign(calls, plugin.leaf_types[0]);
+    benchmark::DoNotOptimize(table_.data());
+  }
+  void call() const {
+    for (const lockstep_leaf_type* type : table_) benchmark::DoNotOptimize(type->tick(nullptr));
+  }
+
+ private:
+  std::vector<const lockstep_leaf_type*> table_;
+};
+
+// Of the processor, for this thread: so what else the machine does counts less.
+double seconds_so_far() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-// Ticks the whole tree; one item is one node of it.
+// Seconds for one call: the best of some, once for all rows.
+double floor_of_a_call() {
+  constexpr int kCalls = 10000;
+  static const double floor = [] {
+    const FloorOfCalls calls(kCalls);
+    double best = 1;
+    for (int i = 0; i < 1000; ++i) {
+      const double begin = seconds_so_far();
+      calls.call();
+      best = std::min(best, seconds_so_far() - begin);
+    }
+    return best / kCalls;
+  }();
+  return floor;
+}
+
+// One item is one node; `floors` says how many of those calls it is worth.
+void set_items(benchmark::State& state, const BenchTree& bench, double seconds) {
+  const auto items = state.iterations() * static_cast<std::int64_t>(bench.tree().nodes.size());
+  state.SetItemsProcessed(items);
+  state.counters["floors"] = seconds / static_cast<double>(items) / floor_of_a_call();
+}
+
+// Ticks the whole tree.
 void tick_all(benchmark::State& state, const BenchTree& bench, LeafWatch* watch = nullptr) {
   Run run(bench.tree(), {.watch = watch});
+  const double begin = seconds_so_far();
   for (auto _ : state) benchmark::DoNotOptimize(run.tick(Nanoseconds(0)));
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(node_count(bench)));
+  set_items(state, bench, seconds_so_far() - begin);
 }
 
 void flat(benchmark::State& state, const char* control, const char* attributes, const char* leaf) {
   tick_all(state, BenchTree(control, attributes, leaf, state.range(0)));
 }
 
-// The same number of calls into the same shared object, and nothing else.
 void floor_of_calls(benchmark::State& state) {
-  void* library = dlopen(LOCKSTEP_BENCH_LEAVES, RTLD_NOW);
-  const auto& plugin = *static_cast<const lockstep_plugin*>(dlsym(library, LOCKSTEP_PLUGIN_ENTRY));
-  std::vector<const lockstep_leaf_type*> table(static_cast<std::size_t>(state.range(0)),
-                                               plugin.leaf_types[0]);
-  benchmark::DoNotOptimize(table.data());
-  for (auto _ : state) {
-    for (const lockstep_leaf_type* type : table) benchmark::DoNotOptimize(type->tick(nullptr));
-  }
+  const FloorOfCalls calls(static_cast<std::size_t>(state.range(0)));
+  for (auto _ : state) calls.call();
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }
 
@@ -130,6 +176,99 @@ BENCHMARK(beside_idle_subtree)->Apply(activity);
 BENCHMARK(halts_one_leaf)->Apply(activity);
 
 // --- who watches ---------------------------------------------------------------------------------
+
+// All of a tick under an observer, as the loop does it, of 1000 leaves that run. The queue of a
+// recorder, whose lines become text more slowly than this ticks, is waited for now and then; that
+// is not counted.
+class Observed {
+ public:
+  Observed(const Tree& tree, Observer* observer) : run_(tree, {}), observer_(observer) {
+    if (observer_ != nullptr) observer_->run_started(run_.ticker(), {});
+  }
+  void tick() {
+    report_.time += std::chrono::milliseconds(1);
+    run_.set_now(report_.time);
+    if (observer_ != nullptr) observer_->before_tick(run_.ticker(), report_.tick, report_.time);
+    report_.status = run_.tick(report_.time);
+    if (observer_ != nullptr) observer_->after_tick(run_.ticker(), report_);
+    ++report_.tick;
+  }
+  // The last line of a recording is one that a run waits for.
+  void end() {
+    if (observer_ != nullptr) observer_->run_ended(run_.ticker(), {});
+  }
+
+ private:
+  Run run_;
+  Observer* observer_;
+  TickReport report_;
+};
+
+// Under the root so many leaves advance; the others stand still.
+BenchTree with_changes(const char* control, const char* attributes, std::int64_t leaves) {
+  return BenchTree(fmt::format("<{0} {1}>{2}{3}</{0}>", control, attributes,
+                               BenchTree::repeated("<BenchAdvance/>", leaves),
+                               BenchTree::repeated("<BenchRunning/>", kLeaves - leaves)));
+}
+
+void observe(benchmark::State& state, const BenchTree& bench, Observer* observer,
+             const std::function<void()>& emptied = {}) {
+  constexpr int kTicks = 400;  // whose changes are in a queue at once
+  Observed observed(bench.tree(), observer);
+  int ticks = 0;
+  double seconds = 0, begin = seconds_so_far();
+  for (auto _ : state) {
+    observed.tick();
+    if (!emptied || ++ticks < kTicks) continue;
+    state.PauseTiming();
+    seconds += seconds_so_far() - begin;
+    observed.end();
+    emptied();
+    ticks = 0;
+    begin = seconds_so_far();
+    state.ResumeTiming();
+  }
+  set_items(state, bench, seconds + seconds_so_far() - begin);
+  observed.end();
+}
+
+void observed_by_nobody(benchmark::State& state, const char* control, const char* attributes) {
+  observe(state, with_changes(control, attributes, state.range(0)), nullptr);
+}
+void observed_by_statistics(benchmark::State& state, const char* control, const char* attributes) {
+  const BenchTree bench = with_changes(control, attributes, state.range(0));
+  Statistics statistics(bench.tree());
+  observe(state, bench, &statistics);
+}
+void observed_by_recorder(benchmark::State& state, const char* control, const char* attributes) {
+  const BenchTree bench = with_changes(control, attributes, state.range(0));
+  const std::string path = std::filesystem::temp_directory_path() / "lockstep_bench_tick.jsonl";
+  {
+    Recorder recorder(bench.tree(), {.path = path, .tree_file = "bench.xml"});
+    observe(state, bench, &recorder, [&] { std::filesystem::resize_file(path, 0); });
+    state.counters["lost"] = static_cast<double>(recorder.lost());
+  }
+  std::filesystem::remove(path);
+}
+void observed_by_live_view(benchmark::State& state, const char* control, const char* attributes) {
+  const BenchTree bench = with_changes(control, attributes, state.range(0));
+  std::FILE* const out = std::fopen("/dev/null", "w");
+  {
+    ConsoleLive view(bench.tree(), {.out = out});
+    observe(state, bench, &view);
+  }
+  std::fclose(out);
+}
+void changing(benchmark::internal::Benchmark* benchmark) {
+  for (const int leaves : {10, kLeaves}) benchmark->Arg(leaves);
+}
+#define OBSERVED(name, control, attributes)                                              \
+  BENCHMARK_CAPTURE(observed_by_nobody, name, control, attributes)->Apply(changing);     \
+  BENCHMARK_CAPTURE(observed_by_statistics, name, control, attributes)->Apply(changing); \
+  BENCHMARK_CAPTURE(observed_by_recorder, name, control, attributes)->Apply(changing);   \
+  BENCHMARK_CAPTURE(observed_by_live_view, name, control, attributes)->Apply(changing)
+OBSERVED(parallel, "Parallel", "");
+OBSERVED(synchronized, "ParallelRelative", "delta='1'");
 
 void watched(benchmark::State& state, bool timed) {
   LeafWatchOptions options;
