@@ -8,7 +8,9 @@
 
 #include "cli/exit_code.h"
 #include "cli/plugin_directories.h"
+#include "core/freed_memory.h"
 #include "definition/plugin_requests.h"
+#include "engine/compile.h"
 #include "engine/node_kind.h"
 
 namespace lockstep {
@@ -123,6 +125,7 @@ Catalog make_catalog(const PluginSet& plugins) {
 
 int load(const std::string& path, const LoadOptions& options, Loaded& loaded,
          Diagnostics& diagnostics) {
+  keep_freed_memory();
   const Arguments arguments = parse_pairs(options.arguments, "--arg", diagnostics);
   ResolveOptions resolve_options{options.main_tree,
                                  parse_pairs(options.values, "--set", diagnostics)};
@@ -143,6 +146,14 @@ int load(const std::string& path, const LoadOptions& options, Loaded& loaded,
   }
   if (diagnostics.has_errors()) loaded.definition.reset();
   return exit_code_of(diagnostics);
+}
+
+Tree take_tree(Loaded& loaded) {
+  Tree tree = compile(*loaded.definition);
+  loaded.definition.reset();
+  loaded.project->documents.clear();
+  return_freed_memory();
+  return tree;
 }
 
 }  // namespace lockstep

@@ -58,4 +58,7 @@ struct Loaded {
 int load(const std::string& path, const LoadOptions& options, Loaded& loaded,
          Diagnostics& diagnostics);
 
+// Compiles the definition, which is there, and forgets it and the documents: a run needs neither.
+Tree take_tree(Loaded& loaded);
+
 }  // namespace lockstep

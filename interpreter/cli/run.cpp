@@ -9,7 +9,6 @@
 #include "cli/run_watch.h"
 #include "cli/stdout_guard.h"
 #include "cli/view.h"
-#include "engine/compile.h"
 #include "observers/recorder.h"
 #include "observers/stall_observer.h"
 #include "observers/statistics.h"
@@ -201,7 +200,7 @@ int run(const RunCommandOptions& options) {
   if (!loaded.definition) return code;
   // Until here a signal ends the program as it ends any other: there is nothing to halt or to save.
   StopSignals::install(last_words);
-  const Tree tree = compile(*loaded.definition);
+  const Tree tree = take_tree(loaded);
   return RunCommand(options, loaded, tree).run(loaded.plugins, guard);
 }
 

@@ -9,7 +9,6 @@
 #include "cli/exit_code.h"
 #include "core/suggest.h"
 #include "core/value.h"
-#include "engine/compile.h"
 
 namespace lockstep {
 namespace {
@@ -202,8 +201,7 @@ int StudyLoader::load_cell(std::uint64_t number) {
   study_.plugins = loaded.plugins;
   if (loaded.project) add_files(*loaded.project);
   if (!loaded.definition) return code;
-  study_.cells.push_back(
-      {compile(*loaded.definition), cell_rate(plan, number), cell_seed(plan, number)});
+  study_.cells.push_back({take_tree(loaded), cell_rate(plan, number), cell_seed(plan, number)});
   add_columns(study_.cells.back(), number);
   if (number == 0) plan.main_tree = study_.cells.front().tree.id;
   return code;

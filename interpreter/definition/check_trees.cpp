@@ -151,18 +151,19 @@ class TreeChecker {
     node.element = index;
     node.depth = depth;
     const bool explicit_form = is_explicit(element(index).tag);
-    node.type = find_type(report, index);
+    node.type = explicit_form ? find_explicit_type(report, index) : find_type(report, index);
     for (std::uint32_t child = index + 1; child < element(index).end; child = element(child).end) {
       ++node.children;
     }
     if (node.type != nullptr) {
-      const Attribute* name = document().find_attribute(index, "name");
+      const bool bare = element(index).attribute_count == 0;
+      const Attribute* name = bare ? nullptr : document().find_attribute(index, "name");
       node.name = name != nullptr ? name->value : node.type->id;
       check_arity(report, node);
       if (node.type->category == NodeCategory::SubTree) {
         check_subtree_attributes(document(), report, node);
         if (name == nullptr) node.name = node.subtree;
-      } else {
+      } else if (!bare || !node.type->parameters.empty()) {
         check_attributes(document(), report, explicit_form, node, trees_);
       }
     }
@@ -173,13 +174,21 @@ class TreeChecker {
     trees_.nodes[place] = node;
   }
 
-  const NodeType* find_type(const Reporter& report, std::uint32_t index) const {
+  // Often the type of the node before it.
+  const NodeType* find_type(const Reporter& report, std::uint32_t index) {
     const std::string_view tag = element(index).tag;
-    if (!is_explicit(tag)) {
-      const NodeType* type = catalog_.find(tag);
-      if (type == nullptr) unknown(report, index, tag, nullptr);
-      return type;
+    if (last_type_ != nullptr && last_type_->id == tag) return last_type_;
+    const NodeType* type = catalog_.find(tag);
+    if (type == nullptr) {
+      unknown(report, index, tag, nullptr);
+    } else {
+      last_type_ = type;
     }
+    return type;
+  }
+
+  const NodeType* find_explicit_type(const Reporter& report, std::uint32_t index) const {
+    const std::string_view tag = element(index).tag;
     const Attribute* id = document().find_attribute(index, "ID");
     if (id == nullptr) {
       report.at_element(index, fmt::format("'{}' needs the attribute 'ID'", tag),
@@ -250,6 +259,7 @@ class TreeChecker {
   std::map<std::string_view, std::pair<std::uint32_t, std::uint32_t>> places_;
   std::uint32_t document_ = 0;
   std::span<const Element> elements_;  // of the document
+  const NodeType* last_type_ = nullptr;
 };
 
 }  // namespace

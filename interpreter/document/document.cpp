@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
-#include <cassert>
 #include <deque>
 
 #include "core/utf8.h"
-#include "document/places.h"
+#include "document/lines.h"
 #include "document/references.h"
 #include "document/well_formed.h"
 
@@ -17,17 +16,26 @@ namespace {
 constexpr std::size_t kExcerptBytes = 200;
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
+// As written, between the quotes, of the attribute whose name ends at `offset`.
+std::string_view value_after(std::string_view text, std::size_t offset) {
+  const auto open = text.find_first_of("\"'", offset);
+  return text.substr(open + 1, text.find(text[open], open + 1) - open - 1);
+}
+
 }  // namespace
 
 struct Document::Implementation {
   std::string path;
   std::string text;
-  tinyxml2::XMLDocument xml;
   std::vector<Element> elements;
   std::vector<Attribute> attributes;
-  std::deque<std::string> replaced;  // the values of set_value; a deque never moves them
+  std::vector<std::uint32_t> coded;  // attributes whose values the reader has to read
+  std::deque<std::string> values;    // those that are not as the text has them; never moved
   std::optional<Lines> lines;
-  std::optional<Places> places;
+
+  std::size_t offset_of(std::string_view part) const {
+    return static_cast<std::size_t>(part.data() - text.data());
+  }
 
   SourceLocation at(std::size_t offset) {
     if (!lines) lines.emplace(text);
@@ -46,24 +54,9 @@ struct Document::Implementation {
                       excerpt(location.line));
   }
 
-  const Places& located() {
-    if (!places) places.emplace(text);
-    assert(places->elements.size() == elements.size());
-    assert(places->attributes.size() == attributes.size());
-    return *places;
-  }
-
-  const Places::AttributePlace* find_place(std::uint32_t element, std::string_view name) {
-    const auto& [tag, end, first, count] = elements[element];
-    for (auto i = first; i < first + count; ++i)
-      if (attributes[i].name == name) return &located().attributes[i];
-    return nullptr;
-  }
-
   bool check(Diagnostics& diagnostics);
   bool read(Diagnostics& diagnostics);
-  void flatten();
-  void append(const tinyxml2::XMLElement& element);
+  void read_values(const tinyxml2::XMLElement* root);
 };
 
 bool Document::Implementation::check(Diagnostics& diagnostics) {
@@ -76,43 +69,45 @@ bool Document::Implementation::check(Diagnostics& diagnostics) {
     report(std::move(*fault), diagnostics);
     return false;
   }
-  auto found = check_well_formed(text);
-  for (auto& fault : found.faults) report(std::move(fault), diagnostics);
-  elements.reserve(found.elements);
-  attributes.reserve(found.attributes);
-  return found.readable;
+  auto written = check_well_formed(text);
+  for (auto& fault : written.faults) report(std::move(fault), diagnostics);
+  elements = std::move(written.elements);
+  attributes = std::move(written.attributes);
+  coded = std::move(written.coded);
+  return written.readable;
 }
 
+// The reader's own document takes several times the memory of the elements: it is gone before
+// anything is made from them.
 bool Document::Implementation::read(Diagnostics& diagnostics) {
-  if (xml.Parse(text.data(), text.size()) == tinyxml2::XML_SUCCESS) return true;
+  tinyxml2::XMLDocument xml;
+  if (xml.Parse(text.data(), text.size()) == tinyxml2::XML_SUCCESS) {
+    read_values(xml.RootElement());
+    return true;
+  }
   const auto line = static_cast<std::uint32_t>(xml.ErrorLineNum());
   diagnostics.error({path, line}, fmt::format("not XML that can be read ({})", xml.ErrorName()), {},
                     excerpt(line));
   return false;
 }
 
-void Document::Implementation::append(const tinyxml2::XMLElement& element) {
-  const auto first = static_cast<std::uint32_t>(attributes.size());
-  for (const auto* a = element.FirstAttribute(); a; a = a->Next())
-    attributes.push_back({a->Name(), a->Value()});
-  const auto count = static_cast<std::uint32_t>(attributes.size()) - first;
-  elements.push_back({element.Name(), 0, first, count});
+const tinyxml2::XMLElement* next_in_pre_order(const tinyxml2::XMLElement* element) {
+  if (const auto* child = element->FirstChildElement()) return child;
+  while (element && !element->NextSiblingElement()) element = element->Parent()->ToElement();
+  return element ? element->NextSiblingElement() : nullptr;
 }
 
-void Document::Implementation::flatten() {
-  std::vector<std::uint32_t> open;
-  const tinyxml2::XMLElement* element = xml.RootElement();
-  while (element) {
-    open.push_back(static_cast<std::uint32_t>(elements.size()));
-    append(*element);
-    const auto* next = element->FirstChildElement();
-    while (element && !next) {
-      elements[open.back()].end = static_cast<std::uint32_t>(elements.size());
-      open.pop_back();
-      next = element->NextSiblingElement();
-      if (!next) element = element->Parent()->ToElement();
-    }
-    element = next;
+// References and line ends are the reader's; all other values are as they are written.
+void Document::Implementation::read_values(const tinyxml2::XMLElement* root) {
+  const auto* from = root;
+  std::uint32_t element = 0;
+  for (const auto attribute : coded) {
+    for (; attribute >= elements[element].first_attribute + elements[element].attribute_count;
+         ++element)
+      from = next_in_pre_order(from);
+    const auto* read = from->FirstAttribute();
+    for (auto i = elements[element].first_attribute; i < attribute; ++i) read = read->Next();
+    attributes[attribute].value = values.emplace_back(read->Value());
   }
 }
 
@@ -126,7 +121,6 @@ std::unique_ptr<Document> Document::parse(std::string path, std::string text,
   it.path = std::move(path);
   it.text = std::move(text);
   if (!it.check(diagnostics) || !it.read(diagnostics)) return nullptr;
-  it.flatten();
   return document;
 }
 
@@ -154,24 +148,24 @@ const Attribute* Document::find_attribute(std::uint32_t element, std::string_vie
 void Document::set_value(const Attribute& attribute, std::string value) {
   const auto index = &attribute - it_->attributes.data();
   it_->attributes[static_cast<std::size_t>(index)].value =
-      it_->replaced.emplace_back(std::move(value));
+      it_->values.emplace_back(std::move(value));
 }
 
 SourceLocation Document::locate(std::uint32_t element) const {
-  return it_->at(it_->located().elements[element]);
+  return it_->at(it_->offset_of(it_->elements[element].tag) - 1);
 }
 
 SourceLocation Document::locate_attribute(std::uint32_t element, std::string_view name) const {
-  const auto* place = it_->find_place(element, name);
-  return place ? it_->at(place->name) : locate(element);
+  const auto* attribute = find_attribute(element, name);
+  return attribute ? it_->at(it_->offset_of(attribute->name)) : locate(element);
 }
 
 SourceLocation Document::locate_value(std::uint32_t element, std::string_view name,
                                       std::size_t offset) const {
-  const auto* place = it_->find_place(element, name);
-  if (!place) return locate(element);
-  const auto begin = static_cast<std::size_t>(place->value.data() - it_->text.data());
-  return it_->at(begin + raw_offset(place->value, offset));
+  const auto* attribute = find_attribute(element, name);
+  if (!attribute) return locate(element);
+  const auto raw = value_after(it_->text, it_->offset_of(attribute->name) + attribute->name.size());
+  return it_->at(it_->offset_of(raw) + raw_offset(raw, offset));
 }
 
 std::string Document::excerpt(const SourceLocation& location) const {

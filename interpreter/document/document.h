@@ -11,20 +11,9 @@
 #include <string_view>
 
 #include "core/diagnostics.h"
+#include "document/element.h"
 
 namespace lockstep {
-
-struct Attribute {
-  std::string_view name;
-  std::string_view value;  // entities resolved, and arguments once the project has substituted them
-};
-
-struct Element {
-  std::string_view tag;
-  std::uint32_t end;  // one past its last descendant in Document::elements(); children as in Tree
-  std::uint32_t first_attribute;
-  std::uint32_t attribute_count;
-};
 
 class Document {
  public:
@@ -47,7 +36,7 @@ class Document {
   // Replaces an attribute's value; the document keeps the text.
   void set_value(const Attribute& attribute, std::string value);
 
-  // Places, found in the bytes only when asked for (the first call scans the file once).
+  // Places; lines are counted when the first is asked for.
   // An element without such an attribute stands for it.
   SourceLocation locate(std::uint32_t element) const;                                   // its '<'
   SourceLocation locate_attribute(std::uint32_t element, std::string_view name) const;  // its name

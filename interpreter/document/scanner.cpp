@@ -28,6 +28,16 @@ constexpr CharacterClass class_of(char c) {
   return kClasses[static_cast<unsigned char>(c)];
 }
 
+constexpr auto kInValue = [] {
+  std::array<bool, 256> counts{};
+  for (const char c : std::string_view("\"'<&\r")) counts[static_cast<unsigned char>(c)] = true;
+  return counts;
+}();
+
+constexpr bool counts_in_value(char c) {
+  return kInValue[static_cast<unsigned char>(c)];
+}
+
 }  // namespace
 
 Token Scanner::next() {
@@ -37,27 +47,37 @@ Token Scanner::next() {
 
 Token Scanner::content() {
   const auto begin = position_;
-  if (rest().empty()) return {TokenKind::End, begin};
-  if (text_[begin] == '<') return markup();
-  position_ = std::min(text_.find('<', begin), text_.size());
+  skip_blanks();
+  if (rest().empty()) return {TokenKind::End, position_};
+  if (text_[position_] == '<') return markup();
+  position_ = std::min(text_.find('<', position_), text_.size());
   return {TokenKind::Text, begin, {}, text_.substr(begin, position_ - begin)};
 }
 
 Token Scanner::markup() {
   const auto begin = position_;
-  if (rest().starts_with("</")) return close_tag();
+  const char second = begin + 1 < text_.size() ? text_[begin + 1] : '\0';
+  if (second == '/') return close_tag();
+  if (second == '!' || second == '?') return declaration();
+  ++position_;
+  tag_ = take_name();
+  tag_begin_ = begin;
+  if (tag_.empty()) return no_tag(begin);
+  return {TokenKind::OpenTag, begin, tag_};
+}
+
+Token Scanner::declaration() {
   if (rest().starts_with("<!--")) return enclosed(TokenKind::Comment, "<!--", "-->", "comment");
   if (rest().starts_with("<![CDATA["))
     return enclosed(TokenKind::Text, "<![CDATA[", "]]>", "CDATA section");
   if (rest().starts_with("<?"))
     return enclosed(TokenKind::Instruction, "<?", "?>", "processing instruction");
   if (rest().starts_with("<!DOCTYPE")) return doctype();
-  ++position_;
-  tag_ = take_name();
-  tag_begin_ = begin;
-  if (tag_.empty())
-    return fail(begin, "'<' does not begin a tag", "write '&lt;' for the character itself");
-  return {TokenKind::OpenTag, begin, tag_};
+  return no_tag(position_);
+}
+
+Token Scanner::no_tag(std::size_t offset) {
+  return fail(offset, "'<' does not begin a tag", "write '&lt;' for the character itself");
 }
 
 Token Scanner::inside_tag() {
@@ -91,16 +111,21 @@ Token Scanner::attribute() {
   if (!rest().starts_with('"') && !rest().starts_with('\''))
     return fail(open, fmt::format("expected a quote before the value of '{}'", name),
                 fmt::format("write {}=\"…\"", name));
-  const auto close = text_.find(text_[open], open + 1);
-  const auto value = text_.substr(open + 1, std::min(close, text_.size()) - open - 1);
-  // Before the missing quote: a quote that is forgotten finds the next value's, far below.
-  if (const auto stray = value.find('<'); stray != std::string_view::npos)
-    return fail(open + 1 + stray, fmt::format("'<' in the value of '{}'", name),
-                "write '&lt;', or close the quote before it");
-  if (close == std::string_view::npos)
-    return fail(open, fmt::format("the quote of '{}' is not closed", name));
-  position_ = close + 1;
-  return {TokenKind::Attribute, begin, name, value};
+  bool is_coded = false;
+  for (auto at = open + 1; at < text_.size(); ++at) {
+    const char c = text_[at];
+    if (!counts_in_value(c)) continue;
+    if (c == text_[open]) {
+      position_ = at + 1;
+      return {TokenKind::Attribute, begin, name, text_.substr(open + 1, at - open - 1), is_coded};
+    }
+    // A quote that is forgotten finds the next value's, far below.
+    if (c == '<')
+      return fail(at, fmt::format("'<' in the value of '{}'", name),
+                  "write '&lt;', or close the quote before it");
+    is_coded |= c == '&' || c == '\r';
+  }
+  return fail(open, fmt::format("the quote of '{}' is not closed", name));
 }
 
 Token Scanner::close_tag() {

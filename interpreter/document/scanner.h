@@ -23,7 +23,7 @@ enum class TokenKind {
   TagEnd,       // >
   EmptyTagEnd,  // />
   CloseTag,     // </name>
-  Text,         // also a CDATA section
+  Text,         // that is not only blank, or a CDATA section
   Comment,
   Instruction,  // <?name …?>, so the XML declaration too
   Doctype,
@@ -36,6 +36,7 @@ struct Token {
   std::size_t begin = 0;        // its first byte
   std::string_view name = {};   // of a tag or an attribute
   std::string_view value = {};  // of an attribute, between the quotes; of Text, what counts
+  bool is_coded = false;        // a value with a reference or a line end: it is read as another
 };
 
 class Scanner {
@@ -53,6 +54,8 @@ class Scanner {
   Token content();
   Token inside_tag();
   Token markup();
+  Token declaration();
+  Token no_tag(std::size_t offset);
   Token attribute();
   Token close_tag();
   Token enclosed(TokenKind kind, std::string_view open, std::string_view close,

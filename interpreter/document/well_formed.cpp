@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 #include "document/references.h"
 
@@ -14,7 +15,10 @@ constexpr std::size_t kMaxFaults = 100;
 
 class Checker {
  public:
-  explicit Checker(std::string_view text) : text_(text), scanner_(text) {}
+  explicit Checker(std::string_view text) : text_(text), scanner_(text) {
+    result_.elements.reserve(at_most('<', "<a/>"));
+    result_.attributes.reserve(at_most('=', " a=''"));
+  }
 
   WellFormed run() {
     for (auto token = scanner_.next(); !stopped_; token = scanner_.next()) {
@@ -25,11 +29,6 @@ class Checker {
   }
 
  private:
-  struct Opened {
-    std::string_view name;
-    std::size_t offset;
-  };
-
   void check(const Token& token) {
     switch (token.kind) {
       case TokenKind::OpenTag:
@@ -40,8 +39,7 @@ class Checker {
         return end_attributes();
       case TokenKind::EmptyTagEnd:
         end_attributes();
-        open_.pop_back();
-        return;
+        return end_element();
       case TokenKind::CloseTag:
         return close(token);
       case TokenKind::Text:
@@ -49,7 +47,7 @@ class Checker {
       case TokenKind::Instruction:
         return instruction(token);
       case TokenKind::Doctype:
-        if (has_root_) stop({token.begin, "a DOCTYPE stands before the root element"});
+        if (has_root()) stop({token.begin, "a DOCTYPE stands before the root element"});
         [[fallthrough]];
       case TokenKind::Comment:
         prolog_ = false;
@@ -62,23 +60,28 @@ class Checker {
   }
 
   void open(const Token& token) {
-    if (open_.empty() && has_root_) return stop({token.begin, "a second root element"});
+    if (open_.empty() && has_root()) return stop({token.begin, "a second root element"});
     if (open_.size() == kMaxElementDepth)
       return stop({token.begin,
                    fmt::format("elements are nested deeper than {} levels", kMaxElementDepth),
                    "the XML reader's limit is 100, and it needs two of them; use a SubTree"});
-    open_.push_back({token.name, token.begin});
-    ++result_.elements;
-    has_root_ = true;
+    open_.push_back(count(result_.elements));
+    result_.elements.push_back({token.name, 0, count(result_.attributes), 0});
     prolog_ = false;
   }
 
   void attribute(const Token& token) {
-    if (attributes_.size() == kMaxAttributes)
-      return stop({token.begin, fmt::format("'{}' has more than {} attributes", open_.back().name,
-                                            kMaxAttributes)});
-    attributes_.push_back({token.name, token.begin});
-    ++result_.attributes;
+    auto& element = result_.elements.back();
+    if (element.attribute_count == kMaxAttributes)
+      return stop({token.begin,
+                   fmt::format("'{}' has more than {} attributes", element.tag, kMaxAttributes)});
+    ++element.attribute_count;
+    if (token.is_coded) result_.coded.push_back(count(result_.attributes));
+    result_.attributes.push_back({token.name, token.value});
+    if (token.is_coded) references(token);
+  }
+
+  void references(const Token& token) {
     for (auto at = token.value.find('&'); at != std::string_view::npos;
          at = token.value.find('&', at + 1)) {
       if (!read_reference(token.value.substr(at)))
@@ -88,42 +91,44 @@ class Checker {
   }
 
   void end_attributes() {
-    const std::size_t count = attributes_.size();
-    const bool are_two = count == 2 && attributes_[0].name != attributes_[1].name;
-    if (count < 2 || are_two) return attributes_.clear();
+    const auto given =
+        std::span(result_.attributes).subspan(result_.elements.back().first_attribute);
+    const bool are_two = given.size() == 2 && given[0].name != given[1].name;
+    if (given.size() < 2 || are_two) return;
+    names_.clear();
+    for (const auto& attribute : given) names_.push_back(attribute.name);
     // Stable: of two with one name the second is the fault.
-    std::stable_sort(attributes_.begin(), attributes_.end(),
-                     [](const Opened& a, const Opened& b) { return a.name < b.name; });
-    for (std::size_t i = 1; i < attributes_.size(); ++i) {
-      const auto& [name, offset] = attributes_[i];
-      if (name != attributes_[i - 1].name) continue;
-      add({offset, fmt::format("attribute '{}' is given twice", name)});
+    std::stable_sort(names_.begin(), names_.end());
+    for (std::size_t i = 1; i < names_.size(); ++i) {
+      if (names_[i] != names_[i - 1]) continue;
+      add({scanner_.offset_of(names_[i]), fmt::format("attribute '{}' is given twice", names_[i])});
       result_.readable = false;
     }
-    attributes_.clear();
+  }
+
+  void end_element() {
+    result_.elements[open_.back()].end = count(result_.elements);
+    open_.pop_back();
   }
 
   void close(const Token& token) {
     if (open_.empty())
       return stop({token.begin, fmt::format("'</{}>' closes no element", token.name)});
-    const auto& [name, offset] = open_.back();
-    if (name != token.name)
+    if (const auto tag = innermost(); tag != token.name)
       return stop({token.begin, fmt::format("'</{}>' closes '<{}>', opened at line {}", token.name,
-                                            name, line_of(offset))});
-    open_.pop_back();
+                                            tag, line_of(scanner_.offset_of(tag)))});
+    end_element();
   }
 
   void text(const Token& token) {
+    // Blank is only a CDATA section, which outside of the root is not XML.
     const auto* first = std::find_if_not(token.value.begin(), token.value.end(), is_xml_blank);
     const bool blank = first == token.value.end();
-    if (blank) {
-      // A blank CDATA section is text to the reader, and outside of the root not XML.
-      if (!open_.empty() || text_[token.begin] != '<') return;
-    }
+    if (blank && !open_.empty()) return;
     const auto offset = blank ? token.begin : static_cast<std::size_t>(first - text_.data());
     if (open_.empty())
       return stop(
-          {offset, fmt::format("text {} the root element", has_root_ ? "after" : "before")});
+          {offset, fmt::format("text {} the root element", has_root() ? "after" : "before")});
     add({offset, "text is not part of the language", "put it into a comment: <!-- … -->"});
   }
 
@@ -133,11 +138,11 @@ class Checker {
 
   void end(const Token& token) {
     if (!open_.empty()) {
-      const auto& [name, offset] = open_.back();
-      return stop({offset, fmt::format("'<{}>' is not closed", name),
-                   fmt::format("'</{}>' is missing before the end of the file", name)});
+      const auto tag = innermost();
+      return stop({scanner_.offset_of(tag) - 1, fmt::format("'<{}>' is not closed", tag),
+                   fmt::format("'</{}>' is missing before the end of the file", tag)});
     }
-    if (!has_root_)
+    if (!has_root())
       stop({prolog_ ? 0 : token.begin,
             prolog_ ? "the file is empty" : "the root element is missing"});
   }
@@ -155,15 +160,28 @@ class Checker {
     stopped_ = true;
   }
 
+  // How often `shortest`, which has `mark` in it, can stand in the text. Memory that is not needed
+  // in the end is never touched.
+  std::size_t at_most(char mark, std::string_view shortest) const {
+    const auto marks = std::count(text_.begin(), text_.end(), mark);
+    return std::min(static_cast<std::size_t>(marks), text_.size() / shortest.size());
+  }
+
+  bool has_root() const { return !result_.elements.empty(); }
+  std::string_view innermost() const { return result_.elements[open_.back()].tag; }
+  template <class T>
+  static std::uint32_t count(const std::vector<T>& all) {
+    return static_cast<std::uint32_t>(all.size());
+  }
+
   std::size_t line_of(std::size_t offset) const {
     return 1 + static_cast<std::size_t>(std::count(text_.begin(), text_.begin() + offset, '\n'));
   }
 
   std::string_view text_;
   Scanner scanner_;
-  std::vector<Opened> open_;
-  std::vector<Opened> attributes_;
-  bool has_root_ = false;
+  std::vector<std::uint32_t> open_;      // elements
+  std::vector<std::string_view> names_;  // of the attributes of one element
   bool stopped_ = false;
   bool prolog_ = true;  // nothing but processing instructions so far
   WellFormed result_;

@@ -1,11 +1,13 @@
-// Whether a text is XML, with the exact place of what is wrong: the reader behind Document says
-// only the line, and takes more than XML allows. It knows nesting and bytes, not tags.
+// Whether a text is XML, with the exact place of what is wrong, and where its elements and
+// attributes are: the reader behind Document says only the line, and takes more than XML allows. It
+// knows nesting and bytes, not what tags and values mean.
 #pragma once
 
 #include <optional>
 #include <string_view>
 #include <vector>
 
+#include "document/element.h"
 #include "document/scanner.h"
 
 namespace lockstep {
@@ -21,9 +23,11 @@ std::optional<XmlFault> check_encoding(std::string_view text);
 
 struct WellFormed {
   std::vector<XmlFault> faults;
-  bool readable = true;        // false: a fault is such that the reader refuses the text
-  std::size_t elements = 0;    // how many there are
-  std::size_t attributes = 0;  // of all elements
+  bool readable = true;  // false: a fault is such that the reader refuses the text
+  // In the order of the text; the values of attributes as they are written there.
+  std::vector<Element> elements;
+  std::vector<Attribute> attributes;
+  std::vector<std::uint32_t> coded;  // those whose values the reader reads as others
 };
 
 WellFormed check_well_formed(std::string_view text);

@@ -161,7 +161,7 @@ class Compiler {
       do {
         ++repeat;
       } while (numbered && !taken.insert(segments.emplace_back(tree_.segment(child)), 1).second);
-      *last = repeat;
+      *taken.insert(tree_.labels[child].name, 1).first = repeat;
     });
   }
 

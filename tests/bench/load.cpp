@@ -1,17 +1,21 @@
 // Loading, ns per node: the whole of it and its parts (read, resolve, compile, destroy), beside
-// tinyxml2's parse of the same texts in the same run (the counter "ratio"). Memory: bytes per node
-// of Tree and RunState, counted, and what the process grew by.
+// tinyxml2's parse of the same files (the counter "ratio"), each in a process of its own, as a
+// program that is started loads: memory is new. Memory: bytes per node of Tree and RunState,
+// counted, and what the process grew by.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 #include <malloc.h>
+#include <sys/wait.h>
 #include <tinyxml2.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
 
+#include "core/freed_memory.h"
 #include "definition/resolve.h"
 #include "document/file.h"
 #include "engine/compile.h"
@@ -132,8 +136,28 @@ Catalog built_ins() {
 
 // What a run of the benchmark did, in seconds.
 struct Times {
-  double tinyxml2 = 0, read = 0, resolve = 0, compile = 0, destroy = 0;
+  double tinyxml2 = 0, read = 0, resolve = 0, compile = 0, destroy = 0, nodes = 0;
 };
+
+// What `measure` measures in a child of this process.
+template <class Measure>
+Times in_fresh_process(Measure measure) {
+  int ends[2];
+  if (pipe(ends) != 0) std::abort();
+  const pid_t child = fork();
+  if (child == 0) {
+    keep_freed_memory();
+    Times times;
+    measure(times);
+    _exit(write(ends[1], &times, sizeof times) == sizeof times ? 0 : 1);
+  }
+  close(ends[1]);
+  Times times;
+  if (child < 0 || read(ends[0], &times, sizeof times) != sizeof times) std::abort();
+  close(ends[0]);
+  waitpid(child, nullptr, 0);
+  return times;
+}
 
 // Of the processor, so that what else the machine does does not count.
 class Watch {
@@ -162,48 +186,65 @@ void parse_alone(const std::vector<std::string>& paths, Times& times) {
     documents.back()->Parse(file.text.data(), file.text.size());
   }
   documents.clear();
-  times.tinyxml2 += watch.lap();
+  times.tinyxml2 = watch.lap();
 }
 
-// The nodes of the tree that is loaded.
-std::size_t load_once(const std::string& path, const Catalog& catalog, Times& times) {
+void load_once(const std::string& path, const Catalog& catalog, Times& times) {
   Watch watch;
   Diagnostics diagnostics;
   auto project = load_project(path, {}, diagnostics);
-  times.read += watch.lap();
+  times.read = watch.lap();
   auto definition = resolve(*project, catalog, {}, diagnostics);
-  times.resolve += watch.lap();
+  times.resolve = watch.lap();
   if (!definition) std::abort();
-  auto tree = std::make_unique<Tree>(compile(*definition));
-  times.compile += watch.lap();
-  const std::size_t nodes = tree->nodes.size();
+  const Tree tree = compile(*definition);
+  times.compile = watch.lap();
   definition.reset();
   project.reset();
-  tree.reset();
-  times.destroy += watch.lap();
-  return nodes;
+  return_freed_memory();
+  times.destroy = watch.lap();
+  times.nodes = static_cast<double>(tree.nodes.size());
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 void load(benchmark::State& state, Texts texts) {
   const Files files(texts(state.range(0)));
   const Catalog catalog = built_ins();
-  Times times;
-  double nodes = 0;
+  std::vector<Times> all;
   for (auto _ : state) {
-    parse_alone(files.paths(), times);
-    const double before = times.read + times.resolve + times.compile + times.destroy;
-    nodes += static_cast<double>(load_once(files.paths().front(), catalog, times));
-    state.SetIterationTime(times.read + times.resolve + times.compile + times.destroy - before);
+    const Times alone = in_fresh_process([&](Times& it) { parse_alone(files.paths(), it); });
+    Times times =
+        in_fresh_process([&](Times& it) { load_once(files.paths().front(), catalog, it); });
+    times.tinyxml2 = alone.tinyxml2;
+    state.SetIterationTime(times.read + times.resolve + times.compile);
+    all.push_back(times);
   }
-  const auto per_node = [&](double seconds) { return seconds / nodes * 1e9; };
-  const double loaded = times.read + times.resolve + times.compile;
-  state.counters["tinyxml2"] = per_node(times.tinyxml2);
-  state.counters["read"] = per_node(times.read);
-  state.counters["resolve"] = per_node(times.resolve);
-  state.counters["compile"] = per_node(times.compile);
-  state.counters["destroy"] = per_node(times.destroy);
-  state.counters["ratio"] = loaded / times.tinyxml2;
-  state.counters["ratio_all"] = (loaded + times.destroy) / times.tinyxml2;
+  const auto counter = [&](const char* name, auto of, double scale) {
+    std::vector<double> values;
+    for (const Times& times : all) values.push_back(of(times) * scale);
+    state.counters[name] = median(std::move(values));
+  };
+  const double per_node = 1e9 / all.front().nodes;
+  counter(
+      "tinyxml2", [](const Times& it) { return it.tinyxml2; }, per_node);
+  counter(
+      "read", [](const Times& it) { return it.read; }, per_node);
+  counter(
+      "resolve", [](const Times& it) { return it.resolve; }, per_node);
+  counter(
+      "compile", [](const Times& it) { return it.compile; }, per_node);
+  counter(
+      "destroy", [](const Times& it) { return it.destroy; }, per_node);
+  const auto loaded = [](const Times& it) { return it.read + it.resolve + it.compile; };
+  counter(
+      "ratio", [&](const Times& it) { return loaded(it) / it.tinyxml2; }, 1);
+  counter(
+      "ratio_all", [&](const Times& it) { return (loaded(it) + it.destroy) / it.tinyxml2; }, 1);
 }
 
 template <class T>

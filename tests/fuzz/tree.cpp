@@ -1,4 +1,7 @@
-// Any text as a tree file: ends in errors with a place, or in a tree that ticks a hundred times.
+// Any text as a tree file: ends in errors with a place, or in a tree that ticks a hundred times. And
+// what a Document says of a text is what tinyxml2 says of it.
+#include <tinyxml2.h>
+
 #include <cstdint>
 #include <cstdlib>
 #include <string>
@@ -20,14 +23,45 @@ void tick(const Tree& tree) {
   }
 }
 
+void check(bool holds) {
+  if (!holds) std::abort();
+}
+
+// Compares the elements from `element` on, in pre-order, and returns the first after `from`.
+std::uint32_t compare(const Document& document, std::uint32_t element,
+                      const tinyxml2::XMLElement& from) {
+  check(element < document.elements().size() && document.elements()[element].tag == from.Name());
+  const auto* next = from.FirstAttribute();
+  for (const Attribute& attribute : document.attributes(element)) {
+    check(next != nullptr && attribute.name == next->Name() && attribute.value == next->Value());
+    next = next->Next();
+  }
+  check(next == nullptr);
+  auto end = element + 1;
+  for (const auto* child = from.FirstChildElement(); child; child = child->NextSiblingElement())
+    end = compare(document, end, *child);
+  check(document.elements()[element].end == end);
+  return end;
+}
+
+void compare_with_reader(const std::string& text) {
+  Diagnostics diagnostics;
+  const auto document = Document::parse("tree.xml", text, diagnostics);
+  if (document == nullptr) return;
+  tinyxml2::XMLDocument xml;
+  check(xml.Parse(text.data(), text.size()) == tinyxml2::XML_SUCCESS);
+  check(compare(*document, 0, *xml.RootElement()) == document->elements().size());
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Catalog catalog;
   for (const NodeKind* kind : built_in_kinds()) catalog.add(&kind->type);
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  compare_with_reader(text);
   Diagnostics diagnostics;
-  const auto project = load_project_text(
-      "/nowhere/tree.xml", std::string(reinterpret_cast<const char*>(data), size), {}, diagnostics);
+  const auto project = load_project_text("/nowhere/tree.xml", text, {}, diagnostics);
   if (project == nullptr) {
     if (!diagnostics.has_errors()) std::abort();
     return 0;

@@ -1,5 +1,5 @@
-// Where things are in the bytes of a text: lines, and the elements and attributes of a well-formed
-// document, counted as the reader counts them. Made once, when a place is first asked for.
+// The lines of a text: on which one a byte is, and what it says. For a document's messages, so it
+// is made when a place is first asked for.
 #pragma once
 
 #include <cstddef>
@@ -29,19 +29,6 @@ class Lines {
 
   std::string_view text_;
   std::vector<std::uint32_t> ends_;  // line ends before each block, and in all of the text
-};
-
-struct Places {
-  struct AttributePlace {
-    std::size_t name;
-    std::string_view value;  // as written, between the quotes
-  };
-
-  // `text` is well-formed.
-  explicit Places(std::string_view text);
-
-  std::vector<std::size_t> elements;       // the '<' of each start tag, in pre-order
-  std::vector<AttributePlace> attributes;  // of all elements, in the order of the text
 };
 
 }  // namespace lockstep

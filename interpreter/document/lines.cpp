@@ -1,8 +1,6 @@
-#include "document/places.h"
+#include "document/lines.h"
 
 #include <algorithm>
-
-#include "document/scanner.h"
 
 namespace lockstep {
 
@@ -46,15 +44,6 @@ std::string_view Lines::line(std::uint32_t number) const {
   auto line = text_.substr(begin, end - begin);
   if (line.ends_with('\r')) line.remove_suffix(1);
   return line;
-}
-
-Places::Places(std::string_view text) {
-  Scanner scanner(text);
-  for (auto token = scanner.next();; token = scanner.next()) {
-    if (token.kind == TokenKind::End || token.kind == TokenKind::Fault) return;
-    if (token.kind == TokenKind::OpenTag) elements.push_back(token.begin);
-    if (token.kind == TokenKind::Attribute) attributes.push_back({token.begin, token.value});
-  }
 }
 
 }  // namespace lockstep
