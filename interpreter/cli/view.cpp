@@ -39,7 +39,7 @@ void View::print(const std::string& line) {
   } else if (plain_) {
     plain_->print(line);
   } else {
-    fmt::print(stderr, "{}\n", line);
+    fmt::print(stderr, "{}\n", printable(line));
   }
 }
 

@@ -141,6 +141,26 @@ TEST_CASE("texts of a tree reach the terminal visible, whatever is done with it"
   }
 }
 
+TEST_CASE("texts of what is told while a tree runs reach the terminal visible") {
+  const TemporaryDirectory directory;
+  const std::string stands = directory.file(
+      "stands.xml", tree_text("<ParallelAbsolute barriers=\"0.5\"><Advance name=\"a" + kEvil +
+                              "\" step=\"0\"/><Advance name=\"b" + kEvil +
+                              "\" step=\"0.3\"/></ParallelAbsolute>"));
+  const auto run = [&](const std::string& view) {
+    return Call{
+        .arguments = {"run", stands, "--view", view, "--stall", "0.01", "--max-ticks", "9"}};
+  };
+  for (const std::string view : {"plain", "none", "live"}) {
+    const Outcome piped = lockstep::test::run(run(view));
+    CHECK(contains(piped.err, "stands still"));
+    check_clean(piped, view, view == "live");
+    const Outcome shown = Process(run(view), Process::Output::Terminal).finish();
+    CHECK(contains(shown.out, "stands still"));
+    check_clean(shown, view + " on a terminal", true);
+  }
+}
+
 TEST_CASE("a character that changes the direction of text is shown as what it is") {
   const TemporaryDirectory directory;
   const std::string tree =
