@@ -135,18 +135,20 @@ TEST_CASE("a packet is in the ring as a whole or not at all, whenever another th
   std::mt19937 random(1);
   std::vector<Written> all;
   std::string expected, printed;
-  for (int i = 0; i < 500; ++i) {
-    all.push_back(random_tick(random, 30));
+  for (int i = 0; i < 100; ++i) {
+    all.push_back(random_tick(random, 300));
     expected += all.back().expected;
   }
-  PacketRing ring(2000);
+  PacketRing ring(20000);
   std::thread tick_thread([&] {
     for (const Written& it : all) {
+      // Many are pushed while the other is looking for them, the others while it prints.
+      while (it.head.tick % 2 == 0 && !ring.empty()) std::this_thread::yield();
       while (!ring.push(it.packet())) std::this_thread::yield();
     }
   });
   PacketPrinter printer(ring);
-  std::vector<char> room(1000);
+  std::vector<char> room(10000);
   while (printed.size() < expected.size()) {
     printed += printer.print(room);
     ring.take_until(printer.finished());

@@ -61,6 +61,13 @@ TEST_CASE("a tick in which nothing changes is a line without nodes") {
   CHECK(text.find("{\"tick\":2,\"time_s\":0.2,\"nodes\":[]}\n") != std::string::npos);
 }
 
+TEST_CASE("a node that has completed is in the line of the tick after it, then in none") {
+  const std::string text = record("Parallel(a b)", "a=S b=R", 4);
+  CHECK(text.find("\"time_s\":0.1,\"nodes\":[[1,\"success\",1,0,0]]}\n") != std::string::npos);
+  CHECK(text.find("\"time_s\":0.2,\"nodes\":[]}\n") != std::string::npos);
+  CHECK(text.find("\"time_s\":0.3,\"nodes\":[]}\n") != std::string::npos);
+}
+
 TEST_CASE("numbers are written with as many digits as are needed, and no more") {
   const auto text_of = [](double progress) {
     char text[100];
@@ -134,6 +141,17 @@ TEST_CASE("progress of a child is what its synchronized node used, not what was 
   CHECK(table.find("1,0.1,2,Test/Repeat/ParallelRelative/a,success,0.5,1,0\n") !=
         std::string::npos);
   CHECK(table.find("2,0.2,2,Test/Repeat/ParallelRelative/a,running,0,1,0\n") != std::string::npos);
+}
+
+TEST_CASE("what a synchronized node used is of its tick only") {
+  // In tick 1 its second activation begins at 0 and ends; before tick 2 its children have
+  // succeeded.
+  const std::string table =
+      csv_of(record("Sequence[memory=true](Repeat[times=2](ParallelRelative[delta=1](a b)) c)",
+                    "a=SS b=SS c=R", 3));
+  const std::string a = "Test/Sequence/Repeat/ParallelRelative/a,success,";
+  CHECK(table.find("1,0.1,3," + a + "0,1,0\n") != std::string::npos);
+  CHECK(table.find("2,0.2,3," + a + "1,0,0\n") != std::string::npos);
 }
 
 TEST_CASE("faults that the run went on after are in their tick, and counted") {
