@@ -81,12 +81,14 @@ auto identity(const Diagnostic& d) {
 }  // namespace
 
 void Diagnostics::add(Diagnostic diagnostic) {
-  const auto severity = static_cast<std::size_t>(diagnostic.severity);
-  if (++added_[severity] > kMaxKept) {
-    ++lost_[severity];
-    return;
-  }
+  if (is_full(diagnostic.severity)) return count_one(diagnostic.severity);
+  ++added_[index(diagnostic.severity)];
   all_.push_back(std::move(diagnostic));
+}
+
+void Diagnostics::count_one(Severity severity) {
+  ++added_[index(severity)];
+  ++lost_[index(severity)];
 }
 
 void Diagnostics::error(SourceLocation location, std::string message, std::string hint,
@@ -96,13 +98,13 @@ void Diagnostics::error(SourceLocation location, std::string message, std::strin
 }
 
 bool Diagnostics::has_errors() const {
-  return count(Severity::Error) > 0;
+  return added_[index(Severity::Error)] > 0;
 }
 
 std::size_t Diagnostics::count(Severity severity) const {
   const auto kept = std::count_if(all_.begin(), all_.end(),
                                   [&](const Diagnostic& d) { return d.severity == severity; });
-  return static_cast<std::size_t>(kept) + lost_[static_cast<std::size_t>(severity)];
+  return static_cast<std::size_t>(kept) + lost_[index(severity)];
 }
 
 void Diagnostics::sort() {

@@ -38,14 +38,19 @@ class Diagnostics {
              std::string excerpt = {});
 
   bool has_errors() const;
-  // No further error is kept, so that it need not be worded.
-  bool is_full() const { return added_[0] >= kMaxKept; }
+  // No further one of that severity is kept, so that it need not be worded: count_one() is enough.
+  bool is_full(Severity severity) const { return added_[index(severity)] >= kMaxKept; }
+  void count_one(Severity severity);
   std::size_t count(Severity severity) const;  // also those that were not kept
   // By file in the order of first mention, then line, then column; equal entries once.
   void sort();
   const std::vector<Diagnostic>& all() const { return all_; }
 
  private:
+  static constexpr std::size_t index(Severity severity) {
+    return static_cast<std::size_t>(severity);
+  }
+
   std::vector<Diagnostic> all_;
   std::array<std::size_t, 3> added_{};  // of each severity
   std::array<std::size_t, 3> lost_{};   // of those, not kept

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <system_error>
 
@@ -42,7 +43,7 @@ FileText read_all(int file, const struct stat& status, std::size_t limit) {
   FileText result;
   constexpr std::size_t kChunk = 1u << 16u;
   const auto size = static_cast<std::size_t>(status.st_size);
-  if (size <= limit) result.text.reserve(size + kChunk);
+  result.text.reserve(std::min(size, limit) + 2 * kChunk);
   while (result.text.size() <= limit) {
     const auto before = result.text.size();
     result.text.resize(before + kChunk);

@@ -22,7 +22,7 @@ constexpr std::string_view kIncludeAttributes[] = {"path"};
 // The same for all spellings of a path, and for links to one file.
 std::string identity_of(const std::string& path) {
   std::error_code error;
-  const auto canonical = fs::weakly_canonical(path, error);
+  const auto canonical = fs::canonical(path, error);
   return error ? fs::path(path).lexically_normal().string() : canonical.string();
 }
 

@@ -15,18 +15,21 @@ class Reporter {
       : document_(document), diagnostics_(diagnostics) {}
 
   bool has_errors() const { return diagnostics_.has_errors(); }
-  bool is_full() const { return diagnostics_.is_full(); }
+  bool is_full() const { return diagnostics_.is_full(Severity::Error); }
 
   void at_element(std::uint32_t element, std::string message, std::string hint = {},
                   Severity severity = Severity::Error) const {
+    if (counted_only(severity)) return;
     at(document_.locate(element), std::move(message), std::move(hint), severity);
   }
   void at_attribute(std::uint32_t element, std::string_view name, std::string message,
                     std::string hint = {}, Severity severity = Severity::Error) const {
+    if (counted_only(severity)) return;
     at(document_.locate_attribute(element, name), std::move(message), std::move(hint), severity);
   }
   void at_value(std::uint32_t element, std::string_view name, std::string message,
                 std::string hint = {}, Severity severity = Severity::Error) const {
+    if (counted_only(severity)) return;
     at(document_.locate_value(element, name), std::move(message), std::move(hint), severity);
   }
 
@@ -38,6 +41,13 @@ class Reporter {
   }
 
  private:
+  // What is not kept needs no place: a document may have a million errors.
+  bool counted_only(Severity severity) const {
+    if (!diagnostics_.is_full(severity)) return false;
+    diagnostics_.count_one(severity);
+    return true;
+  }
+
   const Document& document_;
   Diagnostics& diagnostics_;
 };
