@@ -13,7 +13,7 @@ namespace lockstep {
 namespace {
 
 // Paths are in recordings, in messages, and in what a leaf knows of itself.
-constexpr std::uint64_t kMaxPathBytes = std::uint64_t{128} << 20u;
+constexpr std::uint64_t kMaxPathBytes = std::uint64_t{512} << 20u;
 constexpr std::size_t kShownBytes = 100;
 
 // Depth-first over the graph of trees, with a stack of its own: a chain of subtrees may be long.

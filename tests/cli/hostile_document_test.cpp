@@ -159,14 +159,14 @@ TEST_CASE("a document that is deep or wide is refused or checked in time and mem
             "</BehaviorTree><BehaviorTree ID=\"T{0}\">" + deep + "<SubTree ID=\"T{1}\"/>" + up,
             "</BehaviorTree><BehaviorTree ID=\"T9\"><Sequence>" + leaves(100'000) + end),
        3, "error: the paths of all nodes in the tree 'T"},
-      {"a name of a megabyte above 120 nodes",
+      {"a name of a megabyte above 500 nodes",
        text(kHead + "<BehaviorTree ID=\"A\"><Sequence name=\"" + std::string(1u << 20u, 'n') +
-            "\">" + leaves(120) + end),
+            "\">" + leaves(500) + end),
        0, ""},
-      {"a name of a megabyte above 130 nodes",
+      {"a name of a megabyte above 520 nodes",
        text(kHead + "<BehaviorTree ID=\"A\"><Sequence name=\"" + std::string(1u << 20u, 'n') +
-            "\">" + leaves(130) + end),
-       3, "$:2:22: error: the paths of all nodes in the tree 'A' are larger than 128 MiB"},
+            "\">" + leaves(520) + end),
+       3, "$:2:22: error: the paths of all nodes in the tree 'A' are larger than 512 MiB"},
   });
 }
 
