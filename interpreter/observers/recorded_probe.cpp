@@ -12,6 +12,7 @@ std::vector<NodeIndex> synchronized_nodes(const RecordingHeader& header) {
 
 RecordedProbe::RecordedProbe(const RecordingHeader& header, NodeIndex node) : node_(node) {
   for (NodeIndex child = node + 1; child < header.nodes.size(); ++child) {
+    if (header.nodes[child].parent < node) break;  // in pre-order: not below the node any more
     if (header.nodes[child].parent != node) continue;
     const std::string& path = header.nodes[child].path;
     children_.push_back(child);

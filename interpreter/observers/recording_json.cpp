@@ -92,6 +92,18 @@ RecordedNode node_from(const Json& json, std::size_t index) {
   return node;
 }
 
+// The nodes stand in pre-order: a node's parent is the one before it, or one of that one's parents.
+void check_order(std::span<const RecordedNode> nodes) {
+  std::vector<NodeIndex> open;
+  for (NodeIndex node = 0; node < nodes.size(); ++node) {
+    const auto parent = nodes[node].parent;
+    while (!open.empty() && parent && open.back() != *parent) open.pop_back();
+    if (node > 0 && (!parent || open.empty()))
+      throw BadLine(fmt::format("node {} is not in pre-order", node));
+    open.push_back(node);
+  }
+}
+
 Status status_from(const Json& json) {
   constexpr std::array kAll = {Status::Idle, Status::Running, Status::Success, Status::Failure};
   const auto found = std::find_if(kAll.begin(), kAll.end(), [&](Status status) {
@@ -171,6 +183,7 @@ RecordingHeader header_from(const Json& line) {
     header.nodes.push_back(node_from(node, header.nodes.size()));
   }
   if (header.nodes.empty()) throw BadLine("'nodes' is empty");
+  check_order(header.nodes);
   return header;
 }
 

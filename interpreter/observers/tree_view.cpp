@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 #include "observers/progress_bar.h"
@@ -116,18 +117,34 @@ class View {
     return line.text() + "\n";
   }
 
+  // What the bars of all children of one node have in common.
+  struct Children {
+    std::vector<double> progress;
+    double least = 1;
+    std::size_t columns = 0;  // of the longest name
+  };
+
+  // Looked at once, however many there are.
+  const Children& children_of(NodeIndex parent) const {
+    const auto [entry, is_new] = children_.try_emplace(parent);
+    Children& children = entry->second;
+    if (!is_new) return children;
+    for (const NodeIndex child : tree_.nodes[parent].children) {
+      children.progress.push_back(snapshot_.nodes[child].progress);
+      children.least = std::min(children.least, children.progress.back());
+      children.columns = std::max(children.columns, columns(tree_.nodes[child].segment));
+    }
+    return children;
+  }
+
   void add_bar(TextLine& line, NodeIndex node, Style style) const {
     const NodeIndex self = *tree_.nodes[node].parent;
     const ShapeNode& parent = tree_.nodes[self];
-    std::vector<double> progress;
-    std::size_t name = 0, place = 0;
-    for (const NodeIndex child : parent.children) {
-      if (child == node) place = progress.size();
-      progress.push_back(snapshot_.nodes[child].progress);
-      name = std::max(name, columns(tree_.nodes[child].segment));
-    }
+    const auto& [progress, least, name] = children_of(self);
+    const auto found = std::lower_bound(parent.children.begin(), parent.children.end(), node);
+    const auto place = static_cast<std::size_t>(found - parent.children.begin());
     line.fill_to(indent(node) + 3 + std::min<std::size_t>(name, 24));
-    line.add(bar(parent, progress, place), style);
+    line.add(bar(parent, progress[place], least), style);
     line.add(fmt::format(" {:.2f}", progress[place]));
     // Under a parent that is held itself, the parent says what is waited for.
     if (snapshot_.nodes[node].activity != Activity::Paused ||
@@ -148,14 +165,13 @@ class View {
         progress, place);
   }
 
-  std::string bar(const ShapeNode& parent, const std::vector<double>& progress,
-                  std::size_t place) const {
-    ProgressBar bar{.progress = progress[place],
+  std::string bar(const ShapeNode& parent, double progress, double least) const {
+    ProgressBar bar{.progress = progress,
                     .marks = parent.barriers,
                     .cells = std::clamp<std::size_t>(options_.width / 4, 8, 40)};
     double limit = 1;
     if (parent.synchronization == Synchronization::Relative) {
-      bar.band_begin = *std::min_element(progress.begin(), progress.end());
+      bar.band_begin = least;
       bar.band_end = std::min(1.0, bar.band_begin + parent.delta);
       limit = bar.band_end;
       bar.marks = {&limit, 1};
@@ -166,6 +182,7 @@ class View {
   const TreeShape& tree_;
   const Snapshot& snapshot_;
   const DrawOptions& options_;
+  mutable std::map<NodeIndex, Children> children_;  // of the parents seen so far
 };
 
 }  // namespace

@@ -1,25 +1,90 @@
-// Any text as a recording: is read to its end or to an error.
+// Any text as a recording: is read to its end or to an error, by each of those who read one, and
+// they agree.
 #include <cstdint>
 #include <cstdlib>
 #include <sstream>
 #include <string>
 
 #include "observers/recording_csv.h"
+#include "observers/recording_diff.h"
 #include "observers/recording_info.h"
+#include "observers/recording_measures.h"
+#include "observers/replay_view.h"
+
+namespace {
+
+using namespace lockstep;
+
+void check(bool holds) {
+  if (!holds) std::abort();
+}
+
+struct Recording {
+  explicit Recording(const std::string& text) : in(text), reader(in, "fuzz.jsonl") {}
+
+  std::istringstream in;
+  RecordingReader reader;
+};
+
+// "" when the whole of it can be read.
+std::string print(const std::string& text) {
+  static std::FILE* const nowhere = std::fopen("/dev/null", "w");
+  Recording csv(text), info(text);
+  write_csv(csv.reader, nowhere);
+  write_info(info.reader, nowhere);
+  check(csv.reader.error() == info.reader.error());
+  if (csv.reader.error().empty()) check(!csv.reader.next() && !info.reader.next());
+  return csv.reader.error();
+}
+
+void measure(const std::string& text) {
+  std::string error;
+  std::vector<MeasureSpec> measures;
+  for (const char* name : {"progress-distance", "step-length", "duration"})
+    measures.push_back(*parse_measure(name, error));
+  Recording recording(text);
+  to_json(measure_recording(recording.reader, measures, error));
+  check(error.empty());
+}
+
+void compare_with_itself(const std::string& text) {
+  Recording a(text), b(text);
+  const RecordingDiff diff = compare(a.reader, b.reader, {});
+  check(diff.same() && to_text(diff, "a", "b", false).empty());
+}
+
+// There and back: a moment is the same whichever way it is reached.
+void replay(const std::string& text) {
+  Recording recording(text);
+  RecordingTimeline timeline(recording.reader, {.distance = 100, .most_memory = 1000});
+  if (timeline.size() == 0) return;
+  const TreeShape shape = shape_of(recording.reader.header());
+  const DrawOptions options{.width = 40, .height = 10};
+  const auto draw = [&] {
+    const auto snapshot = snapshot_of(recording.reader.header(), shape, timeline.now(), false);
+    const ReplayPlayer player(timeline, 1);
+    draw_replay(shape, snapshot, player, options);
+    draw_moment(shape, snapshot, timeline.now(), options);
+  };
+  const Moment first = timeline.now();
+  draw();
+  timeline.go_to_end();
+  const Moment last = timeline.now();
+  draw();
+  timeline.step_back();
+  timeline.step_forward();
+  check(timeline.now() == last);
+  timeline.go_to_tick(first.tick);
+  check(timeline.now() == first && !timeline.failed());
+}
+
+}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace lockstep;
   const std::string text(reinterpret_cast<const char*>(data), size);
-  static std::FILE* const nowhere = std::fopen("/dev/null", "w");
-  for (const bool csv : {true, false}) {
-    std::istringstream in(text);
-    RecordingReader reader(in, "fuzz.jsonl");
-    if (csv) {
-      write_csv(reader, nowhere);
-    } else {
-      write_info(reader, nowhere);
-    }
-    if (reader.error().empty() && reader.next()) std::abort();  // all ticks are read
-  }
+  if (!print(text).empty()) return 0;
+  measure(text);
+  compare_with_itself(text);
+  replay(text);
   return 0;
 }

@@ -89,6 +89,7 @@ TEST_CASE("a header is refused for each value that is not what it must be") {
              {"\"parent\":null", "\"parent\":0", "parent of node 0 comes after it"},
              {"\"parent\":1", "\"parent\":2", "parent of node 2 comes after it"},
              {"\"parent\":1", "\"parent\":-1", "'parent' is not a whole number"},
+             {"\"parent\":1", "\"parent\":null", "node 2 is not in pre-order"},
              {"[0.5,1]", "0.5", "'barriers' is not a list of numbers"},
              {"[0.5,1]", "[\"0.5\"]", "'barriers' is not a list of numbers"},
              {"[0.5,1]", "[0.5,1.5]", "a barrier of node 0 is not in [0, 1]"},
