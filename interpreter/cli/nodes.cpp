@@ -34,7 +34,8 @@ int nodes(const Options& options) {
   const NodeType* const type = catalog.find(options.id);
   if (type == nullptr) {
     std::string hint = did_you_mean(options.id, catalog.ids());
-    if (hint.empty()) hint = "load the plugin that provides it with --plugin or --plugin";
+    if (hint.empty())
+      hint = "load the plugin that provides it with --plugin, as a file or by its name";
     print_error(fmt::format("unknown node '{}'", options.id), hint);
     return kExitUsage;
   }
