@@ -116,7 +116,7 @@ class TreeChecker {
       report.at_element(tree, fmt::format("the tree '{}' is empty", id), "put one node into it");
       enter_tree(report, tree, id);  // so that whoever names it is not blamed
       CheckedNode nothing;
-      nothing.end = static_cast<std::uint32_t>(trees_.nodes.size() + 1);
+      nothing.end = count(trees_.nodes) + 1;
       trees_.nodes.push_back(nothing);
       return;
     }
@@ -124,32 +124,39 @@ class TreeChecker {
       report.at_element(second, fmt::format("the tree '{}' has more than one root node", id),
                         "put them into a Sequence, a Fallback or a parallel node");
     }
-    enter_tree(report, tree, id);
-    check_node(report, root, 0);
+    CheckedTree* const entered = enter_tree(report, tree, id);
+    tree_ = {};
+    tree_.first_reference = count(trees_.references);
+    tree_.root = count(trees_.nodes);
+    check_node(report, root, 0, 0);
+    tree_.references = count(trees_.references) - tree_.first_reference;
+    if (entered != nullptr) *entered = tree_;
   }
 
-  void enter_tree(const Reporter& report, std::uint32_t tree, std::string_view id) {
-    if (id.empty()) return;  // reported already
-    const auto [entry, is_new] =
-        trees_.roots.try_emplace(id, static_cast<std::uint32_t>(trees_.nodes.size()));
+  // Where what is found in it belongs; null when nobody can name it.
+  CheckedTree* enter_tree(const Reporter& report, std::uint32_t tree, std::string_view id) {
+    if (id.empty()) return nullptr;  // reported already
+    const auto [entry, is_new] = trees_.trees.try_emplace(id, CheckedTree{count(trees_.nodes)});
     if (is_new) {
       trees_.ids.push_back(id);
       places_.emplace(id, std::pair(document_, tree));
-      return;
+      return &entry->second;
     }
     const auto [first_document, first_element] = places_.at(id);
     const auto first = project_.documents[first_document]->locate(first_element);
     report.at_value(tree, "ID", fmt::format("a tree '{}' exists already", id),
                     fmt::format("the first is at {}:{}:{}", first.file, first.line, first.column));
+    return nullptr;
   }
 
-  void check_node(const Reporter& report, std::uint32_t index, std::uint32_t depth) {
-    const std::uint32_t place = static_cast<std::uint32_t>(trees_.nodes.size());
+  // `path_size`: bytes of the path of its parent.
+  void check_node(const Reporter& report, std::uint32_t index, std::uint32_t depth,
+                  std::uint64_t path_size) {
+    const std::uint32_t place = count(trees_.nodes);
     trees_.nodes.emplace_back();
     CheckedNode node;
     node.document = document_;
     node.element = index;
-    node.depth = depth;
     const bool explicit_form = is_explicit(element(index).tag);
     node.type = explicit_form ? find_explicit_type(report, index) : find_type(report, index);
     for (std::uint32_t child = index + 1; child < element(index).end; child = element(child).end) {
@@ -167,11 +174,20 @@ class TreeChecker {
         check_attributes(document(), report, explicit_form, node, trees_);
       }
     }
+    path_size += node.name.size() + 1;
+    tree_.paths_size += path_size;
+    tree_.depth = std::max(tree_.depth, depth + 1);
+    if (!node.subtree.empty()) trees_.references.push_back({place, depth, path_size});
     for (std::uint32_t child = index + 1; child < element(index).end; child = element(child).end) {
-      check_node(report, child, depth + 1);
+      check_node(report, child, depth + 1, path_size);
     }
-    node.end = static_cast<std::uint32_t>(trees_.nodes.size());
+    node.end = count(trees_.nodes);
     trees_.nodes[place] = node;
+  }
+
+  template <class T>
+  static std::uint32_t count(const std::vector<T>& all) {
+    return static_cast<std::uint32_t>(all.size());
   }
 
   // Often the type of the node before it.
@@ -211,7 +227,7 @@ class TreeChecker {
     if (report.is_full()) return report.at_element(index, "unknown node");
     auto known = catalog_.ids();
     std::string hint = did_you_mean(id, known);
-    if (hint.empty() && trees_.roots.contains(id)) {
+    if (hint.empty() && trees_.trees.contains(id)) {
       hint = fmt::format("to use the tree '{}' write <SubTree ID=\"{}\"/>", id, id);
     }
     if (hint.empty()) {
@@ -256,6 +272,7 @@ class TreeChecker {
   const Catalog& catalog_;
   Diagnostics& diagnostics_;
   CheckedTrees trees_;
+  CheckedTree tree_;  // that is being checked
   std::map<std::string_view, std::pair<std::uint32_t, std::uint32_t>> places_;
   std::uint32_t document_ = 0;
   std::span<const Element> elements_;  // of the document

@@ -25,17 +25,32 @@ struct CheckedNode {
   std::uint32_t element = 0;
   std::uint32_t end = 0;  // in CheckedTrees::nodes
   std::uint32_t children = 0;
-  std::uint32_t depth = 0;        // below the root of its BehaviorTree
   std::uint32_t first = 0;        // as in DefinitionNode: in values, or in ports
   std::string_view subtree = {};  // the ID that a SubTree names
+};
+
+// A SubTree that names a tree, and where in its own tree it stands.
+struct CheckedReference {
+  std::uint32_t node;
+  std::uint32_t depth;      // below the root
+  std::uint64_t path_size;  // bytes of its path, from the root on
+};
+
+// One BehaviorTree, its subtrees not expanded.
+struct CheckedTree {
+  std::uint32_t root;                                 // in CheckedTrees::nodes
+  std::uint32_t first_reference = 0, references = 0;  // in CheckedTrees::references
+  std::uint32_t depth = 0;                            // levels
+  std::uint64_t paths_size = 0;  // bytes of the paths of all its nodes, from the root on
 };
 
 struct CheckedTrees {
   std::vector<CheckedNode> nodes;
   std::vector<Value> values;
   std::vector<CheckedPort> ports;
-  std::map<std::string_view, std::uint32_t> roots;  // BehaviorTree ID -> its root node
-  std::vector<std::string_view> ids;                // as they stand in the documents
+  std::vector<CheckedReference> references;
+  std::map<std::string_view, CheckedTree> trees;  // by the ID of the BehaviorTree
+  std::vector<std::string_view> ids;              // as they stand in the documents
 };
 
 // Checks every BehaviorTree of the project, used or not.

@@ -29,7 +29,7 @@ class Expander {
     definition_.nodes.reserve(trees_.nodes.size());  // without subtrees, all that will be needed
     Scope scope(definition_.entries);
     for (const auto& [key, text] : options_.values) scope.set_text(key, text);
-    add(trees_.roots.at(main), 0, scope);
+    add(trees_.trees.at(main).root, 0, scope);
     check_set_keys(scope);
     return std::move(definition_);
   }
@@ -67,8 +67,8 @@ class Expander {
 
   void enter_subtree(const Reporter& report, const CheckedNode& checked, std::uint32_t place,
                      Scope& outer) {
-    const auto root = trees_.roots.find(checked.subtree);
-    if (root == trees_.roots.end()) return;  // reported already
+    const auto tree = trees_.trees.find(checked.subtree);
+    if (tree == trees_.trees.end()) return;  // reported already
     const Document& document = *project_.documents[checked.document];
     const Attribute* autoremap = document.find_attribute(checked.element, "_autoremap");
     Scope scope(
@@ -79,7 +79,7 @@ class Expander {
       key.empty() ? scope.set_text(attribute.name, attribute.value)
                   : scope.remap(attribute.name, key);
     });
-    add(root->second, place, scope);
+    add(tree->second.root, place, scope);
     for_each_remapping(document, checked.element, [&](const Attribute& attribute) {
       if (scope.used(attribute.name)) return;
       report.at_attribute(

@@ -33,70 +33,62 @@ class ReferenceChecker {
   enum class State { New, Open, Done };
   struct Visit {
     State state = State::New;
-    std::uint32_t next = 0;  // the node to look at next
-    std::uint64_t size = 0;  // expanded
+    std::uint32_t next = 0;  // of the tree's references, the one to look at next
+    // Expanded:
+    std::uint64_t size = 0;
     std::uint32_t depth = 0;
-    std::uint64_t paths = 0;  // bytes of the paths of all its nodes, from its own root on
+    std::uint64_t paths_size = 0;
   };
 
   void visit(std::string_view root) {
     open(root);
     while (!chain_.empty()) {
       const std::string_view id = chain_.back();
-      if (const CheckedNode* reference = next_reference(id)) {
-        follow(id, *reference);
+      const CheckedTree& tree = trees_.trees.at(id);
+      if (Visit& visit = visits_[id]; visit.next < tree.references) {
+        follow(visit, trees_.references[tree.first_reference + visit.next]);
       } else {
-        close(id);
+        close(id, visit);
       }
     }
   }
 
   void open(std::string_view id) {
-    const std::uint32_t root = trees_.roots.at(id);
-    visits_[id] = {State::Open, root, trees_.nodes[root].end - root, 0, 0};
+    const CheckedTree& tree = trees_.trees.at(id);
+    const CheckedNode& root = trees_.nodes[tree.root];
+    visits_[id] = {State::Open, 0, root.end - tree.root, tree.depth, tree.paths_size};
     chain_.push_back(id);
   }
 
-  // The next SubTree in the tree `id` that is not yet looked at.
-  const CheckedNode* next_reference(std::string_view id) {
-    Visit& visit = visits_[id];
-    const std::uint32_t end = trees_.nodes[trees_.roots.at(id)].end;
-    for (; visit.next < end; ++visit.next) {
-      const CheckedNode& node = trees_.nodes[visit.next];
-      visit.depth = std::max(visit.depth, node.depth + 1);
-      if (!node.subtree.empty()) return &node;
-    }
-    return nullptr;
-  }
-
-  void follow(std::string_view id, const CheckedNode& reference) {
-    Visit& from = visits_[id];
-    const auto target = trees_.roots.find(reference.subtree);
-    if (target == trees_.roots.end()) {
-      unknown(reference);
+  void follow(Visit& from, const CheckedReference& reference) {
+    const CheckedNode& node = trees_.nodes[reference.node];
+    if (!trees_.trees.contains(node.subtree)) {
+      unknown(node);
       ++from.next;
       return;
     }
-    const Visit& to = visits_[reference.subtree];
+    const Visit& to = visits_[node.subtree];
     if (to.state == State::New) {
-      open(reference.subtree);  // and come back to this reference
+      open(node.subtree);  // and come back to this reference
       return;
     }
     ++from.next;
     if (to.state == State::Open) {
-      contains_itself(reference);
+      contains_itself(node);
       return;
     }
-    from.size = std::min<std::uint64_t>(from.size + to.size, 1ull << 60);
-    from.depth = std::min(std::max(from.depth, reference.depth + 1 + to.depth), 1u << 30);
+    constexpr std::uint64_t kMost = 1ull << 60u;  // far above the limits, and sums do not overflow
+    from.size = std::min(from.size + to.size, kMost);
+    from.depth = std::min(std::max(from.depth, reference.depth + 1 + to.depth), 1u << 30u);
+    // With more nodes than that the tree is refused whatever their paths are.
+    const auto paths_above = reference.path_size * std::min<std::uint64_t>(to.size, kMaxNodes);
+    from.paths_size = std::min(from.paths_size + to.paths_size + paths_above, kMost);
   }
 
-  void close(std::string_view id) {
-    Visit& visit = visits_[id];
+  void close(std::string_view id, Visit& visit) {
     visit.state = State::Done;
-    visit.paths = path_bytes(id);
     chain_.pop_back();
-    const CheckedNode& root = trees_.nodes[trees_.roots.at(id)];
+    const CheckedNode& root = trees_.nodes[trees_.trees.at(id).root];
     if (visit.size > kMaxNodes) {
       too_large(
           root,
@@ -107,33 +99,13 @@ class ReferenceChecker {
           root,
           fmt::format("the tree '{}' is {} nodes deep with its subtrees expanded", id, visit.depth),
           fmt::format("the limit is {}", kMaxDepth));
-    } else if (visit.paths > kMaxPathBytes) {
+    } else if (visit.paths_size > kMaxPathBytes) {
       too_large(root,
                 fmt::format("the paths of all nodes in the tree '{}' are larger than {} MiB "
                             "together with its subtrees expanded",
                             utf8_front(id, kShownBytes), kMaxPathBytes >> 20u),
                 "a long name, or a deep place, counts for each node below it");
     }
-  }
-
-  // Once all trees in it are done.
-  std::uint64_t path_bytes(std::string_view id) const {
-    const std::uint32_t root = trees_.roots.at(id);
-    std::vector<std::uint64_t> lengths;  // of the last node at each depth
-    std::uint64_t sum = 0;
-    for (std::uint32_t i = root; i < trees_.nodes[root].end; ++i) {
-      const CheckedNode& node = trees_.nodes[i];
-      lengths.resize(node.depth + 1u);
-      lengths.back() = node.name.size() + 1 + (node.depth == 0 ? 0 : lengths[node.depth - 1u]);
-      sum += lengths.back();
-      if (node.subtree.empty()) continue;
-      const auto subtree = visits_.find(node.subtree);
-      if (subtree == visits_.end()) continue;  // unknown
-      const Visit& below = subtree->second;
-      sum += below.paths + lengths.back() * std::min<std::uint64_t>(below.size, kMaxNodes);
-      sum = std::min<std::uint64_t>(sum, 1ull << 60u);
-    }
-    return sum;
   }
 
   void too_large(const CheckedNode& root, std::string message, std::string hint) {

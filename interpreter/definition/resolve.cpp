@@ -32,15 +32,15 @@ std::optional<std::string_view> choose_main(const Project& project, const Checke
     return std::nullopt;
   }
   if (!options.main_tree.empty()) {
-    const auto it = trees.roots.find(options.main_tree);
-    if (it != trees.roots.end()) return it->first;
+    const auto it = trees.trees.find(options.main_tree);
+    if (it != trees.trees.end()) return it->first;
     diagnostics.error({}, fmt::format("--tree {}: unknown tree", options.main_tree),
                       trees_hint(trees, options.main_tree));
     return std::nullopt;
   }
   if (const Attribute* attribute = main.find_attribute(0, "main_tree_to_execute")) {
-    const auto it = trees.roots.find(attribute->value);
-    if (it != trees.roots.end()) return it->first;
+    const auto it = trees.trees.find(attribute->value);
+    if (it != trees.trees.end()) return it->first;
     report.at_value(0, "main_tree_to_execute", fmt::format("unknown tree '{}'", attribute->value),
                     trees_hint(trees, attribute->value));
     return std::nullopt;
