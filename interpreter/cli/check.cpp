@@ -42,7 +42,8 @@ int check(const Options& options) {
       continue;
     }
     print_diagnostics(diagnostics, Severity::Note, stderr);
-    if (code == kExitSuccess) fmt::print("{}: ok\n", printable(tree));
+    if (code == kExitSuccess)
+      fmt::print("{}: ok\n", printable(loaded.project->documents.front()->path()));
   }
   if (json) {
     constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;

@@ -95,7 +95,6 @@ class RunCommand {
       if (!make_realtime()) return std::nullopt;
       end = run_loop(run, clock, loop_options(), observers());
       if (run.fault() != nullptr) fault = *run.fault();
-      watch_.run_ended();
     }
     view_.close();
     if (fault) print_error(describe(*fault, tree_, end));
@@ -143,6 +142,7 @@ class RunCommand {
     if (recorder_) observers_.push_back(&*recorder_);
     if (stall_) observers_.push_back(&*stall_);
     if (view_.observer() != nullptr) observers_.push_back(view_.observer());
+    observers_.push_back(&watch_);
     return observers_;
   }
 

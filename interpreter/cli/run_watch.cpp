@@ -41,8 +41,7 @@ RunWatch::RunWatch(const Tree& tree, const RunCommandOptions& options,
       options_(options),
       print_(std::move(print)),
       leaves_(leaf_watch_options()),
-      watchdog_(watchdog_options()),
-      memory_at_start_(resident_memory()) {
+      watchdog_(watchdog_options()) {
   pthread_sigmask(SIG_SETMASK, nullptr, &signal_mask_);
 }
 
@@ -78,7 +77,11 @@ WatchdogOptions RunWatch::watchdog_options() {
   return watchdog;
 }
 
-void RunWatch::run_ended() {
+void RunWatch::run_started(Ticker&, const RunStart&) {
+  memory_at_start_ = resident_memory();
+}
+
+void RunWatch::run_ended(Ticker&, const RunEnd&) {
   sigset_t now;
   pthread_sigmask(SIG_SETMASK, &signal_mask_, &now);
   for (int number = 1; number < NSIG; ++number) {

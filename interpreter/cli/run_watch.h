@@ -10,6 +10,7 @@
 #include "cli/run_options.h"
 #include "observers/summary.h"
 #include "plugin/leaf_watch.h"
+#include "runtime/observer.h"
 #include "runtime/watchdog.h"
 
 namespace lockstep {
@@ -17,15 +18,16 @@ namespace lockstep {
 // "'Main/arm' (Advance of plugin 'motion')".
 std::string describe_leaf(const Tree& tree, NodeIndex leaf);
 
-class RunWatch {
+class RunWatch final : public Observer {
  public:
   // `print` shows a line to the person; from any thread.
   RunWatch(const Tree& tree, const RunCommandOptions& options,
            std::function<void(const std::string& line)> print);
 
   LeafWatch& leaves() { return leaves_; }
-  // On the tick thread, while the leaves still live.
-  void run_ended();
+  // The last of the observers: what the others take to begin with is no leak.
+  void run_started(Ticker& ticker, const RunStart& start) override;
+  void run_ended(Ticker& ticker, const RunEnd& end) override;
   void add_to(Summary& summary) const;
 
  private:
@@ -37,9 +39,9 @@ class RunWatch {
   std::function<void(const std::string& line)> print_;
   LeafWatch leaves_;
   Watchdog watchdog_;
-  sigset_t signal_mask_;            // of the tick thread, as it was
-  std::size_t memory_at_start_;     // bytes
-  std::vector<std::string> notes_;  // for the summary
+  sigset_t signal_mask_;             // of the tick thread, as it was
+  std::size_t memory_at_start_ = 0;  // bytes
+  std::vector<std::string> notes_;   // for the summary
 };
 
 }  // namespace lockstep

@@ -6,13 +6,23 @@
 
 namespace lockstep {
 
+namespace {
+
+// Free memory at the end of the heap that goes back at once; blocks that never come from it.
+void set_threshold(int bytes) {
+  ::mallopt(M_TRIM_THRESHOLD, bytes);
+  ::mallopt(M_MMAP_THRESHOLD, bytes);
+}
+
+}  // namespace
+
 void keep_freed_memory() {
-  constexpr int kNever = std::numeric_limits<int>::max();
-  ::mallopt(M_TRIM_THRESHOLD, kNever);
-  ::mallopt(M_MMAP_THRESHOLD, kNever);  // also large blocks come from what was freed
+  set_threshold(std::numeric_limits<int>::max());
 }
 
 void return_freed_memory() {
+  constexpr int kDefault = 128 << 10;
+  set_threshold(kDefault);
   ::malloc_trim(0);
 }
 

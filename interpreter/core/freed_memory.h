@@ -7,7 +7,7 @@ namespace lockstep {
 
 // From now on freed memory stays with the process, for what is allocated next.
 void keep_freed_memory();
-// What is free now goes back to the system.
+// No longer; and what is free now goes back to the system.
 void return_freed_memory();
 
 }  // namespace lockstep

@@ -27,8 +27,8 @@ TEST_CASE("a tree is read from stdin, from a pipe and from a process substitutio
   const TemporaryDirectory directory;
   directory.file("tree.xml", kTree);
   const std::vector<std::pair<std::string, std::string>> rows = {
-      {"cat tree.xml | lockstep check -", "-: ok\n"},
-      {"lockstep check - < tree.xml", "-: ok\n"},
+      {"cat tree.xml | lockstep check -", "stdin: ok\n"},
+      {"lockstep check - < tree.xml", "stdin: ok\n"},
       {"cat tree.xml | lockstep check /dev/stdin", "/dev/stdin: ok\n"},
       {"lockstep check /dev/stdin < tree.xml", "/dev/stdin: ok\n"},
       {"lockstep check <(cat tree.xml) | sed 's/[0-9]*:/:/'", "/dev/fd/: ok\n"},

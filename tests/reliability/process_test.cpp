@@ -49,6 +49,20 @@ TEST_CASE("a leaf that leaks is told by the memory it takes, and whose it is whe
   CHECK_FALSE(contains(isolated.out, "memory grew by"));  // it went with the plugin's process
 }
 
+TEST_CASE("what a large tree and its recording take is not called a leak") {
+  const TemporaryDirectory directory;
+  std::string leaves;
+  for (int i = 0; i < 100'000; ++i) leaves += "<Wait seconds=\"0\"/>\n";
+  const std::string tree =
+      directory.file("tree.xml", "<root lockstep=\"1\"><BehaviorTree ID=\"Main\"><Parallel>" +
+                                     leaves + "</Parallel></BehaviorTree></root>");
+  const Outcome outcome = lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--record",
+                                    directory.path("run.jsonl")});
+  INFO(outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK_FALSE(contains(outcome.out, "memory grew by"));
+}
+
 TEST_CASE("a leaf that blocks all signals cannot keep a run from being stopped") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file("tree.xml", endless_tree({"block signals"}));
