@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <unordered_set>
+
+#include "core/utf8.h"
 
 namespace lockstep {
 namespace {
@@ -104,6 +107,17 @@ void check_order(std::span<const RecordedNode> nodes) {
   }
 }
 
+// A path is what a node is known by.
+void check_paths(std::span<const RecordedNode> nodes) {
+  constexpr std::size_t kShown = 200;  // bytes
+  std::unordered_set<std::string_view> paths;
+  paths.reserve(nodes.size());
+  for (const RecordedNode& node : nodes) {
+    if (!paths.insert(node.path).second)
+      throw BadLine(fmt::format("two nodes have the path '{}'", utf8_front(node.path, kShown)));
+  }
+}
+
 Status status_from(const Json& json) {
   constexpr std::array kAll = {Status::Idle, Status::Running, Status::Success, Status::Failure};
   const auto found = std::find_if(kAll.begin(), kAll.end(), [&](Status status) {
@@ -184,6 +198,7 @@ RecordingHeader header_from(const Json& line) {
   }
   if (header.nodes.empty()) throw BadLine("'nodes' is empty");
   check_order(header.nodes);
+  check_paths(header.nodes);
   return header;
 }
 

@@ -90,6 +90,7 @@ TEST_CASE("a header is refused for each value that is not what it must be") {
              {"\"parent\":1", "\"parent\":2", "parent of node 2 comes after it"},
              {"\"parent\":1", "\"parent\":-1", "'parent' is not a whole number"},
              {"\"parent\":1", "\"parent\":null", "node 2 is not in pre-order"},
+             {"\"path\":\"T/p\"", "\"path\":\"T/p/q\"", "two nodes have the path 'T/p/q'"},
              {"[0.5,1]", "0.5", "'barriers' is not a list of numbers"},
              {"[0.5,1]", "[\"0.5\"]", "'barriers' is not a list of numbers"},
              {"[0.5,1]", "[0.5,1.5]", "a barrier of node 0 is not in [0, 1]"},
