@@ -48,7 +48,8 @@ std::string describe(const Fault& fault, const Tree& tree, const RunEnd& end) {
                      fault.message);
 }
 
-class RunCommand {
+// There is one, and its members end in the order in which they may.
+class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
  public:
   RunCommand(const RunCommandOptions& options, const Loaded& loaded, const Tree& tree)
       : options_(options),

@@ -151,7 +151,7 @@ class Compiler {
     for_each_child(parent, [&](NodeIndex child) {
       numbered |= tree_.labels[child].name.find('#') != std::string_view::npos;
     });
-    NameTable taken(tree_.nodes[parent].children * (numbered ? 2 : 1), names_);
+    NameTable taken(std::size_t{tree_.nodes[parent].children} * (numbered ? 2 : 1), names_);
     std::deque<std::string> segments;
     for_each_child(parent, [&](NodeIndex child) {
       std::uint32_t& repeat = tree_.labels[child].repeat;

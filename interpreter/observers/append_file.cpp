@@ -52,7 +52,7 @@ std::chrono::nanoseconds now() {
 }  // namespace
 
 AppendFile::AppendFile(const std::string& path, std::size_t queue)
-    : path_(path), ring_(queue), text_(kText) {
+    : ring_(queue), path_(path), text_(kText) {
   file_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
   if (file_ < 0) {
     fail("open");

@@ -67,12 +67,12 @@ class AppendFile {
   bool claim();
   void release();
 
+  PacketRing ring_;
   const std::string path_;
   int file_ = -1;
   std::string error_;  // not touched any more once failed_
   std::atomic<bool> failed_{false};
 
-  PacketRing ring_;
   std::uint64_t called_for_ = 0;  // bytes that had been pushed when the thread was last woken
   Bell work_;                     // for the thread
   Bell done_;                     // of the thread

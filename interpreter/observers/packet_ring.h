@@ -82,10 +82,10 @@ class PacketRing {
     return position + count;
   }
 
-  std::vector<char> bytes_;
   // Apart, so that the two threads do not share a cache line.
   alignas(64) std::atomic<std::uint64_t> end_{0};
   alignas(64) std::atomic<std::uint64_t> begin_{0};
+  std::vector<char> bytes_;
 };
 
 }  // namespace lockstep
