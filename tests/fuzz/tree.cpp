@@ -1,5 +1,5 @@
-// Any text as a tree file: ends in errors with a place, or in a tree that ticks a hundred times. And
-// what a Document says of a text is what tinyxml2 says of it.
+// Any text as a tree file: ends in errors with a place, or in a tree that ticks a hundred times.
+// And what a Document says of a text is what tinyxml2 says of it.
 #include <tinyxml2.h>
 
 #include <cstdint>
