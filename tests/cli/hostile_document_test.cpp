@@ -298,6 +298,25 @@ TEST_CASE("a plugin is a name, never a path") {
   }
 }
 
+// Places are looked for only where an error is shown. In one run, so that the machine does not
+// count.
+TEST_CASE("half a million errors take little more time than half a million nodes that are right") {
+  const auto seconds = [](const std::string& node, int code) {
+    const TemporaryDirectory directory;
+    const std::string path = directory.path("tree.xml");
+    std::ofstream out(path);
+    many(kHead + "<BehaviorTree ID=\"A\"><Sequence>", 500'000, node + "\n",
+         "</Sequence></BehaviorTree></root>")(directory, out);
+    out.close();
+    const Outcome outcome = lockstep::test::lockstep({"check", path});
+    CHECK(outcome.code == code);
+    return outcome.cpu_seconds;
+  };
+  const double right = seconds("<AlwaysSuccess/>", 0);
+  CHECK(seconds("<Unknown/>", 3) < 3 * right);
+  CHECK(seconds("<Sequence/>", 3) < 3 * right);
+}
+
 TEST_CASE("arguments that expand to megabytes are refused") {
   const auto doubling = [](int times, std::string tail) {
     return [=](const TemporaryDirectory&, std::ostream& out) {
