@@ -124,7 +124,7 @@ LoopOptions RunCommandOptions::loop() const {
 }
 
 void define_run_options(CLI::App& app, RunCommandOptions& options) {
-  app.add_option("tree", options.tree, "Tree file")->type_name("TREE.xml")->required();
+  app.add_option("tree", options.tree, "Tree file; - is stdin")->type_name("TREE.xml")->required();
   define_loop_options(app, options);
   define_time_options(app, options);
   define_fault_options(app, options);

@@ -33,7 +33,7 @@ int show(const Options& options) {
 
 std::function<int()> define(CLI::App& app) {
   const auto options = std::make_shared<Options>();
-  app.add_option("tree", options->tree, "Tree file")->type_name("TREE.xml")->required();
+  app.add_option("tree", options->tree, "Tree file; - is stdin")->type_name("TREE.xml")->required();
   app.add_option("--format", options->format, "text, dot: for Graphviz, or mermaid")
       ->check(CLI::IsMember({"text", "dot", "mermaid"}))
       ->capture_default_str();
