@@ -54,7 +54,9 @@ int check(const Options& options) {
 
 std::function<int()> define(CLI::App& app) {
   const auto options = std::make_shared<Options>();
-  app.add_option("tree", options->trees, "Tree files; - is stdin")->type_name("TREE.xml")->required();
+  app.add_option("tree", options->trees, "Tree files; - is stdin")
+      ->type_name("TREE.xml")
+      ->required();
   app.add_option("--format", options->format, "human, or json: an array of messages on stdout")
       ->check(CLI::IsMember({"human", "json"}))
       ->capture_default_str();
