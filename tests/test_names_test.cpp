@@ -7,6 +7,8 @@
 #include <regex>
 #include <string>
 
+#include "support/paths.h"
+
 TEST_CASE("every test case has a name that ctest can run") {
   const std::regex kName("TEST_CASE\\(\\s*\"([^\"]*)\"");
   int count = 0;

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "support/paths.h"
+
 namespace lockstep::test {
 namespace {
 

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "cli/program.h"
+#include "support/paths.h"
 
 using namespace lockstep::test;
 

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "cli/program.h"
+#include "support/paths.h"
 
 namespace lockstep::test {
 namespace {

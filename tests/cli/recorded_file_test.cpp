@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "cli/program.h"
+#include "support/paths.h"
 
 namespace lockstep::test {
 

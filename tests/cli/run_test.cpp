@@ -3,6 +3,7 @@
 #include <regex>
 
 #include "cli/program.h"
+#include "support/paths.h"
 
 using namespace lockstep::test;
 using nlohmann::json;

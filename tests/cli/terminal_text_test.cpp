@@ -7,6 +7,7 @@
 
 #include "cli/program.h"
 #include "core/diagnostics.h"
+#include "support/paths.h"
 
 namespace lockstep::test {
 namespace {

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "cli/program.h"
+#include "support/paths.h"
 
 namespace lockstep::test {
 namespace {

@@ -24,6 +24,7 @@
 #include "plugin/plugin_set.h"
 #include "runtime/loop.h"
 #include "runtime/run.h"
+#include "support/paths.h"
 
 namespace {
 thread_local bool t_counting = false;

@@ -14,6 +14,7 @@
 #include "engine/synchronized.h"
 #include "language/pipeline.h"
 #include "runtime/run.h"
+#include "support/paths.h"
 
 namespace lockstep::test {
 namespace {

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "study/study_case.h"
+#include "support/paths.h"
 
 namespace lockstep::test {
 namespace {

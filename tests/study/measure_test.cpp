@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "study/study_case.h"
+#include "support/paths.h"
 
 namespace lockstep::test {
 namespace {

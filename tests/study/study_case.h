@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cli/program.h"
+#include "support/paths.h"
 
 namespace lockstep::test {
 

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "study/study_case.h"
+#include "support/paths.h"
 
 namespace lockstep::test {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "engine/tree.h"
 #include "plugin/plugin_set.h"
+#include "support/paths.h"
 
 namespace lockstep::test {
 

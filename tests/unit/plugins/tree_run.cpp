@@ -5,6 +5,7 @@
 #include "definition/resolve.h"
 #include "engine/compile.h"
 #include "engine/node_kind.h"
+#include "support/paths.h"
 
 namespace lockstep::test {
 namespace {
