@@ -8,6 +8,7 @@
 #include "core/diagnostics.h"
 #include "core/printable_json.h"
 #include "observers/text_line.h"
+#include "study/column_names.h"
 
 namespace lockstep {
 namespace {
@@ -45,12 +46,9 @@ std::string aligned(const std::vector<Line>& lines, std::size_t names) {
 }  // namespace
 
 std::string summary_table(const StudyPlan& plan, const std::vector<SummaryRow>& rows) {
-  Line head;
-  for (const GridAxis& axis : plan.grid) head.push_back(printable(axis.name));
+  Line head = grid_columns(plan);
   const std::size_t names = head.size() + 2;
-  for (const char* name : {"node", "measure", "min", "q1", "median", "q3", "max", "mean", "n"}) {
-    head.emplace_back(name);
-  }
+  head.insert(head.end(), kSummaryColumns.begin(), kSummaryColumns.end());
   std::vector<Line> lines{head};
   for (const SummaryRow& row : rows) {
     Line line;

@@ -1,11 +1,14 @@
 #include "study/row_text.h"
 
+#include <fmt/ranges.h>
+
 #include <charconv>
 #include <cmath>
 #include <iterator>
 #include <limits>
 
 #include "observers/recording_csv.h"
+#include "study/column_names.h"
 
 namespace lockstep {
 namespace {
@@ -17,9 +20,10 @@ std::string_view result_of(const RunEnd& end) {
 }  // namespace
 
 std::string row_header(const StudyPlan& plan) {
-  std::string header = "cell,";
-  for (const GridAxis& axis : plan.grid) header += csv_field(axis.name) + ',';
-  header += "run,seed,ticks,result";
+  const std::span<const std::string_view> names = kRowColumns;
+  std::string header = fmt::format("{},", names.front());
+  for (const std::string& name : grid_columns(plan)) header += name + ',';
+  header += fmt::format("{}", fmt::join(names.subspan(1), ","));
   for (const StudyColumn& column : plan.columns) {
     header += ',' + csv_field(column.measure + ' ' + column.node);
   }

@@ -1,9 +1,12 @@
 #include "study/table.h"
 
+#include <fmt/ranges.h>
+
 #include <cmath>
 #include <iterator>
 
 #include "observers/recording_csv.h"
+#include "study/column_names.h"
 #include "study/row_reader.h"
 
 namespace lockstep {
@@ -57,8 +60,8 @@ std::vector<SummaryRow> summarize_runs(const std::string& path, const StudyPlan&
 
 std::string summary_csv(const StudyPlan& plan, const std::vector<SummaryRow>& rows) {
   std::string text;
-  for (const GridAxis& axis : plan.grid) text += csv_field(axis.name) + ',';
-  text += "node,measure,min,q1,median,q3,max,mean,n\n";
+  for (const std::string& name : grid_columns(plan)) text += name + ',';
+  text += fmt::format("{}\n", fmt::join(kSummaryColumns, ","));
   for (const SummaryRow& row : rows) {
     for (const std::string& value : row.grid) text += csv_field(value) + ',';
     const SampleSummary& it = row.summary;

@@ -70,6 +70,18 @@ TEST_CASE("a study has a row for each run of each cell, the first name varies sl
   CHECK(summary[1].ends_with(",23"));
 }
 
+TEST_CASE("a grid over the study's seed has a column of its own, beside the seed of each run") {
+  const StudyCase it;
+  const Strings arguments{kPaper + "example5.xml", "--runs", "2", "--grid", "seed=1,2"};
+  it.make(arguments, "out");
+  const std::string runs = it.read("out", "runs.csv");
+  CHECK(runs.starts_with("cell,grid_seed,run,seed,ticks,result,"));
+  CHECK(column(runs, "grid_seed") == std::vector<double>{1, 1, 2, 2});
+  CHECK(it.read("out", "summary.csv").starts_with("grid_seed,node,measure,"));
+  const Outcome printed = it.study(arguments, "printed");
+  CHECK(printed.out.starts_with("grid_seed  node "));
+}
+
 TEST_CASE("parts put together are the study that one machine makes") {
   const StudyCase it;
   it.make(kStudy, "whole");

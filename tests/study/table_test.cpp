@@ -41,7 +41,7 @@ TEST_CASE("studies: the summary's quartiles are the medians of the halves") {
   const auto rows = summarize_runs(file, plan, error);
   CHECK(error.empty());
   CHECK(summary_csv(plan, rows) ==
-        "n,node,measure,min,q1,median,q3,max,mean,n\n"
+        "grid_n,node,measure,min,q1,median,q3,max,mean,n\n"
         "few,Main,duration,1,1.5,4,7.5,10,4.4,5\n"
         "many,Main,duration,1,1.5,2.5,5.5,8,3.5,4\n");
 }
@@ -69,6 +69,17 @@ TEST_CASE("studies: parts make each run once, with a seed of its own") {
   }
   CHECK(seen.size() == 2 * 23);
   CHECK(seeds.size() == 2 * 23);
+}
+
+TEST_CASE("studies: no two columns have the same name") {
+  StudyPlan plan = plan_of(1);  // with the grid name n, which the summary has too
+  plan.grid.push_back({GridAxis::Kind::Seed, "seed", {"7"}});
+  plan.grid.push_back({GridAxis::Kind::Argument, "grid_seed", {"8"}});
+  plan.grid.push_back({GridAxis::Kind::Argument, "noise", {"0"}});
+  CHECK(row_header(plan) ==
+        "cell,grid_n,grid_grid_seed,grid_seed,noise,run,seed,ticks,result,duration Main\n");
+  CHECK(summary_csv(plan, {}) ==
+        "grid_n,grid_grid_seed,grid_seed,noise,node,measure,min,q1,median,q3,max,mean,n\n");
 }
 
 TEST_CASE("studies: a grid name seed or rate is in force in its cells") {

@@ -1,0 +1,23 @@
+// The columns of runs.csv and summary.csv. No two columns of a file have the same name.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "study/plan.h"
+
+namespace lockstep {
+
+// In this order. A column per grid name follows the cell, those of the measures follow the result.
+constexpr std::array<std::string_view, 5> kRowColumns{"cell", "run", "seed", "ticks", "result"};
+// After a column per grid name.
+constexpr std::array<std::string_view, 9> kSummaryColumns{"node", "measure", "min",  "q1", "median",
+                                                          "q3",   "max",     "mean", "n"};
+
+// The column of each grid name, in both files: the name itself, or grid_<name> where a column of
+// ours is called so, as of `--grid seed=1,2`.
+std::vector<std::string> grid_columns(const StudyPlan& plan);
+
+}  // namespace lockstep
