@@ -29,8 +29,9 @@ struct Document::Implementation {
   std::string text;
   std::vector<Element> elements;
   std::vector<Attribute> attributes;
-  std::vector<std::uint32_t> coded;  // attributes whose values the reader has to read
-  std::deque<std::string> values;    // those that are not as the text has them; never moved
+  std::vector<std::uint32_t> coded;      // attributes whose values the reader has to read
+  std::vector<std::string_view> unread;  // parts of the text that the reader must not see
+  std::deque<std::string> values;        // those that are not as the text has them; never moved
   std::optional<Lines> lines;
 
   std::size_t offset_of(std::string_view part) const {
@@ -56,6 +57,7 @@ struct Document::Implementation {
 
   bool check(Diagnostics& diagnostics);
   bool read(Diagnostics& diagnostics);
+  std::string without_unread() const;
   void read_values(const tinyxml2::XMLElement* root);
 };
 
@@ -74,14 +76,24 @@ bool Document::Implementation::check(Diagnostics& diagnostics) {
   elements = std::move(written.elements);
   attributes = std::move(written.attributes);
   coded = std::move(written.coded);
+  unread = std::move(written.unread);
   return written.readable;
+}
+
+// Blanks are where it was: they are not part of any value.
+std::string Document::Implementation::without_unread() const {
+  std::string blanked = text;
+  for (const auto part : unread) blanked.replace(offset_of(part), part.size(), part.size(), ' ');
+  return blanked;
 }
 
 // The reader's own document takes several times the memory of the elements: it is gone before
 // anything is made from them.
 bool Document::Implementation::read(Diagnostics& diagnostics) {
   tinyxml2::XMLDocument xml;
-  if (xml.Parse(text.data(), text.size()) == tinyxml2::XML_SUCCESS) {
+  const std::string blanked = unread.empty() ? std::string() : without_unread();
+  const std::string& readable = unread.empty() ? text : blanked;
+  if (xml.Parse(readable.data(), readable.size()) == tinyxml2::XML_SUCCESS) {
     read_values(xml.RootElement());
     return true;
   }

@@ -49,6 +49,9 @@ std::optional<XmlFault> check_encoding(std::string_view text) {
     const auto length =
         static_cast<unsigned char>(text[i]) < 0x20 ? 0 : utf8_length(text.substr(i));
     if (length == 0) return bad_byte(text, i);
+    // U+FFFE and U+FFFF.
+    if (const auto end = text.substr(i, 3); end == "\xEF\xBF\xBE" || end == "\xEF\xBF\xBF")
+      return XmlFault{i, "a character that XML does not allow (U+FFFE or U+FFFF)"};
     i += length;
   }
   return std::nullopt;

@@ -9,8 +9,11 @@ namespace {
 
 bool is_xml_character(std::uint32_t code) {
   if (code < 0x20) return code == '\t' || code == '\n' || code == '\r';
-  return (code < 0xD800 || code > 0xDFFF) && code <= 0x10FFFF;
+  return (code < 0xD800 || code > 0xDFFF) && code != 0xFFFE && code != 0xFFFF && code <= 0x10FFFF;
 }
+
+constexpr std::string_view kInReference =
+    "#0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
 
 std::optional<RawUnit> read_number(std::string_view digits, std::size_t raw) {
   const int base = digits.starts_with('x') ? 16 : 10;
@@ -33,9 +36,9 @@ RawUnit read_unit(std::string_view raw) {
 }  // namespace
 
 std::optional<RawUnit> read_reference(std::string_view raw) {
-  constexpr std::size_t kLongest = 12;  // zeros may lead a number, but not without end
-  const auto end = raw.substr(0, kLongest).find(';');
-  if (end == std::string_view::npos) return std::nullopt;
+  // Zeros may lead a number, so it may be long.
+  const auto end = std::min(raw.find_first_not_of(kInReference, 1), raw.size());
+  if (!raw.substr(end).starts_with(';')) return std::nullopt;
   const auto name = raw.substr(1, end - 1);
   if (name.starts_with('#')) return read_number(name.substr(1), end + 1);
   constexpr std::string_view kNames[] = {"lt", "gt", "amp", "quot", "apos"};

@@ -8,14 +8,9 @@
 #include <string>
 #include <string_view>
 
-namespace lockstep {
+#include "document/cursor.h"
 
-// What is wrong at a byte of a text. (Fault is that of a leaf: engine/ticker.h.)
-struct XmlFault {
-  std::size_t offset = 0;
-  std::string message;
-  std::string hint = {};
-};
+namespace lockstep {
 
 enum class TokenKind {
   OpenTag,      // <name
@@ -33,15 +28,16 @@ enum class TokenKind {
 
 struct Token {
   TokenKind kind = TokenKind::End;
-  std::size_t begin = 0;        // its first byte
-  std::string_view name = {};   // of a tag or an attribute
-  std::string_view value = {};  // of an attribute, between the quotes; of Text, what counts
-  bool is_coded = false;        // a value with a reference or a line end: it is read as another
+  std::size_t begin = 0;       // its first byte
+  std::string_view name = {};  // of a tag or an attribute
+  // Of an attribute, between the quotes; of Text, what counts; of an Instruction or a Doctype, all.
+  std::string_view value = {};
+  bool is_coded = false;  // a value with a reference or a line end: it is read as another
 };
 
 class Scanner {
  public:
-  explicit Scanner(std::string_view text) : text_(text) {}
+  explicit Scanner(std::string_view text) : text_(text), at_(text) {}
 
   // The next token. After End or Fault, that one again.
   Token next();
@@ -56,25 +52,20 @@ class Scanner {
   Token markup();
   Token declaration();
   Token no_tag(std::size_t offset);
-  Token attribute();
+  Token attribute(std::size_t begin, std::string_view name);
   Token close_tag();
-  Token enclosed(TokenKind kind, std::string_view open, std::string_view close,
-                 std::string_view what);
-  Token doctype();
+  Token comment();
+  Token character_data();
+  // `skip` moves behind it.
+  Token skipped(TokenKind kind, std::optional<XmlFault> (*skip)(Cursor&));
   Token fail(std::size_t offset, std::string message, std::string hint = {});
-  std::string_view take_name();
-  bool skip_blanks();
-  std::string_view rest() const { return text_.substr(position_); }
+  std::string_view rest() const { return at_.rest(); }
 
   std::string_view text_;
-  std::size_t position_ = 0;
+  Cursor at_;
   std::string_view tag_;  // the tag that is open: its attributes come next
   std::size_t tag_begin_ = 0;
   std::optional<XmlFault> fault_;
 };
-
-constexpr bool is_xml_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\n';
-}
 
 }  // namespace lockstep

@@ -45,10 +45,10 @@ class Checker {
       case TokenKind::Text:
         return text(token);
       case TokenKind::Instruction:
-        return instruction(token);
+        if (token.begin > 0) result_.unread.push_back(token.value);
+        return;
       case TokenKind::Doctype:
-        if (has_root()) stop({token.begin, "a DOCTYPE stands before the root element"});
-        [[fallthrough]];
+        return doctype(token);
       case TokenKind::Comment:
         prolog_ = false;
         return;
@@ -132,8 +132,12 @@ class Checker {
     add({offset, "text is not part of the language", "put it into a comment: <!-- … -->"});
   }
 
-  void instruction(const Token& token) {
-    if (!prolog_) stop({token.begin, "a processing instruction stands at the top of the file"});
+  void doctype(const Token& token) {
+    if (has_root()) return stop({token.begin, "a DOCTYPE stands before the root element"});
+    if (has_doctype_) return stop({token.begin, "a second DOCTYPE"});
+    result_.unread.push_back(token.value);
+    has_doctype_ = true;
+    prolog_ = false;
   }
 
   void end(const Token& token) {
@@ -183,6 +187,7 @@ class Checker {
   std::vector<std::uint32_t> open_;      // elements
   std::vector<std::string_view> names_;  // of the attributes of one element
   bool stopped_ = false;
+  bool has_doctype_ = false;
   bool prolog_ = true;  // nothing but processing instructions so far
   WellFormed result_;
 };

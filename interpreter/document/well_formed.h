@@ -28,6 +28,8 @@ struct WellFormed {
   std::vector<Element> elements;
   std::vector<Attribute> attributes;
   std::vector<std::uint32_t> coded;  // those whose values the reader reads as others
+  // Processing instructions and the like: XML, but where the reader does not take it.
+  std::vector<std::string_view> unread;
 };
 
 WellFormed check_well_formed(std::string_view text);

@@ -47,9 +47,21 @@ TEST_CASE("what is not an element does not count") {
         "r[2] a[2] ");
 }
 
+TEST_CASE("processing instructions and a DOCTYPE may stand wherever XML allows them") {
+  CHECK(outline(*parse("<?xml version='1.0' encoding='us-ascii' standalone='no' ?><?a?>\n"
+                       "<!-- --><!DOCTYPE r PUBLIC '-//x' \"a>b\"><?b c='<?'?>\n"
+                       "<r><?c &lt;?><a x='&lt;'><?d <x/> ?></a></r>\n<?e ?\?><!-- --><?f?>")) ==
+        "r[2] a[2](x=<) ");
+  CHECK(outline(
+            *parse("\xEF\xBB\xBF<?xml version=\"1.1\" encoding = \"utf-8\"?><!DOCTYPE r><é·/>")) ==
+        "é·[1] ");
+}
+
 TEST_CASE("references in values are resolved") {
   CHECK(outline(*parse("<r a='&lt;&gt;&amp;&quot;&apos;&#65;&#x20AC;&amp;lt;'/>")) ==
         "r[1](a=<>&\"'A€&lt;) ");
+  CHECK(outline(*parse("<r a='&#00000000000000000065;&#x00000000000000000020AC;'/>")) ==
+        "r[1](a=A€) ");
 }
 
 TEST_CASE("elements and attributes are found in the original bytes") {

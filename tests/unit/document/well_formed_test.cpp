@@ -58,8 +58,45 @@ TEST_CASE("what is not XML is told with its exact place") {
       {"comment left open", "<r>\n<!-- <a> ->\n</r>", "f:2:1: the comment is not closed"},
       {"CDATA left open", "<r><![CDATA[ </r>", "f:1:4: the CDATA section is not closed"},
       {"instruction left open", "<?xml <r/>", "f:1:1: the processing instruction is not closed"},
-      {"late instruction", "<r>\n <?x y?></r>",
-       "f:2:2: a processing instruction stands at the top of the file"},
+      {"instruction without a name", "<?1?><r/>",
+       "f:1:1: '<?' needs the name of the processing instruction"},
+      {"instruction with a reserved name", "<r/><?XML ?>",
+       "f:1:5: a processing instruction cannot be named 'XML'"},
+      {"no blank after the name", "<?x+?><r/>", "f:1:4: expected a blank after '<?x'"},
+      {"blank before the declaration", " <?xml version='1.0'?><r/>",
+       "f:1:2: the XML declaration stands at the very beginning of the file, once"},
+      {"a second declaration", "<?xml version='1.0'?>\n<?xml version='1.0'?><r/>",
+       "f:2:1: the XML declaration stands at the very beginning of the file, once"},
+      {"declaration without a version", "<?xml encoding='UTF-8'?><r/>",
+       "f:1:6: the XML declaration is malformed"},
+      {"version of the future", "<?xml version='2.0'?><r/>",
+       "f:1:16: the XML declaration is malformed"},
+      {"declaration in another order",
+       "<?xml version='1.0' standalone='yes' encoding='UTF-8'?><r/>",
+       "f:1:37: the XML declaration is malformed"},
+      {"standalone perhaps", "<?xml version='1.0' standalone='perhaps'?><r/>",
+       "f:1:33: the XML declaration is malformed"},
+      {"no blank in the declaration", "<?xml version='1.0'encoding='UTF-8'?><r/>",
+       "f:1:20: the XML declaration is malformed"},
+      {"declaration with an open quote", "<?xml version='1.0?><r/>",
+       "f:1:16: the XML declaration is malformed"},
+      {"another encoding is declared", "<?xml version='1.0' encoding='UTF-16'?><r/>",
+       "f:1:31: the file is UTF-8, but declares 'UTF-16'"},
+      {"Latin-1 is declared of what is not ASCII",
+       "<?xml version='1.0' encoding='ISO-8859-1'?><r a='é'/>",
+       "f:1:31: the file is UTF-8, but declares 'ISO-8859-1'"},
+      {"DOCTYPE without a name", "<!DOCTYPE><r/>", "f:1:10: the DOCTYPE is malformed"},
+      {"DOCTYPE with a word too many", "<!DOCTYPE r x><r/>", "f:1:13: the DOCTYPE is malformed"},
+      {"DOCTYPE that names no file", "<!DOCTYPE r SYSTEM><r/>", "f:1:19: the DOCTYPE is malformed"},
+      {"DOCTYPE with half a public name", "<!DOCTYPE r PUBLIC 'a'><r/>",
+       "f:1:23: the DOCTYPE is malformed"},
+      {"two DOCTYPEs", "<!DOCTYPE r><!DOCTYPE r><r/>", "f:1:13: a second DOCTYPE"},
+      {"-- in a comment", "<r>\n<!-- run --seed 1 --></r>", "f:2:10: '--' in a comment"},
+      {"a comment that ends in --->", "<r><!-- x ---></r>", "f:1:11: '--' in a comment"},
+      {"a sign is no name", "<r><×/></r>", "f:1:4: '<' does not begin a tag"},
+      {"a sign ends a name", "<r×/>", "f:1:3: unexpected '×' in the tag '<r'"},
+      {"a combining mark begins no name", "<r \u0300='1'/>",
+       "f:1:4: unexpected '\u0300' in the tag '<r'"},
       {"late DOCTYPE", "<r/><!DOCTYPE r>", "f:1:5: a DOCTYPE stands before the root element"},
       {"definitions", "<!DOCTYPE r [<!ENTITY x 'y'>]><r/>",
        "f:1:13: definitions in a DOCTYPE are not supported"},
@@ -79,6 +116,10 @@ TEST_CASE("what is not text in UTF-8 is told with its exact place") {
       {"Latin-1", "<r a='\xe9'/>", "f:1:7: byte \\xE9 is not UTF-8"},
       {"cut character", "<r/>\n\xe2\x82", "f:2:1: byte \\xE2 is not UTF-8"},
       {"control character", "<r a='\x1b'/>", "f:1:7: control character \\x1B in the text"},
+      {"U+FFFE", "<r a='\xEF\xBF\xBE'/>",
+       "f:1:7: a character that XML does not allow (U+FFFE or U+FFFF)"},
+      {"U+FFFF", "<!-- \xEF\xBF\xBF --><r/>",
+       "f:1:6: a character that XML does not allow (U+FFFE or U+FFFF)"},
   };
   for (const auto& row : rows) check(row);
 
@@ -89,9 +130,10 @@ TEST_CASE("what is not text in UTF-8 is told with its exact place") {
 
 TEST_CASE("text in an element and unknown references leave the document readable") {
   Diagnostics diagnostics;
-  const auto document = Document::parse(
-      "f", "<r>\n  hello <a b='1 & 2 &x; &amp; &#0; &#x110000; &#99'/>\n<![CDATA[ x]]> &lt;</r>",
-      diagnostics);
+  const auto document = Document::parse("f",
+                                        "<r>\n  hello <a b='1 & 2 &x; &amp; &#0; &#x110000; "
+                                        "&#xFFFE; &#99'/>\n<![CDATA[ x]]> &lt;</r>",
+                                        diagnostics);
   CHECK(told(diagnostics) == std::vector<std::string>{
                                  "f:2:3: text is not part of the language",
                                  "f:2:17: '&' begins no reference that is known",
@@ -99,6 +141,7 @@ TEST_CASE("text in an element and unknown references leave the document readable
                                  "f:2:31: '&' begins no reference that is known",
                                  "f:2:36: '&' begins no reference that is known",
                                  "f:2:47: '&' begins no reference that is known",
+                                 "f:2:56: '&' begins no reference that is known",
                                  "f:3:11: text is not part of the language",
                                  "f:3:16: text is not part of the language",
                              });

@@ -1,0 +1,84 @@
+// A place in an XML text that moves on over blanks, names and quoted texts: what the scanner of
+// tags and the grammar of what stands around them (prolog.h) have in common.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace lockstep {
+
+// What is wrong at a byte of a text. (Fault is that of a leaf: engine/ticker.h.)
+struct XmlFault {
+  std::size_t offset = 0;
+  std::string message;
+  std::string hint = {};
+};
+
+constexpr bool is_xml_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
+
+// The bytes at the front of `text` that make a name, in XML 1.0. `text` is UTF-8.
+std::size_t xml_name_length(std::string_view text);
+
+class Cursor {
+ public:
+  explicit Cursor(std::string_view text) : text_(text) {}
+
+  std::string_view text() const { return text_; }
+  std::size_t position() const { return position_; }
+  void go_to(std::size_t position) { position_ = position; }
+  std::string_view rest() const { return text_.substr(position_); }
+
+  bool skip(std::string_view word) {
+    const bool is_here = rest().starts_with(word);
+    if (is_here) position_ += word.size();
+    return is_here;
+  }
+
+  bool skip_blanks() {
+    const auto begin = position_;
+    while (position_ < text_.size() && is_xml_blank(text_[position_])) ++position_;
+    return position_ > begin;
+  }
+
+  // "" when no name begins here.
+  std::string_view take_name() {
+    const auto begin = position_;
+    if (begin == text_.size() || (class_of(text_[begin]) & (kStart | kWide)) == 0) return {};
+    unsigned seen = 0;
+    for (; position_ < text_.size() && class_of(text_[position_]) != kOther; ++position_)
+      seen |= class_of(text_[position_]);
+    if ((seen & kWide) != 0)
+      position_ = begin + xml_name_length(text_.substr(begin, position_ - begin));
+    return text_.substr(begin, position_ - begin);
+  }
+
+  // What stands between the quotes that begin here; nothing when none do or they are not closed.
+  std::optional<std::string_view> take_quoted();
+
+ private:
+  // A look at this table for each byte of a name is what the check of a correct file costs. Which
+  // of the bytes beyond ASCII belong to a name is looked at only where there are some.
+  enum : std::uint8_t { kOther = 0, kStart = 1, kPart = 2, kWide = 4 };
+  static constexpr std::uint8_t class_of(char c) { return kClasses[static_cast<unsigned char>(c)]; }
+  static constexpr auto kClasses = [] {
+    std::array<std::uint8_t, 256> classes{};
+    for (unsigned c = 'a'; c <= 'z'; ++c) classes[c] = kStart;
+    for (unsigned c = 'A'; c <= 'Z'; ++c) classes[c] = kStart;
+    for (unsigned c = '0'; c <= '9'; ++c) classes[c] = kPart;
+    for (unsigned c = 0x80; c <= 0xFF; ++c) classes[c] = kWide;
+    classes['_'] = classes[':'] = kStart;
+    classes['-'] = classes['.'] = kPart;
+    return classes;
+  }();
+
+  std::string_view text_;
+  std::size_t position_ = 0;
+};
+
+}  // namespace lockstep
