@@ -172,6 +172,11 @@ bool is_ending(pid_t process) {
   return ended;
 }
 
+// The number that 'crash' logs of the process it has started: "Test/leaf0: 4711".
+std::string offspring_in(const std::string& line) {
+  return line.substr(line.rfind(' ') + 1);
+}
+
 TEST_CASE("isolated: what a plugin has started ends with its process") {
   const NothingRemains nothing_remains;
   pid_t offspring = 0;
@@ -179,7 +184,7 @@ TEST_CASE("isolated: what a plugin has started ends with its process") {
     Leaves leaves("crash", {crash_in("tick", "fork")});
     CHECK(leaves.tick().empty());
     REQUIRE(leaves.log.size() == 2);
-    offspring = std::stoi(leaves.log[1].substr(leaves.log[1].find(' ')));
+    offspring = std::stoi(offspring_in(leaves.log[1]));
     REQUIRE(kill(offspring, 0) == 0);
   }
   CHECK(is_ending(offspring));
@@ -193,7 +198,8 @@ TEST_CASE("isolated: a host that is about to be killed", "[.]") {
   Leaves leaves("crash", {crash_in("tick", "fork"), crash_in("tick", "hang")}, Isolation::Isolated,
                 std::chrono::seconds(100));
   leaves.tick(0);
-  std::ofstream(std::getenv("LOCKSTEP_TEST_DOOMED")) << leaves.log.back().substr(13) << std::flush;
+  std::ofstream(std::getenv("LOCKSTEP_TEST_DOOMED"))
+      << offspring_in(leaves.log.back()) << std::flush;
   std::thread([] { kill(getpid(), SIGKILL); }).detach();
   leaves.tick(1);
 }

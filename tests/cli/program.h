@@ -52,9 +52,12 @@ class Process {
   // Forgets what it has printed so far.
   void clear_output() { outcome_ = {}; }
   Outcome finish();
+  // The same after the signal, which is sent again where it may have been lost.
+  Outcome end_by(int number);
 
  private:
-  bool read_more();  // false at the end of both
+  bool has_more(int milliseconds) const;  // or the end
+  bool read_more();                       // false at the end of both
   void write_input(const std::string& input);
 
   pid_t pid_ = -1;

@@ -166,8 +166,7 @@ TEST_CASE("however a replay ends, the terminal is as it was") {
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGSEGV, SIGABRT}) {
     Process process({.arguments = {"replay", file, "--speed", "0.001"}}, Process::Output::Terminal);
     REQUIRE(process.wait_for("tick 0 of 3"));
-    process.signal(number);
-    const Outcome outcome = process.finish();
+    const Outcome outcome = process.end_by(number);
     CAPTURE(number);
     CHECK(outcome.code == 128 + number);
     CHECK(!outcome.terminal_is_raw);
