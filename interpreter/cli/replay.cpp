@@ -65,12 +65,12 @@ int print_tick(const Options& options, RecordingReader& reader) {
   constexpr unsigned kUnlimited = 1'000'000;
   const TreeShape shape = shape_of(reader.header());
   const bool ended = moment.tick == found.last && reader.end();
-  const std::string text =
-      draw_moment(shape, snapshot_of(reader.header(), shape, moment, ended), moment,
-                  {.width = kUnlimited,
-                   .height = kUnlimited,
-                   .color = wants_color(stdout),
-                   .unicode = has_unicode()});
+  const std::string text = draw_moment(
+      shape, snapshot_of(reader.header(), shape, moment, ended ? &*reader.end() : nullptr), moment,
+      {.width = kUnlimited,
+       .height = kUnlimited,
+       .color = wants_color(stdout),
+       .unicode = has_unicode()});
   const bool written =
       std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
   const int out = end_of_stdout(written);

@@ -49,13 +49,14 @@ class Session {
   void show() {
     const RecordingTimeline& timeline = player_.timeline();
     const TerminalSize size = terminal_size(stdout);
-    const bool ended = timeline.at_end() && timeline.outcome().end;
-    std::string frame =
-        draw_replay(shape_, snapshot_of(header_, shape_, timeline.now(), ended), player_,
-                    {.width = size.width,
-                     .height = size.height,
-                     .color = wants_color(stdout),
-                     .unicode = has_unicode()});
+    const auto& end = timeline.outcome().end;
+    const bool ended = timeline.at_end() && end;
+    std::string frame = draw_replay(
+        shape_, snapshot_of(header_, shape_, timeline.now(), ended ? &*end : nullptr), player_,
+        {.width = size.width,
+         .height = size.height,
+         .color = wants_color(stdout),
+         .unicode = has_unicode()});
     if (frame == shown_) return;
     screen_.show("", frame);
     shown_ = std::move(frame);

@@ -57,11 +57,13 @@ NodeIndex Ticker::end_activation(NodeIndex node) {
 void Ticker::halt_range(NodeIndex first, NodeIndex last) {
   // After a fault all halts are halt_all's, so that they come in one order.
   for (NodeIndex node = first; node < last && !faulted_;) node = end_activation(node);
+  // A fault of a leaf's halt: its siblings may still run, so the nodes around them do too.
+  if (faulted_) [[unlikely]]
+    keep_ancestors_running(fault_.node);
 }
 
-// A fault may have stopped a halt in its middle, so here an idle node can have running descendants.
 void Ticker::halt_all() {
-  for (NodeIndex node = 0; node < tree_.nodes.size(); ++node) end_activation(node);
+  for (NodeIndex node = 0; node < tree_.nodes.size();) node = end_activation(node);
 }
 
 void Ticker::halt_running_children(NodeIndex node) {
@@ -92,6 +94,13 @@ void Ticker::set_fault(NodeIndex node, std::string message) {
   if (faulted_) return;  // the first is the cause
   faulted_ = true;
   fault_ = Fault{node, std::move(message)};
+}
+
+void Ticker::keep_ancestors_running(NodeIndex node) {
+  while (node != 0) {
+    node = tree_.labels[node].parent;
+    if (status(node) != Status::Running) state_.activity[node] = Activity::Running;
+  }
 }
 
 void Ticker::reset() {

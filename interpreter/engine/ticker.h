@@ -36,13 +36,15 @@ class Ticker {
   // --- for node kinds, inside a tick -------------------------------------------------------------
 
   // Ticks a node and keeps its status. At most once per node and tick. After a fault it does
-  // nothing.
+  // nothing, and the control nodes that are in their tick judge nothing: all of them stay Running.
   Status tick(NodeIndex node) {
-    if (faulted_) return Status::Running;  // which stops every control node where it is
+    if (faulted_) return Status::Running;
     Activity& activity = state_.activity[node];
     const Node& it = tree_.nodes[node];
     if (is_complete(status_of(activity)) && it.children != 0) forget_descendants(node);
-    const Status status = it.kind->tick(*this, node);
+    Status status = it.kind->tick(*this, node);
+    if (faulted_) [[unlikely]]
+      status = Status::Running;
     activity = static_cast<Activity>(status);
     state_.last_tick[node] = tick_number_;
     return status;
@@ -104,7 +106,7 @@ class Ticker {
   // The time of the next tick. It must not fall. Progress asked for from now on is as of then.
   void set_now(Nanoseconds now) { now_ = now; }
 
-  // Ticks the root once. The result is Running while the tree runs; after a fault it means nothing.
+  // Ticks the root once. The result is Running while the tree runs, and after a fault.
   Status tick_root(Nanoseconds now);
 
   // Halts every running leaf; what a leaf does wrong in halt becomes the fault if there is none.
@@ -128,6 +130,7 @@ class Ticker {
  private:
   void forget_descendants(NodeIndex node);
   NodeIndex end_activation(NodeIndex node);
+  void keep_ancestors_running(NodeIndex node);
   std::byte* state_bytes() { return reinterpret_cast<std::byte*>(state_.bytes.data()); }
 
   const Tree& tree_;

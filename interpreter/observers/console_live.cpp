@@ -45,7 +45,6 @@ void ConsoleLive::after_tick(Ticker& ticker, const TickReport& report) {
   header_.tick = report.tick;
   header_.time = report.time;
   *header_.overruns += report.skipped > 0;
-  header_.result = report.status;
   for (const Fault& fault : report.faults) print(fault_text(tree_, fault, report.tick));
   activity_ = ticker.run_state().activity;
   const auto now = std::chrono::steady_clock::now();
@@ -55,8 +54,8 @@ void ConsoleLive::after_tick(Ticker& ticker, const TickReport& report) {
 }
 
 // By now everything has been halted; what stays on the screen is where the last tick left it.
-void ConsoleLive::run_ended(Ticker& ticker, const RunEnd&) {
-  header_.ended = true;
+void ConsoleLive::run_ended(Ticker& ticker, const RunEnd& end) {
+  header_.result = end.result();
   publish(ticker);
   stop();
 }

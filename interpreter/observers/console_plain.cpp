@@ -45,7 +45,7 @@ void ConsolePlain::run_ended(Ticker& ticker, const RunEnd& end) {
   after_tick(ticker, {});
   tell_left_out();
   if (ticker.fault() != nullptr) print("fault: " + fault_text(ticker));
-  print(fmt::format("run ends: {} ({}) after {}", result_text(end.status), to_string(end.reason),
+  print(fmt::format("run ends: {} ({}) after {}", to_string(end.result()), to_string(end.reason),
                     counted(end.ticks, "tick")));
 }
 

@@ -75,7 +75,7 @@ bool Recorder::push_tick(Ticker& ticker, const TickReport& report) {
 }
 
 void Recorder::run_ended(Ticker& ticker, const RunEnd& end) {
-  RecordedEnd closing{.result = std::string(result_text(end.status)),
+  RecordedEnd closing{.result = std::string(to_string(end.result())),
                       .reason = std::string(to_string(end.reason)),
                       .fault = fault_text(ticker),
                       .signal = {},

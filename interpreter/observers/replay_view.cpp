@@ -27,6 +27,13 @@ std::string where(const ReplayPlayer& player) {
                      player.speed());
 }
 
+RunResult result_of(const RecordedEnd& end) {
+  for (const RunResult result : {RunResult::Success, RunResult::Failure, RunResult::Fault}) {
+    if (end.result == to_string(result)) return result;
+  }
+  return RunResult::Stopped;
+}
+
 void add_warnings(TextLine& line, const TreeShape& shape, const RecordingTimeline& timeline) {
   const Moment& now = timeline.now();
   if (now.lost > 0) {
@@ -62,15 +69,15 @@ void add_keys(TextLine& line, const ReplayPlayer& player, const DrawOptions& opt
 }  // namespace
 
 Snapshot snapshot_of(const RecordingHeader& header, const TreeShape& shape, const Moment& moment,
-                     bool ended) {
+                     const RecordedEnd* end) {
   Snapshot snapshot{.header = {.rate_hz = header.rate_hz,
                                .real_time = header.clock != "virtual",
                                .tick = moment.tick,
                                .time = from_seconds(moment.time),
                                .overruns = {},
-                               .result = moment.nodes[0].status,
-                               .ended = ended},
+                               .result = {}},
                     .nodes = std::vector<NodeView>(moment.nodes.size())};
+  if (end != nullptr) snapshot.header.result = result_of(*end);
   for (NodeIndex node = 0; node < snapshot.nodes.size(); ++node) {
     const RecordedState& state = moment.nodes[node];
     NodeView& view = snapshot.nodes[node];

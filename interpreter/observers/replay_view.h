@@ -7,9 +7,9 @@
 
 namespace lockstep {
 
-// `ended`: the run ended with this tick.
+// `end`: of the run, when it ended with this tick; else null.
 Snapshot snapshot_of(const RecordingHeader& header, const TreeShape& shape, const Moment& moment,
-                     bool ended);
+                     const RecordedEnd* end);
 
 // One tick as a whole: all nodes, then its faults.
 std::string draw_moment(const TreeShape& shape, const Snapshot& snapshot, const Moment& moment,

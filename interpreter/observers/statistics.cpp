@@ -34,7 +34,7 @@ void Statistics::run_ended(Ticker& ticker, const RunEnd& end) {
 }
 
 Summary Statistics::summary() const {
-  Summary summary{.status = end_.status,
+  Summary summary{.result = end_.result(),
                   .reason = end_.reason,
                   .signal = end_.signal,
                   .fault = fault_,

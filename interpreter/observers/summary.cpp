@@ -9,7 +9,6 @@
 
 #include "core/diagnostics.h"
 #include "core/printable_json.h"
-#include "observers/style.h"
 
 namespace lockstep {
 namespace {
@@ -21,7 +20,7 @@ std::string why(const Summary& summary) {
     case StopReason::Completed:
       return {};
     case StopReason::Fault:
-      return "a leaf failed: " + printable(summary.fault);
+      return printable(summary.fault);
     case StopReason::Timeout:
       return "the time limit was reached";
     case StopReason::MaxTicks:
@@ -34,12 +33,6 @@ std::string why(const Summary& summary) {
       return "the recording cannot be written";
   }
   return {};
-}
-
-Style result_style(const Summary& summary) {
-  if (summary.reason == StopReason::Fault) return Style::Bad;
-  if (summary.status == Status::Success) return Style::Good;
-  return summary.status == Status::Failure ? Style::Bad : Style::Warning;
 }
 
 std::string timing(const Summary& summary) {
@@ -114,8 +107,14 @@ Json json_of(const std::vector<LeafTimingSummary>& leaves) {
 
 }  // namespace
 
-std::string_view result_text(Status status) {
-  return is_complete(status) ? to_string(status) : std::string_view("stopped");
+std::string_view to_string(RunResult result) {
+  constexpr std::string_view kNames[] = {"success", "failure", "stopped", "fault"};
+  return kNames[static_cast<unsigned>(result)];
+}
+
+Style style_of(RunResult result) {
+  if (result == RunResult::Success) return Style::Good;
+  return result == RunResult::Stopped ? Style::Warning : Style::Bad;
 }
 
 std::string counted(std::uint64_t count, std::string_view noun) {
@@ -163,7 +162,7 @@ void write_text(const SynchronizedSummary& node, std::FILE* out, bool color) {
 }
 
 void write_text(const Summary& summary, std::FILE* out, bool color) {
-  const auto result = styled(result_text(summary.status), result_style(summary), color);
+  const auto result = styled(to_string(summary.result), style_of(summary.result), color);
   const std::string reason = why(summary);
   fmt::print(out, "{}{}{} after {}, {:.3f} s\n", result, reason.empty() ? "" : ": ", reason,
              counted(summary.ticks, "tick"), summary.seconds);
@@ -176,7 +175,7 @@ void write_text(const Summary& summary, std::FILE* out, bool color) {
 }
 
 std::string to_json(const Summary& summary) {
-  Json json = {{"result", result_text(summary.status)}, {"reason", to_string(summary.reason)}};
+  Json json = {{"result", to_string(summary.result)}, {"reason", to_string(summary.reason)}};
   if (summary.reason == StopReason::Fault) json["fault"] = summary.fault;
   if (summary.reason == StopReason::Signal) json["signal"] = summary.signal;
   json["ticks"] = summary.ticks;

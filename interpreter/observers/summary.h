@@ -9,12 +9,14 @@
 #include <vector>
 
 #include "measure/synchronized_measure.h"
+#include "observers/style.h"
 #include "runtime/observer.h"
 
 namespace lockstep {
 
-// "success", "failure", or "stopped" when the tree was still running.
-std::string_view result_text(Status status);
+// "success", "failure", "stopped" or "fault".
+std::string_view to_string(RunResult result);
+Style style_of(RunResult result);
 // "completed", "fault", "timeout", "max_ticks", "signal", "overrun" or "recording", as recordings
 // and JSON spell it.
 std::string_view to_string(StopReason reason);
@@ -60,7 +62,7 @@ struct WorstTickSummary {
 };
 
 struct Summary {
-  Status status = Status::Running;  // of the root after the last tick
+  RunResult result = RunResult::Stopped;
   StopReason reason = StopReason::Completed;
   int signal = 0;     // when reason is Signal
   std::string fault;  // when reason is Fault: "Door/pull/arm: threw …"

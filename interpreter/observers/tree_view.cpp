@@ -73,11 +73,9 @@ class View {
       const Style style = *is.overruns == 0 ? Style::Plain : Style::Warning;
       line.add(fmt::format("  overruns {}", *is.overruns), style);
     }
-    if (is.ended) {
-      const bool complete = is_complete(is.result);
+    if (is.result) {
       line.add("  ");
-      line.add(result_text(is.result),
-               complete ? look_of(static_cast<Activity>(is.result)).style : Style::Warning);
+      line.add(to_string(*is.result), style_of(*is.result));
     }
     return line.text() + "\n";
   }

@@ -10,6 +10,7 @@
 #include "core/clock.h"
 #include "engine/run_state.h"
 #include "observers/tree_shape.h"
+#include "runtime/observer.h"
 
 namespace lockstep {
 
@@ -32,8 +33,7 @@ struct Snapshot {
     Nanoseconds time{0};
     // Ticks that ended after the next deadline; none: not known, as of a recording.
     std::optional<std::uint64_t> overruns = 0;
-    Status result = Status::Running;  // of the root
-    bool ended = false;
+    std::optional<RunResult> result = {};  // once the run has ended
   } header;
   std::vector<NodeView> nodes;  // by index
 };

@@ -43,6 +43,13 @@ struct WorstTick {
   Nanoseconds leaf_took{0};
 };
 
+enum class RunResult : std::uint8_t {
+  Success,  // of the root
+  Failure,  // of the root
+  Stopped,  // while the root was still running
+  Fault     // a leaf failed as a program
+};
+
 struct RunEnd {
   StopReason reason = StopReason::Completed;
   Status status = Status::Running;  // of the root after the last tick
@@ -52,6 +59,12 @@ struct RunEnd {
   std::uint64_t overruns = 0;  // ticks that ended after the next deadline
   std::uint64_t skipped = 0;   // deadlines passed over because of them
   WorstTick worst;
+
+  RunResult result() const {
+    if (reason == StopReason::Fault) return RunResult::Fault;
+    if (reason != StopReason::Completed) return RunResult::Stopped;
+    return status == Status::Success ? RunResult::Success : RunResult::Failure;
+  }
 };
 
 class Observer {

@@ -208,6 +208,25 @@ TEST_CASE("a leaf that fails as a program is 5, it is named, the others are halt
   CHECK(json::parse(fault.out)["reason"] == "fault");
 }
 
+TEST_CASE("the result of a run that a fault ended is fault, whatever its siblings returned") {
+  const Simulation it(
+      "<Parallel success_count=\"1\"><AlwaysSuccess/><Probe name=\"culprit\"/></Parallel>");
+  const Outcome text = it.run({"--plugin", abi_plugin("throws_exception")});
+  CHECK(text.code == 5);
+  CHECK(text.out.starts_with("fault: Main/Parallel/culprit: threw an exception"));
+  CHECK(contains(text.err, "run ends: fault (fault) after 1 tick"));
+  const std::string recording = it.directory.path("run.jsonl");
+  const Outcome outcome =
+      it.run({"--plugin", abi_plugin("throws_exception"), "--json", "--record", recording});
+  CHECK(json::parse(outcome.out)["result"] == "fault");
+  CHECK(json::parse(outcome.out)["reason"] == "fault");
+  const json end = json::parse(lines(read_file(recording)).back())["end"];
+  CHECK(end["result"] == "fault");
+  CHECK(end["reason"] == "fault");
+  CHECK(contains(lockstep::test::lockstep({"log", "info", recording}).out,
+                 "  fault (fault) after 1 tick"));
+}
+
 TEST_CASE("a terminal gets the live view, in color unless NO_COLOR asks for none") {
   const TemporaryDirectory directory;
   const std::string file =

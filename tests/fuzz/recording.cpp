@@ -61,7 +61,7 @@ void replay(const std::string& text) {
   const TreeShape shape = shape_of(recording.reader.header());
   const DrawOptions options{.width = 40, .height = 10};
   const auto draw = [&] {
-    const auto snapshot = snapshot_of(recording.reader.header(), shape, timeline.now(), false);
+    const auto snapshot = snapshot_of(recording.reader.header(), shape, timeline.now(), nullptr);
     const ReplayPlayer player(timeline, 1);
     draw_replay(shape, snapshot, player, options);
     draw_moment(shape, snapshot, timeline.now(), options);

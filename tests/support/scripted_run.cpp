@@ -42,9 +42,13 @@ std::string ScriptedRun::leaf_name(std::uint32_t leaf) const {
   return std::string(tree_.labels[tree_.leaves[leaf].node].name);
 }
 
-Status ScriptedRun::tick(Nanoseconds now) {
+Status ScriptedRun::tick_root(Nanoseconds now) {
   ++tree_tick_;
-  const Status status = ticker_.tick_root(now);
+  return ticker_.tick_root(now);
+}
+
+Status ScriptedRun::tick(Nanoseconds now) {
+  const Status status = tick_root(now);
   if (ticker_.fault() != nullptr) ticker_.halt_all();
   return status;
 }

@@ -20,7 +20,8 @@ class ScriptedRun {
   ScriptedRun(const ScriptedRun&) = delete;
   ScriptedRun& operator=(const ScriptedRun&) = delete;
 
-  // The root's status; after a fault, everything has been halted.
+  Status tick_root(Nanoseconds now);
+  // The same; after a fault, everything has been halted.
   Status tick(Nanoseconds now);
   // Ends the run as its owner would, and makes everything as new.
   void restart();

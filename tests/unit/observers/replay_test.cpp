@@ -280,7 +280,7 @@ TEST_CASE("a replay shows each node as the live view of the run does") {
   REQUIRE(opened.timeline.size() == live.ticks.size());
   bool any_held = false;
   for (const std::vector<Activity>& expected : live.ticks) {
-    const Snapshot snapshot = snapshot_of(header, shape, opened.timeline.now(), false);
+    const Snapshot snapshot = snapshot_of(header, shape, opened.timeline.now(), nullptr);
     for (NodeIndex node = 0; node < expected.size(); ++node) {
       CHECK(snapshot.nodes[node].activity == expected[node]);
       any_held = any_held || expected[node] == Activity::Paused;
@@ -288,10 +288,29 @@ TEST_CASE("a replay shows each node as the live view of the run does") {
     opened.timeline.step_forward();
   }
   CHECK(any_held);
-  CHECK(draw(shape, snapshot_of(header, shape, opened.timeline.now(), true),
+  const RecordedEnd* const end = &*opened.timeline.outcome().end;
+  CHECK(draw(shape, snapshot_of(header, shape, opened.timeline.now(), end),
              {.width = 72, .height = 24}) ==
-        draw(shape_of(run.run.tree()), snapshot_of(header, shape, opened.timeline.now(), true),
+        draw(shape_of(run.run.tree()), snapshot_of(header, shape, opened.timeline.now(), end),
              {.width = 72, .height = 24}));
+}
+
+TEST_CASE("the last tick of a replay has the result of the run") {
+  const auto first_line = [](std::string_view leaf) {
+    const TemporaryPath file;
+    WatchedRun run("Parallel[success_count=1](AlwaysSuccess a)", leaf);
+    Recorder recorder(run.run.tree(), {.path = file.path(), .tree_file = "a.xml", .rate_hz = 10});
+    run.watch({&recorder});
+    Opened opened(file.text());
+    const TreeShape shape = shape_of(opened.reader.header());
+    const std::string text = draw(shape,
+                                  snapshot_of(opened.reader.header(), shape, opened.timeline.now(),
+                                              &*opened.timeline.outcome().end),
+                                  {.width = 72, .height = 24});
+    return text.substr(0, text.find('\n'));
+  };
+  CHECK(first_line("a=R") == "Test  10 Hz (virtual)  tick 0  0.000 s  success");
+  CHECK(first_line("a=X") == "Test  10 Hz (virtual)  tick 0  0.000 s  fault");
 }
 
 TEST_CASE("below the tree: where the replay is, what is missing, which keys there are") {
@@ -300,7 +319,7 @@ TEST_CASE("below the tree: where the replay is, what is missing, which keys ther
   const RecordingHeader& header = played.opened.reader.header();
   const TreeShape shape = shape_of(header);
   const auto status = [&](unsigned height) {
-    const Snapshot now = snapshot_of(header, shape, played.opened.timeline.now(), false);
+    const Snapshot now = snapshot_of(header, shape, played.opened.timeline.now(), nullptr);
     const std::string text =
         draw_replay(shape, now, played.player, {.width = 100, .height = height});
     CHECK(std::count(text.begin(), text.end(), '\n') < static_cast<std::ptrdiff_t>(height));

@@ -22,7 +22,7 @@ Summary summary_of(WatchedRun& run) {
 TEST_CASE("the summary of a run") {
   WatchedRun run(kTree, "a+.1 b+.3");
   const Summary summary = summary_of(run);
-  CHECK(summary.status == Status::Success);
+  CHECK(summary.result == RunResult::Success);
   CHECK(summary.reason == StopReason::Completed);
   CHECK(summary.ticks == 10);
   CHECK(summary.seconds == 0.9);
@@ -151,9 +151,13 @@ TEST_CASE("why a run stopped") {
   summary.reason = StopReason::Signal;
   summary.signal = SIGINT;
   CHECK(text_of(summary).starts_with("stopped: signal: Interrupt after"));
+  summary.result = RunResult::Fault;
   summary.reason = StopReason::Fault;
   summary.fault = "Test/a: broke";
-  CHECK(text_of(summary).starts_with("stopped: a leaf failed: Test/a: broke after"));
+  CHECK(text_of(summary).starts_with("fault: Test/a: broke after 0 ticks"));
+  CHECK(text_of(summary, true).starts_with("\x1b[31mfault\x1b[0m: "));
+  CHECK(to_json(summary).starts_with(
+      R"({"result":"fault","reason":"fault","fault":"Test/a: broke",)"));
 }
 
 TEST_CASE("the summary as JSON") {

@@ -86,12 +86,13 @@ TEST_CASE("only the topmost node that is held says for whom it waits") {
 TEST_CASE("how the run ended stands in the first line") {
   const Tree tree = tree_from_text("Sequence(a)");
   Snapshot now = snapshot({{Activity::Success}, {Activity::Success}});
-  now.header.ended = true;
   now.header.real_time = false;
-  now.header.result = Status::Success;
+  now.header.result = RunResult::Success;
   CHECK(draw(tree, now, kPlain).starts_with("Test  10 Hz (virtual)  tick 4  0.400 s  success\n"));
-  now.header.result = Status::Running;
+  now.header.result = RunResult::Stopped;
   CHECK(draw(tree, now, kPlain).starts_with("Test  10 Hz (virtual)  tick 4  0.400 s  stopped\n"));
+  now.header.result = RunResult::Fault;
+  CHECK(draw(tree, now, kPlain).starts_with("Test  10 Hz (virtual)  tick 4  0.400 s  fault\n"));
 }
 
 TEST_CASE("what does not fit: synchronized and running nodes stay") {
