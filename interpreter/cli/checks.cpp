@@ -3,13 +3,20 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 namespace lockstep {
 
 std::string check_count(const std::string& text) {
-  const bool good = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-  return good ? "" : fmt::format("'{}' is not a whole number from 0", text);
+  std::uint64_t number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, failure] = std::from_chars(text.data(), end, number);
+  if (text.empty() || rest != end) return fmt::format("'{}' is not a whole number from 0", text);
+  if (failure == std::errc()) return "";
+  return fmt::format("'{}' is more than {}", text, std::numeric_limits<std::uint64_t>::max());
 }
 
 std::string check_is_number(const std::string& text) {

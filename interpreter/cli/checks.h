@@ -6,7 +6,7 @@
 
 namespace lockstep {
 
-// CLI11 reads -1 as the largest number there is.
+// CLI11 reads -1, and what is larger than 64 bits hold, as the largest number there is.
 std::string check_count(const std::string& text);
 
 // CLI::Range takes nan for a number of its range.

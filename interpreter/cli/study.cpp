@@ -16,6 +16,7 @@
 #include "study/box_plot.h"
 #include "study/folder.h"
 #include "study/merge.h"
+#include "study/plan_check.h"
 #include "study/workers.h"
 
 namespace lockstep {
@@ -126,14 +127,18 @@ int run(const Options& options) {
 }
 
 int merge(const Options& options) {
+  StopSignals::install();
   StudyPlan plan;
   std::string error;
-  const auto rows = merge_studies(options.parts, options.out, plan, error);
-  return rows ? finish(options, StudyFolder(options.out), plan, *rows) : fail(error);
+  const auto rows = merge_studies(options.parts, options.out, StopSignals::received, plan, error);
+  if (rows) return finish(options, StudyFolder(options.out), plan, *rows);
+  const int signal = StopSignals::received();
+  return fail(error, signal == 0 ? kExitUsage : kExitSignal + signal);
 }
 
 std::string check_positive(const std::string& text) {
-  return text == "0" ? std::string("expected 1 or more") : check_count(text);
+  const bool is_zero = !text.empty() && text.find_first_not_of('0') == std::string::npos;
+  return is_zero ? std::string("expected 1 or more") : check_count(text);
 }
 
 void define_merge(CLI::App& app, const std::shared_ptr<Options>& options) {
@@ -165,7 +170,7 @@ void define_runs(CLI::App& app, StudyOptions& options) {
       ->allow_extra_args(false);
   app.add_option("--rate", options.rate, "Ticks per second of the virtual clock")
       ->type_name("HZ")
-      ->check(CLI::Range(0.001, 100000.0))
+      ->check(CLI::Range(kLeastRate, kMostRate))
       ->check(check_is_number)
       ->capture_default_str();
   app.add_option("--max-ticks", options.max_ticks,

@@ -3,23 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <set>
 
+#include "cli/checks.h"
 #include "cli/exit_code.h"
 #include "core/suggest.h"
-#include "core/value.h"
+#include "study/plan_check.h"
 
 namespace lockstep {
 namespace {
 
 constexpr std::uint64_t kMostCells = 100'000;
-
-template <class Number>
-bool is_number(const std::string& text, Number& number) {
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return failure == std::errc() && end == text.data() + text.size();
-}
 
 // Of what is "name=value".
 std::map<std::string, std::string> pairs(const std::vector<std::string>& texts) {
@@ -76,18 +70,16 @@ void StudyLoader::read_measures() {
 
 void StudyLoader::read_shard() {
   if (options_.shard.empty()) return;
-  StudyShard& shard = study_.plan.shard;
-  const auto slash = options_.shard.find('/');
-  const bool good = slash != std::string::npos &&
-                    is_number(options_.shard.substr(0, slash), shard.part) &&
-                    is_number(options_.shard.substr(slash + 1), shard.of) && shard.part >= 1 &&
-                    shard.part <= shard.of;
-  if (!good) {
-    shard = {};
+  const std::string_view text = options_.shard;
+  const auto slash = std::min(text.find('/'), text.size() - 1);
+  const auto part = count_from(text.substr(0, slash)), of = count_from(text.substr(slash + 1));
+  if (!part || !of || *part < 1 || *part > *of) {
     error(fmt::format("--shard {}: expected I/N with I from 1 to N", options_.shard));
-  } else if (shard.of > options_.runs) {
+  } else if (*of > options_.runs) {
     error(fmt::format("--shard {}: {} runs cannot be made in {} parts", options_.shard,
-                      options_.runs, shard.of));
+                      options_.runs, *of));
+  } else {
+    study_.plan.shard = {*part, *of};
   }
 }
 
@@ -116,14 +108,12 @@ void StudyLoader::check_values(const GridAxis& axis) {
     if (value.find_first_of("\r\n") != std::string::npos) {
       error(fmt::format("--grid {}: a value is of several lines", axis.name));
     }
-    std::uint64_t seed = 0;
-    double rate = 0;
-    if (axis.kind == GridAxis::Kind::Seed && !is_number(value, seed)) {
-      error(fmt::format("--grid seed: '{}' is not a whole number from 0", value));
+    if (axis.kind == GridAxis::Kind::Seed) {
+      if (const auto wrong = check_count(value); !wrong.empty()) error("--grid seed: " + wrong);
     }
-    if (axis.kind == GridAxis::Kind::Rate &&
-        !(is_number(value, rate) && rate >= 0.001 && rate <= 100000)) {
-      error(fmt::format("--grid rate: '{}' is not a number from 0.001 to 100000", value));
+    if (axis.kind == GridAxis::Kind::Rate && !rate_from(value)) {
+      error(fmt::format("--grid rate: '{}' is not a number from {} to {}", value, kLeastRate,
+                        kMostRate));
     }
   }
 }
@@ -160,6 +150,8 @@ void StudyLoader::read_grid(const std::vector<DeclaredArgument>& declared) {
   for (const GridAxis& axis : study_.plan.grid) cells *= static_cast<double>(axis.values.size());
   if (cells > static_cast<double>(kMostCells)) {
     error(fmt::format("the grid has {} cells, {} is the most", cells, kMostCells));
+  } else if (auto wrong = check_size(study_.plan); !wrong.empty()) {
+    error(std::move(wrong));
   }
 }
 

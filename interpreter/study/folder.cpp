@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -28,6 +29,14 @@ bool write_all(int file, std::string_view text) {
   return true;
 }
 
+// A file that is not there yet. 0, or why not.
+int write_new(const std::string& path, std::string_view text) {
+  const int out = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (out < 0) return errno;
+  const int reason = write_all(out, text) ? 0 : errno;
+  return close(out) == 0 || reason != 0 ? reason : errno;
+}
+
 }  // namespace
 
 StudyFolder::~StudyFolder() {
@@ -43,45 +52,61 @@ bool StudyFolder::fail(std::string what) {
   return false;
 }
 
-// Nothing in it but, perhaps, a study.json that a kill has kept from its name.
+bool StudyFolder::fail_to_write(std::string_view name, int reason) {
+  return fail(fmt::format("cannot write '{}': {}", file(name), std::strerror(reason)));
+}
+
+bool StudyFolder::is_there() const {
+  std::error_code error;
+  return fs::exists(fs::symlink_status(file("study.json"), error));
+}
+
+// Nothing in it but, perhaps, what a kill leaves before study.json has its name.
 bool StudyFolder::is_free() {
   std::error_code error;
-  fs::create_directories(path_, error);
-  if (error) return fail(fmt::format("cannot make the directory '{}': {}", path_, error.message()));
   for (const auto& entry : fs::directory_iterator(path_, error)) {
-    if (entry.path().filename() == "study.json.new") continue;
+    const auto name = entry.path().filename();
+    std::error_code unknown;
+    if (name == "study.json.new" || (name == "runs.csv" && entry.file_size(unknown) == 0)) continue;
     return fail(fmt::format("'{}' is not empty and not a study, expected a new directory", path_));
   }
   return !error || fail(fmt::format("cannot read '{}': {}", path_, error.message()));
 }
 
+// Before it nothing is written: what is seen there may be the beginning of another process.
+bool StudyFolder::lock() {
+  const std::string path = file("runs.csv");
+  constexpr int kNew = O_RDWR | O_CREAT | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
+  runs_ = open(path.c_str(), kNew, 0666);
+  struct stat status {};
+  if (runs_ < 0 || fstat(runs_, &status) != 0) return fail_to_write("runs.csv", errno);
+  if (!S_ISREG(status.st_mode))
+    return fail(fmt::format("cannot write '{}': it is not a regular file", path));
+  // A file system without locks is taken as it is.
+  if (flock(runs_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return true;
+  return fail(fmt::format("another process is writing the study in '{}'", path_));
+}
+
 // A kill leaves the old file or the new one, never a half.
 bool StudyFolder::write_whole(const std::string& name, std::string_view text) {
   const std::string path = file(name), fresh = path + ".new";
-  const int out = open(fresh.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  const bool written = out >= 0 && write_all(out, text);
-  const bool closed = out >= 0 && close(out) == 0;
-  if (written && closed && rename(fresh.c_str(), path.c_str()) == 0) return true;
-  return fail(fmt::format("cannot write '{}': {}", path, std::strerror(errno)));
-}
-
-bool StudyFolder::open_runs(std::uint64_t keep) {
-  const std::string path = file("runs.csv");
-  runs_ = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  if (runs_ < 0) return fail(fmt::format("cannot write '{}': {}", path, std::strerror(errno)));
-  if (flock(runs_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    return fail(fmt::format("another process is writing the study in '{}'", path_));
-  }
-  if (ftruncate(runs_, static_cast<off_t>(keep)) == 0) return true;
-  return fail(fmt::format("cannot write '{}': {}", path, std::strerror(errno)));
+  unlink(fresh.c_str());  // of a process that was killed, or a link that leads elsewhere
+  int reason = write_new(fresh, text);
+  if (reason == 0 && rename(fresh.c_str(), path.c_str()) != 0) reason = errno;
+  if (reason == 0) return true;
+  unlink(fresh.c_str());
+  return fail_to_write(name, reason);
 }
 
 std::optional<StudyPlan> StudyFolder::read_plan() {
+  constexpr std::uintmax_t kLargest = std::uintmax_t{512} << 20u;
   const std::string path = file("study.json");
-  std::ifstream in(path, std::ios::binary);
+  std::error_code error;
+  const bool readable = fs::is_regular_file(path, error) && fs::file_size(path, error) <= kLargest;
+  std::ifstream in(readable ? path : std::string(), std::ios::binary);
   std::ostringstream text;
-  if (!in || !(text << in.rdbuf())) {
-    fail(fmt::format("'{}' is not a study: it has no study.json", path_));
+  if (!readable || !(text << in.rdbuf())) {
+    fail(fmt::format("'{}' is not a study: it has no study.json that can be read", path_));
     return std::nullopt;
   }
   std::string reason;
@@ -90,40 +115,58 @@ std::optional<StudyPlan> StudyFolder::read_plan() {
   return plan;
 }
 
-std::optional<std::uint64_t> StudyFolder::begin(const StudyPlan& plan, bool resume) {
-  std::uint64_t rows = 0, bytes = 0;
-  if (fs::exists(file("study.json"))) {
-    if (!resume) {
-      fail(
-          fmt::format("there is a study in '{}' already; go on with it by --resume, or choose "
-                      "another directory by --out",
-                      path_));
-      return std::nullopt;
-    }
-    const auto there = read_plan();
-    if (!there) return std::nullopt;
-    if (const auto key = first_difference(plan, *there, true); !key.empty()) {
-      fail(fmt::format("the study in '{}' is another one: its '{}' differs", path_, key));
-      return std::nullopt;
-    }
-    RowReader reader(file("runs.csv"), plan);
-    while (!reader.next().empty()) continue;
-    if (!reader.error().empty()) {
-      fail(reader.error());
-      return std::nullopt;
-    }
-    rows = reader.rows();
-    bytes = reader.bytes();
-  } else if (!is_free() || !write_whole("study.json", to_json(plan))) {
+bool StudyFolder::make(const StudyPlan& plan) {
+  return is_free() && write_whole("study.json", to_json(plan)) && append(row_header(plan));
+}
+
+std::optional<std::uint64_t> StudyFolder::take_over(const StudyPlan& plan) {
+  const auto there = read_plan();
+  if (!there) return std::nullopt;
+  if (const auto key = first_difference(plan, *there, true); !key.empty()) {
+    fail(fmt::format("the study in '{}' is another one: its '{}' differs", path_, key));
     return std::nullopt;
   }
-  if (!open_runs(bytes) || (bytes == 0 && !append(row_header(plan)))) return std::nullopt;
-  return rows;
+  RowReader reader(file("runs.csv"), plan);
+  while (!reader.next().empty()) continue;
+  if (!reader.error().empty()) {
+    fail(reader.error());
+  } else if (ftruncate(runs_, static_cast<off_t>(reader.bytes())) != 0) {
+    fail_to_write("runs.csv", errno);
+  } else if (reader.bytes() != 0 || append(row_header(plan))) {
+    return reader.rows();
+  }
+  return std::nullopt;
+}
+
+std::optional<std::uint64_t> StudyFolder::begin(const StudyPlan& plan, bool resume) {
+  std::error_code error;
+  made_directory_ = fs::create_directories(path_, error);
+  if (error) {
+    fail(fmt::format("cannot make the directory '{}': {}", path_, error.message()));
+    return std::nullopt;
+  }
+  // Not even an empty file is left in a directory of something else.
+  if (!is_there() && !is_free()) return std::nullopt;
+  if (resume || !is_there()) {
+    if (!lock()) return std::nullopt;
+    if (!is_there()) return make(plan) ? std::optional<std::uint64_t>(0) : std::nullopt;
+    if (resume) return take_over(plan);
+  }
+  fail(fmt::format(
+      "there is a study in '{}' already; go on with it by --resume, or choose another directory "
+      "by --out",
+      path_));
+  return std::nullopt;
+}
+
+void StudyFolder::discard() {
+  for (const char* name : {"runs.csv", "study.json"}) unlink(file(name).c_str());
+  if (made_directory_) rmdir(path_.c_str());
 }
 
 bool StudyFolder::append(std::string_view lines) {
   if (write_all(runs_, lines)) return true;
-  return fail(fmt::format("cannot write '{}': {}", file("runs.csv"), std::strerror(errno)));
+  return fail_to_write("runs.csv", errno);
 }
 
 std::optional<std::vector<SummaryRow>> StudyFolder::finish(const StudyPlan& plan) {

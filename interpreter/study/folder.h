@@ -1,5 +1,6 @@
 // The directory of a study: study.json first, then runs.csv row by row, at last summary.csv. What a
-// kill at any moment leaves is a beginning that the study can go on from.
+// kill at any moment leaves is a beginning that the study can go on from. One process at a time
+// writes to it, and none writes through a symbolic link.
 #pragma once
 
 #include <cstdint>
@@ -21,11 +22,14 @@ class StudyFolder {
   StudyFolder& operator=(const StudyFolder&) = delete;
 
   // Makes the directory, or takes over what is there when `resume` and it is of this plan. The
-  // number of rows that are there already; on failure error() tells.
+  // number of rows that are there already; on failure error() tells. From then on the directory is
+  // locked.
   std::optional<std::uint64_t> begin(const StudyPlan& plan, bool resume);
   bool append(std::string_view lines);
   // All rows are there: writes the summary and returns it.
   std::optional<std::vector<SummaryRow>> finish(const StudyPlan& plan);
+  // Removes what begin() has made where nothing was, and append() has added.
+  void discard();
 
   // The plan of a study that is there.
   std::optional<StudyPlan> read_plan();
@@ -35,12 +39,17 @@ class StudyFolder {
 
  private:
   bool fail(std::string what);
+  bool fail_to_write(std::string_view name, int reason);
+  bool is_there() const;
   bool is_free();
+  bool lock();
+  bool make(const StudyPlan& plan);
+  std::optional<std::uint64_t> take_over(const StudyPlan& plan);
   bool write_whole(const std::string& name, std::string_view text);
-  bool open_runs(std::uint64_t keep);
 
   std::string path_;
-  int runs_ = -1;
+  bool made_directory_ = false;
+  int runs_ = -1;  // runs.csv; it carries the lock
   std::string error_;
 };
 

@@ -1,7 +1,9 @@
 #include "study/merge.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <map>
 #include <memory>
 
 #include "study/plan_json.h"
@@ -15,7 +17,7 @@ class Merger {
   // "" when the part has its place.
   std::string add(const std::string& directory);
   std::string missing() const;
-  std::string copy_rows(StudyFolder& out);
+  std::string copy_rows(StudyFolder& out, int (*stop_signal)());
   const StudyPlan& whole() const { return whole_; }
 
  private:
@@ -27,7 +29,8 @@ class Merger {
   std::string next_row(Part& part, std::string& lines);
 
   StudyPlan whole_;
-  std::vector<std::unique_ptr<Part>> parts_;  // by number
+  std::uint64_t of_ = 0;  // so many parts there are to be
+  std::map<std::uint64_t, Part> parts_;
 };
 
 std::string Merger::add(const std::string& directory) {
@@ -38,34 +41,35 @@ std::string Merger::add(const std::string& directory) {
   if (parts_.empty()) {
     whole_ = *plan;
     whole_.shard = {};
-    if (of > whole_.runs)
-      return fmt::format("'{}' is one of {} parts of {} runs", directory, of, whole_.runs);
-    parts_.resize(of);
+    of_ = of;
   }
-  if (of != parts_.size()) {
-    return fmt::format("'{}' is one of {} parts, the ones before it of {}", directory, of,
-                       parts_.size());
-  }
+  if (of != of_)
+    return fmt::format("'{}' is one of {} parts, the ones before it of {}", directory, of, of_);
   if (const auto key = first_difference(whole_, *plan, false); !key.empty()) {
     return fmt::format("'{}' is a part of another study: its '{}' differs", directory, key);
   }
-  auto& place = parts_[number - 1];
-  if (place) {
-    return fmt::format("'{}' and '{}' are both part {} of {}", place->directory, directory, number,
+  const auto [place, is_new] = parts_.try_emplace(number);
+  Part& part = place->second;
+  if (!is_new) {
+    return fmt::format("'{}' and '{}' are both part {} of {}", part.directory, directory, number,
                        of);
   }
-  place = std::make_unique<Part>(Part{directory, std::move(*plan), nullptr});
-  place->reader = std::make_unique<RowReader>(folder.file("runs.csv"), place->plan);
+  part.directory = directory;
+  part.plan = std::move(*plan);
+  part.reader = std::make_unique<RowReader>(folder.file("runs.csv"), part.plan);
   return {};
 }
 
 std::string Merger::missing() const {
-  std::vector<std::size_t> numbers;
-  for (std::size_t i = 0; i < parts_.size(); ++i) {
-    if (!parts_[i]) numbers.push_back(i + 1);
+  constexpr std::size_t kMostNamed = 10;
+  const std::uint64_t missing = of_ - parts_.size();
+  if (missing == 0) return {};
+  std::vector<std::uint64_t> named;
+  for (std::uint64_t number = 1; number <= of_ && named.size() < kMostNamed; ++number) {
+    if (!parts_.contains(number)) named.push_back(number);
   }
-  if (numbers.empty()) return {};
-  return fmt::format("of {} parts these are missing: {}", parts_.size(), fmt::join(numbers, ", "));
+  return fmt::format("of {} parts these are missing: {}{}", of_, fmt::join(named, ", "),
+                     missing > named.size() ? ", …" : "");
 }
 
 std::string Merger::next_row(Part& part, std::string& lines) {
@@ -77,15 +81,16 @@ std::string Merger::next_row(Part& part, std::string& lines) {
                      part.directory, part.reader->rows(), row_count(part.plan));
 }
 
-std::string Merger::copy_rows(StudyFolder& out) {
+std::string Merger::copy_rows(StudyFolder& out, int (*stop_signal)()) {
   constexpr std::size_t kFull = 1u << 16u;
   std::string lines;
   const std::uint64_t rows = row_count(whole_);
   for (std::uint64_t row = 0; row < rows; ++row) {
     const std::uint64_t run = row_at(whole_, row).run;
-    if (auto error = next_row(*parts_[run % parts_.size()], lines); !error.empty()) return error;
+    if (auto error = next_row(parts_.at(run % of_ + 1), lines); !error.empty()) return error;
     if (lines.size() < kFull && row + 1 < rows) continue;
     if (!out.append(lines)) return out.error();
+    if (stop_signal() != 0) return "interrupted";
     lines.clear();
   }
   return {};
@@ -94,8 +99,8 @@ std::string Merger::copy_rows(StudyFolder& out) {
 }  // namespace
 
 std::optional<std::vector<SummaryRow>> merge_studies(std::span<const std::string> parts,
-                                                     const std::string& out, StudyPlan& plan,
-                                                     std::string& error) {
+                                                     const std::string& out, int (*stop_signal)(),
+                                                     StudyPlan& plan, std::string& error) {
   Merger merger;
   for (const std::string& part : parts) {
     error = merger.add(part);
@@ -109,11 +114,12 @@ std::optional<std::vector<SummaryRow>> merge_studies(std::span<const std::string
     error = folder.error();
     return std::nullopt;
   }
-  error = merger.copy_rows(folder);
-  if (!error.empty()) return std::nullopt;
-  auto rows = folder.finish(plan);
-  error = folder.error();
-  return rows;
+  error = merger.copy_rows(folder, stop_signal);
+  auto rows = error.empty() ? folder.finish(plan) : std::nullopt;
+  if (rows) return rows;
+  if (error.empty()) error = folder.error();
+  folder.discard();
+  return std::nullopt;
 }
 
 }  // namespace lockstep

@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "study/plan_check.h"
 
 namespace lockstep {
 namespace {
@@ -11,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kFormat = 1;
-constexpr std::uint64_t kMostRows = std::uint64_t{1} << 48u;
+constexpr char kNotOurs[] = "it is not as lockstep has written it";
 constexpr std::array<const char*, 3> kKinds{"argument", "seed", "rate"};
 
 Json pairs(const std::vector<std::pair<std::string, std::string>>& list, const char* first,
@@ -42,10 +46,7 @@ GridAxis axis_from(const Json& json) {
   const std::string kind = json.at("is");
   const auto found = std::ranges::find(kKinds, kind);
   if (found == kKinds.end()) throw std::runtime_error("'is' of a grid is not known");
-  GridAxis axis{static_cast<GridAxis::Kind>(found - kKinds.begin()), json.at("name"),
-                json.at("values")};
-  if (axis.values.empty()) throw std::runtime_error("a grid has no values");
-  return axis;
+  return {static_cast<GridAxis::Kind>(found - kKinds.begin()), json.at("name"), json.at("values")};
 }
 
 Json json_of(const StudyPlan& plan) {
@@ -74,6 +75,15 @@ Json json_of(const StudyPlan& plan) {
   return json;
 }
 
+// The library would convert -1, 1.5 or 2^64 in silence.
+std::uint64_t count(const Json& json, const char* key) {
+  const Json& value = json.at(key);
+  if (value.is_number_unsigned()) return value;
+  throw std::runtime_error(fmt::format("'{}' is {}, expected a whole number from 0 to {}", key,
+                                       value.is_number() ? value.dump() : "not a number",
+                                       std::numeric_limits<std::uint64_t>::max()));
+}
+
 StudyPlan plan_of(const Json& json) {
   if (json.at("lockstep_study") != kFormat) {
     throw std::runtime_error("it is of another version of lockstep");
@@ -85,20 +95,17 @@ StudyPlan plan_of(const Json& json) {
   plan.arguments = json.at("arguments");
   plan.values = json.at("values");
   for (const Json& axis : json.at("grid")) plan.grid.push_back(axis_from(axis));
-  plan.runs = json.at("runs");
-  plan.seed = json.at("seed");
+  plan.runs = count(json, "runs");
+  plan.seed = count(json, "seed");
   plan.rate = json.at("rate");
-  plan.max_ticks = json.at("max_ticks");
+  plan.max_ticks = count(json, "max_ticks");
   plan.measures = json.at("measures");
   for (const Json& it : json.at("columns"))
     plan.columns.push_back({it.at("measure"), it.at("node")});
   plan.plugins = pairs(json.at("plugins"), "name", "version");
   plan.files = pairs(json.at("files"), "path", "text");
-  if (json.contains("shard")) plan.shard = {json["shard"].at("part"), json["shard"].at("of")};
-  const auto [part, of] = plan.shard;
-  if (part < 1 || part > of || plan.runs < 1 || plan.runs > kMostRows ||
-      cell_count(plan) > kMostRows / plan.runs) {
-    throw std::runtime_error("its numbers do not fit together");
+  if (json.contains("shard")) {
+    plan.shard = {count(json["shard"], "part"), count(json["shard"], "of")};
   }
   return plan;
 }
@@ -112,11 +119,17 @@ std::string to_json(const StudyPlan& plan) {
 
 std::optional<StudyPlan> plan_from_json(const std::string& text, std::string& error) {
   try {
-    return plan_of(Json::parse(text));
-  } catch (const std::exception& exception) {
+    StudyPlan plan = plan_of(Json::parse(text));
+    error = check_plan(plan);
+    // Keys that are not known, are there twice or in another order.
+    if (error.empty() && to_json(plan) != text) error = kNotOurs;
+    if (error.empty()) return plan;
+  } catch (const Json::exception&) {
+    error = kNotOurs;
+  } catch (const std::runtime_error& exception) {
     error = exception.what();
-    return std::nullopt;
   }
+  return std::nullopt;
 }
 
 std::string first_difference(const StudyPlan& one, const StudyPlan& other, bool with_shard) {

@@ -12,7 +12,8 @@ namespace lockstep {
 // Ends with a newline. The same plan gives the same bytes.
 std::string to_json(const StudyPlan& plan);
 
-// On failure `error` says what was expected.
+// Only of what to_json() gives of a plan that check_plan() accepts, byte for byte. On failure
+// `error` says why.
 std::optional<StudyPlan> plan_from_json(const std::string& text, std::string& error);
 
 // The first thing in which two plans differ, as study.json calls it; "" when they are of one study

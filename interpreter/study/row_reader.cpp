@@ -1,21 +1,48 @@
 #include "study/row_reader.h"
 
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
 namespace lockstep {
+namespace {
+
+constexpr std::size_t kLongestField = 32;  // of ticks, result and numbers, with the comma
+
+}  // namespace
 
 RowReader::RowReader(const std::string& path, const StudyPlan& plan)
-    : plan_(plan), path_(path), file_(path, std::ios::binary), values_(plan.columns.size()) {}
+    : plan_(plan),
+      rules_(plan),
+      path_(path),
+      row_{.values = std::vector<double>(plan.columns.size())} {
+  std::error_code unknown;
+  const auto kind = std::filesystem::status(path, unknown).type();
+  if (kind == std::filesystem::file_type::not_found) return;  // no rows yet
+  std::string reason = "it is not a regular file";
+  if (kind == std::filesystem::file_type::regular) {
+    file_.open(path, std::ios::binary);
+    if (file_.is_open()) return;
+    reason = std::strerror(errno);
+  }
+  error_ = fmt::format("cannot read '{}': {}", path, reason);
+}
 
-// Only a line that has its end.
-bool RowReader::read_line() {
-  if (!std::getline(file_, line_) || file_.eof()) return false;
-  line_ += '\n';
+// Only a line that has its end. A longer one is read no further.
+bool RowReader::read_line(std::size_t longest) {
+  line_.resize(longest + 1);
+  file_.getline(line_.data(), static_cast<std::streamsize>(line_.size()));
+  if (file_.eof() || file_.gcount() == 0) return false;
+  line_.resize(static_cast<std::size_t>(file_.gcount()) - (file_.fail() ? 0 : 1));
+  if (!file_.fail()) line_ += '\n';
   return true;
 }
 
 bool RowReader::read_header() {
   if (bytes_ != 0) return true;
-  if (!read_line()) return false;
-  if (line_ != row_header(plan_)) {
+  const std::string header = row_header(plan_);
+  if (!read_line(header.size())) return false;
+  if (line_ != header) {
     error_ = fmt::format("'{}' begins with other columns than its study.json says", path_);
     return false;
   }
@@ -23,22 +50,31 @@ bool RowReader::read_header() {
   return true;
 }
 
-bool RowReader::is_expected() {
-  if (rows_ == row_count(plan_)) return false;
-  const StudyRow row = row_at(plan_, rows_);
-  if (row.cell != cell_) cell_text_ = row_cell(plan_, cell_ = row.cell);
+void RowReader::expect_row() {
   beginning_.clear();
+  if (rows_ == row_count(plan_)) return;
+  const StudyRow row = row_at(plan_, rows_);
+  if (row.cell != cell_) {
+    cell_text_ = row_cell(plan_, cell_ = row.cell);
+    rules_.enter(cell_);
+  }
   append_row_beginning(plan_, row, cell_text_, beginning_);
+}
+
+bool RowReader::is_expected() {
   const std::string_view beginning(beginning_.data(), beginning_.size());
-  return line_.starts_with(beginning) &&
-         read_row_values(std::string_view(line_).substr(beginning.size()), values_);
+  return !beginning.empty() && line_.starts_with(beginning) &&
+         read_row_end(std::string_view(line_).substr(beginning.size()), row_) && rules_.allow(row_);
 }
 
 std::string_view RowReader::next() {
-  if (!error_.empty() || !read_header() || !read_line()) return {};
+  if (!error_.empty() || !read_header()) return {};
+  expect_row();
+  const std::size_t longest = beginning_.size() + kLongestField * (2 + row_.values.size());
+  if (!read_line(longest)) return {};
   if (!is_expected()) {
     error_ =
-        fmt::format("'{}', line {}: not the row that its study.json has there", path_, rows_ + 2);
+        fmt::format("'{}', line {}: not a row that its study.json has there", path_, rows_ + 2);
     return {};
   }
   ++rows_;

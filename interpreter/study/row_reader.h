@@ -5,8 +5,8 @@
 #include <fstream>
 #include <string>
 #include <string_view>
-#include <vector>
 
+#include "study/row_rules.h"
 #include "study/row_text.h"
 
 namespace lockstep {
@@ -19,26 +19,28 @@ class RowReader {
   // The next line, with its end. "" at the end of the file, or before what is cut at the end, or
   // before a line that the plan does not have there: then error() tells.
   std::string_view next();
-  // The columns of the line that next() gave; NaN for an empty field.
-  const std::vector<double>& values() const { return values_; }
+  // Of the line that next() gave.
+  const RowResult& row() const { return row_; }
 
   const std::string& error() const { return error_; }
   std::uint64_t rows() const { return rows_; }    // so far
   std::uint64_t bytes() const { return bytes_; }  // of them and the header
 
  private:
-  bool read_line();
-  bool is_expected();
+  bool read_line(std::size_t longest);
   bool read_header();
+  bool is_expected();
+  void expect_row();
 
   const StudyPlan& plan_;
+  RowRules rules_;
   std::string path_;
   std::ifstream file_;
   std::string line_;
   std::uint64_t cell_ = ~std::uint64_t{0};
   std::string cell_text_;
-  fmt::memory_buffer beginning_;
-  std::vector<double> values_;
+  fmt::memory_buffer beginning_;  // of the line that comes next
+  RowResult row_;
   std::string error_;
   std::uint64_t rows_ = 0, bytes_ = 0;
 };

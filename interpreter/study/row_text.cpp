@@ -2,6 +2,7 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <iterator>
@@ -13,11 +14,28 @@
 namespace lockstep {
 namespace {
 
-std::string_view result_of(const RunEnd& end) {
-  return end.reason == StopReason::Completed ? to_string(end.status) : "limit";
+constexpr double kEmpty = std::numeric_limits<double>::quiet_NaN();
+
+// The whole field is a number.
+template <class Number>
+bool read_number(std::string_view field, Number& number) {
+  const auto [end, failure] = std::from_chars(field.begin(), field.end(), number);
+  return failure == std::errc() && end == field.end();
+}
+
+bool read_result(std::string_view field, StudyResult& result) {
+  const auto found = std::ranges::find(kResultNames, field);
+  if (found == kResultNames.end()) return false;
+  result = static_cast<StudyResult>(found - kResultNames.begin());
+  return true;
 }
 
 }  // namespace
+
+StudyResult result_of(const RunEnd& end) {
+  if (end.reason != StopReason::Completed) return StudyResult::Limit;
+  return end.status == Status::Success ? StudyResult::Success : StudyResult::Failure;
+}
 
 std::string row_header(const StudyPlan& plan) {
   const std::span<const std::string_view> names = kRowColumns;
@@ -41,33 +59,36 @@ void append_row_beginning(const StudyPlan& plan, StudyRow row, const std::string
   fmt::format_to(std::back_inserter(out), "{}{},{},", cell, row.run, run_seed(plan, row));
 }
 
-void append_row_end(const RunEnd& end, std::span<const double> values, fmt::memory_buffer& out) {
-  fmt::format_to(std::back_inserter(out), "{},{}", end.ticks, result_of(end));
-  for (const double value : values) {
+void append_row_end(const RowResult& row, fmt::memory_buffer& out) {
+  const auto result = kResultNames[static_cast<std::size_t>(row.result)];
+  fmt::format_to(std::back_inserter(out), "{},{}", row.ticks, result);
+  for (const double value : row.values) {
     out.push_back(',');
     if (!std::isnan(value)) fmt::format_to(std::back_inserter(out), "{}", value);
   }
   out.push_back('\n');
 }
 
-bool read_row_values(std::string_view end_of_line, std::vector<double>& values) {
+bool read_row_end(std::string_view text, RowResult& row) {
+  std::string_view left = text;
   const auto take = [&](char separator) {
-    const auto end = end_of_line.find(separator);
-    const std::string_view field = end_of_line.substr(0, end);
-    end_of_line.remove_prefix(end == std::string_view::npos ? end_of_line.size() : end + 1);
+    const auto end = std::min(left.find(separator), left.size());
+    const std::string_view field = left.substr(0, end);
+    left.remove_prefix(std::min(end + 1, left.size()));
     return field;
   };
-  if (!end_of_line.ends_with('\n')) return false;
-  end_of_line.remove_suffix(1);
-  take(',');  // ticks
-  take(',');  // result
-  for (double& value : values) {
-    const std::string_view field = take(',');
-    value = std::numeric_limits<double>::quiet_NaN();
-    const auto [end, failure] = std::from_chars(field.begin(), field.end(), value);
-    if (!field.empty() && (failure != std::errc() || end != field.end())) return false;
+  if (!read_number(take(','), row.ticks)) return false;
+  const bool last = row.values.empty();
+  if (!read_result(take(last ? '\n' : ','), row.result)) return false;
+  for (double& value : row.values) {
+    const std::string_view field = take(&value == &row.values.back() ? '\n' : ',');
+    value = kEmpty;
+    if (!field.empty() && !read_number(field, value)) return false;
   }
-  return end_of_line.empty();
+  // Numbers that could be written in other ways, missing ends of lines, further fields.
+  fmt::memory_buffer again;
+  append_row_end(row, again);
+  return text == std::string_view(again.data(), again.size());
 }
 
 }  // namespace lockstep

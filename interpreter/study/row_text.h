@@ -3,14 +3,28 @@
 
 #include <fmt/format.h>
 
-#include <span>
+#include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "runtime/observer.h"
 #include "study/plan.h"
 
 namespace lockstep {
+
+// How a run ended: the column 'result'.
+enum class StudyResult : std::uint8_t { Success, Failure, Limit };
+constexpr std::array<std::string_view, 3> kResultNames{"success", "failure", "limit"};
+
+StudyResult result_of(const RunEnd& end);
+
+// What is known of a row only after its run.
+struct RowResult {
+  std::uint64_t ticks = 0;
+  StudyResult result = StudyResult::Success;
+  std::vector<double> values;  // of each column; NaN: it is empty
+};
 
 // With the end of the line.
 std::string row_header(const StudyPlan& plan);
@@ -20,10 +34,11 @@ std::string row_header(const StudyPlan& plan);
 std::string row_cell(const StudyPlan& plan, std::uint64_t cell);
 void append_row_beginning(const StudyPlan& plan, StudyRow row, const std::string& cell,
                           fmt::memory_buffer& out);
-// "ticks,result,<columns>" and the end of the line. A value that is NaN is an empty field.
-void append_row_end(const RunEnd& end, std::span<const double> values, fmt::memory_buffer& out);
+// "ticks,result,<columns>" and the end of the line.
+void append_row_end(const RowResult& row, fmt::memory_buffer& out);
 
-// The numbers of the columns in a whole line; false when the line has others, or other ends.
-bool read_row_values(std::string_view end_of_line, std::vector<double>& values);
+// Reads what append_row_end() has written; `row` has as many values as there are columns. False
+// when it would have written it in another way.
+bool read_row_end(std::string_view text, RowResult& row);
 
 }  // namespace lockstep

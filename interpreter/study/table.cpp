@@ -48,7 +48,7 @@ std::vector<SummaryRow> summarize_runs(const std::string& path, const StudyPlan&
     const std::uint64_t current = row_at(plan, reader.rows() - 1).cell;
     if (current != cell) values.finish(plan, cell, rows);
     cell = current;
-    values.add(reader.values());
+    values.add(reader.row().values);
   }
   values.finish(plan, cell, rows);
   error = reader.error();

@@ -83,7 +83,7 @@ void Workshop::make(std::uint64_t number, Chunk& chunk, std::optional<StudyRun>&
   const std::uint64_t first = work_.first_row + number * kRowsPerChunk;
   const std::uint64_t last = std::min(rows_, first + kRowsPerChunk);
   std::string cell_text;
-  std::vector<double> values(work_.plan.columns.size(), std::numeric_limits<double>::quiet_NaN());
+  RowResult made{.values = std::vector<double>(work_.plan.columns.size())};
   for (std::uint64_t index = first; index < last; ++index) {
     const StudyRow row = row_at(work_.plan, index);
     const StudyCell& at = work_.cells[row.cell];
@@ -101,10 +101,13 @@ void Workshop::make(std::uint64_t number, Chunk& chunk, std::optional<StudyRun>&
       chunk.complete = false;
       return;
     }
-    std::ranges::fill(values, std::numeric_limits<double>::quiet_NaN());
-    for (std::size_t i = 0; i < at.columns.size(); ++i) values[at.columns[i]] = run->values()[i];
+    made.ticks = end.ticks;
+    made.result = result_of(end);
+    std::ranges::fill(made.values, std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t i = 0; i < at.columns.size(); ++i)
+      made.values[at.columns[i]] = run->values()[i];
     append_row_beginning(work_.plan, row, cell_text, chunk.lines);
-    append_row_end(end, values, chunk.lines);
+    append_row_end(made, chunk.lines);
     ++chunk.rows;
   }
 }

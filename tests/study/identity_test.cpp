@@ -1,5 +1,9 @@
 // However a study is made, at once or in parts, on one thread or many, with or without a kill in
 // between: the bytes are the same.
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -116,6 +120,27 @@ TEST_CASE("parts that do not fit together are refused, and why is said") {
   const std::string rows = it.read("b", "runs.csv");
   write(it.path("b/runs.csv"), rows.substr(0, rows.size() / 2));
   refused({"a", "b"}, "is not finished: it has");
+  CHECK_FALSE(fs::exists(it.path("merged")));
+  fs::create_directory(it.path("merged"));
+  refused({"a", "b"}, "is not finished: it has");
+  CHECK(fs::is_empty(it.path("merged")));
+}
+
+// What the other process has locked may be a directory in which nothing is written yet.
+TEST_CASE("a study waits for the lock before it writes anything") {
+  const StudyCase it;
+  fs::create_directory(it.path("out"));
+  it.file("out/runs.csv", "");
+  const int other = open(it.path("out/runs.csv").c_str(), O_RDWR | O_CLOEXEC);
+  REQUIRE(flock(other, LOCK_EX) == 0);
+  for (const Strings& arguments : {kStudy, with(kStudy, {"--resume"})}) {
+    const Outcome outcome = it.study(arguments, "out");
+    CHECK(outcome.code == 2);
+    CHECK(contains(outcome.err, "another process is writing the study in"));
+    CHECK_FALSE(fs::exists(it.path("out/study.json")));
+  }
+  close(other);
+  it.make(kStudy, "out");
 }
 
 TEST_CASE("a study cut at any byte goes on to the same bytes") {
@@ -170,7 +195,7 @@ TEST_CASE("a directory with something else in it is left alone") {
   std::string rows = it.read("out", "runs.csv");
   rows.replace(rows.find("\n1,") + 1, 1, "3");
   write(it.path("out/runs.csv"), rows);
-  refused(with(kStudy, {"--resume"}), "out", "line 25: not the row");
+  refused(with(kStudy, {"--resume"}), "out", "line 25: not a row");
 }
 
 TEST_CASE("a study that a signal ends goes on to the same bytes") {

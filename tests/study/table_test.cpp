@@ -15,7 +15,8 @@ StudyPlan plan_of(std::uint64_t runs) {
   StudyPlan plan;
   plan.runs = runs;
   plan.grid = {{GridAxis::Kind::Argument, "n", {"few", "many"}}};
-  plan.columns = {{"duration", "Main"}};
+  plan.max_ticks = 100;
+  plan.columns = {{"progress-distance", "Main/sync"}};
   return plan;
 }
 
@@ -25,7 +26,7 @@ std::string runs_csv(const StudyPlan& plan, const std::vector<double>& values) {
   for (std::uint64_t row = 0; row < values.size(); ++row) {
     const StudyRow at = row_at(plan, row);
     append_row_beginning(plan, at, row_cell(plan, at.cell), lines);
-    append_row_end({}, std::span(&values[row], 1), lines);
+    append_row_end({.ticks = 7, .values = {values[row]}}, lines);
   }
   return row_header(plan) + std::string(lines.data(), lines.size());
 }
@@ -42,8 +43,8 @@ TEST_CASE("studies: the summary's quartiles are the medians of the halves") {
   CHECK(error.empty());
   CHECK(summary_csv(plan, rows) ==
         "grid_n,node,measure,min,q1,median,q3,max,mean,n\n"
-        "few,Main,duration,1,1.5,4,7.5,10,4.4,5\n"
-        "many,Main,duration,1,1.5,2.5,5.5,8,3.5,4\n");
+        "few,Main/sync,progress-distance,1,1.5,4,7.5,10,4.4,5\n"
+        "many,Main/sync,progress-distance,1,1.5,2.5,5.5,8,3.5,4\n");
 }
 
 TEST_CASE("studies: a summary of too few rows is none") {
@@ -77,7 +78,8 @@ TEST_CASE("studies: no two columns have the same name") {
   plan.grid.push_back({GridAxis::Kind::Argument, "grid_seed", {"8"}});
   plan.grid.push_back({GridAxis::Kind::Argument, "noise", {"0"}});
   CHECK(row_header(plan) ==
-        "cell,grid_n,grid_grid_seed,grid_seed,noise,run,seed,ticks,result,duration Main\n");
+        "cell,grid_n,grid_grid_seed,grid_seed,noise,run,seed,ticks,result,progress-distance "
+        "Main/sync\n");
   CHECK(summary_csv(plan, {}) ==
         "grid_n,grid_grid_seed,grid_seed,noise,node,measure,min,q1,median,q3,max,mean,n\n");
 }

@@ -1,0 +1,104 @@
+#include "study/plan_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+
+#include "measure/measure_spec.h"
+
+namespace lockstep {
+namespace {
+
+constexpr std::uint64_t kMostRows = std::uint64_t{1} << 48u;
+
+template <class Number>
+std::optional<Number> whole(std::string_view text) {
+  Number number{};
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool good = failure == std::errc() && end == text.data() + text.size();
+  return good ? std::optional(number) : std::nullopt;
+}
+
+// It is the name of a column.
+bool is_name(std::string_view text) {
+  return !text.empty() && std::ranges::all_of(text, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  });
+}
+
+bool is_value(const GridAxis& axis, const std::string& value) {
+  if (axis.kind == GridAxis::Kind::Seed) return count_from(value).has_value();
+  if (axis.kind == GridAxis::Kind::Rate) return rate_from(value).has_value();
+  return value.find_first_of("\r\n") == std::string::npos;
+}
+
+std::string check_grid(const std::vector<GridAxis>& grid) {
+  std::set<std::string> names;
+  for (const GridAxis& axis : grid) {
+    if (!is_name(axis.name)) return fmt::format("'{}' is not a name for 'grid'", axis.name);
+    if (!names.insert(axis.name).second) return fmt::format("'{}' is twice in 'grid'", axis.name);
+    if (axis.values.empty()) return fmt::format("'{}' in 'grid' has no values", axis.name);
+    std::set<std::string> values;
+    for (const std::string& value : axis.values) {
+      if (is_value(axis, value) && values.insert(value).second) continue;
+      return fmt::format("'{}' in 'grid' cannot have the value '{}'", axis.name, value);
+    }
+  }
+  return {};
+}
+
+std::string check_measures(const StudyPlan& plan) {
+  for (const std::string& text : plan.measures) {
+    std::string reason;
+    const auto measure = parse_measure(text, reason);
+    if (!measure) return reason;
+    if (to_text(*measure) != text) return fmt::format("'{}' is not how a measure is written", text);
+  }
+  for (const StudyColumn& column : plan.columns) {
+    if (std::ranges::find(plan.measures, column.measure) == plan.measures.end())
+      return fmt::format("'{}' is in 'columns' but not in 'measures'", column.measure);
+    if (std::ranges::count(plan.columns, column) > 1)
+      return fmt::format("'{} {}' is twice in 'columns'", column.measure, column.node);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<std::uint64_t> count_from(std::string_view text) {
+  return whole<std::uint64_t>(text);
+}
+
+std::optional<double> rate_from(std::string_view text) {
+  const auto rate = whole<double>(text);
+  return rate && *rate >= kLeastRate && *rate <= kMostRate ? rate : std::nullopt;
+}
+
+std::string check_size(const StudyPlan& plan) {
+  std::uint64_t rows = plan.runs;
+  if (rows == 0) return "a study has at least one run";
+  for (const GridAxis& axis : plan.grid) {
+    if (rows > kMostRows / std::max<std::size_t>(axis.values.size(), 1))
+      rows = kMostRows + 1;
+    else
+      rows *= axis.values.size();
+  }
+  if (rows > kMostRows) return fmt::format("the study has more than {} runs", kMostRows);
+  return {};
+}
+
+std::string check_plan(const StudyPlan& plan) {
+  if (auto error = check_size(plan); !error.empty()) return error;
+  const auto [part, of] = plan.shard;
+  if (part < 1 || part > of || of > plan.runs)
+    return fmt::format("{} runs have no part {} of {}", plan.runs, part, of);
+  if (!(plan.rate >= kLeastRate && plan.rate <= kMostRate))
+    return fmt::format("'rate' is {}, expected {} to {}", plan.rate, kLeastRate, kMostRate);
+  if (plan.max_ticks == 0) return "'max_ticks' is 0, expected 1 or more";
+  if (auto error = check_grid(plan.grid); !error.empty()) return error;
+  return check_measures(plan);
+}
+
+}  // namespace lockstep
