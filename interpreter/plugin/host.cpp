@@ -120,14 +120,8 @@ bool set_double_list(const lockstep_caller* caller, std::uint32_t port, const do
 
 void set_error(const lockstep_caller* caller, const char* message) {
   if (is_foreign(caller)) return;
-  lockstep_caller& it = mine(caller);
-  if (it.slot->error != nullptr) return;  // the first is the cause
   if (message == nullptr || *message == '\0') message = "unknown error";
-  const std::string_view all(message, strnlen(message, it.error.size()));
-  const std::string_view text = utf8_front(all, lockstep_caller::kMaxErrorLength);
-  std::memcpy(it.error.data(), text.data(), text.size());
-  it.error[text.size()] = '\0';
-  it.slot->error = it.error.data();
+  take_error(*caller, Shortened(message));
 }
 
 double now(const lockstep_caller* caller) {
@@ -148,7 +142,8 @@ void log(const lockstep_caller* caller, lockstep_log_level level, const char* me
   if (!*caller->log) return;
   level = std::clamp<lockstep_log_level>(level, LOCKSTEP_LOG_DEBUG, LOCKSTEP_LOG_WARNING);
   try {
-    (*caller->log)(caller->who, level, message == nullptr ? "" : message);
+    const std::string_view text = message == nullptr ? "" : message;
+    (*caller->log)(caller->who, level, utf8_front(text, kLongestLogLine));
   } catch (...) {  // NOLINT(bugprone-empty-catch): a lost line must not unwind through a plugin
   }
 }
@@ -158,6 +153,13 @@ const void* get_extension(const char* /*id*/) {
 }
 
 }  // namespace
+
+void take_error(const lockstep_caller& caller, const Shortened& message) {
+  lockstep_caller& it = mine(&caller);
+  if (it.slot->error != nullptr) return;
+  it.error = message;
+  it.slot->error = it.error.c_str();
+}
 
 const lockstep_host& host_table() {
   static constexpr lockstep_host kTable{

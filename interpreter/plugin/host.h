@@ -2,18 +2,20 @@
 // within plugin/. Getters and setters neither lock nor look up a name.
 #pragma once
 
-#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/random.h"
+#include "core/shortened.h"
 #include "core/value.h"
 #include "engine/leaf_slot.h"
 #include "lockstep/leaf.h"
 #include "plugin/leaf_set.h"
 
 namespace lockstep {
+
+constexpr std::size_t kLongestLogLine = std::size_t{32} << 10;  // bytes; the rest is cut off
 
 struct BoundPort {
   ValueType type;
@@ -25,8 +27,6 @@ struct BoundPort {
 
 // A leaf of a run, or (without ports) a run itself.
 struct lockstep_caller {
-  static constexpr std::size_t kMaxErrorLength = 500;
-
   std::string who;  // its path, or the plugin's name
   std::vector<lockstep::BoundPort> ports;
   lockstep::RandomStream random;
@@ -36,5 +36,12 @@ struct lockstep_caller {
   const lockstep_plugin* plugin = nullptr;  // of a run: whose run context it is
   // Collects the entries that are set, for a process that only mirrors them; null: nobody asks.
   std::vector<lockstep::Value*>* written = nullptr;
-  std::array<char, kMaxErrorLength + 1> error{};
+  lockstep::Shortened error = {};
 };
+
+namespace lockstep {
+
+// What set_error does once the message is short; the first one of a call counts.
+void take_error(const lockstep_caller& caller, const Shortened& message);
+
+}  // namespace lockstep

@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <exception>
-
+#include "core/plugin_exception.h"
 #include "plugin/call_mark.h"
 #include "plugin/host.h"
 
@@ -15,16 +14,12 @@ std::string initialize_plugin(const lockstep_plugin& plugin) {
   static const LeafLog no_log;
   LeafSlot slot;
   lockstep_caller caller{plugin.name, {}, RandomStream(0, 0), &no_time, &no_log, &slot};
-  try {
-    const MarkedCall mark(CallSite::of("", plugin.name), PluginFunction::Init);
-    const bool works = plugin.init(&host_table(), &caller);
-    if (slot.error != nullptr) return fmt::format("refuses to work: {}", slot.error);
-    return works ? "" : "refuses to work: its init returned false";
-  } catch (const std::exception& exception) {
-    return fmt::format("refuses to work: its init threw an exception: {}", exception.what());
-  } catch (...) {
-    return "refuses to work: its init threw an exception that is not a std::exception";
-  }
+  const MarkedCall mark(CallSite::of("", plugin.name), PluginFunction::Init);
+  bool works = false;
+  const std::string thrown = thrown_by([&] { works = plugin.init(&host_table(), &caller); });
+  if (!thrown.empty()) return fmt::format("refuses to work: its init {}", thrown);
+  if (slot.error != nullptr) return fmt::format("refuses to work: {}", slot.error);
+  return works ? "" : "refuses to work: its init returned false";
 }
 
 }  // namespace lockstep

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <exception>
 #include <utility>
 #include <vector>
 
 #include "core/diagnostics.h"
+#include "core/plugin_exception.h"
 #include "plugin/call_mark.h"
 #include "plugin/float_mode.h"
 #include "plugin/host.h"
@@ -21,15 +21,8 @@ constexpr std::uint64_t kFirstRunStream = std::uint64_t{1} << 32;
 // Calls a plugin, which should let no exception out. Returns the reason when it does, else "".
 template <class Call>
 std::string call_plugin(const CallSite& site, PluginFunction function, Call call) {
-  try {
-    const MarkedCall marked(site, function);
-    call();
-    return {};
-  } catch (const std::exception& exception) {
-    return fmt::format("threw an exception: {}", exception.what());
-  } catch (...) {
-    return "threw an exception that is not a std::exception";
-  }
+  const MarkedCall marked(site, function);
+  return thrown_by(call);
 }
 
 const CallSite& site_of(const Tree& tree, const LeafNode& leaf) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/histogram.h"
+#include "core/plugin_exception.h"
 #include "lockstep/leaf.h"
 #include "plugin/float_mode.h"
 
@@ -96,7 +97,7 @@ template <auto kMember, PluginFunction kFunction>
 auto forward(void* self) {
   auto& leaf = *static_cast<WatchedLeaf*>(self);
   const WatchedCall call(leaf, kFunction);
-  return (leaf.type->*kMember)(leaf.self);
+  return rethrowing([&] { return (leaf.type->*kMember)(leaf.self); });
 }
 
 const void* forward_get_extension(void* self, const char* id) {

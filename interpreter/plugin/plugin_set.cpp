@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "core/plugin_exception.h"
 #include "plugin/call_mark.h"
 #include "plugin/descriptor.h"
 #include "plugin/initialize.h"
@@ -78,12 +79,9 @@ PluginSet::~PluginSet() {
     (*plugin)->isolated.reset();
     const auto deinit = (*plugin)->descriptors.plugin.deinit;
     if (!(*plugin)->initialized || deinit == nullptr) continue;
-    try {
-      const MarkedCall mark(CallSite::of("", (*plugin)->descriptors.plugin.name),
-                            PluginFunction::Deinit);
-      deinit();
-    } catch (...) {  // NOLINT(bugprone-empty-catch): the work is done, nobody is left to tell
-    }
+    const MarkedCall mark(CallSite::of("", (*plugin)->descriptors.plugin.name),
+                          PluginFunction::Deinit);
+    thrown_by(deinit);  // the work is done, nobody is left to tell
   }
 }
 

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -51,6 +52,25 @@ void throw_foreign() {
   _Unwind_RaiseException(&exception);
 }
 
+// An exception that misbehaves when it is asked what it is, or when it goes.
+struct HostileException final : std::exception {
+  std::string how;
+
+  explicit HostileException(std::string its_how) : how(std::move(its_how)) {}
+  HostileException(const HostileException&) = default;
+  ~HostileException() override {
+    if (how == "throw hanging end") for_ever();
+  }
+  const char* what() const noexcept override {
+    static const std::string long_text(60'000'000, 'x');
+    if (how == "throw null") return nullptr;
+    if (how == "throw long") return long_text.c_str();
+    if (how == "throw hanging what") for_ever();
+    if (how == "throw crashing what") *reinterpret_cast<volatile int*>(8) = 1;  // NOLINT
+    return "";
+  }
+};
+
 struct Leaf {
   const lockstep_host* host;
   const lockstep_caller* caller;
@@ -85,10 +105,15 @@ void Leaf::misbehave_in(const char* function) {
 
 void Leaf::misbehave(const std::string& how) {
   if (how == "throw exception") throw std::runtime_error("out of reach");
+  if (how == "throw null" || how == "throw empty" || how == "throw long" ||
+      how == "throw hanging what" || how == "throw crashing what" || how == "throw hanging end") {
+    throw HostileException(how);
+  }
   if (how == "throw int") throw 7;  // NOLINT
   if (how == "throw foreign") throw_foreign();
   if (how == "exit thread") pthread_exit(nullptr);
   if (how == "set error") host->set_error(caller, "lost the arm");
+  if (how == "set long error") host->set_error(caller, std::string(60'000'000, 'x').c_str());
   if (how == "hang") for_ever();
   if (how == "hang deaf") {
     sigset_t all;

@@ -74,6 +74,35 @@ TEST_CASE("a leaf that throws is a fault") {
   check_fault({"throw foreign"}, "threw an exception that is not a std::exception");
 }
 
+TEST_CASE("of what an exception says, 500 bytes are told and the rest is counted") {
+  const std::string shortened = std::string(500, 'x') + " ... (59999500 more bytes)";
+  for (const std::string where : {"start", "tick", "halt", "progress"}) {
+    check_fault({"throw long", where}, "threw an exception: " + shortened);
+  }
+  check_fault({"set long error"}, shortened);
+  check_fault({"throw null"}, "threw an exception whose what() is NULL");
+  check_fault({"throw empty"}, "threw an exception whose what() is empty");
+  for (const Where where : {Where::InProcess, Where::Isolated}) {
+    const TemporaryDirectory directory;
+    const std::string file = directory.path("run.jsonl");
+    const Outcome outcome =
+        run_hostile({"throw long", "create"}, where, with(kFast, {"--record", file}));
+    check(outcome, kFault, {"could not be created: threw an exception: " + shortened});
+    CHECK(outcome.err.size() < 2000);
+    CHECK(read_file(file).size() < 3000);
+  }
+}
+
+TEST_CASE("to ask an exception what it is, and to destroy it, is a part of the call") {
+  check_crash({"throw crashing what"}, "crashed in tick 0: SIGSEGV", "killed by SIGSEGV");
+  for (const std::string how : {"throw hanging what", "throw hanging end"}) {
+    const Strings options = with(kFast, kShortLimits);
+    check(run_hostile({how}, Where::InProcess, options), kCrash,
+          {"arm' (Misbehave of plugin 'hostile') has not returned from tick 0"});
+    check(run_hostile({how}, Where::Isolated, options), kFault, {"did not return from tick"});
+  }
+}
+
 TEST_CASE("a leaf that sets an error is a fault") {
   for (const std::string where : {"start", "tick", "halt", "progress"}) {
     check_fault({"set error", where}, "lost the arm");

@@ -3,9 +3,9 @@
 // slot until the activation has ended, with a Failure or a halt.
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <string>
 
+#include "core/plugin_exception.h"
 #include "engine/node_kind.h"
 #include "engine/ticker.h"
 #include "lockstep/leaf.h"
@@ -18,10 +18,8 @@ template <class Call>
 void guarded(Ticker& ticker, NodeIndex self, Call call) {
   try {
     call();
-  } catch (const std::exception& exception) {
-    ticker.set_fault(self, std::string("threw an exception: ") + exception.what());
   } catch (...) {
-    ticker.set_fault(self, "threw an exception that is not a std::exception");
+    ticker.set_fault(self, describe_exception());
   }
 }
 

@@ -8,20 +8,20 @@
 
 namespace lockstep {
 
-enum class Outcome : std::uint8_t { Returned, Threw, ThrewForeign, TooLarge };
+enum class Outcome : std::uint8_t { Returned, Threw, TooLarge };
 
 struct Answer {
   Outcome outcome = Outcome::Returned;
-  std::uint64_t result = 0;     // a status, the bits of a double, or whether there is an object
-  std::string_view error = {};  // "" = none
-  std::string_view what = {};   // of a std::exception
+  std::uint64_t result = 0;      // a status, the bits of a double, or whether there is an object
+  std::string_view error = {};   // "" = none
+  std::string_view thrown = {};  // as describe_exception() has it
 };
 
 inline void write_answer(const Answer& answer, MessageWriter& message) {
   message.put(answer.outcome);
   message.put(answer.result);
   message.put_text(answer.error);
-  message.put_text(answer.what);
+  message.put_text(answer.thrown);
 }
 
 // False: the message makes no sense.
@@ -29,11 +29,8 @@ inline bool read_answer(MessageReader& message, Answer& answer) {
   answer.outcome = message.get<Outcome>();
   answer.result = message.get<std::uint64_t>();
   answer.error = message.text();
-  answer.what = message.text();
+  answer.thrown = message.text();
   return message.good() && answer.outcome <= Outcome::TooLarge;
 }
-
-// Stands for an exception that is not a std::exception.
-struct ForeignException {};
 
 }  // namespace lockstep

@@ -4,11 +4,10 @@
 #include <cstring>
 
 #include "core/utf8.h"
+#include "plugin/host.h"
 
 namespace lockstep {
 namespace {
-
-constexpr std::size_t kLongest = std::size_t{1} << 15;
 
 struct Head {
   std::uint32_t size;
@@ -33,7 +32,7 @@ void copy_out(const LogRing& ring, std::uint64_t at, void* data, std::size_t siz
 }  // namespace
 
 bool LogRingWriter::append(std::uint32_t caller, lockstep_log_level level, std::string_view text) {
-  const std::string_view cut = utf8_front(text, kLongest);
+  const std::string_view cut = utf8_front(text, kLongestLogLine);
   const Head head{static_cast<std::uint32_t>(cut.size()), caller, level};
   const std::lock_guard lock(mutex_);
   const std::uint64_t at = ring_.written.load(std::memory_order_relaxed);

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <stdexcept>
 
+#include "core/plugin_exception.h"
 #include "plugin/descriptor.h"
 #include "plugin/host.h"
 #include "plugin/isolated/answer.h"
@@ -92,9 +92,8 @@ std::uint64_t take_answer(RemoteRun& run, const lockstep_caller& caller) {
     run.entries().forget();
     fail_too_large(caller);
   }
-  if (!answer.error.empty()) fail(caller, std::string(answer.error));
-  if (answer.outcome == Outcome::Threw) throw std::runtime_error(std::string(answer.what));
-  if (answer.outcome == Outcome::ThrewForeign) throw ForeignException();
+  if (!answer.error.empty()) take_error(caller, Shortened::as_it_is(answer.error));
+  if (answer.outcome == Outcome::Threw) throw PluginException(answer.thrown);
   return answer.result;
 }
 

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <thread>
 
+#include "core/plugin_exception.h"
 #include "plugin/initialize.h"
 #include "plugin/isolated/channel.h"
 #include "plugin/isolated/child_process.h"
@@ -107,11 +108,8 @@ class Server {
     answer_.put(std::uint8_t{1});
     const auto deinit = descriptors_.plugin.deinit;
     if (!initialized_ || deinit == nullptr) return;
-    try {
-      const MarkedCall mark(CallSite::of("", descriptors_.plugin.name), PluginFunction::Deinit);
-      deinit();
-    } catch (...) {  // NOLINT(bugprone-empty-catch): the work is done, nobody is left to tell
-    }
+    const MarkedCall mark(CallSite::of("", descriptors_.plugin.name), PluginFunction::Deinit);
+    thrown_by(deinit);  // the work is done, nobody is left to tell
   }
 
   std::string path_;

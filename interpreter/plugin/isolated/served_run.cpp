@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <exception>
 
 #include "core/diagnostics.h"
+#include "core/plugin_exception.h"
 #include "plugin/isolated/channel.h"
 #include "plugin/isolated/remote_entries.h"
 
@@ -143,13 +143,19 @@ std::uint64_t ServedRun::call_leaf(Object& object, PluginFunction function) {
   return 0;
 }
 
-std::uint64_t ServedRun::call(Object& object, PluginFunction function) {
-  const MarkedCall mark(*object.site, function);
-  if (object.type == nullptr) return call_run(object, function);
-  if (function != PluginFunction::Create) return call_leaf(object, function);
+std::uint64_t ServedRun::create(Object& object) {
   object.slot.self =
       object.type->create(&host_table(), object.caller.get(), objects_.at(0)->slot.self);
   return object.slot.self != nullptr ? 1 : 0;
+}
+
+std::string ServedRun::call(Object& object, PluginFunction function, std::uint64_t& result) {
+  const MarkedCall mark(*object.site, function);
+  return thrown_by([&] {
+    result = object.type == nullptr               ? call_run(object, function)
+             : function == PluginFunction::Create ? create(object)
+                                                  : call_leaf(object, function);
+  });
 }
 
 void ServedRun::write_entries(MessageWriter& answer) const {
@@ -164,17 +170,10 @@ void ServedRun::write_entries(MessageWriter& answer) const {
 
 void ServedRun::perform(Object& object, PluginFunction function, MessageWriter& message) {
   Answer answer;
-  std::string what;
   written_.clear();
-  try {
-    answer.result = call(object, function);
-  } catch (const std::exception& exception) {
-    answer.outcome = Outcome::Threw;
-    what = exception.what();
-  } catch (...) {
-    answer.outcome = Outcome::ThrewForeign;
-  }
-  answer.what = what;
+  const std::string thrown = call(object, function, answer.result);
+  if (!thrown.empty()) answer.outcome = Outcome::Threw;
+  answer.thrown = thrown;
   if (object.slot.error != nullptr) answer.error = object.slot.error;
   write_answer(answer, message);
   write_entries(message);

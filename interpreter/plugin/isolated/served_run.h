@@ -39,7 +39,9 @@ class ServedRun {
   bool read_ports(MessageReader& request, std::vector<BoundPort>& ports);
   bool read_entries(MessageReader& request);
   Value* entry(std::uint32_t number);
-  std::uint64_t call(Object& object, PluginFunction function);
+  // Returns what it threw, "" when it came back.
+  std::string call(Object& object, PluginFunction function, std::uint64_t& result);
+  std::uint64_t create(Object& object);
   std::uint64_t call_run(Object& object, PluginFunction function);
   static std::uint64_t call_leaf(Object& object, PluginFunction function);
   void write_entries(MessageWriter& answer) const;

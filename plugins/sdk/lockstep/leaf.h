@@ -116,8 +116,8 @@ typedef struct lockstep_host {
 
   /* [run] Says that the caller has failed as a program, not as an action: the run ends in order
    * with `message` as the reason. To be called inside a function of the leaf, which then returns
-   * as usual; its result does not count. The message is copied, up to 500 bytes; the first one of a
-   * call is kept. */
+   * as usual; its result does not count. The first message of a call is kept: its first 500 bytes are
+   * copied, the rest is counted. */
   void (*set_error)(const lockstep_caller* caller, const char* message);
 
   /* [run] Seconds since the run began, the same for the whole of a tick. */

@@ -53,10 +53,15 @@ struct Thrown {
   const char* message;
 };
 
+struct Mute : std::exception {
+  const char* what() const noexcept override { return nullptr; }
+};
+
 const Thrown kThrown[] = {
     {"std::exception", [] { throw std::runtime_error("no power"); }, "no power"},
     {"text", [] { throw "no grip"; }, "no grip"},
     {"string", [] { throw std::string("no way"); }, "no way"},
+    {"what() that is NULL", [] { throw Mute(); }, "an exception without a text"},
     {"42", [] { throw 42; }, "an exception that is not a std::exception"},
 };
 
@@ -72,7 +77,7 @@ void call(FakeLeaf& leaf, const std::string& function) {
 }  // namespace
 
 TEST_CASE("an exception in any function of a leaf is its error", "[sdk]") {
-  const auto& thrown = kThrown[GENERATE(range(0, 4))];
+  const auto& thrown = kThrown[GENERATE(range(0, 5))];
   const std::string function =
       GENERATE(as<std::string>(), "start", "tick", "halt", "pause", "resume", "progress");
   CAPTURE(thrown.name, function);
@@ -87,7 +92,7 @@ TEST_CASE("an exception in any function of a leaf is its error", "[sdk]") {
 }
 
 TEST_CASE("an exception in a constructor is an error, and there is no leaf", "[sdk]") {
-  const auto& thrown = kThrown[GENERATE(range(0, 4))];
+  const auto& thrown = kThrown[GENERATE(range(0, 5))];
   where = "create";
   what = thrown.action;
   FakeLeaf leaf(kThrower);

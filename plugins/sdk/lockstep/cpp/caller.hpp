@@ -46,12 +46,15 @@ struct Caller {
 // Runs `work`; no exception leaves. What it throws is told to `report`.
 template <class Work, class Report>
 void catching(Work&& work, Report&& report) noexcept {
+  const auto tell = [&](const char* text) {
+    report(text != nullptr ? text : "an exception without a text");
+  };
   try {
     work();
   } catch (const std::exception& error) {
-    report(error.what());
+    tell(error.what());
   } catch (const char* message) {
-    report(message);
+    tell(message);
   } catch (const std::string& message) {
     report(message.c_str());
   } catch (...) {

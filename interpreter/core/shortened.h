@@ -1,0 +1,30 @@
+// A text of a stranger for a message: its first 500 bytes, and how many more there were. Needs no
+// memory beyond itself.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+namespace lockstep {
+
+class Shortened {
+ public:
+  static constexpr std::size_t kLongest = 500;  // bytes of the text
+
+  Shortened() = default;
+  explicit Shortened(std::string_view text);
+  // A text that another process has shortened.
+  static Shortened as_it_is(std::string_view text);
+
+  std::string_view text() const { return {text_.data(), size_}; }
+  const char* c_str() const { return text_.data(); }
+
+ private:
+  void append(std::string_view part);
+
+  std::array<char, kLongest + 80> text_{};  // ends with a NUL
+  std::size_t size_ = 0;
+};
+
+}  // namespace lockstep
