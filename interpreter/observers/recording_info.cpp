@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include "core/diagnostics.h"
+#include "measure/decision.h"
 #include "observers/recorded_probe.h"
 #include "observers/style.h"
 #include "observers/summary.h"
+#include "observers/tree_shape.h"
 
 namespace lockstep {
 namespace {
@@ -18,6 +20,7 @@ class Replayed {
 
   void after_tick(const RecordedTick& tick) { measure_.after_tick(probe_.read(tick)); }
 
+  bool is_reached() const { return measure_.distance().samples() > 0; }
   SynchronizedSummary summary(const RecordingHeader& header, double end) {
     measure_.run_ended(from_seconds(end));
     const RecordedNode& node = header.nodes[probe_.node()];
@@ -53,6 +56,25 @@ void write_end(const RecordingReader& reader, std::uint64_t ticks, double time, 
              styled("the recording is cut:", Style::Warning, color), reader.cut());
 }
 
+// Nothing when the last tick is lost: what comes before it does not say.
+std::vector<DecidingSummary> why_failed(const RecordingReader& reader, const RecordedTick& last) {
+  const RecordingHeader& header = reader.header();
+  const auto& end = reader.end();
+  const bool failed = end && end->result == to_string(RunResult::Failure);
+  if (!failed || last.tick + 1 != end->ticks) return {};
+  const TreeShape shape = shape_of(header);
+  std::vector<DecidingSummary> path;
+  for (const DecidingNode& node : deciding_path({
+           .children = [&](NodeIndex node) { return shape.nodes[node].children; },
+         .status = [&](NodeIndex node) { return last.nodes[node].status; },
+         .ticked = [&](NodeIndex node) { return last.nodes[node].ticked; },
+       })) {
+    const RecordedNode& it = header.nodes[node.node];
+    path.push_back(summarize(node, it.path, it.kind));
+  }
+  return path;
+}
+
 void write_warnings(const RecordingReader& reader, std::uint64_t faults, std::FILE* out,
                     bool color) {
   if (const std::string gaps = reader.gaps(); !gaps.empty()) {
@@ -72,19 +94,24 @@ void write_info(RecordingReader& reader, std::FILE* out, bool color) {
   std::vector<Replayed> nodes;
   for (const NodeIndex node : synchronized_nodes(header)) nodes.emplace_back(header, node);
   std::uint64_t ticks = 0, faults = 0;
-  double time = 0;
+  RecordedTick last;
   while (const auto tick = reader.next()) {
     ++ticks;
     faults += tick->faults.size();
-    time = tick->time;
-    for (Replayed& node : nodes) node.after_tick(*tick);
+    last = *tick;
+    for (Replayed& node : nodes) node.after_tick(last);
   }
   if (!reader.error().empty()) return;
-  if (reader.end()) time = reader.end()->time;
+  const double time = reader.end() ? reader.end()->time : last.time;
   write_header(header, out, color);
   write_end(reader, ticks, time, out, color);
+  if (ticks > 0) write_text(why_failed(reader, last), out, color);
   write_warnings(reader, faults, out, color);
-  for (Replayed& node : nodes) write_text(node.summary(header, time), out, color);
+  std::vector<SynchronizedSummary> reached;
+  for (Replayed& node : nodes) {
+    if (node.is_reached()) reached.push_back(node.summary(header, time));
+  }
+  write_text(reached, nodes.size() - reached.size(), out, color);
 }
 
 }  // namespace lockstep

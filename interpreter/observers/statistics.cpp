@@ -20,6 +20,7 @@ void Statistics::after_tick(Ticker& ticker, const TickReport& report) {
   last_start_ = report.time;
   for (Measured& node : nodes_) node.measure.after_tick(node.probe.read(ticker, report.time));
   for (const Fault& fault : report.faults) note(fault, report.tick);
+  if (report.status == Status::Failure) why_failed_ = deciding_path(ticker);
 }
 
 void Statistics::note(const Fault& fault, std::uint64_t tick) {
@@ -38,6 +39,7 @@ Summary Statistics::summary() const {
                   .reason = end_.reason,
                   .signal = end_.signal,
                   .fault = fault_,
+                  .why_failed = {},
                   .ticks = end_.ticks,
                   .seconds = to_seconds(end_.time),
                   .period = {},
@@ -48,6 +50,7 @@ Summary Statistics::summary() const {
                   .tick_budget = {},
                   .over_budget = {},
                   .synchronized_nodes = {},
+                  .never_reached = 0,
                   .notes = fault_notes_};
   if (faults_ > kMostFaults) {
     summary.notes.push_back(fmt::format("and {} more", counted(faults_ - kMostFaults, "fault")));
@@ -57,7 +60,16 @@ Summary Statistics::summary() const {
                                    .p99 = to_seconds(periods_.quantile(0.99)),
                                    .max = to_seconds(periods_.max())};
   }
-  for (const Measured& node : nodes_) summary.synchronized_nodes.push_back(summary_of(node));
+  for (const DecidingNode& node : why_failed_) {
+    summary.why_failed.push_back(
+        summarize(node, tree_.path(node.node), std::string(tree_.labels[node.node].type->id)));
+  }
+  for (const Measured& node : nodes_) {
+    if (node.measure.distance().samples() > 0) {
+      summary.synchronized_nodes.push_back(summary_of(node));
+    }
+  }
+  summary.never_reached = nodes_.size() - summary.synchronized_nodes.size();
   return summary;
 }
 

@@ -1,10 +1,12 @@
 // Measures a run for its summary: tick periods, and every synchronized node. Allocates nothing
-// while the run ticks (only a leaf's fault is noted as text). Prints nothing itself.
+// while the run ticks (only a leaf's fault is noted as text, and why the root failed). Prints
+// nothing itself.
 #pragma once
 
 #include <vector>
 
 #include "core/histogram.h"
+#include "measure/decision.h"
 #include "measure/synchronized_measure.h"
 #include "observers/summary.h"
 #include "runtime/observer.h"
@@ -39,6 +41,7 @@ class Statistics final : public Observer {
   bool real_time_ = false;
   Nanoseconds last_start_{0};
   std::string fault_;
+  std::vector<DecidingNode> why_failed_;
   std::uint64_t faults_ = 0;  // that the run went on after
   std::vector<std::string> fault_notes_;
   RunEnd end_;

@@ -5,15 +5,11 @@
 #include <algorithm>
 #include <csignal>
 #include <cstring>
-#include <nlohmann/json.hpp>
 
 #include "core/diagnostics.h"
-#include "core/printable_json.h"
 
 namespace lockstep {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string why(const Summary& summary) {
   switch (summary.reason) {
@@ -63,46 +59,30 @@ void write_over_budget(const Summary& summary, std::FILE* out, bool color) {
   }
 }
 
-Json json_of(const SynchronizedSummary& node) {
-  Json children = Json::array();
+void write_node(const SynchronizedSummary& node, std::FILE* out, bool color) {
+  const auto name = styled(printable(node.path), Style::Strong, color);
+  fmt::print(out, "  {} ({}, {})\n", name, printable(node.kind), counted(node.samples, "tick"));
+  fmt::print(out, "    progress distance {:.6g}, mean {:.6g} a tick; largest spread {:.6g}, ",
+             node.distance_sum, node.distance_mean, node.largest_spread);
+  fmt::print(out, "longest step {:.6g}\n", node.step_length);
+  std::size_t width = 0;
   for (const ChildSummary& child : node.children) {
-    children.push_back(
-        {{"name", child.name}, {"held_s", child.held_seconds}, {"held_ticks", child.held_ticks}});
+    width = std::max(width, printable(child.name).size());
   }
-  return {{"path", node.path},
-          {"kind", node.kind},
-          {"samples", node.samples},
-          {"progress_distance", node.distance_sum},
-          {"progress_distance_mean", node.distance_mean},
-          {"largest_spread", node.largest_spread},
-          {"step_length", node.step_length},
-          {"children", std::move(children)}};
+  for (const ChildSummary& child : node.children) {
+    fmt::print(out, "    {:<{}}  waited {:.3f} s in {}\n", printable(child.name), width,
+               child.held_seconds, counted(child.held_ticks, "tick"));
+  }
 }
 
-Json json_of(const PeriodSummary& period) {
-  return {{"p50_s", period.p50}, {"p99_s", period.p99}, {"max_s", period.max}};
-}
-
-Json json_of(const WorstTickSummary& worst) {
-  Json json = {{"tick", worst.tick}, {"took_s", worst.took}};
-  if (!worst.leaf.empty()) {
-    json["leaf"] = worst.leaf;
-    json["leaf_took_s"] = worst.leaf_took;
-  }
-  return json;
-}
-
-Json json_of(const std::vector<LeafTimingSummary>& leaves) {
-  Json list = Json::array();
-  for (const LeafTimingSummary& leaf : leaves) {
-    list.push_back({{"leaf", leaf.path},
-                    {"ticks", leaf.calls},
-                    {"over_budget", leaf.over_budget},
-                    {"p50_s", leaf.p50},
-                    {"p99_s", leaf.p99},
-                    {"max_s", leaf.max}});
-  }
-  return list;
+void write_deciding(const DecidingSummary& node, std::size_t indent, std::FILE* out, bool color) {
+  const std::string name = node.path.substr(node.path.rfind('/') + 1);
+  const Style style = node.status == Status::Success ? Style::Good : Style::Bad;
+  fmt::print(out, "{:{}}{}", "", indent, printable(name));
+  if (name != node.kind) fmt::print(out, " ({})", printable(node.kind));
+  fmt::print(out, ": {}", styled(to_string(node.status), style, color));
+  if (node.agreeing > 1) fmt::print(out, " ({} of {} children)", node.agreeing, node.children);
+  fmt::print(out, "\n");
 }
 
 }  // namespace
@@ -127,6 +107,14 @@ std::string_view to_string(StopReason reason) {
   return kNames[static_cast<unsigned>(reason)];
 }
 
+DecidingSummary summarize(const DecidingNode& node, std::string path, std::string kind) {
+  return {.path = std::move(path),
+          .kind = std::move(kind),
+          .status = node.status,
+          .children = node.children,
+          .agreeing = node.agreeing};
+}
+
 SynchronizedSummary summarize(const SynchronizedMeasure& measure, std::string path,
                               std::string kind, const std::vector<std::string>& children) {
   const ProgressDistance& distance = measure.distance();
@@ -145,19 +133,28 @@ SynchronizedSummary summarize(const SynchronizedMeasure& measure, std::string pa
   return summary;
 }
 
-void write_text(const SynchronizedSummary& node, std::FILE* out, bool color) {
-  const auto name = styled(printable(node.path), Style::Strong, color);
-  fmt::print(out, "  {} ({}, {})\n", name, printable(node.kind), counted(node.samples, "tick"));
-  fmt::print(out, "    progress distance {:.6g}, mean {:.6g} a tick; largest spread {:.6g}, ",
-             node.distance_sum, node.distance_mean, node.largest_spread);
-  fmt::print(out, "longest step {:.6g}\n", node.step_length);
-  std::size_t width = 0;
-  for (const ChildSummary& child : node.children) {
-    width = std::max(width, printable(child.name).size());
-  }
-  for (const ChildSummary& child : node.children) {
-    fmt::print(out, "    {:<{}}  waited {:.3f} s in {}\n", printable(child.name), width,
-               child.held_seconds, counted(child.held_ticks, "tick"));
+void write_text(std::span<const SynchronizedSummary> nodes, std::size_t never_reached,
+                std::FILE* out, bool color) {
+  for (const SynchronizedSummary& node : nodes) write_node(node, out, color);
+  if (never_reached == 0) return;
+  fmt::print(out, "  {} {} never reached\n", counted(never_reached, "synchronized node"),
+             never_reached == 1 ? "was" : "were");
+}
+
+// Of a deep tree the first and the last nodes: in between a result is mostly passed on.
+void write_text(std::span<const DecidingSummary> why_failed, std::FILE* out, bool color) {
+  constexpr std::size_t kFirst = 5, kLast = 15;
+  if (why_failed.empty()) return;
+  fmt::print(out, "  decided by {}:\n", printable(why_failed.back().path));
+  const std::size_t left_out = why_failed.size() - std::min(why_failed.size(), kFirst + kLast);
+  std::size_t indent = 4;
+  for (std::size_t i = 0; i < why_failed.size(); ++i, indent += 2) {
+    if (left_out > 0 && i == kFirst) {
+      fmt::print(out, "{:{}}... {} more\n", "", indent, counted(left_out, "node"));
+      i += left_out;
+      indent += 2;
+    }
+    write_deciding(why_failed[i], indent, out, color);
   }
 }
 
@@ -166,33 +163,13 @@ void write_text(const Summary& summary, std::FILE* out, bool color) {
   const std::string reason = why(summary);
   fmt::print(out, "{}{}{} after {}, {:.3f} s\n", result, reason.empty() ? "" : ": ", reason,
              counted(summary.ticks, "tick"), summary.seconds);
+  write_text(summary.why_failed, out, color);
   fmt::print(out, "{}{}", timing(summary), worst_tick(summary));
   write_over_budget(summary, out, color);
-  for (const SynchronizedSummary& node : summary.synchronized_nodes) write_text(node, out, color);
+  write_text(summary.synchronized_nodes, summary.never_reached, out, color);
   for (const std::string& note : summary.notes) {
     fmt::print(out, "{} {}\n", styled("note:", Style::Warning, color), printable(note));
   }
-}
-
-std::string to_json(const Summary& summary) {
-  Json json = {{"result", to_string(summary.result)}, {"reason", to_string(summary.reason)}};
-  if (summary.reason == StopReason::Fault) json["fault"] = summary.fault;
-  if (summary.reason == StopReason::Signal) json["signal"] = summary.signal;
-  json["ticks"] = summary.ticks;
-  json["time_s"] = summary.seconds;
-  json["period"] = summary.period ? json_of(*summary.period) : Json();
-  json["overruns"] = summary.overruns;
-  json["skipped"] = summary.skipped;
-  json["worst_tick"] = summary.worst ? json_of(*summary.worst) : Json();
-  json["faults"] = summary.faults;
-  json["tick_budget_s"] = summary.tick_budget ? Json(*summary.tick_budget) : Json();
-  json["over_budget"] = json_of(summary.over_budget);
-  json["synchronized_nodes"] = Json::array();
-  for (const auto& node : summary.synchronized_nodes) {
-    json["synchronized_nodes"].push_back(json_of(node));
-  }
-  json["notes"] = summary.notes;
-  return printable_json(json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace lockstep

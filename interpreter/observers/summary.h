@@ -5,9 +5,11 @@
 #include <cstdint>
 #include <cstdio>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "measure/decision.h"
 #include "measure/synchronized_measure.h"
 #include "observers/style.h"
 #include "runtime/observer.h"
@@ -39,6 +41,14 @@ struct SynchronizedSummary {
   std::vector<ChildSummary> children;
 };
 
+// One of the nodes that decided the result; measure/decision.h.
+struct DecidingSummary {
+  std::string path, kind;
+  Status status = Status::Idle;
+  std::size_t children = 0, agreeing = 0;
+};
+
+DecidingSummary summarize(const DecidingNode& node, std::string path, std::string kind);
 SynchronizedSummary summarize(const SynchronizedMeasure& measure, std::string path,
                               std::string kind, const std::vector<std::string>& children);
 
@@ -64,8 +74,9 @@ struct WorstTickSummary {
 struct Summary {
   RunResult result = RunResult::Stopped;
   StopReason reason = StopReason::Completed;
-  int signal = 0;     // when reason is Signal
-  std::string fault;  // when reason is Fault: "Door/pull/arm: threw …"
+  int signal = 0;                           // when reason is Signal
+  std::string fault;                        // when reason is Fault: "Door/pull/arm: threw …"
+  std::vector<DecidingSummary> why_failed;  // from the root down, when it failed
   std::uint64_t ticks = 0;
   double seconds = 0;
   std::optional<PeriodSummary> period;  // real time only, and from two ticks on
@@ -74,13 +85,16 @@ struct Summary {
   std::uint64_t faults = 0;               // of leaves that the run went on after
   std::optional<double> tick_budget;      // seconds
   std::vector<LeafTimingSummary> over_budget;
-  std::vector<SynchronizedSummary> synchronized_nodes;
+  std::vector<SynchronizedSummary> synchronized_nodes;  // that a tick reached
+  std::size_t never_reached = 0;                        // of the synchronized nodes
   std::vector<std::string> notes;  // what else the user must know: a recording that is cut, …
 };
 
 void write_text(const Summary& summary, std::FILE* out, bool color);
-// The part of it about synchronized nodes.
-void write_text(const SynchronizedSummary& node, std::FILE* out, bool color);
+// Parts of it, which a recording tells in the same words.
+void write_text(std::span<const DecidingSummary> why_failed, std::FILE* out, bool color);
+void write_text(std::span<const SynchronizedSummary> nodes, std::size_t never_reached,
+                std::FILE* out, bool color);
 
 // One line, no newline. docs/recording.md describes the keys.
 std::string to_json(const Summary& summary);

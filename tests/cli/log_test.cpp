@@ -66,6 +66,34 @@ TEST_CASE("log info sums up") {
   CHECK(!contains(outcome.out, "\x1b"));
 }
 
+TEST_CASE("log info tells why a run failed, in the words of the run") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "tree.xml", tree_text("<Sequence name=\"mission\"><Fallback><Inverter><Advance name=\"jam\" "
+                            "step=\"0.5\"/></Inverter><AlwaysFailure/></Fallback>"
+                            "<ParallelAbsolute barriers=\"0.5\"><Advance/><Advance/>"
+                            "</ParallelAbsolute></Sequence>"));
+  const std::string file = directory.path("run.jsonl");
+  const Outcome run = lockstep::test::lockstep(
+      {"run", tree, "--clock", "virtual", "--view", "none", "--record", file});
+  CHECK(run.code == 1);
+  const std::string why =
+      "  decided by Main/mission/Fallback/AlwaysFailure:\n"
+      "    mission (Sequence): failure\n"
+      "      Fallback: failure (2 of 2 children)\n"
+      "        AlwaysFailure: failure\n"
+      "  1 synchronized node was never reached\n";
+  CHECK(run.out == "failure after 2 ticks, 0.010 s\n" + why);
+  CHECK(log({"info", file}).out.ends_with("\n" + why));
+  // Of a recording without its last tick nobody knows.
+  const std::string text = read_file(file);
+  const auto last = text.find("{\"tick\":1"), end = text.find("{\"end\"");
+  const std::string lost =
+      directory.file("lost.jsonl", text.substr(0, last) + "{\"lost\":{\"ticks\":1,\"from\":1}}\n" +
+                                       text.substr(end));
+  CHECK(!contains(log({"info", lost}).out, "decided by"));
+}
+
 TEST_CASE("log: - is stdin") {
   const TemporaryDirectory directory;
   const std::string recording = record(directory);

@@ -1,5 +1,6 @@
 #include "observers/statistics.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <csignal>
 
@@ -142,6 +143,45 @@ TEST_CASE("leaves over the tick budget are told with their times") {
             R"("p50_s":0.0001,"p99_s":0.012,"max_s":0.015}],)") != std::string::npos);
 }
 
+TEST_CASE("why a run failed: the path from the root to the leaf that decided") {
+  WatchedRun run("Sequence(a Fallback(b Inverter(c?)))", "a=S b=F c=S");
+  const Summary summary = summary_of(run);
+  CHECK(text_of(summary) ==
+        "failure after 1 tick, 0.000 s\n"
+        "  decided by Test/Sequence/Fallback/Inverter/c:\n"
+        "    Sequence: failure\n"
+        "      Fallback: failure (2 of 2 children)\n"
+        "        Inverter: failure\n"
+        "          c (ScriptedCondition): success\n");
+  CHECK(to_json(summary).find(
+            R"("reason":"completed","why_failed":[{"path":"Test/Sequence","kind":"Sequence",)"
+            R"("status":"failure","children":2,"agreeing":1},)") != std::string::npos);
+  WatchedRun good("Inverter(a)", "a=F");
+  CHECK(text_of(summary_of(good)) == "success after 1 tick, 0.000 s\n");
+}
+
+TEST_CASE("why a run failed: of a deep tree the first nodes and the last") {
+  std::string tree = "a";
+  for (int depth = 0; depth < 50; ++depth) tree = "ForceFailure(" + tree + ")";
+  WatchedRun run(tree, "a=S");
+  const std::string text = text_of(summary_of(run));
+  CHECK(std::count(text.begin(), text.end(), '\n') == 2 + 5 + 1 + 15);
+  CHECK(text.find("            ForceFailure: failure\n"
+                  "              ... 31 nodes more\n"
+                  "                ForceFailure: failure\n") != std::string::npos);
+  CHECK(text.ends_with("  a (Scripted): success\n"));
+}
+
+TEST_CASE("synchronized nodes that no tick reached are only counted") {
+  WatchedRun run("Sequence(ParallelAbsolute[barriers=.5](a b) ParallelRelative[delta=1](c d))",
+                 "a=F b=R c=S d=S");
+  const Summary summary = summary_of(run);
+  REQUIRE(summary.synchronized_nodes.size() == 1);
+  CHECK(summary.synchronized_nodes[0].path == "Test/Sequence/ParallelAbsolute");
+  CHECK(text_of(summary).ends_with("  1 synchronized node was never reached\n"));
+  CHECK(to_json(summary).ends_with(R"("never_reached":1,"notes":[]})"));
+}
+
 TEST_CASE("why a run stopped") {
   Summary summary;
   summary.reason = StopReason::Timeout;
@@ -162,14 +202,15 @@ TEST_CASE("why a run stopped") {
 
 TEST_CASE("the summary as JSON") {
   WatchedRun run("ParallelRelative[delta=.5](a b)", "a+.25 b+.5");
-  CHECK(to_json(summary_of(run)) ==
-        R"({"result":"success","reason":"completed","ticks":4,"time_s":0.3,"period":null,)"
-        R"("overruns":0,"skipped":0,"worst_tick":null,"faults":0,"tick_budget_s":null,)"
-        R"("over_budget":[],"synchronized_nodes":[{"path":"Test/ParallelRelative",)"
-        R"("kind":"ParallelRelative","samples":4,"progress_distance":1.0,)"
-        R"("progress_distance_mean":0.25,"largest_spread":0.5,"step_length":0.5,"children":[)"
-        R"({"name":"a","held_s":0.0,"held_ticks":0},{"name":"b","held_s":0.0,"held_ticks":0}]}],)"
-        R"("notes":[]})");
+  CHECK(
+      to_json(summary_of(run)) ==
+      R"({"result":"success","reason":"completed","why_failed":[],"ticks":4,"time_s":0.3,"period":null,)"
+      R"("overruns":0,"skipped":0,"worst_tick":null,"faults":0,"tick_budget_s":null,)"
+      R"("over_budget":[],"synchronized_nodes":[{"path":"Test/ParallelRelative",)"
+      R"("kind":"ParallelRelative","samples":4,"progress_distance":1.0,)"
+      R"("progress_distance_mean":0.25,"largest_spread":0.5,"step_length":0.5,"children":[)"
+      R"({"name":"a","held_s":0.0,"held_ticks":0},{"name":"b","held_s":0.0,"held_ticks":0}]}],)"
+      R"("never_reached":0,"notes":[]})");
 }
 
 }  // namespace
