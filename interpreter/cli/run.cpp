@@ -41,11 +41,13 @@ int exit_code_of(const RunEnd& end) {
 
 // Whose fault it was, for a person who has to find the culprit.
 std::string describe(const Fault& fault, const Tree& tree, const RunEnd& end) {
-  const std::string when =
-      end.ticks == 0 ? "before the first tick"
-                     : fmt::format("in tick {} at {:.3f} s", end.ticks - 1, to_seconds(end.time));
-  return fmt::format("the leaf {} failed {}: {}", describe_leaf(tree, fault.node), when,
-                     fault.message);
+  std::string what = "could not be halted at the end of the run";
+  if (!fault.in_last_halt) {
+    what = end.ticks == 0
+               ? "failed before the first tick"
+               : fmt::format("failed in tick {} at {:.3f} s", end.ticks - 1, to_seconds(end.time));
+  }
+  return fmt::format("the leaf {} {}: {}", describe_leaf(tree, fault.node), what, fault.message);
 }
 
 // There is one, and its members end in the order in which they may.
@@ -90,15 +92,16 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     VirtualClock virtual_clock;
     Clock& clock = options_.is_wall() ? static_cast<Clock&>(wall_clock) : virtual_clock;
     RunEnd end;
-    std::optional<Fault> fault;
+    std::vector<Fault> faults;
     {
       Run run(tree_, run_options());
       if (!make_realtime()) return std::nullopt;
       end = run_loop(run, clock, loop_options(), observers());
-      if (run.fault() != nullptr) fault = *run.fault();
+      if (run.fault() != nullptr) faults = run.ticker().take_tolerated();
+      if (run.fault() != nullptr) faults.insert(faults.begin(), *run.fault());
     }
     view_.close();
-    if (fault) print_error(describe(*fault, tree_, end));
+    for (const Fault& fault : faults) print_error(describe(fault, tree_, end));
     return end;
   }
 

@@ -15,6 +15,12 @@ std::string quoted(const std::string& text) {
   return out + "'";
 }
 
+std::string what_failed(const StudyFault& fault) {
+  if (fault.fault.in_last_halt) return "could not be halted at the end of the run";
+  if (fault.ticks == 0) return "failed before the first tick";
+  return fmt::format("failed in tick {}", fault.ticks - 1);
+}
+
 }  // namespace
 
 std::string run_command(const StudyOptions& options, const StudyPlan& plan,
@@ -45,12 +51,10 @@ std::string fault_text(const StudyFault& fault, const LoadedStudy& study) {
   const NodeType& type = *tree.labels[fault.fault.node].type;
   const std::string cell = cell_text(study.plan, fault.row.cell);
   return fmt::format(
-      "the leaf '{}' ({} of plugin '{}') failed {}, in run {} of cell {}{}{}{}, seed "
-      "{}: {}",
-      tree.path(fault.fault.node), type.id, type.plugin,
-      fault.ticks == 0 ? "before the first tick" : fmt::format("in tick {}", fault.ticks - 1),
-      fault.row.run, fault.row.cell, cell.empty() ? "" : " (", cell, cell.empty() ? "" : ")",
-      fault.seed, fault.fault.message);
+      "the leaf '{}' ({} of plugin '{}') {}, in run {} of cell {}{}{}{}, seed {}: {}",
+      tree.path(fault.fault.node), type.id, type.plugin, what_failed(fault), fault.row.run,
+      fault.row.cell, cell.empty() ? "" : " (", cell, cell.empty() ? "" : ")", fault.seed,
+      fault.fault.message);
 }
 
 }  // namespace lockstep

@@ -63,7 +63,9 @@ void Ticker::halt_range(NodeIndex first, NodeIndex last) {
 }
 
 void Ticker::halt_all() {
+  in_last_halt_ = true;
   for (NodeIndex node = 0; node < tree_.nodes.size();) node = end_activation(node);
+  in_last_halt_ = false;
 }
 
 void Ticker::halt_running_children(NodeIndex node) {
@@ -86,14 +88,15 @@ void Ticker::pause(NodeIndex node) {
 }
 
 void Ticker::set_fault(NodeIndex node, std::string message) {
-  if (policy_ == FaultPolicy::Fail) {
+  Fault fault{node, std::move(message), in_last_halt_};
+  if (in_last_halt_ ? faulted_ : policy_ == FaultPolicy::Fail) {
     leaf(node).failed = true;
-    tolerated_.push_back({node, std::move(message)});
+    tolerated_.push_back(std::move(fault));
     return;
   }
   if (faulted_) return;  // the first is the cause
   faulted_ = true;
-  fault_ = Fault{node, std::move(message)};
+  fault_ = std::move(fault);
 }
 
 void Ticker::keep_ancestors_running(NodeIndex node) {

@@ -19,7 +19,8 @@ namespace lockstep {
 // A leaf failed as a program. The run ends: no leaf is started or ticked after it.
 struct Fault {
   NodeIndex node = 0;
-  std::string message;  // "threw …", "returned status 7, …"
+  std::string message;        // "threw …", "returned status 7, …"
+  bool in_last_halt = false;  // it could not be halted at the end of the run
 };
 
 // What a fault means to the run.
@@ -109,7 +110,8 @@ class Ticker {
   // Ticks the root once. The result is Running while the tree runs, and after a fault.
   Status tick_root(Nanoseconds now);
 
-  // Halts every running leaf; what a leaf does wrong in halt becomes the fault if there is none.
+  // Halts every running leaf. A leaf that does wrong then may not have stopped: whatever the
+  // policy, it becomes the fault of the run; if there is one already, it is in tolerated().
   void halt_all();
 
   // As new. Leaves are not told: halt_all first.
@@ -117,7 +119,7 @@ class Ticker {
 
   const Fault* fault() const { return faulted_ ? &fault_ : nullptr; }
   // The faults that the run goes on after, in order, since they were last taken: those of a tick,
-  // and those of progress that was asked for before it.
+  // those of progress that was asked for before it, and those of halt_all.
   std::span<const Fault> tolerated() const { return tolerated_; }
   std::vector<Fault> take_tolerated() { return std::exchange(tolerated_, {}); }
   std::uint32_t tick_number() const { return tick_number_; }  // of the last tick; the first is 1
@@ -139,6 +141,7 @@ class Ticker {
   Nanoseconds now_{0};
   std::uint32_t tick_number_ = 0;
   const FaultPolicy policy_;
+  bool in_last_halt_ = false;
   bool faulted_ = false;
   Fault fault_;
   std::vector<Fault> tolerated_;

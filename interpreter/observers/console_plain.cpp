@@ -42,7 +42,9 @@ void ConsolePlain::after_tick(Ticker& ticker, const TickReport& report) {
 }
 
 void ConsolePlain::run_ended(Ticker& ticker, const RunEnd& end) {
-  after_tick(ticker, {});
+  TickReport halts;
+  halts.faults = ticker.tolerated();
+  after_tick(ticker, halts);
   tell_left_out();
   if (ticker.fault() != nullptr) print("fault: " + fault_text(ticker));
   print(fmt::format("run ends: {} ({}) after {}", to_string(end.result()), to_string(end.reason),
@@ -70,7 +72,10 @@ void ConsolePlain::tell_left_out() {
 
 void ConsolePlain::tell_fault(const Fault& fault) {
   if (!fault_budget_.take(real_time_())) return;
-  print(fmt::format("{}: failed: {}; counted as Failure", tree_.path(fault.node), fault.message));
+  const std::string path = tree_.path(fault.node);
+  print(fault.in_last_halt
+            ? fmt::format("{}: could not be halted: {}", path, fault.message)
+            : fmt::format("{}: failed: {}; counted as Failure", path, fault.message));
 }
 
 void ConsolePlain::tell_leaf(NodeIndex leaf, Status before, Status now) {

@@ -31,6 +31,7 @@ void Statistics::note(const Fault& fault, std::uint64_t tick) {
 void Statistics::run_ended(Ticker& ticker, const RunEnd& end) {
   end_ = end;
   fault_ = fault_text(ticker);
+  for (const Fault& fault : ticker.tolerated()) note(fault, end.ticks);
   for (Measured& node : nodes_) node.measure.run_ended(end.time);
 }
 
@@ -93,13 +94,19 @@ SynchronizedSummary Statistics::summary_of(const Measured& measured) const {
 }
 
 std::string fault_text(const Tree& tree, const Fault& fault, std::uint64_t tick) {
-  return fmt::format("the leaf '{}' failed in tick {}: {}; counted as Failure",
-                     tree.path(fault.node), tick, fault.message);
+  const std::string path = tree.path(fault.node);
+  if (fault.in_last_halt) {
+    return fmt::format("the leaf '{}' could not be halted: {}", path, fault.message);
+  }
+  return fmt::format("the leaf '{}' failed in tick {}: {}; counted as Failure", path, tick,
+                     fault.message);
 }
 
 std::string fault_text(const Ticker& ticker) {
   const Fault* fault = ticker.fault();
-  return fault == nullptr ? "" : ticker.tree().path(fault->node) + ": " + fault->message;
+  if (fault == nullptr) return "";
+  return fmt::format("{}: {}{}", ticker.tree().path(fault->node),
+                     fault->in_last_halt ? "could not be halted: " : "", fault->message);
 }
 
 }  // namespace lockstep

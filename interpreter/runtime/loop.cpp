@@ -24,10 +24,10 @@ class Loop {
     for (Observer* observer : observers_) {
       observer->run_started(run_.ticker(), {run_.period(), is_real_});
     }
-    if (run_.fault() != nullptr) end_.reason = StopReason::Fault;
     while (run_.fault() == nullptr && may_tick() && tick() && meet_next()) wait();
     end_.time = clock_.now() - start_;
     run_.halt();
+    if (run_.fault() != nullptr) end_.reason = StopReason::Fault;
     for (Observer* observer : observers_) observer->run_ended(run_.ticker(), end_);
     return end_;
   }
@@ -70,7 +70,7 @@ class Loop {
     const TickReport report{end_.ticks, now, end_.status, skipped_before_, faults};
     for (Observer* observer : observers_) observer->after_tick(ticker, report);
     ++end_.ticks;
-    if (run_.fault() != nullptr) return stop(StopReason::Fault);
+    if (run_.fault() != nullptr) return false;
     if (is_complete(end_.status)) return stop(StopReason::Completed);
     return true;
   }

@@ -42,8 +42,8 @@ constexpr TickRow kRows[] = {
   {"an exception in halt is told; the leaf is not halted again, and starts anew",
    "Fallback(b? a)", "b=FSF a=RRS^halt",
    "R[b a] S{start b, tick b, halt a}!a R{start b, tick b, start a, tick a}"},
-  {"an error in the halt at the end of the run is told; all others are halted",
-   "Parallel(a b c)", "a=R b=R!halt c=R", "R[a b c] stop!b halt[a b c]"},
+  {"errors in the halt at the end of the run: the first is the fault, all others are halted",
+   "Parallel(a b c)", "a=R b=R!halt c=R^halt", "R[a b c] stop!c halt[a b c] X{}=b"},
 
   {"an error in resume: the leaf is not ticked but halted",
    "ParallelAbsolute[barriers=.5](a b)", "a=R.1R.6 b=R.6!resume",

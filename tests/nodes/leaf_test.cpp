@@ -57,7 +57,7 @@ constexpr TickRow kRows[] = {
   {"an exception in halt is a fault; the leaf is not halted again",
    "Fallback(b? c)", "b=FS c=R^halt", "R[b c] X{start b, tick b, halt c}=c"},
   {"a halt at the end of the run that goes wrong does not stop the others",
-   "Parallel(a b c)", "a=R b=R^halt c=RX", "R[a b c] X{tick a, tick b, tick c, halt a, halt b, halt c}=c"},
+   "Parallel(a b c)", "a=R b=R^halt c=RX", "R[a b c] X{tick a, tick b, tick c, halt a, halt b, halt c}=c!b"},
   {"an error in pause is a fault",
    "ParallelAbsolute[barriers=.5](a b c)", "a=R.1 b=R.6!pause c=R",
    "R[a b c] X{tick a, pause b, halt a, halt b, halt c}=b"},
