@@ -44,6 +44,15 @@ int print_summary(const Options& options, const StudyPlan& plan,
   } else {
     fmt::print("{}", summary_table(plan, rows));
   }
+  Diagnostics notes;
+  for (std::string& warning : summary_warnings(rows)) {
+    notes.add({.severity = Severity::Warning,
+               .location = {},
+               .message = std::move(warning),
+               .hint = {},
+               .excerpt = {}});
+  }
+  print_diagnostics(notes, Severity::Warning, stderr);
   return flush_stdout() ? kExitSuccess : kExitUsage;
 }
 

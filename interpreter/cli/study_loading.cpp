@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "cli/checks.h"
 #include "cli/exit_code.h"
 #include "core/suggest.h"
+#include "study/column_names.h"
 #include "study/plan_check.h"
 
 namespace lockstep {
@@ -51,6 +53,7 @@ class StudyLoader {
   LoadedStudy& study_;
   Diagnostics& diagnostics_;
   std::set<std::string> files_;
+  std::map<std::string, std::size_t> columns_;  // of the plan, by name
 };
 
 void StudyLoader::read_measures() {
@@ -172,9 +175,10 @@ void StudyLoader::add_columns(StudyCell& cell, std::uint64_t number) {
   }
   auto& columns = study_.plan.columns;
   for (const StudyColumn& column : measures.columns()) {
-    const auto found = std::ranges::find(columns, column);
-    cell.columns.push_back(static_cast<std::size_t>(found - columns.begin()));
-    if (found == columns.end()) columns.push_back(column);
+    const auto [place, is_new] = columns_.try_emplace(column_name(column), columns.size());
+    if (is_new) columns.push_back(column);
+    columns[place->second].cells.push_back(number);
+    cell.columns.push_back(place->second);
   }
 }
 
@@ -230,6 +234,9 @@ int StudyLoader::load() {
     const int it = load_cell(cell);
     if (code == kExitSuccess) code = it;
     if (it == kExitPluginRefused || study_.plugins == nullptr) return it;
+  }
+  for (StudyColumn& column : plan.columns) {
+    if (column.cells.size() == cell_count(plan)) column.cells.clear();  // all
   }
   for (const auto& plugin : study_.plugins->list()) {
     plan.plugins.emplace_back(plugin.name, plugin.version);

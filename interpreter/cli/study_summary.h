@@ -8,9 +8,11 @@
 
 namespace lockstep {
 
-// Aligned, with a line of names above.
+// Aligned, with a line of names above. A gap that is far has a '!'.
 std::string summary_table(const StudyPlan& plan, const std::vector<SummaryRow>& rows);
 // One line: an array of the rows of summary.csv, the values of the grid under "cell".
 std::string summary_json(const StudyPlan& plan, const std::vector<SummaryRow>& rows);
+// What a reader of these must know: a line for each node and measure whose target is far.
+std::vector<std::string> summary_warnings(const std::vector<SummaryRow>& rows);
 
 }  // namespace lockstep

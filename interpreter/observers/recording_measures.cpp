@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/diagnostics.h"
@@ -13,6 +16,11 @@
 namespace lockstep {
 namespace {
 
+// '-' for what was not reached.
+std::string text_of(double value) {
+  return std::isnan(value) ? "-" : fmt::format("{:.6g}", value);
+}
+
 class Synchronized {
  public:
   Synchronized(const RecordingHeader& header, NodeIndex node)
@@ -21,6 +29,7 @@ class Synchronized {
   NodeIndex node() const { return probe_.node(); }
   void after_tick(const RecordedTick& tick) { measure_.after_tick(probe_.read(tick)); }
   double value(MeasureKind kind) const {
+    if (measure_.distance().samples() == 0) return std::numeric_limits<double>::quiet_NaN();
     const bool is_sum = kind == MeasureKind::ProgressDistance;
     return is_sum ? measure_.distance().sum() : measure_.distance().step_length();
   }
@@ -39,27 +48,19 @@ std::vector<std::string> paths_of(const RecordingHeader& header) {
 class Instant {
  public:
   Instant(const MeasureSpec& measure, std::size_t node)
-      : node_(node), expected_(measure.expected), nearest_(measure.progress) {}
+      : node_(node), measure_(measure.progress, measure.expected.value_or(0)) {}
 
-  std::size_t node() const { return node_; }
   void after_tick(const RecordedTick& tick) {
     const RecordedState& state = tick.nodes[node_];
-    nearest_.sample(static_cast<double>(tick.tick), state.progress);
-    ticks_ = static_cast<double>(tick.tick + 1);
-    succeeded_ = state.status == Status::Success;
+    measure_.after_tick(tick.tick, state.progress, state.ticked, state.status);
   }
-  double value() {
-    // No tick follows the last: what the node reached in it would not be seen.
-    if (succeeded_) nearest_.sample(ticks_, 1);
-    return nearest_.time() - expected_.value_or(0);
+  MeasuredValue value(const RecordingHeader& header, const MeasureSpec& measure) const {
+    return {header.nodes[node_].path, measure, measure_.value(), measure_.gap()};
   }
 
  private:
   std::size_t node_;
-  std::optional<double> expected_;
-  NearestInstant nearest_;
-  double ticks_ = 0;
-  bool succeeded_ = false;
+  Predictability measure_;
 };
 
 // Feeds each tick to what was asked for.
@@ -92,13 +93,13 @@ class Measuring {
     auto instant = instants_.begin();
     for (const MeasureSpec& measure : measures) {
       if (measure.kind == MeasureKind::Duration) {
-        values.push_back({header_.tree, measure, duration_});
+        values.push_back({header_.tree, measure, duration_, {}});
       } else if (measure.kind == MeasureKind::Predictability) {
-        values.push_back({header_.nodes[instant->node()].path, measure, instant->value()});
-        ++instant;
+        values.push_back((instant++)->value(header_, measure));
       } else {
         for (const Synchronized& node : nodes_) {
-          values.push_back({header_.nodes[node.node()].path, measure, node.value(measure.kind)});
+          values.push_back(
+              {header_.nodes[node.node()].path, measure, node.value(measure.kind), {}});
         }
       }
     }
@@ -129,29 +130,30 @@ std::string to_json(std::span<const MeasuredValue> values) {
   for (const MeasuredValue& value : values) {
     json.push_back(
         {{"node", value.node}, {"measure", to_text(value.measure)}, {"value", value.value}});
+    if (value.gap) json.back()["gap"] = *value.gap;
   }
   return printable_json(
       json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
 std::string to_table(std::span<const MeasuredValue> values) {
-  struct Row {
-    std::string node, measure;
-  };
-  std::vector<Row> rows = {{"node", "measure"}};
-  std::size_t node_width = 0, measure_width = 0;
+  using Row = std::array<std::string, 4>;
+  const bool has_gaps =
+      std::ranges::any_of(values, [](const auto& it) { return it.gap.has_value(); });
+  std::vector<Row> rows = {{"node", "measure", "value", has_gaps ? "gap" : ""}};
   for (const MeasuredValue& value : values) {
-    rows.push_back({printable(value.node), printable(to_text(value.measure))});
+    rows.push_back({printable(value.node), printable(to_text(value.measure)), text_of(value.value),
+                    value.gap ? text_of(*value.gap) : ""});
   }
+  std::array<std::size_t, 3> widths{};
   for (const Row& row : rows) {
-    node_width = std::max(node_width, row.node.size());
-    measure_width = std::max(measure_width, row.measure.size());
+    for (std::size_t i = 0; i < widths.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
   }
-  std::string text = fmt::format("{:<{}}  {:<{}}  value\n", rows[0].node, node_width,
-                                 rows[0].measure, measure_width);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    text += fmt::format("{:<{}}  {:<{}}  {:.6g}\n", rows[i + 1].node, node_width,
-                        rows[i + 1].measure, measure_width, values[i].value);
+  std::string text;
+  for (const Row& row : rows) {
+    text += fmt::format("{:<{}}  {:<{}}  ", row[0], widths[0], row[1], widths[1]);
+    text += row[3].empty() ? row[2] : fmt::format("{:<{}}  {}", row[2], widths[2], row[3]);
+    text += '\n';
   }
   return text;
 }

@@ -124,8 +124,12 @@ std::vector<BoxPlot> box_plots(std::span<const std::string> grid_names,
     const auto [place, is_new] = places.emplace(std::move(key), plots.size());
     if (is_new) plots.push_back(empty_plot(grid_names, row));
     const std::string label = row.grid.empty() ? "" : row.grid.back();
-    plots[place->second].groups.push_back({label, {row.summary}});
+    const bool is_there = row.summary.count > 0;
+    BoxPlot& plot = plots[place->second];
+    plot.groups.push_back({label, {is_there ? std::optional(row.summary) : std::nullopt}});
+    plot.results = plot.results + row.results;
   }
+  for (BoxPlot& plot : plots) plot.title += "  (" + to_text(plot.results) + ")";
   make_unique(plots);
   return plots;
 }

@@ -8,18 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "measure/predictability.h"
 #include "study/plot.h"
+#include "study/table.h"
 
 namespace lockstep {
-
-// A row of summary.csv.
-struct SummaryRow {
-  std::vector<std::string> grid;  // a value for each grid name, in their order
-  std::string node;               // its path
-  std::string measure;            // as to_text(MeasureSpec) writes it
-  SampleSummary summary;
-};
 
 struct BoxGroup {
   std::string label;                                // below it
@@ -31,6 +23,7 @@ struct BoxPlot {
   std::string title, x_label, y_label;
   std::vector<std::string> series = {""};  // with only one there is no legend
   std::vector<BoxGroup> groups;            // from left to right
+  ResultCounts results;                    // of all runs behind it
 };
 
 // One plot for each node, measure and combination of values of the other grid names; the values of

@@ -21,4 +21,8 @@ std::vector<std::string> grid_columns(const StudyPlan& plan) {
   return columns;
 }
 
+std::string column_name(const StudyColumn& column) {
+  return (column.is_gap ? "gap " : "") + column.measure + ' ' + column.node;
+}
+
 }  // namespace lockstep

@@ -1,5 +1,6 @@
 #include "study/plan.h"
 
+#include <algorithm>
 #include <charconv>
 
 #include "core/random.h"
@@ -48,6 +49,10 @@ std::string cell_text(const StudyPlan& plan, std::uint64_t cell) {
     text += plan.grid[axis].name + '=' + values[axis];
   }
   return text;
+}
+
+bool has_column(const StudyColumn& column, std::uint64_t cell) {
+  return column.cells.empty() || std::ranges::binary_search(column.cells, cell);
 }
 
 std::uint64_t cell_seed(const StudyPlan& plan, std::uint64_t cell) {

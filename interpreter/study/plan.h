@@ -25,6 +25,9 @@ struct GridAxis {
 struct StudyColumn {
   std::string measure;  // as --measure spells it
   std::string node;     // the path of the node, or the tree's id for what is of the whole run
+  // Of the predictability in the column before: how far from its target the progress was.
+  bool is_gap = false;
+  std::vector<std::uint64_t> cells = {};  // in which the tree has the node; empty: in all
 
   friend bool operator==(const StudyColumn&, const StudyColumn&) = default;
 };
@@ -60,6 +63,7 @@ std::uint64_t cell_count(const StudyPlan& plan);
 std::vector<std::string> cell_values(const StudyPlan& plan, std::uint64_t cell);
 // "barriers=5, noise=0.01"; "" without a grid.
 std::string cell_text(const StudyPlan& plan, std::uint64_t cell);
+bool has_column(const StudyColumn& column, std::uint64_t cell);
 // In force in a cell: the plan's, or the value of an axis, which must be a number.
 std::uint64_t cell_seed(const StudyPlan& plan, std::uint64_t cell);
 double cell_rate(const StudyPlan& plan, std::uint64_t cell);

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <charconv>
+#include <functional>
 #include <set>
 
 #include "measure/measure_spec.h"
+#include "study/column_names.h"
 
 namespace lockstep {
 namespace {
@@ -49,20 +51,49 @@ std::string check_grid(const std::vector<GridAxis>& grid) {
   return {};
 }
 
-std::string check_measures(const StudyPlan& plan) {
-  for (const std::string& text : plan.measures) {
+std::string check_measures(const std::vector<std::string>& measures) {
+  for (const std::string& text : measures) {
     std::string reason;
     const auto measure = parse_measure(text, reason);
     if (!measure) return reason;
     if (to_text(*measure) != text) return fmt::format("'{}' is not how a measure is written", text);
   }
-  for (const StudyColumn& column : plan.columns) {
-    if (std::ranges::find(plan.measures, column.measure) == plan.measures.end())
-      return fmt::format("'{}' is in 'columns' but not in 'measures'", column.measure);
-    if (std::ranges::count(plan.columns, column) > 1)
-      return fmt::format("'{} {}' is twice in 'columns'", column.measure, column.node);
-  }
   return {};
+}
+
+bool is_rising(const std::vector<std::uint64_t>& numbers, std::uint64_t end) {
+  return std::ranges::adjacent_find(numbers, std::greater_equal<>()) == numbers.end() &&
+         (numbers.empty() || numbers.back() < end);
+}
+
+bool has_gap(const StudyColumn& column) {
+  return column.measure.starts_with("predictability") && !column.is_gap;
+}
+
+// A gap follows its predictability, and nothing else does.
+bool may_follow(const StudyColumn& before, const StudyColumn& column) {
+  return has_gap(before) ? column.is_gap && column.measure == before.measure &&
+                               column.node == before.node && column.cells == before.cells
+                         : !column.is_gap;
+}
+
+std::string check_columns(const StudyPlan& plan) {
+  const std::set<std::string> measures(plan.measures.begin(), plan.measures.end());
+  const std::uint64_t cells = cell_count(plan);
+  std::set<std::string> names;
+  StudyColumn before;
+  for (const StudyColumn& column : plan.columns) {
+    const std::string name = column_name(column);
+    if (!measures.contains(column.measure))
+      return fmt::format("'{}' is in 'columns' but not in 'measures'", column.measure);
+    if (!names.insert(name).second) return fmt::format("'{}' is twice in 'columns'", name);
+    if (!is_rising(column.cells, cells))
+      return fmt::format("the 'cells' of '{}' are not cells in their order", name);
+    if (!may_follow(before, column))
+      return fmt::format("'{}' stands at the wrong place in 'columns'", name);
+    before = column;
+  }
+  return has_gap(before) ? fmt::format("'columns' has no gap of '{}'", before.measure) : "";
 }
 
 }  // namespace
@@ -98,7 +129,8 @@ std::string check_plan(const StudyPlan& plan) {
     return fmt::format("'rate' is {}, expected {} to {}", plan.rate, kLeastRate, kMostRate);
   if (plan.max_ticks == 0) return "'max_ticks' is 0, expected 1 or more";
   if (auto error = check_grid(plan.grid); !error.empty()) return error;
-  return check_measures(plan);
+  if (auto error = check_measures(plan.measures); !error.empty()) return error;
+  return check_columns(plan);
 }
 
 }  // namespace lockstep

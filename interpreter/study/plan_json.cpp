@@ -14,7 +14,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
+constexpr char kGap[] = "gap";
 constexpr char kNotOurs[] = "it is not as lockstep has written it";
 constexpr std::array<const char*, 3> kKinds{"argument", "seed", "rate"};
 
@@ -49,11 +50,23 @@ GridAxis axis_from(const Json& json) {
   return {static_cast<GridAxis::Kind>(found - kKinds.begin()), json.at("name"), json.at("values")};
 }
 
+Json column_json(const StudyColumn& column) {
+  Json json{{"measure", column.measure}, {"node", column.node}};
+  if (column.is_gap) json["is"] = kGap;
+  if (!column.cells.empty()) json["cells"] = column.cells;
+  return json;
+}
+
+StudyColumn column_from(const Json& json) {
+  StudyColumn column{json.at("measure"), json.at("node")};
+  column.is_gap = json.contains("is") && json["is"] == kGap;
+  if (json.contains("cells")) json["cells"].get_to(column.cells);
+  return column;
+}
+
 Json json_of(const StudyPlan& plan) {
   Json columns = Json::array();
-  for (const StudyColumn& it : plan.columns) {
-    columns.push_back({{"measure", it.measure}, {"node", it.node}});
-  }
+  for (const StudyColumn& column : plan.columns) columns.push_back(column_json(column));
   Json json{{"lockstep_study", kFormat},
             {"version", plan.version},
             {"tree", plan.tree_file},
@@ -100,8 +113,7 @@ StudyPlan plan_of(const Json& json) {
   plan.rate = json.at("rate");
   plan.max_ticks = count(json, "max_ticks");
   plan.measures = json.at("measures");
-  for (const Json& it : json.at("columns"))
-    plan.columns.push_back({it.at("measure"), it.at("node")});
+  for (const Json& column : json.at("columns")) plan.columns.push_back(column_from(column));
   plan.plugins = pairs(json.at("plugins"), "name", "version");
   plan.files = pairs(json.at("files"), "path", "text");
   if (json.contains("shard")) {

@@ -13,7 +13,7 @@ bool is_instant(double value, double expected, std::uint64_t ticks) {
 
 }  // namespace
 
-RowRules::RowRules(const StudyPlan& plan) : plan_(plan) {
+RowRules::RowRules(const StudyPlan& plan) : plan_(plan), there_(plan.columns.size()) {
   std::string unheard;  // a plan that was checked has no other measures
   for (const StudyColumn& column : plan.columns) {
     measures_.push_back(parse_measure(column.measure, unheard).value_or(MeasureSpec{}));
@@ -22,12 +22,17 @@ RowRules::RowRules(const StudyPlan& plan) : plan_(plan) {
 
 void RowRules::enter(std::uint64_t cell) {
   rate_ = cell_rate(plan_, cell);
+  for (std::size_t column = 0; column < there_.size(); ++column) {
+    there_[column] = has_column(plan_.columns[column], cell);
+  }
 }
 
-bool RowRules::allow(const MeasureSpec& measure, double value, std::uint64_t ticks) const {
+bool RowRules::allow_value(std::size_t column, double value, std::uint64_t ticks) const {
+  if (plan_.columns[column].is_gap) return value >= 0 && value <= 1;
+  const MeasureSpec& measure = measures_[column];
   switch (measure.kind) {
     case MeasureKind::ProgressDistance:
-      return value >= 0;
+      return value >= 0 && std::isfinite(value);
     case MeasureKind::StepLength:
       return value >= 0 && value <= 1;
     case MeasureKind::Duration:
@@ -38,13 +43,20 @@ bool RowRules::allow(const MeasureSpec& measure, double value, std::uint64_t tic
   return false;
 }
 
+bool RowRules::allow(std::size_t column, const RowResult& row) const {
+  const double value = row.values[column];
+  if (std::isnan(value)) return true;
+  // An instant that was reached is some way from its target.
+  const bool has_gap = column + 1 < there_.size() && plan_.columns[column + 1].is_gap;
+  if (has_gap && std::isnan(row.values[column + 1])) return false;
+  return there_[column] && allow_value(column, value, row.ticks);
+}
+
 bool RowRules::allow(const RowResult& row) const {
   if (row.ticks == 0 || row.ticks > plan_.max_ticks) return false;
   if (row.result == StudyResult::Limit && row.ticks != plan_.max_ticks) return false;
-  for (std::size_t column = 0; column < measures_.size(); ++column) {
-    const double value = row.values[column];
-    if (!std::isnan(value) && !(std::isfinite(value) && allow(measures_[column], value, row.ticks)))
-      return false;
+  for (std::size_t column = 0; column < there_.size(); ++column) {
+    if (!allow(column, row)) return false;
   }
   return true;
 }

@@ -20,11 +20,14 @@ class RowRules {
   bool allow(const RowResult& row) const;
 
  private:
-  bool allow(const MeasureSpec& measure, double value, std::uint64_t ticks) const;
+  bool allow(std::size_t column, const RowResult& row) const;
+  bool allow_value(std::size_t column, double value, std::uint64_t ticks) const;
 
   const StudyPlan& plan_;
   std::vector<MeasureSpec> measures_;  // of each column
-  double rate_ = 0;                    // of the cell
+  // Of the cell:
+  double rate_ = 0;
+  std::vector<bool> there_;  // each column
 };
 
 }  // namespace lockstep

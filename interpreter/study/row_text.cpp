@@ -32,18 +32,13 @@ bool read_result(std::string_view field, StudyResult& result) {
 
 }  // namespace
 
-StudyResult result_of(const RunEnd& end) {
-  if (end.reason != StopReason::Completed) return StudyResult::Limit;
-  return end.status == Status::Success ? StudyResult::Success : StudyResult::Failure;
-}
-
 std::string row_header(const StudyPlan& plan) {
   const std::span<const std::string_view> names = kRowColumns;
   std::string header = fmt::format("{},", names.front());
   for (const std::string& name : grid_columns(plan)) header += name + ',';
   header += fmt::format("{}", fmt::join(names.subspan(1), ","));
   for (const StudyColumn& column : plan.columns) {
-    header += ',' + csv_field(column.measure + ' ' + column.node);
+    header += ',' + csv_field(column_name(column));
   }
   return header + '\n';
 }

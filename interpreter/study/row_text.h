@@ -3,21 +3,14 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "runtime/observer.h"
 #include "study/plan.h"
+#include "study/results.h"
 
 namespace lockstep {
-
-// How a run ended: the column 'result'.
-enum class StudyResult : std::uint8_t { Success, Failure, Limit };
-constexpr std::array<std::string_view, 3> kResultNames{"success", "failure", "limit"};
-
-StudyResult result_of(const RunEnd& end);
 
 // What is known of a row only after its run.
 struct RowResult {

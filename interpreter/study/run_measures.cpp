@@ -72,10 +72,9 @@ void RunMeasures::add_instant(const Tree& tree, const MeasureSpec& measure) {
   Instant instant{.node = *node,
                   .parent = {},
                   .child = 0,
-                  .target = measure.progress,
-                  .expected = measure.expected.value_or(0),
-                  .nearest = NearestInstant(measure.progress),
+                  .measure = Predictability(measure.progress, measure.expected.value_or(0)),
                   .column = add_column(measure, tree.path(*node))};
+  columns_[add_column(measure, tree.path(*node))].is_gap = true;
   const NodeIndex parent = tree.labels[*node].parent;
   if (synchronization(tree.nodes[parent]) != Synchronization::None && parent != *node) {
     const auto children = children_of(tree, parent);
@@ -87,7 +86,7 @@ void RunMeasures::add_instant(const Tree& tree, const MeasureSpec& measure) {
 
 void RunMeasures::run_started(Ticker&, const RunStart&) {
   for (Distance& distance : distances_) distance.measure.reset();
-  for (Instant& instant : instants_) instant.nearest = NearestInstant(instant.target);
+  for (Instant& instant : instants_) instant.measure.reset();
   std::ranges::fill(values_, kNone);
 }
 
@@ -107,22 +106,21 @@ void RunMeasures::after_tick(Ticker& ticker, const TickReport& report) {
     if (instant.parent && ticker.ticked(*instant.parent)) {
       instant.seen = child_progress(ticker, *instant.parent)[instant.child];
     }
-    instant.nearest.sample(static_cast<double>(report.tick), instant.seen);
-    instant.succeeded = ticker.status(instant.node) == Status::Success;
+    instant.measure.after_tick(report.tick, instant.seen, ticker.ticked(instant.node),
+                               ticker.status(instant.node));
   }
 }
 
 void RunMeasures::run_ended(Ticker&, const RunEnd& end) {
   for (const Distance& distance : distances_) {
     const ProgressDistance& measured = distance.measure;
+    if (measured.samples() == 0) continue;  // no tick reached the node
     if (distance.sum) values_[*distance.sum] = measured.sum();
     if (distance.step_length) values_[*distance.step_length] = measured.step_length();
   }
-  for (Instant& instant : instants_) {
-    // No tick follows the last: what the node reached in it would not be seen.
-    if (instant.succeeded) instant.nearest.sample(static_cast<double>(end.ticks), 1);
-    if (instant.nearest.empty()) continue;
-    values_[instant.column] = instant.nearest.time() - instant.expected;
+  for (const Instant& instant : instants_) {
+    values_[instant.column] = instant.measure.value();
+    values_[instant.column + 1] = instant.measure.gap();
   }
   for (const std::size_t column : durations_) {
     values_[column] = static_cast<double>(end.ticks) / rate_;

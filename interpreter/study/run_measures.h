@@ -41,11 +41,9 @@ class RunMeasures final : public Observer {
     NodeIndex node;
     std::optional<NodeIndex> parent;  // if it is synchronized
     std::size_t child;                // the node's place among the parent's children
-    double target, expected;
-    NearestInstant nearest;
-    std::size_t column;
-    double seen = 0;         // before the tick
-    bool succeeded = false;  // after it
+    Predictability measure;
+    std::size_t column;  // the gap has the next
+    double seen = 0;     // before the tick
   };
   std::size_t add_column(const MeasureSpec& measure, std::string node);
   void add_distances(const Tree& tree, const MeasureSpec& measure);

@@ -12,28 +12,37 @@
 namespace lockstep {
 namespace {
 
-// The values of one cell, by column.
+// The rows of one cell, taken apart by column.
 class CellValues {
  public:
-  explicit CellValues(std::size_t columns) : values_(columns) {}
+  explicit CellValues(const StudyPlan& plan) : plan_(plan), values_(plan.columns.size()) {}
 
-  void add(const std::vector<double>& row) {
-    for (std::size_t column = 0; column < row.size(); ++column) {
-      if (!std::isnan(row[column])) values_[column].push_back(row[column]);
+  void add(const RowResult& row) {
+    results_.add(row.result);
+    for (std::size_t column = 0; column < values_.size(); ++column) {
+      if (!std::isnan(row.values[column])) values_[column].push_back(row.values[column]);
     }
   }
 
-  void finish(const StudyPlan& plan, std::uint64_t cell, std::vector<SummaryRow>& rows) {
+  void finish(std::uint64_t cell, std::vector<SummaryRow>& rows) {
     for (std::size_t column = 0; column < values_.size(); ++column) {
-      if (values_[column].empty()) continue;
-      rows.push_back({cell_values(plan, cell), plan.columns[column].node,
-                      plan.columns[column].measure, summarize(std::move(values_[column]))});
+      const StudyColumn& it = plan_.columns[column];
+      if (!has_column(it, cell)) continue;
+      const SampleSummary summary = summarize(std::move(values_[column]));
       values_[column].clear();
+      if (!it.is_gap) {
+        rows.push_back({cell_values(plan_, cell), it.node, it.measure, summary, results_, {}});
+      } else if (summary.count > 0) {
+        rows.back().gap = summary.median;
+      }
     }
+    results_ = {};
   }
 
  private:
+  const StudyPlan& plan_;
   std::vector<std::vector<double>> values_;
+  ResultCounts results_;
 };
 
 }  // namespace
@@ -41,16 +50,16 @@ class CellValues {
 std::vector<SummaryRow> summarize_runs(const std::string& path, const StudyPlan& plan,
                                        std::string& error) {
   RowReader reader(path, plan);
-  CellValues values(plan.columns.size());
+  CellValues values(plan);
   std::vector<SummaryRow> rows;
   std::uint64_t cell = 0;
   while (!reader.next().empty()) {
     const std::uint64_t current = row_at(plan, reader.rows() - 1).cell;
-    if (current != cell) values.finish(plan, cell, rows);
+    if (current != cell) values.finish(cell, rows);
     cell = current;
-    values.add(reader.row().values);
+    values.add(reader.row());
   }
-  values.finish(plan, cell, rows);
+  values.finish(cell, rows);
   error = reader.error();
   if (error.empty() && reader.rows() != row_count(plan)) {
     error = fmt::format("'{}' has {} of {} runs", path, reader.rows(), row_count(plan));
@@ -65,9 +74,15 @@ std::string summary_csv(const StudyPlan& plan, const std::vector<SummaryRow>& ro
   for (const SummaryRow& row : rows) {
     for (const std::string& value : row.grid) text += csv_field(value) + ',';
     const SampleSummary& it = row.summary;
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{}\n", csv_field(row.node),
-                   csv_field(row.measure), it.min, it.q1, it.median, it.q3, it.max, it.mean,
-                   it.count);
+    text += csv_field(row.node) + ',' + csv_field(row.measure);
+    for (const double value : {it.min, it.q1, it.median, it.q3, it.max, it.mean}) {
+      text += it.count == 0 ? "," : fmt::format(",{}", value);
+    }
+    text += fmt::format(",{},{}", it.count, row.results.runs);
+    for (std::size_t i = 0; i < kResultNames.size(); ++i) {
+      text += fmt::format(",{}", row.results.share(i));
+    }
+    text += row.gap ? fmt::format(",{}\n", *row.gap) : ",\n";
   }
   return text;
 }

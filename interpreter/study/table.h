@@ -1,20 +1,38 @@
 // The summary of a study: of each cell, node and measure the numbers that a box plot is drawn from.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "study/box_plot.h"
+#include "measure/predictability.h"
 #include "study/plan.h"
+#include "study/results.h"
 
 namespace lockstep {
+
+// A row of summary.csv.
+struct SummaryRow {
+  std::vector<std::string> grid;  // a value for each grid name, in their order
+  std::string node;               // its path
+  std::string measure;            // as to_text(MeasureSpec) writes it
+  SampleSummary summary;  // of the runs that have a value; without any only count, 0, counts
+  ResultCounts results;   // of all runs of the cell
+  // Of a predictability: how far from its target the progress was at its nearest, the median of the
+  // runs that ticked the node.
+  std::optional<double> gap;
+
+  // Whatever the instants say, they are not those of the target.
+  bool is_far() const { return gap.value_or(0) > kFarGap; }
+  static constexpr double kFarGap = 0.1;
+};
 
 // From a complete runs.csv. A column that a cell does not have gives no row. On failure `error`
 // tells why.
 std::vector<SummaryRow> summarize_runs(const std::string& path, const StudyPlan& plan,
                                        std::string& error);
 
-// "<grid>,node,measure,min,q1,median,q3,max,mean,n", and a line for each row.
+// "<grid>,node,measure,…" (column_names.h), and a line for each row. What there is not is empty.
 std::string summary_csv(const StudyPlan& plan, const std::vector<SummaryRow>& rows);
 
 }  // namespace lockstep

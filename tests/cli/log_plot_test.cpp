@@ -77,6 +77,34 @@ TEST_CASE("log measure prints a table, of what a study measures") {
         "Main       duration           0.1\n");
 }
 
+TEST_CASE("log measure: what was not reached has no value, a far target has a gap") {
+  const TemporaryDirectory directory;
+  const std::string recording =
+      record(directory, "<Fallback><Sequence><Advance name=\"leap\" step=\"1\"/><AlwaysFailure/>" +
+                            kA1 + "</Sequence><AlwaysSuccess/></Fallback>");
+  const std::vector<std::string> measures{"measure",   recording,
+                                          "--measure", "progress-distance",
+                                          "--measure", "step-length",
+                                          "--measure", "predictability:base@0.6",
+                                          "--measure", "predictability:leap@0.7"};
+  const Outcome table = log(measures);
+  CHECK(table.code == 0);
+  CHECK(table.out ==
+        "node                             measure                  value  gap\n"
+        "Main/Fallback/Sequence/pull      progress-distance        -\n"
+        "Main/Fallback/Sequence/pull      step-length              -\n"
+        "Main/Fallback/Sequence/pull/base  predictability:base@0.6  -      -\n"
+        "Main/Fallback/Sequence/leap      predictability:leap@0.7  1      0.3\n");
+  auto with_json = measures;
+  with_json.emplace_back("--json");
+  const auto json = nlohmann::json::parse(log(with_json).out);
+  CHECK(json.at(0)["value"].is_null());
+  CHECK_FALSE(json.at(0).contains("gap"));
+  CHECK(json.at(2)["value"].is_null());
+  CHECK(json.at(2)["gap"].is_null());
+  CHECK(json.at(3)["gap"] == Approx(0.3));
+}
+
 TEST_CASE("log measure tells which name it does not know") {
   const TemporaryDirectory directory;
   const std::string recording = record(directory, kA1);

@@ -58,13 +58,16 @@ const std::vector<Damage> kRowDamages{
     {"a duration of other ticks", ",1,0.050000000000000044,", ",2,0.050000000000000044,"},
     {"a step that is longer than 1", ",1,0.050000000000000044,", ",1,1.05,"},
     {"a step below 0", ",1,0.050000000000000044,", ",1,-0.050000000000000044,"},
-    {"an instant between two ticks", ",0.050000000000000044,50", ",0.050000000000000044,50.5"},
-    {"an instant before the run", ",0.050000000000000044,50", ",0.050000000000000044,-11"},
-    {"an instant after the run", ",0.050000000000000044,50", ",0.050000000000000044,91"},
-    {"a field too many", ",0.050000000000000044,50", ",0.050000000000000044,50,"},
-    {"a field too few", ",0.050000000000000044,50\n", ",0.050000000000000044\n"},
-    {"the other end of line", ",0.050000000000000044,50\n", ",0.050000000000000044,50\r\n"},
-    {"an empty line", ",0.050000000000000044,50\n", ",0.050000000000000044,50\n\n"},
+    {"an instant between two ticks", ",0.050000000000000044,50,0", ",0.050000000000000044,50.5,0"},
+    {"an instant before the run", ",0.050000000000000044,50,0", ",0.050000000000000044,-11,0"},
+    {"an instant after the run", ",0.050000000000000044,50,0", ",0.050000000000000044,91,0"},
+    {"a gap below 0", ",50,0\n", ",50,-0.5\n"},
+    {"a gap above 1", ",50,0\n", ",50,1.5\n"},
+    {"an instant without a gap", ",50,0\n", ",50,\n"},
+    {"a field too many", ",0.050000000000000044,50,0", ",0.050000000000000044,50,0,"},
+    {"a field too few", ",0.050000000000000044,50,0\n", ",0.050000000000000044,50\n"},
+    {"the other end of line", ",0.050000000000000044,50,0\n", ",0.050000000000000044,50,0\r\n"},
+    {"an empty line", ",0.050000000000000044,50,0\n", ",0.050000000000000044,50,0\n\n"},
     {"a header of other columns", "step-length", "step-height"},
 };
 
@@ -91,6 +94,9 @@ const std::vector<Damage> kPlanDamages{
     {"a key that is there twice", "\"runs\": 4", "\"runs\": 3, \"runs\": 4"},
     {"a key that is missing", "\"runs\": 4,", ""},
     {"another format", "\"lockstep_study\": ", "\"lockstep_study\": 9"},
+    {"a column that is not its gap", "\"is\": \"gap\"", "\"is\": \"gaps\""},
+    {"a column of a cell that is not there", "\"node\": \"Example5\"",
+     "\"node\": \"Example5\",\n      \"cells\": [\n        1\n      ]"},
     {"not JSON", "{", "["},
     {"more than JSON", "\n}\n", "\n}\nx\n"},
     {"a part of no parts", "\n}\n", ",\n  \"shard\": {\n    \"part\": 1,\n    \"of\": 0\n  }\n}\n"},
@@ -129,7 +135,7 @@ TEST_CASE("a row that no run of the study can have given is refused") {
   const StudyCase it;
   it.make(study(), "whole");
   const auto rows = lines(it.read("whole", "runs.csv"));
-  REQUIRE(rows.at(1).ends_with(",100,success,7.999999999999974,1,0.050000000000000044,50"));
+  REQUIRE(rows.at(1).ends_with(",100,success,7.999999999999974,1,0.050000000000000044,50,0"));
   for (const Damage& damage : kRowDamages) check_refused(it, damage, "runs.csv");
 }
 

@@ -61,7 +61,8 @@ TEST_CASE("a study has a row for each run of each cell, the first name varies sl
   REQUIRE(rows.size() == 1 + 4 * 23);
   CHECK(rows[0] ==
         "cell,barrier_count,noise,run,seed,ticks,result,progress-distance Example5/parallel,"
-        "predictability:a1@0.6=60 Example5/parallel/a1");
+        "predictability:a1@0.6=60 Example5/parallel/a1,"
+        "gap predictability:a1@0.6=60 Example5/parallel/a1");
   CHECK(rows[1].starts_with("0,0,0.01,0,"));
   CHECK(rows[23].starts_with("0,0,0.01,22,"));
   CHECK(rows[24].starts_with("1,0,0.05,0,"));
@@ -69,9 +70,11 @@ TEST_CASE("a study has a row for each run of each cell, the first name varies sl
   CHECK(rows[92].starts_with("3,5,0.05,22,"));
   const auto summary = lines(it.read("out", "summary.csv"));
   REQUIRE(summary.size() == 1 + 4 * 2);
-  CHECK(summary[0] == "barrier_count,noise,node,measure,min,q1,median,q3,max,mean,n");
+  CHECK(summary[0] ==
+        "barrier_count,noise,node,measure,min,q1,median,q3,max,mean,n,runs,success,failure,limit,"
+        "gap");
   CHECK(summary[1].starts_with("0,0.01,Example5/parallel,progress-distance,"));
-  CHECK(summary[1].ends_with(",23"));
+  CHECK(summary[1].ends_with(",23,23,1,0,0,"));
 }
 
 TEST_CASE("a grid over the study's seed has a column of its own, beside the seed of each run") {

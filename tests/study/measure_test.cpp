@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "study/study_case.h"
 #include "support/paths.h"
@@ -137,6 +138,69 @@ TEST_CASE("studies: cells with other nodes have other columns, the rest is left 
   CHECK(rows.at(1).ends_with(",1,success,"));
   CHECK(rows.at(2).ends_with(",1,success,0"));
   CHECK(lines(it.read("out", "summary.csv")).size() == 2);
+  // The same from its files alone, where nobody knows the trees.
+  REQUIRE(it.merge({"out"}, "merged").code == 0);
+  CHECK(it.bytes("merged") == it.bytes("out"));
+}
+
+TEST_CASE("studies: a node that no tick reached has no measures, and its runs are counted") {
+  const StudyCase it;
+  const auto tree = it.file(
+      "tree.xml", tree_text("<Sequence><AlwaysFailure/><ParallelRelative delta=\"0\" name=\"sync\">"
+                            "<Advance name=\"a\"/><Advance/></ParallelRelative></Sequence>"));
+  it.make({tree, "--runs", "3", "--measure", "progress-distance", "--measure", "step-length",
+           "--measure", "predictability:a@0"},
+          "out");
+  for (const std::string& line : lines(it.read("out", "runs.csv"))) {
+    if (!line.starts_with("cell")) CHECK(line.ends_with(",1,failure,,,,"));
+  }
+  const auto summary = lines(it.read("out", "summary.csv"));
+  REQUIRE(summary.size() == 4);
+  CHECK(summary.at(1) == "Main/Sequence/sync,progress-distance,,,,,,,0,3,0,1,0,");
+  CHECK(summary.at(2) == "Main/Sequence/sync,step-length,,,,,,,0,3,0,1,0,");
+  CHECK(summary.at(3) == "Main/Sequence/sync/a,predictability:a@0,,,,,,,0,3,0,1,0,");
+}
+
+TEST_CASE("studies: a run that is cut has not reached what comes later") {
+  const StudyCase it;
+  const auto tree = it.file("tree.xml", tree_text("<Advance name=\"a\" step=\"0.01\"/>"));
+  const Strings study{tree,
+                      "--runs",
+                      "2",
+                      "--max-ticks",
+                      "20",
+                      "--measure",
+                      "predictability:a@0.6",
+                      "--measure",
+                      "predictability:a@0.1"};
+  it.make(study, "out");
+  const std::string runs = it.read("out", "runs.csv");
+  CHECK(contains(lines(runs).at(1), ",20,limit,,"));
+  for (const double gap : column(runs, "gap predictability:a@0.6 Main/a")) {
+    CHECK(gap == Approx(0.41));  // before the last tick it was at 0.19
+  }
+  CHECK(column(runs, "predictability:a@0.1 Main/a") == std::vector<double>{10, 10});
+  const Outcome printed = it.study(study, "printed");
+  const auto table = lines(std::regex_replace(printed.out, std::regex(" +"), " "));
+  CHECK(table.at(1) == "Main/a predictability:a@0.6 - - - - - - 0 2 0 % 0 % 100 % 0.41 !");
+  CHECK(table.at(2) == "Main/a predictability:a@0.1 10 10 10 10 10 10 2 2 0 % 0 % 100 % 0");
+  CHECK(contains(printed.err,
+                 "warning: 'predictability:a@0.6' of 'Main/a': in 1 of 1 cells the "
+                 "progress did not come near its target"));
+}
+
+TEST_CASE("studies: a target that the progress leaps over is far") {
+  const StudyCase it;
+  const auto tree = it.file("tree.xml", tree_text("<Advance name=\"a\" step=\"1\"/>"));
+  auto study = Strings{tree, "--runs", "2", "--measure", "predictability:a@0.6", "--json"};
+  const auto json = nlohmann::json::parse(it.study(study, "out").out).at(0);
+  CHECK(json["n"] == 2);
+  CHECK(json["median"] == 1);
+  CHECK(json["gap"] == 0.4);
+  CHECK(json["runs"] == 2);
+  CHECK(json["success"] == 1.0);
+  CHECK(json["failure"] == 0.0);
+  CHECK(json["limit"] == 0.0);
 }
 
 TEST_CASE("studies: a leaf that fails stops the study at the same run, whatever the threads") {

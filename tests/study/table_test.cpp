@@ -42,9 +42,53 @@ TEST_CASE("studies: the summary's quartiles are the medians of the halves") {
   const auto rows = summarize_runs(file, plan, error);
   CHECK(error.empty());
   CHECK(summary_csv(plan, rows) ==
-        "grid_n,node,measure,min,q1,median,q3,max,mean,n\n"
-        "few,Main/sync,progress-distance,1,1.5,4,7.5,10,4.4,5\n"
-        "many,Main/sync,progress-distance,1,1.5,2.5,5.5,8,3.5,4\n");
+        "grid_n,node,measure,min,q1,median,q3,max,mean,n,runs,success,failure,limit,gap\n"
+        "few,Main/sync,progress-distance,1,1.5,4,7.5,10,4.4,5,5,1,0,0,\n"
+        "many,Main/sync,progress-distance,1,1.5,2.5,5.5,8,3.5,4,5,1,0,0,\n");
+}
+
+TEST_CASE("studies: what no run reached has no numbers, and every run is counted") {
+  const TemporaryDirectory directory;
+  StudyPlan plan = plan_of(4);
+  const std::string measure = "predictability:task@0.6";
+  plan.columns = {{measure, "Main/task"}, {measure, "Main/task", true}};
+  plan.columns.push_back({"progress-distance", "Main/sync", false, {0}});
+  fmt::memory_buffer lines;
+  const double none = std::nan("");
+  const auto add = [&](std::uint64_t row, StudyResult result, std::vector<double> values) {
+    const StudyRow at = row_at(plan, row);
+    append_row_beginning(plan, at, row_cell(plan, at.cell), lines);
+    const std::uint64_t ticks = result == StudyResult::Limit ? 100 : 7;
+    append_row_end({.ticks = ticks, .result = result, .values = std::move(values)}, lines);
+  };
+  add(0, StudyResult::Success, {3, 0.01, 1});
+  add(1, StudyResult::Failure, {5, 0.02, none});
+  add(2, StudyResult::Limit, {none, 0.3, 2});
+  add(3, StudyResult::Failure, {none, none, 3});
+  for (std::uint64_t row = 4; row < 8; ++row) add(row, StudyResult::Failure, {none, 0.6, none});
+  const auto file =
+      directory.file("runs.csv", row_header(plan) + std::string(lines.data(), lines.size()));
+  std::string error;
+  const auto rows = summarize_runs(file, plan, error);
+  CHECK(error.empty());
+  CHECK(summary_csv(plan, rows) ==
+        "grid_n,node,measure,min,q1,median,q3,max,mean,n,runs,success,failure,limit,gap\n"
+        "few,Main/task,predictability:task@0.6,3,3,4,5,5,4,2,4,0.25,0.5,0.25,0.02\n"
+        "few,Main/sync,progress-distance,1,1,2,3,3,2,3,4,0.25,0.5,0.25,\n"
+        "many,Main/task,predictability:task@0.6,,,,,,,0,4,0,1,0,0.6\n");
+  CHECK_FALSE(rows.at(0).is_far());
+  CHECK(rows.at(2).is_far());
+}
+
+TEST_CASE("studies: a share is only 0 % of none and 100 % of all") {
+  CHECK(percent(0, 5) == "0 %");
+  CHECK(percent(5, 5) == "100 %");
+  CHECK(percent(1003, 4800) == "20.9 %");
+  CHECK(percent(1, 3) == "33.3 %");
+  CHECK(percent(5, 100) == "5 %");
+  CHECK(percent(1, 1001) == "<0.1 %");
+  CHECK(percent(1000, 1001) == ">99.9 %");
+  CHECK(to_text(ResultCounts{.runs = 4, .of = {3, 0, 1}}) == "success 75 %, limit 25 %");
 }
 
 TEST_CASE("studies: a summary of too few rows is none") {
@@ -81,7 +125,8 @@ TEST_CASE("studies: no two columns have the same name") {
         "cell,grid_n,grid_grid_seed,grid_seed,noise,run,seed,ticks,result,progress-distance "
         "Main/sync\n");
   CHECK(summary_csv(plan, {}) ==
-        "grid_n,grid_grid_seed,grid_seed,noise,node,measure,min,q1,median,q3,max,mean,n\n");
+        "grid_n,grid_grid_seed,grid_seed,noise,node,measure,min,q1,median,q3,max,mean,n,runs,"
+        "success,failure,limit,gap\n");
 }
 
 TEST_CASE("studies: a grid name seed or rate is in force in its cells") {

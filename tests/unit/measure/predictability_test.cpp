@@ -1,6 +1,7 @@
 #include "measure/predictability.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 namespace lockstep {
 namespace {
@@ -27,6 +28,41 @@ TEST_CASE("without samples there is no instant") {
   instant.sample(3, 0.75);
   CHECK_FALSE(instant.empty());
   CHECK(instant.gap() == 0.25);
+}
+
+TEST_CASE("a target is reached when the progress is at it, or on both sides") {
+  struct Row {
+    std::vector<double> progress;
+    bool reached;
+  };
+  for (const Row& row : {Row{{0, 0.3}, false}, Row{{0.6, 0.9}, false}, Row{{0, 0.5}, true},
+                         Row{{0, 0.9}, true}, Row{{0.9, 0.1}, true}, Row{{}, false}}) {
+    NearestInstant instant(0.5);
+    for (const double progress : row.progress) instant.sample(0, progress);
+    CHECK(instant.reached() == row.reached);
+  }
+}
+
+TEST_CASE("the predictability of a run, tick by tick") {
+  Predictability it(0.6, 2);
+  const auto has_none = [&] { return std::isnan(it.value()); };
+  it.after_tick(0, 0, false, Status::Idle);
+  CHECK(std::isnan(it.gap()));  // a node that is not ticked is nowhere
+  it.after_tick(1, 0, true, Status::Running);
+  CHECK(it.gap() == 0.6);
+  it.after_tick(2, 0.4, true, Status::Running);
+  CHECK(has_none());
+  CHECK(it.gap() == Approx(0.2));
+  it.after_tick(3, 0.7, true, Status::Running);
+  CHECK(it.value() == 1);
+  it.reset();
+  CHECK(std::isnan(it.gap()));
+  it.after_tick(0, 0, true, Status::Success);
+  CHECK(it.value() == -1);  // in the tick after the last it is at 1
+  CHECK(it.gap() == Approx(0.4));
+  it.reset();
+  it.after_tick(0, 0, true, Status::Failure);
+  CHECK(has_none());
 }
 
 TEST_CASE("predictability distance is negative for an early action") {

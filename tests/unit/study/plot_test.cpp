@@ -71,6 +71,8 @@ SampleSummary summary(double middle) {
           .mean = middle + 0.5};
 }
 
+const ResultCounts kResults{.runs = 5, .of = {4, 1, 0}};
+
 BoxPlot small_plot() {
   BoxPlot plot;
   plot.stem = "small";
@@ -101,15 +103,20 @@ TEST_CASE("box plots: the last grid name runs along x, the others make plots") {
   std::vector<SummaryRow> rows;
   for (const std::string noise : {"0", "0.02"}) {
     for (const std::string count : {"0", "5"}) {
-      rows.push_back({{noise, count}, "Main/sync", "progress-distance", summary(1)});
-      rows.push_back({{noise, count}, "Main/sync/task", "predictability:task@0.6=600", summary(2)});
-      rows.push_back({{noise, count}, "Main/sync", "step-length", summary(3)});
+      rows.push_back({{noise, count}, "Main/sync", "progress-distance", summary(1), kResults, {}});
+      rows.push_back({{noise, count},
+                      "Main/sync/task",
+                      "predictability:task@0.6=600",
+                      summary(2),
+                      kResults,
+                      0.1});
+      rows.push_back({{noise, count}, "Main/sync", "step-length", summary(3), kResults, {}});
     }
   }
   const auto plots = box_plots(names, rows);
   REQUIRE(plots.size() == 6);
   CHECK(plots[0].stem == "sync-progress-distance-noise_0");
-  CHECK(plots[0].title == "Main/sync:  noise = 0");
+  CHECK(plots[0].title == "Main/sync:  noise = 0  (success 80 %, failure 20 %)");
   CHECK(plots[0].x_label == "barrier_count");
   CHECK(plots[0].y_label == "progress distance");
   REQUIRE(plots[0].groups.size() == 2);
@@ -118,12 +125,12 @@ TEST_CASE("box plots: the last grid name runs along x, the others make plots") {
   CHECK(plots[1].y_label == "predictability distance at 0.6 (ticks)");
   CHECK(plots[1].groups[1].boxes[0]->median == 2);
   CHECK(plots[2].y_label == "step length");
-  CHECK(plots[4].title == "Main/sync/task:  noise = 0.02");
+  CHECK(plots[4].title == "Main/sync/task:  noise = 0.02  (success 80 %, failure 20 %)");
 }
 
 TEST_CASE("box plots: without a grid there is one box, files never share a name") {
-  const std::vector<SummaryRow> rows = {{{}, "Main/a/sync", "duration", summary(1)},
-                                        {{}, "Main/b/sync", "duration", summary(2)}};
+  const std::vector<SummaryRow> rows = {{{}, "Main/a/sync", "duration", summary(1), kResults, {}},
+                                        {{}, "Main/b/sync", "duration", summary(2), kResults, {}}};
   const auto plots = box_plots({}, rows);
   REQUIRE(plots.size() == 2);
   CHECK(plots[0].groups.size() == 1);
