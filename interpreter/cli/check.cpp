@@ -12,7 +12,7 @@
 namespace lockstep {
 namespace {
 
-struct Options {
+struct CheckOptions {
   LoadOptions load;
   std::vector<std::string> trees;
   std::string format = "human";
@@ -27,7 +27,7 @@ nlohmann::ordered_json to_json(const Diagnostic& diagnostic) {
           {"hint", diagnostic.hint}};
 }
 
-int check(const Options& options) {
+int check(const CheckOptions& options) {
   const bool json = options.format == "json";
   auto all = nlohmann::ordered_json::array();
   int worst = kExitSuccess;
@@ -52,8 +52,8 @@ int check(const Options& options) {
   return flush_stdout() ? worst : kExitUsage;
 }
 
-std::function<int()> define(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+std::function<int()> define_check(CLI::App& app) {
+  const auto options = std::make_shared<CheckOptions>();
   app.add_option("tree", options->trees, "Tree files; - is stdin")
       ->type_name("TREE.xml")
       ->required();
@@ -74,6 +74,6 @@ const Command kCheckCommand{
     "Examples:\n"
     "  lockstep check trees/*.xml\n"
     "  lockstep check --format json trees/door_pulling.xml",
-    define};
+    define_check};
 
 }  // namespace lockstep

@@ -15,12 +15,12 @@
 namespace lockstep {
 namespace {
 
-struct Options {
+struct LogOptions {
   std::string file;
   std::string out;
 };
 
-int csv_to_file(const Options& options, RecordingReader& reader) {
+int csv_to_file(const LogOptions& options, RecordingReader& reader) {
   std::error_code error;
   if (std::filesystem::equivalent(options.file, options.out, error)) {
     print_error("--out names the recording itself");
@@ -35,7 +35,7 @@ int csv_to_file(const Options& options, RecordingReader& reader) {
   return report_end(reader);
 }
 
-int csv(const Options& options) {
+int csv(const LogOptions& options) {
   return with_recording(options.file, [&](RecordingReader& reader) {
     if (!options.out.empty()) return csv_to_file(options, reader);
     const auto names = is_terminal(stdout) ? CsvNames::Printable : CsvNames::Exact;
@@ -45,7 +45,7 @@ int csv(const Options& options) {
   });
 }
 
-int info(const Options& options) {
+int info(const LogOptions& options) {
   return with_recording(options.file, [](RecordingReader& reader) {
     try {
       write_info(reader, stdout, wants_color(stdout));
@@ -59,8 +59,8 @@ int info(const Options& options) {
   });
 }
 
-std::function<int()> define(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+std::function<int()> define_log(CLI::App& app) {
+  const auto options = std::make_shared<LogOptions>();
   app.require_subcommand(1);
   CLI::App* table = app.add_subcommand(
       "csv", "One row per tick and active node: tick,time_s,node,path,status,progress,ticked,held");
@@ -97,6 +97,6 @@ const Command kLogCommand{"log", "Read recordings that `lockstep run --record` h
                           "  lockstep log measure run.jsonl --measure predictability:arm@0.5\n"
                           "  lockstep log plot run.jsonl --out progress.svg\n"
                           "  lockstep log diff run.jsonl again.jsonl",
-                          define};
+                          define_log};
 
 }  // namespace lockstep

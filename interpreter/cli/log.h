@@ -23,6 +23,8 @@ int with_recording(const std::string& path, const std::function<int(RecordingRea
 // Says what was wrong with the recording, or that it is cut. Returns the exit code.
 int report_end(const RecordingOutcome& outcome);
 int report_end(const RecordingReader& reader);
+// Reports what the user got wrong. Returns the exit code.
+int usage_error(const std::string& message);
 // Says that `path` cannot be read or written. Returns the exit code.
 int cannot_use(std::string_view verb, std::string_view path, int reason);
 // After all is written to stdout. A reader that stops reading, as `head` does, is no error.

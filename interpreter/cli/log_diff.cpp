@@ -12,7 +12,7 @@
 namespace lockstep {
 namespace {
 
-struct Options {
+struct LogDiffOptions {
   std::string a, b;
   DiffOptions diff;
   bool json = false;
@@ -24,7 +24,7 @@ int report_ends(const RecordingReader& a, const RecordingReader& b) {
   return std::max(code_a, code_b);
 }
 
-int diff(const Options& options, RecordingReader& a, RecordingReader& b) {
+int diff(const LogDiffOptions& options, RecordingReader& a, RecordingReader& b) {
   const RecordingDiff diff = compare(a, b, options.diff);
   const std::string text = options.json ? to_json(diff) + "\n"
                                         : to_text(diff, options.a, options.b, wants_color(stdout));
@@ -37,7 +37,7 @@ int diff(const Options& options, RecordingReader& a, RecordingReader& b) {
   return diff.same() ? kExitSuccess : kExitFailure;
 }
 
-int diff(const Options& options) {
+int diff(const LogDiffOptions& options) {
   // Here, since CLI::Range lets nan pass.
   if (!(options.diff.tolerance >= 0 && options.diff.tolerance <= 1)) {
     print_error("--tolerance: expected a number from 0 to 1");
@@ -55,7 +55,7 @@ int diff(const Options& options) {
 }  // namespace
 
 LogSubcommand define_log_diff(CLI::App& log) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<LogDiffOptions>();
   CLI::App* app = log.add_subcommand("diff", "The first tick in which two recordings differ");
   app->add_option("a", options->a, "A recording; - is stdin")->type_name("A.jsonl")->required();
   app->add_option("b", options->b, "Another one")->type_name("B.jsonl")->required();

@@ -45,9 +45,14 @@ int report_end(const RecordingReader& reader) {
   return report_end(reader.outcome());
 }
 
-int cannot_use(std::string_view verb, std::string_view path, int reason) {
-  print_error(fmt::format("cannot {} '{}': {}", verb, printable(path), std::strerror(reason)));
+int usage_error(const std::string& message) {
+  print_error(message);
   return kExitUsage;
+}
+
+int cannot_use(std::string_view verb, std::string_view path, int reason) {
+  return usage_error(
+      fmt::format("cannot {} '{}': {}", verb, printable(path), std::strerror(reason)));
 }
 
 int end_of_stdout(bool written) {

@@ -12,18 +12,13 @@
 namespace lockstep {
 namespace {
 
-struct Options {
+struct LogMeasureOptions {
   std::string file;
   std::vector<std::string> measures = {"progress-distance", "step-length", "duration"};
   bool json = false;
 };
 
-int usage_error(const std::string& message) {
-  print_error(message);
-  return kExitUsage;
-}
-
-int print_measures(const Options& options, std::span<const MeasureSpec> measures,
+int print_measures(const LogMeasureOptions& options, std::span<const MeasureSpec> measures,
                    RecordingReader& reader) {
   std::string error;
   const auto values = measure_recording(reader, measures, error);
@@ -37,7 +32,7 @@ int print_measures(const Options& options, std::span<const MeasureSpec> measures
   return code;
 }
 
-int measure(const Options& options) {
+int measure(const LogMeasureOptions& options) {
   std::vector<MeasureSpec> measures;
   for (const std::string& text : options.measures) {
     std::string error;
@@ -53,7 +48,7 @@ int measure(const Options& options) {
 }  // namespace
 
 LogSubcommand define_log_measure(CLI::App& log) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<LogMeasureOptions>();
   CLI::App* app =
       log.add_subcommand("measure", "The measures of the run, by the names that a study uses");
   add_recording_file(*app, options->file);

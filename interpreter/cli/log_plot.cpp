@@ -19,20 +19,15 @@
 namespace lockstep {
 namespace {
 
-struct Options {
+struct LogPlotOptions {
   std::string file;
   std::string out;
   std::string node;
   PlotSize size;
 };
 
-int usage_error(const std::string& message) {
-  print_error(message);
-  return kExitUsage;
-}
-
 // The nodes to draw; none after an error, which it tells.
-std::vector<NodeIndex> chosen_nodes(const Options& options, const RecordingHeader& header) {
+std::vector<NodeIndex> chosen_nodes(const LogPlotOptions& options, const RecordingHeader& header) {
   const auto nodes = synchronized_nodes(header);
   if (nodes.empty()) {
     print_error("the recording has no synchronized node, so there is nothing to draw");
@@ -50,7 +45,7 @@ std::vector<NodeIndex> chosen_nodes(const Options& options, const RecordingHeade
 
 // The file as named for one node, a file for each of several: "x.svg" becomes "x-pull.svg", or
 // "x-Main_left_pull.svg" where two nodes are called so.
-std::filesystem::path image_of(const Options& options, const ProgressPlot& plot,
+std::filesystem::path image_of(const LogPlotOptions& options, const ProgressPlot& plot,
                                std::span<const ProgressPlot> plots) {
   std::filesystem::path image = options.out;
   if (plots.size() == 1) return image;
@@ -67,7 +62,7 @@ std::filesystem::path image_of(const Options& options, const ProgressPlot& plot,
 }
 
 // What is drawn is written to three files: none may be the recording.
-bool would_replace_recording(const Options& options, std::filesystem::path image) {
+bool would_replace_recording(const LogPlotOptions& options, std::filesystem::path image) {
   for (const std::string& extension :
        {image.extension().string(), std::string(".dat"), std::string(".gp")}) {
     std::error_code error;
@@ -77,7 +72,7 @@ bool would_replace_recording(const Options& options, std::filesystem::path image
   return false;
 }
 
-int draw_all(const Options& options, std::span<const ProgressPlot> plots) {
+int draw_all(const LogPlotOptions& options, std::span<const ProgressPlot> plots) {
   int drawn = 0;
   for (const ProgressPlot& plot : plots) {
     if (plot.samples.empty()) {
@@ -97,7 +92,7 @@ int draw_all(const Options& options, std::span<const ProgressPlot> plots) {
   return drawn > 0 ? kExitSuccess : kExitUsage;
 }
 
-int plot(const Options& options) {
+int plot(const LogPlotOptions& options) {
   if (!is_plot_image(options.out)) {
     return usage_error(fmt::format("--out '{}': expected a name that ends in .svg or .png",
                                    printable(options.out)));
@@ -114,7 +109,7 @@ int plot(const Options& options) {
 }  // namespace
 
 LogSubcommand define_log_plot(CLI::App& log) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<LogPlotOptions>();
   CLI::App* app = log.add_subcommand(
       "plot", "Draw the progress of the children of each synchronized node over time (gnuplot)");
   add_recording_file(*app, options->file);

@@ -16,7 +16,7 @@ std::string escaped(std::string_view text) {
   return safe;
 }
 
-std::string rows(const NodeType& type) {
+std::string table_rows(const NodeType& type) {
   std::string text;
   for (const Parameter& it : type.parameters) {
     text += fmt::format("| `{}` | {} | {} |\n", it.name, escaped(facts_text(type, it)),
@@ -29,7 +29,7 @@ std::string rows(const NodeType& type) {
   return text;
 }
 
-std::string entry(const NodeType& type) {
+std::string section(const NodeType& type) {
   std::string text = fmt::format("### {}\n\n{}\n\n", type.id, escaped(type.doc));
   std::string children(children_text(type));
   text += fmt::format("`{}`: {}", usage_text(type), children);
@@ -38,7 +38,7 @@ std::string entry(const NodeType& type) {
     text += "; it reports no progress: 0 until it succeeds";
   }
   text += ".\n\n";
-  const std::string table = rows(type);
+  const std::string table = table_rows(type);
   return table.empty() ? text : text + "| Attribute | Value | |\n|---|---|---|\n" + table + "\n";
 }
 
@@ -57,7 +57,7 @@ std::string nodes_as_markdown(NodeTypes types) {
   for (const NodeGroup& group : node_groups()) {
     std::string entries;
     for (const NodeType* type : types) {
-      if (type->category == group.category) entries += entry(*type);
+      if (type->category == group.category) entries += section(*type);
     }
     if (!entries.empty()) text += fmt::format("\n## {}\n\n{}", group.heading, entries);
   }

@@ -12,19 +12,19 @@
 namespace lockstep {
 namespace {
 
-struct Options {
+struct NodesOptions {
   PluginOptions plugins;
   std::string id;
   std::string format = "text";
 };
 
-std::string as_text(const Options& options, NodeTypes types) {
+std::string as_text(const NodesOptions& options, NodeTypes types) {
   if (options.format == "json") return nodes_as_json(types);
   if (options.format == "markdown") return nodes_as_markdown(types);
   return options.id.empty() ? nodes_as_text(types) : node_as_text(*types.front());
 }
 
-int nodes(const Options& options) {
+int nodes(const NodesOptions& options) {
   PluginSet plugins;
   Catalog catalog;
   if (const int code = load_catalog(options.plugins, plugins, catalog); code != kExitSuccess) {
@@ -42,8 +42,8 @@ int nodes(const Options& options) {
   return write_stdout(as_text(options, {&type, 1}));
 }
 
-std::function<int()> define(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+std::function<int()> define_nodes(CLI::App& app) {
+  const auto options = std::make_shared<NodesOptions>();
   app.add_option("id", options->id, "Only this node")->type_name("ID");
   app.add_option("--format", options->format, "text, json: an array of objects, or markdown")
       ->check(CLI::IsMember({"text", "json", "markdown"}))
@@ -62,6 +62,6 @@ const Command kNodesCommand{"nodes",
                             "  lockstep nodes\n"
                             "  lockstep nodes ParallelAbsolute\n"
                             "  lockstep nodes --plugin motion --format json",
-                            define};
+                            define_nodes};
 
 }  // namespace lockstep

@@ -15,7 +15,7 @@
 namespace lockstep {
 namespace {
 
-struct Options {
+struct ReplayOptions {
   std::string file;
   std::optional<std::uint64_t> at;
   double speed = 1;
@@ -50,7 +50,7 @@ Search search(RecordingReader& reader, std::optional<std::uint64_t> at) {
   return search;
 }
 
-int print_tick(const Options& options, RecordingReader& reader) {
+int print_tick(const ReplayOptions& options, RecordingReader& reader) {
   const Search found = search(reader, options.at);
   const int code = report_end(reader);
   if (found.ticks == 0) return code == kExitSuccess ? no_ticks() : code;
@@ -77,7 +77,7 @@ int print_tick(const Options& options, RecordingReader& reader) {
   return code == kExitSuccess ? out : code;
 }
 
-int play(const Options& options, RecordingReader& reader) {
+int play(const ReplayOptions& options, RecordingReader& reader) {
   const RecordingHeader& header = reader.header();
   fmt::print("reading ...");  // what is large takes seconds
   std::fflush(stdout);
@@ -102,7 +102,7 @@ int play(const Options& options, RecordingReader& reader) {
   return code == kExitSuccess ? read : code;
 }
 
-int replay(const Options& options) {
+int replay(const ReplayOptions& options) {
   // Here, since CLI::Range lets nan pass.
   if (!(options.speed >= ReplayPlayer::kSlowest && options.speed <= ReplayPlayer::kFastest)) {
     print_error(fmt::format("--speed: expected a number from {} to {}", ReplayPlayer::kSlowest,
@@ -116,8 +116,8 @@ int replay(const Options& options) {
   });
 }
 
-std::function<int()> define(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+std::function<int()> define_replay(CLI::App& app) {
+  const auto options = std::make_shared<ReplayOptions>();
   add_recording_file(app, options->file);
   app.add_option("--at", options->at, "Begin at this tick; without a terminal: print it")
       ->type_name("TICK")
@@ -152,6 +152,6 @@ const Command kReplayCommand{
     "  lockstep replay run.jsonl\n"
     "  lockstep replay run.jsonl --at 400 --speed 0.1\n"
     "  lockstep replay run.jsonl --at 400 --print",
-    define};
+    define_replay};
 
 }  // namespace lockstep

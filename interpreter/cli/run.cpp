@@ -208,7 +208,7 @@ int run(const RunCommandOptions& options) {
   return RunCommand(options, loaded, tree).run(loaded.plugins, guard);
 }
 
-std::function<int()> define(CLI::App& app) {
+std::function<int()> define_run(CLI::App& app) {
   const auto options = std::make_shared<RunCommandOptions>();
   define_run_options(app, *options);
   return [options] { return run(*options); };
@@ -229,6 +229,6 @@ const Command kRunCommand{
     "  lockstep run trees/door_pulling.xml --arg barriers=0.5 --rate 50 --record run.jsonl\n"
     "  lockstep run trees/door_pulling.xml --clock virtual --seed 7 --json\n"
     "  lockstep run trees/door_pulling.xml --isolate --on-fault fail --realtime --cpu 1",
-    define};
+    define_run};
 
 }  // namespace lockstep

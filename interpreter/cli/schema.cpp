@@ -15,7 +15,7 @@ int schema(const PluginOptions& options) {
   return write_stdout(make_xsd(catalog.types()));
 }
 
-std::function<int()> define(CLI::App& app) {
+std::function<int()> define_schema(CLI::App& app) {
   const auto options = std::make_shared<PluginOptions>();
   add_plugin_options(app, *options);
   return [options] { return schema(*options); };
@@ -32,6 +32,6 @@ const Command kSchemaCommand{
     "  lockstep schema > lockstep.xsd\n"
     "  lockstep schema --plugin motion > lockstep-motion.xsd\n"
     "  xmllint --noout --schema lockstep.xsd trees/door_pulling.xml",
-    define};
+    define_schema};
 
 }  // namespace lockstep

@@ -10,7 +10,7 @@
 namespace lockstep {
 namespace {
 
-struct Options {
+struct ShowOptions {
   LoadOptions load;
   std::string tree;
   std::string format = "text";
@@ -22,7 +22,7 @@ std::string draw(const Drawn& drawn, const std::string& format) {
   return tree_as_text(drawn, !has_unicode());
 }
 
-int show(const Options& options) {
+int show(const ShowOptions& options) {
   Loaded loaded;
   Diagnostics diagnostics;
   const int code = load(options.tree, options.load, loaded, diagnostics);
@@ -31,8 +31,8 @@ int show(const Options& options) {
   return write_stdout(draw({*loaded.project, *loaded.definition}, options.format));
 }
 
-std::function<int()> define(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+std::function<int()> define_show(CLI::App& app) {
+  const auto options = std::make_shared<ShowOptions>();
   app.add_option("tree", options->tree, "Tree file; - is stdin")->type_name("TREE.xml")->required();
   app.add_option("--format", options->format, "text, dot: for Graphviz, or mermaid")
       ->check(CLI::IsMember({"text", "dot", "mermaid"}))
@@ -52,6 +52,6 @@ const Command kShowCommand{
     "  lockstep show trees/door_pulling.xml\n"
     "  lockstep show trees/door_pulling.xml --arg barriers=0.5\n"
     "  lockstep show --format dot trees/door_pulling.xml | dot -Tsvg > door_pulling.svg",
-    define};
+    define_show};
 
 }  // namespace lockstep

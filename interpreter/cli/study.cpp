@@ -22,7 +22,7 @@
 namespace lockstep {
 namespace {
 
-struct Options {
+struct StudyCommandOptions {
   StudyOptions study;
   unsigned jobs = 0;  // 0: all cores
   std::string out;
@@ -37,7 +37,7 @@ int fail(std::string_view message, int code = kExitUsage) {
   return code;
 }
 
-int print_summary(const Options& options, const StudyPlan& plan,
+int print_summary(const StudyCommandOptions& options, const StudyPlan& plan,
                   const std::vector<SummaryRow>& rows) {
   if (options.json) {
     fmt::print("{}\n", summary_json(plan, rows));
@@ -57,8 +57,8 @@ int print_summary(const Options& options, const StudyPlan& plan,
 }
 
 // Box plots, beside the data. Without gnuplot there are the data.
-int draw_plots(const Options& options, const std::string& directory, const StudyPlan& plan,
-               const std::vector<SummaryRow>& rows) {
+int draw_plots(const StudyCommandOptions& options, const std::string& directory,
+               const StudyPlan& plan, const std::vector<SummaryRow>& rows) {
   if (options.no_plots || plan.shard != StudyShard{}) return kExitSuccess;
   std::vector<std::string> names;
   for (const GridAxis& axis : plan.grid) names.push_back(axis.name);
@@ -74,19 +74,19 @@ int draw_plots(const Options& options, const std::string& directory, const Study
   return kExitSuccess;
 }
 
-int finish(const Options& options, const StudyFolder& folder, const StudyPlan& plan,
+int finish(const StudyCommandOptions& options, const StudyFolder& folder, const StudyPlan& plan,
            const std::vector<SummaryRow>& rows) {
   const int printed = print_summary(options, plan, rows);
   const int drawn = draw_plots(options, folder.file("plots"), plan, rows);
   return printed == kExitSuccess ? drawn : printed;
 }
 
-std::string out_directory(const Options& options) {
+std::string out_directory(const StudyCommandOptions& options) {
   if (!options.out.empty()) return options.out;
   return "study-" + std::filesystem::path(options.study.tree).stem().string();
 }
 
-int make_study(const Options& options, const LoadedStudy& study) {
+int make_study(const StudyCommandOptions& options, const LoadedStudy& study) {
   const StudyPlan& plan = study.plan;
   StudyFolder folder(out_directory(options));
   const auto there = folder.begin(plan, options.resume);
@@ -121,7 +121,7 @@ int make_study(const Options& options, const LoadedStudy& study) {
   return rows ? finish(options, folder, plan, *rows) : fail(folder.error());
 }
 
-int run(const Options& options) {
+int run(const StudyCommandOptions& options) {
   LoadedStudy study;
   Diagnostics diagnostics;
   const int code = load_study(options.study, study, diagnostics);
@@ -135,7 +135,7 @@ int run(const Options& options) {
   return make_study(options, study);
 }
 
-int merge(const Options& options) {
+int merge(const StudyCommandOptions& options) {
   StopSignals::install();
   StudyPlan plan;
   std::string error;
@@ -150,7 +150,7 @@ std::string check_positive(const std::string& text) {
   return is_zero ? std::string("expected 1 or more") : check_count(text);
 }
 
-void define_merge(CLI::App& app, const std::shared_ptr<Options>& options) {
+void define_merge(CLI::App& app, const std::shared_ptr<StudyCommandOptions>& options) {
   app.add_option("parts", options->parts, "The directories of all parts")
       ->type_name("DIR")
       ->required();
@@ -191,8 +191,8 @@ void define_runs(CLI::App& app, StudyOptions& options) {
       ->type_name("I/N");
 }
 
-std::function<int()> define(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+std::function<int()> define_study(CLI::App& app) {
+  const auto options = std::make_shared<StudyCommandOptions>();
   app.add_option("tree", options->study.tree, "Tree file")->type_name("TREE.xml");
   define_runs(app, options->study);
   options->jobs = std::max(1u, std::thread::hardware_concurrency());
@@ -232,6 +232,6 @@ const Command kStudyCommand{
     "      --measure progress-distance --measure predictability:task@0.6\n"
     "  lockstep study trees/predictability.xml --runs 1000 --shard 1/4 --out part-1\n"
     "  lockstep study merge part-* --out study",
-    define};
+    define_study};
 
 }  // namespace lockstep

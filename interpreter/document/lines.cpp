@@ -6,7 +6,7 @@ namespace lockstep {
 
 namespace {
 
-constexpr std::size_t kBlock = 1024;
+constexpr std::size_t kChunk = 1024;
 
 std::uint32_t count_ends(std::string_view text) {
   return static_cast<std::uint32_t>(std::count(text.begin(), text.end(), '\n'));
@@ -15,15 +15,15 @@ std::uint32_t count_ends(std::string_view text) {
 }  // namespace
 
 Lines::Lines(std::string_view text) : text_(text), ends_{0} {
-  ends_.reserve(text.size() / kBlock + 2);
-  for (std::size_t begin = 0; begin < text.size(); begin += kBlock)
-    ends_.push_back(ends_.back() + count_ends(text.substr(begin, kBlock)));
+  ends_.reserve(text.size() / kChunk + 2);
+  for (std::size_t begin = 0; begin < text.size(); begin += kChunk)
+    ends_.push_back(ends_.back() + count_ends(text.substr(begin, kChunk)));
 }
 
 LineColumn Lines::locate(std::size_t offset) const {
-  const auto block = offset / kBlock;
+  const auto block = offset / kChunk;
   const auto line =
-      1 + ends_[block] + count_ends(text_.substr(block * kBlock, offset - block * kBlock));
+      1 + ends_[block] + count_ends(text_.substr(block * kChunk, offset - block * kChunk));
   return {line, static_cast<std::uint32_t>(offset - start_of(line) + 1)};
 }
 
@@ -32,7 +32,7 @@ std::size_t Lines::start_of(std::uint32_t number) const {
   // The line end before it is the n-th of its block.
   const auto after = std::lower_bound(ends_.begin(), ends_.end(), number - 1);
   const auto block = static_cast<std::size_t>(after - ends_.begin()) - 1;
-  auto end = block * kBlock;
+  auto end = block * kChunk;
   for (auto n = number - 1 - ends_[block]; n > 0; --n) end = text_.find('\n', end) + 1;
   return end;
 }

@@ -6,6 +6,7 @@
 #include <new>
 
 #include "core/utf8.h"
+#include "plugin/held.h"
 
 namespace lockstep {
 namespace {
@@ -74,13 +75,6 @@ bool set(const lockstep_caller* caller, std::uint32_t port, T value) {
   Value* const target = writable(caller, port, type);
   if (target != nullptr) target->emplace<T>(value);
   return target != nullptr;
-}
-
-// The object that the entry holds, made when it holds none: what has capacity keeps it.
-template <class T>
-T& held(Value& value) {
-  T* const found = std::get_if<T>(&value);
-  return found != nullptr ? *found : value.emplace<T>();
 }
 
 bool set_string(const lockstep_caller* caller, std::uint32_t port, const char* text,

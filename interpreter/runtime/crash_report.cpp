@@ -23,7 +23,7 @@ constexpr int kMostFrames = 64;
 
 // Written by install(), before anything can crash.
 int g_exit_code = 1;
-void (*g_last_words)() = nullptr;
+void (*g_crash_words)() = nullptr;
 pid_t g_process = 0;
 
 std::atomic<int> g_runs{0};
@@ -90,7 +90,7 @@ enum class Backtrace : bool { No, Yes };
   SignalText text;
   describe(crash, text);
   text.write_to(STDERR_FILENO);
-  if (g_last_words != nullptr) g_last_words();
+  if (g_crash_words != nullptr) g_crash_words();
   if (wanted == Backtrace::Yes) write_backtrace(instruction);
   if (g_exit_code == CrashReport::kAsWithoutReport && crash.kind == CrashKind::Signal) {
     signal(crash.signal, SIG_DFL);
@@ -149,7 +149,7 @@ void at_process_end() {
 
 void CrashReport::install(int exit_code, void (*last_words)()) {
   g_exit_code = exit_code;
-  g_last_words = last_words;
+  g_crash_words = last_words;
   g_process = getpid();
   prepare_thread();
   std::array<void*, 1> frame;

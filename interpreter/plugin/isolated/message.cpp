@@ -3,16 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plugin/held.h"
+
 namespace lockstep {
-namespace {
-
-template <class T>
-T& held(Value& value) {
-  T* const found = std::get_if<T>(&value);
-  return found != nullptr ? *found : value.emplace<T>();
-}
-
-}  // namespace
 
 void MessageWriter::append(const void* data, std::size_t size) {
   const auto* first = static_cast<const std::byte*>(data);
