@@ -12,6 +12,10 @@
 namespace lockstep {
 namespace {
 
+// Bytes of a message or a hint. Names in them are brief() already; what a plugin or the system says
+// may not be.
+constexpr std::size_t kMaxText = 4096;
+
 // A tab in an excerpt stays, so that the caret below can repeat it and align at any tab width.
 enum class Tabs : bool { Escaped, Kept };
 
@@ -82,6 +86,9 @@ auto identity(const Diagnostic& d) {
 
 void Diagnostics::add(Diagnostic diagnostic) {
   if (is_full(diagnostic.severity)) return count_one(diagnostic.severity);
+  for (std::string* text : {&diagnostic.message, &diagnostic.hint}) {
+    if (text->size() > kMaxText) *text = std::string(utf8_front(*text, kMaxText)) + "…";
+  }
   ++added_[index(diagnostic.severity)];
   all_.push_back(std::move(diagnostic));
 }

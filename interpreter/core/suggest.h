@@ -1,4 +1,5 @@
-// "did you mean": the known word nearest to a mistyped one.
+// "did you mean": the known word nearest to a mistyped one. What it costs is bounded, however many
+// words there are and however long: a document may have a million.
 #pragma once
 
 #include <span>
@@ -9,10 +10,16 @@ namespace lockstep {
 
 // Of a word of two letters or more: the candidate with the smallest edit distance (insert, delete,
 // replace, swap of neighbors; case does not count) if that is at most a third of the word's length,
-// rounded up; else "". Of several, the first. A word of more than 256 bytes is near nothing.
+// rounded up, and at most eight; else "". Of several, the first. A word of more than 256 bytes is
+// near nothing. Of very many candidates only the first are looked at.
 std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates);
 
 // "did you mean 'x'?" or, when nothing is near, "".
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates);
+
+// "did you mean 'x'?" or, when nothing is near, "<what>: 'a', 'b' and 3 more"; "" without
+// candidates.
+std::string suggest(std::string_view word, std::span<const std::string_view> candidates,
+                    std::string_view what);
 
 }  // namespace lockstep

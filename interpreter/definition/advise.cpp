@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "core/wording.h"
 #include "definition/expand.h"
 #include "document/reporter.h"
 
@@ -67,8 +68,8 @@ class Adviser {
       if (!acting_[child]) return;
       if (earlier != 0 && told++ < kMostTold) {
         add(earlier, Severity::Warning,
-            fmt::format("'{}' is started again in every tick in which '{}' runs", at(earlier).name,
-                        at(child).name),
+            fmt::format("'{}' is started again in every tick in which '{}' runs",
+                        brief(at(earlier).name), brief(at(child).name)),
             "the Sequence ticks all its children in every tick: give it memory=\"true\", or let "
             "the "
             "action return Success at once where its goal already holds");
@@ -87,7 +88,7 @@ class Adviser {
       if (type.category != NodeCategory::Action || type.has_progress) return;
       add(source, Severity::Note,
           fmt::format("'{}' reports no progress: for '{}' it is at 0 until it succeeds",
-                      at(source).name, at(parallel).name),
+                      brief(at(source).name), brief(at(parallel).name)),
           "the others wait for it at the first barrier, or within delta of 0");
     });
   }
@@ -103,9 +104,9 @@ class Adviser {
       written[entry] = true;  // one warning an entry
       const Reporter report(*project_.documents[at(node).document], diagnostics_);
       report.at_value(at(node).element, parameter.name,
-                      fmt::format("nothing writes '{{{}}}'", it.name),
+                      fmt::format("nothing writes '{{{}}}'", brief(it.name)),
                       it.name.find('/') == std::string::npos
-                          ? fmt::format("give it a value with --set {}=…", it.name)
+                          ? fmt::format("give it a value with --set {}=…", brief(it.name))
                           : "give it a value by an attribute of the SubTree",
                       Severity::Warning);
     });

@@ -7,6 +7,7 @@
 
 #include "core/identifier.h"
 #include "core/suggest.h"
+#include "core/wording.h"
 
 namespace lockstep {
 namespace {
@@ -14,10 +15,6 @@ namespace {
 std::string join_hints(const std::string& first, const std::string& second) {
   if (first.empty()) return second;
   return second.empty() ? first : first + "; " + second;
-}
-
-std::string quoted_list(std::span<const std::string_view> words) {
-  return fmt::format("'{}'", fmt::join(words, "', '"));
 }
 
 bool in_range(const Range& range, double number) {
@@ -49,8 +46,9 @@ class AttributeChecker {
     for (const Attribute& attribute : document_.attributes(node_.element)) {
       const std::string_view name = attribute.name;
       if (is_common_attribute(name) || (explicit_form && name == "ID") || parameter(name)) continue;
+      if (report_.counted_only(Severity::Error)) continue;
       report_.at_attribute(node_.element, name,
-                           fmt::format("'{}' has no parameter '{}'", node_.type->id, name),
+                           fmt::format("'{}' has no parameter '{}'", node_.type->id, brief(name)),
                            join_hints(did_you_mean(name, names()), parameters_hint(*node_.type)));
     }
   }
@@ -65,7 +63,7 @@ class AttributeChecker {
     if (!value && unknown && report_.has_errors()) return {};
     if (!value) {
       report_.at_value(node_.element, parameter.name,
-                       fmt::format("'{}' is not {}, which '{}' must be", attribute->value,
+                       fmt::format("'{}' is not {}, which '{}' must be", brief(attribute->value),
                                    expected_text(parameter.type), parameter.name));
       return {};
     }
@@ -100,8 +98,8 @@ class AttributeChecker {
     const auto& word = std::get<std::string>(value);
     if (std::ranges::find(parameter.choices, word) != parameter.choices.end()) return true;
     report_.at_value(node_.element, parameter.name,
-                     fmt::format("'{}' is not a value of '{}'", word, parameter.name),
-                     "it must be one of " + quoted_list(parameter.choices));
+                     fmt::format("'{}' is not a value of '{}'", brief(word), parameter.name),
+                     "it must be one of " + listed(parameter.choices));
     return false;
   }
 
@@ -128,7 +126,7 @@ void check_name(const Document& document, const Reporter& report, std::uint32_t 
   if (name == nullptr) return;
   if (name->value.empty()) report.at_value(element, "name", "the name is empty");
   if (name->value.find('/') != std::string_view::npos) {
-    report.at_value(element, "name", fmt::format("the name '{}' contains '/'", name->value),
+    report.at_value(element, "name", fmt::format("the name '{}' contains '/'", brief(name->value)),
                     "'/' separates the names in a node's path");
   }
 }
@@ -188,7 +186,7 @@ void check_ports(const Reporter& report, const AttributeChecker& checker, Checke
         trees.values.push_back(std::move(value));
       }
     } else if (!is_identifier(checked.key)) {
-      report.at_value(node.element, port.name, fmt::format("'{}' is not a key", checked.key),
+      report.at_value(node.element, port.name, fmt::format("'{}' is not a key", brief(checked.key)),
                       fmt::format("a key is {}", kIdentifierRule));
       checked.key = {};
     }
@@ -224,7 +222,7 @@ std::string parameters_hint(const NodeType& type) {
   if (type.parameters.empty()) return fmt::format("'{}' has no parameters", type.id);
   std::vector<std::string_view> names;
   for (const Parameter& parameter : type.parameters) names.push_back(parameter.name);
-  return fmt::format("parameters of '{}': {}", type.id, fmt::join(names, ", "));
+  return fmt::format("parameters of '{}': {}", type.id, listed(names));
 }
 
 void check_attributes(const Document& document, const Reporter& report, bool explicit_form,
@@ -248,19 +246,19 @@ void check_subtree_attributes(const Document& document, const Reporter& report, 
     } else if (attribute.name == "_autoremap") {
       if (!parse_value(ValueType::Bool, attribute.value)) {
         report.at_value(node.element, attribute.name,
-                        fmt::format("'{}' is not true or false", attribute.value));
+                        fmt::format("'{}' is not true or false", brief(attribute.value)));
       }
     } else if (attribute.name.starts_with('_')) {
       report.at_attribute(node.element, attribute.name,
-                          fmt::format("'SubTree' has no attribute '{}'", attribute.name),
+                          fmt::format("'SubTree' has no attribute '{}'", brief(attribute.name)),
                           "attributes that begin with '_' belong to the language: _autoremap, "
                           "_description; such a key cannot be remapped");
     } else if (!is_identifier(attribute.name)) {
       report.at_attribute(node.element, attribute.name,
-                          fmt::format("'{}' is not a key", attribute.name),
+                          fmt::format("'{}' is not a key", brief(attribute.name)),
                           fmt::format("a key is {}", kIdentifierRule));
     } else if (const auto key = key_of(attribute.value); !key.empty() && !is_identifier(key)) {
-      report.at_value(node.element, attribute.name, fmt::format("'{}' is not a key", key),
+      report.at_value(node.element, attribute.name, fmt::format("'{}' is not a key", brief(key)),
                       fmt::format("a key is {}", kIdentifierRule));
     }
   }

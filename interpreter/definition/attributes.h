@@ -17,7 +17,7 @@ void check_subtree_attributes(const Document& document, const Reporter& report, 
 // Whether an attribute is one that every node may have: name, _description.
 bool is_common_attribute(std::string_view name);
 
-// "parameters of 'X': a, b, c" for a hint.
+// "parameters of 'X': 'a', 'b', 'c'" for a hint.
 std::string parameters_hint(const NodeType& type);
 
 // "from 0 to 1", "more than 0, at most 1", …; "" when every number is allowed.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/suggest.h"
+#include "core/wording.h"
 #include "definition/attributes.h"
 #include "definition/checked_tree.h"
 
@@ -58,10 +59,10 @@ class TreeChecker {
       if (tag == "BehaviorTree") {
         check_tree(report, child);
       } else if (tag != "arg" && tag != "include" && tag != "plugin") {
+        if (report.counted_only(Severity::Error)) continue;
         constexpr std::string_view kTags[] = {"BehaviorTree", "plugin", "arg", "include"};
-        std::string hint = did_you_mean(tag, kTags);
-        if (hint.empty()) hint = "inside <root> stand BehaviorTree, plugin, arg and include";
-        report.at_element(child, fmt::format("unknown element '{}' in 'root'", tag), hint);
+        report.at_element(child, fmt::format("unknown element '{}' in 'root'", brief(tag)),
+                          suggest(tag, kTags, "elements of 'root'"));
       }
     }
   }
@@ -72,9 +73,10 @@ class TreeChecker {
       if (attribute.name == "lockstep") {
         versioned = true;
         if (attribute.value != "1") {
-          report.at_value(0, "lockstep",
-                          fmt::format("version '{}' of the language is not known", attribute.value),
-                          "this program reads lockstep=\"1\"");
+          report.at_value(
+              0, "lockstep",
+              fmt::format("version '{}' of the language is not known", brief(attribute.value)),
+              "this program reads lockstep=\"1\"");
         }
       } else if (attribute.name == "BTCPP_format") {
         report.at_attribute(
@@ -83,7 +85,7 @@ class TreeChecker {
         versioned = true;
       } else if (attribute.name != "main_tree_to_execute" && !is_schema_attribute(attribute.name)) {
         report.at_attribute(0, attribute.name,
-                            fmt::format("'root' has no attribute '{}'", attribute.name),
+                            fmt::format("'root' has no attribute '{}'", brief(attribute.name)),
                             "attributes of 'root': lockstep, main_tree_to_execute");
       }
     }
@@ -99,21 +101,23 @@ class TreeChecker {
       if (attribute.name == "ID") {
         id = attribute.value;
       } else if (attribute.name != "_description") {
-        report.at_attribute(tree, attribute.name,
-                            fmt::format("'BehaviorTree' has no attribute '{}'", attribute.name),
-                            "attributes of 'BehaviorTree': ID");
+        report.at_attribute(
+            tree, attribute.name,
+            fmt::format("'BehaviorTree' has no attribute '{}'", brief(attribute.name)),
+            "attributes of 'BehaviorTree': ID");
       }
     }
     if (id.empty()) {
       report.at_element(tree, "'BehaviorTree' needs the attribute 'ID'",
                         "write <BehaviorTree ID=\"…\">");
     } else if (id.find('/') != std::string_view::npos) {
-      report.at_value(tree, "ID", fmt::format("the ID '{}' contains '/'", id),
+      report.at_value(tree, "ID", fmt::format("the ID '{}' contains '/'", brief(id)),
                       "'/' separates the names in a node's path");
     }
     const std::uint32_t root = tree + 1;
     if (root == element(tree).end) {
-      report.at_element(tree, fmt::format("the tree '{}' is empty", id), "put one node into it");
+      report.at_element(tree, fmt::format("the tree '{}' is empty", brief(id)),
+                        "put one node into it");
       enter_tree(report, tree, id);  // so that whoever names it is not blamed
       CheckedNode nothing;
       nothing.end = count(trees_.nodes) + 1;
@@ -121,7 +125,7 @@ class TreeChecker {
       return;
     }
     if (const std::uint32_t second = element(root).end; second != element(tree).end) {
-      report.at_element(second, fmt::format("the tree '{}' has more than one root node", id),
+      report.at_element(second, fmt::format("the tree '{}' has more than one root node", brief(id)),
                         "put them into a Sequence, a Fallback or a parallel node");
     }
     CheckedTree* const entered = enter_tree(report, tree, id);
@@ -144,7 +148,7 @@ class TreeChecker {
     }
     const auto [first_document, first_element] = places_.at(id);
     const auto first = project_.documents[first_document]->locate(first_element);
-    report.at_value(tree, "ID", fmt::format("a tree '{}' exists already", id),
+    report.at_value(tree, "ID", fmt::format("a tree '{}' exists already", brief(id)),
                     fmt::format("the first is at {}:{}:{}", first.file, first.line, first.column));
     return nullptr;
   }
@@ -224,18 +228,17 @@ class TreeChecker {
 
   void unknown(const Reporter& report, std::uint32_t index, std::string_view id,
                const Attribute* attribute) const {
-    if (report.is_full()) return report.at_element(index, "unknown node");
-    auto known = catalog_.ids();
-    std::string hint = did_you_mean(id, known);
+    if (report.counted_only(Severity::Error)) return;
+    std::string hint = did_you_mean(id, catalog_.ids());
     if (hint.empty() && trees_.trees.contains(id)) {
-      hint = fmt::format("to use the tree '{}' write <SubTree ID=\"{}\"/>", id, id);
+      hint = fmt::format("to use the tree '{0}' write <SubTree ID=\"{0}\"/>", brief(id));
     }
     if (hint.empty()) {
       hint =
           "if a plugin provides it, name that with <plugin name=\"…\"/>; `lockstep nodes` "
           "lists the built-in nodes";
     }
-    const std::string message = fmt::format("unknown node '{}'", id);
+    const std::string message = fmt::format("unknown node '{}'", brief(id));
     if (attribute == nullptr) {
       report.at_element(index, message, hint);
     } else {

@@ -6,6 +6,7 @@
 
 #include "core/identifier.h"
 #include "core/suggest.h"
+#include "core/wording.h"
 #include "definition/attributes.h"
 #include "definition/scope.h"
 #include "document/reporter.h"
@@ -82,10 +83,10 @@ class Expander {
     add(tree->second.root, place, scope);
     for_each_remapping(document, checked.element, [&](const Attribute& attribute) {
       if (scope.used(attribute.name)) return;
-      report.at_attribute(
-          checked.element, attribute.name,
-          fmt::format("the tree '{}' does not use '{{{}}}'", checked.subtree, attribute.name), {},
-          Severity::Warning);
+      report.at_attribute(checked.element, attribute.name,
+                          fmt::format("the tree '{}' does not use '{{{}}}'", brief(checked.subtree),
+                                      brief(attribute.name)),
+                          {}, Severity::Warning);
     });
   }
 
@@ -125,8 +126,8 @@ class Expander {
           project_.documents[first.document]->locate_attribute(first.element, first.port);
       report.at_value(
           checked.element, port.name,
-          fmt::format("'{{{}}}' is {} for '{}', but {} elsewhere", key, with_article(port.type),
-                      port.name, with_article(entry.type)),
+          fmt::format("'{{{}}}' is {} for '{}', but {} elsewhere", brief(key),
+                      with_article(port.type), port.name, with_article(entry.type)),
           fmt::format("the other use is at {}:{}:{}", where.file, where.line, where.column));
     }
     return found.entry;
@@ -139,10 +140,11 @@ class Expander {
       entry.initial = *value;
       return;
     }
-    report.at_value(checked.element, port.name,
-                    fmt::format("the start value '{}' of '{}' is not {}, which '{}' must be", text,
-                                entry.name, expected_text(port.type), port.name),
-                    "it comes from --set or from an attribute of a SubTree");
+    report.at_value(
+        checked.element, port.name,
+        fmt::format("the start value '{}' of '{}' is not {}, which '{}' must be", brief(text),
+                    brief(entry.name), expected_text(port.type), port.name),
+        "it comes from --set or from an attribute of a SubTree");
   }
 
   void check_set_keys(const Scope& scope) {
@@ -152,12 +154,8 @@ class Expander {
     }
     for (const auto& [key, text] : options_.values) {
       if (scope.used(key)) continue;
-      std::string hint = did_you_mean(key, keys);
-      if (hint.empty() && !keys.empty()) {
-        hint = fmt::format("entries of the main tree: {}", fmt::join(keys, ", "));
-      }
-      diagnostics_.error({}, fmt::format("--set {}: the main tree does not use '{{{}}}'", key, key),
-                         hint);
+      diagnostics_.error({}, fmt::format("--set {0}: the main tree does not use '{{{0}}}'", key),
+                         suggest(key, keys, "entries of the main tree"));
     }
   }
 

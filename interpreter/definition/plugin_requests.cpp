@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/value.h"
+#include "core/wording.h"
 #include "document/reporter.h"
 
 namespace lockstep {
@@ -28,13 +29,14 @@ std::optional<PluginRequest> read_plugin(const Document& document, std::uint32_t
       if (isolate) {
         request.isolate = std::get<bool>(*isolate);
       } else {
-        report.at_value(
-            element, "isolate",
-            fmt::format("'{}' is not true or false, which 'isolate' must be", attribute.value));
+        report.at_value(element, "isolate",
+                        fmt::format("'{}' is not true or false, which 'isolate' must be",
+                                    brief(attribute.value)));
       }
     } else {
       report.at_attribute(
-          element, attribute.name, fmt::format("'plugin' has no attribute '{}'", attribute.name),
+          element, attribute.name,
+          fmt::format("'plugin' has no attribute '{}'", brief(attribute.name)),
           "attributes of 'plugin': name (a tree names plugins, never paths) and isolate");
     }
   }

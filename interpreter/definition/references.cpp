@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/suggest.h"
-#include "core/utf8.h"
+#include "core/wording.h"
 #include "definition/definition.h"
 #include "document/reporter.h"
 
@@ -14,7 +14,6 @@ namespace {
 
 // Paths are in recordings, in messages, and in what a leaf knows of itself.
 constexpr std::uint64_t kMaxPathBytes = std::uint64_t{512} << 20u;
-constexpr std::size_t kShownBytes = 100;
 
 // Depth-first over the graph of trees, with a stack of its own: a chain of subtrees may be long.
 class ReferenceChecker {
@@ -90,20 +89,20 @@ class ReferenceChecker {
     chain_.pop_back();
     const CheckedNode& root = trees_.nodes[trees_.trees.at(id).root];
     if (visit.size > kMaxNodes) {
-      too_large(
-          root,
-          fmt::format("the tree '{}' has {} nodes with its subtrees expanded", id, visit.size),
-          fmt::format("the limit is {}", kMaxNodes));
+      too_large(root,
+                fmt::format("the tree '{}' has {} nodes with its subtrees expanded", brief(id),
+                            visit.size),
+                fmt::format("the limit is {}", kMaxNodes));
     } else if (visit.depth > kMaxDepth) {
-      too_large(
-          root,
-          fmt::format("the tree '{}' is {} nodes deep with its subtrees expanded", id, visit.depth),
-          fmt::format("the limit is {}", kMaxDepth));
+      too_large(root,
+                fmt::format("the tree '{}' is {} nodes deep with its subtrees expanded", brief(id),
+                            visit.depth),
+                fmt::format("the limit is {}", kMaxDepth));
     } else if (visit.paths_size > kMaxPathBytes) {
       too_large(root,
                 fmt::format("the paths of all nodes in the tree '{}' are larger than {} MiB "
                             "together with its subtrees expanded",
-                            utf8_front(id, kShownBytes), kMaxPathBytes >> 20u),
+                            brief(id), kMaxPathBytes >> 20u),
                 "a long name, or a deep place, counts for each node below it");
     }
   }
@@ -114,19 +113,21 @@ class ReferenceChecker {
   }
 
   void unknown(const CheckedNode& reference) const {
-    std::string hint = did_you_mean(reference.subtree, trees_.ids);
-    if (hint.empty()) hint = fmt::format("trees in this project: {}", fmt::join(trees_.ids, ", "));
+    if (report(reference).counted_only(Severity::Error)) return;
     report(reference).at_value(reference.element, "ID",
-                               fmt::format("unknown tree '{}'", reference.subtree), hint);
+                               fmt::format("unknown tree '{}'", brief(reference.subtree)),
+                               suggest(reference.subtree, trees_.ids, "trees in this project"));
   }
 
   void contains_itself(const CheckedNode& reference) {
     expandable_ = false;
-    const auto first = std::ranges::find(chain_, reference.subtree);
+    if (report(reference).counted_only(Severity::Error)) return;
+    std::vector<std::string_view> circle(std::ranges::find(chain_, reference.subtree),
+                                         chain_.end());
+    circle.push_back(reference.subtree);
     report(reference).at_value(
         reference.element, "ID",
-        fmt::format("the tree '{}' contains itself: {} -> {}", reference.subtree,
-                    fmt::join(first, chain_.end(), " -> "), reference.subtree),
+        fmt::format("the tree '{}' contains itself: {}", brief(reference.subtree), chained(circle)),
         "use a decorator such as Repeat for a loop");
   }
 

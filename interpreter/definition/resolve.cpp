@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/suggest.h"
+#include "core/wording.h"
 #include "definition/attributes.h"
 #include "definition/expand.h"
 #include "definition/references.h"
@@ -12,11 +13,6 @@
 
 namespace lockstep {
 namespace {
-
-std::string trees_hint(const CheckedTrees& trees, std::string_view wanted) {
-  const std::string near = did_you_mean(wanted, trees.ids);
-  return near.empty() ? fmt::format("trees in this file: {}", fmt::join(trees.ids, ", ")) : near;
-}
 
 // The ID of the tree to run; nothing after an error.
 std::optional<std::string_view> choose_main(const Project& project, const CheckedTrees& trees,
@@ -35,20 +31,21 @@ std::optional<std::string_view> choose_main(const Project& project, const Checke
     const auto it = trees.trees.find(options.main_tree);
     if (it != trees.trees.end()) return it->first;
     diagnostics.error({}, fmt::format("--tree {}: unknown tree", options.main_tree),
-                      trees_hint(trees, options.main_tree));
+                      suggest(options.main_tree, trees.ids, "trees in this project"));
     return std::nullopt;
   }
   if (const Attribute* attribute = main.find_attribute(0, "main_tree_to_execute")) {
     const auto it = trees.trees.find(attribute->value);
     if (it != trees.trees.end()) return it->first;
-    report.at_value(0, "main_tree_to_execute", fmt::format("unknown tree '{}'", attribute->value),
-                    trees_hint(trees, attribute->value));
+    report.at_value(0, "main_tree_to_execute",
+                    fmt::format("unknown tree '{}'", brief(attribute->value)),
+                    suggest(attribute->value, trees.ids, "trees in this project"));
     return std::nullopt;
   }
   if (trees.ids.size() == 1) return trees.ids.front();
-  report.at_element(0, "it is not said which tree to run",
-                    fmt::format("add main_tree_to_execute=\"…\" or give --tree; trees: {}",
-                                fmt::join(trees.ids, ", ")));
+  report.at_element(
+      0, "it is not said which tree to run",
+      fmt::format("add main_tree_to_execute=\"…\" or give --tree; trees: {}", listed(trees.ids)));
   return std::nullopt;
 }
 

@@ -6,13 +6,13 @@
 
 #include "core/identifier.h"
 #include "core/suggest.h"
+#include "core/wording.h"
 #include "document/reporter.h"
 #include "document/vocabulary.h"
 
 namespace lockstep {
 namespace {
 
-constexpr std::size_t kMaxListed = 20;
 constexpr std::size_t kMaxUnknown = 10;  // reported of one value: each place is counted out
 constexpr std::string_view kAttributes[] = {"name", "default", "doc"};
 
@@ -34,19 +34,21 @@ void ArgumentTable::declare(Document& document, std::uint32_t element) {
   const std::string name(document.find_attribute(element, "name")->value);
   const auto location = document.locate_value(element, "name");
   if (!is_identifier(name))
-    return report.at_value(element, "name", fmt::format("'{}' is not an identifier", name),
+    return report.at_value(element, "name", fmt::format("'{}' is not an identifier", brief(name)),
                            "letters, digits and '_', not a digit first");
   const auto [entry, is_new] = by_name_.try_emplace(name, Where{declared_.size(), location, sound});
   if (!is_new)
-    return report.at_value(element, "name", fmt::format("argument '{}' is declared twice", name),
+    return report.at_value(element, "name",
+                           fmt::format("argument '{}' is declared twice", brief(name)),
                            fmt::format("the first is at {}", to_place(entry->second.location)));
 
   auto default_value = value_of(document.find_attribute(element, "default"));
   const auto given = given_.find(name);
   if (given == given_.end() && !default_value) {
     entry->second.has_value = false;
-    report.at_element(element, fmt::format("argument '{}' has no default and is not given", name),
-                      fmt::format("give it with --arg {}=value", name));
+    report.at_element(element,
+                      fmt::format("argument '{}' has no default and is not given", brief(name)),
+                      fmt::format("give it with --arg {}=value", brief(name)));
   }
   if (given != given_.end()) entry->second.has_value = true;
   auto value = given != given_.end() ? given->second : default_value.value_or("");
@@ -95,7 +97,8 @@ std::optional<std::string> ArgumentTable::expand(const Document& document, std::
     const auto name = text.substr(done, close - done);
     done = close + 1;
     const auto* where = find(name);
-    if (!where) report_unknown(name, document, place(at));
+    if (!where && !Reporter(document, diagnostics_).counted_only(Severity::Error))
+      report_unknown(name, document, place(at));
     if (!where && ++unknown == kMaxUnknown) return std::nullopt;
     sound = sound && where && where->has_value;
     if (!sound) continue;
@@ -117,7 +120,7 @@ bool ArgumentTable::fits(std::size_t bytes, const Document& document, std::uint3
   };
   if (bytes > kMaxValueMiB << 20u)
     return fail(fmt::format("the value of '{}' is larger than {} MiB with its arguments",
-                            attribute.name, kMaxValueMiB));
+                            brief(attribute.name), kMaxValueMiB));
   is_full_ = expanded_ + bytes > kMaxExpandedMiB << 20u;
   if (is_full_)
     return fail(
@@ -133,25 +136,21 @@ const ArgumentTable::Where* ArgumentTable::find(std::string_view name) const {
 void ArgumentTable::report_unknown(std::string_view name, const Document& document,
                                    SourceLocation location) {
   Reporter(document, diagnostics_)
-      .at(std::move(location), fmt::format("unknown argument '{}'", name), list_declared(name));
+      .at(std::move(location), fmt::format("unknown argument '{}'", brief(name)),
+          list_declared(name));
 }
 
 std::string ArgumentTable::list_declared(std::string_view near) const {
   if (declared_.empty()) return "no <arg> is declared";
   std::vector<std::string_view> names;
   for (const auto& argument : declared_) names.push_back(argument.name);
-  auto hint = did_you_mean(near, names);
-  if (!hint.empty()) hint += " ";
-  const auto listed = std::min(names.size(), kMaxListed);
-  hint += fmt::format("declared: '{}'", fmt::join(names.begin(), names.begin() + listed, "', '"));
-  if (listed < names.size()) hint += fmt::format(" and {} more", names.size() - listed);
-  return hint;
+  return suggest(near, names, "declared");
 }
 
 void ArgumentTable::check_given() const {
   for (const auto& [name, value] : given_)
     if (!find(name))
-      diagnostics_.error({}, fmt::format("unknown argument '{}' in --arg", name),
+      diagnostics_.error({}, fmt::format("unknown argument '{}' in --arg", brief(name)),
                          list_declared(name));
 }
 

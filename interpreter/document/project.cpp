@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <set>
 
+#include "core/wording.h"
 #include "document/arguments.h"
 #include "document/file.h"
 #include "document/reporter.h"
@@ -81,7 +82,7 @@ bool Loader::add(const Reading& file, std::string text) {
   if (!is_root(document)) {
     Reporter(document, diagnostics_)
         .at_element(0, fmt::format("the first element must be 'root', not '{}'",
-                                   document.elements()[0].tag));
+                                   brief(document.elements()[0].tag)));
     return true;
   }
   open_.push_back(file);
@@ -106,7 +107,7 @@ void Loader::include(Document& document, std::uint32_t element) {
   if (open_.size() > kMaxIncludeDepth)
     return fail(fmt::format("includes are nested deeper than {} levels", kMaxIncludeDepth));
   auto [text, failure] = read_file(path, Document::kMaxBytes);
-  if (!failure.empty()) return fail(fmt::format("cannot read '{}': {}", path, failure));
+  if (!failure.empty()) return fail(fmt::format("cannot read '{}': {}", brief(path), failure));
   bytes_ += text.size();
   if (bytes_ > Document::kMaxBytes)
     return fail(fmt::format("with '{}' the files are larger than {} MiB together", path,
@@ -118,9 +119,11 @@ std::string Loader::cycle(const Reading& next) const {
   const auto first = std::find_if(open_.begin(), open_.end(), [&](const Reading& reading) {
     return reading.identity == next.identity;
   });
-  std::string chain;
-  for (auto reading = first; reading != open_.end(); ++reading) chain += reading->path + " -> ";
-  return chain.empty() ? chain : chain + next.path;
+  if (first == open_.end()) return {};
+  std::vector<std::string_view> circle;
+  for (auto reading = first; reading != open_.end(); ++reading) circle.push_back(reading->path);
+  circle.push_back(next.path);
+  return chained(circle);
 }
 
 // A character reference may stand for a part of "${", so it counts too.

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/wording.h"
+
 namespace lockstep {
 namespace {
 
@@ -51,7 +53,7 @@ class Declaration {
   std::optional<XmlFault> skip() {
     if (!take("version") || !is_version(value_)) return malformed();
     if (take("encoding") && !is_true_of(value_, at_.text())) {
-      return XmlFault{begin_, fmt::format("the file is UTF-8, but declares '{}'", value_),
+      return XmlFault{begin_, fmt::format("the file is UTF-8, but declares '{}'", brief(value_)),
                       "write encoding=\"UTF-8\""};
     }
     if (take("standalone") && value_ != "yes" && value_ != "no") return malformed();
@@ -126,7 +128,7 @@ std::optional<XmlFault> skip_instruction(Cursor& at) {
   if (is_same_word(target, "xml"))
     return XmlFault{begin, fmt::format("a processing instruction cannot be named '{}'", target)};
   if (at.position() != end && !at.skip_blanks())
-    return XmlFault{at.position(), fmt::format("expected a blank after '<?{}'", target)};
+    return XmlFault{at.position(), fmt::format("expected a blank after '<?{}'", brief(target))};
   at.go_to(end + 2);
   return std::nullopt;
 }

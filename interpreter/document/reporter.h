@@ -15,7 +15,14 @@ class Reporter {
       : document_(document), diagnostics_(diagnostics) {}
 
   bool has_errors() const { return diagnostics_.has_errors(); }
-  bool is_full() const { return diagnostics_.is_full(Severity::Error); }
+
+  // What is not kept needs neither words nor a place: a document may have a million errors. True
+  // when it is counted and done with.
+  bool counted_only(Severity severity) const {
+    if (!diagnostics_.is_full(severity)) return false;
+    diagnostics_.count_one(severity);
+    return true;
+  }
 
   void at_element(std::uint32_t element, std::string message, std::string hint = {},
                   Severity severity = Severity::Error) const {
@@ -41,13 +48,6 @@ class Reporter {
   }
 
  private:
-  // What is not kept needs no place: a document may have a million errors.
-  bool counted_only(Severity severity) const {
-    if (!diagnostics_.is_full(severity)) return false;
-    diagnostics_.count_one(severity);
-    return true;
-  }
-
   const Document& document_;
   Diagnostics& diagnostics_;
 };

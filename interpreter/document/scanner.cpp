@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/utf8.h"
+#include "core/wording.h"
 #include "document/prolog.h"
 
 namespace lockstep {
@@ -72,12 +73,13 @@ Token Scanner::inside_tag() {
     const auto name = std::exchange(tag_, std::string_view());
     return {empty ? TokenKind::EmptyTagEnd : TokenKind::TagEnd, begin, name};
   }
-  if (rest().empty()) return fail(tag_begin_, fmt::format("the tag '<{}' is not closed", tag_));
+  if (rest().empty())
+    return fail(tag_begin_, fmt::format("the tag '<{}' is not closed", brief(tag_)));
   const auto name = at_.take_name();
   if (name.empty()) {
-    const auto hint = fmt::format("the tag '<{}' needs '>' or '/>' at its end", tag_);
+    const auto hint = fmt::format("the tag '<{}' needs '>' or '/>' at its end", brief(tag_));
     const auto found = rest().substr(0, utf8_length(rest()));
-    return fail(begin, fmt::format("unexpected '{}' in the tag '<{}'", found, tag_), hint);
+    return fail(begin, fmt::format("unexpected '{}' in the tag '<{}'", found, brief(tag_)), hint);
   }
   if (!blanks) return fail(begin, "expected a blank before the attribute");
   return attribute(begin, name);
@@ -86,13 +88,13 @@ Token Scanner::inside_tag() {
 Token Scanner::attribute(std::size_t begin, std::string_view name) {
   at_.skip_blanks();
   if (!at_.skip("="))
-    return fail(begin, fmt::format("attribute '{}' has no value", name),
-                fmt::format("write {}=\"…\"", name));
+    return fail(begin, fmt::format("attribute '{}' has no value", brief(name)),
+                fmt::format("write {}=\"…\"", brief(name)));
   at_.skip_blanks();
   const auto open = at_.position();
   if (!rest().starts_with('"') && !rest().starts_with('\''))
-    return fail(open, fmt::format("expected a quote before the value of '{}'", name),
-                fmt::format("write {}=\"…\"", name));
+    return fail(open, fmt::format("expected a quote before the value of '{}'", brief(name)),
+                fmt::format("write {}=\"…\"", brief(name)));
   bool is_coded = false;
   for (auto at = open + 1; at < text_.size(); ++at) {
     const char c = text_[at];
@@ -103,11 +105,11 @@ Token Scanner::attribute(std::size_t begin, std::string_view name) {
     }
     // A quote that is forgotten finds the next value's, far below.
     if (c == '<')
-      return fail(at, fmt::format("'<' in the value of '{}'", name),
+      return fail(at, fmt::format("'<' in the value of '{}'", brief(name)),
                   "write '&lt;', or close the quote before it");
     is_coded |= c == '&' || c == '\r';
   }
-  return fail(open, fmt::format("the quote of '{}' is not closed", name));
+  return fail(open, fmt::format("the quote of '{}' is not closed", brief(name)));
 }
 
 Token Scanner::close_tag() {
@@ -116,7 +118,7 @@ Token Scanner::close_tag() {
   const auto name = at_.take_name();
   if (name.empty()) return fail(begin, "'</' needs the name of the element that it closes");
   at_.skip_blanks();
-  if (!at_.skip(">")) return fail(begin, fmt::format("the tag '</{}' is not closed", name));
+  if (!at_.skip(">")) return fail(begin, fmt::format("the tag '</{}' is not closed", brief(name)));
   return {TokenKind::CloseTag, begin, name};
 }
 

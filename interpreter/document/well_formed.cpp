@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <span>
 
+#include "core/wording.h"
 #include "document/references.h"
 
 namespace lockstep {
@@ -73,8 +74,8 @@ class Checker {
   void attribute(const Token& token) {
     auto& element = result_.elements.back();
     if (element.attribute_count == kMaxAttributes)
-      return stop({token.begin,
-                   fmt::format("'{}' has more than {} attributes", element.tag, kMaxAttributes)});
+      return stop({token.begin, fmt::format("'{}' has more than {} attributes", brief(element.tag),
+                                            kMaxAttributes)});
     ++element.attribute_count;
     if (token.is_coded) result_.coded.push_back(count(result_.attributes));
     result_.attributes.push_back({token.name, token.value});
@@ -101,7 +102,8 @@ class Checker {
     std::stable_sort(names_.begin(), names_.end());
     for (std::size_t i = 1; i < names_.size(); ++i) {
       if (names_[i] != names_[i - 1]) continue;
-      add({scanner_.offset_of(names_[i]), fmt::format("attribute '{}' is given twice", names_[i])});
+      add({scanner_.offset_of(names_[i]),
+           fmt::format("attribute '{}' is given twice", brief(names_[i]))});
       result_.readable = false;
     }
   }
@@ -113,10 +115,11 @@ class Checker {
 
   void close(const Token& token) {
     if (open_.empty())
-      return stop({token.begin, fmt::format("'</{}>' closes no element", token.name)});
+      return stop({token.begin, fmt::format("'</{}>' closes no element", brief(token.name))});
     if (const auto tag = innermost(); tag != token.name)
-      return stop({token.begin, fmt::format("'</{}>' closes '<{}>', opened at line {}", token.name,
-                                            tag, line_of(scanner_.offset_of(tag)))});
+      return stop(
+          {token.begin, fmt::format("'</{}>' closes '<{}>', opened at line {}", brief(token.name),
+                                    brief(tag), line_of(scanner_.offset_of(tag)))});
     end_element();
   }
 
@@ -143,8 +146,8 @@ class Checker {
   void end(const Token& token) {
     if (!open_.empty()) {
       const auto tag = innermost();
-      return stop({scanner_.offset_of(tag) - 1, fmt::format("'<{}>' is not closed", tag),
-                   fmt::format("'</{}>' is missing before the end of the file", tag)});
+      return stop({scanner_.offset_of(tag) - 1, fmt::format("'<{}>' is not closed", brief(tag)),
+                   fmt::format("'</{}>' is missing before the end of the file", brief(tag))});
     }
     if (!has_root())
       stop({prolog_ ? 0 : token.begin,

@@ -36,8 +36,8 @@ void write_header(const RecordingHeader& header, std::FILE* out, bool color) {
   fmt::print(out, "{} from {}, recorded by lockstep {}\n",
              styled(printable(header.tree), Style::Strong, color), printable(header.file),
              printable(header.version));
-  fmt::print(out, "  {} nodes, {} Hz, {} clock, seed {}\n", header.nodes.size(), header.rate_hz,
-             printable(header.clock), header.seed);
+  fmt::print(out, "  {}, {} Hz, {} clock, seed {}\n", counted(header.nodes.size(), "node"),
+             header.rate_hz, printable(header.clock), header.seed);
   for (const auto& [name, value] : header.arguments) {
     fmt::print(out, "  argument {} = {}\n", printable(name), printable(value));
   }
@@ -48,7 +48,8 @@ void write_end(const RecordingReader& reader, std::uint64_t ticks, double time, 
   if (const auto& end = reader.end()) {
     fmt::print(out, "  {} ({}) after {}, {:.3f} s", printable(end->result), printable(end->reason),
                counted(end->ticks, "tick"), end->time);
-    fmt::print(out, "; {} overruns, {} deadlines skipped\n", end->overruns, end->skipped);
+    fmt::print(out, "; {}, {} skipped\n", counted(end->overruns, "overrun"),
+               counted(end->skipped, "deadline"));
     if (!end->fault.empty()) fmt::print(out, "  fault: {}\n", printable(end->fault));
     return;
   }

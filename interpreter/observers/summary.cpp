@@ -97,10 +97,6 @@ Style style_of(RunResult result) {
   return result == RunResult::Stopped ? Style::Warning : Style::Bad;
 }
 
-std::string counted(std::uint64_t count, std::string_view noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
-
 std::string_view to_string(StopReason reason) {
   constexpr std::string_view kNames[] = {"completed", "fault",   "timeout",  "max_ticks",
                                          "signal",    "overrun", "recording"};

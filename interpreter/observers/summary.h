@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/wording.h"
 #include "measure/decision.h"
 #include "measure/synchronized_measure.h"
 #include "observers/style.h"
@@ -22,9 +23,6 @@ Style style_of(RunResult result);
 // "completed", "fault", "timeout", "max_ticks", "signal", "overrun" or "recording", as recordings
 // and JSON spell it.
 std::string_view to_string(StopReason reason);
-
-// "1 tick", "2 ticks".
-std::string counted(std::uint64_t count, std::string_view noun);
 
 struct ChildSummary {
   std::string name;

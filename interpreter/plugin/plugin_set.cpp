@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/plugin_exception.h"
+#include "core/wording.h"
 #include "plugin/call_mark.h"
 #include "plugin/descriptor.h"
 #include "plugin/initialize.h"
@@ -97,7 +98,8 @@ bool PluginSet::load_file(const std::string& path, Diagnostics& diagnostics, Sou
 bool PluginSet::load_named(std::string_view name, std::span<const std::string> directories,
                            Diagnostics& diagnostics, SourceLocation where, Isolation isolation) {
   if (!is_plugin_name(name)) {
-    diagnostics.error(std::move(where), fmt::format("'{}' is not the name of a plugin", name),
+    diagnostics.error(std::move(where),
+                      fmt::format("'{}' is not the name of a plugin", brief(name)),
                       "a plugin is named by letters, digits, '_' and '-', without path and '.so'");
     return false;
   }

@@ -317,6 +317,145 @@ TEST_CASE("half a million errors take little more time than half a million nodes
   CHECK(seconds("<Sequence/>", 3) < 3 * right);
 }
 
+// Suggestions and lists are made for what is shown only, and are bounded.
+TEST_CASE("thousands of mistakes among thousands of long names are told in time and memory") {
+  // Letters that no word is near to, the same in every run.
+  const auto scrambled = [](unsigned seed, std::size_t length) {
+    std::string word;
+    for (std::size_t i = 0; i < length; ++i) {
+      seed = seed * 1664525 + 1013904223;
+      word += static_cast<char>('a' + (seed >> 24u) % 10);
+    }
+    return word;
+  };
+  const auto trees_and_uses = [](int trees, auto id, int uses, auto used) {
+    return [=](const TemporaryDirectory&, std::ostream& out) {
+      out << kHead << "<BehaviorTree ID=\"A\"><Sequence>\n";
+      for (int i = 0; i < uses; ++i) out << "<SubTree ID=\"" << used(i) << "\"/>\n";
+      out << "</Sequence></BehaviorTree>\n";
+      for (int i = 0; i < trees; ++i) {
+        out << "<BehaviorTree ID=\"" << id(i) << "\"><AlwaysSuccess/></BehaviorTree>\n";
+      }
+      out << "</root>";
+    };
+  };
+  const auto random = [=](int i) { return scrambled(static_cast<unsigned>(i), 200); };
+  const auto other = [=](int i) { return scrambled(static_cast<unsigned>(-i - 1), 200); };
+  const auto alike = [](int i) { return std::string(194, 't') + std::to_string(100'000 + i); };
+  const auto nearly = [](int i) {
+    return std::string(189, 't') + std::to_string(i % 1000) + "xxxxx";
+  };
+  const auto long_id = [](int i) { return std::string(300, 'x') + std::to_string(i); };
+  const auto short_id = [](int i) { return "T" + std::to_string(i); };
+  check_all({
+      {"nothing near", trees_and_uses(3000, random, 2000, other), 3, "2000 errors, of which 1000"},
+      {"all near", trees_and_uses(3000, alike, 2000, nearly), 3, "did you mean 'ttt"},
+      {"too long", trees_and_uses(8000, alike, 1000, long_id), 3, "xxx…'"},
+      {"many", trees_and_uses(300'000, short_id, 100'000, long_id), 3, "100000 errors, of which"},
+      {"arguments",
+       [=](const TemporaryDirectory&, std::ostream& out) {
+         out << kHead << kTree;
+         for (int i = 0; i < 3000; ++i)
+           out << "<arg name=\"" << random(i) << "\" default=\"${" << other(i) << "}\"/>\n";
+         out << "</root>";
+       },
+       3, "error: unknown argument '"},
+      {"attributes of a SubTree",
+       [=](const TemporaryDirectory&, std::ostream& out) {
+         out << kHead << "<BehaviorTree ID=\"A\"><Sequence>";
+         for (int i = 0; i < 5000; ++i)
+           out << "<SubTree ID=\"B\" " << random(i) << "=\"1\" " << other(i) << "=\"2\"/>\n";
+         out << "</Sequence></BehaviorTree><BehaviorTree "
+                "ID=\"B\"><AlwaysSuccess/></BehaviorTree></root>";
+       },
+       0, "warning: the tree 'B' does not use '"},
+      {"a circle of 3000 trees",
+       many(kHead + "<BehaviorTree ID=\"A\"><SubTree ID=\"T0\"/></BehaviorTree>\n", 3000,
+            "<BehaviorTree ID=\"T{0}\"><Sequence><SubTree ID=\"T{1}\"/><SubTree ID=\"A\"/>"
+            "</Sequence></BehaviorTree>\n",
+            "<BehaviorTree ID=\"T3000\"><SubTree ID=\"T0\"/></BehaviorTree></root>"),
+       3, "the tree 'T0' contains itself: T0 -> T1 -> T2 -> T3 -> T4 -> … (2992 more) … -> T2997"},
+  });
+}
+
+TEST_CASE("no message is long, whatever is") {
+  const std::string word(100'000, 'w');
+  const std::string head = "<root lockstep=\"1\">", tree = "<BehaviorTree ID=\"A\">",
+                    end = "</BehaviorTree></root>";
+  const std::string texts[] = {
+      "<" + word + "/>",
+      "<" + word + ">",
+      "<" + word + "><a></" + word + ">",
+      "<r></" + word + ">",
+      "</" + word + ">",
+      "<r></" + word,
+      "<r " + word + "/>",
+      "<r " + word + "=1/>",
+      "<r " + word + "='<'/>",
+      "<r " + word + "='/>",
+      "<r " + word + "='' " + word + "=''/>",
+      "<" + word,
+      "<" + word + " ;/>",
+      "<?" + word + "+?><r/>",
+      "<?xml version='1.0' encoding='" + word + "'?><r/>",
+      "<root lockstep=\"" + word + "\"/>",
+      "<root lockstep=\"1\" " + word + "=\"1\"/>",
+      "<root lockstep=\"1\" main_tree_to_execute=\"" + word + "\">" + tree + "<AlwaysSuccess/>" +
+          end,
+      head + "<" + word + "/>" + tree + "<AlwaysSuccess/>" + end,
+      head + "<include path=\"" + word + "\"/>" + tree + "<AlwaysSuccess/>" + end,
+      head + "<include " + word + "=\"\"/>" + tree + "<AlwaysSuccess/>" + end,
+      head + "<plugin name=\"" + word + "\"/>" + tree + "<AlwaysSuccess/>" + end,
+      head + "<plugin name=\"" + word + "/\"/>" + tree + "<AlwaysSuccess/>" + end,
+      head + "<plugin name=\"a\" isolate=\"" + word + "\"/>" + tree + "<AlwaysSuccess/>" + end,
+      head + "<plugin name=\"a\" " + word + "=\"1\"/>" + tree + "<AlwaysSuccess/>" + end,
+      head + "<arg name=\"" + word + "\"/>" + tree + "<AlwaysSuccess/>" + end,
+      head + "<arg name=\"" + word + "-\" default=\"\"/>" + tree + "<AlwaysSuccess/>" + end,
+      head + "<arg name=\"a\" default=\"${" + word + "}\"/>" + tree + "<AlwaysSuccess/>" + end,
+      head + "<BehaviorTree ID=\"" + word + "/\"><AlwaysSuccess/>" + end,
+      head + "<BehaviorTree ID=\"" + word + "\">" + end,
+      head + "<BehaviorTree ID=\"A\" " + word + "=\"1\"><AlwaysSuccess/>" + end,
+      head + "<BehaviorTree ID=\"" + word + "\"><AlwaysSuccess/><AlwaysSuccess/>" + end,
+      head + "<BehaviorTree ID=\"" + word + "\"><AlwaysSuccess/></BehaviorTree>" +
+          "<BehaviorTree ID=\"" + word + "\"><AlwaysSuccess/>" + end,
+      head + "<BehaviorTree ID=\"" + word + "\"><SubTree ID=\"" + word + "\"/>" + end,
+      head + "<BehaviorTree ID=\"" + word + "\"><" + word + "/>" + end,
+      head + tree + "<" + word + "/>" + end,
+      head + tree + "<Action ID=\"" + word + "\"/>" + end,
+      head + tree + "<SubTree ID=\"" + word + "\"/>" + end,
+      head + tree + "<SubTree ID=\"A\" " + word + ".=\"\"/>" + end,
+      head + tree + "<SubTree ID=\"A\" _" + word + "=\"\"/>" + end,
+      head + tree + "<SubTree ID=\"A\" a=\"{" + word + ".}\"/>" + end,
+      head + tree + "<SubTree ID=\"A\" _autoremap=\"" + word + "\"/>" + end,
+      head + tree + "<Wait seconds=\"" + word + "\"/>" + end,
+      head + tree + "<Wait seconds=\"{" + word + "}\"/>" + end,
+      head + tree + "<Wait seconds=\"1\" " + word + "=\"\"/>" + end,
+      head + tree + "<Wait seconds=\"1\" name=\"/" + word + "\"/>" + end,
+      head + tree + "<ParallelAbsolute at_barrier=\"" + word +
+          "\"><AlwaysSuccess/></ParallelAbsolute>" + end,
+      head + "<plugin name=\"motion\"/>" + tree + "<Advance step=\"{" + word + ".}\"/>" + end,
+      head + "<plugin name=\"motion\"/>" + tree + "<Advance step=\"{" + word + "}\"/>" + end,
+      head + "<plugin name=\"motion\"/>" + tree + "<SubTree ID=\"B\" s=\"" + word +
+          "\"/></BehaviorTree>" + "<BehaviorTree ID=\"B\"><Advance step=\"{s}\"/>" + end,
+      head + "<plugin name=\"motion\"/>" + tree + "<Sequence><Advance name=\"" + word +
+          "\"/><Advance name=\"" + word + "\"/></Sequence>" + end,
+      head + "<plugin name=\"motion\"/>" + tree + "<Sequence><SubTree ID=\"B\" " + word +
+          "=\"1\"/></Sequence>" + "</BehaviorTree><BehaviorTree ID=\"B\"><AlwaysSuccess/>" + end,
+  };
+  for (const std::string& it : texts) {
+    const TemporaryDirectory directory;
+    const std::string path = directory.file("tree.xml", it);
+    const Outcome outcome = lockstep::test::lockstep({"check", path});
+    std::string abbreviated = it;
+    for (auto at = abbreviated.find(word); at != std::string::npos; at = abbreviated.find(word))
+      abbreviated.replace(at, word.size(), "w…");
+    INFO(abbreviated << "\n" << outcome.err.substr(0, 3000));
+    CHECK_FALSE(outcome.err.empty());
+    CHECK(contains(outcome.err, "www…"));
+    for (const std::string& line : lines(outcome.err)) CHECK(line.size() < 1200);
+  }
+}
+
 TEST_CASE("arguments that expand to megabytes are refused") {
   const auto doubling = [](int times, std::string tail) {
     return [=](const TemporaryDirectory&, std::ostream& out) {

@@ -51,12 +51,12 @@ TEST_CASE("hints") {
   };
   constexpr Row kRows[] = {
       {R"(<Sequnce/>)", "did you mean 'Sequence'?"},
-      {R"(<Wait second="1"/>)", "parameters of 'Wait': seconds"},
+      {R"(<Wait second="1"/>)", "parameters of 'Wait': 'seconds'"},
       {R"(<Inverter/>)", "it is a decorator: put a node into it"},
       {R"(<Timeout seconds="0"><AlwaysSuccess/></Timeout>)", "it must be more than 0, at most"},
       {R"(<ParallelAbsolute barriers="0.5;0.2"><AlwaysSuccess/></ParallelAbsolute>)",
        "write '0.2;0.5'"},
-      {R"(<SubTree ID="Q"/>)", "trees in this project: T"},
+      {R"(<SubTree ID="Q"/>)", "trees in this project: 'T'"},
   };
   for (const Row& row : kRows) {
     INFO(row.xml);

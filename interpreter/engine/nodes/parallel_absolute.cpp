@@ -40,7 +40,9 @@ std::optional<RuleBreak> check_order(const std::vector<double>& barriers) {
     return RuleBreak{kBarriers, "barrier " + to_text(*twice) + " is given twice", ""};
   }
   if (sorted == barriers) return std::nullopt;
-  return RuleBreak{kBarriers, "barriers must rise", "write '" + to_text(sorted) + "'"};
+  constexpr std::size_t kMostShown = 20;
+  return RuleBreak{kBarriers, "barriers must rise",
+                   sorted.size() > kMostShown ? "" : "write '" + to_text(sorted) + "'"};
 }
 
 std::optional<RuleBreak> rule(std::span<Value> values, std::uint32_t) {

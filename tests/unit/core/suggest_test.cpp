@@ -2,6 +2,8 @@
 
 #include <array>
 #include <catch2/catch.hpp>
+#include <string>
+#include <vector>
 
 using namespace lockstep;
 
@@ -39,6 +41,44 @@ TEST_CASE("a suggestion is a question, or no text at all") {
   constexpr std::array<std::string_view, 1> kWords = {"delta"};
   CHECK(did_you_mean("dleta", kWords) == "did you mean 'delta'?");
   CHECK(did_you_mean("memory", kWords).empty());
+}
+
+TEST_CASE("without a near word the candidates are listed, if there are some") {
+  constexpr std::array<std::string_view, 2> kWords = {"delta", "seconds"};
+  CHECK(suggest("dleta", kWords, "parameters") == "did you mean 'delta'?");
+  CHECK(suggest("memory", kWords, "parameters") == "parameters: 'delta', 'seconds'");
+  CHECK(suggest("memory", {}, "parameters").empty());
+}
+
+TEST_CASE("a long word is near to one with eight typing errors, not to one with nine") {
+  const std::string word(60, 'a');
+  for (const bool at_the_end : {false, true}) {
+    for (const std::size_t edits : {8u, 9u}) {
+      std::string replaced = word;
+      for (std::size_t i = 0; i < edits; ++i) replaced[at_the_end ? 59 - i : i * 7] = 'b';
+      const std::string inserted =
+          at_the_end ? word + std::string(edits, 'b') : std::string(edits, 'b') + word;
+      const std::string dropped = word.substr(edits);
+      for (const std::string_view other : {replaced, inserted, dropped}) {
+        INFO(other);
+        const std::array<std::string_view, 1> words = {other};
+        CHECK(nearest(word, words) == (edits == 8 ? other : ""));
+      }
+    }
+  }
+}
+
+TEST_CASE("swaps of neighbors count where the words have shifted, too") {
+  constexpr std::array<std::string_view, 1> kWords = {"navigate_to_the_charging_station"};
+  CHECK(nearest("xnavigate_to_hte_charigng_sattion", kWords) == kWords[0]);
+}
+
+TEST_CASE("of very many words only the first are looked at") {
+  std::vector<std::string_view> words(10'000, "something else");
+  words.back() = "delta";
+  CHECK(nearest("dleta", words) == "delta");
+  words.insert(words.begin(), "something else");
+  CHECK(nearest("dleta", words).empty());
 }
 
 TEST_CASE("a word that is too long to be a typing error is near nothing") {

@@ -1,0 +1,52 @@
+#include "core/wording.h"
+
+#include <fmt/format.h>
+
+#include "core/utf8.h"
+
+namespace lockstep {
+namespace {
+
+constexpr std::size_t kMaxName = 256;  // bytes, so no more letters
+constexpr std::size_t kMaxListed = 10;
+constexpr std::size_t kMaxListBytes = 256;
+constexpr std::size_t kMaxLinks = 10;
+constexpr std::string_view kEllipsis = "…";
+
+}  // namespace
+
+std::string brief(std::string_view name) {
+  if (name.size() <= kMaxName) return std::string(name);
+  return std::string(utf8_front(name, kMaxName - kEllipsis.size())).append(kEllipsis);
+}
+
+std::string listed(std::span<const std::string_view> names) {
+  std::string list;
+  std::size_t count = 0;
+  for (; count < names.size() && count < kMaxListed && list.size() < kMaxListBytes; ++count) {
+    list += fmt::format("{}'{}'", count == 0 ? "" : ", ", brief(names[count]));
+  }
+  if (count < names.size()) list += fmt::format(" and {} more", names.size() - count);
+  return list;
+}
+
+std::string chained(std::span<const std::string_view> names) {
+  const std::size_t left_out = names.size() > kMaxLinks ? names.size() - kMaxLinks : 0;
+  const std::size_t gap = kMaxLinks / 2;  // where they are left out
+  std::string chain;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) chain += " -> ";
+    if (left_out > 0 && i == gap) {
+      chain += fmt::format("{} ({} more) {} -> ", kEllipsis, left_out, kEllipsis);
+      i += left_out;
+    }
+    chain += brief(names[i]);
+  }
+  return chain;
+}
+
+std::string counted(std::uint64_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+}  // namespace lockstep

@@ -1,0 +1,23 @@
+// Names, lists and numbers as messages show them: short, whatever a document or a plugin has.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace lockstep {
+
+// `name`, or its first letters and "…": no more than 256.
+std::string brief(std::string_view name);
+
+// "'a', 'b' and 3 more": at most ten names, and no more of them than fit a line or two.
+std::string listed(std::span<const std::string_view> names);
+
+// "a -> b -> … (7 more) … -> y -> z": of a long chain the beginning and the end.
+std::string chained(std::span<const std::string_view> names);
+
+// "1 tick", "2 ticks".
+std::string counted(std::uint64_t count, std::string_view noun);
+
+}  // namespace lockstep

@@ -1,0 +1,42 @@
+#include "core/wording.h"
+
+#include <catch2/catch.hpp>
+#include <vector>
+
+using namespace lockstep;
+
+TEST_CASE("a name has at most 256 letters in a message") {
+  CHECK(brief("arm") == "arm");
+  CHECK(brief(std::string(256, 'a')) == std::string(256, 'a'));
+  CHECK(brief(std::string(257, 'a')) == std::string(253, 'a') + "…");
+  CHECK(brief(std::string(252, 'a') + "éééééé") == std::string(252, 'a') + "…");
+}
+
+TEST_CASE("a list has at most ten names") {
+  std::vector<std::string_view> names(10, "a");
+  CHECK(listed(names) == "'a', 'a', 'a', 'a', 'a', 'a', 'a', 'a', 'a', 'a'");
+  names.insert(names.end(), 5, "b");
+  CHECK(listed(names) == "'a', 'a', 'a', 'a', 'a', 'a', 'a', 'a', 'a', 'a' and 5 more");
+  CHECK(listed({}).empty());
+}
+
+TEST_CASE("a list of long names has fewer") {
+  const std::string name(200, 'n');
+  const std::vector<std::string_view> names(100, name);
+  CHECK(listed(names) == "'" + name + "', '" + name + "' and 98 more");
+}
+
+TEST_CASE("a long chain shows its beginning and its end") {
+  CHECK(chained(std::vector<std::string_view>{"a", "b", "a"}) == "a -> b -> a");
+  const std::vector<std::string_view> ten = {"0", "1", "2", "3", "4", "5", "6", "7", "8", "9"};
+  CHECK(chained(ten) == "0 -> 1 -> 2 -> 3 -> 4 -> 5 -> 6 -> 7 -> 8 -> 9");
+  std::vector<std::string_view> twelve = ten;
+  twelve.insert(twelve.begin() + 6, {"x", "y"});
+  CHECK(chained(twelve) == "0 -> 1 -> 2 -> 3 -> 4 -> … (2 more) … -> y -> 6 -> 7 -> 8 -> 9");
+}
+
+TEST_CASE("one tick, two ticks") {
+  CHECK(counted(0, "tick") == "0 ticks");
+  CHECK(counted(1, "tick") == "1 tick");
+  CHECK(counted(2, "tick") == "2 ticks");
+}
