@@ -19,6 +19,15 @@ std::string check_count(const std::string& text) {
   return fmt::format("'{}' is more than {}", text, std::numeric_limits<std::uint64_t>::max());
 }
 
+CLI::Validator whole_number(Least least) {
+  const auto without_zeros = [least](std::string& text) {
+    if (std::string wrong = check_count(text); !wrong.empty()) return wrong;
+    text.erase(0, std::min(text.find_first_not_of('0'), text.size() - 1));
+    return least == Least::One && text == "0" ? std::string("expected 1 or more") : std::string();
+  };
+  return {without_zeros, ""};
+}
+
 std::string check_is_number(const std::string& text) {
   double number = 0;
   const bool is_nan = CLI::detail::lexical_cast(text, number) && std::isnan(number);

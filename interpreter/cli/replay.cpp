@@ -121,7 +121,7 @@ std::function<int()> define_replay(CLI::App& app) {
   add_recording_file(app, options->file);
   app.add_option("--at", options->at, "Begin at this tick; without a terminal: print it")
       ->type_name("TICK")
-      ->check(check_count);
+      ->transform(whole_number());
   app.add_option("--speed", options->speed, "1: as recorded; 0.1: ten times as slow")
       ->type_name("X")
       ->capture_default_str();

@@ -42,14 +42,11 @@ void define_loop_options(CLI::App& app, RunCommandOptions& options) {
   app.add_option("--seed", options.seed,
                  "Of the leaves' random numbers: the same seed gives the same numbers")
       ->type_name("N")
-      ->check(check_count)
+      ->transform(whole_number())
       ->capture_default_str();
   app.add_option("--max-ticks", options.max_ticks, "Stop after N ticks, at least 1")
       ->type_name("N")
-      ->check(check_count)
-      ->check([](const std::string& text) {
-        return text == "0" ? std::string("a run has at least 1 tick") : std::string();
-      });
+      ->transform(whole_number(Least::One));
   app.add_option("--timeout", options.timeout, "Stop after S seconds of the run's clock")
       ->type_name("S")
       ->check(CLI::Range(0.0, 1e9))

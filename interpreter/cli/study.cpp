@@ -145,11 +145,6 @@ int merge(const StudyCommandOptions& options) {
   return fail(error, signal == 0 ? kExitUsage : kExitSignal + signal);
 }
 
-std::string check_positive(const std::string& text) {
-  const bool is_zero = !text.empty() && text.find_first_not_of('0') == std::string::npos;
-  return is_zero ? std::string("expected 1 or more") : check_count(text);
-}
-
 void define_merge(CLI::App& app, const std::shared_ptr<StudyCommandOptions>& options) {
   app.add_option("parts", options->parts, "The directories of all parts")
       ->type_name("DIR")
@@ -162,10 +157,10 @@ void define_merge(CLI::App& app, const std::shared_ptr<StudyCommandOptions>& opt
 void define_runs(CLI::App& app, StudyOptions& options) {
   app.add_option("-n,--runs", options.runs, "How often each cell of the grid is run")
       ->type_name("N")
-      ->check(check_positive);
+      ->transform(whole_number(Least::One));
   app.add_option("--seed", options.seed, "All seeds of the runs are made from this one")
       ->type_name("S")
-      ->check(check_count)
+      ->transform(whole_number())
       ->capture_default_str();
   app.add_option("--grid", options.grid,
                  "An <arg> of the tree, or seed, or rate, and its values; may be repeated: a cell "
@@ -185,7 +180,7 @@ void define_runs(CLI::App& app, StudyOptions& options) {
   app.add_option("--max-ticks", options.max_ticks,
                  "A run that comes so far ends there, with the result 'limit'")
       ->type_name("N")
-      ->check(check_positive)
+      ->transform(whole_number(Least::One))
       ->capture_default_str();
   app.add_option("--shard", options.shard, "Make part I of N only; see `lockstep study merge`")
       ->type_name("I/N");

@@ -55,7 +55,8 @@ TEST_CASE("without a terminal a replay prints one tick: that of --at, else the l
   CHECK(beyond.code == 2);
   CHECK(beyond.err == "lockstep: error: --at 4: the recording has ticks 0 to 3\n");
   CHECK(beyond.out == "");
-  for (const char* bad : {"-1", "1.5", "x"}) CHECK(call({"replay", file, "--at", bad}).code == 2);
+  for (const char* bad : {"-1", "1.5", "x", "18446744073709551616"})
+    CHECK(call({"replay", file, "--at", bad}).code == 2);
   for (const char* bad : {"0", "-1", "x", "nan"}) {
     CHECK(call({"replay", file, "--speed", bad}).code == 2);
   }

@@ -141,6 +141,19 @@ TEST_CASE("a recording holds the whole run: header, ticks, end") {
   CHECK(end["ticks"] == summary["ticks"]);
 }
 
+TEST_CASE("a whole number is taken as it is written, or refused") {
+  const Simulation it("<AlwaysSuccess/>");
+  const std::string file = it.directory.path("run.jsonl");
+  const auto seed = [&](const std::string& text) {
+    REQUIRE(it.run({"--seed", text, "--record", file}).code == 0);
+    return json::parse(lines(read_file(file)).front())["seed"].get<std::uint64_t>();
+  };
+  CHECK(seed("18446744073709551615") == 18446744073709551615u);
+  CHECK(seed("010") == 10);
+  CHECK(contains(it.run({"--seed", "18446744073709551616"}).err,
+                 "--seed: '18446744073709551616' is more than 18446744073709551615"));
+}
+
 TEST_CASE("a recording that cannot be opened stops the run before it begins") {
   const Outcome outcome =
       Simulation("<AlwaysSuccess/>").run({"--record", "/nonexistent/run.jsonl"});
