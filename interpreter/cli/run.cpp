@@ -92,16 +92,16 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     VirtualClock virtual_clock;
     Clock& clock = options_.is_wall() ? static_cast<Clock&>(wall_clock) : virtual_clock;
     RunEnd end;
-    std::vector<Fault> faults;
+    std::vector<Fault> in_last_halt;
     {
       Run run(tree_, run_options());
       if (!make_realtime()) return std::nullopt;
       end = run_loop(run, clock, loop_options(), observers());
-      if (run.fault() != nullptr) faults = run.ticker().take_tolerated();
-      if (run.fault() != nullptr) faults.insert(faults.begin(), *run.fault());
+      if (end.fault) in_last_halt = run.ticker().take_tolerated();
     }
     view_.close();
-    for (const Fault& fault : faults) print_error(describe(fault, tree_, end));
+    if (end.fault) print_error(describe(*end.fault, tree_, end));
+    for (const Fault& fault : in_last_halt) print_error(describe(fault, tree_, end));
     return end;
   }
 

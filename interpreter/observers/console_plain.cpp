@@ -46,7 +46,7 @@ void ConsolePlain::run_ended(Ticker& ticker, const RunEnd& end) {
   halts.faults = ticker.tolerated();
   after_tick(ticker, halts);
   tell_left_out();
-  if (ticker.fault() != nullptr) print("fault: " + fault_text(ticker));
+  if (end.fault) print("fault: " + fault_text(tree_, *end.fault));
   print(fmt::format("run ends: {} ({}) after {}", to_string(end.result()), to_string(end.reason),
                     counted(end.ticks, "tick")));
 }

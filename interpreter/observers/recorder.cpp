@@ -74,10 +74,10 @@ bool Recorder::push_tick(Ticker& ticker, const TickReport& report) {
   return file_.push(packet);
 }
 
-void Recorder::run_ended(Ticker& ticker, const RunEnd& end) {
+void Recorder::run_ended(Ticker&, const RunEnd& end) {
   RecordedEnd closing{.result = std::string(to_string(end.result())),
                       .reason = std::string(to_string(end.reason)),
-                      .fault = fault_text(ticker),
+                      .fault = end.fault ? fault_text(tree_, *end.fault) : "",
                       .signal = {},
                       .ticks = end.ticks,
                       .time = to_seconds(end.time),

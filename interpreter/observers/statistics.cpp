@@ -30,7 +30,6 @@ void Statistics::note(const Fault& fault, std::uint64_t tick) {
 
 void Statistics::run_ended(Ticker& ticker, const RunEnd& end) {
   end_ = end;
-  fault_ = fault_text(ticker);
   for (const Fault& fault : ticker.tolerated()) note(fault, end.ticks);
   for (Measured& node : nodes_) node.measure.run_ended(end.time);
 }
@@ -39,7 +38,7 @@ Summary Statistics::summary() const {
   Summary summary{.result = end_.result(),
                   .reason = end_.reason,
                   .signal = end_.signal,
-                  .fault = fault_,
+                  .fault = end_.fault ? fault_text(tree_, *end_.fault) : "",
                   .why_failed = {},
                   .ticks = end_.ticks,
                   .seconds = to_seconds(end_.time),
@@ -102,11 +101,9 @@ std::string fault_text(const Tree& tree, const Fault& fault, std::uint64_t tick)
                      fault.message);
 }
 
-std::string fault_text(const Ticker& ticker) {
-  const Fault* fault = ticker.fault();
-  if (fault == nullptr) return "";
-  return fmt::format("{}: {}{}", ticker.tree().path(fault->node),
-                     fault->in_last_halt ? "could not be halted: " : "", fault->message);
+std::string fault_text(const Tree& tree, const Fault& fault) {
+  return fmt::format("{}: {}{}", tree.path(fault.node),
+                     fault.in_last_halt ? "could not be halted: " : "", fault.message);
 }
 
 }  // namespace lockstep

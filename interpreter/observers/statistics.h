@@ -40,7 +40,6 @@ class Statistics final : public Observer {
   Histogram periods_;
   bool real_time_ = false;
   Nanoseconds last_start_{0};
-  std::string fault_;
   std::vector<DecidingNode> why_failed_;
   std::uint64_t faults_ = 0;  // that the run went on after
   std::vector<std::string> fault_notes_;
@@ -49,7 +48,7 @@ class Statistics final : public Observer {
 
 // "the leaf 'Door/pull/arm' failed in tick 12: threw …; counted as Failure"
 std::string fault_text(const Tree& tree, const Fault& fault, std::uint64_t tick);
-// "Door/pull/arm: threw …", or "" when there is no fault.
-std::string fault_text(const Ticker& ticker);
+// "Door/pull/arm: threw …"
+std::string fault_text(const Tree& tree, const Fault& fault);
 
 }  // namespace lockstep

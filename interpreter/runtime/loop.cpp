@@ -27,7 +27,10 @@ class Loop {
     while (run_.fault() == nullptr && may_tick() && tick() && meet_next()) wait();
     end_.time = clock_.now() - start_;
     run_.halt();
-    if (run_.fault() != nullptr) end_.reason = StopReason::Fault;
+    if (run_.fault() != nullptr) {
+      end_.reason = StopReason::Fault;
+      end_.fault = *run_.fault();
+    }
     for (Observer* observer : observers_) observer->run_ended(run_.ticker(), end_);
     return end_;
   }

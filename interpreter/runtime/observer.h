@@ -54,6 +54,7 @@ struct RunEnd {
   StopReason reason = StopReason::Completed;
   Status status = Status::Running;  // of the root after the last tick
   int signal = 0;                   // when reason is Signal
+  std::optional<Fault> fault;       // of a leaf, in a tick or when it was created
   std::uint64_t ticks = 0;
   Nanoseconds time{0};         // from the start of the first tick to the end of the last
   std::uint64_t overruns = 0;  // ticks that ended after the next deadline

@@ -130,11 +130,23 @@ TEST_CASE("a progress that is not a number is a fault, one out of range is clamp
 }
 
 TEST_CASE("a leaf that cannot be created ends the run before its first tick") {
+  const TemporaryDirectory directory;
+  const std::string file = directory.path("run.jsonl");
   for (const Where where : {Where::InProcess, Where::Isolated}) {
     check(run_hostile({"throw exception", "create"}, where, kFast), kFault,
           {"failed before the first tick: could not be created: threw an exception: out of reach"});
     check(run_hostile({"nonsense", "create"}, where, kFast), kFault,
           {"could not be created: its create returned NULL without an error"});
+    const Outcome outcome =
+        run_hostile({"throw exception", "create"}, where,
+                    with(kFast, {"--record", file, "--view", "plain", "--json"}));
+    const json summary = json::parse(outcome.out),
+               end = json::parse(lines(read_file(file)).back())["end"];
+    CHECK(contains(summary["fault"], "/arm: could not be created: threw an exception"));
+    CHECK(end["fault"] == summary["fault"]);
+    CHECK(contains(outcome.err, "fault: " + summary["fault"].get<std::string>()));
+    CHECK(contains(lockstep({"log", "info", file}).out,
+                   "fault: " + summary["fault"].get<std::string>()));
   }
 }
 

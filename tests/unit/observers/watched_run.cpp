@@ -26,6 +26,7 @@ RunEnd WatchedRun::watch(std::initializer_list<Observer*> observers, std::uint64
     if (ticker.fault() != nullptr) end.reason = StopReason::Fault;
   }
   ticker.halt_all();
+  if (ticker.fault() != nullptr) end.fault = *ticker.fault();
   end.worst = worst;
   for (Observer* observer : observers) observer->run_ended(ticker, end);
   return end;
