@@ -1,10 +1,12 @@
 // Who may include whom: docs/architecture.md's table, checked against every #include line.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <set>
 #include <string>
 #include <vector>
@@ -179,6 +181,22 @@ TEST_CASE("layers: a library is seen only where the table says") {
   INFO("tinyxml2 belongs in one source of document/: " << fmt::format("{}", fmt::join(xml, ", ")));
   CHECK(xml.size() == 1);
   CHECK(xml.begin()->ends_with(".cpp"));
+}
+
+// fmt 11 has fmt::join there and no longer in format.h.
+TEST_CASE("layers: who joins a range includes fmt/ranges.h") {
+  int seen = 0;
+  for (const char* folder : {"interpreter", "plugins", "tests"}) {
+    for (const std::string& file : sources_under(folder)) {
+      std::ifstream stream(fs::path(LOCKSTEP_SOURCE_DIR) / file);
+      const std::string text{std::istreambuf_iterator<char>(stream), {}};
+      if (text.find("fmt::join(") == std::string::npos) continue;
+      ++seen;
+      INFO(file);
+      CHECK(text.find("#include <fmt/ranges.h>") != std::string::npos);
+    }
+  }
+  CHECK(seen > 10);
 }
 
 }  // namespace lockstep::test

@@ -1,6 +1,7 @@
 #include "cli/study_loading.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>

@@ -1,6 +1,7 @@
 #include "cli/tree_drawing.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/diagnostics.h"
 

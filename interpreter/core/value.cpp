@@ -1,6 +1,7 @@
 #include "core/value.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <charconv>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "definition/references.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 

@@ -1,6 +1,7 @@
 #include "definition/resolve.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 

@@ -1,6 +1,7 @@
 #include "observers/recording_diff.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "plugin/plugin_path.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>

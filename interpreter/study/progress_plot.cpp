@@ -1,6 +1,7 @@
 #include "study/progress_plot.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>

@@ -1,6 +1,7 @@
 // Names and texts of trees, plugins, recordings and the command line never reach a terminal raw:
 // not as text, in the live view, in a replay, in JSON, nor in a message of what is wrong with them.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,7 @@
 #include "property/plan.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace lockstep::test {
 namespace {

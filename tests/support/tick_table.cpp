@@ -1,6 +1,7 @@
 #include "support/tick_table.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <catch2/catch.hpp>
 #include <cmath>
