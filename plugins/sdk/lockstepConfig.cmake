@@ -1,4 +1,13 @@
 # find_package(lockstep): the target lockstep::sdk and the function lockstep_add_plugin.
+foreach(component IN LISTS lockstep_FIND_COMPONENTS)
+  if(component STREQUAL "sdk")
+    set(lockstep_sdk_FOUND ON)
+  elseif(lockstep_FIND_REQUIRED_${component})
+    set(lockstep_FOUND OFF)
+    set(lockstep_NOT_FOUND_MESSAGE "lockstep has no component '${component}'; its only one is 'sdk'")
+    return()
+  endif()
+endforeach()
 include(CMakeFindDependencyMacro)
 find_dependency(Threads)
 include(${CMAKE_CURRENT_LIST_DIR}/lockstepTargets.cmake)

@@ -1,6 +1,12 @@
 # lockstep_add_plugin(name source…) builds the plugin name.so, in C or C++, with everything hidden
 # but lockstep_plugin_entry. Used by the plugins of this repository and, installed, by all others.
+# A project that chooses no build type would run its leaves unoptimized: then it is Release.
 function(lockstep_add_plugin name)
+  get_property(several_configurations GLOBAL PROPERTY GENERATOR_IS_MULTI_CONFIG)
+  if(NOT CMAKE_BUILD_TYPE AND NOT several_configurations)
+    message(STATUS "lockstep: no CMAKE_BUILD_TYPE is given, so it is Release")
+    set(CMAKE_BUILD_TYPE Release CACHE STRING "Release, RelWithDebInfo, Debug or MinSizeRel" FORCE)
+  endif()
   add_library(${name} MODULE ${ARGN})
   target_link_libraries(${name} PRIVATE lockstep::sdk)
   get_property(languages GLOBAL PROPERTY ENABLED_LANGUAGES)
