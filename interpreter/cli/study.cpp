@@ -69,6 +69,7 @@ int draw_plots(const StudyCommandOptions& options, const std::string& directory,
     const PlotResult drawn = draw(plot, directory);
     if (drawn.ok()) continue;
     print_error(drawn.error);
+    if (const int signal = StopSignals::received(); signal != 0) return kExitSignal + signal;
     return drawn.gnuplot_missing ? kExitSuccess : kExitUsage;
   }
   return kExitSuccess;

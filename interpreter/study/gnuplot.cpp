@@ -38,6 +38,7 @@ std::string readable(std::string_view text) {
 
 // "" when gnuplot has made the images.
 std::string failure(const GnuplotEnd& ended) {
+  if (ended.stopped) return "interrupted while gnuplot drew";
   if (ended.reason == ENOENT) return kMissing;
   if (ended.reason != 0) return fmt::format("cannot start gnuplot: {}", strerror(ended.reason));
   return ended.ok ? "" : "gnuplot has failed:" + readable(ended.said);

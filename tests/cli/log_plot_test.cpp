@@ -1,3 +1,9 @@
+#include <poll.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -200,6 +206,44 @@ TEST_CASE("log plot without gnuplot names the package and leaves the data") {
   CHECK(outcome.out.empty());
   CHECK(contains(outcome.err, "install the package 'gnuplot-nox'"));
   CHECK(contains(read_file(directory.path("x.dat")), "# time_s"));
+}
+
+// A gnuplot that tells its number and then draws for ever.
+TEST_CASE("gnuplot does not outlive log plot") {
+  const TemporaryDirectory directory;
+  const std::string recording = record(directory, kA1);
+  const std::string pipe = directory.path("pipe");
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  const std::string endless =
+      directory.file("gnuplot", "#!/bin/sh\necho $$ > '" + pipe + "'\nexec sleep 1000\n");
+  REQUIRE(chmod(endless.c_str(), 0700) == 0);
+  for (const int number : {SIGKILL, SIGTERM, SIGINT}) {
+    Process process({.arguments = {"log", "plot", recording, "--out", directory.path("x.svg")},
+                     .environment = {{"PATH", directory.path("") + ":/usr/bin:/bin"}}});
+    const auto gnuplot = static_cast<pid_t>(std::stol(read_file(pipe)));
+    const int watched = static_cast<int>(syscall(SYS_pidfd_open, gnuplot, 0));
+    REQUIRE(watched >= 0);
+    process.signal(number);
+    CHECK(process.finish().code == 128 + number);
+    pollfd end{watched, POLLIN, 0};
+    CHECK(poll(&end, 1, 10'000) == 1);
+    close(watched);
+    kill(gnuplot, SIGKILL);
+  }
+}
+
+TEST_CASE("gnuplot is not looked for in relative directories of PATH") {
+  const TemporaryDirectory directory;
+  const std::string recording = record(directory, kA1);
+  const std::string mark = directory.path("mark");
+  const std::string fake = directory.file("gnuplot", "#!/bin/sh\n: > '" + mark + "'\n");
+  REQUIRE(chmod(fake.c_str(), 0700) == 0);
+  const Outcome outcome =
+      run({.arguments = {"log", "plot", recording, "--out", directory.path("x.svg")},
+           .environment = {{"PATH", ".::/nowhere"}}});
+  CHECK(outcome.code == 2);
+  CHECK(contains(outcome.err, "there is no gnuplot"));
+  CHECK_FALSE(std::filesystem::exists(mark));
 }
 
 TEST_CASE("log measure and log plot read what a cut recording has") {

@@ -132,4 +132,36 @@ TEST_CASE("a program with more rights than its user takes no relative path and n
   CHECK(contains(file.err, "--plugin ./motion.so: relative"));
 }
 
+TEST_CASE("a program with more rights than its user takes gnuplot from where the system has it") {
+  const Installed it;
+  struct statvfs system {};
+  REQUIRE(statvfs(it.plugins.c_str(), &system) == 0);
+  if (geteuid() != 0 || (system.f_flag & ST_NOSUID) != 0) {
+    WARN("skipped: needs root, to make a setuid program, and a file system that allows it");
+    return;
+  }
+  const std::string program = it.directory.path("lockstep");
+  fs::copy_file(LOCKSTEP_BINARY_DIR "/lockstep", program);
+  Installed::permit(program, 04755);
+  const std::string tree = it.directory.file(
+      "sync.xml", tree_text("<ParallelRelative delta=\"0\"><Advance/></ParallelRelative>"));
+  const std::string recording = it.directory.path("run.jsonl");
+  REQUIRE(
+      lockstep::test::lockstep({"run", tree, "--clock", "virtual", "--record", recording}).code ==
+      0);
+  Installed::permit(recording, 0644);
+  const std::string mark = it.directory.path("mark");
+  const auto fake = it.directory.file("d/gnuplot", "#!/bin/sh\n: > '" + mark + "'\n");
+  Installed::permit(fake, 0755);
+  const Outcome outcome =
+      run({.arguments = {"--reuid=65534", "--clear-groups", program, "log", "plot", recording,
+                         "--out", it.directory.path("x.svg")},
+           .environment = {{"PATH", it.plugins + ":/usr/bin:/bin"}},
+           .program = "/usr/bin/setpriv"});
+  INFO(outcome.err);
+  CHECK_FALSE(fs::exists(mark));
+  CHECK(outcome.code == 0);
+  CHECK(fs::exists(it.directory.path("x.svg")));
+}
+
 }  // namespace lockstep::test
