@@ -96,11 +96,11 @@ TEST_CASE("log measure: what was not reached has no value, a far target has a ga
   const Outcome table = log(measures);
   CHECK(table.code == 0);
   CHECK(table.out ==
-        "node                             measure                  value  gap\n"
-        "Main/Fallback/Sequence/pull      progress-distance        -\n"
-        "Main/Fallback/Sequence/pull      step-length              -\n"
+        "node                              measure                  value  gap\n"
+        "Main/Fallback/Sequence/pull       progress-distance        -\n"
+        "Main/Fallback/Sequence/pull       step-length              -\n"
         "Main/Fallback/Sequence/pull/base  predictability:base@0.6  -      -\n"
-        "Main/Fallback/Sequence/leap      predictability:leap@0.7  1      0.3\n");
+        "Main/Fallback/Sequence/leap       predictability:leap@0.7  1      0.3\n");
   auto with_json = measures;
   with_json.emplace_back("--json");
   const auto json = nlohmann::json::parse(log(with_json).out);
