@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/suggest.h"
+#include "core/wording.h"
 
 namespace lockstep {
 namespace {
@@ -47,7 +48,7 @@ std::optional<Refusal> find_plugin_file(std::string_view name,
   const std::vector<std::string_view> candidates(names.begin(), names.end());
   std::string hint = did_you_mean(name, candidates);
   return Refusal{
-      fmt::format("is not found: '{}.so' is not in {}", name, fmt::join(directories, ", ")),
+      fmt::format("is not found: '{}.so' is not in {}", brief(name), fmt::join(directories, ", ")),
       hint.empty() ? std::string(kAddDirectory) : std::move(hint)};
 }
 

@@ -21,7 +21,7 @@ namespace {
 
 bool refuse(const std::string& origin, Refusal refusal, Diagnostics& diagnostics,
             SourceLocation where) {
-  diagnostics.error(std::move(where), fmt::format("plugin '{}' {}", origin, refusal.message),
+  diagnostics.error(std::move(where), fmt::format("plugin '{}' {}", brief(origin), refusal.message),
                     std::move(refusal.hint));
   return false;
 }
