@@ -1,7 +1,9 @@
 // lockstep-leafhost: the process in which an isolated plugin lives. Started by lockstep only.
-#include <cstdio>
+#include <unistd.h>
+
 #include <string_view>
 
+#include "core/descriptors.h"
 #include "plugin/isolated/served_plugin.h"
 #include "runtime/crash_report.h"
 
@@ -19,14 +21,15 @@ constexpr const char* kHelp =
 }  // namespace
 
 int main(int argc, char** argv) {
+  lockstep::hold_standard_descriptors();
   const std::string_view first = argc > 1 ? argv[1] : "";
   if (first == "--help" || first == "-h") {
-    std::fputs(kHelp, stdout);
-    return 0;
+    return lockstep::write_all(STDOUT_FILENO, kHelp) ? 0 : kExitUsage;
   }
   if (argc != 2 || !lockstep::ServedPlugin::has_host()) {
-    std::fputs("lockstep-leafhost: is started by lockstep only; 'lockstep run --isolate' does it\n",
-               stderr);
+    lockstep::write_all(
+        STDERR_FILENO,
+        "lockstep-leafhost: is started by lockstep only; 'lockstep run --isolate' does it\n");
     return kExitUsage;
   }
   // The host tells that its process died; who was called, and where, is known only here.

@@ -42,8 +42,8 @@ const std::vector<Layer> kLayers{
     {"interpreter/cli/",
      {"core/", "document/", "definition/", "engine/", "plugin/", "runtime/", "measure/",
       "observers/", "study/", "lockstep/leaf.h"}},
-    {"interpreter/main.cpp", {"cli/"}},
-    {"interpreter/leafhost.cpp", {"plugin/", "runtime/"}},
+    {"interpreter/main.cpp", {"core/", "cli/"}},
+    {"interpreter/leafhost.cpp", {"core/", "plugin/", "runtime/"}},
     {"plugins/", {"lockstep/"}},
 };
 

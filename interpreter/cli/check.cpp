@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
@@ -28,9 +26,10 @@ nlohmann::ordered_json to_json(const Diagnostic& diagnostic) {
 }
 
 int check(const CheckOptions& options) {
+  keep_stdout_for_results();
   const bool json = options.format == "json";
   auto all = nlohmann::ordered_json::array();
-  int worst = kExitSuccess;
+  int worst = kExitSuccess, written = kExitSuccess;
   for (const std::string& tree : options.trees) {
     Loaded loaded;
     Diagnostics diagnostics;
@@ -41,15 +40,17 @@ int check(const CheckOptions& options) {
       for (const Diagnostic& diagnostic : diagnostics.all()) all.push_back(to_json(diagnostic));
       continue;
     }
-    print_diagnostics(diagnostics, Severity::Note, stderr);
-    if (code == kExitSuccess)
-      fmt::print("{}: ok\n", printable(loaded.project->documents.front()->path()));
+    print_diagnostics(diagnostics, Severity::Note);
+    if (code == kExitSuccess && written == kExitSuccess) {
+      const std::string& path = loaded.project->documents.front()->path();
+      written = write_results(printable(path) + ": ok\n");
+    }
   }
   if (json) {
     constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
-    fmt::print("{}\n", printable_json(all.dump(2, ' ', false, kReplace)));
+    written = write_results(printable_json(all.dump(2, ' ', false, kReplace)) + "\n");
   }
-  return flush_stdout() ? worst : kExitUsage;
+  return first_failure(written, worst);
 }
 
 std::function<int()> define_check(CLI::App& app) {

@@ -3,13 +3,16 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <system_error>
+#include <new>
+#include <sstream>
 #include <vector>
 
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
+#include "core/descriptors.h"
 #include "core/suggest.h"
+#include "runtime/outlet.h"
 
 namespace lockstep {
 
@@ -33,9 +36,7 @@ bool is_unknown(std::string_view command) {
   return true;
 }
 
-}  // namespace
-
-int run_program(int argc, char** argv) {
+int run_command_line(int argc, char** argv) {
   if (argc > 1 && is_unknown(argv[1])) return kExitUsage;
   CLI::App app{"lockstep: behavior trees that move several things at once and keep them in step",
                "lockstep"};
@@ -55,21 +56,36 @@ int run_program(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help, --version
-    return app.exit(success);
+    std::ostringstream text;
+    app.exit(success, text);
+    return write_results(text.str());
   } catch (const CLI::ParseError& error) {
     print_error(error.what(), "see `lockstep --help`");
     return kExitUsage;
   }
   for (std::size_t i = 0; i < actions.size(); ++i) {
     if (!subcommands[i]->parsed()) continue;
-    try {
-      return actions[i]();
-    } catch (const std::system_error& error) {  // from fmt::print: a full disk, a closed pipe
-      print_error(error.what());
-      return kExitUsage;
-    }
+    return actions[i]();
   }
   return kExitUsage;
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv) {
+  make_writes_fail();
+  try {
+    try {
+      return run_command_line(argc, argv);
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
+      print_error(error.what(), "this is a bug of lockstep; please report it");
+    }
+  } catch (const std::bad_alloc&) {
+    messages().say("lockstep: error: out of memory\n");  // which takes none
+  }
+  return kExitInternal;
 }
 
 }  // namespace lockstep

@@ -1,19 +1,31 @@
 #include "cli/console.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 
-namespace lockstep {
+#include "cli/exit_code.h"
+#include "core/descriptors.h"
+#include "runtime/outlet.h"
+#include "runtime/stop_signals.h"
 
-bool is_terminal(std::FILE* file) {
-  return isatty(fileno(file)) == 1;
+namespace lockstep {
+namespace {
+
+int g_results = STDOUT_FILENO;
+
+}  // namespace
+
+bool is_terminal(int file) {
+  return isatty(file) == 1;
 }
 
-bool wants_color(std::FILE* file) {
+bool wants_color(int file) {
   const char* no_color = std::getenv("NO_COLOR");
   const char* terminal = std::getenv("TERM");
   const bool refused = no_color != nullptr && *no_color != '\0';
@@ -26,29 +38,55 @@ void print_error(std::string_view message, std::string_view hint) {
   diagnostic.location.file = "lockstep";
   diagnostic.message = message;
   diagnostic.hint = hint;
-  fmt::print(stderr, "{}", render(diagnostic, wants_color(stderr)));
+  messages().say(render(diagnostic, wants_color(STDERR_FILENO)));
 }
 
-void print_diagnostics(Diagnostics& diagnostics, Severity least, std::FILE* out) {
+void print_diagnostics(Diagnostics& diagnostics, Severity least) {
+  const bool color = wants_color(STDERR_FILENO);
   diagnostics.sort();
   for (const Diagnostic& diagnostic : diagnostics.all()) {
     if (diagnostic.severity > least) continue;
     Diagnostic shown = diagnostic;
     if (shown.location.file.empty()) shown.location.file = "lockstep";
-    fmt::print(out, "{}", render(shown, wants_color(out)));
+    messages().say(render(shown, color));
   }
   const std::size_t errors = diagnostics.count(Severity::Error);
   if (errors > Diagnostics::kMaxKept) {
-    fmt::print(out, "{} errors, of which {} are shown\n", errors, Diagnostics::kMaxKept);
+    messages().say(
+        fmt::format("{} errors, of which {} are shown\n", errors, Diagnostics::kMaxKept));
   } else if (errors > 1) {
-    fmt::print(out, "{} errors\n", errors);
+    messages().say(fmt::format("{} errors\n", errors));
   }
 }
 
-bool flush_stdout() {
-  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
+std::string lost_messages() {
+  const Outlet::Loss lost = messages().settle();
+  if (lost.lines == 0) return {};
+  return fmt::format("{} {} of stderr {} lost: {}", lost.lines, lost.lines == 1 ? "line" : "lines",
+                     lost.lines == 1 ? "is" : "are",
+                     lost.reason == 0 ? "nobody read them" : std::strerror(lost.reason));
+}
+
+void keep_stdout_for_results() {
+  if (g_results != STDOUT_FILENO) return;
+  const int copy = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  if (copy < 0) return;
+  g_results = copy;
+  dup2(STDERR_FILENO, STDOUT_FILENO);
+}
+
+int results_file() {
+  return g_results;
+}
+
+int write_results(std::string_view text) {
+  const bool was_stopped = StopSignals::received() != 0;
+  const auto is_stopped = [] { return StopSignals::received() != 0; };
+  if (write_all(g_results, text, was_stopped ? nullptr : +is_stopped)) return kExitSuccess;
+  if (errno == EPIPE) return kExitSignal + SIGPIPE;
+  if (errno == EINTR) return kExitSignal + StopSignals::received();
   print_error(fmt::format("cannot write to stdout: {}", std::strerror(errno)));
-  return false;
+  return kExitUsage;
 }
 
 }  // namespace lockstep

@@ -2,13 +2,14 @@
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
-#include <filesystem>
-#include <system_error>
 
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/log.h"
+#include "cli/outputs.h"
+#include "core/descriptors.h"
+#include "core/output_file.h"
 #include "observers/recording_csv.h"
 #include "observers/recording_info.h"
 
@@ -21,41 +22,40 @@ struct LogOptions {
 };
 
 int csv_to_file(const LogOptions& options, RecordingReader& reader) {
-  std::error_code error;
-  if (std::filesystem::equivalent(options.file, options.out, error)) {
-    print_error("--out names the recording itself");
+  const NamedFile recording[] = {named_file(options.file)};
+  if (would_overwrite("--out", options.out, recording)) return kExitUsage;
+  OutputFile out(options.out);
+  if (out.descriptor() < 0) {
+    print_error(printable(out.error()));
     return kExitUsage;
   }
-  std::FILE* out = std::fopen(options.out.c_str(), "wb");
-  if (out == nullptr) return cannot_use("write", options.out, errno);
-  const bool written = write_csv(reader, out);
-  const int reason = errno;
-  if (std::fclose(out) != 0 || !written)
-    return cannot_use("write", options.out, written ? errno : reason);
-  return report_end(reader);
+  int reason = 0;
+  const auto write = [&](std::string_view rows) {
+    if (!write_all(out.descriptor(), rows)) reason = errno;
+    return reason == 0;
+  };
+  if (write_csv(reader, write) && !out.take_name()) reason = errno;
+  return reason == 0 ? report_end(reader) : cannot_use("write", options.out, reason);
 }
 
 int csv(const LogOptions& options) {
   return with_recording(options.file, [&](RecordingReader& reader) {
     if (!options.out.empty()) return csv_to_file(options, reader);
-    const auto names = is_terminal(stdout) ? CsvNames::Printable : CsvNames::Exact;
-    const int code = end_of_stdout(write_csv(reader, stdout, names));
-    const int read = report_end(reader);
-    return read == kExitSuccess ? code : read;
+    const auto names = is_terminal(results_file()) ? CsvNames::Printable : CsvNames::Exact;
+    int written = kExitSuccess;
+    const auto write = [&written](std::string_view rows) {
+      written = write_results(rows);
+      return written == kExitSuccess;
+    };
+    // Where a reader stops, the recording is not cut.
+    return write_csv(reader, write, names) ? report_end(reader) : written;
   });
 }
 
 int info(const LogOptions& options) {
   return with_recording(options.file, [](RecordingReader& reader) {
-    try {
-      write_info(reader, stdout, wants_color(stdout));
-    } catch (const std::system_error& error) {  // fmt cannot write
-      errno = error.code().value();
-      return end_of_stdout(false);
-    }
-    const int code = end_of_stdout(std::fflush(stdout) == 0);
-    const int read = report_end(reader);
-    return read == kExitSuccess ? code : read;
+    const std::string text = info_text(reader, wants_color(results_file()));
+    return write_results_of(reader, text);
   });
 }
 

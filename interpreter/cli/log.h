@@ -27,8 +27,8 @@ int report_end(const RecordingReader& reader);
 int usage_error(const std::string& message);
 // Says that `path` cannot be read or written. Returns the exit code.
 int cannot_use(std::string_view verb, std::string_view path, int reason);
-// After all is written to stdout. A reader that stops reading, as `head` does, is no error.
-int end_of_stdout(bool written);
+// Writes `text` to stdout and then says how the recording ended. Returns the exit code.
+int write_results_of(const RecordingReader& reader, std::string_view text);
 
 struct LogSubcommand {
   CLI::App* app;

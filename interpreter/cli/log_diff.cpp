@@ -26,15 +26,13 @@ int report_ends(const RecordingReader& a, const RecordingReader& b) {
 
 int diff(const LogDiffOptions& options, RecordingReader& a, RecordingReader& b) {
   const RecordingDiff diff = compare(a, b, options.diff);
-  const std::string text = options.json ? to_json(diff) + "\n"
-                                        : to_text(diff, options.a, options.b, wants_color(stdout));
-  const bool written =
-      std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
-  const int out = end_of_stdout(written);
+  const std::string text = options.json
+                               ? to_json(diff) + "\n"
+                               : to_text(diff, options.a, options.b, wants_color(results_file()));
+  const int written = write_results(text);
   const int read = report_ends(a, b);
-  if (read != kExitSuccess) return read;
-  if (out != kExitSuccess) return out;
-  return diff.same() ? kExitSuccess : kExitFailure;
+  const int result = diff.same() ? kExitSuccess : kExitFailure;
+  return first_failure(read, first_failure(written, result));
 }
 
 int diff(const LogDiffOptions& options) {

@@ -55,9 +55,9 @@ int cannot_use(std::string_view verb, std::string_view path, int reason) {
       fmt::format("cannot {} '{}': {}", verb, printable(path), std::strerror(reason)));
 }
 
-int end_of_stdout(bool written) {
-  if (!written && errno == EPIPE) std::exit(kExitSuccess);
-  return flush_stdout() ? kExitSuccess : kExitUsage;
+int write_results_of(const RecordingReader& reader, std::string_view text) {
+  const int written = write_results(text);
+  return first_failure(report_end(reader), written);
 }
 
 }  // namespace lockstep

@@ -25,11 +25,7 @@ int print_measures(const LogMeasureOptions& options, std::span<const MeasureSpec
   if (!error.empty()) return usage_error(printable(error));
   if (!reader.error().empty()) return report_end(reader);
   const std::string text = options.json ? to_json(values) + "\n" : to_table(values);
-  const bool written =
-      std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
-  const int code = end_of_stdout(written);
-  report_end(reader);
-  return code;
+  return write_results_of(reader, text);
 }
 
 int measure(const LogMeasureOptions& options) {

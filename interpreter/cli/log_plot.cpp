@@ -11,6 +11,7 @@
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/log.h"
+#include "cli/outputs.h"
 #include "measure/measure_spec.h"
 #include "observers/recorded_probe.h"
 #include "study/gnuplot.h"
@@ -63,33 +64,29 @@ std::filesystem::path image_of(const LogPlotOptions& options, const ProgressPlot
 
 // What is drawn is written to three files: none may be the recording.
 bool would_replace_recording(const LogPlotOptions& options, std::filesystem::path image) {
+  const NamedFile recording[] = {named_file(options.file)};
   for (const std::string& extension :
        {image.extension().string(), std::string(".dat"), std::string(".gp")}) {
-    std::error_code error;
-    if (std::filesystem::equivalent(options.file, image.replace_extension(extension), error))
-      return true;
+    if (would_overwrite("--out", image.replace_extension(extension), recording)) return true;
   }
   return false;
 }
 
 int draw_all(const LogPlotOptions& options, std::span<const ProgressPlot> plots) {
-  int drawn = 0;
+  int drawn = 0, written = kExitSuccess;
   for (const ProgressPlot& plot : plots) {
     if (plot.samples.empty()) {
       print_error(fmt::format("no tick reached '{}'", printable(plot.node.path)));
       continue;
     }
     const auto image = image_of(options, plot, plots);
-    if (would_replace_recording(options, image)) {
-      return usage_error("the plot would be written over the recording");
-    }
+    if (would_replace_recording(options, image)) return kExitUsage;
     const PlotResult result = draw(plot, image, options.size);
     if (!result.ok()) return usage_error(result.error);
-    fmt::print("{}\n", printable(result.files.back().string()));
+    written = first_failure(written, write_results(printable(result.files.back().string()) + "\n"));
     ++drawn;
   }
-  if (!flush_stdout()) return kExitUsage;
-  return drawn > 0 ? kExitSuccess : kExitUsage;
+  return drawn > 0 ? written : kExitUsage;
 }
 
 int plot(const LogPlotOptions& options) {

@@ -30,7 +30,7 @@ int nodes(const NodesOptions& options) {
   if (const int code = load_catalog(options.plugins, plugins, catalog); code != kExitSuccess) {
     return code;
   }
-  if (options.id.empty()) return write_stdout(as_text(options, catalog.types()));
+  if (options.id.empty()) return write_results(as_text(options, catalog.types()));
   const NodeType* const type = catalog.find(options.id);
   if (type == nullptr) {
     std::string hint = did_you_mean(options.id, catalog.ids());
@@ -39,7 +39,7 @@ int nodes(const NodesOptions& options) {
     print_error(fmt::format("unknown node '{}'", options.id), hint);
     return kExitUsage;
   }
-  return write_stdout(as_text(options, {&type, 1}));
+  return write_results(as_text(options, {&type, 1}));
 }
 
 std::function<int()> define_nodes(CLI::App& app) {

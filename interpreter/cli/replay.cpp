@@ -1,7 +1,7 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <cerrno>
 #include <memory>
 
 #include "cli/checks.h"
@@ -69,21 +69,16 @@ int print_tick(const ReplayOptions& options, RecordingReader& reader) {
       shape, snapshot_of(reader.header(), shape, moment, ended ? &*reader.end() : nullptr), moment,
       {.width = kUnlimited,
        .height = kUnlimited,
-       .color = wants_color(stdout),
+       .color = wants_color(results_file()),
        .unicode = has_unicode()});
-  const bool written =
-      std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
-  const int out = end_of_stdout(written);
-  return code == kExitSuccess ? out : code;
+  return first_failure(code, write_results(text));
 }
 
 int play(const ReplayOptions& options, RecordingReader& reader) {
   const RecordingHeader& header = reader.header();
-  fmt::print("reading ...");  // what is large takes seconds
-  std::fflush(stdout);
+  write_results("reading ...");  // what is large takes seconds
   RecordingTimeline timeline(reader);
-  fmt::print("\r\x1b[K");
-  std::fflush(stdout);
+  write_results("\r\x1b[K");
   const RecordingOutcome& outcome = timeline.outcome();
   if (timeline.size() == 0) {
     const int code = report_end(outcome);
@@ -110,8 +105,8 @@ int replay(const ReplayOptions& options) {
     return kExitUsage;
   }
   return with_recording(options.file, [&](RecordingReader& reader) {
-    const bool interactive =
-        !options.print && options.file != "-" && is_terminal(stdin) && is_terminal(stdout);
+    const bool interactive = !options.print && options.file != "-" && is_terminal(STDIN_FILENO) &&
+                             is_terminal(results_file());
     return interactive ? play(options, reader) : print_tick(options, reader);
   });
 }

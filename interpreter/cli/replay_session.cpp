@@ -21,9 +21,10 @@ namespace {
 
 using RealTime = std::chrono::steady_clock;
 
-constexpr double kFrame = 0.03;    // seconds; an eye needs no more
-constexpr double kPatience = 0.2;  // a signal may arrive just before we wait
-constexpr char kSuspend = '\x1a';  // Ctrl-Z
+constexpr double kFrame = 0.03;                       // seconds; an eye needs no more
+constexpr double kPatience = 0.2;                     // a signal may arrive just before we wait
+constexpr std::chrono::milliseconds kLastFrame{300};  // for the terminal to take it
+constexpr char kSuspend = '\x1a';                     // Ctrl-Z
 
 class Session {
  public:
@@ -40,6 +41,7 @@ class Session {
       if (event == TerminalEvent::None) press(decoder_.idle());
       if (event == TerminalEvent::Key && !read_keys()) break;
     }
+    out_.flush(kLastFrame);
     show();
     screen_.end();
     return StopSignals::received() == 0 ? kExitSuccess : kExitSignal + StopSignals::received();
@@ -48,18 +50,16 @@ class Session {
  private:
   void show() {
     const RecordingTimeline& timeline = player_.timeline();
-    const TerminalSize size = terminal_size(stdout);
+    const TerminalSize size = terminal_size(results_file());
     const auto& end = timeline.outcome().end;
     const bool ended = timeline.at_end() && end;
     std::string frame = draw_replay(
         shape_, snapshot_of(header_, shape_, timeline.now(), ended ? &*end : nullptr), player_,
         {.width = size.width,
          .height = size.height,
-         .color = wants_color(stdout),
+         .color = wants_color(results_file()),
          .unicode = has_unicode()});
-    if (frame == shown_) return;
-    screen_.show("", frame);
-    shown_ = std::move(frame);
+    if (frame != shown_ && screen_.show("", frame)) shown_ = std::move(frame);
   }
 
   // Until a key, another size of the window, or the next frame.
@@ -99,6 +99,7 @@ class Session {
 
   void suspend() {
     screen_.end();
+    out_.flush(kLastFrame);
     terminal_.suspend();
     screen_.begin();
     shown_.clear();
@@ -108,9 +109,11 @@ class Session {
   const RecordingHeader& header_;
   const TreeShape shape_;
   ReplayPlayer player_;
-  RawTerminal terminal_{STDIN_FILENO, STDOUT_FILENO};
+  RawTerminal terminal_{STDIN_FILENO, results_file()};
   TerminalWait wait_{STDIN_FILENO};
-  Screen screen_{stdout};
+  Outlet out_{results_file()};
+  Outlet::Thread out_thread_{out_};
+  Screen screen_{out_};
   KeyDecoder decoder_;
   std::string shown_;
   RealTime::time_point last_ = RealTime::now();

@@ -5,9 +5,9 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
+#include "cli/outputs.h"
 #include "cli/run_options.h"
 #include "cli/run_watch.h"
-#include "cli/stdout_guard.h"
 #include "cli/view.h"
 #include "observers/recorder.h"
 #include "observers/stall_observer.h"
@@ -15,6 +15,7 @@
 #include "observers/waiting.h"
 #include "runtime/crash_report.h"
 #include "runtime/loop.h"
+#include "runtime/outlet.h"
 #include "runtime/stop_signals.h"
 
 namespace lockstep {
@@ -68,21 +69,22 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   }
 
   // Runs the tree to its end; `plugins` are told to begin and, when all is over, to finish.
-  int run(std::shared_ptr<PluginSet>& plugins, StdoutGuard& guard) {
+  int run(std::shared_ptr<PluginSet>& plugins) {
     if (recorder_ && !recorder_->error().empty()) {
       print_error(recorder_->error());
-      return kExitUsage;
+      const int signal = StopSignals::received();  // while nobody has opened a pipe to read it
+      return signal == 0 ? kExitUsage : kExitSignal + signal;
     }
     Diagnostics refused;
     if (!plugins->initialize(refused)) {
       view_.close();
-      print_diagnostics(refused, Severity::Warning, stderr);
+      print_diagnostics(refused, Severity::Warning);
       return kExitPluginRefused;
     }
     const auto end = run_tree();
-    if (end) guard.print_results([this] { print_summary(); });
+    const int code = end ? first_failure(exit_code_of(*end), print_summary()) : kExitUsage;
     plugins.reset();
-    return end ? exit_code_of(*end) : kExitUsage;
+    return code;
   }
 
  private:
@@ -150,7 +152,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     return observers_;
   }
 
-  void print_summary() {
+  int print_summary() {
     Summary summary = statistics_.summary();
     if (recorder_ && !recorder_->error().empty()) summary.notes.push_back(recorder_->error());
     if (recorder_ && recorder_->lost() != 0) {
@@ -158,12 +160,11 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
                                           counted(recorder_->lost(), "tick")));
     }
     watch_.add_to(summary);
-    if (options_.json) {
-      fmt::print("{}\n", to_json(summary));
-    } else {
-      write_text(summary, stdout, wants_color(stdout));
-    }
-    flush_stdout();
+    if (const std::string lost = lost_messages(); !lost.empty()) summary.notes.push_back(lost);
+    if (options_.json) return write_results(to_json(summary) + "\n");
+    std::string text;
+    write_text(summary, text, wants_color(results_file()));
+    return write_results(text);
   }
 
   const RunCommandOptions& options_;
@@ -181,7 +182,6 @@ class CrashScope {
  public:
   explicit CrashScope(void (*last_words)()) {
     CrashReport::install(kExitLeafCrash, last_words);
-    CrashReport::prepare_thread();
     CrashReport::begin_run();
   }
   ~CrashScope() { CrashReport::end_run(); }
@@ -194,18 +194,33 @@ void last_words() {
   View::last_words();
 }
 
+// What a recording must not overwrite.
+std::vector<NamedFile> inputs_of_run(const RunCommandOptions& options, const Loaded& loaded) {
+  std::vector<std::string> documents{options.tree};
+  for (const auto& document : loaded.project->documents) documents.push_back(document->path());
+  return inputs_of(documents, *loaded.plugins);
+}
+
 int run(const RunCommandOptions& options) {
-  StdoutGuard guard;
+  // First, while /dev/stdout still is what the user means by it.
+  if (!options.record.empty() && would_overwrite("--record", options.record, standard_outputs())) {
+    return kExitUsage;
+  }
+  keep_stdout_for_results();
   const CrashScope crash_scope(last_words);
   Loaded loaded;
   Diagnostics diagnostics;
   const int code = load(options.tree, options.load, loaded, diagnostics);
-  print_diagnostics(diagnostics, Severity::Warning, stderr);
+  print_diagnostics(diagnostics, Severity::Warning);
   if (!loaded.definition) return code;
   // Until here a signal ends the program as it ends any other: there is nothing to halt or to save.
   StopSignals::install(last_words);
+  const Outlet::Thread messages_thread(messages());
+  if (!options.record.empty() &&
+      would_overwrite("--record", options.record, inputs_of_run(options, loaded)))
+    return kExitUsage;
   const Tree tree = take_tree(loaded);
-  return RunCommand(options, loaded, tree).run(loaded.plugins, guard);
+  return RunCommand(options, loaded, tree).run(loaded.plugins);
 }
 
 std::function<int()> define_run(CLI::App& app) {
@@ -220,9 +235,10 @@ const Command kRunCommand{
     "run", "Run a tree at a fixed rate until it completes",
     "The summary goes to stdout, everything else to stderr.\n"
     "Exit code: 0 Success, 1 Failure, 2 usage, 3 invalid tree, 4 plugin refused, 5 leaf fault,\n"
-    "6 a plugin crashed or hung, 7 --overrun fail, 8 --on-record-error stop,\n"
-    "124 --timeout or --max-ticks, 130 SIGINT, 143 SIGTERM (running leaves are halted in order; a\n"
-    "second signal ends the program at once).\n"
+    "6 a plugin crashed or hung, 7 --overrun fail, 8 --on-record-error stop, 9 lockstep failed,\n"
+    "124 --timeout or --max-ticks, 128 + N signal N, as 130 for SIGINT (running leaves are halted "
+    "in\n"
+    "order; a second one ends the program at once), 141 the reader of stdout has gone.\n"
     "\n"
     "Examples:\n"
     "  lockstep run trees/door_pulling.xml\n"

@@ -2,6 +2,7 @@
 
 #include "cli/catalog_loading.h"
 #include "cli/command.h"
+#include "cli/console.h"
 #include "cli/exit_code.h"
 #include "definition/xsd.h"
 
@@ -12,7 +13,7 @@ int schema(const PluginOptions& options) {
   PluginSet plugins;
   Catalog catalog;
   if (const int code = load_catalog(options, plugins, catalog); code != kExitSuccess) return code;
-  return write_stdout(make_xsd(catalog.types()));
+  return write_results(make_xsd(catalog.types()));
 }
 
 std::function<int()> define_schema(CLI::App& app) {

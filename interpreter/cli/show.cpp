@@ -1,9 +1,8 @@
 #include <CLI/CLI.hpp>
 
-#include "cli/catalog_loading.h"
 #include "cli/command.h"
 #include "cli/console.h"
-#include "cli/exit_code.h"
+#include "cli/loading.h"
 #include "cli/tree_drawing.h"
 #include "observers/terminal.h"
 
@@ -23,12 +22,13 @@ std::string draw(const Drawn& drawn, const std::string& format) {
 }
 
 int show(const ShowOptions& options) {
+  keep_stdout_for_results();
   Loaded loaded;
   Diagnostics diagnostics;
   const int code = load(options.tree, options.load, loaded, diagnostics);
-  print_diagnostics(diagnostics, Severity::Error, stderr);
+  print_diagnostics(diagnostics, Severity::Error);
   if (!loaded.definition) return code;
-  return write_stdout(draw({*loaded.project, *loaded.definition}, options.format));
+  return write_results(draw({*loaded.project, *loaded.definition}, options.format));
 }
 
 std::function<int()> define_show(CLI::App& app) {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <thread>
 
@@ -8,10 +9,12 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
+#include "cli/outputs.h"
 #include "cli/study_fault.h"
 #include "cli/study_loading.h"
 #include "cli/study_progress.h"
 #include "cli/study_summary.h"
+#include "runtime/outlet.h"
 #include "runtime/stop_signals.h"
 #include "study/box_plot.h"
 #include "study/folder.h"
@@ -39,11 +42,8 @@ int fail(std::string_view message, int code = kExitUsage) {
 
 int print_summary(const StudyCommandOptions& options, const StudyPlan& plan,
                   const std::vector<SummaryRow>& rows) {
-  if (options.json) {
-    fmt::print("{}\n", summary_json(plan, rows));
-  } else {
-    fmt::print("{}", summary_table(plan, rows));
-  }
+  const int written =
+      write_results(options.json ? summary_json(plan, rows) + "\n" : summary_table(plan, rows));
   Diagnostics notes;
   for (std::string& warning : summary_warnings(rows)) {
     notes.add({.severity = Severity::Warning,
@@ -52,8 +52,8 @@ int print_summary(const StudyCommandOptions& options, const StudyPlan& plan,
                .hint = {},
                .excerpt = {}});
   }
-  print_diagnostics(notes, Severity::Warning, stderr);
-  return flush_stdout() ? kExitSuccess : kExitUsage;
+  print_diagnostics(notes, Severity::Warning);
+  return written;
 }
 
 // Box plots, beside the data. Without gnuplot there are the data.
@@ -79,12 +79,30 @@ int finish(const StudyCommandOptions& options, const StudyFolder& folder, const 
            const std::vector<SummaryRow>& rows) {
   const int printed = print_summary(options, plan, rows);
   const int drawn = draw_plots(options, folder.file("plots"), plan, rows);
-  return printed == kExitSuccess ? drawn : printed;
+  return first_failure(printed, drawn);
 }
 
 std::string out_directory(const StudyCommandOptions& options) {
   if (!options.out.empty()) return options.out;
   return "study-" + std::filesystem::path(options.study.tree).stem().string();
+}
+
+// True, after saying so, when a file that the study writes is one that it reads.
+bool would_overwrite_input(const std::string& directory, const LoadedStudy& study) {
+  std::vector<std::string> documents;
+  for (const auto& [path, text] : study.plan.files) documents.push_back(path);
+  const auto inputs = inputs_of(documents, *study.plugins);
+  std::vector<std::string> outputs;
+  for (const char* name : {"study.json", "study.json.new", "runs.csv", "summary.csv"}) {
+    outputs.push_back(directory + '/' + name);
+  }
+  std::error_code none;
+  for (const auto& plot : std::filesystem::directory_iterator(directory + "/plots", none)) {
+    outputs.push_back(plot.path().string());
+  }
+  return std::ranges::any_of(outputs, [&inputs](const std::string& output) {
+    return would_overwrite("--out", output, inputs);
+  });
 }
 
 int make_study(const StudyCommandOptions& options, const LoadedStudy& study) {
@@ -93,6 +111,7 @@ int make_study(const StudyCommandOptions& options, const LoadedStudy& study) {
   const auto there = folder.begin(plan, options.resume);
   if (!there) return fail(folder.error());
   StopSignals::install();
+  const Outlet::Thread messages_thread(messages());
   std::optional<StudyFault> fault;
   {
     StudyProgress progress(*there, row_count(plan));
@@ -123,14 +142,16 @@ int make_study(const StudyCommandOptions& options, const LoadedStudy& study) {
 }
 
 int run(const StudyCommandOptions& options) {
+  keep_stdout_for_results();
   LoadedStudy study;
   Diagnostics diagnostics;
   const int code = load_study(options.study, study, diagnostics);
-  print_diagnostics(diagnostics, Severity::Warning, stderr);
+  print_diagnostics(diagnostics, Severity::Warning);
   if (code != kExitSuccess) return code;
+  if (would_overwrite_input(out_directory(options), study)) return kExitUsage;
   Diagnostics refused;
   if (!study.plugins->initialize(refused)) {
-    print_diagnostics(refused, Severity::Warning, stderr);
+    print_diagnostics(refused, Severity::Warning);
     return kExitPluginRefused;
   }
   return make_study(options, study);
@@ -138,6 +159,7 @@ int run(const StudyCommandOptions& options) {
 
 int merge(const StudyCommandOptions& options) {
   StopSignals::install();
+  const Outlet::Thread messages_thread(messages());
   StudyPlan plan;
   std::string error;
   const auto rows = merge_studies(options.parts, options.out, StopSignals::received, plan, error);
@@ -221,7 +243,8 @@ const Command kStudyCommand{
     "made)\n"
     "and, with gnuplot, plots/; the summary goes to stdout. See docs/studies.md.\n"
     "Exit code: 0 made, 2 usage or a directory that cannot be used, 3 invalid tree, 4 plugin\n"
-    "refused, 5 leaf fault, 130 SIGINT, 143 SIGTERM (what was finished is on disk: --resume).\n"
+    "refused, 5 leaf fault, 128 + N signal N, as 130 for SIGINT (what was finished is on disk:\n"
+    "--resume).\n"
     "\n"
     "Examples:\n"
     "  lockstep study trees/predictability.xml --runs 1000 --grid barriers=0,5,50 \\\n"

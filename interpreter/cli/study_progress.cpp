@@ -1,12 +1,14 @@
 #include "cli/study_progress.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cmath>
 
 #include "cli/console.h"
 #include "observers/progress_bar.h"
 #include "observers/terminal.h"
+#include "runtime/outlet.h"
 
 namespace lockstep {
 namespace {
@@ -24,14 +26,14 @@ std::string duration_text(double seconds) {
 }  // namespace
 
 StudyProgress::StudyProgress(std::uint64_t done, std::uint64_t total)
-    : is_terminal_(is_terminal(stderr)),
+    : is_terminal_(is_terminal(STDERR_FILENO)),
       before_(done),
       total_(total),
       done_(done),
       shown_(is_terminal_ ? start_ - kBarInterval : start_) {}
 
 StudyProgress::~StudyProgress() {
-  if (is_visible_) fmt::print(stderr, "\r\x1b[K");
+  if (is_visible_) messages().say("\r\x1b[K");
 }
 
 void StudyProgress::show() {
@@ -45,11 +47,9 @@ void StudyProgress::show() {
   std::string text =
       fmt::format("{} of {} runs, {:.0f} %, {:.0f} runs/s", done_, total_, part * 100, rate);
   if (rate > 0) text += fmt::format(", {} left", duration_text(left / rate));
-  if (!is_terminal_) return fmt::print(stderr, "{}\n", text);
+  if (!is_terminal_) return messages().say(text + "\n");
   const std::string bar = to_text({.progress = part}, has_unicode());
-  fmt::print(stderr, "\r{} {}\x1b[K", bar, text);
-  std::fflush(stderr);
-  is_visible_ = true;
+  is_visible_ |= messages().show(fmt::format("\r{} {}\x1b[K", bar, text));
 }
 
 }  // namespace lockstep

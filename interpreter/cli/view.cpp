@@ -20,9 +20,9 @@ std::string_view to_string(lockstep_log_level level) {
 }  // namespace
 
 View::View(const std::string& mode, const Tree& tree) {
-  if (mode == "live" || (mode == "auto" && is_terminal(stderr))) {
-    g_is_live = is_terminal(stderr);
-    live_.emplace(tree, LiveOptions{.color = wants_color(stderr), .unicode = has_unicode()});
+  if (mode == "live" || (mode == "auto" && is_terminal(STDERR_FILENO))) {
+    g_is_live = is_terminal(STDERR_FILENO);
+    live_.emplace(tree, LiveOptions{.color = wants_color(STDERR_FILENO), .unicode = has_unicode()});
   } else if (mode != "none") {
     plain_.emplace(tree);
   }
@@ -39,7 +39,7 @@ void View::print(const std::string& line) {
   } else if (plain_) {
     plain_->print(line);
   } else {
-    fmt::print(stderr, "{}\n", printable(line));
+    messages().say(printable(line) + "\n");
   }
 }
 

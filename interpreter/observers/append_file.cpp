@@ -8,10 +8,11 @@
 #include <array>
 #include <cerrno>
 #include <ctime>
+#include <new>
 #include <system_error>
 
+#include "core/own_thread.h"
 #include "observers/packet_printer.h"
-#include "observers/quiet_thread.h"
 
 namespace lockstep {
 namespace {
@@ -52,13 +53,22 @@ std::chrono::nanoseconds now() {
 }  // namespace
 
 AppendFile::AppendFile(const std::string& path, std::size_t queue)
-    : ring_(queue), path_(path), text_(kText) {
-  file_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
+    : ring_(queue), path_(path), out_(path), file_(out_.descriptor()), text_(kText) {
   if (file_ < 0) {
-    fail("open");
+    error_ = out_.error();
+    failed_.store(true, std::memory_order_release);
     return;
   }
-  thread_ = quiet_thread([this] { write_until_stopped(); });
+  thread_ = own_thread([this] {
+    try {
+      write_until_stopped();
+    } catch (const std::bad_alloc&) {  // what waits for the file must not wait for ever
+      error_ = "out of memory";
+      failed_.store(true, std::memory_order_release);
+      done_.ring();
+      throw;
+    }
+  });
   enter(this);
 }
 
@@ -68,7 +78,6 @@ AppendFile::~AppendFile() {
   work_.ring();
   thread_.join();
   leave(this);
-  ::close(file_);
 }
 
 const std::string& AppendFile::error() const {
@@ -141,9 +150,10 @@ void AppendFile::write_text(std::string_view text, Failure failure) {
     if (count >= 0) {
       const auto written = static_cast<std::size_t>(count);
       count_written(text.substr(0, written));
+      if (written_ > unfinished_ && !out_.take_name()) give_up("replace", failure);
       text.remove_prefix(written);
     } else if (errno != EINTR) {
-      give_up(failure);
+      give_up("write", failure);
     }
   }
 }
@@ -155,11 +165,11 @@ void AppendFile::count_written(std::string_view text) {
   if (newline != std::string_view::npos) unfinished_ = text.size() - newline - 1;
 }
 
-void AppendFile::give_up(Failure failure) {
+void AppendFile::give_up(const char* what, Failure failure) {
   const int reason = errno;
   cut_back();
   errno = reason;
-  if (failure == Failure::Told) return fail("write");
+  if (failure == Failure::Told) return fail(what);
   failed_.store(true, std::memory_order_release);
 }
 
@@ -192,6 +202,7 @@ void AppendFile::emergency_flush() {
 }
 
 void AppendFile::save(std::chrono::nanoseconds deadline) {
+  if (ring_.pushed() == 0) return out_.remove();
   // Later packets, of a tick thread that still runs, are not waited for: it might never end.
   const std::uint64_t until = ring_.pushed();
   const auto is_done = [&] { return failed() || ring_.taken() >= until; };

@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/output_file.h"
 #include "observers/bell.h"
 #include "observers/packet_ring.h"
 
@@ -28,7 +29,8 @@ class AppendFile {
   static constexpr std::size_t kText = 64u << 10;  // bytes that are written at once
   static constexpr std::chrono::milliseconds kLongestEmergency{500};
 
-  // Creates the file, or empties it; error() tells when that is not possible.
+  // Creates the file; error() tells when that is not possible. It takes its name, and the place of
+  // what has it, when the first line is in it: core/output_file.h.
   explicit AppendFile(const std::string& path, std::size_t queue = kQueue);
   // Flushes.
   ~AppendFile();
@@ -60,7 +62,7 @@ class AppendFile {
   void write_out(Failure failure);
   void write_text(std::string_view text, Failure failure);
   void count_written(std::string_view text);
-  void give_up(Failure failure);
+  void give_up(const char* what, Failure failure);
   void cut_back();
   void fail(const char* what);
   void save(std::chrono::nanoseconds deadline);
@@ -69,7 +71,8 @@ class AppendFile {
 
   PacketRing ring_;
   const std::string path_;
-  int file_ = -1;
+  OutputFile out_;
+  const int file_;
   std::string error_;  // not touched any more once failed_
   std::atomic<bool> failed_{false};
 

@@ -1,44 +1,40 @@
 #include "observers/console_live.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
+#include <new>
 #include <utility>
 
 #include "core/diagnostics.h"
+#include "core/own_thread.h"
 #include "engine/synchronized.h"
 #include "measure/synchronized_measure.h"
-#include "observers/quiet_thread.h"
 #include "observers/statistics.h"
 #include "observers/terminal.h"
 
 namespace lockstep {
-namespace {
 
-void write(std::FILE* out, std::string_view text) {
-  std::fwrite(text.data(), 1, text.size(), out);
-  std::fflush(out);
-}
-
-}  // namespace
-
-ConsoleLive::ConsoleLive(const Tree& tree, const LiveOptions& options)
+ConsoleLive::ConsoleLive(const Tree& tree, const LiveOptions& options, Outlet& out)
     : tree_(tree),
       shape_(shape_of(tree)),
       options_(options),
+      out_(out),
       synchronized_nodes_(synchronized_nodes(tree)),
       activity_(tree.nodes.size()),
       snapshots_(Snapshot{.header = {}, .nodes = std::vector<NodeView>(tree.nodes.size())}),
-      screen_(options.out) {}
+      screen_(out) {}
 
 ConsoleLive::~ConsoleLive() {
-  stop();
+  try {
+    stop();
+  } catch (const std::bad_alloc&) {  // lines that nobody will see; the thread has ended
+  }
 }
 
 void ConsoleLive::run_started(Ticker&, const RunStart& start) {
   header_.rate_hz = 1.0 / to_seconds(start.period);
   header_.real_time = start.real_time;
-  thread_ = quiet_thread([this] { draw_until_stopped(); });
+  thread_ = own_thread([this] { draw_until_stopped(); });
 }
 
 void ConsoleLive::after_tick(Ticker& ticker, const TickReport& report) {
@@ -81,7 +77,7 @@ void ConsoleLive::take_progress(Ticker& ticker, NodeIndex node, std::vector<Node
 void ConsoleLive::print(std::string line) {
   const std::lock_guard lock(mutex_);
   if (stopped_) {
-    write(options_.out, printable(line) + "\n");
+    out_.say(printable(line) + "\n");
   } else if (printed_.size() < kMostLines) {
     printed_.push_back(std::move(line));
   } else {
@@ -102,7 +98,7 @@ void ConsoleLive::stop() {
     const std::lock_guard lock(mutex_);
     stopped_ = true;
   }
-  write(options_.out, take_printed());
+  out_.say(take_printed());
 }
 
 void ConsoleLive::draw_until_stopped() {
@@ -113,20 +109,21 @@ void ConsoleLive::draw_until_stopped() {
     std::unique_lock lock(mutex_);
     stopped = wake_.wait_for(lock, kFrame, [this] { return stopping_; });
   }
+  out_.flush(3 * kFrame);  // for the last frame there is no later one
   draw_frame();
   screen_.end();
 }
 
 void ConsoleLive::draw_frame() {
-  const std::string printed = take_printed();
-  if (!snapshots_.take() && printed.empty()) return;
-  const TerminalSize size = terminal_size(options_.out);
+  if (is_drawn_) above_ = take_printed();
+  if (!snapshots_.take() && above_.empty() && is_drawn_) return;
+  const TerminalSize size = terminal_size(out_.file());
   const std::string frame = draw(shape_, snapshots_.front(),
                                  {.width = size.width,
                                   .height = size.height,
                                   .color = options_.color,
                                   .unicode = options_.unicode});
-  screen_.show(printed, frame);
+  is_drawn_ = screen_.show(above_, frame);
 }
 
 std::string ConsoleLive::take_printed() {

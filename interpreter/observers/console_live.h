@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <condition_variable>
-#include <cstdio>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -18,7 +17,6 @@
 namespace lockstep {
 
 struct LiveOptions {
-  std::FILE* out = stderr;
   bool color = true;
   bool unicode = true;
 };
@@ -28,7 +26,7 @@ class ConsoleLive final : public Observer {
   static constexpr std::chrono::milliseconds kFrame{100};
   static constexpr std::size_t kMostLines = 1000;
 
-  ConsoleLive(const Tree& tree, const LiveOptions& options);
+  ConsoleLive(const Tree& tree, const LiveOptions& options, Outlet& out = messages());
   // Leaves the last frame on the screen and the cursor visible below it.
   ~ConsoleLive() override;
   ConsoleLive(const ConsoleLive&) = delete;
@@ -53,6 +51,7 @@ class ConsoleLive final : public Observer {
   const Tree& tree_;
   const TreeShape shape_;
   LiveOptions options_;
+  Outlet& out_;
   std::vector<NodeIndex> synchronized_nodes_;
 
   // The tick thread's.
@@ -63,6 +62,8 @@ class ConsoleLive final : public Observer {
 
   // The drawing thread's.
   Screen screen_;
+  std::string above_;     // lines that the next frame takes with it
+  bool is_drawn_ = true;  // false: the terminal did not take the last frame
 
   std::mutex mutex_;  // for what follows
   std::condition_variable wake_;

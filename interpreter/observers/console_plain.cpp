@@ -9,7 +9,7 @@
 
 namespace lockstep {
 
-ConsolePlain::ConsolePlain(const Tree& tree, std::FILE* out, RealTime real_time)
+ConsolePlain::ConsolePlain(const Tree& tree, Outlet& out, RealTime real_time)
     : tree_(tree), out_(out), real_time_(real_time) {
   for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
     if (tree.nodes[node].children == 0) leaves_.push_back(node);
@@ -52,11 +52,8 @@ void ConsolePlain::run_ended(Ticker& ticker, const RunEnd& end) {
 }
 
 void ConsolePlain::print(std::string_view text) {
-  const std::string line =
-      fmt::format("{:10.3f} s  tick {:<6}  {}\n", to_seconds(time_), tick_.load(), printable(text));
-  // That nobody can read it must not end the run.
-  std::fwrite(line.data(), 1, line.size(), out_);
-  std::fflush(out_);
+  out_.say(fmt::format("{:10.3f} s  tick {:<6}  {}\n", to_seconds(time_), tick_.load(),
+                       printable(text)));
 }
 
 bool ConsolePlain::may_print() {

@@ -4,13 +4,13 @@
 #pragma once
 
 #include <atomic>
-#include <cstdio>
 #include <string_view>
 #include <vector>
 
 #include "measure/synchronized_measure.h"
 #include "observers/line_budget.h"
 #include "runtime/observer.h"
+#include "runtime/outlet.h"
 
 namespace lockstep {
 
@@ -25,7 +25,7 @@ class ConsolePlain final : public Observer {
   using RealTime = LineBudget::Time (*)();
 
   // `real_time` is for tests.
-  explicit ConsolePlain(const Tree& tree, std::FILE* out = stderr,
+  explicit ConsolePlain(const Tree& tree, Outlet& out = messages(),
                         RealTime real_time = std::chrono::steady_clock::now);
 
   void run_started(Ticker& ticker, const RunStart& start) override;
@@ -54,7 +54,7 @@ class ConsolePlain final : public Observer {
   void tell_wait(const Watched& node, std::size_t child, std::string_view text);
 
   const Tree& tree_;
-  std::FILE* out_;
+  Outlet& out_;
   RealTime real_time_;
   LineBudget budget_{kBurst};
   LineBudget fault_budget_{kBurstOfFaults};

@@ -17,7 +17,7 @@ int g_keys = -1, g_screen = -1;
 std::atomic<bool> g_is_raw{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-constexpr int kFatalSignals[] = {SIGHUP, SIGQUIT, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL};
+constexpr int kFatalSignals[] = {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL};
 
 void on_fatal_signal(int number) {
   RawTerminal::restore();
@@ -39,7 +39,7 @@ void make_raw() {
   // As keys: a process that these stop or end would leave the terminal raw.
   raw.c_cc[VSUSP] = raw.c_cc[VQUIT] = _POSIX_VDISABLE;
   g_is_raw = true;
-  tcsetattr(g_keys, TCSADRAIN, &raw);
+  tcsetattr(g_keys, TCSANOW, &raw);
 }
 
 }  // namespace

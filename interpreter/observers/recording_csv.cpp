@@ -25,7 +25,8 @@ std::string csv_field(std::string_view text) {
   return quoted + '"';
 }
 
-bool write_csv(RecordingReader& reader, std::FILE* out, CsvNames names) {
+bool write_csv(RecordingReader& reader, const CsvSink& write, CsvNames names) {
+  constexpr std::size_t kFull = 1u << 16u;
   std::vector<std::string> paths;
   for (const RecordedNode& node : reader.header().nodes) {
     paths.push_back(csv_field(names == CsvNames::Printable ? printable(node.path) : node.path));
@@ -39,10 +40,11 @@ bool write_csv(RecordingReader& reader, std::FILE* out, CsvNames names) {
                      tick->time, index, paths[index], to_string(node.status), node.progress,
                      node.ticked, node.held);
     }
-    if (std::fwrite(rows.data(), 1, rows.size(), out) != rows.size()) return false;
+    if (rows.size() < kFull) continue;
+    if (!write(rows)) return false;
     rows.clear();
   }
-  return std::fwrite(rows.data(), 1, rows.size(), out) == rows.size() && std::fflush(out) == 0;
+  return write(rows);
 }
 
 }  // namespace lockstep

@@ -1,7 +1,8 @@
 // A recording as a table: one row per tick and active node. docs/recording.md names the columns.
 #pragma once
 
-#include <cstdio>
+#include <functional>
+#include <string>
 #include <string_view>
 
 #include "observers/recording_reader.h"
@@ -11,9 +12,12 @@ namespace lockstep {
 // As they are, or for a terminal: as printable() makes them.
 enum class CsvNames : bool { Exact, Printable };
 
-// Writes all ticks that can be read; then look at reader.error() and reader.cut(). False when `out`
-// cannot be written.
-bool write_csv(RecordingReader& reader, std::FILE* out, CsvNames names = CsvNames::Exact);
+// Takes whole rows; false: no more of them.
+using CsvSink = std::function<bool(std::string_view rows)>;
+
+// Writes all ticks that can be read; then look at reader.error() and reader.cut(). False when the
+// sink took no more.
+bool write_csv(RecordingReader& reader, const CsvSink& write, CsvNames names = CsvNames::Exact);
 
 // `text` in quotes if it holds a comma, a quote or a line break (RFC 4180).
 std::string csv_field(std::string_view text);

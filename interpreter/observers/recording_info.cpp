@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <iterator>
+
 #include "core/diagnostics.h"
 #include "measure/decision.h"
 #include "observers/recorded_probe.h"
@@ -32,29 +34,32 @@ class Replayed {
   SynchronizedMeasure measure_;
 };
 
-void write_header(const RecordingHeader& header, std::FILE* out, bool color) {
-  fmt::print(out, "{} from {}, recorded by lockstep {}\n",
-             styled(printable(header.tree), Style::Strong, color), printable(header.file),
-             printable(header.version));
-  fmt::print(out, "  {}, {} Hz, {} clock, seed {}\n", counted(header.nodes.size(), "node"),
-             header.rate_hz, printable(header.clock), header.seed);
+void write_header(const RecordingHeader& header, std::string& out, bool color) {
+  fmt::format_to(std::back_inserter(out), "{} from {}, recorded by lockstep {}\n",
+                 styled(printable(header.tree), Style::Strong, color), printable(header.file),
+                 printable(header.version));
+  fmt::format_to(std::back_inserter(out), "  {}, {} Hz, {} clock, seed {}\n",
+                 counted(header.nodes.size(), "node"), header.rate_hz, printable(header.clock),
+                 header.seed);
   for (const auto& [name, value] : header.arguments) {
-    fmt::print(out, "  argument {} = {}\n", printable(name), printable(value));
+    fmt::format_to(std::back_inserter(out), "  argument {} = {}\n", printable(name),
+                   printable(value));
   }
 }
 
-void write_end(const RecordingReader& reader, std::uint64_t ticks, double time, std::FILE* out,
+void write_end(const RecordingReader& reader, std::uint64_t ticks, double time, std::string& out,
                bool color) {
   if (const auto& end = reader.end()) {
-    fmt::print(out, "  {} ({}) after {}, {:.3f} s", printable(end->result), printable(end->reason),
-               counted(end->ticks, "tick"), end->time);
-    fmt::print(out, "; {}, {} skipped\n", counted(end->overruns, "overrun"),
-               counted(end->skipped, "deadline"));
-    if (!end->fault.empty()) fmt::print(out, "  fault: {}\n", printable(end->fault));
+    fmt::format_to(std::back_inserter(out), "  {} ({}) after {}, {:.3f} s", printable(end->result),
+                   printable(end->reason), counted(end->ticks, "tick"), end->time);
+    fmt::format_to(std::back_inserter(out), "; {}, {} skipped\n", counted(end->overruns, "overrun"),
+                   counted(end->skipped, "deadline"));
+    if (!end->fault.empty())
+      fmt::format_to(std::back_inserter(out), "  fault: {}\n", printable(end->fault));
     return;
   }
-  fmt::print(out, "  {}, {:.3f} s; {} {}\n", counted(ticks, "tick"), time,
-             styled("the recording is cut:", Style::Warning, color), reader.cut());
+  fmt::format_to(std::back_inserter(out), "  {}, {:.3f} s; {} {}\n", counted(ticks, "tick"), time,
+                 styled("the recording is cut:", Style::Warning, color), reader.cut());
 }
 
 // Nothing when the last tick is lost: what comes before it does not say.
@@ -76,21 +81,21 @@ std::vector<DecidingSummary> why_failed(const RecordingReader& reader, const Rec
   return path;
 }
 
-void write_warnings(const RecordingReader& reader, std::uint64_t faults, std::FILE* out,
+void write_warnings(const RecordingReader& reader, std::uint64_t faults, std::string& out,
                     bool color) {
   if (const std::string gaps = reader.gaps(); !gaps.empty()) {
-    fmt::print(out, "  {}\n", styled(gaps, Style::Warning, color));
+    fmt::format_to(std::back_inserter(out), "  {}\n", styled(gaps, Style::Warning, color));
   }
   if (faults > 0) {
-    fmt::print(out, "  {}\n",
-               styled(counted(faults, "fault") + " of leaves that the run went on after",
-                      Style::Warning, color));
+    fmt::format_to(std::back_inserter(out), "  {}\n",
+                   styled(counted(faults, "fault") + " of leaves that the run went on after",
+                          Style::Warning, color));
   }
 }
 
 }  // namespace
 
-void write_info(RecordingReader& reader, std::FILE* out, bool color) {
+std::string info_text(RecordingReader& reader, bool color) {
   const RecordingHeader& header = reader.header();
   std::vector<Replayed> nodes;
   for (const NodeIndex node : synchronized_nodes(header)) nodes.emplace_back(header, node);
@@ -102,7 +107,8 @@ void write_info(RecordingReader& reader, std::FILE* out, bool color) {
     last = *tick;
     for (Replayed& node : nodes) node.after_tick(last);
   }
-  if (!reader.error().empty()) return;
+  if (!reader.error().empty()) return {};
+  std::string out;
   const double time = reader.end() ? reader.end()->time : last.time;
   write_header(header, out, color);
   write_end(reader, ticks, time, out, color);
@@ -113,6 +119,7 @@ void write_info(RecordingReader& reader, std::FILE* out, bool color) {
     if (node.is_reached()) reached.push_back(node.summary(header, time));
   }
   write_text(reached, nodes.size() - reached.size(), out, color);
+  return out;
 }
 
 }  // namespace lockstep

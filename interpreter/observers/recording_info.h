@@ -2,13 +2,13 @@
 // its lines alone.
 #pragma once
 
-#include <cstdio>
+#include <string>
 
 #include "observers/recording_reader.h"
 
 namespace lockstep {
 
 // Reads to the end; then look at reader.error(). A cut recording is told in the text.
-void write_info(RecordingReader& reader, std::FILE* out, bool color = false);
+std::string info_text(RecordingReader& reader, bool color = false);
 
 }  // namespace lockstep

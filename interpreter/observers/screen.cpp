@@ -1,9 +1,11 @@
 #include "observers/screen.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
+#include <string>
+
+#include "core/descriptors.h"
 
 namespace lockstep {
 namespace {
@@ -24,34 +26,29 @@ void append_with_cleared_line_ends(std::string& to, std::string_view text) {
 }  // namespace
 
 void Screen::begin() {
-  write(kHideCursor);
+  out_.say(kHideCursor);
 }
 
 void Screen::end() {
-  write(kShowCursor);
+  out_.say(kShowCursor);
 }
 
 void Screen::clear() {
-  write(kClearAll);
+  out_.say(kClearAll);
   lines_ = 0;
 }
 
-void Screen::show(std::string_view above, std::string_view frame) {
+bool Screen::show(std::string_view above, std::string_view frame) {
   std::string text = lines_ == 0 ? "" : fmt::format("\r\x1b[{}A", lines_);
   append_with_cleared_line_ends(text, above);
   append_with_cleared_line_ends(text, frame);
-  write(text.append(kClearBelow));
+  if (!out_.show(text.append(kClearBelow))) return false;
   lines_ = static_cast<std::size_t>(std::count(frame.begin(), frame.end(), '\n'));
-}
-
-void Screen::write(std::string_view text) {
-  std::fwrite(text.data(), 1, text.size(), out_);
-  std::fflush(out_);
+  return true;
 }
 
 void restore_cursor(int terminal) {
-  // In a signal handler there is nobody to tell that it failed.
-  [[maybe_unused]] const auto written = ::write(terminal, kShowCursor.data(), kShowCursor.size());
+  write_now(terminal, kShowCursor);
 }
 
 }  // namespace lockstep

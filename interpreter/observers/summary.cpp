@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstring>
+#include <iterator>
 
 #include "core/diagnostics.h"
 
@@ -50,39 +51,44 @@ std::string worst_tick(const Summary& summary) {
   return text + "\n";
 }
 
-void write_over_budget(const Summary& summary, std::FILE* out, bool color) {
+void write_over_budget(const Summary& summary, std::string& out, bool color) {
   for (const LeafTimingSummary& leaf : summary.over_budget) {
-    fmt::print(out, "  {} of {:.6g} ms: {} {} of {}, p50 {:.3f} ms, p99 {:.3f} ms, max {:.3f} ms\n",
-               styled("over the tick budget", Style::Warning, color),
-               summary.tick_budget.value_or(0) * 1e3, printable(leaf.path), leaf.over_budget,
-               counted(leaf.calls, "tick"), leaf.p50 * 1e3, leaf.p99 * 1e3, leaf.max * 1e3);
+    fmt::format_to(std::back_inserter(out),
+                   "  {} of {:.6g} ms: {} {} of {}, p50 {:.3f} ms, p99 {:.3f} ms, max {:.3f} ms\n",
+                   styled("over the tick budget", Style::Warning, color),
+                   summary.tick_budget.value_or(0) * 1e3, printable(leaf.path), leaf.over_budget,
+                   counted(leaf.calls, "tick"), leaf.p50 * 1e3, leaf.p99 * 1e3, leaf.max * 1e3);
   }
 }
 
-void write_node(const SynchronizedSummary& node, std::FILE* out, bool color) {
+void write_node(const SynchronizedSummary& node, std::string& out, bool color) {
   const auto name = styled(printable(node.path), Style::Strong, color);
-  fmt::print(out, "  {} ({}, {})\n", name, printable(node.kind), counted(node.samples, "tick"));
-  fmt::print(out, "    progress distance {:.6g}, mean {:.6g} a tick; largest spread {:.6g}, ",
-             node.distance_sum, node.distance_mean, node.largest_spread);
-  fmt::print(out, "longest step {:.6g}\n", node.step_length);
+  fmt::format_to(std::back_inserter(out), "  {} ({}, {})\n", name, printable(node.kind),
+                 counted(node.samples, "tick"));
+  fmt::format_to(std::back_inserter(out),
+                 "    progress distance {:.6g}, mean {:.6g} a tick; largest spread {:.6g}, ",
+                 node.distance_sum, node.distance_mean, node.largest_spread);
+  fmt::format_to(std::back_inserter(out), "longest step {:.6g}\n", node.step_length);
   std::size_t width = 0;
   for (const ChildSummary& child : node.children) {
     width = std::max(width, printable(child.name).size());
   }
   for (const ChildSummary& child : node.children) {
-    fmt::print(out, "    {:<{}}  waited {:.3f} s in {}\n", printable(child.name), width,
-               child.held_seconds, counted(child.held_ticks, "tick"));
+    fmt::format_to(std::back_inserter(out), "    {:<{}}  waited {:.3f} s in {}\n",
+                   printable(child.name), width, child.held_seconds,
+                   counted(child.held_ticks, "tick"));
   }
 }
 
-void write_deciding(const DecidingSummary& node, std::size_t indent, std::FILE* out, bool color) {
+void write_deciding(const DecidingSummary& node, std::size_t indent, std::string& out, bool color) {
   const std::string name = node.path.substr(node.path.rfind('/') + 1);
   const Style style = node.status == Status::Success ? Style::Good : Style::Bad;
-  fmt::print(out, "{:{}}{}", "", indent, printable(name));
-  if (name != node.kind) fmt::print(out, " ({})", printable(node.kind));
-  fmt::print(out, ": {}", styled(to_string(node.status), style, color));
-  if (node.agreeing > 1) fmt::print(out, " ({} of {} children)", node.agreeing, node.children);
-  fmt::print(out, "\n");
+  fmt::format_to(std::back_inserter(out), "{:{}}{}", "", indent, printable(name));
+  if (name != node.kind) fmt::format_to(std::back_inserter(out), " ({})", printable(node.kind));
+  fmt::format_to(std::back_inserter(out), ": {}", styled(to_string(node.status), style, color));
+  if (node.agreeing > 1)
+    fmt::format_to(std::back_inserter(out), " ({} of {} children)", node.agreeing, node.children);
+  out += '\n';
 }
 
 }  // namespace
@@ -130,23 +136,24 @@ SynchronizedSummary summarize(const SynchronizedMeasure& measure, std::string pa
 }
 
 void write_text(std::span<const SynchronizedSummary> nodes, std::size_t never_reached,
-                std::FILE* out, bool color) {
+                std::string& out, bool color) {
   for (const SynchronizedSummary& node : nodes) write_node(node, out, color);
   if (never_reached == 0) return;
-  fmt::print(out, "  {} {} never reached\n", counted(never_reached, "synchronized node"),
-             never_reached == 1 ? "was" : "were");
+  fmt::format_to(std::back_inserter(out), "  {} {} never reached\n",
+                 counted(never_reached, "synchronized node"), never_reached == 1 ? "was" : "were");
 }
 
 // Of a deep tree the first and the last nodes: in between a result is mostly passed on.
-void write_text(std::span<const DecidingSummary> why_failed, std::FILE* out, bool color) {
+void write_text(std::span<const DecidingSummary> why_failed, std::string& out, bool color) {
   constexpr std::size_t kFirst = 5, kLast = 15;
   if (why_failed.empty()) return;
-  fmt::print(out, "  decided by {}:\n", printable(why_failed.back().path));
+  fmt::format_to(std::back_inserter(out), "  decided by {}:\n", printable(why_failed.back().path));
   const std::size_t left_out = why_failed.size() - std::min(why_failed.size(), kFirst + kLast);
   std::size_t indent = 4;
   for (std::size_t i = 0; i < why_failed.size(); ++i, indent += 2) {
     if (left_out > 0 && i == kFirst) {
-      fmt::print(out, "{:{}}... {} more\n", "", indent, counted(left_out, "node"));
+      fmt::format_to(std::back_inserter(out), "{:{}}... {} more\n", "", indent,
+                     counted(left_out, "node"));
       i += left_out;
       indent += 2;
     }
@@ -154,17 +161,19 @@ void write_text(std::span<const DecidingSummary> why_failed, std::FILE* out, boo
   }
 }
 
-void write_text(const Summary& summary, std::FILE* out, bool color) {
+void write_text(const Summary& summary, std::string& out, bool color) {
   const auto result = styled(to_string(summary.result), style_of(summary.result), color);
   const std::string reason = why(summary);
-  fmt::print(out, "{}{}{} after {}, {:.3f} s\n", result, reason.empty() ? "" : ": ", reason,
-             counted(summary.ticks, "tick"), summary.seconds);
+  fmt::format_to(std::back_inserter(out), "{}{}{} after {}, {:.3f} s\n", result,
+                 reason.empty() ? "" : ": ", reason, counted(summary.ticks, "tick"),
+                 summary.seconds);
   write_text(summary.why_failed, out, color);
-  fmt::print(out, "{}{}", timing(summary), worst_tick(summary));
+  out += timing(summary) + worst_tick(summary);
   write_over_budget(summary, out, color);
   write_text(summary.synchronized_nodes, summary.never_reached, out, color);
   for (const std::string& note : summary.notes) {
-    fmt::print(out, "{} {}\n", styled("note:", Style::Warning, color), printable(note));
+    fmt::format_to(std::back_inserter(out), "{} {}\n", styled("note:", Style::Warning, color),
+                   printable(note));
   }
 }
 

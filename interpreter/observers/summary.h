@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
 #include <optional>
 #include <span>
 #include <string>
@@ -88,11 +87,11 @@ struct Summary {
   std::vector<std::string> notes;  // what else the user must know: a recording that is cut, …
 };
 
-void write_text(const Summary& summary, std::FILE* out, bool color);
+void write_text(const Summary& summary, std::string& out, bool color);
 // Parts of it, which a recording tells in the same words.
-void write_text(std::span<const DecidingSummary> why_failed, std::FILE* out, bool color);
+void write_text(std::span<const DecidingSummary> why_failed, std::string& out, bool color);
 void write_text(std::span<const SynchronizedSummary> nodes, std::size_t never_reached,
-                std::FILE* out, bool color);
+                std::string& out, bool color);
 
 // One line, no newline. docs/recording.md describes the keys.
 std::string to_json(const Summary& summary);

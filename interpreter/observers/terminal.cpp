@@ -10,9 +10,9 @@
 
 namespace lockstep {
 
-TerminalSize terminal_size(std::FILE* file) {
+TerminalSize terminal_size(int file) {
   winsize size{};
-  if (::ioctl(::fileno(file), TIOCGWINSZ, &size) != 0 || size.ws_col == 0 || size.ws_row == 0) {
+  if (::ioctl(file, TIOCGWINSZ, &size) != 0 || size.ws_col == 0 || size.ws_row == 0) {
     return {};
   }
   return {size.ws_col, size.ws_row};

@@ -1,8 +1,6 @@
 // What the terminal can do, asked of the system: size and characters.
 #pragma once
 
-#include <cstdio>
-
 namespace lockstep {
 
 struct TerminalSize {
@@ -10,7 +8,7 @@ struct TerminalSize {
 };
 
 // 80 x 24 when it is not known.
-TerminalSize terminal_size(std::FILE* file);
+TerminalSize terminal_size(int file);
 // LC_ALL, LC_CTYPE or LANG, the first that is set, names UTF-8.
 bool has_unicode();
 

@@ -2,6 +2,7 @@
 
 #include <execinfo.h>
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/syscall.h>
 #include <ucontext.h>
 #include <unistd.h>
@@ -11,14 +12,18 @@
 #include <cstdlib>
 #include <ctime>
 
-#include "runtime/alternate_stack.h"
+#include "core/descriptors.h"
+#include "core/own_thread.h"
 #include "runtime/crash_text.h"
+#include "runtime/fuse.h"
+#include "runtime/outlet.h"
 
 namespace lockstep {
 namespace {
 
 constexpr std::array kFatalSignals{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 constexpr unsigned kLongestReport = 5;  // seconds; then the process ends without the rest
+constexpr std::chrono::milliseconds kBeforeReport{200};
 constexpr int kMostFrames = 64;
 
 // Written by install(), before anything can crash.
@@ -28,7 +33,6 @@ pid_t g_process = 0;
 
 std::atomic<int> g_runs{0};
 std::atomic<pid_t> g_reporter{0};  // the thread that writes the report
-constinit thread_local bool t_is_prepared = false;
 
 // What hang() tells the thread that hangs. Written before the flag.
 pthread_t g_hung_thread;
@@ -61,15 +65,12 @@ void begin_report() {
     if (reporter == thread) _exit(g_exit_code);
     while (true) pause();
   }
-  struct sigaction action {};
-  action.sa_handler = [](int) { _exit(g_exit_code); };
-  sigaction(SIGALRM, &action, nullptr);
   sigset_t unblocked;
   sigemptyset(&unblocked);
-  sigaddset(&unblocked, SIGALRM);
   for (const int number : kFatalSignals) sigaddset(&unblocked, number);
   pthread_sigmask(SIG_UNBLOCK, &unblocked, nullptr);
-  alarm(kLongestReport);
+  light_fuse(kLongestReport, g_exit_code);
+  messages().flush(kBeforeReport);  // what was said before
 }
 
 // From the instruction that crashed, when it is among them: what was called before is the handler.
@@ -79,9 +80,15 @@ void write_backtrace(const void* instruction) {
   int first = 0;
   while (first < count && frames[static_cast<std::size_t>(first)] != instruction) ++first;
   if (first == count) first = 0;
-  SignalText title;
-  (title << "lockstep: backtrace:\n").write_to(STDERR_FILENO);
-  backtrace_symbols_fd(frames.data() + first, count - first, STDERR_FILENO);
+  write_now(STDERR_FILENO, "lockstep: backtrace:\n");
+  // By way of memory: whoever should read it may not.
+  const int memory = memfd_create("backtrace", MFD_CLOEXEC);
+  backtrace_symbols_fd(frames.data() + first, count - first, memory);
+  lseek(memory, 0, SEEK_SET);
+  std::array<char, 1024> text;
+  for (ssize_t size; (size = read(memory, text.data(), text.size())) > 0;) {
+    write_now(STDERR_FILENO, {text.data(), static_cast<std::size_t>(size)});
+  }
 }
 
 enum class Backtrace : bool { No, Yes };
@@ -89,7 +96,7 @@ enum class Backtrace : bool { No, Yes };
 [[noreturn]] void report(const Crash& crash, Backtrace wanted, const void* instruction = nullptr) {
   SignalText text;
   describe(crash, text);
-  text.write_to(STDERR_FILENO);
+  write_now(STDERR_FILENO, text.text());
   if (g_crash_words != nullptr) g_crash_words();
   if (wanted == Backtrace::Yes) write_backtrace(instruction);
   if (g_exit_code == CrashReport::kAsWithoutReport && crash.kind == CrashKind::Signal) {
@@ -104,7 +111,7 @@ Crash crash_here(CrashKind kind) {
   return {.kind = kind,
           .call = mark.look(),
           .tick = mark.tick(),
-          .is_foreign_thread = !t_is_prepared,
+          .is_foreign_thread = !is_own_thread(),
           .is_isolated = g_exit_code == CrashReport::kAsWithoutReport};
 }
 
@@ -151,7 +158,8 @@ void CrashReport::install(int exit_code, void (*last_words)()) {
   g_exit_code = exit_code;
   g_crash_words = last_words;
   g_process = getpid();
-  prepare_thread();
+  adopt_thread();
+  messages();  // made, before a signal handler asks for it
   std::array<void*, 1> frame;
   backtrace(frame.data(), 1);  // the first call loads a library, which a signal handler must not
   struct sigaction action {};
@@ -164,11 +172,6 @@ void CrashReport::install(int exit_code, void (*last_words)()) {
   static const bool registered =
       std::atexit(at_process_end) == 0 && std::at_quick_exit(at_process_end) == 0;
   static_cast<void>(registered);
-}
-
-void CrashReport::prepare_thread() {
-  static thread_local const AlternateStack stack;
-  t_is_prepared = true;
 }
 
 void CrashReport::begin_run() {

@@ -15,16 +15,12 @@ class CrashReport {
   // From now on SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT and exit() of this process end with a
   // report and `exit_code`. `last_words` may be null; it must be async-signal-safe, and is called
   // once, after the culprit is named and before the backtrace. What is not caught: _exit(),
-  // SIGKILL, and a stack overflow in a thread that was not prepared. A process that a plugin forks
+  // SIGKILL, and a stack overflow in a thread that is not ours. A process that a plugin forks
   // off is none of our business: its end is as without us.
   static void install(int exit_code, void (*last_words)());
   // An exit code that is none: after its report the process ends by the signal that ended it, and
   // exit() is left alone, for a parent that wants to know.
   static constexpr int kAsWithoutReport = -1;
-
-  // Gives this thread, until it ends, a stack on which the report of a stack overflow can be
-  // written. Needed once for each of our threads: a thread without one is taken for a plugin's.
-  static void prepare_thread();
 
   // exit() and quick_exit() are a crash inside a call, and in any thread as long as a run goes on:
   // begin_run() .. end_run(). (A leaf may call it from a thread of its own.)

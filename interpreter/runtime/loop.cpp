@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/own_thread.h"
+
 namespace lockstep {
 namespace {
 
@@ -37,6 +39,7 @@ class Loop {
 
  private:
   bool may_tick() {
+    rethrow_thread_failure();
     if (stop_requested()) {
       end_.signal = options_.stop_signal();
       return stop(StopReason::Signal);

@@ -1,8 +1,6 @@
 // Text put together where only async-signal-safe functions may be called: in place, cut at the end
-// of its memory, written by write(2).
+// of its memory.
 #pragma once
-
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -30,14 +28,6 @@ class SignalText {
   }
 
   std::string_view text() const { return {text_.data(), size_}; }
-
-  void write_to(int file) const {
-    for (std::size_t done = 0; done < size_;) {
-      const ssize_t written = ::write(file, text_.data() + done, size_ - done);
-      if (written <= 0) return;
-      done += static_cast<std::size_t>(written);
-    }
-  }
 
  private:
   SignalText& digits(std::uint64_t number, unsigned base) {

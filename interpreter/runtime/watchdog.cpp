@@ -1,15 +1,13 @@
 #include "runtime/watchdog.h"
 
-#include <pthread.h>
-#include <signal.h>
-
 #include <algorithm>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
 #include <utility>
 
-#include "runtime/crash_report.h"
+#include "core/own_thread.h"
+#include "runtime/stop_signals.h"
 
 namespace lockstep {
 namespace {
@@ -23,16 +21,6 @@ Nanoseconds interval_of(const WatchdogOptions& options) {
     if (limit > Nanoseconds(0)) shortest = std::min(shortest, limit);
   }
   return std::clamp<Nanoseconds>(shortest / 8, 10ms, 100ms);
-}
-
-// Of the signals that others send, this thread takes those that stop a run.
-sigset_t blocked_signals() {
-  sigset_t blocked;
-  sigfillset(&blocked);
-  for (const int number : {SIGINT, SIGTERM, SIGSEGV, SIGBUS, SIGFPE, SIGILL}) {
-    sigdelset(&blocked, number);
-  }
-  return blocked;
 }
 
 }  // namespace
@@ -62,12 +50,7 @@ struct Watchdog::Implementation {
 
 Watchdog::Implementation::Implementation(WatchdogOptions given, const CallMark& watched)
     : options(std::move(given)), interval(interval_of(options)), mark(watched) {
-  // A new thread begins with the mask of the one that starts it.
-  const sigset_t blocked = blocked_signals();
-  sigset_t before;
-  pthread_sigmask(SIG_SETMASK, &blocked, &before);
-  thread = std::thread([this] { watch(); });
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  thread = own_thread([this] { watch(); }, StopSignals::numbers());
 }
 
 Watchdog::Implementation::~Implementation() {
@@ -80,7 +63,6 @@ Watchdog::Implementation::~Implementation() {
 }
 
 void Watchdog::Implementation::watch() {
-  CrashReport::prepare_thread();
   WallClock clock;
   Nanoseconds last_look = clock.now();
   std::unique_lock lock(mutex);

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/descriptors.h"
 #include "study/plan_json.h"
 #include "study/row_reader.h"
 
@@ -19,15 +20,6 @@ namespace lockstep {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool write_all(int file, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t count = write(file, text.data(), text.size());
-    if (count < 0 && errno != EINTR) return false;
-    if (count > 0) text.remove_prefix(static_cast<std::size_t>(count));
-  }
-  return true;
-}
 
 // A file that is not there yet. 0, or why not.
 int write_new(const std::string& path, std::string_view text) {

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <exception>
 #include <limits>
 #include <semaphore>
 #include <thread>
 #include <vector>
 
+#include "core/own_thread.h"
 #include "study/row_text.h"
 
 namespace lockstep {
@@ -22,6 +24,7 @@ struct Chunk {
   std::uint64_t rows = 0;
   bool complete = true;  // false: nothing after it counts
   std::optional<StudyFault> fault;
+  std::exception_ptr failure;           // nobody expected it
   std::atomic<std::uint64_t> ready{0};  // 1 + the number of the chunk that is in it
 };
 
@@ -37,6 +40,16 @@ class Workshop {
   std::optional<StudyFault> run();
 
  private:
+  // However the writing ends, no thread waits for it any more.
+  struct Dismissal {
+    Workshop& shop;
+    ~Dismissal() {
+      shop.limit_ = 0;
+      shop.written_ = shop.chunks_;
+      shop.written_.notify_all();
+    }
+  };
+
   void make_chunks();
   void make(std::uint64_t number, Chunk& chunk, std::optional<StudyRun>& run, std::uint64_t& cell);
   void write_ready();
@@ -53,6 +66,7 @@ class Workshop {
   std::counting_semaphore<> gone_{0};      // threads that have ended
   bool closed_ = false;                    // nothing is written any more
   std::optional<StudyFault> fault_;
+  std::exception_ptr failure_;
 };
 
 void Workshop::make_chunks() {
@@ -66,8 +80,16 @@ void Workshop::make_chunks() {
       written_.wait(written, std::memory_order_acquire);
       written = written_.load(std::memory_order_acquire);
     }
+    if (number > limit_.load(std::memory_order_relaxed)) break;
     Chunk& chunk = slot(number);
-    make(number, chunk, run, cell);
+    try {
+      make(number, chunk, run, cell);
+    } catch (const std::exception&) {
+      chunk.failure = std::current_exception();
+      chunk.complete = false;
+      chunk.lines.clear();  // the last may be half a line
+      chunk.rows = 0;
+    }
     if (!chunk.complete) {
       std::uint64_t limit = limit_.load();
       while (number < limit && !limit_.compare_exchange_weak(limit, number)) {
@@ -119,6 +141,7 @@ void Workshop::write(Chunk& chunk) {
     limit_ = 0;
   }
   fault_ = chunk.fault;
+  failure_ = chunk.failure;
   closed_ |= !chunk.complete;
 }
 
@@ -137,11 +160,18 @@ void Workshop::write_ready() {
 
 std::optional<StudyFault> Workshop::run() {
   std::vector<std::jthread> threads;
-  for (unsigned job = 0; job < work_.jobs; ++job) threads.emplace_back([this] { make_chunks(); });
+  const Dismissal dismissal{*this};
+  for (unsigned job = 0; job < work_.jobs; ++job) {
+    threads.emplace_back([this] {
+      adopt_thread();
+      make_chunks();
+    });
+  }
   for (unsigned alive = work_.jobs; alive > 0;) {
     if (gone_.try_acquire_for(kWriteInterval)) --alive;
     write_ready();
   }
+  if (failure_ != nullptr) std::rethrow_exception(failure_);
   return fault_;
 }
 

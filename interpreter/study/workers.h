@@ -36,7 +36,8 @@ struct StudyWork {
 };
 
 // Runs until all rows are made, a leaf fails or a signal comes. The fault is the first in the order
-// of the rows; all rows before it were written.
+// of the rows; all rows before it were written. So they are when this throws what a thread has
+// thrown.
 std::optional<StudyFault> do_work(const StudyWork& work);
 
 }  // namespace lockstep

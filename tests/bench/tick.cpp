@@ -252,12 +252,14 @@ void observed_by_recorder(benchmark::State& state, const char* control, const ch
 }
 void observed_by_live_view(benchmark::State& state, const char* control, const char* attributes) {
   const BenchTree bench = with_changes(control, attributes, state.range(0));
-  std::FILE* const out = std::fopen("/dev/null", "w");
+  std::FILE* const null = std::fopen("/dev/null", "w");
   {
-    ConsoleLive view(bench.tree(), {.out = out});
+    Outlet out(fileno(null));
+    const Outlet::Thread thread(out);
+    ConsoleLive view(bench.tree(), {}, out);
     observe(state, bench, &view);
   }
-  std::fclose(out);
+  std::fclose(null);
 }
 void changing(benchmark::internal::Benchmark* benchmark) {
   for (const int leaves : {10, kLeaves}) benchmark->Arg(leaves);

@@ -65,9 +65,9 @@ TEST_CASE("a run whose recording waits for a disk without end is ended by a seco
   REQUIRE(process.wait_for(ticks));  // ticks do not wait
   process.signal(SIGINT);
   REQUIRE(process.wait_for("Main/Parallel/talks: info: halt\n"));
-  process.signal(SIGINT);
+  process.signal(SIGTERM);
   const Outcome outcome = process.finish();
-  CHECK(outcome.code == 130);
+  CHECK(outcome.code == 143);
   CHECK(outcome.out.empty());  // it came to no summary
 }
 

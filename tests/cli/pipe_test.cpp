@@ -81,7 +81,7 @@ TEST_CASE("devices, and pipes that no user has named, are not read") {
       {"lockstep check - < /dev/zero", neither},
       {"lockstep check /dev/stdin < /dev/zero", neither},
       {"lockstep check - < /dev/null", neither},
-      {"lockstep check - <&-", "stdin: error: cannot be read: Bad file descriptor"},
+      {"lockstep check - <&-", neither},  // which is /dev/null by then
       {"lockstep check .", "Is a directory"},
       {"mkfifo f; lockstep check fifo.xml", regular},
       {"cat tree.xml | lockstep check stdin.xml", regular},

@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 extern char** environ;
 
@@ -190,6 +191,23 @@ Outcome run(const Call& call) {
 
 Outcome lockstep(std::vector<std::string> arguments) {
   return run({.arguments = std::move(arguments)});
+}
+
+DeadEnd::DeadEnd(Reader reader) {
+  REQUIRE(pipe(ends_) == 0);
+  if (reader == Reader::Gone) {
+    close(std::exchange(ends_[0], -1));
+    return;
+  }
+  constexpr int kPage = 4096;
+  REQUIRE(fcntl(ends_[1], F_SETPIPE_SZ, kPage) == kPage);
+  const std::string page(kPage, '\n');
+  REQUIRE(write(ends_[1], page.data(), page.size()) == kPage);
+}
+
+DeadEnd::~DeadEnd() {
+  if (ends_[0] >= 0) close(ends_[0]);
+  close(ends_[1]);
 }
 
 TemporaryDirectory::TemporaryDirectory() {

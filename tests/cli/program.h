@@ -65,6 +65,21 @@ class Process {
   Outcome outcome_;
 };
 
+// The writing end of a pipe, for a program to inherit: full, and nobody reads it, or nobody can.
+class DeadEnd {
+ public:
+  enum class Reader { Gone, Stuck };
+  explicit DeadEnd(Reader reader);
+  ~DeadEnd();
+  DeadEnd(const DeadEnd&) = delete;
+  DeadEnd& operator=(const DeadEnd&) = delete;
+  // The number of the descriptor, for a shell.
+  std::string number() const { return std::to_string(ends_[1]); }
+
+ private:
+  int ends_[2] = {-1, -1};
+};
+
 // A directory of its own that is removed in the end.
 class TemporaryDirectory {
  public:

@@ -164,7 +164,8 @@ TEST_CASE("a replay plays by itself to the end") {
 TEST_CASE("however a replay ends, the terminal is as it was") {
   const TemporaryDirectory directory;
   const std::string file = record(directory);
-  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGSEGV, SIGABRT}) {
+  for (const int number :
+       {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGALRM, SIGXCPU, SIGSEGV, SIGABRT}) {
     Process process({.arguments = {"replay", file, "--speed", "0.001"}}, Process::Output::Terminal);
     REQUIRE(process.wait_for("tick 0 of 3"));
     const Outcome outcome = process.end_by(number);

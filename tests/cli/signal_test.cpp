@@ -13,13 +13,26 @@ const std::string kEndless =
     "<Parallel><Advance name=\"arm\" step=\"0\"/><Sequence name=\"then\">"
     "<Advance name=\"base\" step=\"0\"/></Sequence></Parallel>";
 
+// All that would end the process otherwise.
+constexpr int kStopSignals[] = {SIGINT,  SIGTERM, SIGHUP,  SIGQUIT, SIGUSR1,
+                                SIGUSR2, SIGALRM, SIGXCPU, SIGPROF, SIGPWR};
+
+// Of the leaf that never comes back: it says so a hundred times a second. Longer than a signal that
+// is sent twice at once counts as one.
+std::string still_stuck() {
+  std::string still;
+  for (int line = 0; line < 50; ++line) still += "stuck\n";
+  return still;
+}
+
 }  // namespace
 
-TEST_CASE("SIGINT and SIGTERM halt the running leaves in order and end the recording") {
+TEST_CASE("a stop signal halts the running leaves in order and ends the recording") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file("tree.xml", tree_text(kEndless));
   const std::string file = directory.path("run.jsonl");
-  for (const int number : {SIGINT, SIGTERM}) {
+  for (const int number : kStopSignals) {
+    CAPTURE(number);
     Process process({.arguments = {"run", tree, "--rate", "100", "--record", file}});
     REQUIRE(process.wait_for("Main/Parallel/then/base: started"));
     process.signal(number);
@@ -55,22 +68,89 @@ TEST_CASE("a second signal ends the program at once, whatever a leaf does") {
                                  LOCKSTEP_BINARY_DIR "/tests/cli/stuck.so"}});
   REQUIRE(process.wait_for("stuck\n"));
   process.signal(SIGINT);
-  std::string still;  // one signal does not: the leaf may yet come back
-  for (int line = 0; line < 20; ++line) still += "stuck\n";
-  REQUIRE(process.wait_for(still));
+  process.clear_output();
+  REQUIRE(process.wait_for(still_stuck()));  // one signal does not: the leaf may yet come back
   process.signal(SIGINT);
   const Outcome outcome = process.finish();
   CHECK(outcome.code == 130);
   CHECK(outcome.out.empty());
 }
 
+TEST_CASE(
+    "only a person is tired of waiting: other signals do not end a run that one has stopped") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "tree.xml", "<root lockstep=\"1\"><BehaviorTree ID=\"Main\"><Probe/></BehaviorTree></root>");
+  for (const int number : {SIGHUP, SIGUSR1, SIGALRM, SIGXCPU}) {
+    CAPTURE(number);
+    Process process({.arguments = {"run", tree, "--view", "none", "--plugin",
+                                   LOCKSTEP_BINARY_DIR "/tests/cli/stuck.so"}});
+    REQUIRE(process.wait_for("stuck\n"));
+    for (int time = 0; time < 3; ++time) {  // a terminal that closes, a timer
+      process.signal(number);
+      process.clear_output();
+      REQUIRE(process.wait_for(still_stuck()));
+    }
+    process.signal(SIGTERM);
+    CHECK(process.finish().code == 128 + SIGTERM);
+  }
+}
+
+TEST_CASE("nohup is respected, and Ctrl-C counts where a shell has it ignored") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("tree.xml", tree_text(kEndless));
+  Process process({.arguments = {"-c", "trap '' HUP INT; exec \"$0\" run \"$1\"",
+                                 LOCKSTEP_BINARY_DIR "/lockstep", tree},
+                   .program = "/bin/sh"});
+  REQUIRE(process.wait_for("Main/Parallel/then/base: started"));
+  process.signal(SIGHUP);
+  process.signal(SIGINT);
+  CHECK(process.finish().code == 130);
+}
+
+TEST_CASE("a file that may not grow is an error of the recording, not the end of the run") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("tree.xml", tree_text("<Advance step=\"0.000005\"/>"));
+  // More ticks than the queue to the disk takes, so that the run sees the error.
+  const auto limited = [&](const std::string& policy) {
+    return run({.arguments = {"-c", "ulimit -f 8; exec \"$@\"", "sh",
+                              LOCKSTEP_BINARY_DIR "/lockstep", "run", tree, "--clock", "virtual",
+                              "--record", directory.path("run.jsonl"), "--on-record-error", policy},
+                .program = "/bin/bash"});
+  };
+  const Outcome going_on = limited("go-on"), stopped = limited("stop");
+  CHECK(going_on.code == 0);
+  CHECK(contains(going_on.err, "File too large"));
+  CHECK(stopped.code == 8);
+  const Outcome info = lockstep({"log", "info", directory.path("run.jsonl")});
+  CHECK(info.code == 0);
+  CHECK(contains(info.err, "cut"));
+}
+
+TEST_CASE("recording and messages on one full disk: the policy counts, and the leaves are halted") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("tree.xml", tree_text("<Advance step=\"0.001\"/>"));
+  for (const auto& [policy, code] : {std::pair("go-on", 0), {"stop", 8}}) {
+    const Outcome outcome =
+        run({.arguments = {"-c", "exec \"$@\" 2>/dev/full", "sh", LOCKSTEP_BINARY_DIR "/lockstep",
+                           "run", tree, "--clock", "virtual", "--record", "/dev/full",
+                           "--on-record-error", policy},
+             .program = "/bin/sh"});
+    CHECK(outcome.code == code);
+    CHECK(contains(outcome.out, "note: cannot write '/dev/full': No space left on device"));
+  }
+}
+
 TEST_CASE("a signal restores the cursor of the terminal") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file("tree.xml", tree_text(kEndless));
-  Process process({.arguments = {"run", tree}}, Process::Output::Terminal);
-  REQUIRE(process.wait_for("\x1b[?25l"));
-  process.signal(SIGINT);
-  const Outcome outcome = process.finish();
-  CHECK(outcome.code == 130);
-  CHECK(outcome.out.rfind("\x1b[?25h") > outcome.out.rfind("\x1b[?25l"));
+  for (const int number : kStopSignals) {
+    CAPTURE(number);
+    Process process({.arguments = {"run", tree}}, Process::Output::Terminal);
+    REQUIRE(process.wait_for("\x1b[?25l"));
+    process.signal(number);
+    const Outcome outcome = process.finish();
+    CHECK(outcome.code == 128 + number);
+    CHECK(outcome.out.rfind("\x1b[?25h") > outcome.out.rfind("\x1b[?25l"));
+  }
 }

@@ -28,10 +28,9 @@ struct Recording {
 
 // "" when the whole of it can be read.
 std::string print(const std::string& text) {
-  static std::FILE* const nowhere = std::fopen("/dev/null", "w");
   Recording csv(text), info(text);
-  write_csv(csv.reader, nowhere);
-  write_info(info.reader, nowhere);
+  write_csv(csv.reader, [](std::string_view) { return true; });
+  info_text(info.reader);
   check(csv.reader.error() == info.reader.error());
   if (csv.reader.error().empty()) check(!csv.reader.next() && !info.reader.next());
   return csv.reader.error();

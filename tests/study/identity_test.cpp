@@ -205,7 +205,7 @@ TEST_CASE("a study that a signal ends goes on to the same bytes") {
   const StudyCase it;
   const Strings study{kPaper + "example5.xml", "--runs", "60000", "--jobs", "2"};
   it.make(study, "whole");
-  for (const int number : {SIGINT, SIGTERM, SIGKILL}) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGKILL}) {
     fs::remove_all(it.path("cut"));
     Process process({.arguments = with({"study", "--no-plots", "--out", it.path("cut")}, study)},
                     Process::Output::Terminal);

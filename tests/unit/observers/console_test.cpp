@@ -20,7 +20,7 @@ LineBudget::Time frozen() {
 std::string plain(std::string_view tree, std::string_view leaves, std::uint64_t max_ticks = 1000) {
   TextFile out;
   WatchedRun run(tree, leaves);
-  ConsolePlain console(run.run.tree(), out.get(), frozen);
+  ConsolePlain console(run.run.tree(), out.outlet(), frozen);
   run.watch({&console}, max_ticks);
   return out.text();
 }
@@ -62,7 +62,7 @@ TEST_CASE("a fault that the run goes on after is told at once, however much was 
   WatchedRun run("Repeat(a)", "a=RS...");
   run.faults[500] = {{1, "threw\x1b[2J"}};
   run.faults[501].assign(ConsolePlain::kBurstOfFaults + 9, {1, "again"});
-  ConsolePlain console(run.run.tree(), out.get(), frozen);
+  ConsolePlain console(run.run.tree(), out.outlet(), frozen);
   run.watch({&console}, 1000);
   const std::string text = out.text();
   CHECK(text.find("    50.000 s  tick 500     Test/Repeat/a: failed: threw\\x1B[2J; counted as "
@@ -114,7 +114,7 @@ TEST_CASE("a standstill in words") {
 TEST_CASE("the live view leaves the last state and the cursor on the screen") {
   TextFile out;
   WatchedRun run("ParallelAbsolute[barriers=.5;1](a b)", "a+.25 b+.5");
-  ConsoleLive live(run.run.tree(), {.out = out.get(), .color = false, .unicode = false});
+  ConsoleLive live(run.run.tree(), {.color = false, .unicode = false}, out.outlet());
   live.print("a line of a leaf");
   run.watch({&live});
   const std::string text = out.text();
@@ -132,7 +132,7 @@ TEST_CASE("the live view leaves the last state and the cursor on the screen") {
 TEST_CASE("no line is lost after the last frame, and too many are counted") {
   TextFile out;
   WatchedRun run("Sequence(a)", "a=S");
-  ConsoleLive live(run.run.tree(), {.out = out.get()});
+  ConsoleLive live(run.run.tree(), {}, out.outlet());
   for (std::size_t i = 0; i < ConsoleLive::kMostLines + 7; ++i) live.print("early");
   run.watch({&live});
   live.print("late");
@@ -145,7 +145,7 @@ TEST_CASE("a live view that is given up restores the cursor") {
   TextFile out;
   WatchedRun run("Sequence(a)", "a=R");
   {
-    ConsoleLive live(run.run.tree(), {.out = out.get()});
+    ConsoleLive live(run.run.tree(), {}, out.outlet());
     live.run_started(run.run.ticker(), run.start);
   }
   CHECK(out.text().ends_with("\x1b[?25h"));

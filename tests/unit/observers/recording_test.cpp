@@ -13,7 +13,6 @@ namespace lockstep {
 namespace {
 
 using test::TemporaryPath;
-using test::TextFile;
 using test::WatchedRun;
 
 constexpr const char* kTree = "ParallelAbsolute[barriers=.5;1](a b)";
@@ -100,11 +99,14 @@ std::string csv_of(const std::string& recording, std::string* error = nullptr,
                    std::string* cut = nullptr) {
   std::istringstream in(recording);
   RecordingReader reader(in, "run.jsonl");
-  TextFile out;
-  CHECK(write_csv(reader, out.get()));
+  std::string rows;
+  CHECK(write_csv(reader, [&rows](std::string_view more) {
+    rows += more;
+    return true;
+  }));
   if (error != nullptr) *error = reader.error();
   if (cut != nullptr) *cut = reader.cut();
-  return out.text();
+  return rows;
 }
 
 TEST_CASE("a recording as a table") {
@@ -168,10 +170,8 @@ TEST_CASE("faults that the run went on after are in their tick, and counted") {
   CHECK(text.find("faults", text.find("\"tick\":2")) == std::string::npos);
   std::istringstream in(text);
   RecordingReader reader(in, "run.jsonl");
-  TextFile out;
-  write_info(reader, out.get());
-  CHECK(out.text().find("\n  2 faults of leaves that the run went on after\n") !=
-        std::string::npos);
+  const std::string info = info_text(reader);
+  CHECK(info.find("\n  2 faults of leaves that the run went on after\n") != std::string::npos);
   CHECK(csv_of(text).find("broke") == std::string::npos);
 }
 
@@ -185,10 +185,9 @@ TEST_CASE("lost ticks have no rows, and info tells of them") {
   CHECK(table.find("\n3,0.3,2,Test/ParallelAbsolute/b,success,1,0,0\n") != std::string::npos);
   std::istringstream in(text);
   RecordingReader reader(in, "run.jsonl");
-  TextFile out;
-  write_info(reader, out.get());
+  const std::string info = info_text(reader);
   CHECK(reader.lost() == 2);
-  CHECK(out.text().find("\n  2 ticks are missing, the first is 1: the disk was too slow\n") !=
+  CHECK(info.find("\n  2 ticks are missing, the first is 1: the disk was too slow\n") !=
         std::string::npos);
 }
 
@@ -282,9 +281,8 @@ TEST_CASE("what is wrong with a recording is told with its line") {
 TEST_CASE("info measures a recording as the run was measured") {
   std::istringstream in(kRecording);
   RecordingReader reader(in, "run.jsonl");
-  TextFile out;
-  write_info(reader, out.get());
-  CHECK(out.text() ==
+  const std::string info = info_text(reader);
+  CHECK(info ==
         "Test from trees/a.xml, recorded by lockstep 0.1.0\n"
         "  3 nodes, 10 Hz, virtual clock, seed 18446744073709551615\n"
         "  argument barriers = 0.5;1\n"
@@ -298,10 +296,9 @@ TEST_CASE("info measures a recording as the run was measured") {
 TEST_CASE("info says that a recording is cut") {
   std::istringstream in(std::string(kRecording).substr(0, std::string(kRecording).find("{\"end")));
   RecordingReader reader(in, "run.jsonl");
-  TextFile out;
-  write_info(reader, out.get());
-  CHECK(out.text().find("  4 ticks, 0.300 s; the recording is cut: it ends after line 5 without a "
-                        "closing line\n") != std::string::npos);
+  const std::string info = info_text(reader);
+  CHECK(info.find("  4 ticks, 0.300 s; the recording is cut: it ends after line 5 without a "
+                  "closing line\n") != std::string::npos);
 }
 
 TEST_CASE("a recording that cannot be written is told once and the run goes on") {

@@ -9,7 +9,6 @@
 namespace lockstep {
 namespace {
 
-using test::TextFile;
 using test::WatchedRun;
 
 constexpr const char* kTree = "ParallelAbsolute[barriers=.5;1](a b)";
@@ -67,9 +66,9 @@ TEST_CASE("a child that is held when the run ends was held until then") {
 }
 
 std::string text_of(const Summary& summary, bool color = false) {
-  TextFile out;
-  write_text(summary, out.get(), color);
-  return out.text();
+  std::string text;
+  write_text(summary, text, color);
+  return text;
 }
 
 TEST_CASE("the summary as text") {

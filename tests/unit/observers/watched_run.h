@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "runtime/observer.h"
+#include "runtime/outlet.h"
 #include "support/scripted_run.h"
 
 namespace lockstep::test {
@@ -24,7 +25,7 @@ struct WatchedRun {
   RunStart start{.period = std::chrono::milliseconds(100), .real_time = false};
 };
 
-// All that was written to a temporary file, for functions that print to one.
+// What was said to a temporary file.
 class TextFile {
  public:
   TextFile() : file_(std::tmpfile()) {}
@@ -32,11 +33,12 @@ class TextFile {
   TextFile(const TextFile&) = delete;
   TextFile& operator=(const TextFile&) = delete;
 
-  std::FILE* get() { return file_; }
+  Outlet& outlet() { return outlet_; }
   std::string text();
 
  private:
   std::FILE* file_;
+  Outlet outlet_{fileno(file_)};
 };
 
 // A path in the temporary folder, removed with everything in it.

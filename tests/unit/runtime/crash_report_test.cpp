@@ -14,6 +14,7 @@
 #include <string>
 #include <thread>
 
+#include "core/own_thread.h"
 #include "unit/runtime/forked_child.h"
 
 namespace lockstep::test {
@@ -111,10 +112,10 @@ TEST_CASE("a stack overflow is told on a stack of its own") {
   CHECK(has(ended, "lockstep: backtrace:\n"));
 }
 
-TEST_CASE("a stack overflow in a thread that was prepared is told, too") {
+TEST_CASE("a stack overflow in a thread of our own is told, too") {
   const Ended ended = in_run([] {
     std::thread([] {
-      CrashReport::prepare_thread();
+      adopt_thread();
       const MarkedCall call(leaf, PluginFunction::Create);
       overflow(0);
     }).join();

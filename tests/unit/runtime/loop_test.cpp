@@ -2,11 +2,16 @@
 // ticks of leaves by a plan, and beyond deadlines by the latency of waking up.
 #include "runtime/loop.h"
 
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <new>
 #include <random>
 #include <stdexcept>
 
+#include "core/own_thread.h"
+#include "unit/runtime/forked_child.h"
 #include "unit/runtime/timed_leaf.h"
 
 namespace lockstep::test {
@@ -314,6 +319,38 @@ TEST_CASE("on a virtual clock nothing is late and no tick is the worst") {
   CHECK(end.reason == StopReason::MaxTicks);
   CHECK(end.overruns == 0);
   CHECK(end.worst.took == Nanoseconds(0));
+}
+
+TEST_CASE("an exception that nobody expected halts the running leaves on its way") {
+  struct Throwing final : Observer {
+    void after_tick(Ticker&, const TickReport& report) override {
+      if (report.tick == 3) throw std::bad_alloc();
+    }
+  } throwing;
+  Fixture fixture(3);
+  Observer* const observers[] = {&throwing};
+  const auto run_it = [&] {
+    Run run(fixture.timed.tree, {});
+    run_loop(run, fixture.clock, options_at(100, 10, OverrunPolicy::Skip), observers);
+  };
+  CHECK_THROWS_AS(run_it(), std::bad_alloc);
+  CHECK(TimedLeaves::halted == 3);
+}
+
+TEST_CASE("an exception in another thread of ours ends the run at its next tick") {
+  const Ended ended = in_child([] {
+    Fixture fixture(3);
+    TimedLeaves::on_tick = [](std::uint32_t leaf) {
+      if (leaf == 2) own_thread([] { throw std::runtime_error("unexpected"); }).join();
+    };
+    try {
+      fixture.run(options_at(100, 10, OverrunPolicy::Skip));
+    } catch (const std::runtime_error& error) {
+      const bool good = error.what() == std::string("unexpected") && TimedLeaves::halted == 3;
+      _exit(good ? 42 : 1);
+    }
+  });
+  CHECK(ended.exit_code == 42);
 }
 
 }  // namespace lockstep::test

@@ -1,5 +1,5 @@
 // A stack for the signal handlers of one thread, who must not need the thread's own: it may have
-// overflowed. Used by crash_report.cpp.
+// overflowed. Used by own_thread.cpp.
 #pragma once
 
 #include <signal.h>

@@ -1,0 +1,48 @@
+#include "core/descriptors.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <climits>
+
+namespace lockstep {
+
+void hold_standard_descriptors() noexcept {
+  // The wrong way around for stdin and stdout: who needs them must see that they are missing.
+  constexpr int kModes[] = {O_WRONLY, O_RDONLY, O_WRONLY};
+  for (int file = STDIN_FILENO; file <= STDERR_FILENO; ++file) {
+    // open() returns the lowest number that is free, which is this one.
+    if (fcntl(file, F_GETFD) < 0) static_cast<void>(open("/dev/null", kModes[file]));
+  }
+}
+
+void make_writes_fail() noexcept {
+  signal(SIGPIPE, SIG_IGN);
+  signal(SIGXFSZ, SIG_IGN);
+}
+
+bool write_all(int file, std::string_view text, bool (*gives_up)()) noexcept {
+  while (!text.empty()) {
+    const ssize_t count = write(file, text.data(), text.size());
+    if (count < 0 && (errno != EINTR || (gives_up != nullptr && gives_up()))) return false;
+    if (count > 0) text.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return true;
+}
+
+void write_now(int file, std::string_view text) noexcept {
+  while (!text.empty()) {
+    pollfd reader{file, POLLOUT, 0};
+    if (poll(&reader, 1, 0) != 1 || (reader.revents & POLLOUT) == 0) return;
+    // A pipe that can be written to takes so many bytes without waiting.
+    const ssize_t count = write(file, text.data(), std::min<std::size_t>(text.size(), PIPE_BUF));
+    if (count <= 0) return;
+    text.remove_prefix(static_cast<std::size_t>(count));
+  }
+}
+
+}  // namespace lockstep

@@ -1,0 +1,25 @@
+#include "runtime/fuse.h"
+
+#include <signal.h>
+#include <unistd.h>
+
+namespace lockstep {
+namespace {
+
+volatile sig_atomic_t g_fuse_code = 0;
+
+}  // namespace
+
+void light_fuse(unsigned seconds, int exit_code) {
+  g_fuse_code = exit_code;
+  struct sigaction action {};
+  action.sa_handler = [](int) { _exit(g_fuse_code); };
+  sigaction(SIGALRM, &action, nullptr);
+  sigset_t alarm_only;
+  sigemptyset(&alarm_only);
+  sigaddset(&alarm_only, SIGALRM);
+  pthread_sigmask(SIG_UNBLOCK, &alarm_only, nullptr);
+  alarm(seconds);
+}
+
+}  // namespace lockstep
