@@ -56,6 +56,7 @@ std::string nodes_as_json(NodeTypes types) {
                    {"doc", type->doc},
                    {"children", children_json(*type)},
                    {"has_progress", type->has_progress},
+                   {"real_time", type->real_time},
                    {"parameters", std::move(parameters)}});
   }
   return printable_json(all.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n";

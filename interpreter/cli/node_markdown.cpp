@@ -37,6 +37,8 @@ std::string section(const NodeType& type) {
   if (type.category == NodeCategory::Action && !type.has_progress) {
     text += "; it reports no progress: 0 until it succeeds";
   }
+  if (type.real_time)
+    text += "; it works in real time, so on the virtual clock no tick waits for it";
   text += ".\n\n";
   const std::string table = table_rows(type);
   return table.empty() ? text : text + "| Attribute | Value | |\n|---|---|---|\n" + table + "\n";

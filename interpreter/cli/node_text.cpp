@@ -102,6 +102,9 @@ std::string node_as_text(const NodeType& type) {
   if (type.category == NodeCategory::Action && !type.has_progress) {
     text += "\n  It reports no progress: 0 until it succeeds.\n";
   }
+  if (type.real_time) {
+    text += "\n  It works in real time: on the virtual clock no tick waits for it.\n";
+  }
   const auto parameters = rows(type);
   return parameters.empty() ? text : text + "\n" + table(parameters, 2);
 }

@@ -6,6 +6,7 @@
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/outputs.h"
+#include "cli/real_time_leaves.h"
 #include "cli/run_options.h"
 #include "cli/run_watch.h"
 #include "cli/view.h"
@@ -220,6 +221,12 @@ int run(const RunCommandOptions& options) {
       would_overwrite("--record", options.record, inputs_of_run(options, loaded)))
     return kExitUsage;
   const Tree tree = take_tree(loaded);
+  if (!options.is_wall()) {
+    Diagnostics warnings;
+    warn_of_real_time_leaves(tree, options.tree, "the run means little; use --clock wall",
+                             warnings);
+    print_diagnostics(warnings, Severity::Warning);
+  }
   return RunCommand(options, loaded, tree).run(loaded.plugins);
 }
 

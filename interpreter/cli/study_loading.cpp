@@ -9,6 +9,7 @@
 
 #include "cli/checks.h"
 #include "cli/exit_code.h"
+#include "cli/real_time_leaves.h"
 #include "core/suggest.h"
 #include "study/column_names.h"
 #include "study/plan_check.h"
@@ -55,6 +56,7 @@ class StudyLoader {
   Diagnostics& diagnostics_;
   std::set<std::string> files_;
   std::map<std::string, std::size_t> columns_;  // of the plan, by name
+  bool warned_of_real_time_ = false;
 };
 
 void StudyLoader::read_measures() {
@@ -199,6 +201,11 @@ int StudyLoader::load_cell(std::uint64_t number) {
   if (loaded.project) add_files(*loaded.project);
   if (!loaded.definition) return code;
   study_.cells.push_back({take_tree(loaded), cell_rate(plan, number), cell_seed(plan, number)});
+  if (!warned_of_real_time_) {
+    warned_of_real_time_ = warn_of_real_time_leaves(
+        study_.cells.back().tree, options_.tree,
+        "the numbers mean little; a study needs leaves that work in ticks", diagnostics_);
+  }
   add_columns(study_.cells.back(), number);
   if (number == 0) plan.main_tree = study_.cells.front().tree.id;
   return code;

@@ -10,15 +10,6 @@ namespace {
 
 constexpr std::size_t kMostBarriers = 12;
 
-// As the papers about behavior trees draw control nodes; "" for all others.
-std::string_view sign(const NodeType& type) {
-  if (type.id == "Sequence") return "→";
-  if (type.id == "Fallback") return "?";
-  if (type.id == "Parallel") return "⇉";
-  if (type.id == "ParallelAbsolute") return "⇉A";
-  return type.id == "ParallelRelative" ? "⇉R" : "";
-}
-
 const Value& parameter(const Drawn& drawn, const DefinitionNode& node, std::string_view name) {
   std::uint32_t place = node.first;
   for (const Parameter& it : node.type->parameters) {
@@ -36,10 +27,10 @@ std::string barriers_text(const std::vector<double>& barriers) {
 
 // What the sign of a control node does not say.
 std::vector<std::string> control_lines(const Drawn& drawn, const DefinitionNode& node) {
-  if (node.type->id == "ParallelAbsolute") {
+  if (node.type->synchronization == Synchronization::Absolute) {
     return {barriers_text(std::get<std::vector<double>>(parameter(drawn, node, "barriers")))};
   }
-  if (node.type->id == "ParallelRelative") {
+  if (node.type->synchronization == Synchronization::Relative) {
     return {fmt::format("Δ = {}", std::get<double>(parameter(drawn, node, "delta")))};
   }
   return shown_attributes(drawn, node);
@@ -59,10 +50,10 @@ std::vector<std::string> shown_attributes(const Drawn& drawn, const DefinitionNo
 }
 
 std::vector<std::string> shown_lines(const Drawn& drawn, const DefinitionNode& node) {
-  const std::string_view drawn_sign = sign(*node.type);
-  std::vector<std::string> lines{std::string(drawn_sign.empty() ? node.type->id : drawn_sign)};
+  const std::string_view sign = node.type->sign;
+  std::vector<std::string> lines{std::string(sign.empty() ? node.type->id : sign)};
   if (node.name != node.type->id) lines.push_back(printable(node.name));
-  const auto more = drawn_sign.empty() ? shown_attributes(drawn, node) : control_lines(drawn, node);
+  const auto more = sign.empty() ? shown_attributes(drawn, node) : control_lines(drawn, node);
   lines.insert(lines.end(), more.begin(), more.end());
   return lines;
 }

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/status.h"
 #include "core/value.h"
 
 namespace lockstep {
@@ -17,6 +18,9 @@ namespace lockstep {
 enum class NodeCategory : std::uint8_t { Control, Decorator, Action, Condition, SubTree };
 
 enum class Direction : std::uint8_t { Input, Output, InOut };
+
+// What keeps the children of a control node in step.
+enum class Synchronization : std::uint8_t { None, Absolute, Relative };
 
 // Numbers that a parameter may take. The ends belong to it unless said otherwise.
 struct Range {
@@ -60,10 +64,18 @@ struct NodeType {
   // Checks what no single parameter can say, and fills in values that follow from others. The
   // values stand in the order of `parameters`; an absent one is monostate. May be null.
   std::optional<RuleBreak> (*rule)(std::span<Value> values, std::uint32_t children) = nullptr;
-  bool has_progress = true;       // false: an action that reports none, so 0 until Success
-  std::string_view plugin = {};   // the plugin it comes from; "" = built in
-  const void* origin = nullptr;   // the plugin it comes from, for those who know what that is
-  const void* binding = nullptr;  // a leaf's lockstep_leaf_type; null = built in
+  // What advice and drawings need to know.
+  std::string_view sign = {};  // as papers draw it, "→"; "": by its id
+  Synchronization synchronization = Synchronization::None;
+  Status goes_on_after = Status::Idle;  // children are ticked from the left, each after this result
+  bool inverts = false;                 // a decorator that swaps Success and Failure
+  bool can_run = false;                 // Running is its own result, not only a child's
+  bool acts_again = true;               // false: after it completed once, a tick of it does nothing
+  bool real_time = false;               // an action that works on while no tick comes
+  bool has_progress = true;             // false: an action that reports none, so 0 until Success
+  std::string_view plugin = {};         // the plugin it comes from; "" = built in
+  const void* origin = nullptr;         // the plugin it comes from, for those who know what that is
+  const void* binding = nullptr;        // a leaf's lockstep_leaf_type; null = built in
 };
 
 constexpr std::string_view to_string(NodeCategory category) {

@@ -13,13 +13,13 @@ class Adviser {
       : project_(project),
         definition_(definition),
         diagnostics_(diagnostics),
-        acting_(find_acting()) {}
+        conduct_(conducts()) {}
 
   void advise() const {
     for (std::uint32_t node = 0; node < definition_.nodes.size(); ++node) {
-      const std::string_view id = at(node).type->id;
-      if (id == "Sequence" && !has_memory(node)) sequence_restarts(node);
-      if (id == "ParallelAbsolute" || id == "ParallelRelative") child_without_progress(node);
+      const NodeType& type = *at(node).type;
+      if (type.goes_on_after != Status::Idle && !has_memory(node)) restarts(node);
+      if (type.synchronization != Synchronization::None) child_without_progress(node);
     }
     unwritten_entries();
   }
@@ -41,41 +41,87 @@ class Adviser {
     return std::get<bool>(definition_.values[at(node).first]);
   }
 
-  // Of each node: whether ticking it anew after Success does work again. Descendants come first.
-  std::vector<bool> find_acting() const {
-    std::vector<bool> acts(definition_.nodes.size(), false);  // at first: whether a child does
-    for (auto node = static_cast<std::uint32_t>(acts.size()); node-- > 0;) {
-      acts[node] = acts_again(node, acts[node]);
-      if (acts[node]) acts[at(node).parent] = true;
+  // What is known of a node, or of the children of a node together.
+  struct Conduct {
+    bool has_action : 1 = false;
+    bool can_run : 1 = false;  // return Running
+    // Ticking it again after that result does work again.
+    bool again_after_success : 1 = false;
+    bool again_after_failure : 1 = false;
+
+    bool again_after(Status result) const {
+      return result == Status::Success ? again_after_success : again_after_failure;
     }
-    return acts;
+    void add(Conduct child) {
+      has_action |= child.has_action;
+      can_run |= child.can_run;
+      again_after_success |= child.again_after_success;
+      again_after_failure |= child.again_after_failure;
+    }
+  };
+
+  std::vector<Conduct> conducts() const {
+    std::vector<Conduct> all(definition_.nodes.size());  // at first: of the children
+    for (auto node = static_cast<std::uint32_t>(all.size()); node-- > 0;) {
+      const bool asks = at(node).children > 0 && !all[node + 1].has_action;
+      all[node] = conduct(*at(node).type, all[node], asks);
+      if (node > 0) all[at(node).parent].add(all[node]);
+    }
+    return all;
   }
 
-  // A Fallback that begins with a condition asks first, so it does not.
-  bool acts_again(std::uint32_t node, bool child_acts) const {
-    const NodeType& type = *at(node).type;
-    if (type.category == NodeCategory::Action) return !type.id.starts_with("Always");
-    if (!child_acts || type.id == "RunOnce" || type.category == NodeCategory::Condition)
-      return false;
-    return type.id != "Fallback" || at(node + 1).type->category != NodeCategory::Condition;
+  // `asks`: its first child is, or is made of, conditions.
+  static Conduct conduct(const NodeType& type, Conduct children, bool asks) {
+    Conduct it = children;
+    it.has_action |= type.category == NodeCategory::Action;
+    it.can_run |= type.can_run;
+    if (type.category == NodeCategory::Action || type.category == NodeCategory::Control) {
+      // What a control node returned, its children need not have returned.
+      it.again_after_success = it.again_after_failure = type.category == NodeCategory::Action ||
+                                                        children.again_after_success ||
+                                                        children.again_after_failure;
+    }
+    if (type.goes_on_after == Status::Success) {
+      it.again_after_success = children.again_after_success;
+      it.again_after_failure &= !asks;
+    } else if (type.goes_on_after == Status::Failure) {
+      it.again_after_failure = children.again_after_failure;
+      it.again_after_success &= !asks;
+    }
+    if (type.inverts) {
+      it.again_after_success = children.again_after_failure;
+      it.again_after_failure = children.again_after_success;
+    }
+    if (!type.acts_again) it.again_after_success = it.again_after_failure = false;
+    return it;
   }
 
-  void sequence_restarts(std::uint32_t sequence) const {
+  // Without memory all children up to the one that runs are ticked in every tick.
+  void restarts(std::uint32_t node) const {
     constexpr int kMostTold = 10;  // the first few show what is meant
     int told = 0;
+    const Status result = at(node).type->goes_on_after;
     std::uint32_t earlier = 0;
-    for_each_child(sequence, [&](std::uint32_t child) {
-      if (!acting_[child]) return;
-      if (earlier != 0 && told++ < kMostTold) {
-        add(earlier, Severity::Warning,
-            fmt::format("'{}' is started again in every tick in which '{}' runs",
-                        brief(at(earlier).name), brief(at(child).name)),
-            "the Sequence ticks all its children in every tick: give it memory=\"true\", or let "
-            "the "
-            "action return Success at once where its goal already holds");
+    for_each_child(node, [&](std::uint32_t child) {
+      if (earlier != 0 && conduct_[child].can_run) {
+        if (told++ < kMostTold) add_restart(node, earlier, child);
+        earlier = 0;
       }
-      earlier = child;
+      if (conduct_[child].again_after(result)) earlier = child;
     });
+  }
+
+  void add_restart(std::uint32_t node, std::uint32_t earlier, std::uint32_t later) const {
+    const NodeType& type = *at(node).type;
+    add(earlier, Severity::Warning,
+        fmt::format("'{}' is started again in every tick in which '{}' runs",
+                    brief(at(earlier).name), brief(at(later).name)),
+        fmt::format("without memory a {} begins with its first child in every tick: give it "
+                    "memory=\"true\", or {}",
+                    type.id,
+                    type.goes_on_after == Status::Success
+                        ? "let the action return Success at once where its goal already holds"
+                        : "put a condition before the action that says whether to try it"));
   }
 
   // A decorator or SubTree has its child's progress.
@@ -127,7 +173,7 @@ class Adviser {
   const Project& project_;
   const Definition& definition_;
   Diagnostics& diagnostics_;
-  const std::vector<bool> acting_;
+  const std::vector<Conduct> conduct_;
 };
 
 }  // namespace

@@ -1,21 +1,19 @@
 #include "engine/synchronized.h"
 
-#include "engine/nodes/kinds.h"
+#include "engine/nodes/synchronized_tick.h"
 
 namespace lockstep {
-
-Synchronization synchronization(const Node& node) {
-  if (node.kind == &kParallelAbsolute) return Synchronization::Absolute;
-  if (node.kind == &kParallelRelative) return Synchronization::Relative;
-  return Synchronization::None;
-}
 
 std::span<const double> child_progress(Ticker& ticker, NodeIndex node) {
   return ticker.child_numbers(node);
 }
 
+bool succeeded(Ticker& ticker, NodeIndex node) {
+  return ticker.state<synchronized::State>(node).succeeded;
+}
+
 std::span<const double> barriers(const Tree& tree, NodeIndex node) {
-  if (tree.nodes[node].kind != &kParallelAbsolute) return {};
+  if (synchronization(tree.nodes[node]) != Synchronization::Absolute) return {};
   const Cell& cell = tree.cells[tree.nodes[node].params];
   return std::span(tree.numbers).subspan(cell.list.first, cell.list.count);
 }

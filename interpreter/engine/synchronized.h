@@ -7,13 +7,17 @@
 
 namespace lockstep {
 
-enum class Synchronization : std::uint8_t { None, Absolute, Relative };
-
-Synchronization synchronization(const Node& node);
+inline Synchronization synchronization(const Node& node) {
+  return node.kind->type.synchronization;
+}
 
 // The progress of each child at the start of its parallel's last tick, as the node used it: 1 for a
 // child that has succeeded. Only for synchronized nodes; valid until the next tick.
 std::span<const double> child_progress(Ticker& ticker, NodeIndex node);
+
+// Of a synchronized node that the last tick reached: whether it has succeeded in it, also when an
+// ancestor that ended in the same tick has made it idle again.
+bool succeeded(Ticker& ticker, NodeIndex node);
 
 // ParallelAbsolute: its barriers, rising. ParallelRelative: empty.
 std::span<const double> barriers(const Tree& tree, NodeIndex node);

@@ -68,6 +68,8 @@ NodeType node_type(const lockstep_plugin& plugin, const Descriptors::Leaf& leaf)
                   .doc = leaf.type.doc == nullptr ? "" : leaf.type.doc,
                   .arity = {0, 0},
                   .parameters = leaf.parameters,
+                  .can_run = is_action,
+                  .real_time = (leaf.type.flags & LOCKSTEP_REAL_TIME) != 0,
                   .has_progress = !is_action || leaf.type.progress != nullptr,
                   .plugin = plugin.name,
                   .origin = &plugin,

@@ -61,6 +61,19 @@ TEST_CASE("a plugin that is not found: where it was searched, and the nearest na
                 "that has it to the plugin path"});
 }
 
+TEST_CASE("a leaf works in real time if its plugin says so, and none of ABI 1.0 does") {
+  for (const Isolation isolation : {Isolation::InProcess, Isolation::Isolated}) {
+    for (const std::string name : {"good", "minor_0", "real_time"}) {
+      INFO(name << (isolation == Isolation::Isolated ? ", isolated" : ""));
+      PluginSet plugins;
+      set_isolation(plugins, isolation);
+      Diagnostics diagnostics;
+      REQUIRE(plugins.load_file(plugin_path(name), diagnostics));
+      CHECK(plugins.types()[0]->real_time == (name == "real_time"));
+    }
+  }
+}
+
 TEST_CASE("a plugin that was asked for by name has that name") {
   CHECK(refusal_of_name("other_name") ==
         Strings{"plugin '" + plugin_path("other_name") +

@@ -26,7 +26,7 @@ const Case kCases[] = {
   {"no_entry", "does not export 'lockstep_plugin_entry'", "is it a lockstep plugin? docs/plugins.md shows how one is built"},
   {"entry_is_function", "exports 'lockstep_plugin_entry' as a function", "define it as a constant of type lockstep_plugin"},
   {"entry_too_small", "exports a constant of 4 bytes, expected a lockstep_plugin", "define lockstep_plugin_entry as in docs/plugins.md"},
-  {"wrong_abi", "was built for plugin ABI 2.3, this program has 1.0", "build it with the lockstep/leaf.h of this version"},
+  {"wrong_abi", "was built for plugin ABI 2.3, this program has 1.1", "build it with the lockstep/leaf.h of this version"},
   {"undefined_symbol", "cannot be loaded: undefined symbol: a_function_that_nobody_has", "link the plugin with the library that defines it; functions of lockstep are reached through the host table only"},
   {"plugin_too_small", "has a lockstep_plugin with struct_size 24, expected at least 96", "set it to sizeof(lockstep_plugin)"},
   {"plugin_too_large", "has a lockstep_plugin with struct_size 4000, expected at most 96", "set it to sizeof(lockstep_plugin)"},

@@ -59,7 +59,8 @@ static double progress(void* leaf) {
                                               NULL,                       \
                                               NULL,                       \
                                               half,                       \
-                                              NULL}
+                                              NULL,                       \
+                                              0}
 LEAF(kSucceed, "BenchSuccess", succeed);
 LEAF(kFail, "BenchFailure", fail);
 LEAF(kRun, "BenchRunning", run);
@@ -77,7 +78,8 @@ static const lockstep_leaf_type kAdvance = {sizeof(lockstep_leaf_type),
                                             NULL,
                                             NULL,
                                             progress,
-                                            NULL};
+                                            NULL,
+                                            0};
 
 /* One that reads the first `reads` of its four inputs in each tick. */
 typedef struct reader {
@@ -130,7 +132,8 @@ static const lockstep_leaf_type kRead = {sizeof(lockstep_leaf_type),
                                          NULL,
                                          NULL,
                                          NULL,
-                                         NULL};
+                                         NULL,
+                                         0};
 
 static const lockstep_leaf_type* const kLeaves[] = {&kSucceed, &kFail, &kRun, &kAdvance, &kRead};
 

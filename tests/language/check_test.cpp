@@ -113,7 +113,51 @@ TEST_CASE("warnings and notes") {
       {"not where a condition asks first",
        R"(<Sequence><Fallback><IsOpen/><GoTo target="a"/></Fallback><GoTo target="b"/></Sequence>)",
        ""},
-      {"not in a Fallback", R"(<Fallback><GoTo target="a"/><GoTo target="b"/></Fallback>)", ""},
+      {"not where conditions under decorators ask first",
+       R"(<Sequence><Fallback><Inverter><IsOpen/></Inverter><GoTo target="a"/></Fallback>
+          <GoTo target="b"/></Sequence>)",
+       ""},
+      {"not before what completes at once",
+       R"(<Sequence><GoTo target="a"/><IsOpen/><AlwaysSuccess/></Sequence>)", ""},
+      {"an action of a plugin, whatever its name",
+       "<Sequence>\n<AlwaysReach target=\"a\"/>\n<GoTo target=\"b\"/></Sequence>",
+       "3:1 warning: 'AlwaysReach' is started again in every tick in which 'GoTo' runs"},
+      {"an action before what is asked first and may run",
+       "<Sequence>\n<GoTo name=\"first\" target=\"a\"/>\n<Fallback><IsOpen/><GoTo target=\"b\"/>"
+       "</Fallback></Sequence>",
+       "3:1 warning: 'first' is started again in every tick in which 'Fallback' runs"},
+      {"an action before a decorator that may run by itself",
+       "<Sequence>\n<GoTo name=\"first\" target=\"a\"/>\n<Delay seconds=\"1\"><IsOpen/></Delay>"
+       "</Sequence>",
+       "3:1 warning: 'first' is started again in every tick in which 'Delay' runs"},
+      {"an action before an action in a Fallback",
+       "<Fallback>\n<GoTo name=\"first\" target=\"a\"/>\n<GoTo name=\"second\" target=\"b\"/>"
+       "</Fallback>",
+       "3:1 warning: 'first' is started again in every tick in which 'second' runs"},
+      {"not in a Fallback with memory",
+       R"(<Fallback memory="true"><GoTo target="a"/><GoTo target="b"/></Fallback>)", ""},
+      {"not in a Fallback where a condition asks first",
+       R"(<Fallback><Sequence><IsOpen/><GoTo target="a"/></Sequence><GoTo target="b"/></Fallback>)",
+       ""},
+      {"but where what was asked has failed all the same",
+       "<Fallback>\n<Fallback name=\"first\"><IsOpen/><GoTo target=\"a\"/></Fallback>\n"
+       "<GoTo name=\"second\" target=\"b\"/></Fallback>",
+       "3:1 warning: 'first' is started again in every tick in which 'second' runs"},
+      {"in a Fallback, through decorators",
+       "<Fallback>\n<Inverter name=\"first\"><Timeout seconds=\"9\"><GoTo target=\"a\"/></Timeout>"
+       "</Inverter>\n<Retry attempts=\"3\" name=\"second\"><GoTo target=\"b\"/></Retry></Fallback>",
+       "3:1 warning: 'first' is started again in every tick in which 'second' runs"},
+      {"an Inverter swaps what is asked first",
+       R"(<Sequence><Inverter><Sequence><IsOpen/><GoTo target="a"/></Sequence></Inverter>
+          <GoTo target="b"/></Sequence>)",
+       ""},
+      {"in a Fallback, through subtrees",
+       "<root lockstep=\"1\" main_tree_to_execute=\"A\"><plugin name=\"robot\"/>\n"
+       "<BehaviorTree ID=\"A\"><Fallback>\n<SubTree ID=\"B\"/>\n<SubTree ID=\"C\"/>\n</Fallback>"
+       "</BehaviorTree>\n"
+       "<BehaviorTree ID=\"B\"><GoTo target=\"a\"/></BehaviorTree>\n"
+       "<BehaviorTree ID=\"C\"><GoTo target=\"b\"/></BehaviorTree></root>",
+       "3:1 warning: 'B' is started again in every tick in which 'C' runs"},
       {"not for RunOnce",
        R"(<Sequence><RunOnce><GoTo target="a"/></RunOnce><GoTo target="b"/></Sequence>)", ""},
       {"an entry that nobody writes, once",
@@ -143,11 +187,10 @@ std::string nested(int inverters) {
 }
 
 // T1 uses T0 `width` times under one more node, T2 so uses T1, and so on.
-std::string tower(int levels, int width) {
+std::string tower(int levels, int width, std::string_view ground = "<AlwaysSuccess/>") {
   std::string xml = fmt::format(
-      "<root lockstep=\"1\" main_tree_to_execute=\"T{}\"><BehaviorTree "
-      "ID=\"T0\"><AlwaysSuccess/></BehaviorTree>",
-      levels);
+      "<root lockstep=\"1\" main_tree_to_execute=\"T{}\"><BehaviorTree ID=\"T0\">{}</BehaviorTree>",
+      levels, ground);
   for (int level = 1; level <= levels; ++level) {
     xml += fmt::format("\n<BehaviorTree ID=\"T{}\"><Parallel>", level);
     for (int i = 0; i < width; ++i) xml += fmt::format("<SubTree ID=\"T{}\"/>", level - 1);
@@ -159,7 +202,8 @@ std::string tower(int levels, int width) {
 TEST_CASE("limits are named, and nothing breaks at them") {
   CHECK(Pipeline(nested(95)).run() == "failure 1");  // with root, BehaviorTree and leaf: 98
   CHECK(Pipeline(nested(96)).told() == "2:961 error: elements are nested deeper than 98 levels");
-  CHECK(Pipeline(tower(499, 1)).run() == "success 1");  // two nodes a level, and the leaf: 999
+  CHECK(Pipeline(tower(499, 1, "<Inverter><AlwaysFailure/></Inverter>")).run() ==
+        "success 1");  // two nodes a level, and two: 1000
   CHECK(Pipeline(tower(500, 1)).told() ==
         "501:25 error: the tree 'T500' is 1001 nodes deep with its subtrees expanded");
   CHECK(Pipeline(tower(20, 2)).told() ==

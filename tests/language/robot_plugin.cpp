@@ -102,6 +102,8 @@ class IsOpen : public lockstep::Condition<IsOpenPorts> {
 LOCKSTEP_PLUGIN_TABLE(robot_table, "robot", "1.0", "A robot that only says what it does",
                       lockstep::leaf<FindDoor>("FindDoor", "Finds a door."),
                       lockstep::leaf<GoTo>("GoTo", "Goes somewhere."),
+                      lockstep::leaf<GoTo>("AlwaysReach",
+                                           "The same, under a name like a built-in's."),
                       lockstep::leaf<Say>("Say", "Says a text."),
                       lockstep::leaf<Count>("Count", "Counts."),
                       lockstep::leaf<Show>("Show", "Shows its ports."),

@@ -45,6 +45,14 @@ void divide_by_zero() {
   std::raise(SIGFPE);  // where the machine divides by zero without a word
 }
 
+// Makes an exception trap that has happened already.
+void trap_afterwards() {
+  volatile long double zero = 0;  // of the old unit, whose flag is what traps
+  volatile long double result = 1 / zero;
+  static_cast<void>(result);
+  feenableexcept(FE_DIVBYZERO);
+}
+
 void throw_foreign() {
   static _Unwind_Exception exception;
   std::memcpy(&exception.exception_class, "ROBOTFOR", 8);
@@ -144,6 +152,7 @@ void Leaf::misbehave(const std::string& how) {
     pthread_sigmask(SIG_BLOCK, &all, nullptr);
   }
   if (how == "round up") std::fesetround(FE_UPWARD);
+  if (how == "trap") trap_afterwards();
   if (how == "tell rounding") {
     host->log(caller, LOCKSTEP_LOG_INFO,
               std::fegetround() == FE_TONEAREST ? "rounds to nearest" : "rounds otherwise");
@@ -213,6 +222,7 @@ __attribute__((constructor)) void load() {
   const char* how = std::getenv("HOSTILE_LOAD");
   if (how != nullptr && std::strcmp(how, "segv") == 0) std::raise(SIGSEGV);
   if (how != nullptr && std::strcmp(how, "round up") == 0) std::fesetround(FE_UPWARD);
+  if (how != nullptr && std::strcmp(how, "trap") == 0) trap_afterwards();
 }
 
 bool g_never_deinit = false;
@@ -254,7 +264,8 @@ constexpr lockstep_leaf_type kMisbehave = {sizeof(lockstep_leaf_type),
                                            pause,
                                            resume,
                                            progress,
-                                           nullptr};
+                                           nullptr,
+                                           0};
 constexpr const lockstep_leaf_type* kLeaves[] = {&kMisbehave};
 
 }  // namespace

@@ -19,14 +19,16 @@ double no_progress(Ticker&, NodeIndex) {
 const NodeKind kAlwaysSuccess{.type = {.id = "AlwaysSuccess",
                                        .category = NodeCategory::Action,
                                        .doc = "Success at once.",
-                                       .arity = {0, 0}},
+                                       .arity = {0, 0},
+                                       .acts_again = false},
                               .tick = tick<Status::Success>,
                               .progress = no_progress};
 
 const NodeKind kAlwaysFailure{.type = {.id = "AlwaysFailure",
                                        .category = NodeCategory::Action,
                                        .doc = "Failure at once.",
-                                       .arity = {0, 0}},
+                                       .arity = {0, 0},
+                                       .acts_again = false},
                               .tick = tick<Status::Failure>,
                               .progress = no_progress};
 
@@ -34,6 +36,8 @@ const NodeKind kAlwaysRunning{.type = {.id = "AlwaysRunning",
                                        .category = NodeCategory::Action,
                                        .doc = "Running until it is halted; its progress is 0.",
                                        .arity = {0, 0},
+                                       .can_run = true,
+                                       .acts_again = false,
                                        .has_progress = false},
                               .tick = tick<Status::Running>,
                               .progress = no_progress};

@@ -24,7 +24,8 @@ const NodeKind kDelay{
              .category = NodeCategory::Decorator,
              .doc = "Running for a time, then ticks its child and returns what it returns.",
              .arity = {1, 1},
-             .parameters = kParameters},
+             .parameters = kParameters,
+             .can_run = true},
     .tick = tick,
     .progress = decorator::child_progress,
     .state_size = sizeof(timed::State)};

@@ -16,7 +16,9 @@ const NodeKind kFallback{
              .doc = "Ticks its children from the left, every tick from the first; stops at the "
                     "first that is Running or Success and returns that. Failure when all fail.",
              .arity = {1},
-             .parameters = ordered::kParameters},
+             .parameters = ordered::kParameters,
+             .sign = "?",
+             .goes_on_after = Status::Failure},
     .tick = ordered::tick<Status::Failure>,
     .progress = progress,
     .state_size = sizeof(ordered::State)};

@@ -13,7 +13,8 @@ const NodeKind kKeepRunningUntilFailure{
     .type = {.id = "KeepRunningUntilFailure",
              .category = NodeCategory::Decorator,
              .doc = "Running until its child fails; a child that succeeds is ticked anew.",
-             .arity = {1, 1}},
+             .arity = {1, 1},
+             .can_run = true},
     .tick = tick,
     .progress = decorator::child_progress};
 

@@ -80,7 +80,8 @@ const NodeKind kParallel{
                     "longer be reached. The children that still run are then halted.",
              .arity = {1},
              .parameters = kParameters,
-             .rule = rule},
+             .rule = rule,
+             .sign = "⇉"},
     .tick = tick,
     .progress = progress,
     .state_per_child = sizeof(double)};

@@ -92,9 +92,12 @@ const NodeKind kParallelAbsolute{
                     "when all succeed, Failure when one fails.",
              .arity = {1},
              .parameters = kParameters,
-             .rule = rule},
+             .rule = rule,
+             .sign = "⇉A",
+             .synchronization = Synchronization::Absolute},
     .tick = tick,
     .progress = synchronized::progress,
+    .state_size = sizeof(synchronized::State),
     .state_per_child = sizeof(double)};
 
 }  // namespace lockstep

@@ -30,9 +30,12 @@ const NodeKind kParallelRelative{
              .doc = "Ticks its children in parallel and lets none run ahead of the slowest by more "
                     "than delta. Success when all succeed, Failure when one fails.",
              .arity = {1},
-             .parameters = kParameters},
+             .parameters = kParameters,
+             .sign = "⇉R",
+             .synchronization = Synchronization::Relative},
     .tick = tick,
     .progress = synchronized::progress,
+    .state_size = sizeof(synchronized::State),
     .state_per_child = sizeof(double)};
 
 }  // namespace lockstep

@@ -44,7 +44,8 @@ const NodeKind kRepeat{
              .doc = "Ticks its child until it has succeeded a number of times, once per tick; "
                     "Failure as soon as it fails.",
              .arity = {1, 1},
-             .parameters = kParameters},
+             .parameters = kParameters,
+             .can_run = true},
     .tick = tick,
     .progress = progress,
     .state_size = sizeof(State)};

@@ -18,7 +18,8 @@ const NodeKind kInverter{
     .type = {.id = "Inverter",
              .category = NodeCategory::Decorator,
              .doc = "Success of its child becomes Failure, and Failure Success.",
-             .arity = {1, 1}},
+             .arity = {1, 1},
+             .inverts = true},
     .tick = tick<Status::Failure, Status::Success>,
     .progress = decorator::child_progress};
 

@@ -35,7 +35,8 @@ const NodeKind kRetry{
              .doc = "Ticks its child until it succeeds, at most a number of attempts, once per "
                     "tick.",
              .arity = {1, 1},
-             .parameters = kParameters},
+             .parameters = kParameters,
+             .can_run = true},
     .tick = tick,
     .progress = decorator::child_progress,
     .state_size = sizeof(State)};

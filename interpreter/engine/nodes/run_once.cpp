@@ -23,7 +23,8 @@ const NodeKind kRunOnce{
              .category = NodeCategory::Decorator,
              .doc = "Ticks its child until it has completed once in this run; from then on returns "
                     "that result without ticking it.",
-             .arity = {1, 1}},
+             .arity = {1, 1},
+             .acts_again = false},
     .tick = tick,
     .progress = decorator::child_progress,
     .state_size = sizeof(State)};

@@ -17,7 +17,9 @@ const NodeKind kSequence{
              .doc = "Ticks its children from the left, every tick from the first; stops at the "
                     "first that is Running or Failure and returns that. Success when all succeed.",
              .arity = {1},
-             .parameters = ordered::kParameters},
+             .parameters = ordered::kParameters,
+             .sign = "→",
+             .goes_on_after = Status::Success},
     .tick = ordered::tick<Status::Success>,
     .progress = progress,
     .state_size = sizeof(ordered::State)};

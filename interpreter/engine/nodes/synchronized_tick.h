@@ -11,6 +11,10 @@ namespace lockstep::synchronized {
 
 inline constexpr double kEpsilon = 1e-9;  // 0.8 <= 0.7 + 0.1 is false in doubles
 
+struct alignas(double) State {  // the snapshot stands behind it
+  bool succeeded;               // in its last tick, which an ancestor may have ended since
+};
+
 // One snapshot before any child is ticked; returns its minimum. A child that succeeded counts as 1.
 inline double take_snapshot(Ticker& ticker, NodeIndex self) {
   double least = 1.0;
@@ -25,7 +29,7 @@ inline double take_snapshot(Ticker& ticker, NodeIndex self) {
 
 // `held(progress)` says of a child with that progress whether ticks are withheld from it.
 template <class Held>
-Status tick_children(Ticker& ticker, NodeIndex self, Held held) {
+Status tick_each(Ticker& ticker, NodeIndex self, Held held) {
   const auto snapshot = ticker.child_numbers(self);
   std::uint32_t succeeded = 0;
   bool failed = false;
@@ -48,6 +52,13 @@ Status tick_children(Ticker& ticker, NodeIndex self, Held held) {
   if (!failed) return Status::Running;
   ticker.halt_running_children(self);
   return Status::Failure;
+}
+
+template <class Held>
+Status tick_children(Ticker& ticker, NodeIndex self, Held held) {
+  const Status status = tick_each(ticker, self, held);
+  ticker.state<State>(self).succeeded = status == Status::Success;
+  return status;
 }
 
 // So that synchronized nodes nest: the least progressed child.

@@ -41,6 +41,7 @@ void write_descriptors(const Descriptors& descriptors, MessageWriter& message) {
   message.put(plugin.leaf_type_count);
   for (const auto& leaf : descriptors.leaves) {
     message.put(leaf->type.kind);
+    message.put(leaf->type.flags);
     message.put(optional_functions(leaf->type));
     message.put_text_or_null(leaf->type.id);
     message.put_text_or_null(leaf->type.doc);
@@ -71,6 +72,7 @@ bool OwnedDescriptors::read_leaf(MessageReader& message, const lockstep_leaf_typ
   lockstep_leaf_type leaf = functions;
   leaf.struct_size = sizeof leaf;
   leaf.kind = message.get<lockstep_leaf_kind>();
+  leaf.flags = message.get<std::uint64_t>();
   keep_functions(leaf, message.get<std::uint8_t>());
   leaf.id = read_text(message);
   leaf.doc = read_text(message);

@@ -233,7 +233,8 @@ const lockstep_leaf_type& remote_leaf_type() {
                                             .pause = pause,
                                             .resume = resume,
                                             .progress = progress,
-                                            .get_extension = nullptr};
+                                            .get_extension = nullptr,
+                                            .flags = 0};
   return kType;
 }
 

@@ -37,7 +37,7 @@ extern "C" {
 #endif
 
 #define LOCKSTEP_ABI_MAJOR 1u
-#define LOCKSTEP_ABI_MINOR 0u
+#define LOCKSTEP_ABI_MINOR 1u
 
 #if defined(_WIN32)
 #define LOCKSTEP_EXPORT __declspec(dllexport)
@@ -51,6 +51,13 @@ enum { LOCKSTEP_RUNNING = 1, LOCKSTEP_SUCCESS = 2, LOCKSTEP_FAILURE = 3 };
 
 typedef int32_t lockstep_leaf_kind;
 enum { LOCKSTEP_ACTION = 1, LOCKSTEP_CONDITION = 2 };
+
+/* Bits of lockstep_leaf_type::flags. A host ignores those that it does not know. */
+enum {
+  /* The leaf works in real time, whether ticks come or not: in a thread, with a device. On a
+   * virtual clock, where ticks do not wait for it, the host warns of it. */
+  LOCKSTEP_REAL_TIME = 1
+};
 
 typedef int32_t lockstep_type;
 enum {
@@ -116,8 +123,8 @@ typedef struct lockstep_host {
 
   /* [run] Says that the caller has failed as a program, not as an action: the run ends in order
    * with `message` as the reason. To be called inside a function of the leaf, which then returns
-   * as usual; its result does not count. The first message of a call is kept: its first 500 bytes are
-   * copied, the rest is counted. */
+   * as usual; its result does not count. The first message of a call is kept: its first 500 bytes
+   * are copied, the rest is counted. */
   void (*set_error)(const lockstep_caller* caller, const char* message);
 
   /* [run] Seconds since the run began, the same for the whole of a tick. */
@@ -169,10 +176,13 @@ typedef struct lockstep_leaf_type {
   /* [run] (optional) Ticks come again. */
   void (*resume)(void* leaf);
   /* [run] (optional) How much of the activation is done, in [0, 1]. Asked only while running,
-   * also while paused. Outside [0, 1] is clamped; NaN is a fault. It may fall. */
+   * also while paused. Outside [0, 1] is clamped, with a warning; NaN is a fault. It may fall. */
   double (*progress)(void* leaf);
   /* [run] (optional) */
   const void* (*get_extension)(void* leaf, const char* id);
+
+  /* Since 1.1. */
+  uint64_t flags;
 } lockstep_leaf_type;
 
 typedef struct lockstep_plugin {

@@ -99,7 +99,8 @@ static const lockstep_leaf_type leaf_type = {sizeof(lockstep_leaf_type),
                                              NULL,
                                              NULL,
                                              progress,
-                                             NULL};
+                                             NULL,
+                                             0};
 static const lockstep_leaf_type* const leaf_types[] = {&leaf_type};
 
 const lockstep_plugin lockstep_plugin_entry = {LOCKSTEP_ABI_MAJOR,

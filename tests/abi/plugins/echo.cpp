@@ -134,7 +134,8 @@ constexpr lockstep_leaf_type kType = {sizeof(lockstep_leaf_type),
                                       nullptr,
                                       nullptr,
                                       nullptr,
-                                      nullptr};
+                                      nullptr,
+                                      0};
 constexpr const lockstep_leaf_type* kTypes[] = {&kType};
 
 }  // namespace

@@ -41,7 +41,8 @@ const lockstep_leaf_type kLeaf = {sizeof(lockstep_leaf_type),
                                   nullptr,
                                   nullptr,
                                   nullptr,
-                                  nullptr};
+                                  nullptr,
+                                  0};
 const lockstep_leaf_type* const kLeaves[] = {&kLeaf};
 const lockstep_plugin kPlugin = {LOCKSTEP_ABI_MAJOR,
                                  LOCKSTEP_ABI_MINOR,

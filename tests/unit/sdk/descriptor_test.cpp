@@ -59,6 +59,12 @@ class Threaded : public lockstep::ThreadedAction<> {
   Status run(lockstep::Token&) override { return Status::Success; }
 };
 
+class Driver : public lockstep::Action<> {
+ public:
+  static constexpr bool kRealTime = true;
+  Status tick() override { return Status::Success; }
+};
+
 constexpr lockstep_leaf_type kBare = lockstep::leaf<Bare>("Bare", "does nothing");
 constexpr lockstep_leaf_type kFull = lockstep::leaf<Full>("Full", "has all");
 constexpr lockstep_leaf_type kHeir = lockstep::leaf<Heir>("Heir", "");
@@ -87,6 +93,13 @@ TEST_CASE("a leaf type is described without creating a leaf", "[sdk]") {
   CHECK(kBare.port_count == 0);
   CHECK(kQuestion.kind == LOCKSTEP_CONDITION);
   CHECK(created == before);
+}
+
+TEST_CASE("a leaf that works in threads says that it works in real time", "[sdk]") {
+  CHECK(kBare.flags == 0);
+  CHECK(kQuestion.flags == 0);
+  CHECK(kThreaded.flags == LOCKSTEP_REAL_TIME);
+  CHECK(lockstep::leaf<Driver>("Driver", "").flags == LOCKSTEP_REAL_TIME);
 }
 
 TEST_CASE("ports are listed in the order of the members", "[sdk]") {

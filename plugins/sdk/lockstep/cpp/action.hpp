@@ -22,6 +22,9 @@ struct LeafAccess;
 class Leaf : protected Services {
  public:
   using Status = sdk1::Status;
+  // To be declared anew, as true, by a leaf that works on while no tick comes: in threads, with
+  // devices. On the virtual clock, where ticks do not wait for it, lockstep warns of it.
+  static constexpr bool kRealTime = false;
   virtual ~Leaf() = default;
 
  protected:

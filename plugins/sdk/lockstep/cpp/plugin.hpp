@@ -189,6 +189,7 @@ constexpr lockstep_leaf_type leaf(const char* id, const char* doc) {
   type.create = &Functions::create;
   type.destroy = &Functions::destroy;
   type.tick = &Functions::tick;
+  type.flags = T::kRealTime ? LOCKSTEP_REAL_TIME : 0;
   if constexpr (Functions::kIsAction) detail::add_optional_functions<T>(type);
   return type;
 }

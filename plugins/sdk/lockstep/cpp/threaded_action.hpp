@@ -136,6 +136,7 @@ template <class PortsOfLeaf = NoPorts>
 class ThreadedAction : public Action<PortsOfLeaf> {
  public:
   using Status = sdk1::Status;
+  static constexpr bool kRealTime = true;
 
   // In the tree's thread, before run: read the ports here.
   virtual void begin() {}

@@ -1,0 +1,2 @@
+#define LEAF_FLAGS (LOCKSTEP_REAL_TIME | 1024)
+#include "entry.h"
