@@ -31,7 +31,8 @@ class FloatMode {
   void restore() const {
 #if defined(__SSE2__)
     _mm_setcsr(static_cast<unsigned>(bits_) | (_mm_getcsr() & kFlags));
-    asm volatile("fldcw %0" : : "m"(x87_));
+    // fldcw itself traps when a flag is set whose exception was made to trap after it had happened.
+    asm volatile("fnclex; fldcw %0" : : "m"(x87_));
 #elif defined(__aarch64__)
     asm volatile("msr fpcr, %0" : : "r"(bits_));
 #else

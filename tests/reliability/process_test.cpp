@@ -90,6 +90,28 @@ TEST_CASE("a rounding mode that a leaf changes is set back, and it is named") {
   CHECK_FALSE(contains(isolated.err, "floating-point"));
 }
 
+TEST_CASE(
+    "an exception that a leaf makes trap after it has happened is set back, and it is named") {
+  for (const std::string function : {"create", "start", "tick"}) {
+    const Outcome outcome =
+        run_hostile({"trap", function}, Where::InProcess, {"--clock", "virtual"});
+    INFO(function << '\n' << outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(contains(outcome.err, function == "create"
+                                    ? "its create has changed the rounding mode or the "
+                                    : "arm' (Misbehave of plugin 'hostile') changed the "));
+  }
+}
+
+TEST_CASE("an exception that loading a plugin makes trap after it has happened is set back") {
+  for (const Where where : kBoth) {
+    const Outcome outcome =
+        run_hostile({""}, where, {"--clock", "virtual"}, {{"HOSTILE_LOAD", "trap"}});
+    INFO(outcome.err);
+    CHECK(outcome.code == 0);
+  }
+}
+
 TEST_CASE("a rounding mode that loading a plugin changes is set back") {
   for (const Where where : kBoth) {
     const Outcome outcome = run_hostile({"tell rounding"}, where, {"--clock", "virtual"},
