@@ -4,9 +4,11 @@
 #include <pthread.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
+#include "observers/statistics.h"
 #include "runtime/crash_report.h"
 
 namespace lockstep {
@@ -79,6 +81,16 @@ WatchdogOptions RunWatch::watchdog_options() {
 
 void RunWatch::run_started(Ticker&, const RunStart&) {
   memory_at_start_ = resident_memory();
+}
+
+void RunWatch::after_tick(Ticker& ticker, const TickReport&) {
+  constexpr std::size_t kMostLeaves = 20;
+  const auto all = ticker.out_of_range();
+  for (; out_of_range_ < std::min(all.size(), kMostLeaves); ++out_of_range_) {
+    const OutOfRange& it = all[out_of_range_];
+    print_(fmt::format("the leaf {} {}", describe_leaf(tree_, it.node),
+                       out_of_range_text(it.reported)));
+  }
 }
 
 void RunWatch::run_ended(Ticker&, const RunEnd&) {

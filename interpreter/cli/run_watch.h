@@ -27,6 +27,7 @@ class RunWatch final : public Observer {
   LeafWatch& leaves() { return leaves_; }
   // The last of the observers: what the others take to begin with is no leak.
   void run_started(Ticker& ticker, const RunStart& start) override;
+  void after_tick(Ticker& ticker, const TickReport& report) override;
   void run_ended(Ticker& ticker, const RunEnd& end) override;
   void add_to(Summary& summary) const;
 
@@ -41,6 +42,7 @@ class RunWatch final : public Observer {
   Watchdog watchdog_;
   sigset_t signal_mask_;             // of the tick thread, as it was
   std::size_t memory_at_start_ = 0;  // bytes
+  std::size_t out_of_range_ = 0;     // leaves that were told of
   std::vector<std::string> notes_;   // for the summary
 };
 

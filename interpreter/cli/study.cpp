@@ -12,6 +12,7 @@
 #include "cli/outputs.h"
 #include "cli/study_fault.h"
 #include "cli/study_loading.h"
+#include "cli/study_out_of_range.h"
 #include "cli/study_progress.h"
 #include "cli/study_summary.h"
 #include "runtime/outlet.h"
@@ -113,6 +114,7 @@ int make_study(const StudyCommandOptions& options, const LoadedStudy& study) {
   StopSignals::install();
   const Outlet::Thread messages_thread(messages());
   std::optional<StudyFault> fault;
+  StudyOutOfRangeCount out_of_range(study);
   {
     StudyProgress progress(*there, row_count(plan));
     fault = do_work({.plan = plan,
@@ -126,8 +128,12 @@ int make_study(const StudyCommandOptions& options, const LoadedStudy& study) {
                            progress.add(rows);
                            return folder.append(lines);
                          },
+                     .out_of_range = [&](const StudyOutOfRange& it) { out_of_range.add(it); },
                      .idle = [&] { progress.show(); }});
   }
+  Diagnostics warnings;
+  out_of_range.add_to(warnings);
+  print_diagnostics(warnings, Severity::Warning);
   if (!folder.error().empty()) return fail(folder.error());
   if (fault) {
     print_error(fault_text(*fault, study),

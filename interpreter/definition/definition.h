@@ -47,5 +47,7 @@ struct Definition {
 // What a tree may not exceed; each is named in the message that refuses one.
 inline constexpr std::uint32_t kMaxNodes = 4'000'000;
 inline constexpr std::uint32_t kMaxDepth = 1'000;
+// All paths together: they are in recordings, in messages, and in what a leaf knows of itself.
+inline constexpr std::uint64_t kMaxPathBytes = std::uint64_t{512} << 20u;
 
 }  // namespace lockstep

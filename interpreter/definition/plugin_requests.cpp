@@ -12,8 +12,6 @@
 namespace lockstep {
 namespace {
 
-constexpr std::size_t kMaxPlugins = 256;  // each may be a process
-
 std::optional<PluginRequest> read_plugin(const Document& document, std::uint32_t element,
                                          Diagnostics& diagnostics) {
   const Reporter report(document, diagnostics);

@@ -10,6 +10,8 @@
 
 namespace lockstep {
 
+inline constexpr std::size_t kMaxPlugins = 256;  // each may be a process
+
 struct PluginRequest {
   std::string name;
   const Document* document = nullptr;  // where the name stands: an attribute of `element`

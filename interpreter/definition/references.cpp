@@ -13,9 +13,6 @@
 namespace lockstep {
 namespace {
 
-// Paths are in recordings, in messages, and in what a leaf knows of itself.
-constexpr std::uint64_t kMaxPathBytes = std::uint64_t{512} << 20u;
-
 // Depth-first over the graph of trees, with a stack of its own: a chain of subtrees may be long.
 class ReferenceChecker {
  public:

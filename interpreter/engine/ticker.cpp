@@ -106,6 +106,11 @@ void Ticker::keep_ancestors_running(NodeIndex node) {
   }
 }
 
+void Ticker::note_out_of_range(NodeIndex node, double reported) {
+  if (std::exchange(leaf(node).out_of_range, true)) return;
+  out_of_range_.push_back({node, reported});
+}
+
 void Ticker::reset() {
   state_.reset();
   now_ = Nanoseconds(0);
@@ -113,6 +118,8 @@ void Ticker::reset() {
   faulted_ = false;
   fault_ = {};
   tolerated_.clear();
+  out_of_range_.clear();
+  for (LeafSlot& leaf : leaves_) leaf.out_of_range = false;
 }
 
 }  // namespace lockstep

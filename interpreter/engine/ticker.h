@@ -23,6 +23,12 @@ struct Fault {
   bool in_last_halt = false;  // it could not be halted at the end of the run
 };
 
+// A leaf has reported a progress outside [0, 1], which was clamped.
+struct OutOfRange {
+  NodeIndex node = 0;
+  double reported = 0;
+};
+
 // What a fault means to the run.
 enum class FaultPolicy : std::uint8_t {
   Stop,  // the run ends
@@ -92,6 +98,8 @@ class Ticker {
   // its tick, or the next one, returns Failure.
   void set_fault(NodeIndex node, std::string message);
   bool faulted() const { return faulted_; }
+  // Only the first of each leaf is kept.
+  void note_out_of_range(NodeIndex node, double reported);
 
   // --- for both ----------------------------------------------------------------------------------
 
@@ -122,6 +130,8 @@ class Ticker {
   // those of progress that was asked for before it, and those of halt_all.
   std::span<const Fault> tolerated() const { return tolerated_; }
   std::vector<Fault> take_tolerated() { return std::exchange(tolerated_, {}); }
+  // In this run, one of each leaf.
+  std::span<const OutOfRange> out_of_range() const { return out_of_range_; }
   std::uint32_t tick_number() const { return tick_number_; }  // of the last tick; the first is 1
   bool ticked(NodeIndex node) const {
     return tick_number_ != 0 && state_.last_tick[node] == tick_number_;
@@ -145,6 +155,7 @@ class Ticker {
   bool faulted_ = false;
   Fault fault_;
   std::vector<Fault> tolerated_;
+  std::vector<OutOfRange> out_of_range_;
 };
 
 }  // namespace lockstep

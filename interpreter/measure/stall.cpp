@@ -14,8 +14,8 @@ constexpr double kNoChange = 1e-9;
 }  // namespace
 
 std::span<const std::size_t> StallDetector::after_tick(const SynchronizedTick& tick) {
-  const bool somebody_waits =
-      tick.ticked && std::find(tick.held.begin(), tick.held.end(), true) != tick.held.end();
+  const bool somebody_waits = tick.ticked && tick.status == Status::Running &&
+                              std::ranges::find(tick.held, true) != tick.held.end();
   std::size_t found = 0;
   for (std::size_t i = 0; i < children_.size(); ++i) {
     const bool suspect = somebody_waits && !tick.held[i] && tick.progress[i] < 1.0;

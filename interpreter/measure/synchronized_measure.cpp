@@ -33,8 +33,9 @@ void SynchronizedMeasure::after_tick(const SynchronizedTick& tick) {
   pass_time(tick.time);
   distance_.after_tick(tick.ticked, tick.status, tick.progress);
   for (std::size_t child = 0; child < held_.size(); ++child) {
-    held_[child].now = tick.ticked && tick.held[child];
-    held_[child].ticks += held_[child].now;
+    const bool held = tick.ticked && tick.held[child];
+    held_[child].ticks += held;
+    held_[child].now = held && tick.status == Status::Running;
   }
 }
 
@@ -46,21 +47,21 @@ void SynchronizedMeasure::pass_time(Nanoseconds time) {
 }
 
 SynchronizedProbe::SynchronizedProbe(const Tree& tree, NodeIndex node)
-    : node_(node),
-      children_(children_of(tree, node)),
-      held_(std::make_unique<bool[]>(children_.size())) {}
+    : node_(node), children_(children_of(tree, node)), held_(children_.size()) {}
 
 SynchronizedTick SynchronizedProbe::read(Ticker& ticker, Nanoseconds time) {
   SynchronizedTick tick;
   tick.time = time;
   tick.ticked = ticker.ticked(node_);
   tick.status = ticker.status(node_);
-  if (!tick.ticked) return tick;
   for (std::size_t child = 0; child < children_.size(); ++child) {
-    held_[child] = ticker.held(children_[child]);
+    const NodeIndex node = children_[child];
+    held_.set(child, ticker.status(node), ticker.ticked(node), ticker.held(node));
   }
+  if (!tick.ticked) return tick;
+  if (succeeded(ticker, node_)) tick.status = Status::Success;
   tick.progress = child_progress(ticker, node_);
-  tick.held = {held_.get(), children_.size()};
+  tick.held = {held_.data(), children_.size()};
   return tick;
 }
 

@@ -21,11 +21,30 @@ std::vector<NodeIndex> children_of(const Tree& tree, NodeIndex node);
 
 // Of one node, after a tick of the run.
 struct SynchronizedTick {
-  Nanoseconds time{0};  // when the tick of the run began, since the run began
-  bool ticked = false;  // did the tick reach the node? If not, only the time counts.
-  Status status = Status::Idle;
+  Nanoseconds time{0};           // when the tick of the run began, since the run began
+  bool ticked = false;           // did the tick reach the node? If not, only the time counts.
+  Status status = Status::Idle;  // Success also when an ancestor has ended the node since
   std::span<const double> progress = {};  // of each child, as the node used it in this tick
-  std::span<const bool> held = {};        // of each child
+  // Of each child: it was running and did not get this tick. It may have been halted since.
+  std::span<const bool> held = {};
+};
+
+// Tells from the states after each tick which children their node held in it.
+class HeldChildren {
+ public:
+  explicit HeldChildren(std::size_t children)
+      : running_(std::make_unique<bool[]>(children)), held_(std::make_unique<bool[]>(children)) {}
+
+  // `reached`: by the tick; `held`: its ticks are still withheld.
+  void set(std::size_t child, Status status, bool reached, bool held) {
+    held_[child] = held || (status == Status::Idle && running_[child] && !reached);
+    running_[child] = status == Status::Running;
+  }
+  const bool* data() const { return held_.get(); }
+
+ private:
+  std::unique_ptr<bool[]> running_;  // after the last tick
+  std::unique_ptr<bool[]> held_;
 };
 
 class SynchronizedMeasure {
@@ -39,7 +58,7 @@ class SynchronizedMeasure {
 
   struct Held {
     bool now = false;
-    Nanoseconds time{0};  // a child held in a tick is held until the next tick, or the end
+    Nanoseconds time{0};  // from a tick in which it is held to the next, or to the end of the run
     std::uint64_t ticks = 0;
   };
   const ProgressDistance& distance() const { return distance_; }
@@ -67,7 +86,7 @@ class SynchronizedProbe {
  private:
   NodeIndex node_;
   std::vector<NodeIndex> children_;
-  std::unique_ptr<bool[]> held_;
+  HeldChildren held_;
 };
 
 }  // namespace lockstep

@@ -92,7 +92,7 @@ void ConsolePlain::tell_held(Ticker& ticker, Watched& node) {
   if (!tick.ticked) return;
   for (std::size_t child = 0; child < node.waits.size(); ++child) {
     Watched::Child& wait = node.waits[child];
-    if (tick.held[child]) {
+    if (tick.held[child] && tick.status == Status::Running) {
       if (!wait.held) wait = {true, false, now};
       if (wait.told || now - wait.since < kShortestWait) continue;
       wait.told = true;

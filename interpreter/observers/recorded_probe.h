@@ -2,7 +2,6 @@
 // Ticker. Used by all that measures or draws recordings.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -29,7 +28,7 @@ class RecordedProbe {
   std::vector<NodeIndex> children_;
   std::vector<std::string> names_;
   std::vector<double> progress_;
-  std::unique_ptr<bool[]> held_;
+  HeldChildren held_;
 };
 
 }  // namespace lockstep

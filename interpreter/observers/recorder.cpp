@@ -1,6 +1,7 @@
 #include "observers/recorder.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "observers/recording_text.h"
@@ -63,7 +64,7 @@ PacketHead Recorder::head() const {
 }
 
 bool Recorder::push_tick(Ticker& ticker, const TickReport& report) {
-  const std::string line_end = tick_end(report.faults);
+  const std::string line_end = tick_end(delta_.succeeded(ticker), report.faults);
   Packet packet{.head = head(), .nodes = delta_.changes(ticker), .text = line_end};
   packet.head.is_tick = 1;
   packet.head.tick = report.tick;
@@ -74,7 +75,7 @@ bool Recorder::push_tick(Ticker& ticker, const TickReport& report) {
   return file_.push(packet);
 }
 
-void Recorder::run_ended(Ticker&, const RunEnd& end) {
+void Recorder::run_ended(Ticker& ticker, const RunEnd& end) {
   RecordedEnd closing{.result = std::string(to_string(end.result())),
                       .reason = std::string(to_string(end.reason)),
                       .fault = end.fault ? fault_text(tree_, *end.fault) : "",
@@ -83,7 +84,12 @@ void Recorder::run_ended(Ticker&, const RunEnd& end) {
                       .time = to_seconds(end.time),
                       .overruns = end.overruns,
                       .skipped = end.skipped,
-                      .lost = lost_};
+                      .lost = lost_,
+                      .notes = {}};
+  for (const Fault& fault : ticker.tolerated()) {
+    closing.notes.push_back(fault_text(tree_, fault, end.ticks));
+  }
+  std::ranges::move(out_of_range_notes(ticker), std::back_inserter(closing.notes));
   if (end.reason == StopReason::Signal) closing.signal = end.signal;
   write(to_json(closing));
 }

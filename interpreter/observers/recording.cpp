@@ -64,6 +64,7 @@ std::string to_json(const RecordedEnd& end) {
   json["overruns"] = end.overruns;
   json["skipped"] = end.skipped;
   if (end.lost > 0) json["lost"] = end.lost;
+  if (!end.notes.empty()) json["notes"] = end.notes;
   return one_line({{"end", std::move(json)}});
 }
 

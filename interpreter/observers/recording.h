@@ -57,6 +57,7 @@ struct RecordedTick {
   std::uint64_t tick = 0;
   double time = 0;  // seconds
   std::span<const RecordedState> nodes;
+  std::vector<NodeIndex> succeeded = {};  // synchronized nodes that an ancestor has ended since
   std::vector<RecordedFault> faults = {};
 };
 
@@ -74,6 +75,7 @@ struct RecordedEnd {
   double time = 0;  // seconds
   std::uint64_t overruns = 0, skipped = 0;
   std::uint64_t lost = 0;  // ticks that have no line
+  std::vector<std::string> notes = {};
 };
 
 // The header's part about the nodes.

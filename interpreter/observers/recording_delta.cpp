@@ -51,6 +51,7 @@ void put_states(const RunState& run, std::uint32_t tick, const std::uint8_t* mov
 
 RecordingDelta::RecordingDelta(const Tree& tree)
     : synchronized_nodes_(synchronized_nodes(tree)),
+      succeeded_(synchronized_nodes_),  // for its room
       progress_(tree.nodes.size()),
       source_(tree.nodes.size()),
       moved_(tree.nodes.size()),
@@ -80,6 +81,15 @@ std::span<const NodeChange> RecordingDelta::changes(Ticker& ticker) {
   });
   count_ = static_cast<std::size_t>(next - changes_.data());
   return {changes_.data(), count_};
+}
+
+std::span<const NodeIndex> RecordingDelta::succeeded(Ticker& ticker) {
+  succeeded_.clear();
+  for (const NodeIndex node : synchronized_nodes_) {
+    if (ticker.status(node) != Status::Idle || !ticker.ticked(node)) continue;
+    if (lockstep::succeeded(ticker, node)) succeeded_.push_back(node);
+  }
+  return succeeded_;
 }
 
 void RecordingDelta::keep() {

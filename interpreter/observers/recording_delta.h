@@ -20,6 +20,9 @@ class RecordingDelta {
   void before_tick(Ticker& ticker);
   // After the tick: the nodes that differ from what was kept last. Valid until the next call.
   std::span<const NodeChange> changes(Ticker& ticker);
+  // Of the tick: the synchronized nodes that have succeeded in it and are idle again, because an
+  // ancestor has ended them. Valid until the next call.
+  std::span<const NodeIndex> succeeded(Ticker& ticker);
   // What changes() gave last has reached the file.
   void keep();
 
@@ -28,6 +31,7 @@ class RecordingDelta {
   void take_snapshots(Ticker& ticker);
 
   std::vector<NodeIndex> synchronized_nodes_;
+  std::vector<NodeIndex> succeeded_;
   std::vector<double> progress_;      // at the start of this tick
   std::vector<std::uint8_t> source_;  // the Activity that it is of, where it follows from that
 

@@ -87,6 +87,9 @@ Values compare_ends(const std::optional<RecordedEnd>& a, const std::optional<Rec
   compare("reason", [](const RecordedEnd& end) { return Text(end.reason); });
   compare("fault",
           [](const RecordedEnd& end) { return end.fault.empty() ? Text() : Text(end.fault); });
+  compare("notes", [](const RecordedEnd& end) {
+    return end.notes.empty() ? Text() : Text(fmt::format("{}", fmt::join(end.notes, "; ")));
+  });
   compare("signal", [](const RecordedEnd& end) {
     return end.signal ? Text(fmt::to_string(*end.signal)) : Text();
   });

@@ -56,6 +56,8 @@ void write_end(const RecordingReader& reader, std::uint64_t ticks, double time, 
                    counted(end->skipped, "deadline"));
     if (!end->fault.empty())
       fmt::format_to(std::back_inserter(out), "  fault: {}\n", printable(end->fault));
+    for (const std::string& note : end->notes)
+      fmt::format_to(std::back_inserter(out), "  note: {}\n", printable(note));
     return;
   }
   fmt::format_to(std::back_inserter(out), "  {}, {:.3f} s; {} {}\n", counted(ticks, "tick"), time,

@@ -169,6 +169,24 @@ std::vector<RecordedFault> faults_from(const Json& list, std::size_t nodes) {
   return faults;
 }
 
+std::vector<std::string> notes_from(const Json& list) {
+  std::vector<std::string> notes;
+  for (const Json& note : list) {
+    if (!note.is_string()) throw BadLine("a note is not a string");
+    notes.push_back(note);
+  }
+  return notes;
+}
+
+std::vector<NodeIndex> succeeded_from(const Json& list, std::size_t nodes) {
+  std::vector<NodeIndex> succeeded;
+  for (const Json& node : list) {
+    if (!node.is_number_unsigned()) throw BadLine("'succeeded' is not a list of indices");
+    succeeded.push_back(static_cast<NodeIndex>(index_from(node, nodes)));
+  }
+  return succeeded;
+}
+
 }  // namespace
 
 RecordingHeader header_from(const Json& line) {
@@ -214,6 +232,7 @@ RecordedEnd end_from(const Json& line) {
                   .skipped = whole(json, "skipped"),
                   .lost = json.contains("lost") ? whole(json, "lost") : 0};
   if (json.contains("fault")) end.fault = text(json, "fault");
+  if (json.contains("notes")) end.notes = notes_from(list(json, "notes"));
   if (json.contains("signal")) end.signal = static_cast<std::int64_t>(whole(json, "signal"));
   return end;
 }
@@ -229,6 +248,9 @@ RecordedTick tick_from(const Json& line, std::vector<RecordedState>& states) {
   RecordedTick tick{.tick = whole(line, "tick"), .time = seconds(line, "time_s"), .nodes = {}};
   for (const Json& change : list(line, "nodes")) apply(change, states);
   tick.nodes = states;
+  if (line.contains("succeeded")) {
+    tick.succeeded = succeeded_from(list(line, "succeeded"), states.size());
+  }
   if (line.contains("faults")) tick.faults = faults_from(list(line, "faults"), states.size());
   return tick;
 }

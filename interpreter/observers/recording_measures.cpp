@@ -28,11 +28,7 @@ class Synchronized {
 
   NodeIndex node() const { return probe_.node(); }
   void after_tick(const RecordedTick& tick) { measure_.after_tick(probe_.read(tick)); }
-  double value(MeasureKind kind) const {
-    if (measure_.distance().samples() == 0) return std::numeric_limits<double>::quiet_NaN();
-    const bool is_sum = kind == MeasureKind::ProgressDistance;
-    return is_sum ? measure_.distance().sum() : measure_.distance().step_length();
-  }
+  const ProgressDistance& distance() const { return measure_.distance(); }
 
  private:
   RecordedProbe probe_;
@@ -92,21 +88,36 @@ class Measuring {
     std::vector<MeasuredValue> values;
     auto instant = instants_.begin();
     for (const MeasureSpec& measure : measures) {
-      if (measure.kind == MeasureKind::Duration) {
-        values.push_back({header_.tree, measure, duration_, {}});
-      } else if (measure.kind == MeasureKind::Predictability) {
-        values.push_back((instant++)->value(header_, measure));
-      } else {
-        for (const Synchronized& node : nodes_) {
-          values.push_back(
-              {header_.nodes[node.node()].path, measure, node.value(measure.kind), {}});
-        }
+      switch (measure.kind) {
+        case MeasureKind::ProgressDistance:
+          add_of_nodes(measure, &ProgressDistance::sum, values);
+          break;
+        case MeasureKind::StepLength:
+          add_of_nodes(measure, &ProgressDistance::step_length, values);
+          break;
+        case MeasureKind::Duration:
+          values.push_back({header_.tree, measure, duration_, {}});
+          break;
+        case MeasureKind::Predictability:
+          values.push_back((instant++)->value(header_, measure));
+          break;
       }
     }
     return values;
   }
 
  private:
+  void add_of_nodes(const MeasureSpec& measure, double (ProgressDistance::*number)() const,
+                    std::vector<MeasuredValue>& values) const {
+    for (const Synchronized& node : nodes_) {
+      const ProgressDistance& distance = node.distance();
+      const bool reached = distance.samples() > 0;
+      values.push_back({header_.nodes[node.node()].path, measure,
+                        reached ? (distance.*number)() : std::numeric_limits<double>::quiet_NaN(),
+                        {}});
+    }
+  }
+
   const RecordingHeader& header_;
   Nanoseconds period_;
   std::vector<Synchronized> nodes_;

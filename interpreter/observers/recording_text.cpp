@@ -1,6 +1,7 @@
 #include "observers/recording_text.h"
 
 #include <fmt/compile.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
@@ -41,6 +42,17 @@ char* put_progress(char* to, double progress) {
   return fmt::format_to(to, FMT_COMPILE("{}"), progress);
 }
 
+std::string faults_text(std::span<const Fault> faults) {
+  constexpr std::size_t kMostOfMessage = 4096;
+  std::string text = ",\"faults\":[";
+  for (const Fault& fault : faults) {
+    if (&fault != faults.data()) text += ',';
+    const nlohmann::json json = {fault.node, fault.message.substr(0, kMostOfMessage)};
+    text += json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  }
+  return text + "]";
+}
+
 }  // namespace
 
 char* put_lost(char* to, std::uint64_t ticks, std::uint64_t from) {
@@ -65,16 +77,12 @@ char* put_node(char* to, NodeIndex node, const RecordedState& state) {
   return put(to, kFlags[2 * state.ticked + state.held]);
 }
 
-std::string tick_end(std::span<const Fault> faults) {
-  if (faults.empty()) return "]}\n";
-  constexpr std::size_t kMostOfMessage = 4096;
-  std::string text = "],\"faults\":[";
-  for (const Fault& fault : faults) {
-    if (&fault != faults.data()) text += ',';
-    const nlohmann::json json = {fault.node, fault.message.substr(0, kMostOfMessage)};
-    text += json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+std::string tick_end(std::span<const NodeIndex> succeeded, std::span<const Fault> faults) {
+  std::string text = "]";
+  if (!succeeded.empty()) {
+    text += fmt::format(",\"succeeded\":[{}]", fmt::join(succeeded, ","));
   }
-  return text + "]}\n";
+  if (!faults.empty()) text += faults_text(faults);
+  return text + "}\n";
 }
-
 }  // namespace lockstep

@@ -26,8 +26,8 @@ char* put_tick(char* to, std::uint64_t tick, Nanoseconds time);
 constexpr std::size_t kMostOfNode = 64;
 char* put_node(char* to, NodeIndex node, const RecordedState& state);
 
-// What ends a tick's line: ]} or ],"faults":[[3,"threw …"],…]} and a newline; of a long message
-// only the beginning. Allocates only if there are faults.
-std::string tick_end(std::span<const Fault> faults);
+// What ends a tick's line: ]} or ],"succeeded":[1],"faults":[[3,"threw …"],…]} and a newline; of a
+// long message only the beginning. Allocates only if there is something to tell.
+std::string tick_end(std::span<const NodeIndex> succeeded, std::span<const Fault> faults);
 
 }  // namespace lockstep

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace lockstep {
 
 Statistics::Statistics(const Tree& tree) : tree_(tree) {
@@ -31,6 +33,7 @@ void Statistics::note(const Fault& fault, std::uint64_t tick) {
 void Statistics::run_ended(Ticker& ticker, const RunEnd& end) {
   end_ = end;
   for (const Fault& fault : ticker.tolerated()) note(fault, end.ticks);
+  out_of_range_notes_ = out_of_range_notes(ticker);
   for (Measured& node : nodes_) node.measure.run_ended(end.time);
 }
 
@@ -55,6 +58,7 @@ Summary Statistics::summary() const {
   if (faults_ > kMostFaults) {
     summary.notes.push_back(fmt::format("and {} more", counted(faults_ - kMostFaults, "fault")));
   }
+  summary.notes.insert(summary.notes.end(), out_of_range_notes_.begin(), out_of_range_notes_.end());
   if (real_time_ && periods_.count() > 0) {
     summary.period = PeriodSummary{.p50 = to_seconds(periods_.quantile(0.5)),
                                    .p99 = to_seconds(periods_.quantile(0.99)),
@@ -104,6 +108,26 @@ std::string fault_text(const Tree& tree, const Fault& fault, std::uint64_t tick)
 std::string fault_text(const Tree& tree, const Fault& fault) {
   return fmt::format("{}: {}{}", tree.path(fault.node),
                      fault.in_last_halt ? "could not be halted: " : "", fault.message);
+}
+
+std::string out_of_range_text(double reported) {
+  return fmt::format(
+      "reported the progress {:.6g}: progress is a share from 0 to 1, so it counts as {}", reported,
+      reported < 0 ? 0 : 1);
+}
+
+std::vector<std::string> out_of_range_notes(const Ticker& ticker) {
+  constexpr std::size_t kMostLeaves = 5;
+  std::vector<std::string> notes;
+  const auto all = ticker.out_of_range();
+  for (const OutOfRange& it : all.first(std::min(all.size(), kMostLeaves))) {
+    notes.push_back(fmt::format("the leaf '{}' {}", ticker.tree().path(it.node),
+                                out_of_range_text(it.reported)));
+  }
+  if (all.size() > kMostLeaves) {
+    notes.push_back(fmt::format("{} leaves in all reported such a progress", all.size()));
+  }
+  return notes;
 }
 
 }  // namespace lockstep

@@ -42,7 +42,7 @@ class Statistics final : public Observer {
   Nanoseconds last_start_{0};
   std::vector<DecidingNode> why_failed_;
   std::uint64_t faults_ = 0;  // that the run went on after
-  std::vector<std::string> fault_notes_;
+  std::vector<std::string> fault_notes_, out_of_range_notes_;
   RunEnd end_;
 };
 
@@ -50,5 +50,10 @@ class Statistics final : public Observer {
 std::string fault_text(const Tree& tree, const Fault& fault, std::uint64_t tick);
 // "Door/pull/arm: threw …"
 std::string fault_text(const Tree& tree, const Fault& fault);
+
+// "reported the progress 42: progress is a share from 0 to 1, so it counts as 1"
+std::string out_of_range_text(double reported);
+// "the leaf 'Door/pull/arm' reported …" of the first few leaves, and how many there are.
+std::vector<std::string> out_of_range_notes(const Ticker& ticker);
 
 }  // namespace lockstep

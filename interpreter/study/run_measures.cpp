@@ -97,8 +97,9 @@ void RunMeasures::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds) {
 void RunMeasures::after_tick(Ticker& ticker, const TickReport& report) {
   for (Distance& distance : distances_) {
     const bool ticked = ticker.ticked(distance.node);
+    const bool done = ticked && succeeded(ticker, distance.node);
     distance.measure.after_tick(
-        ticked, ticker.status(distance.node),
+        ticked, done ? Status::Success : ticker.status(distance.node),
         ticked ? child_progress(ticker, distance.node) : std::span<const double>());
   }
   for (Instant& instant : instants_) {

@@ -29,6 +29,7 @@ class StudyRun {
   // Of the last run.
   std::span<const double> values() const { return measures_.values(); }
   const Fault* fault() const { return run_ ? run_->fault() : nullptr; }
+  std::span<const OutOfRange> out_of_range() { return run_->ticker().out_of_range(); }
 
  private:
   const StudyCell& cell_;

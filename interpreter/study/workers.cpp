@@ -25,6 +25,7 @@ struct Chunk {
   bool complete = true;  // false: nothing after it counts
   std::optional<StudyFault> fault;
   std::exception_ptr failure;           // nobody expected it
+  std::vector<StudyOutOfRange> out_of_range;
   std::atomic<std::uint64_t> ready{0};  // 1 + the number of the chunk that is in it
 };
 
@@ -123,6 +124,7 @@ void Workshop::make(std::uint64_t number, Chunk& chunk, std::optional<StudyRun>&
       chunk.complete = false;
       return;
     }
+    for (const OutOfRange& it : run->out_of_range()) chunk.out_of_range.push_back({row, it});
     made.ticks = end.ticks;
     made.result = result_of(end);
     std::ranges::fill(made.values, std::numeric_limits<double>::quiet_NaN());
@@ -140,6 +142,7 @@ void Workshop::write(Chunk& chunk) {
     closed_ = true;
     limit_ = 0;
   }
+  for (const StudyOutOfRange& it : chunk.out_of_range) work_.out_of_range(it);
   fault_ = chunk.fault;
   failure_ = chunk.failure;
   closed_ |= !chunk.complete;
@@ -151,6 +154,7 @@ void Workshop::write_ready() {
     Chunk& chunk = slot(number);
     write(chunk);
     chunk.lines.clear();
+    chunk.out_of_range.clear();
     chunk.rows = 0;
     written_.store(++number, std::memory_order_release);
   }

@@ -22,6 +22,12 @@ struct StudyFault {
   std::uint64_t ticks = 0;  // of the run; 0: before the first
 };
 
+// A leaf reported a progress outside [0, 1] in this run.
+struct StudyOutOfRange {
+  StudyRow row;
+  OutOfRange progress;
+};
+
 struct StudyWork {
   const StudyPlan& plan;
   std::span<const StudyCell> cells;
@@ -31,6 +37,8 @@ struct StudyWork {
   int (*stop_signal)() = nullptr;
   // Called on the caller's thread. Lines of runs.csv, in order, and how many; false ends the study.
   std::function<bool(std::string_view lines, std::uint64_t rows)> write;
+  // As write, after it: of those rows.
+  std::function<void(const StudyOutOfRange&)> out_of_range;
   // Now and then, after writing.
   std::function<void()> idle;
 };

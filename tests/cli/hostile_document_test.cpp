@@ -264,6 +264,19 @@ TEST_CASE("includes neither hang nor multiply") {
     }
     out << kTree << "</root>";
   };
+  // A file and the one that it includes have so many bytes together.
+  const auto two_files = [](std::size_t bytes) {
+    return [=](const TemporaryDirectory& directory, std::ostream& out) {
+      const std::string main = kHead + "<include path=\"part.xml\"/>\n" + kTree + "</root>";
+      const std::string begin = "<root lockstep=\"1\"><!--", end = "--></root>";
+      std::ofstream part(directory.path("part.xml"), std::ios::binary);
+      std::size_t left = bytes - main.size() - begin.size() - end.size();
+      part << begin;
+      for (const std::string line(1023, 'x'); left >= 1024; left -= 1024) part << line << '\n';
+      part << std::string(left, 'x') << end;
+      out << main;
+    };
+  };
   const std::string at = "$:2:16: error: ";
   check_all({
       {"a device", including("/dev/zero"), 3,
@@ -278,6 +291,9 @@ TEST_CASE("includes neither hang nor multiply") {
       {"a bomb", bomb, 0, ""},
       {"a chain", chain, 3, "includes are nested deeper than 32 levels"},
       {"160 MB in 8 files", together, 3, "are larger than 64 MiB together"},
+      {"64 MiB in 2 files", two_files(kMaxBytes), 0, ""},
+      {"64 MiB and a byte in 2 files", two_files(kMaxBytes + 1), 3,
+       "are larger than 64 MiB together"},
       {"not a tree", including("/etc/passwd"), 3, "/etc/passwd:1:1: error: "},
   });
 }

@@ -96,6 +96,27 @@ TEST_CASE("a fault says what the leaf did") {
   }
 }
 
+TEST_CASE("a progress out of range is noted with its value, once for each leaf") {
+  ScriptedRun run("ParallelRelative[delta=1](a b c)", "a=R42R7R-3 b=R.5R-.25 c=R1.0000000001R0");
+  const auto noted = [&run] {
+    std::vector<std::pair<NodeIndex, double>> all;
+    for (const OutOfRange& it : run.ticker().out_of_range()) all.emplace_back(it.node, it.reported);
+    return all;
+  };
+  using Noted = std::vector<std::pair<NodeIndex, double>>;
+  run.tick(Nanoseconds(0));
+  CHECK(noted().empty());  // nobody has asked yet
+  run.tick(Nanoseconds(1));
+  CHECK(noted() == Noted{{1, 42}});
+  for (int tick = 2; tick < 5; ++tick) run.tick(Nanoseconds(tick));
+  CHECK(noted() == Noted{{1, 42}, {2, -0.25}});
+  run.restart();
+  CHECK(noted().empty());
+  run.tick(Nanoseconds(0));
+  run.tick(Nanoseconds(1));
+  CHECK(noted() == Noted{{1, 42}});
+}
+
 TEST_CASE("the first fault of a run is kept") {
   ScriptedRun run("a", "a=X^halt");
   run.tick(Nanoseconds(0));

@@ -113,20 +113,45 @@ TEST_CASE("a status that does not exist is a fault") {
   check_fault({"nonsense"}, "returned status 7, expected running (1), success (2) or failure (3)");
 }
 
-TEST_CASE("a progress that is not a number is a fault, one out of range is clamped") {
+TEST_CASE("a progress that is not a number is a fault, one out of range is clamped and told") {
   check_fault({"nan", "progress"}, "reported a progress that is not a number");
   for (const std::string how : {"infinite", "-3", "7"}) {
     for (const Where where : {Where::InProcess, Where::Isolated}) {
       const TemporaryDirectory directory;
       const std::string file = directory.path("run.jsonl");
       const Outcome outcome =
-          run_hostile({how, "progress"}, where, with(kFast, {"--record", file}));
-      check(outcome, 0, {});
+          run_hostile({how, "progress"}, where, with(kFast, {"--record", file, "--json"}));
+      const std::string leaf = "the leaf 'Main/plan/ParallelRelative/arm' ";
+      const std::string told = "reported the progress " + (how == "infinite" ? "inf" : how) +
+                               ": progress is a share from 0 to 1";
+      check(outcome, 0,
+            {"warning: the leaf 'Main/plan/ParallelRelative/arm' (Misbehave of plugin 'hostile') " +
+             told});
+      CHECK(outcome.err.find(told) == outcome.err.rfind(told));
+      const json notes = json::parse(outcome.out)["notes"];
+      REQUIRE(notes.size() == 1);
+      CHECK(contains(notes[0], leaf + told));
+      CHECK(contains(lockstep({"log", "info", file}).out, "  note: " + leaf + told));
       const Outcome csv = lockstep({"log", "csv", file});
       const std::string progress = how == "-3" ? "0" : "1";
       CHECK(contains(csv.out, "/arm,running," + progress + ","));
     }
   }
+}
+
+TEST_CASE("a study warns of a progress out of range, once for each leaf, and counts the runs") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("tree.xml", hostile_tree({"7", "progress"}));
+  const Outcome outcome =
+      lockstep({"study", tree, "--runs", "40", "--jobs", "2", "--no-plots", "--plugin-path",
+                LOCKSTEP_HOSTILE_DIRECTORY, "--out", directory.path("out")});
+  const std::string told =
+      tree +
+      ": warning: the leaf 'Main/plan/ParallelRelative/arm' (Misbehave of plugin 'hostile') "
+      "reported the progress 7: progress is a share from 0 to 1, so it counts as 1\n"
+      "  hint: first in run 0 of cell 0; in 40 runs in all\n";
+  check(outcome, 0, {told});
+  CHECK(outcome.err.find(told) == outcome.err.rfind(told));
 }
 
 TEST_CASE("a leaf that cannot be created ends the run before its first tick") {

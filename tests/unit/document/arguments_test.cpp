@@ -169,6 +169,23 @@ TEST_CASE("a value cannot grow beyond a limit that is named") {
   CHECK(value(loaded, "N", "x").size() == 3 * (300 << 10));
 }
 
+TEST_CASE("the limits of values hold to the byte") {
+  constexpr std::size_t kMiB = 1u << 20u;
+  const auto told_with = [](std::size_t size, int times, const std::string& more = "") {
+    std::string text = "<root><arg name='a'/>";
+    for (int i = 0; i < times; ++i) text += "<N x='${a}'/>";
+    return told(load(text + more + "</root>", {{"a", std::string(size, 'x')}}).diagnostics).size();
+  };
+  CHECK(told_with(kMaxValueMiB * kMiB, 1) == 0);
+  CHECK(told_with(kMaxValueMiB * kMiB + 1, 1) == 1);
+  CHECK(told_with(kMiB, kMaxExpandedMiB) == 0);
+  CHECK(told_with(kMiB, kMaxExpandedMiB - 1, "<N x='${a}'/>") == 0);
+  CHECK(
+      told_with(kMiB - 1, kMaxExpandedMiB, "<M y='" + std::string(kMaxExpandedMiB, 'y') + "'/>") ==
+      0);  // what has no argument does not count
+  CHECK(told_with(kMiB, kMaxExpandedMiB, "<N x='$${'/>") == 1);
+}
+
 TEST_CASE("all values together cannot grow beyond a limit that is named") {
   std::string text = "<root><arg name='a'/>";
   for (int i = 0; i < 1000; ++i) text += "<N x='${a}'/>";

@@ -87,6 +87,39 @@ TEST_CASE("a child is held by its own parent, not by one further up") {
   CHECK(inner.held_seconds(1) == Approx(0.2));
 }
 
+TEST_CASE("the tick in which a held child is halted counts as held, its time ends there") {
+  const Measured failed("ParallelAbsolute[barriers=.5](a b)", "a=R.1RRF b+.6");
+  CHECK(failed.ticks == 4);
+  CHECK(failed.held_ticks(1) == 3);
+  CHECK(failed.held_seconds(1) == Approx(0.2));
+  const Measured ended("Parallel(ParallelAbsolute[barriers=.5](a b) c)", "a=R.1R b+.6 c=RRRF");
+  CHECK(ended.ticks == 4);
+  CHECK(ended.held_ticks(1) == 3);
+  CHECK(ended.held_seconds(1) == Approx(0.2));
+}
+
+TEST_CASE("a child that had completed when its node was ended was not held") {
+  const Measured measured("Parallel(ParallelRelative[delta=1](a b) c)", "a=S b=R c=RRF");
+  CHECK(measured.ticks == 3);
+  CHECK(measured.held_ticks(0) == 0);
+  CHECK(measured.held_ticks(1) == 0);
+}
+
+TEST_CASE("the last step of a node counts, also when an ancestor ends in the same tick") {
+  const Measured measured("Parallel(Sequence[memory=true](ParallelRelative[delta=1](a b) w) c)",
+                          "a+.5 b+.3,.7 w=R c=RF");
+  CHECK(measured.ticks == 2);
+  CHECK(measured.run.ticker().status(2) == Status::Idle);
+  CHECK(measured.measure.distance().step_length() == Approx(0.7));
+}
+
+TEST_CASE("a node that an ancestor has ended begins anew, without a step back") {
+  const Measured measured("Retry[attempts=2](Parallel(ParallelRelative[delta=1](a b) c))",
+                          "a+.4 b+.2 c=RRFRRF");
+  CHECK(measured.ticks == 6);
+  CHECK(measured.measure.distance().step_length() == Approx(0.4));
+}
+
 TEST_CASE("a new activation is measured on, without a step back to zero") {
   const Measured measured("Repeat[times=2](ParallelRelative[delta=1](a b))", "a+.1 b+.2");
   CHECK(measured.ticks == 20);

@@ -40,7 +40,7 @@ void append_line(const Moment& moment, const std::vector<RecordedState>& before,
   }
   std::vector<Fault> faults;
   for (const RecordedFault& fault : moment.faults) faults.push_back({fault.node, fault.message});
-  out += tick_end(faults);
+  out += tick_end({}, faults);
 }
 
 }  // namespace

@@ -18,12 +18,12 @@ const std::string kHeader =
     kNodes + "]}\n";
 
 const std::string kTick =
-    R"({"tick":0,"time_s":0,"nodes":[[2,"running",0.5,1,0]],"faults":[[2,"lost"]]})"
+    R"({"tick":0,"time_s":0,"nodes":[[2,"running",0.5,1,0]],"faults":[[2,"lost"]],"succeeded":[1]})"
     "\n";
 
 const std::string kEnd =
     R"({"end":{"result":"success","reason":"completed","ticks":1,"time_s":0,"overruns":0,)"
-    R"("skipped":0,"signal":2,"lost":0,"fault":"x"}})"
+    R"("skipped":0,"signal":2,"lost":0,"fault":"x","notes":["y"]}})"
     "\n";
 
 std::string replaced(std::string text, std::string_view from, std::string_view to) {
@@ -63,6 +63,20 @@ TEST_CASE("the recording that the rows below change is right") {
   CHECK(error_of(kHeader + replaced(kTick, "\"time_s\":0", "\"time_s\":9e9")) == "");
   CHECK(error_of(kHeader + replaced(kTick, "0.5", "1")) == "");
   CHECK(error_of(kHeader + replaced(kTick, "0.5", "0")) == "");
+  for (const std::string rate : {"0", "1e-6", "1e9"}) {
+    CHECK(error_of(replaced(kHeader, "\"rate_hz\":10", "\"rate_hz\":" + rate)) == "");
+  }
+  CHECK(error_of(kHeader + kTick + replaced(kEnd, "\"time_s\":0", "\"time_s\":9e9")) == "");
+  const std::string last = std::to_string(UINT64_MAX);
+  CHECK(error_of(kHeader + "{\"lost\":{\"ticks\":1,\"from\":" + last + "}}\n") == "");
+}
+
+TEST_CASE("a gap ends where ticks can be counted") {
+  const std::string last = std::to_string(UINT64_MAX);
+  CHECK(error_of(kHeader + "{\"lost\":{\"ticks\":2,\"from\":" + last + "}}\n") ==
+        "r:2: no 2 ticks can be lost from tick " + last + " on");
+  CHECK(error_of(kHeader + "{\"lost\":{\"ticks\":0,\"from\":7}}\n") ==
+        "r:2: no 0 ticks can be lost from tick 7 on");
 }
 
 TEST_CASE("a header is refused for each value that is not what it must be") {
@@ -72,6 +86,8 @@ TEST_CASE("a header is refused for each value that is not what it must be") {
              {"\"1\",\"rate", "1,\"rate", "'version' is not a string"},
              {"\"virtual\"", "[]", "'clock' is not a string"},
              {"\"rate_hz\":10", "\"rate_hz\":-10", rate},
+             {"\"rate_hz\":10", "\"rate_hz\":9.99e-7", rate},
+             {"\"rate_hz\":10", "\"rate_hz\":1.001e9", rate},
              {"\"rate_hz\":10", "\"rate_hz\":1e-300", rate},
              {"\"rate_hz\":10", "\"rate_hz\":1e300", rate},
              {"\"rate_hz\":10", "\"rate_hz\":[]", "'rate_hz' is not a number"},
@@ -108,7 +124,7 @@ TEST_CASE("a tick is refused for each value that is not what it must be") {
   check_all({{"\"tick\":0", "\"tick\":-1", "'tick' is not a whole number"},
              {"\"tick\":0", "\"tick\":\"0\"", "'tick' is not a whole number"},
              {"\"time_s\":0", "\"time_s\":-1e-9", time},
-             {"\"time_s\":0", "\"time_s\":9.1e9", time},
+             {"\"time_s\":0", "\"time_s\":9.000001e9", time},
              {"\"time_s\":0", "\"time_s\":\"0\"", "'time_s' is not a number"},
              {"[[2,\"running\",0.5,1,0]]", "5", "'nodes' is not a list"},
              {"[2,\"running\",0.5,1,0]", "[]", change},
@@ -125,7 +141,10 @@ TEST_CASE("a tick is refused for each value that is not what it must be") {
              {"[[2,\"lost\"]]", "{}", "'faults' is not a list"},
              {"[2,\"lost\"]", "[3,\"lost\"]", "no node 3, expected 0 to 2"},
              {"[2,\"lost\"]", "[2,3]", "a fault is not [index, message]"},
-             {"[2,\"lost\"]", "[-2,\"lost\"]", "a fault is not [index, message]"}},
+             {"[2,\"lost\"]", "[-2,\"lost\"]", "a fault is not [index, message]"},
+             {"\"succeeded\":[1]", "\"succeeded\":1", "'succeeded' is not a list"},
+             {"\"succeeded\":[1]", "\"succeeded\":[3]", "no node 3, expected 0 to 2"},
+             {"\"succeeded\":[1]", "\"succeeded\":[-1]", "'succeeded' is not a list of indices"}},
             2);
 }
 
@@ -137,6 +156,8 @@ TEST_CASE("a closing line is refused for each value that is not what it must be"
              {"\"time_s\":0,\"over", "\"time_s\":1e10,\"over", "'time_s' is not a time in seconds"},
              {"\"overruns\":0", "\"overruns\":0.5", "'overruns' is not a whole number"},
              {"\"skipped\":0", "\"skipped\":[]", "'skipped' is not a whole number"},
+             {"[\"y\"]", "\"y\"", "'notes' is not a list"},
+             {"[\"y\"]", "[1]", "a note is not a string"},
              {"\"signal\":2", "\"signal\":\"2\"", "'signal' is not a whole number"},
              {"\"lost\":0", "\"lost\":-1", "'lost' is not a whole number"},
              {"\"fault\":\"x\"", "\"fault\":0", "'fault' is not a string"}},

@@ -88,6 +88,14 @@ TEST_CASE("numbers are written with as many digits as are needed, and no more") 
   CHECK(text_of(2.2250738585072014e-308) == expected("2.2250738585072014e-308"));
 }
 
+TEST_CASE("of the message of a fault 4096 bytes are kept") {
+  const std::string longest(4096, 'm');
+  const std::vector<Fault> faults = {{3, longest}, {4, longest + 'x'}};
+  CHECK(tick_end({}, faults) ==
+        "],\"faults\":[[3,\"" + longest + "\"],[4,\"" + longest + "\"]]}\n");
+  CHECK(tick_end({}, {}) == "]}\n");
+}
+
 TEST_CASE("the closing line of a run with a fault names the leaf") {
   const std::string text = record("Sequence(a)", "a=RX");
   const std::string last = text.substr(text.rfind("{\"end\""));

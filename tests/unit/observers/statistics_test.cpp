@@ -104,6 +104,21 @@ TEST_CASE("faults that the run went on after are counted, and the first of them 
   CHECK(to_json(summary).find(R"("faults":7,)") != std::string::npos);
 }
 
+TEST_CASE("leaves whose progress was out of range are noted, a few by name") {
+  WatchedRun run("ParallelRelative[delta=1](a b)", "a=R42RS b=R.5RS");
+  CHECK(summary_of(run).notes ==
+        std::vector<std::string>{"the leaf 'Test/ParallelRelative/a' reported the progress 42: "
+                                 "progress is a share from 0 to 1, so it counts as 1"});
+  WatchedRun many("ParallelRelative[delta=1](a b c d e f g)",
+                  "a=R-2S b=R2S c=R3S d=R4S e=R5S f=R6S g=RS");
+  const Summary summary = summary_of(many);
+  REQUIRE(summary.notes.size() == 6);
+  CHECK(
+      summary.notes[0].ends_with("reported the progress -2: progress is a share from 0 to 1, "
+                                 "so it counts as 0"));
+  CHECK(summary.notes[5] == "6 leaves in all reported such a progress");
+}
+
 TEST_CASE("the worst tick is told with its leaf, on a real clock only") {
   WatchedRun run("Sequence(a)", "a=RS");
   run.worst = {.tick = 1, .took = Nanoseconds(8'200'000), .leaf = {}, .leaf_took = {}};

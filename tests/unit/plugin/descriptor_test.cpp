@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
+#include <deque>
 #include <new>
 
 #include "unit/plugin/lab_plugin.h"
@@ -64,6 +65,48 @@ TEST_CASE("a plugin that was only listed is neither initialized nor deinitialize
     REQUIRE(plugins.add(lab_plugin(), "lab", diagnostics));
   }
   CHECK(lab.events.empty());
+}
+
+// A plugin of so many leaf types, each with so many ports.
+struct Crowd {
+  Crowd(std::uint32_t leaves, std::uint32_t ports_of_each) {
+    for (std::uint32_t i = 0; i < ports_of_each; ++i) {
+      const char* const name = names.emplace_back("p" + std::to_string(i)).c_str();
+      ports.push_back(
+          {sizeof(lockstep_port), LOCKSTEP_BOOL, LOCKSTEP_INPUT, name, "true", nullptr, nullptr});
+    }
+    for (const lockstep_port& port : ports) port_list.push_back(&port);
+    for (std::uint32_t i = 0; i < leaves; ++i) {
+      lockstep_leaf_type& type = types.emplace_back(*lab_plugin().leaf_types[0]);
+      type.id = names.emplace_back("Leaf" + std::to_string(i)).c_str();
+      type.port_count = ports_of_each;
+      type.ports = port_list.data();
+      type_list.push_back(&type);
+    }
+  }
+  std::string refusal() const {
+    lockstep_plugin plugin = lab_plugin();
+    plugin.leaf_type_count = static_cast<std::uint32_t>(types.size());
+    plugin.leaf_types = type_list.data();
+    Descriptors descriptors;
+    const auto refusal = read_descriptors(plugin, 0, descriptors);
+    return refusal ? refusal->message : "";
+  }
+
+  std::deque<std::string> names;
+  std::deque<lockstep_port> ports;
+  std::deque<lockstep_leaf_type> types;
+  std::vector<const lockstep_port*> port_list;
+  std::vector<const lockstep_leaf_type*> type_list;
+};
+
+TEST_CASE("a plugin has at most 4096 leaf types, and each of them 4096 ports") {
+  CHECK(Crowd(1, 4096).refusal() == "");
+  CHECK_THAT(Crowd(1, 4097).refusal(),
+             Catch::Contains("claims to have 4097 ports, expected at most 4096"));
+  CHECK(Crowd(4096, 1).refusal() == "");
+  CHECK_THAT(Crowd(4097, 1).refusal(),
+             Catch::Contains("claims to have 4097 leaf types, expected at most 4096"));
 }
 
 // The struct of a minor to come, and a plugin that knows only today's.
