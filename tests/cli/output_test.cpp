@@ -62,7 +62,7 @@ TEST_CASE("no output option overwrites an input of its command") {
         std::string("lockstep run tree.xml --plugin ./motion.so --record motion.so"),
         std::string("cat tree.xml | lockstep run - --record part.xml"),
         std::string("lockstep run - --record tree.xml <tree.xml"), run + "/dev/stdin <tree.xml",
-        run + "/dev/stdout | cat", run + "/dev/stderr 2>&1 | cat", run + "run.jsonl 2>>run.jsonl",
+        run + "/dev/stdout | cat", run + "/dev/stderr 2>&1 | cat", 
         run + "run.jsonl >>run.jsonl", std::string("lockstep log csv run.jsonl --out run.jsonl"),
         std::string("lockstep log csv run.jsonl --out hard.jsonl"),
         std::string("lockstep log csv - --out hard.jsonl <run.jsonl"),

@@ -140,7 +140,7 @@ TEST_CASE("a reader who stops reading stderr holds nothing up") {
   const DeadEnd stuck(DeadEnd::Reader::Stuck);
   const std::string good = std::string(LOCKSTEP_BINARY_DIR) + "/tests/abi/plugins/good.so";
   shell.call("sed 's/Advance/Probe ticks=\"1000000\"/; s/ step=\"0.1\"//' slow.xml >talks.xml");
-  for (const std::string& view : {"none", "plain", "live"}) {
+  for (const std::string& view : std::vector<std::string>{"none", "plain", "live"}) {
     INFO(view);
     const Outcome outcome = shell.call("lockstep run talks.xml --plugin " + good +
                                        " --rate 1000 --timeout 0.5 --view " + view +

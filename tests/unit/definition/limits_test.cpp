@@ -47,8 +47,9 @@ struct Checked {
 // The first message without its place; "" when there is none.
 std::string message(const std::string& inside) {
   const Checked checked(inside);
-  CHECK(checked.may_expand == checked.diagnostics.all().empty());
-  return checked.may_expand ? "" : checked.diagnostics.all()[0].message;
+  const auto& told = checked.diagnostics.all();
+  CHECK((checked.may_expand || !told.empty()));
+  return told.empty() ? "" : told[0].message;
 }
 
 std::string plugins(std::size_t count) {

@@ -106,7 +106,7 @@ TEST_CASE("a child that had completed when its node was ended was not held") {
 }
 
 TEST_CASE("the last step of a node counts, also when an ancestor ends in the same tick") {
-  const Measured measured("Parallel(Sequence[memory=true](ParallelRelative[delta=1](a b) w) c)",
+  Measured measured("Parallel(Sequence[memory=true](ParallelRelative[delta=1](a b) w) c)",
                           "a+.5 b+.3,.7 w=R c=RF");
   CHECK(measured.ticks == 2);
   CHECK(measured.run.ticker().status(2) == Status::Idle);
