@@ -49,6 +49,8 @@ void StopSignals::install(void (*last_words)()) {
   g_last_words = last_words;
   struct sigaction action {};
   action.sa_handler = on_signal;  // without SA_RESTART: it must end a sleep
+  // One after another: of two that come together the second would be handled first.
+  for (const int number : kNumbers) sigaddset(&action.sa_mask, number);
   for (const int number : kNumbers) {
     struct sigaction before {};
     sigaction(number, nullptr, &before);

@@ -13,9 +13,9 @@ namespace {
 
 using nlohmann::json;
 
-// lockstep with these arguments, its stderr in the dead end.
+// lockstep with these arguments, its stderr in the dead end. Its 99 is its stdout.
 Call unread(const DeadEnd& end, const std::vector<std::string>& arguments) {
-  Call call{.arguments = {"-c", "exec \"$@\" 2>&" + end.number(), "bash",
+  Call call{.arguments = {"-c", "exec \"$@\" 99>&1 2>&" + end.number(), "bash",
                           LOCKSTEP_BINARY_DIR "/lockstep"},
             .program = "/bin/bash"};
   call.arguments.insert(call.arguments.end(), arguments.begin(), arguments.end());
@@ -67,12 +67,13 @@ TEST_CASE("unread: a fault, a crash and a hang have their codes") {
 TEST_CASE("unread: a second signal ends the program") {
   const DeadEnd stuck(DeadEnd::Reader::Stuck);
   const TemporaryDirectory directory;
-  const std::string tree = directory.file("tree.xml", hostile_tree({"hang"}));
-  const std::string file = directory.path("run.jsonl");
-  Process process(unread(stuck, {"run", tree, "--plugin-path", LOCKSTEP_HOSTILE_DIRECTORY,
-                                 "--hang-limit", "0", "--view", "live", "--record", file}));
-  while (!std::ifstream(file)) {
-  }
+  const std::string tree = directory.file(
+      "tree.xml", "<root lockstep=\"1\"><BehaviorTree ID=\"Main\"><Probe/></BehaviorTree></root>");
+  Call call = unread(stuck, {"run", tree, "--plugin", LOCKSTEP_BINARY_DIR "/tests/cli/stuck.so",
+                             "--hang-limit", "0", "--view", "live"});
+  call.environment["STUCK_FILE"] = "99";  // its lines go to our stdout, not to the dead end
+  Process process(call);
+  REQUIRE(process.wait_for("stuck\n"));
   process.signal(SIGHUP);
   CHECK(process.end_by(SIGTERM).code == 143);
 }
