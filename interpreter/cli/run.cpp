@@ -10,6 +10,7 @@
 #include "cli/run_options.h"
 #include "cli/run_watch.h"
 #include "cli/view.h"
+#include "observers/capped_notes.h"
 #include "observers/recorder.h"
 #include "observers/stall_observer.h"
 #include "observers/statistics.h"
@@ -58,13 +59,15 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   RunCommand(const RunCommandOptions& options, const Loaded& loaded, const Tree& tree)
       : options_(options),
         tree_(tree),
-        view_(options.view, tree),
+        view_(options.view, tree, options.log_level),
         watch_(tree, options, [this](const std::string& line) { view_.print("warning: " + line); }),
         statistics_(tree) {
     if (!options.record.empty()) recorder_.emplace(tree, recorder_options(loaded));
     if (options.stall > 0) {
       stall_.emplace(tree, from_seconds(options.stall), [this](const Standstill& standstill) {
-        view_.print("warning: " + standstill_text(tree_, standstill));
+        const std::string text = standstill_text(tree_, standstill);
+        view_.print("warning: " + text);
+        standstills_.add([&] { return text; });
       });
     }
   }
@@ -160,6 +163,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
       summary.notes.push_back(fmt::format("the recording lacks {}: the disk was too slow",
                                           counted(recorder_->lost(), "tick")));
     }
+    standstills_.append_to(summary.notes);
     watch_.add_to(summary);
     if (const std::string lost = lost_messages(); !lost.empty()) summary.notes.push_back(lost);
     if (options_.json) return write_results(to_json(summary) + "\n");
@@ -175,6 +179,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   Statistics statistics_;
   std::optional<Recorder> recorder_;
   std::optional<StallObserver> stall_;
+  CappedNotes standstills_{"standstill"};
   std::vector<Observer*> observers_;
 };
 

@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 #include <map>
+#include <utility>
+#include <vector>
 
 #include "cli/checks.h"
 #include "runtime/stop_signals.h"
@@ -11,20 +13,23 @@
 namespace lockstep {
 namespace {
 
+constexpr lockstep_log_level kNoLogs = LOCKSTEP_LOG_WARNING + 1;
+
 // An option whose value is one of some words.
 template <class T>
 void add_choice(CLI::App& app, const std::string& name, T& value,
-                const std::map<std::string, T>& choices, const std::string& doc) {
+                const std::vector<std::pair<std::string, T>>& choices, const std::string& doc) {
+  const std::map<std::string, T> values(choices.begin(), choices.end());
   std::string words, current;
   for (const auto& [word, meaning] : choices) {
     words += (words.empty() ? "" : "|") + word;
     if (meaning == value) current = word;
   }
   app.add_option_function<std::string>(
-         name, [&value, choices](const std::string& word) { value = choices.at(word); }, doc)
+         name, [&value, values](const std::string& word) { value = values.at(word); }, doc)
       ->type_name(words)
-      ->check([choices, words](const std::string& word) {
-        return choices.count(word) != 0 ? "" : fmt::format("'{}' is not one of {}", word, words);
+      ->check([values, words](const std::string& word) {
+        return values.count(word) != 0 ? "" : fmt::format("'{}' is not one of {}", word, words);
       })
       ->default_str(current);
 }
@@ -136,6 +141,13 @@ void define_run_options(CLI::App& app, RunCommandOptions& options) {
                  "terminal, else plain")
       ->check(CLI::IsMember({"auto", "live", "plain", "none"}))
       ->capture_default_str();
+  add_choice<lockstep_log_level>(app, "--log-level", options.log_level,
+                                 {{"debug", LOCKSTEP_LOG_DEBUG},
+                                  {"info", LOCKSTEP_LOG_INFO},
+                                  {"warning", LOCKSTEP_LOG_WARNING},
+                                  {"none", kNoLogs}},
+                                 "What leaves log that is shown on stderr, in any view: this "
+                                 "level and what is more urgent");
   app.add_flag("--json", options.json, "Print the summary as JSON");
   add_load_options(app, options.load);
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cli/loading.h"
+#include "lockstep/leaf.h"
 #include "runtime/loop.h"
 #include "runtime/realtime.h"
 
@@ -30,6 +31,7 @@ struct RunCommandOptions {
   std::string record;
   bool stop_on_record_error = false;
   std::string view = "auto";
+  lockstep_log_level log_level = LOCKSTEP_LOG_INFO;
   bool json = false;
 
   bool is_wall() const { return clock == "wall"; }

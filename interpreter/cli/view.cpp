@@ -5,6 +5,7 @@
 
 #include "cli/console.h"
 #include "core/diagnostics.h"
+#include "observers/summary.h"
 #include "observers/terminal.h"
 
 namespace lockstep {
@@ -19,7 +20,7 @@ std::string_view to_string(lockstep_log_level level) {
 
 }  // namespace
 
-View::View(const std::string& mode, const Tree& tree) {
+View::View(const std::string& mode, const Tree& tree, lockstep_log_level least) : least_(least) {
   if (mode == "live" || (mode == "auto" && is_terminal(STDERR_FILENO))) {
     g_is_live = is_terminal(STDERR_FILENO);
     live_.emplace(tree, LiveOptions{.color = wants_color(STDERR_FILENO), .unicode = has_unicode()});
@@ -45,8 +46,30 @@ void View::print(const std::string& line) {
 
 LeafLog View::leaf_log() {
   return [this](std::string_view who, lockstep_log_level level, std::string_view message) {
-    print(fmt::format("{}: {}: {}", printable(who), to_string(level), printable(message)));
+    if (level < least_) return;
+    log(fmt::format("{}: {}: {}", printable(who), to_string(level), printable(message)));
   };
+}
+
+void View::log(const std::string& line) {
+  std::uint64_t left_out = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!budget_.take(std::chrono::steady_clock::now())) return;
+    left_out = budget_.take_left_out();
+  }
+  print_left_out(left_out);
+  print(line);
+}
+
+void View::print_left_out(std::uint64_t lines) {
+  if (lines > 0) print(fmt::format("... {} of leaves left out", counted(lines, "line")));
+}
+
+void View::close() {
+  live_.reset();
+  const std::lock_guard lock(mutex_);
+  print_left_out(budget_.take_left_out());
 }
 
 void View::last_words() {

@@ -33,9 +33,13 @@ void SynchronizedMeasure::after_tick(const SynchronizedTick& tick) {
   pass_time(tick.time);
   distance_.after_tick(tick.ticked, tick.status, tick.progress);
   for (std::size_t child = 0; child < held_.size(); ++child) {
+    Held& child_held = held_[child];
     const bool held = tick.ticked && tick.held[child];
-    held_[child].ticks += held;
-    held_[child].now = held && tick.status == Status::Running;
+    child_held.ticks += held;
+    child_held.now = held && tick.status == Status::Running;
+    if (!tick.ticked && tick.status == Status::Running) continue;
+    child_held.waits += held && !child_held.is_waiting;
+    child_held.is_waiting = child_held.now;
   }
 }
 

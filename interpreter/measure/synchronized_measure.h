@@ -60,6 +60,8 @@ class SynchronizedMeasure {
     bool now = false;
     Nanoseconds time{0};  // from a tick in which it is held to the next, or to the end of the run
     std::uint64_t ticks = 0;
+    std::uint64_t waits = 0;  // ticks in a row of the node are one
+    bool is_waiting = false;  // also while the node itself is held
   };
   const ProgressDistance& distance() const { return distance_; }
   // Only what this node withheld: while the node itself is held, its children are not counted.

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "core/diagnostics.h"
 #include "observers/statistics.h"
 #include "observers/summary.h"
@@ -12,12 +15,11 @@ namespace lockstep {
 ConsolePlain::ConsolePlain(const Tree& tree, Outlet& out, RealTime real_time)
     : tree_(tree), out_(out), real_time_(real_time) {
   for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
-    if (tree.nodes[node].children == 0) leaves_.push_back(node);
+    if (tree.nodes[node].children == 0) leaves_.push_back({.node = node});
   }
-  last_.resize(leaves_.size());
   for (const NodeIndex node : synchronized_nodes(tree)) {
     const std::size_t children = tree.nodes[node].children;
-    nodes_.push_back({SynchronizedProbe(tree, node), std::vector<Watched::Child>(children)});
+    nodes_.push_back({SynchronizedProbe(tree, node), std::vector<Wait>(children)});
   }
 }
 
@@ -33,11 +35,9 @@ void ConsolePlain::before_tick(Ticker&, std::uint64_t tick, Nanoseconds time) {
 
 void ConsolePlain::after_tick(Ticker& ticker, const TickReport& report) {
   for (const Fault& fault : report.faults) tell_fault(fault);
-  for (Watched& node : nodes_) tell_held(ticker, node);
-  for (std::size_t i = 0; i < leaves_.size(); ++i) {
-    const Status now = ticker.status(leaves_[i]);
-    if (now != last_[i]) tell_leaf(leaves_[i], last_[i], now);
-    last_[i] = now;
+  for (Watched& node : nodes_) tell_waits(ticker, node);
+  for (Leaf& leaf : leaves_) {
+    tell_leaf(leaf, ticker.status(leaf.node), ticker.ticked(leaf.node));
   }
 }
 
@@ -46,6 +46,7 @@ void ConsolePlain::run_ended(Ticker& ticker, const RunEnd& end) {
   halts.faults = ticker.tolerated();
   after_tick(ticker, halts);
   tell_left_out();
+  if (short_waits_ > 0) print(fmt::format("... {} left out", counted(short_waits_, "short wait")));
   if (end.fault) print("fault: " + fault_text(tree_, *end.fault));
   print(fmt::format("run ends: {} ({}) after {}", to_string(end.result()), to_string(end.reason),
                     counted(end.ticks, "tick")));
@@ -75,41 +76,76 @@ void ConsolePlain::tell_fault(const Fault& fault) {
             : fmt::format("{}: failed: {}; counted as Failure", path, fault.message));
 }
 
-void ConsolePlain::tell_leaf(NodeIndex leaf, Status before, Status now) {
-  const bool halted = now == Status::Idle && before == Status::Running;
-  // A completed leaf that becomes idle has been told already.
-  if (now == Status::Idle && !halted) return;
-  if (!may_print()) return;
-  const std::string_view what = halted                   ? "halted"
-                                : now == Status::Running ? "started"
-                                                         : to_string(now);
-  print(fmt::format("{}: {}", tree_.path(leaf), what));
+void ConsolePlain::tell_leaf(Leaf& leaf, Status now, bool ticked) {
+  const Status before = std::exchange(leaf.last, now);
+  if (now != before) {
+    tell_again(leaf, before);
+    if (now == Status::Running) {
+      tell(leaf.node, "started");
+    } else if (now != Status::Idle) {
+      tell(leaf.node, to_string(now));
+    } else if (before == Status::Running) {
+      tell(leaf.node, "halted");
+    }
+  } else if (ticked && is_complete(now)) {
+    if (leaf.again++ == 0) leaf.first = tick_;
+    leaf.latest = tick_;
+    leaf.latest_time = time_;
+  } else if (leaf.again > 0 && time_.load() - leaf.latest_time >= kShortWait) {
+    tell_again(leaf, now);
+  }
 }
 
-void ConsolePlain::tell_held(Ticker& ticker, Watched& node) {
-  const Nanoseconds now = time_;
-  const SynchronizedTick tick = node.probe.read(ticker, now);
-  if (!tick.ticked) return;
+void ConsolePlain::tell_again(Leaf& leaf, Status status) {
+  const std::uint64_t again = std::exchange(leaf.again, 0);
+  if (again == 0) return;
+  tell(leaf.node, again == 1 ? fmt::format("{} again in tick {}", to_string(status), leaf.first)
+                             : fmt::format("{} {} more times, in ticks {} to {}", to_string(status),
+                                           again, leaf.first, leaf.latest));
+}
+
+void ConsolePlain::tell_waits(Ticker& ticker, Watched& node) {
+  const SynchronizedTick tick = node.probe.read(ticker, time_);
+  if (!tick.ticked) {  // it is held itself, or it was halted
+    if (tick.status != Status::Running) std::ranges::fill(node.waits, Wait{});
+    return;
+  }
   for (std::size_t child = 0; child < node.waits.size(); ++child) {
-    Watched::Child& wait = node.waits[child];
     if (tick.held[child] && tick.status == Status::Running) {
-      if (!wait.held) wait = {true, false, now};
-      if (wait.told || now - wait.since < kShortestWait) continue;
-      wait.told = true;
-      tell_wait(node, child, waiting_text(tree_, node.probe.node(), tick.progress, child));
-    } else {
-      const bool goes_on = wait.told && ticker.ticked(node.probe.children()[child]);
-      if (goes_on) {
-        tell_wait(node, child, fmt::format("goes on after {:.3f} s", to_seconds(now - wait.since)));
-      }
-      wait = {};
+      tell_wait(node, child, tick);
+    } else if (node.waits[child].held) {
+      tell_end_of_wait(ticker, node, child);
     }
   }
 }
 
-void ConsolePlain::tell_wait(const Watched& node, std::size_t child, std::string_view text) {
-  if (!may_print()) return;
-  print(fmt::format("{}: {}", tree_.path(node.probe.children()[child]), text));
+void ConsolePlain::tell_wait(Watched& node, std::size_t child, const SynchronizedTick& tick) {
+  Wait& wait = node.waits[child];
+  if (!wait.held) {
+    wait.held = true;
+    wait.since = tick.time;
+  }
+  const bool is_soon = wait.last_end && wait.since - *wait.last_end <= kShortWait;
+  if (wait.told || (is_soon && tick.time - wait.since < kShortWait)) return;
+  wait.told = true;
+  std::string text = waiting_text(tree_, node.probe.node(), tick.progress, child);
+  if (wait.since != tick.time) text += fmt::format(", since {:.3f} s", to_seconds(wait.since));
+  tell(node.probe.children()[child], text);
+}
+
+void ConsolePlain::tell_end_of_wait(Ticker& ticker, Watched& node, std::size_t child) {
+  const NodeIndex it = node.probe.children()[child];
+  const Nanoseconds now = time_;
+  const Wait wait = std::exchange(node.waits[child], Wait{.last_end = now});
+  if (!wait.told) {
+    ++short_waits_;
+  } else if (ticker.ticked(it)) {
+    tell(it, fmt::format("goes on after {:.3f} s", to_seconds(now - wait.since)));
+  }
+}
+
+void ConsolePlain::tell(NodeIndex node, std::string_view what) {
+  if (may_print()) print(fmt::format("{}: {}", tree_.path(node), what));
 }
 
 }  // namespace lockstep

@@ -26,8 +26,7 @@ void Statistics::after_tick(Ticker& ticker, const TickReport& report) {
 }
 
 void Statistics::note(const Fault& fault, std::uint64_t tick) {
-  ++faults_;
-  if (faults_ <= kMostFaults) fault_notes_.push_back(fault_text(tree_, fault, tick));
+  faults_.add([&] { return fault_text(tree_, fault, tick); });
 }
 
 void Statistics::run_ended(Ticker& ticker, const RunEnd& end) {
@@ -49,15 +48,13 @@ Summary Statistics::summary() const {
                   .overruns = end_.overruns,
                   .skipped = end_.skipped,
                   .worst = worst_tick(),
-                  .faults = faults_,
+                  .faults = faults_.count(),
                   .tick_budget = {},
                   .over_budget = {},
                   .synchronized_nodes = {},
                   .never_reached = 0,
-                  .notes = fault_notes_};
-  if (faults_ > kMostFaults) {
-    summary.notes.push_back(fmt::format("and {} more", counted(faults_ - kMostFaults, "fault")));
-  }
+                  .notes = {}};
+  faults_.append_to(summary.notes);
   summary.notes.insert(summary.notes.end(), out_of_range_notes_.begin(), out_of_range_notes_.end());
   if (real_time_ && periods_.count() > 0) {
     summary.period = PeriodSummary{.p50 = to_seconds(periods_.quantile(0.5)),

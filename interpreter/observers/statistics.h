@@ -8,6 +8,7 @@
 #include "core/histogram.h"
 #include "measure/decision.h"
 #include "measure/synchronized_measure.h"
+#include "observers/capped_notes.h"
 #include "observers/summary.h"
 #include "runtime/observer.h"
 
@@ -15,8 +16,6 @@ namespace lockstep {
 
 class Statistics final : public Observer {
  public:
-  static constexpr std::size_t kMostFaults = 5;  // that are told one by one
-
   explicit Statistics(const Tree& tree);
 
   void run_started(Ticker& ticker, const RunStart& start) override;
@@ -41,8 +40,8 @@ class Statistics final : public Observer {
   bool real_time_ = false;
   Nanoseconds last_start_{0};
   std::vector<DecidingNode> why_failed_;
-  std::uint64_t faults_ = 0;  // that the run went on after
-  std::vector<std::string> fault_notes_, out_of_range_notes_;
+  CappedNotes faults_{"fault"};  // that the run went on after
+  std::vector<std::string> out_of_range_notes_;
   RunEnd end_;
 };
 

@@ -61,6 +61,12 @@ void write_over_budget(const Summary& summary, std::string& out, bool color) {
   }
 }
 
+std::string waited(const ChildSummary& child) {
+  if (child.waits == 0) return "did not wait";
+  return fmt::format("waited {}, {:.3f} s in {}", counted(child.waits, "time"), child.held_seconds,
+                     counted(child.held_ticks, "tick"));
+}
+
 void write_node(const SynchronizedSummary& node, std::string& out, bool color) {
   const auto name = styled(printable(node.path), Style::Strong, color);
   fmt::format_to(std::back_inserter(out), "  {} ({}, {})\n", name, printable(node.kind),
@@ -74,9 +80,8 @@ void write_node(const SynchronizedSummary& node, std::string& out, bool color) {
     width = std::max(width, printable(child.name).size());
   }
   for (const ChildSummary& child : node.children) {
-    fmt::format_to(std::back_inserter(out), "    {:<{}}  waited {:.3f} s in {}\n",
-                   printable(child.name), width, child.held_seconds,
-                   counted(child.held_ticks, "tick"));
+    fmt::format_to(std::back_inserter(out), "    {:<{}}  {}\n", printable(child.name), width,
+                   waited(child));
   }
 }
 
@@ -130,7 +135,7 @@ SynchronizedSummary summarize(const SynchronizedMeasure& measure, std::string pa
                               .children = {}};
   for (std::size_t child = 0; child < children.size(); ++child) {
     const auto& held = measure.held()[child];
-    summary.children.push_back({children[child], to_seconds(held.time), held.ticks});
+    summary.children.push_back({children[child], to_seconds(held.time), held.ticks, held.waits});
   }
   return summary;
 }

@@ -27,6 +27,7 @@ struct ChildSummary {
   std::string name;
   double held_seconds = 0;
   std::uint64_t held_ticks = 0;
+  std::uint64_t waits = 0;
 };
 
 struct SynchronizedSummary {

@@ -11,8 +11,10 @@ using Json = nlohmann::ordered_json;
 Json json_of(const SynchronizedSummary& node) {
   Json children = Json::array();
   for (const ChildSummary& child : node.children) {
-    children.push_back(
-        {{"name", child.name}, {"held_s", child.held_seconds}, {"held_ticks", child.held_ticks}});
+    children.push_back({{"name", child.name},
+                        {"held_s", child.held_seconds},
+                        {"held_ticks", child.held_ticks},
+                        {"waits", child.waits}});
   }
   return {{"path", node.path},
           {"kind", node.kind},

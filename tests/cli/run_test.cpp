@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
 
@@ -172,6 +173,50 @@ TEST_CASE("run --stall names who stands still while others wait") {
   CHECK(contains(err("2"), "warning: Main/pair/arm stands still at 0 "));
   CHECK(err("0").empty());
   CHECK(err("10").empty());
+}
+
+TEST_CASE("who stood still is in the notes of the summary") {
+  const Simulation it(
+      "<ParallelRelative name=\"pair\" delta=\"0.1\"><Advance name=\"arm\" step=\"0\"/>"
+      "<Advance name=\"base\" step=\"0.3\"/></ParallelRelative>");
+  const Outcome outcome =
+      it.run({"--stall", "2", "--max-ticks", "500", "--view", "none", "--json"});
+  const json notes = json::parse(outcome.out)["notes"];
+  REQUIRE(notes.size() == 1);
+  CHECK(outcome.err == "warning: " + notes[0].get<std::string>() + "\n");
+  CHECK(contains(it.run({"--stall", "2", "--max-ticks", "500", "--view", "none"}).out,
+                 "note: Main/pair/arm stands still at 0 "));
+}
+
+TEST_CASE("what leaves log, by --log-level, limited in every view") {
+  const Simulation it("<Probe/>");
+  const auto logged = [&](const std::string& view, std::vector<std::string> more) {
+    more.insert(more.end(),
+                {"--view", view, "--plugin", LOCKSTEP_BINARY_DIR "/tests/cli/chatty.so"});
+    std::map<std::string, int> count;
+    for (const std::string& line : lines(it.run(more).err)) {
+      for (const char* level : {"debug: thinks", "info: works", "warning: worries", "left out"}) {
+        if (contains(line, level)) ++count[level];
+      }
+    }
+    return count;
+  };
+  for (const std::string view : {"none", "plain"}) {
+    INFO(view);
+    const auto all = logged(view, {"--log-level", "debug"});
+    const int shown = all.at("debug: thinks") + all.at("info: works") + all.at("warning: worries");
+    CHECK(shown >= 190);  // create, start and the like come before
+    CHECK(shown < 250);   // after the burst one a second
+    CHECK(all.at("left out") > 0);
+    const auto info = logged(view, {});
+    CHECK(info.count("debug: thinks") == 0);
+    CHECK(info.at("info: works") > 0);
+    const auto warning = logged(view, {"--log-level", "warning"});
+    CHECK(warning.count("info: works") == 0);
+    CHECK(warning.at("warning: worries") >= 200);
+    CHECK(logged(view, {"--log-level", "none"}).empty());
+  }
+  CHECK(it.run({"--log-level", "error"}).code == 2);
 }
 
 TEST_CASE("wrong usage is 2 and runs nothing") {

@@ -107,7 +107,7 @@ TEST_CASE("a child that had completed when its node was ended was not held") {
 
 TEST_CASE("the last step of a node counts, also when an ancestor ends in the same tick") {
   Measured measured("Parallel(Sequence[memory=true](ParallelRelative[delta=1](a b) w) c)",
-                          "a+.5 b+.3,.7 w=R c=RF");
+                    "a+.5 b+.3,.7 w=R c=RF");
   CHECK(measured.ticks == 2);
   CHECK(measured.run.ticker().status(2) == Status::Idle);
   CHECK(measured.measure.distance().step_length() == Approx(0.7));
@@ -118,6 +118,25 @@ TEST_CASE("a node that an ancestor has ended begins anew, without a step back") 
                           "a+.4 b+.2 c=RRFRRF");
   CHECK(measured.ticks == 6);
   CHECK(measured.measure.distance().step_length() == Approx(0.4));
+}
+
+TEST_CASE("ticks in a row in which a child is held are one wait") {
+  const Measured often("ParallelRelative[delta=0](a b)", "a+.2 b+.3");
+  CHECK(often.held_ticks(1) == 3);
+  CHECK(often.measure.held()[0].waits == 1);
+  CHECK(often.measure.held()[1].waits == 3);
+  const Measured once("ParallelAbsolute[barriers=.5;1](a b)", "a+.1 b+.3");
+  CHECK(once.held_ticks(1) == 3);
+  CHECK(once.measure.held()[1].waits == 1);
+  CHECK(once.measure.held()[0].waits == 0);
+}
+
+TEST_CASE("a wait goes on while the node itself is held") {
+  // The inner node holds c in tick 1 and from 4 on, the outer one holds the inner in 2 and 3.
+  const Measured inner("ParallelAbsolute[barriers=.2](a ParallelRelative[delta=0](b c))",
+                       "a+.05 b+.1 c+.5", 1);
+  CHECK(inner.held_ticks(1) == 4);
+  CHECK(inner.measure.held()[1].waits == 1);
 }
 
 TEST_CASE("a new activation is measured on, without a step back to zero") {

@@ -30,7 +30,7 @@ TEST_CASE("plain lines tell who waits for whom") {
         "     0.000 s  tick 0       run of Test starts, 10 Hz, virtual clock\n"
         "     0.000 s  tick 0       Test/ParallelAbsolute/a: started\n"
         "     0.000 s  tick 0       Test/ParallelAbsolute/b: started\n"
-        "     0.200 s  tick 2       Test/ParallelAbsolute/b: waits for a at barrier 0.5\n"
+        "     0.100 s  tick 1       Test/ParallelAbsolute/b: waits for a at barrier 0.5\n"
         "     0.500 s  tick 5       Test/ParallelAbsolute/b: goes on after 0.400 s\n"
         "     0.500 s  tick 5       Test/ParallelAbsolute/b: success\n"
         "     0.900 s  tick 9       Test/ParallelAbsolute/a: success\n"
@@ -39,12 +39,42 @@ TEST_CASE("plain lines tell who waits for whom") {
 
 TEST_CASE("plain lines tell how far ahead a child is") {
   CHECK(plain("ParallelRelative[delta=.2](a b c)", "a+.1 b+.3 c+.1")
-            .find("b: waits for a and c, 0.30 ahead (delta 0.2)\n") != std::string::npos);
+            .find("     0.200 s  tick 2       Test/ParallelRelative/b: waits for a and c, "
+                  "0.40 ahead (delta 0.2)\n") != std::string::npos);
 }
 
-TEST_CASE("a child that is held every other tick is not told each time") {
+TEST_CASE("of waits that follow each other at once, only the first is reported, the rest counted") {
   const std::string text = plain("ParallelRelative[delta=0](a b)", "a+.1 b+.1001");
-  CHECK(text.find("waits") == std::string::npos);
+  CHECK(text.find("     0.100 s  tick 1       Test/ParallelRelative/b: waits for a, 0.00 ahead "
+                  "(delta 0)\n") != std::string::npos);
+  CHECK(text.find("b: waits") == text.rfind("b: waits"));
+  CHECK(text.find("     0.200 s  tick 2       Test/ParallelRelative/b: goes on after 0.100 s\n") !=
+        std::string::npos);
+  CHECK(text.find("... 15 short waits left out\n") != std::string::npos);
+}
+
+TEST_CASE("a wait that follows another at once is reported when it lasts, with its true time") {
+  const std::string text =
+      plain("ParallelRelative[delta=.1](a b)", "a=R.1R.1R.2R.2R.2R.2R.4S b=R.15R.25R.35RRS");
+  CHECK(text.find("     0.200 s  tick 2       Test/ParallelRelative/b: waits for a, 0.15 ahead "
+                  "(delta 0.1)\n"
+                  "     0.300 s  tick 3       Test/ParallelRelative/b: goes on after 0.100 s\n"
+                  "     0.500 s  tick 5       Test/ParallelRelative/b: waits for a, 0.15 ahead "
+                  "(delta 0.1), since 0.400 s\n"
+                  "     0.700 s  tick 7       Test/ParallelRelative/b: goes on after 0.300 s\n") !=
+        std::string::npos);
+  CHECK(text.find("left out") == std::string::npos);
+}
+
+TEST_CASE("a wait ends with the activation of its node") {
+  const std::string text = plain(
+      "Retry[attempts=2](Timeout[seconds=.45](ParallelAbsolute[barriers=.5](a b)))", "a=R.1 b=R.9");
+  const std::string path = "Test/Retry/Timeout/ParallelAbsolute/b: ";
+  CHECK(text.find("     0.100 s  tick 1       " + path + "waits for a at barrier 0.5\n") !=
+        std::string::npos);
+  CHECK(text.find("     0.700 s  tick 7       " + path + "waits for a at barrier 0.5\n") !=
+        std::string::npos);
+  CHECK(text.find("goes on") == std::string::npos);
 }
 
 TEST_CASE("plain lines tell who is halted and what failed") {
@@ -70,9 +100,42 @@ TEST_CASE("a fault that the run goes on after is told at once, however much was 
   CHECK(text.find("... 810 lines left out\n") != std::string::npos);  // 800 of them not faults
 }
 
-TEST_CASE("a leaf that completes the same way in each tick is told once") {
+TEST_CASE("each completion is reported: five failed attempts are five") {
+  CHECK(plain("Retry[attempts=5](a)", "a=F") ==
+        "     0.000 s  tick 0       run of Test starts, 10 Hz, virtual clock\n"
+        "     0.000 s  tick 0       Test/Retry/a: failure\n"
+        "     0.400 s  tick 4       Test/Retry/a: failure 4 more times, in ticks 1 to 4\n"
+        "     0.400 s  tick 4       run ends: failure (completed) after 5 ticks\n");
+  CHECK(plain("Repeat[times=2](a)", "a=S")
+            .find("     0.100 s  tick 1       Test/Repeat/a: success again in tick 1\n") !=
+        std::string::npos);
+  const std::string slow = plain("Retry[attempts=5](a)", "a=RF...");
+  std::size_t failures = 0;
+  for (std::size_t at = slow.find("a: failure\n"); at != std::string::npos; ++failures) {
+    at = slow.find("a: failure\n", at + 1);
+  }
+  CHECK(failures == 5);
+}
+
+TEST_CASE("a leaf that completes in each tick does not flood the log, and is counted") {
   const std::string text = plain("Sequence(a? b)", "a=S b=R", 50);
-  CHECK(text.find("a: success") == text.rfind("a: success"));
+  CHECK(text.find("a: success\n") == text.rfind("a: success\n"));
+  CHECK(
+      text.find("     4.900 s  tick 49      Test/Sequence/a: success 49 more times, in ticks 1 to "
+                "49\n") != std::string::npos);
+}
+
+TEST_CASE("repeated completions are reported when the leaf does something else, or nothing") {
+  CHECK(
+      plain("Retry[attempts=9](Sequence(a? b))", "a=SSSF b=RRRS", 4)
+          .find(
+              "     0.300 s  tick 3       Test/Retry/Sequence/a: success 2 more times, in ticks 1 "
+              "to 2\n"
+              "     0.300 s  tick 3       Test/Retry/Sequence/a: failure\n") != std::string::npos);
+  CHECK(plain("Sequence[memory=true](ForceSuccess(Retry[attempts=3](a)) b)", "a=F b=R", 8)
+            .find("     0.200 s  tick 2       Test/Sequence/b: started\n"
+                  "     0.300 s  tick 3       Test/Sequence/ForceSuccess/Retry/a: failure 2 more "
+                  "times, in ticks 1 to 2\n") != std::string::npos);
 }
 
 TEST_CASE("plain lines of a long run are bounded") {

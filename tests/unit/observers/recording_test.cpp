@@ -297,8 +297,8 @@ TEST_CASE("info measures a recording as the run was measured") {
         "  success (completed) after 4 ticks, 0.300 s; 0 overruns, 0 deadlines skipped\n"
         "  Test/ParallelAbsolute (ParallelAbsolute, 4 ticks)\n"
         "    progress distance 0.5, mean 0.125 a tick; largest spread 0.25, longest step 0.5\n"
-        "    a  waited 0.000 s in 0 ticks\n"
-        "    b  waited 0.100 s in 1 tick\n");
+        "    a  did not wait\n"
+        "    b  waited 1 time, 0.100 s in 1 tick\n");
 }
 
 TEST_CASE("info says that a recording is cut") {

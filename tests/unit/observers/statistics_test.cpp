@@ -84,8 +84,8 @@ TEST_CASE("the summary as text") {
         "  overruns   2 (deadlines skipped: 3)\n"
         "  Test/ParallelAbsolute (ParallelAbsolute, 10 ticks)\n"
         "    progress distance 2.1, mean 0.21 a tick; largest spread 0.4, longest step 0.3\n"
-        "    a  waited 0.000 s in 0 ticks\n"
-        "    b  waited 0.300 s in 3 ticks\n"
+        "    a  did not wait\n"
+        "    b  waited 1 time, 0.300 s in 3 ticks\n"
         "note: the recording is cut\n");
   CHECK(text_of(summary, true).starts_with("\x1b[32msuccess\x1b[0m after"));
 }
@@ -96,7 +96,7 @@ TEST_CASE("faults that the run went on after are counted, and the first of them 
   run.faults[2] = {{1, "x"}, {1, "x"}, {1, "x"}, {1, "not told"}, {1, "not told"}};
   const Summary summary = summary_of(run);
   CHECK(summary.faults == 7);
-  REQUIRE(summary.notes.size() == Statistics::kMostFaults + 1);
+  REQUIRE(summary.notes.size() == CappedNotes::kMost + 1);
   CHECK(summary.notes[0] ==
         "the leaf 'Test/Sequence/a' failed in tick 1: threw; counted as Failure");
   CHECK(summary.notes[2] == "the leaf 'Test/Sequence/a' failed in tick 2: x; counted as Failure");
@@ -223,7 +223,8 @@ TEST_CASE("the summary as JSON") {
       R"("over_budget":[],"synchronized_nodes":[{"path":"Test/ParallelRelative",)"
       R"("kind":"ParallelRelative","samples":4,"progress_distance":1.0,)"
       R"("progress_distance_mean":0.25,"largest_spread":0.5,"step_length":0.5,"children":[)"
-      R"({"name":"a","held_s":0.0,"held_ticks":0},{"name":"b","held_s":0.0,"held_ticks":0}]}],)"
+      R"({"name":"a","held_s":0.0,"held_ticks":0,"waits":0},)"
+      R"({"name":"b","held_s":0.0,"held_ticks":0,"waits":0}]}],)"
       R"("never_reached":0,"notes":[]})");
 }
 
