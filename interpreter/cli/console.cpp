@@ -11,6 +11,7 @@
 
 #include "cli/exit_code.h"
 #include "core/descriptors.h"
+#include "observers/terminal.h"
 #include "runtime/outlet.h"
 #include "runtime/stop_signals.h"
 
@@ -27,10 +28,8 @@ bool is_terminal(int file) {
 
 bool wants_color(int file) {
   const char* no_color = std::getenv("NO_COLOR");
-  const char* terminal = std::getenv("TERM");
   const bool refused = no_color != nullptr && *no_color != '\0';
-  return !refused && is_terminal(file) &&
-         (terminal == nullptr || std::strcmp(terminal, "dumb") != 0);
+  return !refused && is_terminal(file) && can_draw();
 }
 
 void print_error(std::string_view message, std::string_view hint) {

@@ -106,7 +106,7 @@ int replay(const ReplayOptions& options) {
   }
   return with_recording(options.file, [&](RecordingReader& reader) {
     const bool interactive = !options.print && options.file != "-" && is_terminal(STDIN_FILENO) &&
-                             is_terminal(results_file());
+                             is_terminal(results_file()) && can_draw();
     return interactive ? play(options, reader) : print_tick(options, reader);
   });
 }
@@ -135,6 +135,9 @@ const Command kReplayCommand{
     "  g TICK enter    go to that tick\n"
     "  home, end       go to the first, the last tick\n"
     "  + -             twice, half the speed\n"
+    "  up, down        scroll; also page up, page down\n"
+    "  f, F            fold the node at the cursor or unfold it; unfold all\n"
+    "  escape          follow what runs again\n"
     "  q, Ctrl-C       quit\n"
     "Otherwise, and with --print, the tree as of one tick is printed to stdout: that of --at, "
     "else\n"

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <thread>
 #include <utility>
 
 #include "cli/console.h"
@@ -14,6 +15,7 @@
 #include "observers/screen.h"
 #include "observers/terminal.h"
 #include "observers/terminal_wait.h"
+#include "observers/tree_browser.h"
 #include "runtime/stop_signals.h"
 
 namespace lockstep {
@@ -21,10 +23,10 @@ namespace {
 
 using RealTime = std::chrono::steady_clock;
 
-constexpr double kFrame = 0.03;                       // seconds; an eye needs no more
-constexpr double kPatience = 0.2;                     // a signal may arrive just before we wait
+constexpr double kFrame = 0.03;  // seconds; an eye needs no more
+// A signal may arrive just before we wait.
+constexpr std::chrono::duration<double> kPatience{0.2};
 constexpr std::chrono::milliseconds kLastFrame{300};  // for the terminal to take it
-constexpr char kSuspend = '\x1a';                     // Ctrl-Z
 
 class Session {
  public:
@@ -32,8 +34,8 @@ class Session {
       : header_(header), shape_(shape_of(header)), player_(timeline, speed) {}
 
   int play() {
-    screen_.begin();
     while (!player_.has_quit() && !player_.timeline().failed() && StopSignals::received() == 0) {
+      if (!has_terminal()) continue;
       show();
       const TerminalEvent event = wait();
       pass_time();
@@ -43,28 +45,44 @@ class Session {
     }
     out_.flush(kLastFrame);
     show();
-    screen_.end();
     return StopSignals::received() == 0 ? kExitSuccess : kExitSignal + StopSignals::received();
   }
 
  private:
+  // After a stop the replay goes on where it was. In the background it waits.
+  bool has_terminal() {
+    const RawTerminal::State state = terminal_.take();
+    if (state == RawTerminal::State::Kept) return true;
+    screen_.leave();
+    shown_.clear();
+    if (state == RawTerminal::State::Away) std::this_thread::sleep_for(kPatience);
+    last_ = RealTime::now();
+    return state == RawTerminal::State::Taken;
+  }
+
   void show() {
     const RecordingTimeline& timeline = player_.timeline();
-    const TerminalSize size = terminal_size(results_file());
     const auto& end = timeline.outcome().end;
     const bool ended = timeline.at_end() && end;
-    std::string frame = draw_replay(
-        shape_, snapshot_of(header_, shape_, timeline.now(), ended ? &*end : nullptr), player_,
-        {.width = size.width,
-         .height = size.height,
-         .color = wants_color(results_file()),
-         .unicode = has_unicode()});
+    snapshot_ = snapshot_of(header_, shape_, timeline.now(), ended ? &*end : nullptr);
+    std::string frame = draw_replay(shape_, snapshot_, player_, options());
     if (frame != shown_ && screen_.show("", frame)) shown_ = std::move(frame);
+  }
+
+  DrawOptions options() const {
+    const TerminalSize size = terminal_size(results_file());
+    return {.width = size.width,
+            .height = size.height,
+            .color = wants_color(results_file()),
+            .unicode = has_unicode(),
+            .keys = true,
+            .browsing = &browser_.browsing()};
   }
 
   // Until a key, another size of the window, or the next frame.
   TerminalEvent wait() const {
-    return wait_.wait(std::min(kPatience, std::max(kFrame, player_.wait().value_or(kPatience))));
+    const double longest = kPatience.count();
+    return wait_.wait(std::min(longest, std::max(kFrame, player_.wait().value_or(longest))));
   }
 
   // From the top: nobody knows how the terminal has laid out anew what was there.
@@ -84,31 +102,24 @@ class Session {
     const ssize_t count = read(STDIN_FILENO, bytes, sizeof bytes);
     if (count <= 0) return count < 0 && errno == EINTR;
     for (const char byte : std::string_view(bytes, static_cast<std::size_t>(count))) {
-      if (byte == kSuspend) {
-        suspend();
-      } else {
-        press(decoder_.take(byte));
-      }
+      press(decoder_.take(byte));
     }
     return true;
   }
 
+  // While the number of a tick is typed, all keys belong to it.
   void press(std::optional<Key> key) {
-    if (key) player_.press(*key);
-  }
-
-  void suspend() {
-    screen_.end();
-    out_.flush(kLastFrame);
-    terminal_.suspend();
-    screen_.begin();
-    shown_.clear();
-    last_ = RealTime::now();
+    if (!key) return;
+    const bool is_browsing =
+        !player_.typed() && browser_.press(*key, snapshot_, rows_for_nodes(options()));
+    if (!is_browsing) player_.press(*key);
   }
 
   const RecordingHeader& header_;
   const TreeShape shape_;
   ReplayPlayer player_;
+  TreeBrowser browser_{shape_};
+  Snapshot snapshot_;  // that is shown
   RawTerminal terminal_{STDIN_FILENO, results_file()};
   TerminalWait wait_{STDIN_FILENO};
   Outlet out_{results_file()};

@@ -11,8 +11,6 @@
 namespace lockstep {
 namespace {
 
-bool g_is_live = false;  // written before a signal handler can read it
-
 std::string_view to_string(lockstep_log_level level) {
   if (level == LOCKSTEP_LOG_WARNING) return "warning";
   return level == LOCKSTEP_LOG_DEBUG ? "debug" : "info";
@@ -21,9 +19,12 @@ std::string_view to_string(lockstep_log_level level) {
 }  // namespace
 
 View::View(const std::string& mode, const Tree& tree, lockstep_log_level least) : least_(least) {
-  if (mode == "live" || (mode == "auto" && is_terminal(STDERR_FILENO))) {
-    g_is_live = is_terminal(STDERR_FILENO);
-    live_.emplace(tree, LiveOptions{.color = wants_color(STDERR_FILENO), .unicode = has_unicode()});
+  const bool wants_live = mode == "live" || (mode == "auto" && is_terminal(STDERR_FILENO));
+  if (wants_live && can_draw()) {
+    const bool has_keys = is_terminal(STDIN_FILENO) && is_terminal(STDERR_FILENO);
+    live_.emplace(tree, LiveOptions{.keys = has_keys ? STDIN_FILENO : -1,
+                                    .color = wants_color(STDERR_FILENO),
+                                    .unicode = has_unicode()});
   } else if (mode != "none") {
     plain_.emplace(tree);
   }
@@ -73,7 +74,7 @@ void View::close() {
 }
 
 void View::last_words() {
-  if (g_is_live) restore_cursor(STDERR_FILENO);
+  RawTerminal::restore();
 }
 
 }  // namespace lockstep

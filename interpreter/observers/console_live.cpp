@@ -1,16 +1,17 @@
 #include "observers/console_live.h"
 
 #include <fmt/format.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
 
+#include <array>
 #include <new>
 #include <utility>
 
 #include "core/diagnostics.h"
 #include "core/own_thread.h"
-#include "engine/synchronized.h"
-#include "measure/synchronized_measure.h"
 #include "observers/statistics.h"
-#include "observers/terminal.h"
 
 namespace lockstep {
 
@@ -19,59 +20,32 @@ ConsoleLive::ConsoleLive(const Tree& tree, const LiveOptions& options, Outlet& o
       shape_(shape_of(tree)),
       options_(options),
       out_(out),
-      synchronized_nodes_(synchronized_nodes(tree)),
-      activity_(tree.nodes.size()),
-      snapshots_(Snapshot{.header = {}, .nodes = std::vector<NodeView>(tree.nodes.size())}),
-      screen_(out) {}
+      feed_(tree),
+      screen_(out),
+      wake_(eventfd(0, EFD_CLOEXEC)) {}
 
 ConsoleLive::~ConsoleLive() {
   try {
     stop();
   } catch (const std::bad_alloc&) {  // lines that nobody will see; the thread has ended
   }
+  close(wake_);
 }
 
-void ConsoleLive::run_started(Ticker&, const RunStart& start) {
-  header_.rate_hz = 1.0 / to_seconds(start.period);
-  header_.real_time = start.real_time;
+void ConsoleLive::run_started(Ticker& ticker, const RunStart& start) {
+  feed_.run_started(ticker, start);
+  terminal_.emplace(options_.keys, out_.file());
   thread_ = own_thread([this] { draw_until_stopped(); });
 }
 
 void ConsoleLive::after_tick(Ticker& ticker, const TickReport& report) {
-  header_.tick = report.tick;
-  header_.time = report.time;
-  *header_.overruns += report.skipped > 0;
   for (const Fault& fault : report.faults) print(fault_text(tree_, fault, report.tick));
-  activity_ = ticker.run_state().activity;
-  const auto now = std::chrono::steady_clock::now();
-  if (now - published_ < kFrame) return;
-  published_ = now;
-  publish(ticker);
+  feed_.after_tick(ticker, report);
 }
 
-// By now everything has been halted; what stays on the screen is where the last tick left it.
 void ConsoleLive::run_ended(Ticker& ticker, const RunEnd& end) {
-  header_.result = end.result();
-  publish(ticker);
+  feed_.run_ended(ticker, end);
   stop();
-}
-
-void ConsoleLive::publish(Ticker& ticker) {
-  Snapshot& back = snapshots_.back();
-  back.header = header_;
-  for (NodeIndex node = 0; node < back.nodes.size(); ++node) {
-    back.nodes[node] = {.activity = activity_[node]};
-  }
-  for (const NodeIndex node : synchronized_nodes_) take_progress(ticker, node, back.nodes);
-  snapshots_.publish();
-}
-
-void ConsoleLive::take_progress(Ticker& ticker, NodeIndex node, std::vector<NodeView>& views) {
-  NodeIndex child = node + 1;
-  for (const double used : child_progress(ticker, node)) {
-    views[child].progress = shown_progress(views[child].activity, used);
-    child = ticker.end_of(child);
-  }
 }
 
 void ConsoleLive::print(std::string line) {
@@ -87,43 +61,79 @@ void ConsoleLive::print(std::string line) {
 
 void ConsoleLive::stop() {
   if (thread_.joinable()) {
-    {
-      const std::lock_guard lock(mutex_);
-      stopping_ = true;
-    }
-    wake_.notify_one();
+    stopping_ = true;
+    eventfd_write(wake_, 1);
     thread_.join();
   }
+  terminal_.reset();
   {
     const std::lock_guard lock(mutex_);
     stopped_ = true;
   }
-  out_.say(take_printed());
+  out_.say(std::exchange(above_, {}) + take_printed());
 }
 
 void ConsoleLive::draw_until_stopped() {
-  screen_.begin();
-  bool stopped = false;
-  while (!stopped) {
+  do {
     draw_frame();
-    std::unique_lock lock(mutex_);
-    stopped = wake_.wait_for(lock, kFrame, [this] { return stopping_; });
-  }
-  out_.flush(3 * kFrame);  // for the last frame there is no later one
+  } while (wait());
+  press(Key{KeyKind::Escape});            // the frame that stays shows what ran in the end
+  out_.flush(3 * SnapshotFeed::kPeriod);  // for the last frame there is no later one
   draw_frame();
-  screen_.end();
 }
 
+// In the background nothing is drawn: the terminal belongs to others. The lines are kept.
 void ConsoleLive::draw_frame() {
-  if (is_drawn_) above_ = take_printed();
-  if (!snapshots_.take() && above_.empty() && is_drawn_) return;
+  const RawTerminal::State state = terminal_->take();
+  is_away_ = state == RawTerminal::State::Away;
+  if (is_away_) return;
+  if (state == RawTerminal::State::Taken) {
+    screen_.leave();
+    is_due_ = true;
+  }
   const TerminalSize size = terminal_size(out_.file());
-  const std::string frame = draw(shape_, snapshots_.front(),
-                                 {.width = size.width,
-                                  .height = size.height,
-                                  .color = options_.color,
-                                  .unicode = options_.unicode});
-  is_drawn_ = screen_.show(above_, frame);
+  if (std::exchange(size_, size) != size) {
+    is_due_ = true;
+    // Nobody knows how the terminal has laid out again what was there.
+    if (state == RawTerminal::State::Kept) screen_.clear();
+  }
+  if (above_.empty()) above_ = take_printed();
+  if (!feed_.take() && above_.empty() && !is_due_) return;
+  is_due_ = !screen_.show(above_, draw(shape_, feed_.newest(), draw_options()));
+  if (!is_due_) above_.clear();
+}
+
+DrawOptions ConsoleLive::draw_options() const {
+  return {.width = size_.width,
+          .height = size_.height,
+          .color = options_.color,
+          .unicode = options_.unicode,
+          .keys = options_.keys >= 0,
+          .browsing = &browser_.browsing()};
+}
+
+bool ConsoleLive::wait() {
+  const bool listens = options_.keys >= 0 && !is_away_;
+  std::array<pollfd, 2> files{
+      {{wake_, POLLIN, 0}, {listens ? options_.keys : -1, POLLIN, 0}}};  // -1 is passed over
+  const int ready =
+      poll(files.data(), files.size(), static_cast<int>(SnapshotFeed::kPeriod.count()));
+  if (ready == 0) press(decoder_.idle());
+  if (ready > 0 && files[1].revents != 0) read_keys();
+  return !stopping_;
+}
+
+void ConsoleLive::read_keys() {
+  std::array<char, 64> bytes;
+  const ssize_t count = read(options_.keys, bytes.data(), bytes.size());
+  if (count <= 0) options_.keys = -1;  // the terminal is gone
+  for (ssize_t i = 0; i < count; ++i) press(decoder_.take(bytes[static_cast<std::size_t>(i)]));
+}
+
+void ConsoleLive::press(std::optional<Key> key) {
+  if (key && browser_.press(*key, feed_.newest(), rows_for_nodes(draw_options()))) {
+    is_due_ = true;
+  }
 }
 
 std::string ConsoleLive::take_printed() {

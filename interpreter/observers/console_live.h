@@ -1,29 +1,33 @@
-// The live view of a run on a terminal. A thread of its own draws, ten times a second at most; the
-// tick thread only copies the state of the nodes, as often, into a buffer that nobody locks.
+// The live view of a run on a terminal. A separate thread takes snapshots of the run and draws
+// them, and reads the keys that browse them; the tick thread never waits for it while the run goes
+// on.
 #pragma once
 
-#include <chrono>
-#include <condition_variable>
+#include <atomic>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "observers/keys.h"
+#include "observers/raw_terminal.h"
 #include "observers/screen.h"
+#include "observers/snapshot_feed.h"
+#include "observers/terminal.h"
+#include "observers/tree_browser.h"
 #include "observers/tree_view.h"
-#include "observers/triple_buffer.h"
-#include "runtime/observer.h"
 
 namespace lockstep {
 
 struct LiveOptions {
+  int keys = -1;  // file descriptor of a terminal, or none
   bool color = true;
   bool unicode = true;
 };
 
 class ConsoleLive final : public Observer {
  public:
-  static constexpr std::chrono::milliseconds kFrame{100};
   static constexpr std::size_t kMostLines = 1000;
 
   ConsoleLive(const Tree& tree, const LiveOptions& options, Outlet& out = messages());
@@ -41,36 +45,37 @@ class ConsoleLive final : public Observer {
   void print(std::string line);
 
  private:
-  void publish(Ticker& ticker);
-  void take_progress(Ticker& ticker, NodeIndex node, std::vector<NodeView>& views);
   void stop();
   void draw_until_stopped();
   void draw_frame();
+  bool wait();  // false: it is time to stop
+  void read_keys();
+  void press(std::optional<Key> key);
   std::string take_printed();
+  DrawOptions draw_options() const;
 
   const Tree& tree_;
   const TreeShape shape_;
   LiveOptions options_;
   Outlet& out_;
-  std::vector<NodeIndex> synchronized_nodes_;
-
-  // The tick thread's.
-  Snapshot::Header header_;
-  std::vector<Activity> activity_;  // after the last tick
-  std::chrono::steady_clock::time_point published_{};
-  TripleBuffer<Snapshot> snapshots_;
+  SnapshotFeed feed_;
+  std::optional<RawTerminal> terminal_;  // while the thread draws
 
   // The drawing thread's.
   Screen screen_;
-  std::string above_;     // lines that the next frame takes with it
-  bool is_drawn_ = true;  // false: the terminal did not take the last frame
+  TerminalSize size_;
+  bool is_away_ = false;
+  std::string above_;    // lines that the next frame takes with it
+  bool is_due_ = false;  // a frame: for a key, for the terminal, or since it did not take the last
+  KeyDecoder decoder_;
+  TreeBrowser browser_{shape_};
 
+  int wake_ = -1;  // an eventfd: the thread is to stop
+  std::atomic<bool> stopping_{false};
   std::mutex mutex_;  // for what follows
-  std::condition_variable wake_;
   std::vector<std::string> printed_;
   std::size_t left_out_ = 0;
   bool stopped_ = false;
-  bool stopping_ = false;
   std::thread thread_;
 };
 

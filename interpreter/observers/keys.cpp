@@ -12,8 +12,10 @@ constexpr std::size_t kLongest = 16;  // no key's sequence is longer
 // What stands behind "ESC [" or "ESC O"; terminals differ.
 std::optional<Key> key_of(std::string_view sequence) {
   constexpr std::pair<std::string_view, KeyKind> kKeys[] = {
-      {"C", KeyKind::Right}, {"D", KeyKind::Left}, {"H", KeyKind::Home},  {"F", KeyKind::End},
-      {"1~", KeyKind::Home}, {"4~", KeyKind::End}, {"7~", KeyKind::Home}, {"8~", KeyKind::End}};
+      {"C", KeyKind::Right}, {"D", KeyKind::Left},    {"A", KeyKind::Up},
+      {"B", KeyKind::Down},  {"5~", KeyKind::PageUp}, {"6~", KeyKind::PageDown},
+      {"H", KeyKind::Home},  {"F", KeyKind::End},     {"1~", KeyKind::Home},
+      {"4~", KeyKind::End},  {"7~", KeyKind::Home},   {"8~", KeyKind::End}};
   for (const auto& [text, kind] : kKeys) {
     if (text == sequence) return Key{kind};
   }

@@ -7,7 +7,20 @@
 
 namespace lockstep {
 
-enum class KeyKind : std::uint8_t { Character, Left, Right, Home, End, Enter, Backspace, Escape };
+enum class KeyKind : std::uint8_t {
+  Character,
+  Left,
+  Right,
+  Up,
+  Down,
+  PageUp,
+  PageDown,
+  Home,
+  End,
+  Enter,
+  Backspace,
+  Escape
+};
 
 struct Key {
   KeyKind kind = KeyKind::Character;

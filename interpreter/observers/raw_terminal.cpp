@@ -4,7 +4,9 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
+#include <cerrno>
 
 #include "observers/screen.h"
 
@@ -14,10 +16,11 @@ namespace {
 // Of the one terminal that a process has; a signal handler cannot ask an object.
 termios g_before{};
 int g_keys = -1, g_screen = -1;
-std::atomic<bool> g_is_raw{false};
+std::atomic<bool> g_is_taken{false};
+std::atomic<bool> g_is_stopping{false};  // by Ctrl-Z
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-constexpr int kFatalSignals[] = {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL};
+constexpr std::array kFatalSignals{SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL};
 
 void on_fatal_signal(int number) {
   RawTerminal::restore();
@@ -25,10 +28,50 @@ void on_fatal_signal(int number) {
   raise(number);
 }
 
-void set(void (*handler)(int)) {
+// Stops the process as it would be stopped without us; returns when it goes on.
+void on_stop(int number) {
+  const int error = errno;
+  g_is_stopping = true;
+  RawTerminal::restore();
+  struct sigaction standard {};
+  struct sigaction before {};
+  standard.sa_handler = SIG_DFL;
+  sigaction(number, &standard, &before);
+  raise(number);
+  sigset_t its;
+  sigemptyset(&its);
+  sigaddset(&its, number);
+  pthread_sigmask(SIG_UNBLOCK, &its, nullptr);  // here it stops
+  sigaction(number, &before, nullptr);
+  g_is_stopping = false;
+  errno = error;
+}
+
+// After SIGSTOP, which nobody can handle, the terminal is the shell's.
+void on_continue(int) {
+  g_is_taken = false;
+}
+
+void handle(int number, void (*handler)(int)) {
+  struct sigaction now {};
+  sigaction(number, nullptr, &now);
+  if (now.sa_handler != SIG_DFL) return;
   struct sigaction action {};
   action.sa_handler = handler;
-  for (const int number : kFatalSignals) sigaction(number, &action, nullptr);
+  action.sa_flags = SA_RESTART;
+  sigaction(number, &action, nullptr);
+}
+
+void leave(int number, void (*handler)(int)) {
+  struct sigaction now {};
+  sigaction(number, nullptr, &now);
+  if (now.sa_handler == handler) signal(number, SIG_DFL);
+}
+
+// A terminal that is not the process's own has no foreground, and may be drawn on.
+bool is_in_foreground() {
+  const pid_t foreground = tcgetpgrp(g_keys >= 0 ? g_keys : g_screen);
+  return foreground < 0 || foreground == getpgrp();
 }
 
 void make_raw() {
@@ -36,37 +79,40 @@ void make_raw() {
   raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO | IEXTEN);
   raw.c_cc[VMIN] = 1;
   raw.c_cc[VTIME] = 0;
-  // As keys: a process that these stop or end would leave the terminal raw.
-  raw.c_cc[VSUSP] = raw.c_cc[VQUIT] = _POSIX_VDISABLE;
-  g_is_raw = true;
   tcsetattr(g_keys, TCSANOW, &raw);
 }
 
 }  // namespace
 
 RawTerminal::RawTerminal(int keys, int screen) {
-  tcgetattr(keys, &g_before);
+  if (keys >= 0) tcgetattr(keys, &g_before);
   g_keys = keys;
   g_screen = screen;
-  set(on_fatal_signal);
-  make_raw();
+  for (const int number : kFatalSignals) handle(number, on_fatal_signal);
+  handle(SIGTSTP, on_stop);
+  handle(SIGCONT, on_continue);
 }
 
 RawTerminal::~RawTerminal() {
   restore();
-  set(SIG_DFL);
+  for (const int number : kFatalSignals) leave(number, on_fatal_signal);
+  leave(SIGTSTP, on_stop);
+  leave(SIGCONT, on_continue);
 }
 
-void RawTerminal::suspend() {
-  restore();
-  raise(SIGTSTP);
-  make_raw();
+RawTerminal::State RawTerminal::take() {
+  if (g_is_stopping || !is_in_foreground()) return State::Away;
+  if (g_is_taken) return State::Kept;
+  g_is_taken = true;  // before it is, so that whatever happens from here on restores it
+  if (g_keys >= 0) make_raw();
+  hide_cursor(g_screen);
+  return State::Taken;
 }
 
 void RawTerminal::restore() {
-  if (!g_is_raw.exchange(false)) return;
-  tcsetattr(g_keys, TCSANOW, &g_before);
-  restore_cursor(g_screen);
+  if (!g_is_taken.exchange(false)) return;
+  if (g_keys >= 0) tcsetattr(g_keys, TCSANOW, &g_before);
+  show_cursor(g_screen);
 }
 
 }  // namespace lockstep

@@ -1,19 +1,29 @@
-// A terminal that hands over each key at once and shows none, while this lives. However the program
-// ends, except by SIGKILL, the terminal is left as it was, with its cursor. One at a time.
+// The terminal of a program that draws on it and reads each key at once. However the program ends,
+// except by SIGKILL, the terminal is left as it was, with its cursor; so it is while the program is
+// stopped (Ctrl-Z) or in the background. One at a time.
 #pragma once
+
+#include <cstdint>
 
 namespace lockstep {
 
 class RawTerminal {
  public:
-  // `keys` and `screen` are file descriptors of the terminal. Ctrl-C stays SIGINT.
+  // `keys` and `screen` are file descriptors of the terminal; without keys (-1) it is only drawn
+  // on. Ctrl-C stays SIGINT, Ctrl-Z stays SIGTSTP. Signals that others handle are left to them:
+  // they call restore().
   RawTerminal(int keys, int screen);
   ~RawTerminal();
   RawTerminal(const RawTerminal&) = delete;
   RawTerminal& operator=(const RawTerminal&) = delete;
 
-  // Stops the process, as Ctrl-Z does, with the terminal as it was; returns when it goes on.
-  void suspend();
+  enum class State : std::uint8_t {
+    Away,   // in the background: neither draw nor read
+    Taken,  // just now, at first or again: draw everything again; the cursor is hidden
+    Kept
+  };
+  // To be asked before drawing or reading, from one thread.
+  State take();
 
   // As it was before. Async-signal-safe.
   static void restore();

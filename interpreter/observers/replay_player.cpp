@@ -33,9 +33,7 @@ void ReplayPlayer::press(Key key) {
     case KeyKind::End:
       timeline_.go_to_end();
       return place_changed();
-    case KeyKind::Enter:
-    case KeyKind::Backspace:
-    case KeyKind::Escape:
+    default:
       return;
   }
 }

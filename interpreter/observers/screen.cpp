@@ -25,14 +25,6 @@ void append_with_cleared_line_ends(std::string& to, std::string_view text) {
 
 }  // namespace
 
-void Screen::begin() {
-  out_.say(kHideCursor);
-}
-
-void Screen::end() {
-  out_.say(kShowCursor);
-}
-
 void Screen::clear() {
   out_.say(kClearAll);
   lines_ = 0;
@@ -47,7 +39,11 @@ bool Screen::show(std::string_view above, std::string_view frame) {
   return true;
 }
 
-void restore_cursor(int terminal) {
+void hide_cursor(int terminal) {
+  write_now(terminal, kHideCursor);
+}
+
+void show_cursor(int terminal) {
   write_now(terminal, kShowCursor);
 }
 

@@ -11,11 +11,10 @@ class Screen {
  public:
   explicit Screen(Outlet& out) : out_(out) {}
 
-  // Hides the cursor, and shows it again.
-  void begin();
-  void end();
   // Empties the whole screen; the next frame begins at its top.
   void clear();
+  // The next frame begins where the cursor is, below what is there.
+  void leave() { lines_ = 0; }
   // In place of the last frame; `above` are whole lines that scroll by above it. False: nothing was
   // drawn, since the terminal has not taken yet what was drawn before.
   bool show(std::string_view above, std::string_view frame);
@@ -25,7 +24,8 @@ class Screen {
   std::size_t lines_ = 0;  // of the last frame
 };
 
-// Makes the cursor visible again. May be called in a signal handler, and does not wait.
-void restore_cursor(int terminal);
+// May be called in a signal handler, and do not wait.
+void hide_cursor(int terminal);
+void show_cursor(int terminal);
 
 }  // namespace lockstep

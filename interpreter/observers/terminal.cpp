@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cstdlib>
 #include <string>
+#include <string_view>
 
 namespace lockstep {
 
@@ -16,6 +17,11 @@ TerminalSize terminal_size(int file) {
     return {};
   }
   return {size.ws_col, size.ws_row};
+}
+
+bool can_draw() {
+  const char* terminal = std::getenv("TERM");
+  return terminal == nullptr || std::string_view(terminal) != "dumb";
 }
 
 bool has_unicode() {

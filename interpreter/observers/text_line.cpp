@@ -39,23 +39,41 @@ Character take_character(std::string_view& text) {
 void TextLine::add(std::string_view text, Style style) {
   const std::string shown = printable(text);
   const bool styled = color_ && style != Style::Plain;
-  if (styled) text_ += escape(style);
-  for (std::string_view rest = shown; !rest.empty();) {
+  if (styled && !is_cut_) text_ += escape(style);
+  for (std::string_view rest = shown; !rest.empty() && !is_cut_;) {
     const Character character = take_character(rest);
     const bool ascii = unicode_ || character.bytes.size() == 1;
     const std::size_t needed = ascii ? character.columns : 1;
-    if (column_ + needed > width_) break;
+    if (column_ + needed > width_) return cut();
     text_ += ascii ? character.bytes : std::string_view("?");
-    column_ += needed;
+    passed(needed, style);
   }
-  if (styled) text_ += escape(Style::Plain);
+  if (styled && !is_cut_) text_ += escape(Style::Plain);
 }
 
 void TextLine::fill_to(std::size_t column) {
-  while (column_ < std::min(column, width_)) {
+  while (!is_cut_ && column_ < std::min(column, width_)) {
     text_ += ' ';
-    ++column_;
+    passed(1, Style::Plain);
   }
+}
+
+std::string_view TextLine::ellipsis() const {
+  return unicode_ ? std::string_view("…") : std::string_view("...").substr(0, width_);
+}
+
+void TextLine::passed(std::size_t columns, Style style) {
+  column_ += columns;
+  const std::size_t needed = unicode_ ? 1 : ellipsis().size();
+  if (column_ + needed <= width_) front_ = {text_.size(), column_, style};
+}
+
+void TextLine::cut() {
+  is_cut_ = true;
+  text_.resize(front_.bytes);
+  if (width_ > 0) text_ += ellipsis();
+  if (color_ && front_.style != Style::Plain) text_ += escape(Style::Plain);
+  column_ = width_;
 }
 
 std::size_t columns(std::string_view text) {

@@ -1,5 +1,5 @@
-// One line of a terminal, put together from styled pieces and cut at a width. Counts columns, not
-// bytes; knows nothing of cursors.
+// One line of a terminal, put together from styled pieces. Where it is too long for a width it is
+// cut and ends in "…". Counts columns, not bytes; knows nothing of cursors.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace lockstep {
 
 class TextLine {
  public:
-  // Without `unicode`, a character that is not ASCII becomes '?'.
+  // Without `unicode`, a character that is not ASCII becomes '?', and "…" is "...".
   TextLine(std::size_t width, bool color, bool unicode)
       : width_(width), color_(color), unicode_(unicode) {}
 
@@ -24,10 +24,20 @@ class TextLine {
   const std::string& text() const { return text_; }
 
  private:
+  std::string_view ellipsis() const;
+  void passed(std::size_t columns, Style style);
+  void cut();
+
   std::size_t width_;
   bool color_, unicode_;
   std::size_t column_ = 0;
   std::string text_;
+  // The longest beginning that leaves room for the ellipsis, and the style that it ends in.
+  struct Front {
+    std::size_t bytes = 0, column = 0;
+    Style style = Style::Plain;
+  } front_;
+  bool is_cut_ = false;
 };
 
 // How many columns a terminal needs for `text`.

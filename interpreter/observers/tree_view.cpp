@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 #include "observers/progress_bar.h"
 #include "observers/summary.h"
@@ -35,21 +34,27 @@ Look look_of(Activity activity) {
   return {};
 }
 
+const Browsing& browsing_of(const DrawOptions& options) {
+  static const Browsing kNone;
+  return options.browsing == nullptr ? kNone : *options.browsing;
+}
+
 class View {
  public:
   View(const TreeShape& tree, const Snapshot& snapshot, const DrawOptions& options)
-      : tree_(tree), snapshot_(snapshot), options_(options) {}
+      : tree_(tree), snapshot_(snapshot), options_(options), browsing_(browsing_of(options)) {}
 
-  std::string draw() const {
+  std::string draw() {
+    const Layout layout = lay_out(tree_, snapshot_, browsing_, rows_for_nodes(options_));
+    outermost_ = SIZE_MAX;
+    for (const NodeIndex node : layout.rows) {
+      outermost_ = std::min(outermost_, tree_.nodes[node].depth);
+    }
     std::string text = header();
-    const std::size_t rows = options_.height > 3 ? options_.height - 2 : 1;
-    const auto shown = choose(rows);
-    for (const NodeIndex node : shown) text += row(node);
-    const std::size_t left_out = tree_.nodes.size() - shown.size();
-    if (left_out == 0) return text;
-    TextLine line = new_line();
-    line.add(fmt::format("... {} nodes left out", left_out), Style::Dim);
-    return text + line.text() + "\n";
+    for (const NodeIndex node : layout.rows) text += row(node);
+    if (browsing_.cursor && layout.rows.size() < layout.all) return text + place(layout);
+    if (layout.left_out.sum() > 0) return text + left_out(layout.left_out);
+    return text;
   }
 
  private:
@@ -61,7 +66,10 @@ class View {
     const auto parent = tree_.nodes[node].parent;
     return parent && is_synchronized(*parent);
   }
-  std::size_t indent(NodeIndex node) const { return 2 * tree_.nodes[node].depth; }
+  // What is deep must not be out of sight.
+  std::size_t indent(NodeIndex node) const {
+    return std::min<std::size_t>(2 * (tree_.nodes[node].depth - outermost_), options_.width / 2);
+  }
 
   std::string header() const {
     const Snapshot::Header& is = snapshot_.header;
@@ -80,31 +88,47 @@ class View {
     return line.text() + "\n";
   }
 
-  // What must be seen first, when not all can be.
-  int rank(NodeIndex node) const {
-    if (node == 0 || is_synchronized(node) || has_bar(node)) return 0;
-    const bool running = status_of(snapshot_.nodes[node].activity) == Status::Running;
-    if (!running) return 3;
-    return tree_.nodes[node].children.empty() ? 1 : 2;
+  std::string left_out(const Tally& tally) const {
+    TextLine line = new_line();
+    line.add(fmt::format("... {} left out: {}", counted(tally.sum(), "node"), tally.text()),
+             Style::Dim);
+    if (options_.keys) line.add(fmt::format("  {} scroll", up_down()), Style::Dim);
+    return line.text() + "\n";
   }
 
-  // In the order of the tree; one row is kept for the note when nodes are left out.
-  std::vector<NodeIndex> choose(std::size_t rows) const {
-    std::vector<NodeIndex> nodes(tree_.nodes.size());
-    std::iota(nodes.begin(), nodes.end(), NodeIndex{0});
-    if (nodes.size() <= rows) return nodes;
-    std::stable_sort(nodes.begin(), nodes.end(),
-                     [this](NodeIndex a, NodeIndex b) { return rank(a) < rank(b); });
-    nodes.resize(rows - 1);
-    std::sort(nodes.begin(), nodes.end());
-    return nodes;
+  std::string place(const Layout& layout) const {
+    TextLine line = new_line();
+    line.add(fmt::format("rows {} to {} of {}", layout.first + 1, layout.first + layout.rows.size(),
+                         layout.all),
+             Style::Dim);
+    if (options_.keys) {
+      line.add(fmt::format("  {} scroll  f fold  F unfold all  esc follow", up_down()), Style::Dim);
+    }
+    return line.text() + "\n";
+  }
+
+  std::string_view up_down() const { return options_.unicode ? "↑ ↓" : "up down"; }
+
+  // Only while there is a cursor.
+  void add_cursor(TextLine& line, NodeIndex node) const {
+    if (!browsing_.cursor) return;
+    const bool here = *browsing_.cursor == node;
+    line.add(!here ? "  " : options_.unicode ? "→ " : "* ", Style::Strong);
+  }
+
+  // What is below a node that is folded.
+  void add_folded(TextLine& line, NodeIndex node) const {
+    if (browsing_.folded.count(node) == 0) return;
+    const Tally below = tally_below(tree_, snapshot_, node);
+    line.add(fmt::format("  + {}: {}", counted(below.sum(), "node"), below.text()), Style::Dim);
   }
 
   std::string row(NodeIndex node) const {
     const Look look = look_of(snapshot_.nodes[node].activity);
     const ShapeNode& shape = tree_.nodes[node];
     TextLine line = new_line();
-    line.fill_to(indent(node));
+    add_cursor(line, node);
+    line.fill_to(line.column() + indent(node));
     line.add(options_.unicode ? look.unicode : look.ascii, look.style);
     line.add(" ");
     line.add(shape.segment, is_synchronized(node) ? Style::Strong : Style::Plain);
@@ -112,6 +136,7 @@ class View {
     if (!has_bar(node) && shape.segment != shape.kind) {
       line.add(fmt::format(" ({})", shape.kind), Style::Dim);
     }
+    add_folded(line, node);
     return line.text() + "\n";
   }
 
@@ -141,7 +166,8 @@ class View {
     const auto& [progress, least, name] = children_of(self);
     const auto found = std::lower_bound(parent.children.begin(), parent.children.end(), node);
     const auto place = static_cast<std::size_t>(found - parent.children.begin());
-    line.fill_to(indent(node) + 3 + std::min<std::size_t>(name, 24));
+    const std::size_t gutter = browsing_.cursor ? 2 : 0;
+    line.fill_to(gutter + indent(node) + 3 + std::min<std::size_t>(name, 24));
     line.add(bar(parent, progress[place], least), style);
     line.add(fmt::format(" {:.2f}", progress[place]));
     // Under a parent that is held itself, the parent says what is waited for.
@@ -180,10 +206,16 @@ class View {
   const TreeShape& tree_;
   const Snapshot& snapshot_;
   const DrawOptions& options_;
+  const Browsing& browsing_;
+  std::size_t outermost_ = 0;                       // the least depth of the rows
   mutable std::map<NodeIndex, Children> children_;  // of the parents seen so far
 };
 
 }  // namespace
+
+std::size_t rows_for_nodes(const DrawOptions& options) {
+  return options.height > 3 ? options.height - 2 : 1;
+}
 
 std::string draw(const TreeShape& tree, const Snapshot& snapshot, const DrawOptions& options) {
   return View(tree, snapshot, options).draw();

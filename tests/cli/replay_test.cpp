@@ -122,6 +122,42 @@ TEST_CASE("keys on a terminal: steps, jumps, the end, and the terminal as it was
   CHECK(contains(outcome.out, "\x1b[?25h"));
 }
 
+TEST_CASE(
+    "keys scroll and fold a replay as the live view, and a number that is typed comes first") {
+  const TemporaryDirectory directory;
+  const std::string file = record(directory, kTree);
+  Process process(
+      {.arguments = {"replay", file, "--speed", "0.001"}, .environment = {{"NO_COLOR", "1"}}},
+      Process::Output::Terminal);
+  const auto expect = [&process](const std::string& keys, const std::string& text) {
+    process.clear_output();
+    process.type(keys);
+    CAPTURE(keys, text);
+    REQUIRE(process.wait_for(text));
+  };
+  REQUIRE(process.wait_for("plays  tick 0 of 3"));
+  expect(" ", "paused");
+  expect("\x1b[B", "*   > arm");
+  expect("\x1b[B", "*   > base");
+  expect("f", "* > pull (ParallelAbsolute)  + 2 nodes: 2 running");
+  expect("F", "    > arm");
+  expect("g2", "go to tick: 2_");
+  expect("\r", "tick 2 of 3");
+  process.type("q");
+  CHECK(process.finish().code == 0);
+}
+
+TEST_CASE("without a terminal that can draw a replay prints one tick") {
+  const TemporaryDirectory directory;
+  const Outcome outcome = Process({.arguments = {"replay", record(directory), "--at", "1"},
+                                   .environment = {{"TERM", "dumb"}}},
+                                  Process::Output::Terminal)
+                              .finish();
+  CHECK(outcome.code == 0);
+  CHECK(contains(outcome.out, "tick 1  0.100 s\r\n"));
+  CHECK(!contains(outcome.out, "\x1b"));
+}
+
 TEST_CASE("a replay is drawn anew when the window gets another size, also while it is paused") {
   const TemporaryDirectory directory;
   const std::string file = record(directory, kTree);

@@ -133,6 +133,10 @@ TEST_CASE("keys as terminals send them") {
   CHECK(decode(decoder, "n") == Key{KeyKind::Character, 'n'});
   CHECK(decode(decoder, "\x1b[C") == Key{KeyKind::Right});
   CHECK(decode(decoder, "\x1bOD") == Key{KeyKind::Left});
+  CHECK(decode(decoder, "\x1b[A") == Key{KeyKind::Up});
+  CHECK(decode(decoder, "\x1bOB") == Key{KeyKind::Down});
+  CHECK(decode(decoder, "\x1b[5~") == Key{KeyKind::PageUp});
+  CHECK(decode(decoder, "\x1b[6~") == Key{KeyKind::PageDown});
   CHECK(decode(decoder, "\x1b[H") == Key{KeyKind::Home});
   CHECK(decode(decoder, "\x1b[4~") == Key{KeyKind::End});
   CHECK(decode(decoder, "\r") == Key{KeyKind::Enter});

@@ -50,7 +50,7 @@ TEST_CASE("a view with signs that need Unicode") {
   const Snapshot now =
       snapshot({{Activity::Running}, {Activity::Success, 1}, {Activity::Failure, 0.25}});
   CHECK(draw(tree, now, {.width = 32, .height = 24, .unicode = true}) ==
-        "Test  10 Hz  tick 4  0.400 s  ov\n"
+        "Test  10 Hz  tick 4  0.400 s  o…\n"
         "▶ ParallelAbsolute\n"
         "  ✓ a [████┃███] 1.00\n"
         "  ✗ b [██░░┃░░░] 0.25\n");
@@ -61,9 +61,9 @@ TEST_CASE("colors come in pairs and do not count as columns") {
   const Snapshot now = snapshot({{Activity::Running}, {Activity::Success}});
   const std::string text = draw(tree, now, {.width = 12, .height = 24, .color = true});
   CHECK(text ==
-        "\x1b[1mTest\x1b[0m  10 Hz \n"
+        "\x1b[1mTest\x1b[0m  10 ...\n"
         "\x1b[36m>\x1b[0m Sequence\n"
-        "  \x1b[32m+\x1b[0m a\x1b[2m (Scrip\x1b[0m\n");
+        "  \x1b[32m+\x1b[0m a\x1b[2m (Sc...\x1b[0m\n");
 }
 
 TEST_CASE("only the topmost node that is held says for whom it waits") {
@@ -95,20 +95,21 @@ TEST_CASE("how the run ended stands in the first line") {
   CHECK(draw(tree, now, kPlain).starts_with("Test  10 Hz (virtual)  tick 4  0.400 s  fault\n"));
 }
 
-TEST_CASE("what does not fit: synchronized and running nodes stay") {
+TEST_CASE("what does not fit is counted, and what runs stays") {
   const Tree tree = tree_from_text("Sequence(a b c d ParallelRelative[delta=1](e f) g h)");
   std::vector<NodeView> nodes(tree.nodes.size());
   for (const std::size_t running : {0, 5, 6, 7, 9}) nodes[running].activity = Activity::Running;
-  const std::string text = draw(tree, snapshot(nodes), {.width = 40, .height = 9});
+  nodes[1].activity = Activity::Success;
+  const std::string text = draw(tree, snapshot(nodes), {.width = 45, .height = 9, .keys = true});
   CHECK(text ==
         "Test  10 Hz  tick 4  0.400 s  overruns 0\n"
         "> Sequence\n"
-        "  - a (Scripted)\n"
+        "  - d (Scripted)\n"
         "  > ParallelRelative\n"
-        "    > e [==========] 0.00\n"
-        "    > f [==========] 0.00\n"
+        "    > e [===========] 0.00\n"
+        "    > f [===========] 0.00\n"
         "  > h (Scripted)\n"
-        "... 4 nodes left out\n");
+        "... 4 nodes left out: 1 succeeded, 3 idle ...\n");
 }
 
 TEST_CASE("a view never has more lines or columns than the terminal") {
@@ -133,11 +134,35 @@ TEST_CASE("names cannot send control sequences to the terminal") {
   CHECK(text.find("a\\x1B[2J") != std::string::npos);
 }
 
+TEST_CASE("a line that is cut ends in an ellipsis, one that just fits does not") {
+  const auto text = [](std::size_t width, bool unicode, std::string_view rest = "") {
+    TextLine line(width, false, unicode);
+    line.add("barrier");
+    line.add(rest);
+    return line.text();
+  };
+  CHECK(text(7, true) == "barrier");
+  CHECK(text(7, false) == "barrier");
+  CHECK(text(6, true) == "barri…");
+  CHECK(text(7, true, "s") == "barrie…");
+  CHECK(text(6, false) == "bar...");
+  CHECK(text(7, false, "s") == "barr...");
+  CHECK(text(2, false) == "..");
+  CHECK(text(1, true) == "…");
+  CHECK(text(0, true) == "");
+  TextLine styled(5, true, true);
+  styled.add("ab", Style::Good);
+  styled.add("cdef", Style::Bad);
+  styled.add("gh");
+  CHECK(styled.text() == "\x1b[32mab\x1b[0m\x1b[31mcd…\x1b[0m");
+}
+
 TEST_CASE("wide and foreign characters") {
   TextLine line(6, false, true);
-  line.add("抓取抓取");
+  line.add("抓取抓");
   CHECK(line.text() == "抓取抓");
-  CHECK(line.column() == 6);
+  line.add("取");
+  CHECK(line.text() == "抓取…");
   TextLine ascii(6, false, false);
   ascii.add("Tür");
   CHECK(ascii.text() == "T?r");

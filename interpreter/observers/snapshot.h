@@ -1,0 +1,39 @@
+// The state of a tree at one moment, for whoever shows it: a terminal, a replay, a page. Plain
+// data.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/clock.h"
+#include "engine/run_state.h"
+#include "runtime/observer.h"
+
+namespace lockstep {
+
+struct NodeView {
+  Activity activity = Activity::Idle;
+  double progress = 0;  // children of synchronized nodes only
+};
+
+// Of a child of a synchronized node, given its progress as the node used it in its last tick.
+inline double shown_progress(Activity activity, double used) {
+  if (activity == Activity::Idle) return 0;
+  return activity == Activity::Success ? 1.0 : used;
+}
+
+struct Snapshot {
+  struct Header {
+    double rate_hz = 0;
+    bool real_time = true;
+    std::uint64_t tick = 0;
+    Nanoseconds time{0};
+    // Ticks that ended after the next deadline; none: not known, as of a recording.
+    std::optional<std::uint64_t> overruns = 0;
+    std::optional<RunResult> result = {};  // once the run has ended
+  } header;
+  std::vector<NodeView> nodes;  // by index
+};
+
+}  // namespace lockstep
