@@ -1,7 +1,11 @@
-// What CLI11 lets pass on a command line and should not. The checks return "" or what is wrong.
+// What the values of options may be, in words of ours. CLI11 reads -1, and what is larger than 64
+// bits hold, as the largest number there is, 010 as 8, and takes nan for a number of any range.
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class Validator;
@@ -9,15 +13,15 @@ class Validator;
 
 namespace lockstep {
 
-// A whole number of 64 bits.
+// "", or what is wrong with it as a whole number of 64 bits.
 std::string check_count(const std::string& text);
 
-// For ->transform(): such a number, at least 0 or 1. CLI11 reads -1, and what is larger than 64
-// bits hold, as the largest number there is, and 010 as 8.
-enum class Least : bool { Zero, One };
-CLI::Validator whole_number(Least least = Least::Zero);
+// For ->transform().
+CLI::Validator whole_number(std::uint64_t least = 0,
+                            std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
 
-// CLI::Range takes nan for a number of its range.
-std::string check_is_number(const std::string& text);
+// For ->check().
+CLI::Validator number_between(double least, double most);
+CLI::Validator one_of(const std::vector<std::string>& words);
 
 }  // namespace lockstep

@@ -1,6 +1,3 @@
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <new>
@@ -10,8 +7,8 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
+#include "cli/usage.h"
 #include "core/descriptors.h"
-#include "core/suggest.h"
 #include "runtime/outlet.h"
 
 namespace lockstep {
@@ -25,26 +22,35 @@ std::span<const Command* const> commands() {
 
 namespace {
 
-// CLI11 would only say that a subcommand is required.
-bool is_unknown(std::string_view command) {
-  std::vector<std::string_view> names;
-  for (const Command* it : commands()) names.emplace_back(it->name);
-  if (command.starts_with('-') || std::ranges::find(names, command) != names.end()) return false;
-  const std::string near = did_you_mean(command, names);
-  print_error(fmt::format("unknown command '{}'", printable(command)),
-              near.empty() ? fmt::format("commands: {}", fmt::join(names, ", ")) : near);
-  return true;
+constexpr const char* kHelp = "help";
+
+// `lockstep help log info` is `lockstep log info --help`.
+std::vector<std::string> words_of(int argc, char** argv) {
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  if (words.empty() || words.front() != kHelp) return words;
+  words.erase(words.begin());
+  words.emplace_back("--help");
+  return words;
+}
+
+int refuse(const UsageError& error) {
+  print_error(error.message, error.hint);
+  return kExitUsage;
+}
+
+void parse(CLI::App& app, std::vector<std::string> words) {
+  std::ranges::reverse(words);  // as CLI11 takes them
+  app.parse(std::move(words));
 }
 
 int run_command_line(int argc, char** argv) {
-  if (argc > 1 && is_unknown(argv[1])) return kExitUsage;
   CLI::App app{"lockstep: behavior trees that move several things at once and keep them in step",
                "lockstep"};
   app.require_subcommand(1);
   app.set_version_flag("--version", "lockstep " LOCKSTEP_VERSION);
   app.footer(
       "Example: lockstep run trees/door_pulling.xml\n"
-      "`lockstep COMMAND --help` shows the options of a command and examples.");
+      "`lockstep help COMMAND` shows the options of a command and examples.");
   std::vector<std::function<int()>> actions;
   std::vector<CLI::App*> subcommands;
   for (const Command* command : commands()) {
@@ -53,15 +59,17 @@ int run_command_line(int argc, char** argv) {
     actions.push_back(command->define(*subcommand));
     subcommands.push_back(subcommand);
   }
+  app.add_subcommand(kHelp, "Show the help of a command: lockstep help log info");
+  const auto words = words_of(argc, argv);
+  if (const auto error = find_unknown_command(app, words)) return refuse(*error);
   try {
-    app.parse(argc, argv);
+    parse(app, words);
   } catch (const CLI::Success& success) {  // --help, --version
     std::ostringstream text;
     app.exit(success, text);
     return write_results(text.str());
   } catch (const CLI::ParseError& error) {
-    print_error(error.what(), "see `lockstep --help`");
-    return kExitUsage;
+    return refuse(explain(app, words, error));
   }
   for (std::size_t i = 0; i < actions.size(); ++i) {
     if (!subcommands[i]->parsed()) continue;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "cli/checks.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/log.h"
@@ -36,11 +37,6 @@ int diff(const LogDiffOptions& options, RecordingReader& a, RecordingReader& b) 
 }
 
 int diff(const LogDiffOptions& options) {
-  // Here, since CLI::Range lets nan pass.
-  if (!(options.diff.tolerance >= 0 && options.diff.tolerance <= 1)) {
-    print_error("--tolerance: expected a number from 0 to 1");
-    return kExitUsage;
-  }
   if (options.a == "-" && options.b == "-") {
     print_error("only one of the two recordings can be stdin");
     return kExitUsage;
@@ -60,6 +56,7 @@ LogSubcommand define_log_diff(CLI::App& log) {
   app->add_option("--tolerance", options->diff.tolerance,
                   "Progress that differs by no more than this is the same")
       ->type_name("X")
+      ->check(number_between(0, 1))
       ->capture_default_str();
   app->add_flag("--ignore-time", options->diff.ignore_time,
                 "Do not compare times and overruns: on the wall clock no two runs have the same");

@@ -8,6 +8,7 @@
 #include <system_error>
 #include <vector>
 
+#include "cli/checks.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/log.h"
@@ -118,10 +119,10 @@ LogSubcommand define_log_plot(CLI::App& log) {
   app->add_option("--node", options->node, "Only this node: its path, or the end of it")
       ->type_name("NODE");
   app->add_option("--width", options->size.width, "In pixels; a PNG has twice as many")
-      ->check(CLI::Range(200, 8000))
+      ->transform(whole_number(200, 8000))
       ->capture_default_str();
   app->add_option("--height", options->size.height, "In pixels; a PNG has twice as many")
-      ->check(CLI::Range(150, 8000))
+      ->transform(whole_number(150, 8000))
       ->capture_default_str();
   return {app, [options] { return plot(*options); }};
 }

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/catalog_loading.h"
+#include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
@@ -46,7 +47,7 @@ std::function<int()> define_nodes(CLI::App& app) {
   const auto options = std::make_shared<NodesOptions>();
   app.add_option("id", options->id, "Only this node")->type_name("ID");
   app.add_option("--format", options->format, "text, json: an array of objects, or markdown")
-      ->check(CLI::IsMember({"text", "json", "markdown"}))
+      ->check(one_of({"text", "json", "markdown"}))
       ->capture_default_str();
   add_plugin_options(app, options->plugins);
   return [options] { return nodes(*options); };

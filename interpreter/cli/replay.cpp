@@ -98,12 +98,6 @@ int play(const ReplayOptions& options, RecordingReader& reader) {
 }
 
 int replay(const ReplayOptions& options) {
-  // Here, since CLI::Range lets nan pass.
-  if (!(options.speed >= ReplayPlayer::kSlowest && options.speed <= ReplayPlayer::kFastest)) {
-    print_error(fmt::format("--speed: expected a number from {} to {}", ReplayPlayer::kSlowest,
-                            ReplayPlayer::kFastest));
-    return kExitUsage;
-  }
   return with_recording(options.file, [&](RecordingReader& reader) {
     const bool interactive = !options.print && options.file != "-" && is_terminal(STDIN_FILENO) &&
                              is_terminal(results_file()) && can_draw();
@@ -119,6 +113,7 @@ std::function<int()> define_replay(CLI::App& app) {
       ->transform(whole_number());
   app.add_option("--speed", options->speed, "1: as recorded; 0.1: ten times as slow")
       ->type_name("X")
+      ->check(number_between(ReplayPlayer::kSlowest, ReplayPlayer::kFastest))
       ->capture_default_str();
   app.add_flag("--print", options->print, "Print one tick and end, also on a terminal");
   return [options] { return replay(*options); };

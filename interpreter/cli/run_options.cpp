@@ -1,7 +1,5 @@
 #include "cli/run_options.h"
 
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <map>
 #include <utility>
@@ -20,29 +18,26 @@ template <class T>
 void add_choice(CLI::App& app, const std::string& name, T& value,
                 const std::vector<std::pair<std::string, T>>& choices, const std::string& doc) {
   const std::map<std::string, T> values(choices.begin(), choices.end());
-  std::string words, current;
+  std::vector<std::string> words;
+  std::string current;
   for (const auto& [word, meaning] : choices) {
-    words += (words.empty() ? "" : "|") + word;
+    words.push_back(word);
     if (meaning == value) current = word;
   }
   app.add_option_function<std::string>(
          name, [&value, values](const std::string& word) { value = values.at(word); }, doc)
-      ->type_name(words)
-      ->check([values, words](const std::string& word) {
-        return values.count(word) != 0 ? "" : fmt::format("'{}' is not one of {}", word, words);
-      })
+      ->check(one_of(words))
       ->default_str(current);
 }
 
 void define_loop_options(CLI::App& app, RunCommandOptions& options) {
   app.add_option("--rate", options.rate, "Ticks per second")
       ->type_name("HZ")
-      ->check(CLI::Range(0.001, 100000.0))
-      ->check(check_is_number)
+      ->check(number_between(0.001, 100000.0))
       ->capture_default_str();
   app.add_option("--clock", options.clock,
                  "wall, or virtual: the same run, as fast as the machine allows")
-      ->check(CLI::IsMember({"wall", "virtual"}))
+      ->check(one_of({"wall", "virtual"}))
       ->capture_default_str();
   app.add_option("--seed", options.seed,
                  "Of the leaves' random numbers: the same seed gives the same numbers")
@@ -51,17 +46,15 @@ void define_loop_options(CLI::App& app, RunCommandOptions& options) {
       ->capture_default_str();
   app.add_option("--max-ticks", options.max_ticks, "Stop after N ticks, at least 1")
       ->type_name("N")
-      ->transform(whole_number(Least::One));
+      ->transform(whole_number(1));
   app.add_option("--timeout", options.timeout, "Stop after S seconds of the run's clock")
       ->type_name("S")
-      ->check(CLI::Range(0.0, 1e9))
-      ->check(check_is_number);
+      ->check(number_between(0.0, 1e9));
   app.add_option("--stall", options.stall,
                  "Report a child that stands still for S seconds while others wait for it; 0 = "
                  "never")
       ->type_name("S")
-      ->check(CLI::Range(0.0, 1e9))
-      ->check(check_is_number)
+      ->check(number_between(0.0, 1e9))
       ->capture_default_str();
 }
 
@@ -76,14 +69,13 @@ void define_time_options(CLI::App& app, RunCommandOptions& options) {
                  "Report a leaf that takes longer than MS milliseconds; 0 = do not time leaves "
                  "(default: the period)")
       ->type_name("MS")
-      ->check(CLI::Range(0.0, 1e9))
-      ->check(check_is_number);
+      ->check(number_between(0.0, 1e9));
   app.add_flag("--realtime", options.realtime.realtime,
                "Tick with real-time priority (SCHED_FIFO), memory locked and timer slack 1 ns; "
                "needs privileges");
   app.add_option("--cpu", options.realtime.cpu, "Tick on this processor only, counted from 0")
       ->type_name("N")
-      ->check(CLI::Range(0, 4095));
+      ->transform(whole_number(0, 4095));
 }
 
 void define_fault_options(CLI::App& app, RunCommandOptions& options) {
@@ -95,14 +87,12 @@ void define_fault_options(CLI::App& app, RunCommandOptions& options) {
                  "A call into a plugin that lasts longer than S seconds is a hang: it ends the "
                  "program, or, isolated, the plugin's process; 0 = never")
       ->type_name("S")
-      ->check(CLI::Range(0.0, 1e6))
-      ->check(check_is_number)
+      ->check(number_between(0.0, 1e6))
       ->capture_default_str();
   app.add_option("--halt-limit", options.halt_limit,
                  "Name a leaf that does not return from halt for S seconds; 0 = never")
       ->type_name("S")
-      ->check(CLI::Range(0.0, 1e6))
-      ->check(check_is_number)
+      ->check(number_between(0.0, 1e6))
       ->capture_default_str();
 }
 
@@ -139,7 +129,7 @@ void define_run_options(CLI::App& app, RunCommandOptions& options) {
   app.add_option("--view", options.view,
                  "On stderr while it runs: live (a terminal), plain lines, none; auto = live on a "
                  "terminal, else plain")
-      ->check(CLI::IsMember({"auto", "live", "plain", "none"}))
+      ->check(one_of({"auto", "live", "plain", "none"}))
       ->capture_default_str();
   add_choice<lockstep_log_level>(app, "--log-level", options.log_level,
                                  {{"debug", LOCKSTEP_LOG_DEBUG},

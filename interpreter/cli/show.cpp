@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 
+#include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/loading.h"
@@ -35,7 +36,7 @@ std::function<int()> define_show(CLI::App& app) {
   const auto options = std::make_shared<ShowOptions>();
   app.add_option("tree", options->tree, "Tree file; - is stdin")->type_name("TREE.xml")->required();
   app.add_option("--format", options->format, "text, dot: for Graphviz, or mermaid")
-      ->check(CLI::IsMember({"text", "dot", "mermaid"}))
+      ->check(one_of({"text", "dot", "mermaid"}))
       ->capture_default_str();
   add_load_options(app, options->load);
   return [options] { return show(*options); };

@@ -186,7 +186,7 @@ void define_merge(CLI::App& app, const std::shared_ptr<StudyCommandOptions>& opt
 void define_runs(CLI::App& app, StudyOptions& options) {
   app.add_option("-n,--runs", options.runs, "How often each cell of the grid is run")
       ->type_name("N")
-      ->transform(whole_number(Least::One));
+      ->transform(whole_number(1));
   app.add_option("--seed", options.seed, "All seeds of the runs are made from this one")
       ->type_name("S")
       ->transform(whole_number())
@@ -203,13 +203,12 @@ void define_runs(CLI::App& app, StudyOptions& options) {
       ->allow_extra_args(false);
   app.add_option("--rate", options.rate, "Ticks per second of the virtual clock")
       ->type_name("HZ")
-      ->check(CLI::Range(kLeastRate, kMostRate))
-      ->check(check_is_number)
+      ->check(number_between(kLeastRate, kMostRate))
       ->capture_default_str();
   app.add_option("--max-ticks", options.max_ticks,
                  "A run that comes so far ends there, with the result 'limit'")
       ->type_name("N")
-      ->transform(whole_number(Least::One))
+      ->transform(whole_number(1))
       ->capture_default_str();
   app.add_option("--shard", options.shard, "Make part I of N only; see `lockstep study merge`")
       ->type_name("I/N");
@@ -222,7 +221,7 @@ std::function<int()> define_study(CLI::App& app) {
   options->jobs = std::max(1u, std::thread::hardware_concurrency());
   app.add_option("--jobs", options->jobs, "Threads; the result does not depend on it")
       ->type_name("J")
-      ->check(CLI::Range(1, 1024))
+      ->transform(whole_number(1, 1024))
       ->capture_default_str();
   app.add_option("--out", options->out, "Directory to write (default: study-<tree>)")
       ->type_name("DIR");

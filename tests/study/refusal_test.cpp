@@ -15,7 +15,7 @@ struct Refusal {
 
 const std::vector<Refusal> kRefusals{
     {2, {}, "--runs is required"},
-    {2, {"--runs", "0"}, "expected 1 or more"},
+    {2, {"--runs", "0"}, "'0' is not a whole number from 1"},
     {2, {"--runs", "-3"}, "not a whole number"},
     {2, {"--runs", "1", "--grid", "barier_count=1"}, "unknown name 'barier_count' in --grid"},
     {2, {"--runs", "1", "--grid", "barier_count=1"}, "did you mean 'barrier_count'?"},
@@ -30,7 +30,7 @@ const std::vector<Refusal> kRefusals{
     {2, {"--runs", "1", "--grid", "seed=18446744073709551616"}, "is more than 18446744073709551"},
     {2, {"--runs", "18446744073709551615"}, "more than 281474976710656 runs"},
     {2, {"--runs", "281474976710656", "--grid", "noise=0,1"}, "more than 281474976710656 runs"},
-    {2, {"--runs", "00"}, "expected 1 or more"},
+    {2, {"--runs", "00"}, "'00' is not a whole number from 1"},
     {2, {"--runs", "1", "--grid", "rate=0"}, "'0' is not a number from 0.001"},
     {2, {"--runs", "1", "--measure", "speed"}, "unknown measure 'speed'"},
     {2, {"--runs", "1", "--measure", "predictability:a1@2"}, "expected a number from 0 to 1"},

@@ -1,0 +1,194 @@
+#include "cli/usage.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "core/suggest.h"
+#include "core/wording.h"
+
+namespace lockstep {
+namespace {
+
+// How far a command line can be followed.
+struct Walk {
+  const CLI::App* command;             // the innermost that it names
+  std::string unknown_option;          // the first
+  std::string empty_option;            // the first that lacks its value
+  std::vector<std::string> arguments;  // of that command, that are neither options nor their values
+};
+
+std::vector<const CLI::App*> subcommands(const CLI::App& command) {
+  return command.get_subcommands([](const CLI::App*) { return true; });
+}
+
+const CLI::App* find_subcommand(const CLI::App& command, const std::string& name) {
+  const auto all = subcommands(command);
+  const auto found = std::ranges::find(all, name, [](const auto* it) { return it->get_name(); });
+  return found == all.end() ? nullptr : *found;
+}
+
+bool takes_value(const CLI::Option& option) {
+  return option.get_items_expected_max() > 0;
+}
+
+// Not get_option_no_throw(): without memory it ends the program.
+const CLI::Option* find_option(const CLI::App& command, const std::string& name) {
+  const auto all = command.get_options();
+  const auto found =
+      std::ranges::find_if(all, [&](const auto* it) { return it->check_name(name); });
+  return found == all.end() ? nullptr : *found;
+}
+
+// `--name`, `--name=value`, `-n` or `-nvalue`. Returns whether the next word is its value.
+bool follow_option(Walk& walk, const std::string& word) {
+  const std::string name = word.substr(0, word.find('='));
+  const CLI::Option* option = find_option(*walk.command, name);
+  const bool is_short = !word.starts_with("--");
+  const bool has_value = name.size() < word.size() || (option == nullptr && is_short);
+  if (option == nullptr && is_short) option = find_option(*walk.command, word.substr(0, 2));
+  if (option == nullptr && walk.unknown_option.empty()) walk.unknown_option = name;
+  const bool needs_value = option != nullptr && takes_value(*option);
+  if (needs_value && word.ends_with('=') && walk.empty_option.empty()) walk.empty_option = name;
+  return needs_value && !has_value;
+}
+
+Walk follow(const CLI::App& program, std::span<const std::string> words) {
+  Walk walk{&program, {}, {}, {}};
+  bool options_end = false;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    if (!options_end && word.size() > 1 && word[0] == '-') {
+      options_end = word == "--";
+      if (options_end || !follow_option(walk, word)) continue;
+      if (++i == words.size()) walk.empty_option = word;
+    } else if (const CLI::App* command = find_subcommand(*walk.command, word)) {
+      walk.command = command;
+    } else {
+      walk.arguments.push_back(word);
+    }
+  }
+  return walk;
+}
+
+// "lockstep log info"
+std::string path_of(const CLI::App& command) {
+  const CLI::App* parent = command.get_parent();
+  return parent == nullptr ? command.get_name() : path_of(*parent) + " " + command.get_name();
+}
+
+// "log info" of "lockstep log info"
+std::string name_of(const CLI::App& command) {
+  const std::string path = path_of(command);
+  return path.substr(std::min(path.find(' ') + 1, path.size()));
+}
+
+std::string with_help(const CLI::App& command, std::string hint) {
+  const std::string help = fmt::format("see `{} --help`", path_of(command));
+  return hint.empty() ? help : fmt::format("{} {}", hint, help);
+}
+
+std::string suggest_one_of(std::string_view word, const std::vector<std::string>& names,
+                           std::string_view what) {
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  return what.empty() ? did_you_mean(word, views) : suggest(word, views, what);
+}
+
+std::vector<std::string> names_of(const std::vector<const CLI::App*>& commands) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : commands) names.push_back(command->get_name());
+  return names;
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+// A question, or a list.
+std::string suggest_command(const CLI::App& command, std::string_view word) {
+  std::string hint = suggest_one_of(word, names_of(subcommands(command)), "commands");
+  if (!hint.ends_with('?')) hint += ';';
+  return hint;
+}
+
+UsageError unknown_command(const Walk& walk) {
+  const bool is_program = walk.command->get_parent() == nullptr;
+  const std::string prefix = is_program ? "" : name_of(*walk.command) + " ";
+  return {fmt::format("unknown command '{}{}'", prefix, brief(walk.arguments.front())),
+          with_help(*walk.command, suggest_command(*walk.command, walk.arguments.front()))};
+}
+
+// A command that takes a file or a subcommand got a subcommand that is mistyped.
+bool is_mistyped_command(const Walk& walk) {
+  const auto names = names_of(subcommands(*walk.command));
+  return !walk.arguments.empty() && !names.empty() &&
+         !suggest_one_of(walk.arguments.front(), names, "").empty() &&
+         !std::filesystem::exists(walk.arguments.front());
+}
+
+// How many arguments the command takes that are not options.
+std::size_t capacity(const CLI::App& command) {
+  std::size_t count = 0;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_positional())
+      count += static_cast<std::size_t>(option->get_items_expected_max());
+  }
+  return count;
+}
+
+std::string reason(const CLI::ParseError& error) {
+  constexpr std::string_view kConversion = "Could not convert: ";
+  std::string text = error.what();
+  const auto equals = text.find(" = ");
+  if (text.starts_with(kConversion) && equals != std::string::npos) {
+    return fmt::format("{}: '{}' is not a value of this option",
+                       text.substr(kConversion.size(), equals - kConversion.size()),
+                       brief(std::string_view(text).substr(equals + 3)));
+  }
+  // In our words: lower case.
+  if (text.size() > 1 && std::isupper(text[0]) != 0 && std::islower(text[1]) != 0)
+    text[0] = static_cast<char>(std::tolower(text[0]));
+  return text;
+}
+
+}  // namespace
+
+std::optional<UsageError> find_unknown_command(const CLI::App& program,
+                                               std::span<const std::string> words) {
+  const Walk walk = follow(program, words);
+  if (walk.arguments.empty() || walk.command->get_require_subcommand_min() == 0)
+    return std::nullopt;
+  return unknown_command(walk);
+}
+
+UsageError explain(const CLI::App& program, std::span<const std::string> words,
+                   const CLI::ParseError& error) {
+  const Walk walk = follow(program, words);
+  const CLI::App& command = *walk.command;
+  if (!walk.unknown_option.empty()) {
+    return {fmt::format("unknown option '{}'", brief(walk.unknown_option)),
+            with_help(command, suggest_one_of(walk.unknown_option, option_names(command), ""))};
+  }
+  if (command.get_require_subcommand_min() > 0) {
+    return {fmt::format("`{}` needs a command", path_of(command)),
+            with_help(command, suggest_command(command, ""))};
+  }
+  if (!walk.empty_option.empty()) {
+    return {fmt::format("'{}' needs a value", brief(walk.empty_option)), with_help(command, "")};
+  }
+  if (is_mistyped_command(walk)) return unknown_command(walk);
+  if (walk.arguments.size() > capacity(command)) {
+    const std::string& argument = walk.arguments[capacity(command)];
+    return {fmt::format("unexpected argument '{}'", brief(argument)), with_help(command, "")};
+  }
+  return {reason(error), with_help(command, "")};
+}
+
+}  // namespace lockstep

@@ -1,0 +1,123 @@
+// Command lines that are wrong: the word that is named, what was meant, and the help that is named.
+#include <catch2/catch.hpp>
+
+#include "cli/program.h"
+
+using namespace lockstep::test;
+
+namespace {
+
+struct Row {
+  std::vector<std::string> arguments;
+  std::string message, hint;
+};
+
+}  // namespace
+
+TEST_CASE("a wrong command line names the word that is wrong, and the help of its command") {
+  const Row rows[] = {
+      {{}, "`lockstep` needs a command", "commands: 'run', "},
+      {{"chekc"}, "unknown command 'chekc'", "did you mean 'check'?"},
+      {{"chekc", "--help"}, "unknown command 'chekc'", "did you mean 'check'?"},
+      {{"frobnicate", "x"}, "unknown command 'frobnicate'", "commands: 'run', "},
+      {{"--verison"},
+       "unknown option '--verison'",
+       "did you mean '--version'? see `lockstep --help`"},
+      {{"run", "--recrod", "x", "t.xml"},
+       "unknown option '--recrod'",
+       "did you mean '--record'? see `lockstep run --help`"},
+      {{"run", "t.xml", "--recrod=x"}, "unknown option '--recrod'", "did you mean '--record'?"},
+      {{"run", "t.xml", "--frobnicate"},
+       "unknown option '--frobnicate'",
+       "see `lockstep run --help`"},
+      {{"run", "--seed", "1", "-x", "t.xml"}, "unknown option '-x'", "see `lockstep run --help`"},
+      {{"run", "--rate", "fast", "t.xml"},
+       "--rate: 'fast' is not a number from 0.001 to 100000",
+       "see `lockstep run --help`"},
+      {{"run", "a.xml", "b.xml"}, "unexpected argument 'b.xml'", "see `lockstep run --help`"},
+      {{"run", "a.xml", "--", "-b.xml"},
+       "unexpected argument '-b.xml'",
+       "see `lockstep run --help`"},
+      {{"run"}, "tree is required", "see `lockstep run --help`"},
+      {{"run", "t.xml", "--seed"}, "'--seed' needs a value", "see `lockstep run --help`"},
+      {{"run", "--rate", "nan", "t.xml"}, "--rate: 'nan' is not a number from 0.001", "see `"},
+      {{"run", "--rate", "0.0009", "t.xml"}, "--rate: '0.0009' is not a number from", "see `"},
+      {{"run", "--cpu", "4096", "t.xml"}, "--cpu: '4096' is not a whole number from 0 to 4095", ""},
+      {{"run", "--timeout", "1e10", "t.xml"}, "--timeout: '1e10' is not a number from 0 to", ""},
+      {{"run", "--clock", "virtaul", "t.xml"},
+       "--clock: 'virtaul' is not one of wall, virtual; did you mean 'virtual'?",
+       "see `lockstep run --help`"},
+      {{"run", "--overrun", "skp", "t.xml"},
+       "--overrun: 'skp' is not one of skip, catch-up, fail; did you mean 'skip'?",
+       "see `lockstep run --help`"},
+      {{"run", "t.xml", "--timeout="}, "'--timeout' needs a value", "see `lockstep run --help`"},
+      {{"replay", "x", "--speed", "0"}, "--speed: '0' is not a number from 0.001 to 1000000", ""},
+      {{"log", "diff", "x", "y", "--tolerance", "nan"},
+       "--tolerance: 'nan' is not a number from 0 to 1",
+       "see `lockstep log diff --help`"},
+      {{"check", "--format", "xml", "t.xml"},
+       "--format: 'xml' is not one of text, json, github, sarif",
+       "see `lockstep check --help`"},
+      {{"log"}, "`lockstep log` needs a command", "commands: 'csv', "},
+      {{"log", "inf", "x"},
+       "unknown command 'log inf'",
+       "did you mean 'info'? see `lockstep log --help`"},
+      {{"log", "measure", "x", "--mesure", "duration"},
+       "unknown option '--mesure'",
+       "did you mean '--measure'? see `lockstep log measure --help`"},
+      {{"study", "mrege", "a", "b"}, "unknown command 'study mrege'", "did you mean 'merge'?"},
+      {{"study", "a.xml", "b.xml"}, "unexpected argument 'b.xml'", "see `lockstep study --help`"},
+      {{"help", "rnu"}, "unknown command 'rnu'", "did you mean 'run'?"},
+      {{"help", "log", "inf"}, "unknown command 'log inf'", "did you mean 'info'?"},
+  };
+  for (const Row& row : rows) {
+    const Outcome outcome = lockstep::test::lockstep(row.arguments);
+    INFO(row.message << "\n" << outcome.err);
+    CHECK(outcome.code == 2);
+    CHECK(outcome.out.empty());
+    CHECK(outcome.err.starts_with("lockstep: error: " + row.message));
+    CHECK(contains(outcome.err, "\n  hint: " + row.hint));
+    CHECK(lines(outcome.err).size() == 2);
+  }
+}
+
+TEST_CASE("a word of a command line reaches the terminal short and harmless") {
+  const Outcome control = lockstep::test::lockstep({"run", "--\x1b[2J", "t.xml"});
+  CHECK(contains(control.err, "unknown option '--\\x1B[2J'"));
+  const Outcome endless =
+      lockstep::test::lockstep({"run", "--" + std::string(100'000, 'x'), "t.xml"});
+  CHECK(endless.err.size() < 1000);
+}
+
+TEST_CASE("what is right is not blamed for a likeness") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("t.xml", tree_text("<AlwaysSuccess/>"));
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"run", tree, "--clock=virtual", "--view", "none"},
+        {"run", "--timeout", "1", "--clock", "virtual", "--", tree},
+        {"study", tree, "-n2", "--measure", "duration", "--no-plots", "--out",
+         directory.path("study")},
+        {"help"},
+        {"--help"},
+        {"help", "help"}}) {
+    const Outcome outcome = lockstep::test::lockstep(arguments);
+    INFO(outcome.err);
+    CHECK(outcome.code == 0);
+  }
+}
+
+TEST_CASE("help COMMAND is COMMAND --help") {
+  const std::vector<std::vector<std::string>> commands = {
+      {}, {"run"}, {"check"}, {"log"}, {"log", "info"}, {"study", "merge"}};
+  for (const auto& command : commands) {
+    std::vector<std::string> with_word = {"help"}, with_option = command;
+    with_word.insert(with_word.end(), command.begin(), command.end());
+    with_option.emplace_back("--help");
+    const Outcome outcome = lockstep::test::lockstep(with_word);
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.empty());
+    CHECK(contains(outcome.out, "Usage: lockstep"));
+    CHECK(outcome.out == lockstep::test::lockstep(with_option).out);
+  }
+  CHECK(contains(lockstep::test::lockstep({"help"}).out, "\n  help "));
+}
