@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "core/suggest.h"
 #include "core/wording.h"
 #include "definition/expand.h"
 #include "document/reporter.h"
@@ -140,22 +141,49 @@ class Adviser {
   }
 
   void unwritten_entries() const {
-    std::vector<bool> written(definition_.entries.size(), false);
+    std::vector<bool> valued(definition_.entries.size());  // has a value at some time
+    for (std::size_t i = 0; i < valued.size(); ++i) {
+      valued[i] = !std::holds_alternative<std::monostate>(definition_.entries[i].initial);
+    }
     for_each_port([&](std::uint32_t, const Parameter& parameter, std::uint32_t entry) {
-      if (parameter.direction != Direction::Input) written[entry] = true;
+      if (parameter.direction != Direction::Input) valued[entry] = true;
     });
+    std::vector<bool> told = valued;  // one warning an entry
     for_each_port([&](std::uint32_t node, const Parameter& parameter, std::uint32_t entry) {
-      const BlackboardEntry& it = definition_.entries[entry];
-      if (written[entry] || !std::holds_alternative<std::monostate>(it.initial)) return;
-      written[entry] = true;  // one warning an entry
+      if (told[entry]) return;
+      told[entry] = true;
       const Reporter report(*project_.documents[at(node).document], diagnostics_);
+      if (report.counted_only(Severity::Warning)) return;
+      const std::string_view name = definition_.entries[entry].name;
       report.at_value(at(node).element, parameter.name,
-                      fmt::format("nothing writes '{{{}}}'", brief(it.name)),
-                      it.name.find('/') == std::string::npos
-                          ? fmt::format("give it a value with --set {}=…", brief(it.name))
-                          : "give it a value by an attribute of the SubTree",
-                      Severity::Warning);
+                      fmt::format("nothing writes '{{{}}}'", brief(name)),
+                      unwritten_hint(parameter, name, valued), Severity::Warning);
     });
+  }
+
+  // The keys of entries in `scope` that have a value at some time.
+  std::vector<std::string_view> keys_in(std::string_view scope,
+                                        const std::vector<bool>& valued) const {
+    std::vector<std::string_view> keys;
+    for (std::size_t i = 0; i < valued.size(); ++i) {
+      const std::string_view name = definition_.entries[i].name;
+      const bool is_inside = name.substr(0, name.rfind('/') + 1) == scope;
+      if (valued[i] && is_inside) keys.push_back(name.substr(scope.size()));
+    }
+    return keys;
+  }
+
+  std::string unwritten_hint(const Parameter& parameter, std::string_view name,
+                             const std::vector<bool>& valued) const {
+    const std::string_view scope = name.substr(0, name.rfind('/') + 1);
+    std::string hint = did_you_mean(name.substr(scope.size()), keys_in(scope, valued));
+    if (!hint.empty()) return hint;
+    if (parameter.default_text) {
+      hint = fmt::format("it stays '{}', the default of '{}'; ", *parameter.default_text,
+                         parameter.name);
+    }
+    return hint + (scope.empty() ? fmt::format("give it a value with --set {}=…", brief(name))
+                                 : "give it a value by an attribute of the SubTree");
   }
 
   template <class Visit>

@@ -167,6 +167,13 @@ void check_parameters(const Document& document, const Reporter& report,
   }
 }
 
+// What a port that is bound to an entry has until somebody writes that.
+void set_default(const Parameter& port, CheckedPort& checked, CheckedTrees& trees) {
+  if (!port.default_text) return;
+  checked.value = static_cast<std::uint32_t>(trees.values.size());
+  trees.values.push_back(*parse_value(port.type, *port.default_text));
+}
+
 void check_ports(const Reporter& report, const AttributeChecker& checker, CheckedNode& node,
                  CheckedTrees& trees) {
   node.first = static_cast<std::uint32_t>(trees.ports.size());
@@ -174,6 +181,7 @@ void check_ports(const Reporter& report, const AttributeChecker& checker, Checke
     CheckedPort checked;
     const Attribute* attribute = checker.attribute(port);
     if (attribute != nullptr) checked.key = key_of(attribute->value);
+    if (!checked.key.empty()) set_default(port, checked, trees);
     if (attribute != nullptr && checked.key.empty() && port.direction != Direction::Input) {
       report.at_value(
           node.element, port.name,

@@ -12,7 +12,7 @@
 
 namespace lockstep {
 
-// An attribute of a leaf: a constant, a {key}, or absent.
+// An attribute of a leaf: a constant, a {key} (then the value is the port's default), or absent.
 struct CheckedPort {
   std::uint32_t value = 0xffffffff;  // in CheckedTrees::values
   std::string_view key;

@@ -26,8 +26,8 @@ struct DefinitionNode {
 
 struct Port {
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-  std::uint32_t entry = kNone;  // in `entries`, or
-  std::uint32_t value = kNone;  // in `values`; neither: an output that goes nowhere
+  std::uint32_t entry = kNone;  // in `entries`; neither: an output that goes nowhere
+  std::uint32_t value = kNone;  // in `values`; with an entry: its value until somebody writes it
 };
 
 struct BlackboardEntry {

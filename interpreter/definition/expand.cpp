@@ -83,11 +83,12 @@ class Expander {
     });
     add(tree->second.root, place, scope);
     for_each_remapping(document, checked.element, [&](const Attribute& attribute) {
-      if (scope.used(attribute.name)) return;
+      if (scope.used(attribute.name) || report.counted_only(Severity::Warning)) return;
       report.at_attribute(checked.element, attribute.name,
                           fmt::format("the tree '{}' does not use '{{{}}}'", brief(checked.subtree),
                                       brief(attribute.name)),
-                          {}, Severity::Warning);
+                          suggest(attribute.name, scope.open_keys(), "it also uses"),
+                          Severity::Warning);
     });
   }
 

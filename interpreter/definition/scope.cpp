@@ -19,4 +19,12 @@ Scope::Found Scope::find(std::string_view key) {
   return {entry, true, has_text ? text->second : std::string_view(), has_text};
 }
 
+std::vector<std::string_view> Scope::open_keys() const {
+  std::vector<std::string_view> keys;
+  for (const auto& [key, entry] : known_) {
+    if (!remapped_.contains(key) && !texts_.contains(key)) keys.push_back(key);
+  }
+  return keys;
+}
+
 }  // namespace lockstep

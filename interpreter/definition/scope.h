@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "definition/definition.h"
 
@@ -37,6 +38,8 @@ class Scope {
   // The entry that `key` means here; made when it does not exist.
   Found find(std::string_view key);
   bool used(std::string_view key) const { return known_.contains(key); }
+  // Those that are used but not given by an attribute of the SubTree.
+  std::vector<std::string_view> open_keys() const;
 
  private:
   std::vector<BlackboardEntry>& entries_;

@@ -38,8 +38,8 @@ union Cell {
 // Where a leaf's port gets its value.
 struct PortBinding {
   static constexpr std::uint32_t kUnbound = 0xffffffff;
-  std::uint32_t slot = kUnbound;      // blackboard entry, or
-  std::uint32_t constant = kUnbound;  // value in Tree::constants
+  std::uint32_t slot = kUnbound;      // blackboard entry
+  std::uint32_t constant = kUnbound;  // in Tree::constants; with a slot: until that is written
 };
 
 struct LeafNode {

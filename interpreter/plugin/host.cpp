@@ -1,11 +1,14 @@
 #include "plugin/host.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <new>
 
 #include "core/utf8.h"
+#include "core/wording.h"
 #include "plugin/held.h"
 
 namespace lockstep {
@@ -26,8 +29,10 @@ bool is_foreign(const lockstep_caller* caller) {
 template <class T>
 const T* readable(const lockstep_caller* caller, std::uint32_t port) {
   if (is_foreign(caller) || port >= caller->ports.size()) return nullptr;
-  if (caller->ports[port].read == nullptr) return nullptr;
-  return std::get_if<T>(caller->ports[port].read);
+  const BoundPort& it = caller->ports[port];
+  if (it.read == nullptr) return nullptr;
+  const T* const found = std::get_if<T>(it.read);
+  return found != nullptr || it.fallback == nullptr ? found : std::get_if<T>(it.fallback);
 }
 
 template <class T>
@@ -146,12 +151,27 @@ const void* get_extension(const char* /*id*/) {
   return nullptr;
 }
 
+// A leaf knows its ports, only we know the entries: what leaf.hpp says of a port without a value is
+// made complete.
+Shortened with_entry(const lockstep_caller& caller, const Shortened& message) {
+  for (const BoundPort& port : caller.ports) {
+    const bool is_unwritten =
+        !port.entry.empty() && std::holds_alternative<std::monostate>(*port.read);
+    if (!is_unwritten || message.text() != fmt::format("port '{}' has no value", port.name)) {
+      continue;
+    }
+    return Shortened(fmt::format("{}: nothing has written the entry '{{{}}}'", message.text(),
+                                 brief(port.entry)));
+  }
+  return message;
+}
+
 }  // namespace
 
 void take_error(const lockstep_caller& caller, const Shortened& message) {
   lockstep_caller& it = mine(&caller);
   if (it.slot->error != nullptr) return;
-  it.error = message;
+  it.error = with_entry(caller, message);
   it.slot->error = it.error.c_str();
 }
 

@@ -19,8 +19,11 @@ constexpr std::size_t kLongestLogLine = std::size_t{32} << 10;  // bytes; the re
 
 struct BoundPort {
   ValueType type;
-  const Value* read = nullptr;  // null: no value
-  Value* write = nullptr;       // null: an input, or not bound to an entry
+  const Value* read = nullptr;      // null: no value
+  Value* write = nullptr;           // null: an input, or not bound to an entry
+  const Value* fallback = nullptr;  // the default, while the entry that it is bound to has no value
+  std::string_view name = {};       // in a process that only mirrors the entries: not known
+  std::string_view entry = {};
 };
 
 }  // namespace lockstep

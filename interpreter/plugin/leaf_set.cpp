@@ -38,13 +38,17 @@ std::vector<BoundPort> resolve_ports(const Tree& tree, const LeafNode& leaf,
   for (std::size_t index = 0; index < leaf.type->parameters.size(); ++index) {
     const PortBinding& binding = tree.ports[leaf.first_port + index];
     const Parameter& parameter = leaf.type->parameters[index];
-    BoundPort port{.type = parameter.type};
+    BoundPort port{.type = parameter.type, .name = parameter.name};
+    const Value* const constant =
+        binding.constant != PortBinding::kUnbound ? &tree.constants[binding.constant] : nullptr;
     if (binding.slot != PortBinding::kUnbound) {
       Value& entry = blackboard.values[binding.slot];
       port.read = &entry;
       if (parameter.direction != Direction::Input) port.write = &entry;
-    } else if (binding.constant != PortBinding::kUnbound) {
-      port.read = &tree.constants[binding.constant];
+      port.fallback = constant;
+      port.entry = tree.slots[binding.slot].name;
+    } else {
+      port.read = constant;
     }
     ports.push_back(port);
   }

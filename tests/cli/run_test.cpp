@@ -266,6 +266,33 @@ TEST_CASE("a leaf that fails as a program is 5, it is named, the others are halt
   CHECK(json::parse(fault.out)["reason"] == "fault");
 }
 
+TEST_CASE("a port whose entry nobody has written has its default, or the fault names the entry") {
+  const TemporaryDirectory directory;
+  const std::string head =
+      "<root lockstep=\"1\"><plugin name=\"motion\"/><plugin name=\"fetch\"/>"
+      "<BehaviorTree ID=\"Main\">";
+  const std::string tail = "</BehaviorTree></root>";
+  const std::string bound =
+      directory.file("bound.xml", head + "<Advance step=\"{s}\" noise=\"{n}\"/>" + tail);
+  const std::string plain = directory.file("plain.xml", head + "<Advance/>" + tail);
+  const std::string unwritten =
+      directory.file("unwritten.xml", head + "<Say text=\"{words}\"/>" + tail);
+  const auto run_tree = [](const std::string& tree, std::vector<std::string> more) {
+    more.insert(more.begin(), {"run", tree, "--clock", "virtual", "--json", "--view", "none"});
+    return lockstep::test::lockstep(more);
+  };
+  const auto ticks = nlohmann::json::parse(run_tree(plain, {}).out)["ticks"];
+  for (const auto& more : {std::vector<std::string>{}, std::vector<std::string>{"--isolate"}}) {
+    const Outcome with_default = run_tree(bound, more);
+    CHECK(with_default.code == 0);
+    CHECK(nlohmann::json::parse(with_default.out)["ticks"] == ticks);
+    const Outcome without = run_tree(unwritten, more);
+    CHECK(without.code == 5);
+    CHECK(contains(without.err,
+                   "port 'text' has no value: nothing has written the entry '{words}'"));
+  }
+}
+
 TEST_CASE("the result of a run that a fault ended is fault, whatever its siblings returned") {
   const Simulation it(
       "<Parallel success_count=\"1\"><AlwaysSuccess/><Probe name=\"culprit\"/></Parallel>");

@@ -79,7 +79,23 @@ TEST_CASE("entries: written, read, set, typed") {
        "<Sequence>\n<Count total=\"{x}\"/>\n<Show speed=\"{x}\"/></Sequence>",
        "4:14 error: '{x}' is a double for 'speed', but an int elsewhere"},
       {"an entry that nobody wrote has no value", R"(<GoTo target="{door}"/>)",
-       "fault: port 'target' has no value"},
+       "fault: port 'target' has no value: nothing has written the entry '{door}'"},
+      {"it is named with the path of its SubTree",
+       "<root lockstep=\"1\" main_tree_to_execute=\"T\"><BehaviorTree ID=\"T\"><SubTree ID=\"S\"/>"
+       "</BehaviorTree><BehaviorTree ID=\"S\"><GoTo target=\"{door}\"/></BehaviorTree></root>",
+       "fault: port 'target' has no value: nothing has written the entry '{S/door}'"},
+      {"a port with a default has that until somebody writes the entry",
+       R"(<Sequence memory="true"><FindDoor sees="{s}" door="{door}"/><Say text="{door}"/>
+          <FindDoor sees="{door}" door="{s}"/><FindDoor sees="{s}" door="{t}"/><Say text="{t}"/>
+          </Sequence>)",
+       "success 1: front door, front door"},
+      {"the default is that of the port, not of the entry",
+       R"(<Sequence memory="true"><FindDoor sees="{s}" door="{door}"/><Say text="{s}"/></Sequence>)",
+       "fault: port 'text' has no value: nothing has written the entry '{s}'"},
+      {"the default of an inout counts until it is written",
+       R"(<Repeat times="3"><Tally sum="{n}"/></Repeat>)", "success 3: 11, 12, 13"},
+      {"an inout that is left out has its default each time",
+       R"(<Repeat times="2"><Tally/></Repeat>)", "success 2: 10, 10"},
       {"an inout reads and writes", R"(<Repeat times="3"><Count total="{n}"/></Repeat>)",
        "success 3: 5, 6, 7", "set.n=4"},
   };

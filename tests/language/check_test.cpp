@@ -66,6 +66,46 @@ TEST_CASE("hints") {
   }
 }
 
+TEST_CASE("keys: what was probably meant") {
+  struct Row {
+    std::string_view xml, hint;
+  };
+  constexpr Row kRows[] = {
+      {R"(<Sequence memory="true"><FindDoor door="{door}"/><GoTo target="{dorr}"/></Sequence>)",
+       "did you mean 'door'?"},
+      {R"(<Sequence memory="true"><FindDoor door="{door}"/><GoTo target="{window}"/></Sequence>)",
+       "give it a value with --set window=…"},
+      {R"(<GoTo target="x" speed="{sped}"/>)",
+       "it stays '0.5', the default of 'speed'; give it a value with --set sped=…"},
+      {"<root lockstep=\"1\" main_tree_to_execute=\"T\"><BehaviorTree ID=\"T\"><Sequence "
+       "memory=\"true\"><FindDoor door=\"{place}\"/><SubTree ID=\"S\"/></Sequence></BehaviorTree>"
+       "<BehaviorTree ID=\"S\"><GoTo target=\"{plac}\"/></BehaviorTree></root>",
+       "give it a value by an attribute of the SubTree"},
+      {"<root lockstep=\"1\" main_tree_to_execute=\"T\"><BehaviorTree ID=\"T\"><SubTree ID=\"S\" "
+       "place=\"a\" placee=\"b\" greting=\"c\"/></BehaviorTree><BehaviorTree ID=\"S\"><Sequence "
+       "memory=\"true\"><GoTo target=\"{place}\"/><Say "
+       "text=\"{greeting}\"/></Sequence></BehaviorTree>"
+       "</root>",
+       "it also uses: 'greeting'"},
+      {"<root lockstep=\"1\" main_tree_to_execute=\"T\"><BehaviorTree ID=\"T\"><SubTree ID=\"S\" "
+       "greting=\"c\"/></BehaviorTree><BehaviorTree ID=\"S\"><Say "
+       "text=\"{greeting}\"/></BehaviorTree>"
+       "</root>",
+       "did you mean 'greeting'?"},
+      {"<root lockstep=\"1\" main_tree_to_execute=\"T\"><BehaviorTree ID=\"T\"><SubTree ID=\"S\" "
+       "greting=\"c\"/></BehaviorTree><BehaviorTree "
+       "ID=\"S\"><AlwaysSuccess/></BehaviorTree></root>",
+       ""},
+  };
+  for (const Row& row : kRows) {
+    INFO(row.xml);
+    const Pipeline pipeline(row.xml);
+    REQUIRE_FALSE(pipeline.diagnostics().all().empty());
+    CHECK(pipeline.diagnostics().all().front().severity == Severity::Warning);
+    CHECK(pipeline.diagnostics().all().front().hint == row.hint);
+  }
+}
+
 TEST_CASE("parameters of the parallel nodes") {
   constexpr ClaimRow kRows[] = {
       {"barriers or barrier_count", R"(<ParallelAbsolute><AlwaysSuccess/></ParallelAbsolute>)",

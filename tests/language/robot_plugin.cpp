@@ -67,6 +67,19 @@ class Count : public lockstep::Action<CountPorts> {
   }
 };
 
+struct TallyPorts : lockstep::Ports {
+  InOut<std::int64_t> sum{this, "sum", "10", "what is counted up"};
+};
+
+class Tally : public lockstep::Action<TallyPorts> {
+ public:
+  Status tick() override {
+    sum.set(sum.get() + 1);
+    said.push_back(std::to_string(sum.get()));
+    return Status::Success;
+  }
+};
+
 struct ShowPorts : lockstep::Ports {
   Input<bool> flag{this, "flag", "false", "a bool"};
   Input<std::int64_t> count{this, "count", "0", "an int"};
@@ -106,6 +119,7 @@ LOCKSTEP_PLUGIN_TABLE(robot_table, "robot", "1.0", "A robot that only says what 
                                            "The same, under a name like a built-in's."),
                       lockstep::leaf<Say>("Say", "Says a text."),
                       lockstep::leaf<Count>("Count", "Counts."),
+                      lockstep::leaf<Tally>("Tally", "Counts from ten."),
                       lockstep::leaf<Show>("Show", "Shows its ports."),
                       lockstep::leaf<IsOpen>("IsOpen", "Whether a door is open."));
 

@@ -73,10 +73,10 @@ TEST_CASE("the synchronized nodes, as a document gives them") {
 TEST_CASE("a fault ends the run, it is not a Failure") {
   constexpr ClaimRow kRows[] = {
       {"not even under ForceSuccess", R"(<ForceSuccess><GoTo target="{x}"/></ForceSuccess>)",
-       "fault: port 'target' has no value"},
+       "fault: port 'target' has no value: nothing has written the entry '{x}'"},
       {"nothing is ticked after it",
        R"(<Parallel><GoTo target="{x}"/><Say text="still here"/></Parallel>)",
-       "fault: port 'target' has no value"},
+       "fault: port 'target' has no value: nothing has written the entry '{x}'"},
   };
   check_runs(kRows);
 }

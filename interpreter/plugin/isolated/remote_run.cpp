@@ -47,6 +47,9 @@ struct RemoteLeaf {
       : run(its_run), caller(its_caller), number(its_run.next_number()) {
     for (const BoundPort& port : caller.ports) {
       ports.push_back(port.read == nullptr ? RemoteEntries::kNone : run.entries().number_of(port));
+      ports.push_back(port.fallback == nullptr
+                          ? RemoteEntries::kNone
+                          : run.entries().number_of({.type = port.type, .read = port.fallback}));
     }
     run.session().set_listener(number, &caller);
   }
@@ -57,7 +60,7 @@ struct RemoteLeaf {
   RemoteRun& run;
   const lockstep_caller& caller;
   std::uint32_t number;
-  std::vector<std::uint32_t> ports;  // which entry each is bound to
+  std::vector<std::uint32_t> ports;  // which entry each is bound to, and its default
 };
 
 MessageWriter& begin(RemoteRun& run, PluginFunction function, std::uint32_t number,
@@ -154,12 +157,13 @@ void write_creation(const RemoteLeaf& leaf, std::uint32_t type, MessageWriter& r
   request.put(leaf.caller.random);
   request.put(type);
   request.put_text(leaf.caller.who);
-  request.put(static_cast<std::uint32_t>(leaf.ports.size()));
-  for (std::size_t index = 0; index < leaf.ports.size(); ++index) {
+  request.put(static_cast<std::uint32_t>(leaf.caller.ports.size()));
+  for (std::size_t index = 0; index < leaf.caller.ports.size(); ++index) {
     const BoundPort& port = leaf.caller.ports[index];
     request.put(port.type);
     request.put(static_cast<std::uint8_t>(port.write != nullptr));
-    request.put(leaf.ports[index]);
+    request.put(leaf.ports[2 * index]);
+    request.put(leaf.ports[2 * index + 1]);
   }
 }
 

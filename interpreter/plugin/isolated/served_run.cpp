@@ -67,6 +67,8 @@ bool ServedRun::read_ports(MessageReader& request, std::vector<BoundPort>& ports
     port.type = request.get<ValueType>();
     const bool is_writable = request.get<std::uint8_t>() != 0;
     const auto number = request.get<std::uint32_t>();
+    const auto fallback = request.get<std::uint32_t>();
+    if (fallback != RemoteEntries::kNone) port.fallback = entry(fallback);
     if (number == RemoteEntries::kNone) continue;
     Value* const value = entry(number);
     port.read = value;

@@ -100,7 +100,7 @@ typedef struct lockstep_host {
   const char* version; /* of the host, "1.2.3" */
 
   /* [run] Ports, by their index in the leaf type. get returns false and leaves *value unchanged
-   * when the port has no value now (an entry nobody wrote yet, an output without a binding), when
+   * when the port has no value now (no default and an entry nobody wrote yet, an output), when
    * the index or the type is wrong, or when the caller is a run. A string or list that get hands
    * out belongs to the host and is valid until the next call that sets a port, or until the leaf
    * function returns, whichever is first; a string ends in a NUL that *length does not count. set
