@@ -9,6 +9,7 @@
 #include "core/identifier.h"
 #include "core/suggest.h"
 #include "core/wording.h"
+#include "definition/foreign_nodes.h"
 
 namespace lockstep {
 namespace {
@@ -38,6 +39,10 @@ std::optional<double> out_of_range(const Range& range, const Value& value) {
   return std::nullopt;
 }
 
+constexpr auto kOwnAttributes =
+    "attributes that begin with '_' belong to the language: _autoremap, _description; such a key "
+    "cannot be remapped";
+
 class AttributeChecker {
  public:
   AttributeChecker(const Document& document, const Reporter& report, const CheckedNode& node)
@@ -50,7 +55,7 @@ class AttributeChecker {
       if (report_.counted_only(Severity::Error)) continue;
       report_.at_attribute(node_.element, name,
                            fmt::format("'{}' has no parameter '{}'", node_.type->id, brief(name)),
-                           join_hints(did_you_mean(name, names()), parameters_hint(*node_.type)));
+                           unknown_hint(attribute));
     }
   }
 
@@ -83,6 +88,14 @@ class AttributeChecker {
   }
 
  private:
+  // A leaf of a plugin only shares its name with a node of another library.
+  std::string unknown_hint(const Attribute& attribute) const {
+    const bool built_in = node_.type->binding == nullptr;
+    std::string hint = foreign_attribute_hint(built_in ? node_.type->id : "", attribute);
+    if (!hint.empty()) return hint;
+    return join_hints(did_you_mean(attribute.name, names()), parameters_hint(*node_.type));
+  }
+
   Value absent(const Parameter& parameter) const {
     if (parameter.default_text) return *parse_value(parameter.type, *parameter.default_text);
     if (parameter.required) {
@@ -258,10 +271,11 @@ void check_subtree_attributes(const Document& document, const Reporter& report, 
                         fmt::format("'{}' is not true or false", brief(attribute.value)));
       }
     } else if (attribute.name.starts_with('_')) {
+      if (report.counted_only(Severity::Error)) continue;
+      const std::string hint = foreign_attribute_hint("SubTree", attribute);
       report.at_attribute(node.element, attribute.name,
                           fmt::format("'SubTree' has no attribute '{}'", brief(attribute.name)),
-                          "attributes that begin with '_' belong to the language: _autoremap, "
-                          "_description; such a key cannot be remapped");
+                          hint.empty() ? kOwnAttributes : hint);
     } else if (!is_identifier(attribute.name)) {
       report.at_attribute(node.element, attribute.name,
                           fmt::format("'{}' is not a key", brief(attribute.name)),

@@ -6,6 +6,7 @@
 #include "core/wording.h"
 #include "definition/attributes.h"
 #include "definition/checked_tree.h"
+#include "definition/foreign_nodes.h"
 
 namespace lockstep {
 namespace {
@@ -28,6 +29,12 @@ bool matches(std::string_view tag, NodeCategory category) {
     if (kExplicitTags[i] == tag) return kCategories[i] == category;
   }
   return false;
+}
+
+std::string element_hint(std::string_view tag) {
+  constexpr std::string_view kTags[] = {"BehaviorTree", "plugin", "arg", "include"};
+  const std::string hint = foreign_node_hint(tag, {});
+  return hint.empty() ? suggest(tag, kTags, "elements of 'root'") : hint;
 }
 
 class TreeChecker {
@@ -60,9 +67,8 @@ class TreeChecker {
         check_tree(report, child);
       } else if (tag != "arg" && tag != "include" && tag != "plugin") {
         if (report.counted_only(Severity::Error)) continue;
-        constexpr std::string_view kTags[] = {"BehaviorTree", "plugin", "arg", "include"};
         report.at_element(child, fmt::format("unknown element '{}' in 'root'", brief(tag)),
-                          suggest(tag, kTags, "elements of 'root'"));
+                          element_hint(tag));
       }
     }
   }
@@ -229,7 +235,8 @@ class TreeChecker {
   void unknown(const Reporter& report, std::uint32_t index, std::string_view id,
                const Attribute* attribute) const {
     if (report.counted_only(Severity::Error)) return;
-    std::string hint = did_you_mean(id, catalog_.ids());
+    std::string hint = foreign_node_hint(id, document().attributes(index));
+    if (hint.empty()) hint = did_you_mean(id, catalog_.ids());
     if (hint.empty() && trees_.trees.contains(id)) {
       hint = fmt::format("to use the tree '{0}' write <SubTree ID=\"{0}\"/>", brief(id));
     }

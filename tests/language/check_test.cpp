@@ -66,6 +66,52 @@ TEST_CASE("hints") {
   }
 }
 
+TEST_CASE("nodes of other libraries: what to write instead") {
+  struct Row {
+    std::string_view xml, hint;
+  };
+  constexpr Row kRows[] = {
+      {R"(<RetryUntilSuccessful num_attempts="5"><AlwaysSuccess/></RetryUntilSuccessful>)",
+       "write <Retry attempts=\"5\">; one attempt in each tick; for ever: a <Repeat> between two "
+       "<Inverter>"},
+      {R"(<RetryUntilSuccessful name="r" num_attempts="-1"><AlwaysSuccess/></RetryUntilSuccessful>)",
+       "write <Retry attempts=\"…\">; one attempt in each tick; for ever: a <Repeat> between two "
+       "<Inverter>"},
+      {R"(<Sleep msec="1500"/>)", "write <Wait seconds=\"1.5\">"},
+      {R"(<Sleep msec="{pause}"/>)", "write <Wait seconds=\"…\">"},
+      {R"(<Action ID="Sleep" msec="20"/>)", "write <Wait seconds=\"0.02\">"},
+      {R"(<ReactiveSequence><AlwaysSuccess/></ReactiveSequence>)", "write <Sequence>"},
+      {R"(<FallbackStar><AlwaysSuccess/></FallbackStar>)", "write <Fallback memory=\"true\">"},
+      {R"(<Script code="a:=1"/>)", "there are no scripts: let a leaf compute it"},
+      {R"(<SubTreePlus ID="T" __autoremap="true"/>)",
+       "write <SubTree ID=\"T\" _autoremap=\"true\">"},
+      {R"(<RecoveryNode number_of_retries="6"><AlwaysSuccess/><AlwaysSuccess/></RecoveryNode>)",
+       "write <Retry attempts=\"7\">; in it <Fallback memory=\"true\"> of the first child and "
+       "<ForceFailure> of the second"},
+      {R"(<Repeat num_cycles="3"><AlwaysSuccess/></Repeat>)",
+       "write times=\"3\"; one iteration in each tick"},
+      {R"(<Repeat num_cycles="-1"><AlwaysSuccess/></Repeat>)",
+       "leave it out; one iteration in each tick"},
+      {R"(<Timeout seconds="1" msec="200"><AlwaysSuccess/></Timeout>)", "write seconds=\"0.2\""},
+      {R"(<Delay seconds="1" delay_msec="5"><AlwaysSuccess/></Delay>)", "write seconds=\"0.005\""},
+      {R"(<Parallel success_threshold="2"><AlwaysSuccess/><AlwaysSuccess/></Parallel>)",
+       "write success_count=\"2\"; counts are 1 or more"},
+      {R"(<AlwaysSuccess _skipIf="x"/>)",
+       "leave it out; there are no scripts: let a leaf compute it"},
+      {R"(<GoTo target="x" _uid="3"/>)", "leave it out; a mark of an editor"},
+      {"<root lockstep=\"1\"><TreeNodesModel/><BehaviorTree "
+       "ID=\"T\"><AlwaysSuccess/></BehaviorTree>"
+       "</root>",
+       "delete it: ports come from the plugin, and `lockstep nodes` lists them"},
+  };
+  for (const Row& row : kRows) {
+    INFO(row.xml);
+    const Pipeline pipeline(row.xml);
+    REQUIRE_FALSE(pipeline.diagnostics().all().empty());
+    CHECK(pipeline.diagnostics().all().front().hint == row.hint);
+  }
+}
+
 TEST_CASE("keys: what was probably meant") {
   struct Row {
     std::string_view xml, hint;

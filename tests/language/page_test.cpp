@@ -1,6 +1,7 @@
 // docs/language.md itself: its examples load, its traces are what a run does, its tables are
 // complete, its links lead somewhere.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -9,6 +10,7 @@
 #include <sstream>
 
 #include "definition/definition.h"
+#include "definition/foreign_nodes.h"
 #include "document/arguments.h"
 #include "document/well_formed.h"
 #include "engine/synchronized.h"
@@ -133,6 +135,61 @@ TEST_CASE("the page names every built-in node and parameter, and every limit") {
   names("| 4,000,000 |");
   STATIC_REQUIRE(kMaxDepth == 1'000);
   names("| 1,000 |");
+}
+
+// The table of docs/language.md that the hints are made from.
+std::string foreign_table() {
+  const auto in_code = [](std::string_view text) { return fmt::format("`{}`", text); };
+  const auto same = [](const ForeignNode& a, const ForeignNode& b) {
+    return a.ours == b.ours && a.remark == b.remark && a.attributes.data() == b.attributes.data();
+  };
+  const auto note = [](ForeignValue value) -> std::string_view {
+    if (value == ForeignValue::Milliseconds) return " (not milliseconds)";
+    if (value == ForeignValue::OrEndless) return " (left out = for ever)";
+    return value == ForeignValue::OneMore ? " (one more)" : "";
+  };
+  std::string table = "| There | Here | |\n|---|---|---|\n";
+  const auto nodes = foreign_nodes();
+  for (std::size_t i = 0; i < nodes.size();) {
+    const ForeignNode& node = nodes[i];
+    std::vector<std::string> tags, theirs, ours;
+    for (; i < nodes.size() && same(node, nodes[i]); ++i) {
+      tags.push_back(nodes[i].tag.empty() ? "any node" : in_code(nodes[i].tag));
+    }
+    for (const ForeignAttribute& it : node.attributes) {
+      theirs.push_back(in_code(it.name));
+      if (!it.ours.empty()) ours.push_back(in_code(it.ours).append(note(it.value)));
+    }
+    const std::regex tag("((?:<[^>]+>)+)");
+    table +=
+        fmt::format("| {}{}{} | {}{}{} | {} |\n", fmt::join(tags, ", "), theirs.empty() ? "" : ": ",
+                    fmt::join(theirs, ", "), node.ours.empty() ? "none" : in_code(node.ours),
+                    ours.empty() ? "" : ": ", fmt::join(ours, ", "),
+                    std::regex_replace(std::string(node.remark), tag, "`$1`"));
+  }
+  return table;
+}
+
+TEST_CASE("what to write instead of the nodes of other libraries is what the hints say") {
+  const std::string page = read_page();
+  const std::string expected = foreign_table();
+  INFO("docs/language.md needs this table at its end:\n" << expected);
+  CHECK(page.ends_with("\n\n" + expected));
+}
+
+TEST_CASE("no node and no parameter of ours is taken for one of another library") {
+  for (const NodeKind* kind : built_in_kinds()) {
+    for (const ForeignNode& node : foreign_nodes()) {
+      if (node.tag != kind->type.id) continue;
+      INFO(node.tag);
+      CHECK(node.ours == node.tag);
+      for (const ForeignAttribute& attribute : node.attributes) {
+        for (const Parameter& parameter : kind->type.parameters) {
+          CHECK(attribute.name != parameter.name);
+        }
+      }
+    }
+  }
 }
 
 TEST_CASE("links inside the page lead to its headings") {

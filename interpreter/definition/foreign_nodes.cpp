@@ -1,0 +1,173 @@
+#include "definition/foreign_nodes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/value.h"
+#include "core/wording.h"
+
+namespace lockstep {
+namespace {
+
+using enum ForeignValue;
+
+constexpr ForeignAttribute kRepeat[] = {{"num_cycles", "times", OrEndless}};
+constexpr ForeignAttribute kRetry[] = {{"num_attempts", "attempts", FromOne}};
+constexpr ForeignAttribute kMsec[] = {{"msec", "seconds", Milliseconds}};
+constexpr ForeignAttribute kDelay[] = {{"delay_msec", "seconds", Milliseconds}};
+constexpr ForeignAttribute kWait[] = {{"wait_duration", "seconds"}};
+constexpr ForeignAttribute kRunOnce[] = {{"then_skip", ""}};
+constexpr ForeignAttribute kParallel[] = {{"success_threshold", "success_count", FromOne},
+                                          {"threshold", "success_count", FromOne},
+                                          {"failure_threshold", "failure_count", FromOne}};
+constexpr ForeignAttribute kParallelAll[] = {{"max_failures", "failure_count", FromOne}};
+constexpr ForeignAttribute kSubTree[] = {
+    {"ID", "ID"}, {"__autoremap", "_autoremap"}, {"__shared_blackboard", "_autoremap"}};
+constexpr ForeignAttribute kRecovery[] = {{"number_of_retries", "attempts", OneMore}};
+constexpr ForeignAttribute kScripts[] = {{"_skipIf", ""},    {"_successIf", ""}, {"_failureIf", ""},
+                                         {"_while", ""},     {"_onHalted", ""},  {"_onFailure", ""},
+                                         {"_onSuccess", ""}, {"_post", ""}};
+constexpr ForeignAttribute kMarks[] = {{"_uid", ""},        {"_fullpath", ""},  {"_collapsed", ""},
+                                       {"_favorite", ""},   {"_hardcoded", ""}, {"_external", ""},
+                                       {"_subtreeOnly", ""}};
+
+constexpr std::string_view kAgain = "after a Failure it begins with the first child";
+constexpr std::string_view kBranches =
+    "write a <Fallback> of <Sequence>condition, then</Sequence> and "
+    "<Sequence><Inverter>condition</Inverter>, else</Sequence>";
+constexpr std::string_view kCases =
+    "write a <Fallback> of a <Sequence>condition, child</Sequence> each";
+constexpr std::string_view kTry =
+    "write <Fallback memory=\"true\"> of a Sequence of the others and <ForceFailure> of the last";
+constexpr std::string_view kAttempts =
+    "one attempt in each tick; for ever: a <Repeat> between two <Inverter>";
+constexpr std::string_view kRecover =
+    "in it <Fallback memory=\"true\"> of the first child and <ForceFailure> of the second";
+constexpr std::string_view kAsk = "put a condition before it, in a Sequence";
+constexpr std::string_view kAskNot = "put a condition before it, in a Fallback";
+constexpr std::string_view kOften = "let the leaf return its last result until it is time";
+constexpr std::string_view kNoScripts = "there are no scripts: let a leaf compute it";
+constexpr std::string_view kNoQueues = "there are no queues: let a leaf take the next item";
+constexpr std::string_view kStart =
+    "give the entry a start value with --set, or as an attribute of the SubTree";
+constexpr std::string_view kWriter = "let the leaf that writes the entry say so in another one";
+constexpr std::string_view kModel =
+    "delete it: ports come from the plugin, and `lockstep nodes` lists them";
+
+constexpr ForeignNode kNodes[] = {
+    {"ReactiveSequence", "Sequence"},
+    {"ReactiveFallback", "Fallback"},
+    {"AsyncSequence", "Sequence memory=\"true\""},
+    {"AsyncFallback", "Fallback memory=\"true\""},
+    {"FallbackStar", "Fallback memory=\"true\""},
+    {"SequenceWithMemory", "Sequence memory=\"true\"", {}, kAgain},
+    {"SequenceStar", "Sequence memory=\"true\"", {}, kAgain},
+    {"Parallel", "Parallel", kParallel, "counts are 1 or more"},
+    {"ParallelAll", "Parallel", kParallelAll, "it ends with the failure that decides"},
+    {"IfThenElse", "", {}, kBranches},
+    {"WhileDoElse", "", {}, kBranches},
+    {"Switch2", "", {}, kCases},
+    {"Switch3", "", {}, kCases},
+    {"Switch4", "", {}, kCases},
+    {"Switch5", "", {}, kCases},
+    {"Switch6", "", {}, kCases},
+    {"TryCatch", "", {}, kTry},
+    {"Repeat", "Repeat", kRepeat, "one iteration in each tick"},
+    {"RetryUntilSuccessful", "Retry", kRetry, kAttempts},
+    {"RetryUntilSuccesful", "Retry", kRetry, kAttempts},
+    {"Timeout", "Timeout", kMsec},
+    {"Delay", "Delay", kDelay},
+    {"Sleep", "Wait", kMsec},
+    {"RunOnce", "RunOnce", kRunOnce, "afterwards it returns the first result again"},
+    {"SubTree", "SubTree", kSubTree},
+    {"SubTreePlus", "SubTree", kSubTree},
+    {"Precondition", "", {}, kAsk},
+    {"WaitValueUpdate", "", {}, "put a leaf that waits before it, in a Sequence"},
+    {"SkipUnlessUpdated", "", {}, kAskNot},
+    {"LoopInt", "", {}, kNoQueues},
+    {"LoopBool", "", {}, kNoQueues},
+    {"LoopDouble", "", {}, kNoQueues},
+    {"LoopString", "", {}, kNoQueues},
+    {"Script", "", {}, kNoScripts},
+    {"ScriptCondition", "", {}, kNoScripts},
+    {"BlackboardCheckInt", "", {}, kNoScripts},
+    {"BlackboardCheckDouble", "", {}, kNoScripts},
+    {"BlackboardCheckBool", "", {}, kNoScripts},
+    {"BlackboardCheckString", "", {}, kNoScripts},
+    {"SetBlackboard", "", {}, kStart},
+    {"UnsetBlackboard", "", {}, kWriter},
+    {"WasEntryUpdated", "", {}, kWriter},
+    {"TreeNodesModel", "", {}, kModel},
+    {"TreeNodeModel", "", {}, kModel},
+    {"RecoveryNode", "Retry", kRecovery, kRecover},
+    {"PipelineSequence", "Sequence", {}, "what runs behind a child that runs again is halted"},
+    {"NonblockingSequence", "Parallel", {}, "children that succeeded are not ticked again"},
+    {"PersistentSequence", "Sequence memory=\"true\"", {}, "its place is not on the blackboard"},
+    {"RoundRobin", "Fallback memory=\"true\"", {}, "it always begins with the first child"},
+    {"SingleTrigger", "RunOnce", {}, "afterwards it returns the first result again"},
+    {"RateController", "", {}, kOften},
+    {"SpeedController", "", {}, kOften},
+    {"DistanceController", "", {}, kOften},
+    {"GoalUpdatedController", "", {}, kAskNot},
+    {"PathLongerOnApproach", "", {}, kAskNot},
+    {"Wait", "Wait", kWait},
+    {"", "", kScripts, kNoScripts},
+    {"", "", kMarks, "a mark of an editor"},
+};
+
+const ForeignAttribute* find(std::span<const ForeignAttribute> attributes, std::string_view name) {
+  const auto found = std::ranges::find(attributes, name, &ForeignAttribute::name);
+  return found == attributes.end() ? nullptr : &*found;
+}
+
+// "…" when it cannot be said.
+std::string translated(ForeignValue kind, std::string_view text) {
+  if (kind == Same) return brief(text);
+  const auto number = parse_double(text);
+  const bool is_count = kind == OrEndless || kind == FromOne;
+  if (!number || (is_count && *number < 1)) return "…";
+  if (kind == Milliseconds) return to_text(Value(*number / 1000));
+  return to_text(Value(kind == OneMore ? *number + 1 : *number));
+}
+
+// ` attempts="5"`, or "" where it is left out.
+std::string translated(const ForeignAttribute& from, std::string_view text) {
+  if (from.ours.empty() || (from.value == OrEndless && text == "-1")) return {};
+  return fmt::format(" {}=\"{}\"", from.ours, translated(from.value, text));
+}
+
+std::string join(std::string first, std::string_view second) {
+  if (first.empty() || second.empty()) return first.append(second);
+  return first.append("; ").append(second);
+}
+
+}  // namespace
+
+std::span<const ForeignNode> foreign_nodes() {
+  return kNodes;
+}
+
+std::string foreign_node_hint(std::string_view tag, std::span<const Attribute> attributes) {
+  const auto* const node = std::ranges::find(kNodes, tag, &ForeignNode::tag);
+  if (node == std::end(kNodes) || tag.empty()) return {};
+  if (node->ours.empty()) return std::string(node->remark);
+  std::string start(node->ours);
+  for (const Attribute& attribute : attributes) {
+    if (const auto* from = find(node->attributes, attribute.name))
+      start += translated(*from, attribute.value);
+  }
+  return join(fmt::format("write <{}>", start), node->remark);
+}
+
+std::string foreign_attribute_hint(std::string_view tag, const Attribute& attribute) {
+  for (const ForeignNode& node : kNodes) {
+    const auto* const from = find(node.attributes, attribute.name);
+    if (from == nullptr || (!node.tag.empty() && node.tag != tag)) continue;
+    const std::string ours = translated(*from, attribute.value);
+    return join(ours.empty() ? std::string("leave it out") : "write" + ours, node.remark);
+  }
+  return {};
+}
+
+}  // namespace lockstep
