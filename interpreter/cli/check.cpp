@@ -1,11 +1,17 @@
-#include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
+#include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iterator>
+
+#include "cli/check_formats.h"
+#include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/loading.h"
-#include "core/printable_json.h"
+#include "core/wording.h"
+#include "runtime/outlet.h"
 
 namespace lockstep {
 namespace {
@@ -13,43 +19,55 @@ namespace {
 struct CheckOptions {
   LoadOptions load;
   std::vector<std::string> trees;
-  std::string format = "human";
+  std::string format = "text";
+  bool strict = false;
 };
 
-nlohmann::ordered_json to_json(const Diagnostic& diagnostic) {
-  return {{"severity", to_string(diagnostic.severity)},
-          {"file", diagnostic.location.file},
-          {"line", diagnostic.location.line},
-          {"column", diagnostic.location.column},
-          {"message", diagnostic.message},
-          {"hint", diagnostic.hint}};
+using CheckWriter = std::string (*)(std::span<const Diagnostic>);
+
+// Null: text, for people.
+CheckWriter writer_of(const std::string& format) {
+  if (format == "json") return as_json;
+  if (format == "github") return as_github;
+  return format == "sarif" ? as_sarif : nullptr;
+}
+
+std::vector<Diagnostic> sorted(Diagnostics diagnostics) {
+  diagnostics.sort();
+  return diagnostics.all();
+}
+
+// For people. `written` is the exit code of what went to stdout so far.
+void print_checked(const std::string& tree, Diagnostics& diagnostics, int code, int& written) {
+  print_diagnostics(diagnostics, Severity::Note);
+  const std::string name = printable(tree == "-" ? "stdin" : tree);
+  if (code == kExitSuccess) {
+    if (written == kExitSuccess) written = write_results(name + ": ok\n");
+  } else if (!diagnostics.has_errors()) {
+    const auto warnings = counted(diagnostics.count(Severity::Warning), "warning");
+    messages().say(fmt::format("{}: {}, an error with --strict\n", name, warnings));
+  }
 }
 
 int check(const CheckOptions& options) {
   keep_stdout_for_results();
-  const bool json = options.format == "json";
-  auto all = nlohmann::ordered_json::array();
+  const CheckWriter write = writer_of(options.format);
+  std::vector<Diagnostic> all;
   int worst = kExitSuccess, written = kExitSuccess;
   for (const std::string& tree : options.trees) {
     Loaded loaded;
     Diagnostics diagnostics;
-    const int code = load(tree, options.load, loaded, diagnostics);
+    int code = load(tree, options.load, loaded, diagnostics);
+    const bool doubtful = diagnostics.count(Severity::Warning) > 0;
+    if (code == kExitSuccess && options.strict && doubtful) code = kExitInvalidTree;
     if (worst == kExitSuccess) worst = code;
-    if (json) {
-      diagnostics.sort();
-      for (const Diagnostic& diagnostic : diagnostics.all()) all.push_back(to_json(diagnostic));
-      continue;
-    }
-    print_diagnostics(diagnostics, Severity::Note);
-    if (code == kExitSuccess && written == kExitSuccess) {
-      const std::string& path = loaded.project->documents.front()->path();
-      written = write_results(printable(path) + ": ok\n");
+    if (write == nullptr) {
+      print_checked(tree, diagnostics, code, written);
+    } else {
+      std::ranges::move(sorted(std::move(diagnostics)), std::back_inserter(all));
     }
   }
-  if (json) {
-    constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
-    written = write_results(printable_json(all.dump(2, ' ', false, kReplace)) + "\n");
-  }
+  if (write != nullptr) written = write_results(write(all));
   return first_failure(written, worst);
 }
 
@@ -58,8 +76,11 @@ std::function<int()> define_check(CLI::App& app) {
   app.add_option("tree", options->trees, "Tree files; - is stdin")
       ->type_name("TREE.xml")
       ->required();
-  app.add_option("--format", options->format, "human, or json: an array of messages on stdout")
-      ->check(CLI::IsMember({"human", "json"}))
+  app.add_flag("--strict", options->strict, "Warnings are errors: exit code 3");
+  app.add_option("--format", options->format,
+                 "text, or on stdout: json (an array of messages), github (annotations of a "
+                 "workflow) or sarif (2.1.0)")
+      ->check(one_of({"text", "json", "github", "sarif"}))
       ->capture_default_str();
   add_load_options(app, options->load);
   return [options] { return check(*options); };
@@ -69,12 +90,13 @@ std::function<int()> define_check(CLI::App& app) {
 
 const Command kCheckCommand{
     "check", "Tell all that is wrong with tree files, and what is doubtful, without running them",
-    "Messages go to stderr as file:line:column; with --format json they go to stdout.\n"
-    "Exit code: 0 no errors, 3 invalid tree, 4 plugin refused, 2 usage.\n"
+    "Messages go to stderr as file:line:column; in another format they go to stdout.\n"
+    "Exit code: 0 no errors, 3 invalid tree, or a warning with --strict, 4 plugin refused, 2 "
+    "usage.\n"
     "\n"
     "Examples:\n"
     "  lockstep check trees/*.xml\n"
-    "  lockstep check --format json trees/door_pulling.xml",
+    "  lockstep check --strict --format github trees/*.xml",
     define_check};
 
 }  // namespace lockstep

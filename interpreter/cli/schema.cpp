@@ -9,16 +9,25 @@
 namespace lockstep {
 namespace {
 
-int schema(const PluginOptions& options) {
+struct SchemaOptions {
+  PluginOptions plugins;
+  bool strict = false;
+};
+
+int schema(const SchemaOptions& options) {
   PluginSet plugins;
   Catalog catalog;
-  if (const int code = load_catalog(options, plugins, catalog); code != kExitSuccess) return code;
-  return write_results(make_xsd(catalog.types()));
+  const int code = load_catalog(options.plugins, plugins, catalog);
+  if (code != kExitSuccess) return code;
+  const auto unknown = options.strict ? UnknownNodes::Refused : UnknownNodes::Allowed;
+  return write_results(make_xsd(catalog.types(), unknown));
 }
 
 std::function<int()> define_schema(CLI::App& app) {
-  const auto options = std::make_shared<PluginOptions>();
-  add_plugin_options(app, *options);
+  const auto options = std::make_shared<SchemaOptions>();
+  app.add_flag("--strict", options->strict,
+               "Refuse nodes that are not known; give every plugin of the trees with --plugin");
+  add_plugin_options(app, options->plugins);
   return [options] { return schema(*options); };
 }
 
@@ -26,12 +35,13 @@ std::function<int()> define_schema(CLI::App& app) {
 
 const Command kSchemaCommand{
     "schema", "Print the XML schema (XSD 1.0) of the tree language, for editors and xmllint",
-    "Leaves of plugins that are not loaded may stand in trees with any attributes.\n"
+    "Leaves of plugins that are not loaded may stand in trees with any attributes, so that a\n"
+    "mistyped tag is taken for one of them; not with --strict.\n"
     "Exit code: 0 printed, 2 usage, 4 plugin refused.\n"
     "\n"
     "Examples:\n"
     "  lockstep schema > lockstep.xsd\n"
-    "  lockstep schema --plugin motion > lockstep-motion.xsd\n"
+    "  lockstep schema --strict --plugin motion > lockstep-motion.xsd\n"
     "  xmllint --noout --schema lockstep.xsd trees/door_pulling.xml",
     define_schema};
 

@@ -7,6 +7,8 @@
 namespace lockstep {
 namespace {
 
+using NodeTypes = std::span<const NodeType* const>;
+
 // What every schema begins with. XSD cannot keep a node from being the first element, but it can
 // keep the elements of 'root' out of trees: an abstract element is never valid.
 constexpr std::string_view kPrologue = R"xsd(<?xml version="1.0" encoding="UTF-8"?>
@@ -164,20 +166,49 @@ constexpr std::string_view kElementEnd = "    </xs:complexType>\n  </xs:element>
 constexpr std::string_view kAnyAttribute =
     "      <xs:anyAttribute namespace=\"##local\" processContents=\"lax\"/>\n";
 
+constexpr std::string_view kAnyId = R"(<xs:attribute name="ID" type="word" use="required"/>)";
+
 // SubTree's other attributes are a remapping, those of an explicit form belong to the node that its
 // ID names: of both, the schema knows no more than the ID.
 std::string open_element(std::string_view name, std::string_view doc, const Arity& arity,
-                         std::string_view more) {
-  return element(name, doc, children(arity)) +
-         "      <xs:attribute name=\"ID\" type=\"word\" use=\"required\"/>\n" + std::string(more) +
+                         std::string_view more, std::string_view id = kAnyId) {
+  return element(name, doc, children(arity)) + fmt::format("      {}\n", id) + std::string(more) +
          std::string(kAnyAttribute) + std::string(kElementEnd);
 }
 
-std::string explicit_forms() {
-  return open_element("Action", "The action that ID names.", {0, 0}, "") +
-         open_element("Condition", "The condition that ID names.", {0, 0}, "") +
-         open_element("Control", "The control node that ID names.", {1}, "") +
-         open_element("Decorator", "The decorator that ID names.", {1, 1}, "");
+// The ID of an explicit form when no others exist than the nodes of its category.
+std::string known_ids(NodeTypes types, NodeCategory category) {
+  std::string ids;
+  for (const NodeType* type : types) {
+    if (type->category == category) ids += fmt::format("<xs:enumeration value=\"{}\"/>", type->id);
+  }
+  if (ids.empty()) ids = "<xs:length value=\"0\"/>";  // none at all
+  return fmt::format(
+      "<xs:attribute name=\"ID\" use=\"required\"><xs:simpleType><xs:union "
+      "memberTypes=\"substituted\">"
+      "<xs:simpleType><xs:restriction base=\"xs:string\">{}</xs:restriction></xs:simpleType>"
+      "</xs:union></xs:simpleType></xs:attribute>",
+      ids);
+}
+
+std::string explicit_forms(NodeTypes types, UnknownNodes unknown) {
+  struct Form {
+    std::string_view tag, doc;
+    NodeCategory category;
+    Arity arity;
+  };
+  constexpr Form kForms[] = {
+      {"Action", "The action that ID names.", NodeCategory::Action, {0, 0}},
+      {"Condition", "The condition that ID names.", NodeCategory::Condition, {0, 0}},
+      {"Control", "The control node that ID names.", NodeCategory::Control, {1}},
+      {"Decorator", "The decorator that ID names.", NodeCategory::Decorator, {1, 1}}};
+  std::string text;
+  for (const Form& form : kForms) {
+    const std::string id =
+        unknown == UnknownNodes::Refused ? known_ids(types, form.category) : std::string(kAnyId);
+    text += open_element(form.tag, form.doc, form.arity, "", id);
+  }
+  return text;
 }
 
 std::string node(const NodeType& type) {
@@ -190,13 +221,24 @@ std::string node(const NodeType& type) {
   return text + std::string(kElementEnd);
 }
 
+// A strict wildcard takes only elements that the schema declares.
+void refuse_unknown(std::string& text) {
+  constexpr std::string_view kElements = "<xs:any namespace=\"##local\" processContents=\"";
+  constexpr std::string_view kLax = "lax";
+  for (auto at = text.find(kElements); at != std::string::npos; at = text.find(kElements, at + 1)) {
+    text.replace(at + kElements.size(), kLax.size(), "strict");
+  }
+}
+
 }  // namespace
 
-std::string make_xsd(std::span<const NodeType* const> types) {
+std::string make_xsd(NodeTypes types, UnknownNodes unknown) {
   std::string text(kPrologue);
-  text += explicit_forms();
+  text += explicit_forms(types, unknown);
   for (const NodeType* type : types) text += node(*type);
-  return text + "\n</xs:schema>\n";
+  text += "\n</xs:schema>\n";
+  if (unknown == UnknownNodes::Refused) refuse_unknown(text);
+  return text;
 }
 
 }  // namespace lockstep

@@ -2,7 +2,8 @@
 // accepts all that the checker accepts, and refuses what XSD can say. Pure: text out, no files.
 //
 // All nodes are global elements, and what a node contains is a lax wildcard: nodes that the schema
-// knows are checked wherever they stand, leaves of plugins that it does not know are let pass.
+// knows are checked wherever they stand, leaves of plugins that it does not know are let pass,
+// unless unknown nodes are refused: then the wildcard is strict.
 #pragma once
 
 #include <span>
@@ -12,7 +13,10 @@
 
 namespace lockstep {
 
-std::string make_xsd(std::span<const NodeType* const> types);
+enum class UnknownNodes : bool { Allowed, Refused };
+
+std::string make_xsd(std::span<const NodeType* const> types,
+                     UnknownNodes unknown = UnknownNodes::Allowed);
 
 // The xs:simpleType of a parameter, for attributes that are named `name`. Only within xsd*.cpp.
 std::string xsd_type(const NodeType& type, const Parameter& parameter);

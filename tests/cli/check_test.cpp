@@ -34,6 +34,84 @@ TEST_CASE("check --format json is an array on stdout") {
   CHECK(messages[0]["hint"] == "did you mean 'Advance'?");
 }
 
+namespace {
+
+// In lines of their own.
+std::string doubtful(const std::string& nodes) {
+  return tree_text("<Sequence memory=\"true\">\n" + nodes + "</Sequence>");
+}
+
+}  // namespace
+
+TEST_CASE("check --strict takes warnings for errors, and notes not") {
+  const TemporaryDirectory directory;
+  const std::string fine = directory.file("fine.xml", tree_text("<Advance/>"));
+  const std::string warned = directory.file("warned.xml", doubtful("<Advance step=\"{x}\"/>"));
+  CHECK(lockstep::test::lockstep({"check", "--strict", fine}).code == 0);
+  CHECK(lockstep::test::lockstep({"check", warned}).code == 0);
+  const Outcome outcome = lockstep::test::lockstep({"check", "--strict", warned, fine});
+  CHECK(outcome.code == 3);
+  CHECK(outcome.out == fine + ": ok\n");
+  CHECK(contains(outcome.err, "warning: nothing writes '{x}'"));
+  CHECK(contains(outcome.err, warned + ": 1 warning, an error with --strict\n"));
+  const Outcome json = lockstep::test::lockstep({"check", "--strict", "--format", "json", warned});
+  CHECK(json.code == 3);
+  CHECK(nlohmann::json::parse(json.out)[0]["severity"] == "warning");
+}
+
+TEST_CASE("check --format github is a workflow command for each message") {
+  const TemporaryDirectory directory;
+  const std::string name = directory.file(
+      "a,b:c%.xml",
+      doubtful("<Advance step=\"{x}\"/>\n<Advnce/>\n<Wait seconds=\"5%&#10;::error::6\"/>"));
+  const Outcome outcome = lockstep::test::lockstep({"check", "--format", "github", name});
+  CHECK(outcome.code == 3);
+  CHECK(outcome.err.empty());
+  const auto told = lines(outcome.out);
+  REQUIRE(told.size() == 2);
+  const auto slash = name.rfind('/');
+  const std::string file = name.substr(0, slash) + "/a%2Cb%3Ac%25.xml";
+  CHECK(told[0] == "::error file=" + file +
+                       ",line=3,col=1,title=lockstep::unknown node "
+                       "'Advnce'%0Ahint: did you mean 'Advance'?");
+  CHECK(told[1].starts_with("::error file=" + file + ",line=4,col=16,title=lockstep::'5%25"));
+  CHECK(contains(told[1], "'5%25\\x0A::error::6' is not a number"));
+  const Outcome fine = lockstep::test::lockstep(
+      {"check", "--format", "github", directory.file("fine.xml", tree_text("<Advance/>"))});
+  CHECK(fine.code == 0);
+  CHECK(fine.out.empty());
+}
+
+TEST_CASE("check --format sarif is a log that code scanners read") {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file(
+      "a b.xml", doubtful("<Wait name=\"éé\" seconds=\"x\"/><Advance step=\"{x}\"/>"));
+  const std::string warned = directory.file("w.xml", doubtful("<Advance step=\"{x}\"/>"));
+  const Outcome outcome = lockstep::test::lockstep(
+      {"check", "--format", "sarif", path, warned, "--plugin-path", "/none"});
+  CHECK(outcome.code == 3);
+  CHECK(outcome.err.empty());
+  const auto log = nlohmann::json::parse(outcome.out);
+  CHECK(log["version"] == "2.1.0");
+  const auto& run = log["runs"][0];
+  CHECK(run["tool"]["driver"]["name"] == "lockstep");
+  CHECK(run["columnKind"] == "unicodeCodePoints");
+  const auto& results = run["results"];
+  REQUIRE(results.size() == 4);  // the directory that is not there, for each tree
+  const auto& error = results[1];
+  CHECK(error["level"] == "error");
+  CHECK(run["tool"]["driver"]["rules"][error["ruleIndex"].get<int>()]["id"] == error["ruleId"]);
+  CHECK(contains(error["message"]["text"], "'x' is not a number"));
+  const auto& place = error["locations"][0]["physicalLocation"];
+  const std::string uri = place["artifactLocation"]["uri"];
+  CHECK(uri.starts_with("file:///"));
+  CHECK(uri.ends_with("/a%20b.xml"));
+  CHECK(place["region"]["startLine"] == 2);
+  CHECK(place["region"]["startColumn"] == 26);  // 28 in bytes
+  CHECK(results[3]["level"] == "warning");
+  CHECK(results[0]["locations"].empty());
+}
+
 TEST_CASE("check tells usage, trees and plugins apart") {
   const TemporaryDirectory directory;
   const std::string good = directory.file("good.xml", tree_text("<Advance step=\"{x}\"/>"));

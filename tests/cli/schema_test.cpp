@@ -141,3 +141,55 @@ TEST_CASE("leaves of plugins are open content until the schema knows them") {
     CHECK(xmllint(knowing, good).code == 0);
   }
 }
+
+TEST_CASE("a strict schema refuses what it does not know") {
+  const TemporaryDirectory directory;
+  const auto schema = [&](const std::string& name, std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"schema", "--strict"});
+    const Outcome outcome = lockstep::test::lockstep(arguments);
+    CHECK(outcome.code == 0);
+    return directory.file(name, outcome.out);
+  };
+  const std::string motion = schema("motion.xsd", {"--plugin", "motion"});
+  const std::string bare = schema("bare.xsd", {});
+  struct Row {
+    std::string node;
+    int with_motion, bare, open;
+  };
+  const Row rows[] = {
+      {"<Sequence><Advance/></Sequence>", 0, 3, 0},
+      {"<Sequence><Advnce/></Sequence>", 3, 3, 0},
+      {"<Sequnce><Advance/></Sequnce>", 3, 3, 0},
+      {"<Wiat seconds=\"1\"/>", 3, 3, 0},
+      {"<Action ID=\"Advance\"/>", 0, 3, 0},
+      {"<Action ID=\"Advnce\"/>", 3, 3, 0},
+      {"<Action ID=\"${which}\"/>", 0, 0, 0},
+      {"<Condition ID=\"Advance\"/>", 3, 3, 0},
+      {"<Control ID=\"Sequence\"><AlwaysSuccess/></Control>", 0, 0, 0},
+      {"<Control ID=\"Sequnce\"><AlwaysSuccess/></Control>", 3, 3, 0},
+      {"<Decorator ID=\"Inverter\"><AlwaysSuccess/></Decorator>", 0, 0, 0},
+      {"<SubTree ID=\"B\" door=\"{door}\"/>", 0, 0, 0},
+      {"<BehaviorTree ID=\"B\"/>", 3, 3, 3},
+  };
+  for (const Row& row : rows) {
+    const std::string file = directory.file("tree.xml", around(row.node));
+    INFO(row.node);
+    CHECK(xmllint(motion, file).code == row.with_motion);
+    CHECK(xmllint(bare, file).code == row.bare);
+    CHECK(xmllint(kSchema, file).code == row.open);
+  }
+}
+
+TEST_CASE("a strict schema of all plugins accepts every tree that ships") {
+  const TemporaryDirectory directory;
+  const Outcome schema = lockstep::test::lockstep(
+      {"schema", "--strict", "--plugin", "motion", "--plugin", "r1sim", "--plugin", "fetch"});
+  const std::string strict = directory.file("strict.xsd", schema.out);
+  const auto files = trees_below(LOCKSTEP_SOURCE_DIR "/trees");
+  REQUIRE(files.size() > 3);
+  for (const std::string& file : files) {
+    const Outcome outcome = xmllint(strict, file);
+    INFO(outcome.err);
+    CHECK(outcome.code == 0);
+  }
+}
