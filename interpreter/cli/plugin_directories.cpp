@@ -29,6 +29,19 @@ bool check_absolute(const std::string& path, std::string_view option, Diagnostic
   return false;
 }
 
+void warn_of_missing_directories(const PluginOptions& options, Diagnostics& diagnostics) {
+  for (const std::string& directory : options.directories) {
+    std::error_code error;
+    if (fs::is_directory(directory, error)) continue;
+    diagnostics.add(
+        {.severity = Severity::Warning,
+         .location = {},
+         .message = fmt::format("--plugin-path {}: there is no such directory", directory),
+         .hint = {},
+         .excerpt = {}});
+  }
+}
+
 }  // namespace
 
 fs::path program_directory() {
@@ -55,6 +68,7 @@ std::vector<std::string> plugin_directories(const PluginOptions& options) {
 }
 
 bool check_plugin_options(const PluginOptions& options, Diagnostics& diagnostics) {
+  warn_of_missing_directories(options, diagnostics);
   if (!is_privileged()) return true;
   if (std::getenv(kVariable) != nullptr) {
     diagnostics.add({.severity = Severity::Warning,

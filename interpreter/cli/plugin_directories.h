@@ -19,9 +19,9 @@ std::filesystem::path program_directory();
 // Relative ones are left out when the program is privileged.
 std::vector<std::string> plugin_directories(const PluginOptions& options);
 
-// False, with errors, when the program is privileged and a directory or file that is given for
-// plugins is relative: who chooses the working directory would choose what is loaded. Warns of
-// LOCKSTEP_PLUGIN_PATH, which is not read then.
+// Warns of directories that are not there. False, with errors, when the program is privileged and a
+// directory or file that is given for plugins is relative: who chooses the working directory would
+// choose what is loaded. Warns of LOCKSTEP_PLUGIN_PATH, which is not read then.
 bool check_plugin_options(const PluginOptions& options, Diagnostics& diagnostics);
 
 }  // namespace lockstep

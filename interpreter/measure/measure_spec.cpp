@@ -1,5 +1,8 @@
 #include "measure/measure_spec.h"
 
+#include <vector>
+
+#include "core/suggest.h"
 #include "core/value.h"
 
 namespace lockstep {
@@ -51,6 +54,15 @@ std::optional<MeasureSpec> parse_predictability(std::string_view text, std::stri
   return std::nullopt;
 }
 
+// A node is named by its path or by its last part.
+std::string suggest_path(std::span<const std::string> paths, std::string_view node) {
+  const std::vector<std::string_view> whole(paths.begin(), paths.end());
+  std::vector<std::string_view> names;
+  for (const std::string_view path : whole) names.push_back(path.substr(path.rfind('/') + 1));
+  const std::string near = did_you_mean(node, names);
+  return near.empty() ? suggest(node, whole, "there are") : near;
+}
+
 }  // namespace
 
 std::optional<MeasureSpec> parse_measure(std::string_view text, std::string& error) {
@@ -97,7 +109,7 @@ std::optional<std::size_t> find_path(std::span<const std::string> paths, std::st
     }
     found = index;
   }
-  if (!found) error = "no node " + quoted(node);
+  if (!found) error = "no node " + quoted(node) + ", " + suggest_path(paths, node);
   return found;
 }
 

@@ -31,6 +31,17 @@ std::vector<std::string> available(std::span<const std::string> directories) {
   return names;
 }
 
+// What build systems make of a library's name unless they are told otherwise; "" when it is not
+// there.
+std::string with_prefix(std::string_view name, std::span<const std::string> directories) {
+  for (const std::string& directory : directories) {
+    auto file = fs::path(directory) / fmt::format("lib{}.so", name);
+    std::error_code error;
+    if (fs::exists(file, error)) return file.string();
+  }
+  return {};
+}
+
 }  // namespace
 
 std::optional<Refusal> find_plugin_file(std::string_view name,
@@ -44,12 +55,17 @@ std::optional<Refusal> find_plugin_file(std::string_view name,
   if (directories.empty()) {
     return Refusal{"is not found: there is no directory to search", kAddDirectory};
   }
+  const std::string message =
+      fmt::format("is not found: '{}.so' is not in {}", brief(name), fmt::join(directories, ", "));
+  if (const std::string file = with_prefix(name, directories); !file.empty()) {
+    return Refusal{message, fmt::format("'{0}' is: rename it to '{1}.so' (in CMake: "
+                                        "lockstep_add_plugin, or PREFIX \"\")",
+                                        file, name)};
+  }
   const std::vector<std::string> names = available(directories);
   const std::vector<std::string_view> candidates(names.begin(), names.end());
   std::string hint = did_you_mean(name, candidates);
-  return Refusal{
-      fmt::format("is not found: '{}.so' is not in {}", brief(name), fmt::join(directories, ", ")),
-      hint.empty() ? std::string(kAddDirectory) : std::move(hint)};
+  return Refusal{message, hint.empty() ? std::string(kAddDirectory) : std::move(hint)};
 }
 
 }  // namespace lockstep

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/suggest.h"
 #include "engine/synchronized.h"
 #include "measure/synchronized_measure.h"
 
@@ -19,11 +18,6 @@ std::optional<NodeIndex> find_node(const Tree& tree, const std::string& name, st
   }
   const auto found = find_path(paths, name, error);
   if (found) return static_cast<NodeIndex>(*found);
-  std::vector<std::string> segments;
-  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) segments.push_back(tree.segment(node));
-  const std::vector<std::string_view> names(segments.begin(), segments.end());
-  const std::string near = did_you_mean(name, names);
-  if (!near.empty()) error += ", " + near;
   return std::nullopt;
 }
 

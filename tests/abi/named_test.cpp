@@ -1,5 +1,8 @@
 // Plugins are found by name in directories, and by nothing but a name.
 #include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 
 #include "abi/support/plugins.h"
 
@@ -72,6 +75,17 @@ TEST_CASE("a leaf works in real time if its plugin says so, and none of ABI 1.0 
       CHECK(plugins.types()[0]->real_time == (name == "real_time"));
     }
   }
+}
+
+TEST_CASE("a plugin whose file is named as build systems name libraries: what to rename") {
+  std::string made = std::filesystem::temp_directory_path() / "lockstep-named-XXXXXX";
+  REQUIRE(mkdtemp(made.data()) != nullptr);
+  const std::string file = made + "/libgreeter.so";
+  std::ofstream(file).put('x');
+  CHECK(refusal_of_name("greeter", {made}) ==
+        Strings{"plugin 'greeter' is not found: 'greeter.so' is not in " + made + " | '" + file +
+                "' is: rename it to 'greeter.so' (in CMake: lockstep_add_plugin, or PREFIX \"\")"});
+  std::filesystem::remove_all(made);
 }
 
 TEST_CASE("a plugin that was asked for by name has that name") {

@@ -112,6 +112,24 @@ TEST_CASE("check --format sarif is a log that code scanners read") {
   CHECK(results[0]["locations"].empty());
 }
 
+TEST_CASE("a directory for plugins that is not there is warned of") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("t.xml", tree_text("<Advance/>"));
+  const std::string lost = directory.path("lost"), found = directory.path(".");
+  const std::vector<std::string> commands[] = {{"check", tree}, {"nodes", "Sequence"}};
+  for (std::vector<std::string> arguments : commands) {
+    for (const std::string& path : {lost, found}) {
+      arguments.insert(arguments.end(), {"--plugin-path", path});
+    }
+    const Outcome outcome = lockstep::test::lockstep(arguments);
+    INFO(outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(
+        contains(outcome.err, "warning: --plugin-path " + lost + ": there is no such directory\n"));
+    CHECK(lines(outcome.err).size() == 1);
+  }
+}
+
 TEST_CASE("check tells usage, trees and plugins apart") {
   const TemporaryDirectory directory;
   const std::string good = directory.file("good.xml", tree_text("<Advance step=\"{x}\"/>"));

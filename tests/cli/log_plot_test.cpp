@@ -121,7 +121,8 @@ TEST_CASE("log measure tells which name it does not know") {
       {"predictability:@0.5", "expected 'predictability:NODE@P'"},
       {"predictability:arm@1.5", "is '1.5', expected a number from 0 to 1"},
       {"predictability:arm@0.5=soon", "is 'soon', expected a number of ticks"},
-      {"predictability:leg@0.5", "no node 'leg'"},
+      {"predictability:arn@0.5", "no node 'arn', did you mean 'arm'?"},
+      {"predictability:elbow@0.5", "no node 'elbow', there are: 'Main/pull', 'Main/pull/arm'"},
   };
   for (const auto& [name, message] : wrong) {
     const Outcome outcome = log({"measure", recording, "--measure", name});
@@ -172,7 +173,7 @@ TEST_CASE("log plot draws a file for each synchronized node, or for the one that
   CHECK(one.out == directory.path("y.svg") + "\n");
   const Outcome none = log({"plot", recording, "--out", directory.path("z.svg"), "--node", "arm"});
   CHECK(none.code == 2);
-  CHECK(contains(none.err, "no node 'arm'"));
+  CHECK(contains(none.err, "no node 'arm', there are: 'Main/Sequence/pull', '"));
 }
 
 TEST_CASE("log plot says what it cannot draw") {

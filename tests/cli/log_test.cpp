@@ -56,6 +56,17 @@ TEST_CASE("log csv --out writes the same table to a file, but never over the rec
   CHECK(contains(full.err, "No space left"));
 }
 
+TEST_CASE("log info counts one node as one") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("tree.xml", tree_text("<AlwaysSuccess/>"));
+  const std::string file = directory.path("run.jsonl");
+  REQUIRE(lockstep::test::lockstep({"run", tree, "--clock", "virtual", "--record", file}).code ==
+          0);
+  const Outcome outcome = log({"info", file});
+  CHECK(contains(outcome.out, "\n  1 node, 100 Hz"));
+  CHECK(contains(outcome.out, "; 0 overruns, 0 deadlines skipped\n"));
+}
+
 TEST_CASE("log info sums up") {
   const TemporaryDirectory directory;
   const Outcome outcome = log({"info", record(directory)});

@@ -13,8 +13,10 @@ set(said_8 "private")
 set(said_9 "override")
 set(said_10 "error_two_leaves_have_the_same_id")
 set(said_11 "error_name_must_be_letters_digits_and_underscores")
+set(said_12 "error_an_output_has_no_default")
+set(said_13 "error_an_output_has_no_default")
 
-foreach(mistake RANGE 11)
+foreach(mistake RANGE 13)
   execute_process(
     COMMAND ${CXX_COMPILER} -std=c++17 -fsyntax-only -I${SDK} -DMISTAKE=${mistake} ${SOURCE}
     RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)

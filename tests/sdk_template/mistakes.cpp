@@ -14,6 +14,14 @@ struct GoodPorts : lockstep::Ports {
   Input<double> other{this, "my-port", "1", "not a name"};
 #elif MISTAKE == 5
   Input<double> other{this, "name", "1", "every node has a name"};
+#elif MISTAKE == 12
+  Output<double> other{this, "other", "0", "a default for an output"};
+#elif MISTAKE == 13
+  Output<std::string> other{this, "other", "0", "a default for an output"};
+#else
+  Output<double> speed{this, "speed", "no value", "m/s"};
+  Output<std::vector<double> > points{this, "points", "", "m"};
+  Output<std::string> text{this, "text", "true"};
 #endif
 };
 

@@ -109,15 +109,24 @@ constexpr lockstep_port describe(lockstep_direction direction, const char* name,
   return {sizeof(lockstep_port), PortTraits<T>::kType, direction, name, default_value, unit, doc};
 }
 
+// Refuses what was meant as a default: a doc that is a value.
+template <class T>
+constexpr lockstep_port describe_output(const char* name, const char* doc, const char* unit) {
+  constexpr bool kIsText = PortTraits<T>::kType == LOCKSTEP_STRING;
+  const bool is_value = is_double(doc) || (!kIsText && *doc != '\0' && PortTraits<T>::accepts(doc));
+  if (is_value) error_an_output_has_no_default();
+  return describe<T>(LOCKSTEP_OUTPUT, name, doc, unit);
+}
+
 template <class T>
 class ReadablePort : public Port {
  public:
   using View = typename PortTraits<T>::View;
 
-  // The value; a std::runtime_error that names the port when it has none.
+  // The value, the default until the entry is written; a std::runtime_error when there is none.
   T get() const { return from_view<T>(view()); }
 
-  // Nothing when the port has no value: it is bound to an entry that nobody has written yet.
+  // Nothing when there is none: no default, and bound to an entry that nobody has written yet.
   std::optional<T> try_get() const {
     View value{};
     if (!PortTraits<T>::get(caller(), index(), value)) return std::nullopt;
@@ -156,7 +165,7 @@ template <class T>
 class Output : public detail::Port {
  public:
   constexpr Output(Ports* owner, const char* name, const char* doc, const char* unit = "")
-      : Port(owner, detail::describe<T>(LOCKSTEP_OUTPUT, name, doc, unit)) {}
+      : Port(owner, detail::describe_output<T>(name, doc, unit)) {}
 
   // Writes the entry that the tree binds to the port; false when it binds none, or when the host
   // refuses the value (a number that is not finite).
@@ -166,7 +175,7 @@ class Output : public detail::Port {
 template <class T>
 class InOut : public detail::ReadablePort<T> {
  public:
-  // The default stands where the tree binds no entry; it can be read but not set.
+  // The default stands until the entry is written; without one it can be read but not set.
   constexpr InOut(Ports* owner, const char* name, const char* default_value, const char* doc,
                   const char* unit = "")
       : detail::ReadablePort<T>(

@@ -22,6 +22,9 @@ namespace detail {
 [[noreturn]] inline void error_two_ports_have_the_same_name() {
   std::abort();
 }
+[[noreturn]] inline void error_an_output_has_no_default() {
+  std::abort();
+}
 [[noreturn]] inline void error_default_is_not_a_value_of_the_port_type() {
   std::abort();
 }
