@@ -4,6 +4,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,6 +13,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <sstream>
 
 #include "abi/support/isolated_leaves.h"
 
@@ -172,10 +174,15 @@ bool is_ending(pid_t process) {
   return ended;
 }
 
-// The number that 'crash' logs of the process it has started: "Test/leaf0: 4711".
-std::string offspring_in(const std::string& line) {
-  return line.substr(line.rfind(' ') + 1);
-}
+// What 'crash' logs of the process that it has started: "Test/leaf0: 4711 4710", the other is its
+// own.
+struct Family {
+  pid_t offspring = 0, leafhost = 0;
+  explicit Family(const std::string& line) {
+    std::istringstream(line.substr(line.find(": ") + 2)) >> offspring >> leafhost;
+    REQUIRE(leafhost > 0);
+  }
+};
 
 TEST_CASE("isolated: what a plugin has started ends with its process") {
   const NothingRemains nothing_remains;
@@ -184,31 +191,60 @@ TEST_CASE("isolated: what a plugin has started ends with its process") {
     Leaves leaves("crash", {crash_in("tick", "fork")});
     CHECK(leaves.tick().empty());
     REQUIRE(leaves.log.size() == 2);
-    offspring = std::stoi(offspring_in(leaves.log[1]));
+    offspring = Family(leaves.log[1]).offspring;
     REQUIRE(kill(offspring, 0) == 0);
   }
   CHECK(is_ending(offspring));
 }
 
-constexpr const char* kDoomed = "isolated: a host that is about to be killed";
-
-// Not a test: the program that the next one runs.
-TEST_CASE("isolated: a host that is about to be killed", "[.]") {
-  if (std::getenv("LOCKSTEP_TEST_DOOMED") == nullptr) return;
-  Leaves leaves("crash", {crash_in("tick", "fork"), crash_in("tick", "hang")}, Isolation::Isolated,
-                std::chrono::seconds(100));
-  leaves.tick(0);
-  std::ofstream(std::getenv("LOCKSTEP_TEST_DOOMED"))
-      << offspring_in(leaves.log.back()) << std::flush;
-  std::thread([] { kill(getpid(), SIGKILL); }).detach();
-  leaves.tick(1);
+TEST_CASE("isolated: a process that has left its group is killed as well, and nobody else is") {
+  const NothingRemains nothing_remains;
+  // We are the host, and of the group that it joins.
+  Leaves leaves("crash", {crash_in("tick", "join the host")}, Isolation::Isolated, kShortLimit);
+  CHECK(leaves.tick() == "did not return from tick for 0.2 s; its process was killed");
 }
 
-TEST_CASE("isolated: nothing outlives a host that is killed") {
-  const std::string path = fmt::format("{}/doomed_{}", LOCKSTEP_ABI_PLUGINS, getpid());
-  const std::string variable = "LOCKSTEP_TEST_DOOMED=" + path;
-  std::string name = "/proc/self/exe", test = kDoomed, variable_text = variable;
-  std::vector<char*> variables{variable_text.data()};
+// Whether the process does already what 'crash' calls so.
+bool has_begun(const std::string& how, pid_t process) {
+  const std::string directory = fmt::format("/proc/{}/", process);
+  if (how == "close") return fs::is_empty(directory + "fd");
+  if (how == "join the host") return getpgid(process) == getpgrp();
+  if (how != "stop") return true;
+  std::ifstream file(directory + "stat");
+  std::string number, name, state;
+  file >> number >> name >> state;
+  return state == "T";
+}
+
+constexpr const char* kDoomed = "isolated: a host that is about to be killed";
+
+// Not a test: the program that the next ones run. Its last leaf does what LOCKSTEP_TEST_LAST says;
+// beside it a process lives on that has all its descriptors.
+TEST_CASE("isolated: a host that is about to be killed", "[.]") {
+  if (std::getenv("LOCKSTEP_TEST_DOOMED") == nullptr) return;
+  const char* const last = std::getenv("LOCKSTEP_TEST_LAST");
+  Leaves leaves("crash", {crash_in("tick", "fork"), crash_in("tick", last)}, Isolation::Isolated,
+                std::chrono::seconds(100));
+  leaves.tick(0);
+  const pid_t holder = fork();
+  while (holder == 0) pause();
+  const Family family(leaves.log.back());
+  std::ofstream(std::getenv("LOCKSTEP_TEST_DOOMED"))
+      << family.offspring << ' ' << family.leafhost << ' ' << holder << std::flush;
+  std::thread([last, leafhost = family.leafhost] {
+    while (!has_begun(last, leafhost)) std::this_thread::yield();
+    kill(getpid(), SIGKILL);
+  }).detach();
+  leaves.tick(1);
+  pause();
+}
+
+// Runs that program in this process group until its end.
+void run_doomed(const std::string& path, const char* last) {
+  std::string name = "/proc/self/exe", test = kDoomed;
+  std::string where = "LOCKSTEP_TEST_DOOMED=" + path;
+  std::string how = fmt::format("LOCKSTEP_TEST_LAST={}", last);
+  std::vector<char*> variables{where.data(), how.data()};
   for (char** it = environ; *it != nullptr; ++it) variables.push_back(*it);
   variables.push_back(nullptr);
   char* arguments[] = {name.data(), test.data(), nullptr};
@@ -217,11 +253,25 @@ TEST_CASE("isolated: nothing outlives a host that is killed") {
   int status = 0;
   REQUIRE(waitpid(host, &status, 0) == host);
   CHECK((WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL));
-  pid_t offspring = 0;
-  std::ifstream(path) >> offspring;
-  fs::remove(path);
-  REQUIRE(offspring > 0);
-  CHECK(is_ending(offspring));  // it is of the group of its process
+}
+
+TEST_CASE("isolated: nothing outlives a host that is killed") {
+  // Without us the kernel would wake a process that is stopped when nobody is left who could.
+  REQUIRE(prctl(PR_SET_CHILD_SUBREAPER, 1) == 0);
+  for (const char* last : {"hang", "stop", "close", "join the host"}) {
+    INFO(last);
+    const std::string path = fmt::format("{}/doomed_{}", LOCKSTEP_ABI_PLUGINS, getpid());
+    run_doomed(path, last);
+    pid_t offspring = 0, leafhost = 0, holder = 0;
+    std::ifstream(path) >> offspring >> leafhost >> holder;
+    fs::remove(path);
+    REQUIRE(holder > 0);
+    CHECK(is_ending(offspring));  // it is of the group of its process
+    CHECK(is_ending(leafhost));
+    CHECK(kill(holder, SIGKILL) == 0);
+    for (const pid_t process : {offspring, leafhost, holder}) waitpid(process, nullptr, 0);
+  }
+  REQUIRE(prctl(PR_SET_CHILD_SUBREAPER, 0) == 0);
 }
 
 TEST_CASE("isolated: a run that begins anew after a crash has a new process") {

@@ -152,6 +152,11 @@ bool Process::wait_for(const std::string& text) {
   return true;
 }
 
+void Process::wait_for_stop() const {
+  siginfo_t info{};
+  REQUIRE(waitid(P_PID, static_cast<id_t>(pid_), &info, WSTOPPED) == 0);
+}
+
 void Process::type(const std::string& keys) const {
   REQUIRE(write(out_, keys.data(), keys.size()) == static_cast<ssize_t>(keys.size()));
 }

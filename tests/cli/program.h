@@ -45,6 +45,8 @@ class Process {
   // Reads on until its output holds `text`; false when it ended without.
   bool wait_for(const std::string& text);
   void signal(int number) const { kill(pid_, number); }
+  // Until it has been stopped by a signal.
+  void wait_for_stop() const;
   // Keys on its terminal.
   void type(const std::string& keys) const;
   // Another size of its terminal.

@@ -1,5 +1,7 @@
 // Leaves that do not come back: named, and ended after --hang-limit; a halt is named after
 // --halt-limit. These wait for real time, as little of it as there can be.
+#include <signal.h>
+
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -68,6 +70,29 @@ TEST_CASE("a halt that does not return in time is named, if it returns late, the
     INFO(outcome.err);
     CHECK(outcome.code == 0);
     CHECK(contains(outcome.err, "arm' (Misbehave of plugin 'hostile') has not returned from halt"));
+  }
+}
+
+TEST_CASE("time in which the program is stopped counts as nobody's hang") {
+  for (const Where where : {Where::InProcess, Where::Isolated}) {
+    const OwnPlugin plugin;
+    const TemporaryDirectory directory;
+    const std::string how = where == Where::InProcess ? "stop" : "stop with the host";
+    Strings arguments = {"run",          directory.file("tree.xml", hostile_tree({how})),
+                         "--plugin",     plugin.directory() + "hostile.so",
+                         "--clock",      "virtual",
+                         "--hang-limit", "0.4"};
+    if (where == Where::Isolated) arguments.emplace_back("--isolate");
+    Process process({.arguments = arguments});
+    process.wait_for_stop();
+    const std::string wait = directory.file("wait.xml", tree_text("<Wait seconds=\"1\"/>"));
+    CHECK(lockstep({"run", wait}).code == 0);  // which takes twice the limit
+    process.signal(SIGCONT);
+    lockstep({"--version"});  // the other process goes on a moment later
+    for (const pid_t leafhost : plugin.processes()) kill(leafhost, SIGCONT);
+    const Outcome outcome = process.finish();
+    INFO(outcome.err);
+    CHECK(outcome.code == 0);
   }
 }
 

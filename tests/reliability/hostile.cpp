@@ -158,6 +158,17 @@ void Leaf::misbehave(const std::string& how) {
               std::fegetround() == FE_TONEAREST ? "rounds to nearest" : "rounds otherwise");
   }
   if (how == "leave a thread") std::thread(for_ever).detach();
+  if (how == "log in a thread") {
+    std::thread([this] {
+      while (true) host->log(caller, LOCKSTEP_LOG_INFO, "still here");
+    }).detach();
+  }
+  if (how == "stop") std::raise(SIGSTOP);
+  if (how == "stop with the host") {
+    usleep(50'000);  // it sleeps by then
+    kill(getppid(), SIGSTOP);
+    std::raise(SIGSTOP);
+  }
   if (how == "foreign call") call_from_another_thread();
   if (how == "nonsense") nonsense = true;
 }

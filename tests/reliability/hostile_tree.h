@@ -32,7 +32,8 @@ class OwnPlugin {
  public:
   OwnPlugin();
   std::string directory() const { return directory_.path(""); }
-  bool has_processes() const { return !processes_with(directory_.path("hostile.so")).empty(); }
+  std::vector<pid_t> processes() const { return processes_with(directory_.path("hostile.so")); }
+  bool has_processes() const { return !processes().empty(); }
 
  private:
   TemporaryDirectory directory_;

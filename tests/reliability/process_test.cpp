@@ -148,6 +148,22 @@ TEST_CASE("a thread that a leaf leaves behind does not outlive the program") {
   }
 }
 
+TEST_CASE("a thread of an isolated plugin that logs without end keeps nobody") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("tree.xml", endless_tree({"log in a thread"}));
+  const Outcome outcome =
+      lockstep({"run", tree, "--plugin-path", LOCKSTEP_HOSTILE_DIRECTORY, "--isolate", "--clock",
+                "virtual", "--max-ticks", "3000", "--json"});
+  CHECK(outcome.code == 124);
+  CHECK(json::parse(outcome.out)["ticks"] == 3000);
+  // A ring of 256 KiB is full of a few thousand lines; were the ticks to wait for each of them,
+  // there would be as many in every tick.
+  const std::size_t shown = lines(outcome.err).size();
+  CHECK(shown > 100);
+  CHECK(shown < 100'000);
+  CHECK(contains(outcome.err, "lines are lost: it logs faster than they can be shown"));
+}
+
 TEST_CASE("a crash in a thread of a plugin is told as such") {
   const Outcome in_process =
       run_hostile({"segv in a thread"}, Where::InProcess, {"--clock", "virtual"});

@@ -13,6 +13,8 @@
 #include <climits>
 #include <cstring>
 
+#include "core/running_time.h"
+
 namespace lockstep {
 namespace {
 
@@ -142,17 +144,20 @@ bool Channel::spin(const std::atomic<bool>& gone) {
   return helped;
 }
 
-Channel::Wait Channel::wait(std::optional<Nanoseconds> deadline, const std::atomic<bool>& gone) {
+Channel::Wait Channel::wait(std::optional<Nanoseconds> limit, const std::atomic<bool>& gone) {
   if (spin(gone)) return Wait::Received;
+  const Nanoseconds slice = limit ? RunningTime::interval_for(*limit) : kLongestSleep;
+  RunningTime time(slice, monotonic_now());
+  Nanoseconds waited{0};
   auto& sleeps = control_->sleeps[static_cast<std::uint32_t>(side_)];
   for (;;) {
     sleeps.store(1);
     const std::uint32_t turn = control_->turn.load();
     if (turn == static_cast<std::uint32_t>(side_)) break;
     if (gone.load()) return Wait::Given_up;
-    const Nanoseconds left = deadline ? *deadline - monotonic_now() : kLongestSleep;
-    if (left <= Nanoseconds(0)) return Wait::Late;
-    futex_wait(control_->turn, turn, std::min(left, kLongestSleep));
+    waited += time.look(monotonic_now());
+    if (limit && waited >= *limit) return Wait::Late;
+    futex_wait(control_->turn, turn, slice);
   }
   sleeps.store(0);
   return Wait::Received;

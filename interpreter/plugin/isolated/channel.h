@@ -1,4 +1,4 @@
-// The memory that a host and its leafhost share: one message at a time, in turns, and the ring of
+// The memory that a host and its leafhost share: one message at a time, in turns, and the rings of
 // log lines. Whoever waits for its turn spins for a moment, then sleeps on a futex. Knows nothing
 // of what the messages say.
 #pragma once
@@ -37,15 +37,17 @@ class Channel {
   void send(std::span<const std::byte> message);
 
   enum class Wait : std::uint8_t { Received, Late, Given_up };
-  // Until it is our turn, `deadline` of the monotonic clock has passed, or wake() was called after
-  // `gone` became true.
-  Wait wait(std::optional<Nanoseconds> deadline, const std::atomic<bool>& gone);
+  // Until it is our turn, this process has run for `limit`, or wake() was called after `gone`
+  // became true.
+  Wait wait(std::optional<Nanoseconds> limit, const std::atomic<bool>& gone);
   // Lets wait() look at `gone`. From any thread.
   void wake();
 
   // A copy of what the other side sent; nothing when it cannot be a message.
   std::optional<std::span<const std::byte>> received();
-  LogRing& log_ring() { return control_->log; }
+  // What is logged by the thread that answers calls, and by all others.
+  LogRing& call_log() { return control_->call_log; }
+  LogRing& thread_log() { return control_->thread_log; }
 
  private:
   struct Control {
@@ -53,7 +55,8 @@ class Channel {
     alignas(64) std::atomic<std::uint32_t> turn;
     std::atomic<std::uint32_t> sleeps[2];
     std::atomic<std::uint64_t> length;
-    alignas(64) LogRing log;
+    alignas(64) LogRing call_log;
+    alignas(64) LogRing thread_log;
   };
   bool is_mine() const;
   bool spin(const std::atomic<bool>& gone);

@@ -11,6 +11,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "plugin/isolated/file_descriptor.h"
+
 namespace lockstep {
 namespace {
 
@@ -29,14 +31,15 @@ class SpawnPlan {
   SpawnPlan& operator=(const SpawnPlan&) = delete;
 
   // A leaf that prints must not mix into our data; nothing else of ours is handed down.
-  void set_descriptors(int memory, int lifeline) {
+  void set_descriptors(int memory, int bell, int parent) {
     const bool has_errors = fcntl(STDERR_FILENO, F_GETFD) >= 0;
     posix_spawn_file_actions_addopen(&actions_, 0, "/dev/null", O_RDONLY, 0);
     if (!has_errors) posix_spawn_file_actions_addopen(&actions_, 2, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_adddup2(&actions_, 2, 1);
     posix_spawn_file_actions_adddup2(&actions_, memory, ChildProcess::kMemory);
-    posix_spawn_file_actions_adddup2(&actions_, lifeline, ChildProcess::kLifeline);
-    posix_spawn_file_actions_addclosefrom_np(&actions_, ChildProcess::kLifeline + 1);
+    posix_spawn_file_actions_adddup2(&actions_, bell, ChildProcess::kBell);
+    posix_spawn_file_actions_adddup2(&actions_, parent, ChildProcess::kParent);
+    posix_spawn_file_actions_addclosefrom_np(&actions_, ChildProcess::kParent + 1);
   }
 
   // Ctrl-C of a terminal is for us, who then halt the leaves in order: hence a group of its own.
@@ -64,19 +67,13 @@ class SpawnPlan {
 };
 
 // A copy above the numbers that the child gives them, so that none overwrites the other.
-class HighCopy {
- public:
-  explicit HighCopy(int descriptor) : copy_(fcntl(descriptor, F_DUPFD_CLOEXEC, 10)) {}
-  ~HighCopy() {
-    if (copy_ >= 0) close(copy_);
-  }
-  HighCopy(const HighCopy&) = delete;
-  HighCopy& operator=(const HighCopy&) = delete;
-  int get() const { return copy_; }
+int high_copy(int descriptor) {
+  return fcntl(descriptor, F_DUPFD_CLOEXEC, 10);
+}
 
- private:
-  int copy_;
-};
+int open_pidfd(pid_t process) {
+  return static_cast<int>(syscall(SYS_pidfd_open, process, 0));
+}
 
 std::string description(const siginfo_t& info) {
   if (info.si_code == CLD_EXITED) return fmt::format("ended with exit code {}", info.si_status);
@@ -93,17 +90,22 @@ std::string error_text(int error) {
 }  // namespace
 
 std::string ChildProcess::start(const std::string& program, const std::string& argument, int memory,
-                                int lifeline) {
-  const HighCopy memory_copy(memory);
-  const HighCopy lifeline_copy(lifeline);
-  if (memory_copy.get() < 0 || lifeline_copy.get() < 0) return error_text(errno);
+                                int bell) {
+  const FileDescriptor parent(open_pidfd(getpid()));
+  if (parent.number() < 0) return error_text(errno);
+  const FileDescriptor memory_copy(high_copy(memory));
+  const FileDescriptor bell_copy(high_copy(bell));
+  const FileDescriptor parent_copy(high_copy(parent.number()));
+  if (memory_copy.number() < 0 || bell_copy.number() < 0 || parent_copy.number() < 0) {
+    return error_text(errno);
+  }
   SpawnPlan plan;
-  plan.set_descriptors(memory_copy.get(), lifeline_copy.get());
+  plan.set_descriptors(memory_copy.number(), bell_copy.number(), parent_copy.number());
   plan.set_attributes();
   pid_t pid = -1;
   if (const int error = plan.spawn(pid, program, argument); error != 0) return error_text(error);
   pid_ = pid;
-  descriptor_ = static_cast<int>(syscall(SYS_pidfd_open, pid, 0));
+  descriptor_ = open_pidfd(pid);
   if (descriptor_ >= 0) return {};
   const std::string reason = error_text(errno);
   kill();
@@ -121,7 +123,9 @@ ChildProcess::~ChildProcess() {
 
 void ChildProcess::kill() {
   const std::lock_guard lock(mutex_);
-  if (pid_ > 0) ::kill(-pid_, SIGKILL);
+  if (pid_ <= 0) return;
+  ::kill(-pid_, SIGKILL);
+  ::kill(pid_, SIGKILL);  // which may have left its group
 }
 
 std::string ChildProcess::reap() {

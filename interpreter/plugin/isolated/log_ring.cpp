@@ -47,7 +47,7 @@ bool LogRingWriter::append(std::uint32_t caller, lockstep_log_level level, std::
   return used > LogRing::kSize / 2;
 }
 
-void LogRingReader::drain(const Line& line) {
+void LogRingReader::drain(const Line& line, std::size_t most) {
   const std::uint64_t end = ring_.written.load(std::memory_order_acquire);
   if (end - read_ > LogRing::kSize) read_ = end;  // not written by us: nothing can be made of it
   while (read_ != end) {
@@ -61,6 +61,7 @@ void LogRingReader::drain(const Line& line) {
     read_ += sizeof head + head.size;
     ring_.read.store(read_, std::memory_order_release);
     line(head.caller, head.level, text_.c_str());
+    if (--most == 0) return;
   }
   read_ = end;
   ring_.read.store(read_, std::memory_order_release);

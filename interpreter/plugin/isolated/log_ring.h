@@ -41,7 +41,8 @@ class LogRingReader {
  public:
   explicit LogRingReader(LogRing& ring) : ring_(ring) {}
   using Line = std::function<void(std::uint32_t caller, lockstep_log_level, const char* text)>;
-  void drain(const Line& line);
+  // At most so many lines, and at least one.
+  void drain(const Line& line, std::size_t most = ~std::size_t{0});
   // Lines that did not fit since the last question.
   std::uint32_t take_lost() { return ring_.lost.exchange(0); }
   bool empty() const { return ring_.written.load(std::memory_order_acquire) == read_; }

@@ -19,10 +19,10 @@ class RemoteRun {
  public:
   RemoteRun(IsolatedPlugin& plugin, std::unique_ptr<Session> session, const lockstep_caller& caller)
       : plugin_(plugin), session_(std::move(session)), caller_(caller) {
-    session_->set_listener(0, &caller);
+    session_->add_listener(0, caller);
   }
   ~RemoteRun() {
-    session_->set_listener(0, nullptr);
+    session_->forget_listeners();
     plugin_.release(std::move(session_));
   }
   RemoteRun(const RemoteRun&) = delete;
@@ -51,9 +51,8 @@ struct RemoteLeaf {
                           ? RemoteEntries::kNone
                           : run.entries().number_of({.type = port.type, .read = port.fallback}));
     }
-    run.session().set_listener(number, &caller);
+    run.session().add_listener(number, caller);
   }
-  ~RemoteLeaf() { run.session().set_listener(number, nullptr); }
   RemoteLeaf(const RemoteLeaf&) = delete;
   RemoteLeaf& operator=(const RemoteLeaf&) = delete;
 

@@ -1,12 +1,13 @@
 #include "plugin/isolated/served_plugin.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <pthread.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <unistd.h>
 
 #include <atomic>
-#include <cerrno>
 #include <thread>
 
 #include "core/plugin_exception.h"
@@ -20,23 +21,39 @@
 namespace lockstep {
 namespace {
 
-// The host has died when its end of the lifeline closes: nothing of ours outlives it.
-void follow_host_into_death() {
-  char byte = 0;
-  ssize_t count = 1;
-  while (count > 0 || (count < 0 && errno == EINTR)) {
-    count = read(ChildProcess::kLifeline, &byte, sizeof byte);
+// Where the plugin will not put a file of its own when it has closed all that it does not know.
+int moved_up(int descriptor) {
+  const int high = fcntl(descriptor, F_DUPFD_CLOEXEC, 500);
+  if (high >= 0) {
+    close(descriptor);
+    return high;
   }
-  kill(0, SIGKILL);
+  fcntl(descriptor, F_SETFD, FD_CLOEXEC);
+  return descriptor;
+}
+
+// Nothing of ours outlives the host. What is killed is the group that we were given, which is not
+// that of the host, whatever group the plugin has put us into.
+[[noreturn]] void follow_host_into_death(int descriptor, pid_t host) {
+  pollfd end{descriptor, POLLIN, 0};
+  poll(&end, 1, -1);
+  while (getppid() == host) usleep(100'000);  // the plugin has closed the descriptor
+  kill(-getpid(), SIGKILL);
+  kill(getpid(), SIGKILL);
   _exit(1);
 }
 
-// A thread that takes no signal away from the plugin's.
-void watch_host() {
+// By a thread that takes no signal away from the plugin's. If we are stopped when the host dies, we
+// go on, to our end.
+void watch_host(int descriptor) {
+  const pid_t host = getppid();
+  pollfd end{descriptor, POLLIN, 0};
+  if (poll(&end, 1, 0) != 0) _exit(1);  // it has died before, and our parent is another one
+  prctl(PR_SET_PDEATHSIG, SIGCONT);
   sigset_t all, before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
-  std::thread(follow_host_into_death).detach();
+  std::thread(follow_host_into_death, descriptor, host).detach();
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
@@ -52,10 +69,8 @@ std::optional<Refusal> load(const std::string& path, Descriptors& descriptors) {
 
 class Server {
  public:
-  Server(std::string path, Channel& channel)
-      : path_(std::move(path)),
-        channel_(channel),
-        log_(channel.log_ring(), ChildProcess::kLifeline) {}
+  Server(std::string path, Channel& channel, int bell)
+      : path_(std::move(path)), channel_(channel), log_(channel, bell) {}
 
   // One call. False: it was the last one.
   bool serve() {
@@ -125,20 +140,19 @@ class Server {
 
 bool ServedPlugin::has_host() {
   Channel channel;
-  return fcntl(ChildProcess::kLifeline, F_GETFD) >= 0 && getpgrp() == getpid() &&
-         channel.open(ChildProcess::kMemory, Channel::Side::Leafhost);
+  return fcntl(ChildProcess::kBell, F_GETFD) >= 0 && fcntl(ChildProcess::kParent, F_GETFD) >= 0 &&
+         getpgrp() == getpid() && channel.open(ChildProcess::kMemory, Channel::Side::Leafhost);
 }
 
 int ServedPlugin::serve(const std::string& path) {
   // What the plugin starts does not inherit them.
-  fcntl(ChildProcess::kMemory, F_SETFD, FD_CLOEXEC);
-  fcntl(ChildProcess::kLifeline, F_SETFD, FD_CLOEXEC);
-  watch_host();
+  const int bell = moved_up(ChildProcess::kBell);
+  watch_host(moved_up(ChildProcess::kParent));
   // Never destroyed: threads of the plugin may log until the process ends.
   static auto& channel = *new Channel;
   if (!channel.open(ChildProcess::kMemory, Channel::Side::Leafhost)) return 1;
   close(ChildProcess::kMemory);
-  static auto& server = *new Server(path, channel);
+  static auto& server = *new Server(path, channel, bell);
   while (server.serve()) {
   }
   return 0;

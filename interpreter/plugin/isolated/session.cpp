@@ -4,26 +4,21 @@
 #include <poll.h>
 #include <pthread.h>
 #include <signal.h>
-#include <sys/socket.h>
-#include <unistd.h>
+#include <sys/eventfd.h>
 
 #include <cerrno>
 #include <cstring>
 
+#include "core/running_time.h"
 #include "plugin/host.h"
 
 namespace lockstep {
 namespace {
 
 constexpr Nanoseconds kPatience = std::chrono::seconds(2);  // for a killed process to be gone
-
-// Owns a descriptor for the time of its scope.
-struct Descriptor {
-  int number = -1;
-  ~Descriptor() {
-    if (number >= 0) close(number);
-  }
-};
+// What threads of a plugin may log: so many lines at once, and so many milliseconds in between.
+constexpr std::size_t kMostLines = 100;
+constexpr int kPause = 100;
 
 // A thread that no signal interrupts: they are for the program's own threads.
 template <class Function>
@@ -36,28 +31,20 @@ std::thread quiet_thread(Function function) {
   return thread;
 }
 
-bool take_rings(int lifeline) {
-  char bytes[64];
-  const auto count = recv(lifeline, bytes, sizeof bytes, MSG_DONTWAIT);
-  return count > 0 || (count < 0 && (errno == EAGAIN || errno == EINTR));
-}
-
 }  // namespace
 
 std::string Session::start(const IsolationOptions& options, const std::string& plugin) {
   hang_limit_ = options.hang_limit;
-  const Descriptor memory{Channel::create_memory()};
-  Descriptor ends[2];
-  int pair[2];
-  const bool connected = socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) == 0;
-  if (connected) ends[0].number = pair[0], ends[1].number = pair[1];
-  if (memory.number < 0 || !connected || !channel_.open(memory.number, Channel::Side::Host)) {
+  const FileDescriptor memory(Channel::create_memory());
+  bell_ = FileDescriptor(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
+  if (memory.number() < 0 || bell_.number() < 0 ||
+      !channel_.open(memory.number(), Channel::Side::Host)) {
     return std::strerror(errno);  // NOLINT(concurrency-mt-unsafe): known errors, constant texts
   }
-  log_.emplace(channel_.log_ring());
-  std::string failure = process_.start(options.leafhost, plugin, memory.number, ends[1].number);
+  call_log_.reader.emplace(channel_.call_log());
+  thread_log_.reader.emplace(channel_.thread_log());
+  std::string failure = process_.start(options.leafhost, plugin, memory.number(), bell_.number());
   if (!failure.empty()) return failure;
-  lifeline_ = std::exchange(ends[0].number, -1);
   watcher_ = quiet_thread([this] { watch(); });
   return {};
 }
@@ -67,21 +54,24 @@ Session::~Session() {
     process_.kill();
     watcher_.join();
   }
-  if (lifeline_ >= 0) close(lifeline_);
 }
 
-// The watcher's thread: lines from threads of the plugin, and the end of the process.
+// The watcher's thread: lines from threads of the plugin, which must not keep the tick thread, and
+// the end of the process.
 void Session::watch() {
-  pollfd ends[2] = {{process_.descriptor(), POLLIN, 0}, {lifeline_, POLLIN, 0}};
-  while (ends[0].revents == 0) {
-    if (poll(ends, 2, -1) < 0) continue;
-    if (ends[1].revents != 0) {
-      if (!take_rings(lifeline_)) ends[1].fd = -1;  // the plugin has closed it
-      drain_log();
-    }
-  }
+  pollfd ends[2] = {{process_.descriptor(), POLLIN, 0}, {bell_.number(), POLLIN, 0}};
+  bool has_more = false;
+  do {
+    poll(ends, 2, has_more ? 0 : -1);
+    eventfd_t rings = 0;
+    eventfd_read(bell_.number(), &rings);
+    has_more = drain(call_log_, kMostLines);  // of a call that goes on
+    has_more |= drain(thread_log_, kMostLines);
+    poll(ends, 1, kPause);
+  } while (ends[0].revents == 0);
   std::string death = process_.reap();
-  drain_log();
+  drain(call_log_);
+  drain(thread_log_);
   {
     const std::lock_guard lock(gone_mutex_);
     death_ = std::move(death);
@@ -93,35 +83,49 @@ void Session::watch() {
 
 void Session::await_end(std::optional<Nanoseconds> patience) {
   std::unique_lock lock(gone_mutex_);
-  const auto is_over = [this] { return gone_.load(); };
-  if (patience) {
-    gone_signal_.wait_for(lock, *patience, is_over);
-  } else {
-    gone_signal_.wait(lock, is_over);
+  RunningTime time(RunningTime::interval_for(patience.value_or(kPatience)), monotonic_now());
+  for (Nanoseconds waited{0}; !gone_ && (!patience || waited < *patience);
+       waited += time.look(monotonic_now())) {
+    gone_signal_.wait_for(lock, time.interval());
   }
 }
 
-void Session::drain_log() {
-  const std::lock_guard lock(log_mutex_);
-  if (log_->empty()) return;
-  const lockstep_caller* last = nullptr;
-  log_->drain([&](std::uint32_t number, lockstep_log_level level, const char* text) {
-    const auto* const caller = number < listeners_.size() ? listeners_[number] : nullptr;
-    if (caller == nullptr) return;
-    host_table().log(caller, level, text);
-    last = caller;
-  });
-  const std::uint32_t lost = log_->take_lost();
-  if (lost == 0 || last == nullptr) return;
-  const auto text = fmt::format("{} lines are lost: it logs faster than they can be shown", lost);
-  host_table().log(last, LOCKSTEP_LOG_WARNING, text.c_str());
+// A lock for each line: who has a leaf to add must not wait until many are shown.
+void Session::tell(std::uint32_t number, lockstep_log_level level, const char* text) {
+  const std::lock_guard lock(listeners_mutex_);
+  const auto* const caller = number < listeners_.size() ? listeners_[number] : nullptr;
+  if (caller != nullptr) host_table().log(caller, level, text);
 }
 
-void Session::set_listener(std::uint32_t number, const lockstep_caller* caller) {
-  drain_log();
-  const std::lock_guard lock(log_mutex_);
+// True when there is more.
+bool Session::drain(Log& log, std::size_t most) {
+  const std::lock_guard lock(log.mutex);
+  if (log.reader->empty()) return false;
+  std::uint32_t last = 0;
+  log.reader->drain(
+      [&](std::uint32_t number, lockstep_log_level level, const char* text) {
+        tell(number, level, text);
+        last = number;
+      },
+      most);
+  if (const std::uint32_t lost = log.reader->take_lost(); lost != 0) {
+    const auto text = fmt::format("{} lines are lost: it logs faster than they can be shown", lost);
+    tell(last, LOCKSTEP_LOG_WARNING, text.c_str());
+  }
+  return !log.reader->empty();
+}
+
+void Session::add_listener(std::uint32_t number, const lockstep_caller& caller) {
+  const std::lock_guard lock(listeners_mutex_);
   if (number >= listeners_.size()) listeners_.resize(number + std::size_t{1});
-  listeners_[number] = caller;
+  listeners_[number] = &caller;
+}
+
+void Session::forget_listeners() {
+  drain(call_log_);
+  drain(thread_log_);
+  const std::lock_guard lock(listeners_mutex_);
+  listeners_.clear();
 }
 
 MessageWriter& Session::begin_request(PluginFunction function) {
@@ -131,9 +135,8 @@ MessageWriter& Session::begin_request(PluginFunction function) {
   return request_;
 }
 
-std::optional<Nanoseconds> Session::deadline() const {
-  if (hang_limit_ == Nanoseconds(0)) return std::nullopt;
-  return monotonic_now() + hang_limit_;
+std::optional<Nanoseconds> Session::limit() const {
+  return hang_limit_ == Nanoseconds(0) ? std::nullopt : std::optional(hang_limit_);
 }
 
 bool Session::call(std::string_view who) {
@@ -143,9 +146,9 @@ bool Session::call(std::string_view who) {
   }
   CallMark::this_thread().set_bounded();  // by hang_limit_
   channel_.send(request_.bytes());
-  const auto result = channel_.wait(deadline(), gone_);
+  const auto result = channel_.wait(limit(), gone_);
   if (result == Channel::Wait::Received) {
-    drain_log();
+    drain(call_log_);
     return true;
   }
   fail_call(who, result == Channel::Wait::Late ? Ending::Late : Ending::None);
@@ -192,8 +195,7 @@ void Session::end() {
   if (is_gone()) return;
   begin_request(PluginFunction::Deinit);
   if (!call({})) return;
-  // After that the destructor sees to it.
-  await_end(hang_limit_ == Nanoseconds(0) ? std::nullopt : std::optional(hang_limit_));
+  await_end(limit());  // after that the destructor sees to it
 }
 
 }  // namespace lockstep

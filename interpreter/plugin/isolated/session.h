@@ -16,6 +16,7 @@
 #include "plugin/call_mark.h"
 #include "plugin/isolated/channel.h"
 #include "plugin/isolated/child_process.h"
+#include "plugin/isolated/file_descriptor.h"
 #include "plugin/isolated/message.h"
 #include "plugin/plugin_set.h"
 
@@ -52,21 +53,28 @@ class Session {
   // The last call of all, after which the process ends by itself.
   void end();
 
-  // Whose lines a number in the log means; null: nobody's. Lines of before are told first.
-  void set_listener(std::uint32_t number, const lockstep_caller* caller);
+  // Whose lines a number in the log means, until all are forgotten; then lines of before have been
+  // told, and those to come are nobody's.
+  void add_listener(std::uint32_t number, const lockstep_caller& caller);
+  void forget_listeners();
 
  private:
   enum class Ending : std::uint8_t { None, Late, Nonsense };
   void watch();
-  void drain_log();
+  struct Log {
+    std::mutex mutex;
+    std::optional<LogRingReader> reader;
+  };
+  bool drain(Log& log, std::size_t most = ~std::size_t{0});
+  void tell(std::uint32_t number, lockstep_log_level level, const char* text);
   void fail_call(std::string_view who, Ending ending);
-  std::optional<Nanoseconds> deadline() const;
+  std::optional<Nanoseconds> limit() const;  // of a call
   void await_end(std::optional<Nanoseconds> patience);
 
   Nanoseconds hang_limit_{0};
   ChildProcess process_;
   Channel channel_;
-  int lifeline_ = -1;
+  FileDescriptor bell_;
   std::thread watcher_;
   std::atomic<bool> gone_{false};
   std::mutex gone_mutex_;
@@ -78,8 +86,9 @@ class Session {
   bool given_up_ = false;
   std::string last_words_, blame_;
 
-  std::mutex log_mutex_;
-  std::optional<LogRingReader> log_;
+  Log call_log_;    // drained by the caller after each call
+  Log thread_log_;  // by the watcher
+  std::mutex listeners_mutex_;
   std::vector<const lockstep_caller*> listeners_;
 };
 

@@ -1,6 +1,7 @@
 /* A leaf that dies, or never returns, in the function that its port 'where' names, in the way that
  * 'how' names; else it runs for ever. `log` it does when it is created, so that a line comes before
  * the end. */
+#define _GNU_SOURCE
 #include <limits.h>
 #include <signal.h>
 #include <stdio.h>
@@ -33,12 +34,12 @@ static void die_by(int signal_number) {
   raise(signal_number);
 }
 
-/* Starts a process that never ends, and logs its number. */
+/* Starts a process that never ends, and logs its number and ours. */
 static void leave_offspring(const lockstep_caller* caller) {
-  char text[32];
+  char text[64];
   const pid_t child = fork();
   while (child == 0) pause();
-  snprintf(text, sizeof text, "%d", (int)child);
+  snprintf(text, sizeof text, "%d %d", (int)child, (int)getpid());
   g_host->log(caller, LOCKSTEP_LOG_INFO, text);
 }
 
@@ -51,6 +52,12 @@ static void reached(const lockstep_caller* caller, const char* function) {
   if (port_is(caller, 1, "exit")) exit(3);
   if (port_is(caller, 1, "_exit")) _exit(4);
   if (port_is(caller, 1, "fork")) leave_offspring(caller);
+  if (port_is(caller, 1, "stop")) raise(SIGSTOP);
+  if (port_is(caller, 1, "close")) close_range(0, ~0u, 0);
+  if (port_is(caller, 1, "join the host")) {
+    setpgid(0, getpgid(getppid()));
+    for (;;) pause();
+  }
   while (port_is(caller, 1, "hang")) pause();
 }
 

@@ -16,11 +16,13 @@ struct Fixture {
   std::unique_ptr<LogRing> ring = std::make_unique<LogRing>();
   LogRingWriter writer{*ring};
   LogRingReader reader{*ring};
-  std::vector<std::string> drain() {
+  std::vector<std::string> drain(std::size_t most = 1'000'000) {
     std::vector<std::string> lines;
-    reader.drain([&](std::uint32_t caller, lockstep_log_level level, const char* text) {
-      lines.push_back(std::to_string(caller) + " " + std::to_string(level) + " " + text);
-    });
+    reader.drain(
+        [&](std::uint32_t caller, lockstep_log_level level, const char* text) {
+          lines.push_back(std::to_string(caller) + " " + std::to_string(level) + " " + text);
+        },
+        most);
     return lines;
   }
 };
@@ -48,6 +50,15 @@ TEST_CASE("log ring: what does not fit is counted, and nothing else is lost") {
   CHECK(it.drain().size() == written - 1);
   CHECK(it.reader.take_lost() == 2);
   CHECK(it.reader.take_lost() == 0);
+}
+
+TEST_CASE("log ring: as many lines come out as are asked for, the others later") {
+  Fixture it;
+  for (std::uint32_t line = 0; line < 5; ++line) it.writer.append(line, 1, "x");
+  CHECK(it.drain(2) == std::vector<std::string>{"0 1 x", "1 1 x"});
+  CHECK_FALSE(it.reader.empty());
+  CHECK(it.drain(3) == std::vector<std::string>{"2 1 x", "3 1 x", "4 1 x"});
+  CHECK(it.reader.empty());
 }
 
 TEST_CASE("log ring: a long line is cut") {
