@@ -6,6 +6,7 @@
 #include "core/descriptors.h"
 #include "plugin/isolated/served_plugin.h"
 #include "runtime/crash_report.h"
+#include "runtime/plugin_thread.h"
 
 namespace {
 
@@ -33,6 +34,6 @@ int main(int argc, char** argv) {
     return kExitUsage;
   }
   // The host tells that its process died; who was called, and where, is known only here.
-  lockstep::CrashReport::install(lockstep::CrashReport::kAsWithoutReport, nullptr);
-  return lockstep::ServedPlugin::serve(argv[1]);
+  lockstep::CrashReport::install(lockstep::CrashReport::kAsWithoutReport);
+  lockstep::end_process(lockstep::ServedPlugin::serve(argv[1]));
 }

@@ -42,7 +42,7 @@ const std::vector<Layer> kLayers{
     {"interpreter/cli/",
      {"core/", "document/", "definition/", "engine/", "plugin/", "runtime/", "measure/",
       "observers/", "study/", "lockstep/leaf.h"}},
-    {"interpreter/main.cpp", {"core/", "cli/"}},
+    {"interpreter/main.cpp", {"core/", "runtime/", "cli/"}},
     {"interpreter/leafhost.cpp", {"core/", "plugin/", "runtime/"}},
     {"plugins/", {"lockstep/"}},
 };

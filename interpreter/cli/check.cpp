@@ -91,8 +91,8 @@ std::function<int()> define_check(CLI::App& app) {
 const Command kCheckCommand{
     "check", "Tell all that is wrong with tree files, and what is doubtful, without running them",
     "Messages go to stderr as file:line:column; in another format they go to stdout.\n"
-    "Exit code: 0 no errors, 3 invalid tree, or a warning with --strict, 4 plugin refused, 2 "
-    "usage.\n"
+    "Exit code: 0 no errors, 3 invalid tree, or a warning with --strict, 4 plugin refused,\n"
+    "2 usage, 6 a plugin crashed or hung.\n"
     "\n"
     "Examples:\n"
     "  lockstep check trees/*.xml\n"

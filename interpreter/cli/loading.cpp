@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "cli/checks.h"
 #include "cli/exit_code.h"
 #include "cli/plugin_directories.h"
 #include "core/freed_memory.h"
 #include "definition/plugin_requests.h"
 #include "engine/compile.h"
 #include "engine/node_kind.h"
+#include "runtime/plugin_thread.h"
 
 namespace lockstep {
 namespace {
@@ -80,6 +82,12 @@ void add_plugin_options(CLI::App& app, PluginOptions& options) {
   app.add_flag("--isolate", options.isolate,
                "Keep every plugin in a process of its own, which may crash or hang without harm; "
                "for one plugin: <plugin name=\"…\" isolate=\"true\"/>");
+  app.add_option("--hang-limit", options.hang_limit,
+                 "A call into a plugin that lasts longer than S seconds is a hang: it ends the "
+                 "program, or, isolated, the plugin's process; 0 = never")
+      ->type_name("S")
+      ->check(number_between(0.0, 1e6))
+      ->capture_default_str();
 }
 
 void add_load_options(CLI::App& app, LoadOptions& options) {
@@ -103,6 +111,7 @@ bool is_plugin_file(const std::string& plugin) {
 
 bool load_given_plugins(const PluginOptions& options, PluginSet& plugins,
                         Diagnostics& diagnostics) {
+  watch_this_thread(from_seconds(options.hang_limit));
   plugins.set_isolation({.leafhost = leafhost_path(),
                          .hang_limit = from_seconds(options.hang_limit),
                          .all = options.isolate});

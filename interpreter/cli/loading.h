@@ -22,7 +22,7 @@ struct PluginOptions {
   std::vector<std::string> plugins;      // --plugin: a path, or a name to search for
   std::vector<std::string> directories;  // --plugin-path
   bool isolate = false;                  // --isolate
-  double hang_limit = 10;                // seconds, of an isolated plugin; 0 = never
+  double hang_limit = 10;                // --hang-limit, in seconds; 0 = never
 };
 
 struct LoadOptions {
@@ -33,7 +33,7 @@ struct LoadOptions {
   MainFile main_file = MainFile::MayBePipe;
 };
 
-// --plugin, --plugin-path and --isolate.
+// --plugin, --plugin-path, --isolate and --hang-limit.
 void add_plugin_options(CLI::App& app, PluginOptions& options);
 // The plugin options, --arg, --set and --tree.
 void add_load_options(CLI::App& app, LoadOptions& options);
@@ -41,7 +41,7 @@ void add_load_options(CLI::App& app, LoadOptions& options);
 // Whether a --plugin is a file, and not a name to search for.
 bool is_plugin_file(const std::string& plugin);
 
-// Loads what --plugin names. On false, errors tell why.
+// Loads what --plugin names. On false, errors tell why. From here on this thread is watched.
 bool load_given_plugins(const PluginOptions& options, PluginSet& plugins, Diagnostics& diagnostics);
 
 // The built-in nodes and the leaves of `plugins`.

@@ -57,7 +57,8 @@ std::function<int()> define_nodes(CLI::App& app) {
 
 const Command kNodesCommand{"nodes",
                             "List the nodes that trees are made of, with their parameters or ports",
-                            "Exit code: 0 listed, 2 unknown node or usage, 4 plugin refused.\n"
+                            "Exit code: 0 listed, 2 unknown node or usage, 4 plugin refused,\n"
+                            "6 a plugin crashed or hung.\n"
                             "\n"
                             "Examples:\n"
                             "  lockstep nodes\n"

@@ -16,6 +16,7 @@
 #include "observers/terminal.h"
 #include "observers/terminal_wait.h"
 #include "observers/tree_browser.h"
+#include "runtime/crash_report.h"
 #include "runtime/stop_signals.h"
 
 namespace lockstep {
@@ -134,6 +135,7 @@ class Session {
 
 int play_on_terminal(const RecordingHeader& header, RecordingTimeline& timeline, double speed) {
   StopSignals::install(&RawTerminal::restore);
+  CrashReport::set_last_words(&RawTerminal::restore);
   const int code = Session(header, timeline, speed).play();
   if (!timeline.failed()) return code;
   print_error("the recording was changed while it was read");

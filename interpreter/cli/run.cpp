@@ -183,18 +183,6 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   std::vector<Observer*> observers_;
 };
 
-// From here to its end a process that a plugin brings down names the culprit.
-class CrashScope {
- public:
-  explicit CrashScope(void (*last_words)()) {
-    CrashReport::install(kExitLeafCrash, last_words);
-    CrashReport::begin_run();
-  }
-  ~CrashScope() { CrashReport::end_run(); }
-  CrashScope(const CrashScope&) = delete;
-  CrashScope& operator=(const CrashScope&) = delete;
-};
-
 void last_words() {
   AppendFile::emergency_flush();
   View::last_words();
@@ -213,7 +201,7 @@ int run(const RunCommandOptions& options) {
     return kExitUsage;
   }
   keep_stdout_for_results();
-  const CrashScope crash_scope(last_words);
+  CrashReport::set_last_words(last_words);
   Loaded loaded;
   Diagnostics diagnostics;
   const int code = load(options.tree, options.load, loaded, diagnostics);

@@ -83,12 +83,6 @@ void define_fault_options(CLI::App& app, RunCommandOptions& options) {
                           {{"stop", FaultPolicy::Stop}, {"fail", FaultPolicy::Fail}},
                           "When a leaf fails as a program (it throws, crashes in its own process, "
                           "returns nonsense): stop the run, or count it as Failure and go on");
-  app.add_option("--hang-limit", options.load.plugins.hang_limit,
-                 "A call into a plugin that lasts longer than S seconds is a hang: it ends the "
-                 "program, or, isolated, the plugin's process; 0 = never")
-      ->type_name("S")
-      ->check(number_between(0.0, 1e6))
-      ->capture_default_str();
   app.add_option("--halt-limit", options.halt_limit,
                  "Name a leaf that does not return from halt for S seconds; 0 = never")
       ->type_name("S")

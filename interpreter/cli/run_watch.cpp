@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "observers/statistics.h"
-#include "runtime/crash_report.h"
 
 namespace lockstep {
 namespace {
@@ -63,18 +62,14 @@ LeafWatchOptions RunWatch::leaf_watch_options() {
 }
 
 WatchdogOptions RunWatch::watchdog_options() {
-  WatchdogOptions watchdog{.hang_limit = from_seconds(options_.load.plugins.hang_limit),
+  // Hangs are watched since plugins were loaded.
+  WatchdogOptions watchdog{.hang_limit = Nanoseconds(0),
                            .halt_limit = from_seconds(options_.halt_limit),
                            .on_long_halt = {},
                            .on_hang = {}};
   watchdog.on_long_halt = [this](const CallMark::Look& call, Nanoseconds lasts) {
     print_(fmt::format("the leaf {} has not returned from halt for {:.1f} s", call.site->leaf,
                        to_seconds(lasts)));
-  };
-  const pthread_t tick_thread = pthread_self();
-  const CallMark* const mark = &CallMark::this_thread();
-  watchdog.on_hang = [tick_thread, mark](const CallMark::Look&, Nanoseconds lasts) {
-    CrashReport::hang(tick_thread, *mark, to_seconds(lasts));
   };
   return watchdog;
 }

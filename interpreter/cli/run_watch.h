@@ -1,5 +1,5 @@
 // What keeps an eye on the plugins of `lockstep run`, and how it tells what it sees: slow leaves,
-// halts that do not return, hangs, changed modes, memory that grows.
+// halts that do not return, changed modes, memory that grows.
 #pragma once
 
 #include <signal.h>

@@ -37,7 +37,7 @@ const Command kSchemaCommand{
     "schema", "Print the XML schema (XSD 1.0) of the tree language, for editors and xmllint",
     "Leaves of plugins that are not loaded may stand in trees with any attributes, so that a\n"
     "mistyped tag is taken for one of them; not with --strict.\n"
-    "Exit code: 0 printed, 2 usage, 4 plugin refused.\n"
+    "Exit code: 0 printed, 2 usage, 4 plugin refused, 6 a plugin crashed or hung.\n"
     "\n"
     "Examples:\n"
     "  lockstep schema > lockstep.xsd\n"

@@ -122,6 +122,7 @@ int make_study(const StudyCommandOptions& options, const LoadedStudy& study) {
                      .measures = study.measures,
                      .first_row = *there,
                      .jobs = options.jobs,
+                     .hang_limit = from_seconds(options.study.load.plugins.hang_limit),
                      .stop_signal = StopSignals::received,
                      .write =
                          [&](std::string_view lines, std::uint64_t rows) {
@@ -248,8 +249,8 @@ const Command kStudyCommand{
     "made)\n"
     "and, with gnuplot, plots/; the summary goes to stdout. See docs/studies.md.\n"
     "Exit code: 0 made, 2 usage or a directory that cannot be used, 3 invalid tree, 4 plugin\n"
-    "refused, 5 leaf fault, 128 + N signal N, as 130 for SIGINT (what was finished is on disk:\n"
-    "--resume).\n"
+    "refused, 5 leaf fault, 6 a plugin crashed or hung, 128 + N signal N, as 130 for SIGINT\n"
+    "(what was finished is on disk: --resume).\n"
     "\n"
     "Examples:\n"
     "  lockstep study trees/predictability.xml --runs 1000 --grid barriers=0,5,50 \\\n"

@@ -4,7 +4,6 @@
 #include <termios.h>
 #include <unistd.h>
 
-#include <array>
 #include <atomic>
 #include <cerrno>
 
@@ -19,14 +18,6 @@ int g_keys = -1, g_screen = -1;
 std::atomic<bool> g_is_taken{false};
 std::atomic<bool> g_is_stopping{false};  // by Ctrl-Z
 static_assert(std::atomic<bool>::is_always_lock_free);
-
-constexpr std::array kFatalSignals{SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL};
-
-void on_fatal_signal(int number) {
-  RawTerminal::restore();
-  signal(number, SIG_DFL);
-  raise(number);
-}
 
 // Stops the process as it would be stopped without us; returns when it goes on.
 void on_stop(int number) {
@@ -88,14 +79,12 @@ RawTerminal::RawTerminal(int keys, int screen) {
   if (keys >= 0) tcgetattr(keys, &g_before);
   g_keys = keys;
   g_screen = screen;
-  for (const int number : kFatalSignals) handle(number, on_fatal_signal);
   handle(SIGTSTP, on_stop);
   handle(SIGCONT, on_continue);
 }
 
 RawTerminal::~RawTerminal() {
   restore();
-  for (const int number : kFatalSignals) leave(number, on_fatal_signal);
   leave(SIGTSTP, on_stop);
   leave(SIGCONT, on_continue);
 }

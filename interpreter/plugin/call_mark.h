@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <string>
 
+#include "core/fork_guard.h"
+
 namespace lockstep {
 
 enum class PluginFunction : std::uint8_t {
@@ -24,6 +26,7 @@ enum class PluginFunction : std::uint8_t {
   Destroy,
   DestroyRun,
   Deinit,
+  End,  // of a thread or the process: destructors of static objects, and what atexit was given
 };
 
 // "tick", "create_run", as lockstep/leaf.h spells them.
@@ -51,7 +54,10 @@ class CallMark {
     serial_ += 1u << 8;
     call_.store(serial_ | static_cast<std::uint32_t>(function), std::memory_order_release);
   }
-  void leave() { call_.store(serial_, std::memory_order_release); }
+  void leave() {
+    ForkGuard::check();
+    call_.store(serial_, std::memory_order_release);
+  }
   // Somebody else sees to it that this call returns in time.
   void set_bounded() {
     call_.store(call_.load(std::memory_order_relaxed) | kBounded, std::memory_order_release);
@@ -59,6 +65,18 @@ class CallMark {
 
   // The tick that the thread is in or was in last, for the message only; public numbers, from 0.
   void set_tick(std::uint64_t tick) { tick_.store(tick, std::memory_order_relaxed); }
+
+  // The run of a study that the thread is in, for the message only.
+  static constexpr std::uint64_t kNoRun = ~std::uint64_t{0};
+  struct RunOfStudy {
+    std::uint64_t cell = 0, number = kNoRun, seed = 0;
+  };
+  void set_run(const RunOfStudy& run) {
+    cell_.store(run.cell, std::memory_order_relaxed);
+    run_number_.store(run.number, std::memory_order_relaxed);
+    seed_.store(run.seed, std::memory_order_relaxed);
+  }
+  RunOfStudy run() const { return {cell_.load(), run_number_.load(), seed_.load()}; }
 
   // A call as another thread sees it: two looks that are equal have seen the same call.
   struct Look {
@@ -78,6 +96,7 @@ class CallMark {
   std::atomic<std::uint32_t> call_{0};
   std::uint32_t serial_ = 0;
   std::atomic<std::uint64_t> tick_{kNoTick};
+  std::atomic<std::uint64_t> cell_{0}, run_number_{kNoRun}, seed_{0};
 };
 
 // Marks a call for the time of its scope, also when an exception ends it.

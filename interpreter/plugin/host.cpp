@@ -7,6 +7,7 @@
 #include <cstring>
 #include <new>
 
+#include "core/fork_guard.h"
 #include "core/utf8.h"
 #include "core/wording.h"
 #include "plugin/held.h"
@@ -138,7 +139,8 @@ double random_double(const lockstep_caller* caller) {
 }
 
 void log(const lockstep_caller* caller, lockstep_log_level level, const char* message) {
-  if (!*caller->log) return;
+  // A child that was forked off has neither the locks nor the threads that lines go through.
+  if (!*caller->log || ForkGuard::is_child()) return;
   level = std::clamp<lockstep_log_level>(level, LOCKSTEP_LOG_DEBUG, LOCKSTEP_LOG_WARNING);
   try {
     const std::string_view text = message == nullptr ? "" : message;

@@ -2,8 +2,12 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <link.h>
 
+#include <atomic>
+#include <mutex>
+#include <set>
 #include <string_view>
 
 #include "plugin/call_mark.h"
@@ -32,7 +36,21 @@ std::string hint_for(std::string_view error) {
   return "'ldd' lists the libraries that it needs and which of them are missing";
 }
 
+std::atomic<const CallSite*> g_opened{nullptr};
+
+void note_opened(const std::string& path) {
+  static std::mutex mutex;
+  static std::set<std::string> paths;
+  const std::lock_guard lock(mutex);
+  if (!paths.insert(path).second) return;
+  g_opened = &CallSite::of("", fmt::format("{}", fmt::join(paths, "' or '")));
+}
+
 }  // namespace
+
+const CallSite* opened_shared_objects() {
+  return g_opened;
+}
 
 std::optional<Refusal> open_shared_object(const std::string& path, SharedObject& object) {
   if (auto refusal = inspect_elf_file(path)) return refusal;
@@ -44,7 +62,10 @@ std::optional<Refusal> open_shared_object(const std::string& path, SharedObject&
     object.handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   }
   mode.restore();
-  if (object.handle != nullptr) return std::nullopt;
+  if (object.handle != nullptr) {
+    note_opened(path);
+    return std::nullopt;
+  }
   const std::string error = linker_error(file);
   return Refusal{fmt::format("cannot be loaded: {}", error), hint_for(error)};
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "plugin/call_mark.h"
 #include "plugin/refusal.h"
 
 namespace lockstep {
@@ -17,6 +18,10 @@ struct SharedObject {
 // What the linker would refuse in words that help nobody (or would crash on) is found beforehand:
 // a file that is missing, not a shared object, for another machine, or cut off.
 std::optional<Refusal> open_shared_object(const std::string& path, SharedObject& object);
+
+// Those that this process has opened so far, in one name, as the culprit of what they do at the end
+// of a thread or the process; null: none.
+const CallSite* opened_shared_objects();
 
 struct ExportedConstant {
   const void* address = nullptr;

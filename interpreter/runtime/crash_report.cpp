@@ -13,6 +13,7 @@
 #include <ctime>
 
 #include "core/descriptors.h"
+#include "core/fork_guard.h"
 #include "core/own_thread.h"
 #include "runtime/crash_text.h"
 #include "runtime/fuse.h"
@@ -26,12 +27,14 @@ constexpr unsigned kLongestReport = 5;  // seconds; then the process ends withou
 constexpr std::chrono::milliseconds kBeforeReport{200};
 constexpr int kMostFrames = 64;
 
-// Written by install(), before anything can crash.
-int g_exit_code = 1;
-void (*g_crash_words)() = nullptr;
-pid_t g_process = 0;
+int g_exit_code = 1;  // written by install(), before anything can crash
+std::atomic<void (*)()> g_crash_words{nullptr};
 
-std::atomic<int> g_runs{0};
+// What our own exit() is called with: of this number the system keeps the last byte, the exit code.
+// A plugin has no reason to call it with the same.
+constexpr int kOurExit = 0x6c730000;
+std::atomic<int> g_our_status{kOurExit - 1};
+
 std::atomic<pid_t> g_reporter{0};  // the thread that writes the report
 
 // What hang() tells the thread that hangs. Written before the flag.
@@ -97,7 +100,7 @@ enum class Backtrace : bool { No, Yes };
   SignalText text;
   describe(crash, text);
   write_now(STDERR_FILENO, text.text());
-  if (g_crash_words != nullptr) g_crash_words();
+  if (const auto last_words = g_crash_words.load()) last_words();
   if (wanted == Backtrace::Yes) write_backtrace(instruction);
   if (g_exit_code == CrashReport::kAsWithoutReport && crash.kind == CrashKind::Signal) {
     signal(crash.signal, SIG_DFL);
@@ -111,6 +114,7 @@ Crash crash_here(CrashKind kind) {
   return {.kind = kind,
           .call = mark.look(),
           .tick = mark.tick(),
+          .run = mark.run(),
           .is_foreign_thread = !is_own_thread(),
           .is_isolated = g_exit_code == CrashReport::kAsWithoutReport};
 }
@@ -131,7 +135,7 @@ Crash crash_of(int number, const siginfo_t& info, const Registers& registers) {
 }
 
 void on_fatal_signal(int number, siginfo_t* info, void* context) {
-  if (getpid() != g_process) {  // a process that a leaf has forked off
+  if (ForkGuard::is_child()) {
     signal(number, SIG_DFL);
     raise(number);
     return;
@@ -144,20 +148,50 @@ void on_fatal_signal(int number, siginfo_t* info, void* context) {
   report(crash_of(number, *info, registers), Backtrace::Yes, registers.instruction);
 }
 
-void at_process_end() {
-  if (getpid() != g_process || g_exit_code == CrashReport::kAsWithoutReport) return;
-  const Crash crash = crash_here(CrashKind::Exit);
-  if (g_runs == 0 && crash.call.function() == PluginFunction::None) return;
+void on_foreign_exit() {
+  if (ForkGuard::is_child() || g_exit_code == CrashReport::kAsWithoutReport) return;
   begin_report();
-  report(crash, Backtrace::Yes);
+  report(crash_here(CrashKind::Exit), Backtrace::Yes);
+}
+
+// exit() begins with the destructors of thread_local objects: this one has come to life in our own
+// exit(), after they had gone.
+struct ExitWithinExit {
+  ~ExitWithinExit() { on_foreign_exit(); }
+};
+
+// The last of what was given to atexit, since it was the first. The destructors of shared objects
+// are still to come.
+void at_exit(int status, void* /*nothing*/) {
+  if (status != g_our_status) return on_foreign_exit();
+  static thread_local const ExitWithinExit detector;
+  static_cast<void>(detector);
+}
+
+// Of the threads of a study several may call exit() at once. A thread that finds no handler left
+// ends the process, also in the middle of the report of another: so there is one for each.
+bool register_exit_handlers() {
+  constexpr int kMostThreads = 1100;
+  bool good = true;
+  for (int thread = 0; thread < kMostThreads; ++thread) {
+    good &= on_exit(at_exit, nullptr) == 0 && std::at_quick_exit(on_foreign_exit) == 0;
+  }
+  return good;
+}
+
+// A child that a plugin has forked off, and that has come back from the call.
+void end_child() {
+  SignalText text;
+  describe(crash_here(CrashKind::Fork), text);
+  write_now(STDERR_FILENO, text.text());
+  _exit(1);
 }
 
 }  // namespace
 
-void CrashReport::install(int exit_code, void (*last_words)()) {
+void CrashReport::install(int exit_code) {
   g_exit_code = exit_code;
-  g_crash_words = last_words;
-  g_process = getpid();
+  ForkGuard::arm(end_child);
   adopt_thread();
   messages();  // made, before a signal handler asks for it
   std::array<void*, 1> frame;
@@ -169,21 +203,26 @@ void CrashReport::install(int exit_code, void (*last_words)()) {
   sigdelset(&action.sa_mask, SIGALRM);
   for (const int number : kFatalSignals) sigdelset(&action.sa_mask, number);
   for (const int number : kFatalSignals) sigaction(number, &action, nullptr);
-  static const bool registered =
-      std::atexit(at_process_end) == 0 && std::at_quick_exit(at_process_end) == 0;
+  static const bool registered = register_exit_handlers();
   static_cast<void>(registered);
 }
 
-void CrashReport::begin_run() {
-  ++g_runs;
+void CrashReport::set_last_words(void (*last_words)()) {
+  g_crash_words = last_words;
 }
-void CrashReport::end_run() {
-  --g_runs;
+
+void CrashReport::exit(int exit_code) {
+  g_our_status = kOurExit | exit_code;
+  std::exit(g_our_status);
 }
 
 void CrashReport::hang(pthread_t thread, const CallMark& mark, double seconds) {
   g_hung_thread = thread;
-  g_hang = {.kind = CrashKind::Hang, .call = mark.look(), .tick = mark.tick(), .seconds = seconds};
+  g_hang = {.kind = CrashKind::Hang,
+            .call = mark.look(),
+            .tick = mark.tick(),
+            .run = mark.run(),
+            .seconds = seconds};
   g_is_hung = true;
   pthread_kill(thread, SIGABRT);
   const timespec pause_time{.tv_sec = 0, .tv_nsec = 5'000'000};

@@ -32,6 +32,8 @@ void put_function(const Crash& crash, SignalText& text) {
     text << "tick " << crash.tick;
   } else if (function == PluginFunction::Load) {
     text << "the loading of its shared object";
+  } else if (function == PluginFunction::End) {
+    text << "its destructors or exit handlers";
   } else if (function == PluginFunction::None) {
     text << "a call";
   } else {
@@ -118,7 +120,11 @@ void put_event(const Crash& crash, SignalText& text) {
   if (crash.kind == CrashKind::Exit) {
     text << " called exit()";
     put_place(crash, text);
-    if (!is_inside_call(crash)) text << " during the run";
+    if (!is_inside_call(crash)) text << " before the work was done";
+  } else if (crash.kind == CrashKind::Fork) {
+    text << " forked";
+    put_place(crash, text);
+    text << ", and the child came back from the call; the child was ended";
   } else {
     text << " has not returned from ";
     put_function(crash, text);
@@ -128,6 +134,14 @@ void put_event(const Crash& crash, SignalText& text) {
 }
 
 void put_hints(const Crash& crash, SignalText& text) {
+  if (crash.kind == CrashKind::Fork) {
+    text << "  hint: a child must call exec or _exit; the run goes on without it\n";
+    return;
+  }
+  if (crash.run.number != CallMark::kNoRun) {
+    text << "  hint: this was run " << crash.run.number << " of cell " << crash.run.cell
+         << ", with the seed " << crash.run.seed << "\n";
+  }
   if (crash.sender != 0) return;
   constexpr const char* kForAuthor =
       "  hint: the author of the plugin needs the backtrace; c++filt makes it readable\n";
@@ -150,7 +164,7 @@ void put_hints(const Crash& crash, SignalText& text) {
 }  // namespace
 
 void describe(const Crash& crash, SignalText& text) {
-  text << "lockstep: error: ";
+  text << (crash.kind == CrashKind::Fork ? "lockstep: warning: " : "lockstep: error: ");
   put_event(crash, text);
   text << "\n";
   put_hints(crash, text);

@@ -11,12 +11,13 @@
 
 namespace lockstep {
 
-enum class CrashKind : std::uint8_t { Signal, Exit, Hang };
+enum class CrashKind : std::uint8_t { Signal, Exit, Hang, Fork };
 
 struct Crash {
   CrashKind kind;
   CallMark::Look call;             // of the thread that crashed
   std::uint64_t tick;              // as in CallMark
+  CallMark::RunOfStudy run = {};   // as in CallMark
   bool is_foreign_thread = false;  // not one of lockstep's own
   int signal = 0;                  // the rest of a signal: its number,
   int code = 0;                    // si_code,

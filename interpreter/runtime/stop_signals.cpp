@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "core/clock.h"
+#include "core/fork_guard.h"
 #include "runtime/fuse.h"
 
 namespace lockstep {
@@ -32,6 +33,11 @@ bool is_of_people(int number) {
 }
 
 void on_signal(int number) {
+  if (ForkGuard::is_child()) {  // of a plugin: it has nothing to halt or to save
+    signal(number, SIG_DFL);
+    raise(number);
+    return;
+  }
   int none = 0;
   const Nanoseconds now = WallClock().now();
   if (g_time.load() == Nanoseconds(0)) g_time = now;

@@ -3,79 +3,51 @@
 #include <algorithm>
 #include <condition_variable>
 #include <mutex>
+#include <semaphore>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "core/own_thread.h"
+#include "core/running_time.h"
+#include "runtime/crash_report.h"
 #include "runtime/stop_signals.h"
 
 namespace lockstep {
 namespace {
 
-using namespace std::chrono_literals;
-
 // How often to look, so that a limit is noticed soon after it is reached.
 Nanoseconds interval_of(const WatchdogOptions& options) {
-  Nanoseconds shortest = 800ms;
+  Nanoseconds shortest = std::chrono::seconds(1);
   for (const Nanoseconds limit : {options.hang_limit, options.halt_limit}) {
     if (limit > Nanoseconds(0)) shortest = std::min(shortest, limit);
   }
-  return std::clamp<Nanoseconds>(shortest / 8, 10ms, 100ms);
+  return RunningTime::interval_for(shortest);
+}
+
+Nanoseconds now() {
+  return WallClock().now();
 }
 
 }  // namespace
 
 struct Watchdog::Implementation {
-  Implementation(WatchdogOptions given, const CallMark& watched);
-  ~Implementation();
-  Implementation(const Implementation&) = delete;
-  Implementation& operator=(const Implementation&) = delete;
+  Implementation(WatchdogOptions given, const CallMark& watched)
+      : options(std::move(given)), mark(watched), time(interval_of(options), now()) {}
 
-  void watch();
-  void look(Nanoseconds elapsed);
+  void look();
 
   const WatchdogOptions options;
-  const Nanoseconds interval;
   const CallMark& mark;
+  RunningTime time;
   CallMark::Look seen;   // at the last look
   Nanoseconds lasts{0};  // how long `seen` has been seen
   bool halt_told = false;
   bool hang_told = false;
-
-  std::mutex mutex;
-  std::condition_variable ended;
-  bool must_end = false;
-  std::thread thread;
 };
 
-Watchdog::Implementation::Implementation(WatchdogOptions given, const CallMark& watched)
-    : options(std::move(given)), interval(interval_of(options)), mark(watched) {
-  thread = own_thread([this] { watch(); }, StopSignals::numbers());
-}
-
-Watchdog::Implementation::~Implementation() {
-  {
-    const std::lock_guard lock(mutex);
-    must_end = true;
-  }
-  ended.notify_one();
-  thread.join();
-}
-
-void Watchdog::Implementation::watch() {
-  WallClock clock;
-  Nanoseconds last_look = clock.now();
-  std::unique_lock lock(mutex);
-  while (!ended.wait_for(lock, interval, [this] { return must_end; })) {
-    lock.unlock();
-    const Nanoseconds now = clock.now();
-    look(now - last_look);
-    last_look = now;
-    lock.lock();
-  }
-}
-
-void Watchdog::Implementation::look(Nanoseconds elapsed) {
+void Watchdog::Implementation::look() {
+  const Nanoseconds elapsed = time.look(now());
   const CallMark::Look call = mark.look();
   if (call != seen) {
     seen = call;
@@ -84,9 +56,7 @@ void Watchdog::Implementation::look(Nanoseconds elapsed) {
     return;
   }
   if (call.function() == PluginFunction::None) return;
-  // When this thread was late, the whole process may have been stopped, in a debugger or by a
-  // signal: that is not the leaf's time.
-  lasts += std::min(elapsed, 2 * interval);
+  lasts += elapsed;
   const auto is_over = [this](Nanoseconds limit) {
     return limit > Nanoseconds(0) && lasts >= limit;
   };
@@ -100,9 +70,88 @@ void Watchdog::Implementation::look(Nanoseconds elapsed) {
   }
 }
 
-Watchdog::Watchdog(WatchdogOptions options)
-    : it_(std::make_unique<Implementation>(std::move(options), CallMark::this_thread())) {}
+// The one thread that looks, there as long as there is a watchdog.
+class Watchdog::Patrol {
+ public:
+  // Never destroyed: it works to the very end of the process.
+  static Patrol& instance() {
+    static auto& patrol = *new Patrol;
+    return patrol;
+  }
+  void add(Implementation& watched);
+  void remove(const Implementation& watched);
 
-Watchdog::~Watchdog() = default;
+ private:
+  void work();
+
+  std::mutex changing_;  // who adds and removes
+  std::thread thread_;
+  std::binary_semaphore ready_{0};  // of the thread
+  std::mutex mutex_;                // of what follows
+  std::condition_variable changed_;
+  std::vector<Implementation*> watched_;
+};
+
+void Watchdog::Patrol::add(Implementation& watched) {
+  const std::lock_guard change(changing_);
+  {
+    const std::lock_guard lock(mutex_);
+    watched_.push_back(&watched);
+  }
+  changed_.notify_one();  // which may have to look more often
+  if (thread_.joinable()) return;
+  try {
+    thread_ = own_thread([this] { work(); }, StopSignals::numbers());
+  } catch (...) {
+    watched_.clear();
+    throw;
+  }
+  ready_.acquire();
+}
+
+void Watchdog::Patrol::remove(const Implementation& watched) {
+  const std::lock_guard change(changing_);
+  bool is_last = false;
+  {
+    const std::lock_guard lock(mutex_);
+    std::erase(watched_, &watched);
+    is_last = watched_.empty();
+  }
+  if (!is_last) return;
+  changed_.notify_one();
+  thread_.join();
+}
+
+void Watchdog::Patrol::work() {
+  // To begin takes a lock of the dynamic linker, which a plugin that hangs while it is loaded
+  // keeps.
+  ready_.release();
+  std::unique_lock lock(mutex_);
+  while (!watched_.empty()) {
+    Nanoseconds interval = Nanoseconds::max();
+    for (const Implementation* it : watched_) interval = std::min(interval, it->time.interval());
+    changed_.wait_for(lock, interval);
+    for (Implementation* it : watched_) it->look();
+  }
+}
+
+Watchdog::Watchdog(WatchdogOptions options)
+    : it_(std::make_unique<Implementation>(std::move(options), CallMark::this_thread())) {
+  Patrol::instance().add(*it_);
+}
+
+Watchdog::~Watchdog() {
+  Patrol::instance().remove(*it_);
+}
+
+WatchdogOptions ends_process(Nanoseconds hang_limit) {
+  return {.hang_limit = hang_limit,
+          .halt_limit = Nanoseconds(0),
+          .on_long_halt = {},
+          .on_hang = [thread = pthread_self(), &mark = CallMark::this_thread()](
+                         const CallMark::Look&, Nanoseconds lasts) {
+            CrashReport::hang(thread, mark, to_seconds(lasts));
+          }};
+}
 
 }  // namespace lockstep

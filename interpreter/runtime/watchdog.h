@@ -1,6 +1,6 @@
-// A thread that looks at the calls of the tick thread and speaks up when one does not return. It
-// costs the tick thread nothing. It also takes the stop signals, so that a leaf which blocks them
-// in the tick thread cannot keep a run from being stopped.
+// One thread for all that looks at the calls of other threads and speaks up when one does not
+// return. It costs those threads nothing. It also takes the stop signals, so that a leaf which
+// blocks them in the tick thread cannot keep a run from being stopped.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@ namespace lockstep {
 struct WatchdogOptions {
   Nanoseconds hang_limit{0};  // a call that lasts longer, unless it is bounded; 0 = never
   Nanoseconds halt_limit{0};  // a halt that lasts longer is told once; 0 = never
-  // On the watchdog's thread.
+  // On the thread that looks, which must not construct or destroy a watchdog then.
   std::function<void(const CallMark::Look& call, Nanoseconds lasts)> on_long_halt = {};
   std::function<void(const CallMark::Look& call, Nanoseconds lasts)> on_hang =
       {};  // may not return
@@ -29,8 +29,13 @@ class Watchdog {
   Watchdog& operator=(const Watchdog&) = delete;
 
  private:
+  class Patrol;
   struct Implementation;
   std::unique_ptr<Implementation> it_;
 };
+
+// For the thread that calls this: a call that lasts longer than `hang_limit` (0 = never) ends the
+// process with a crash report.
+WatchdogOptions ends_process(Nanoseconds hang_limit);
 
 }  // namespace lockstep

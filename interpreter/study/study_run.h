@@ -34,6 +34,7 @@ class StudyRun {
  private:
   const StudyCell& cell_;
   LoopOptions options_;
+  LeafWatch watch_{LeafWatchOptions{}};  // names the culprit of a crash, times nothing
   RunMeasures measures_;
   Observer* observers_[1] = {&measures_};
   std::optional<Run> run_;

@@ -9,7 +9,8 @@
 #include <thread>
 #include <vector>
 
-#include "core/own_thread.h"
+#include "plugin/call_mark.h"
+#include "runtime/plugin_thread.h"
 #include "study/row_text.h"
 
 namespace lockstep {
@@ -24,7 +25,7 @@ struct Chunk {
   std::uint64_t rows = 0;
   bool complete = true;  // false: nothing after it counts
   std::optional<StudyFault> fault;
-  std::exception_ptr failure;           // nobody expected it
+  std::exception_ptr failure;  // nobody expected it
   std::vector<StudyOutOfRange> out_of_range;
   std::atomic<std::uint64_t> ready{0};  // 1 + the number of the chunk that is in it
 };
@@ -51,6 +52,7 @@ class Workshop {
     }
   };
 
+  void work();
   void make_chunks();
   void make(std::uint64_t number, Chunk& chunk, std::optional<StudyRun>& run, std::uint64_t& cell);
   void write_ready();
@@ -69,6 +71,13 @@ class Workshop {
   std::optional<StudyFault> fault_;
   std::exception_ptr failure_;
 };
+
+void Workshop::work() {
+  watch_this_thread(work_.hang_limit);
+  make_chunks();
+  gone_.release();
+  leave_thread_to_plugins();
+}
 
 void Workshop::make_chunks() {
   std::optional<StudyRun> run;
@@ -98,7 +107,6 @@ void Workshop::make_chunks() {
     }
     chunk.ready.store(number + 1, std::memory_order_release);
   }
-  gone_.release();
 }
 
 void Workshop::make(std::uint64_t number, Chunk& chunk, std::optional<StudyRun>& run,
@@ -116,6 +124,7 @@ void Workshop::make(std::uint64_t number, Chunk& chunk, std::optional<StudyRun>&
     }
     if (index == first || row.run < work_.plan.shard.of) cell_text = row_cell(work_.plan, cell);
     const std::uint64_t seed = run_seed(at.seed, row.cell, row.run);
+    CallMark::this_thread().set_run({row.cell, row.run, seed});
     const RunEnd end = run->run(seed);
     if (end.reason == StopReason::Fault) {
       chunk.fault = StudyFault{row, seed, *run->fault(), end.ticks};
@@ -164,13 +173,7 @@ void Workshop::write_ready() {
 
 std::optional<StudyFault> Workshop::run() {
   std::vector<std::jthread> threads;
-  const Dismissal dismissal{*this};
-  for (unsigned job = 0; job < work_.jobs; ++job) {
-    threads.emplace_back([this] {
-      adopt_thread();
-      make_chunks();
-    });
-  }
+  for (unsigned job = 0; job < work_.jobs; ++job) threads.emplace_back([this] { work(); });
   for (unsigned alive = work_.jobs; alive > 0;) {
     if (gone_.try_acquire_for(kWriteInterval)) --alive;
     write_ready();

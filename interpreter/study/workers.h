@@ -34,6 +34,7 @@ struct StudyWork {
   std::span<const MeasureSpec> measures;
   std::uint64_t first_row = 0;
   unsigned jobs = 1;
+  Nanoseconds hang_limit{0};  // a call of a leaf that lasts longer ends the process; 0 = never
   int (*stop_signal)() = nullptr;
   // Called on the caller's thread. Lines of runs.csv, in order, and how many; false ends the study.
   std::function<bool(std::string_view lines, std::uint64_t rows)> write;

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include <pthread.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 #include <unwind.h>
 
@@ -78,6 +79,13 @@ struct HostileException final : std::exception {
     return "";
   }
 };
+
+void end(const std::string& where);
+struct ThreadEnd {
+  bool is_used = false;
+  ~ThreadEnd() { end("thread"); }
+};
+thread_local ThreadEnd t_end;
 
 struct Leaf {
   const lockstep_host* host;
@@ -163,6 +171,8 @@ void Leaf::misbehave(const std::string& how) {
       while (true) host->log(caller, LOCKSTEP_LOG_INFO, "still here");
     }).detach();
   }
+  if (how == "fork") static_cast<void>(fork());
+  if (how == "clone") syscall(SYS_clone, SIGCHLD, 0, 0, 0, 0);
   if (how == "stop") std::raise(SIGSTOP);
   if (how == "stop with the host") {
     usleep(50'000);  // it sleeps by then
@@ -204,6 +214,7 @@ void start(void* leaf) {
 }
 lockstep_status tick(void* leaf) {
   Leaf& it = leaf_of(leaf);
+  t_end.is_used = true;
   it.misbehave_in("tick");
   if (std::exchange(it.nonsense, false)) return 7;
   return ++it.ticks < it.number(kTicks) ? LOCKSTEP_RUNNING : LOCKSTEP_SUCCESS;
@@ -230,10 +241,30 @@ double progress(void* leaf) {
 
 // What a shared object can do before anybody has asked it for anything.
 __attribute__((constructor)) void load() {
-  const char* how = std::getenv("HOSTILE_LOAD");
-  if (how != nullptr && std::strcmp(how, "segv") == 0) std::raise(SIGSEGV);
-  if (how != nullptr && std::strcmp(how, "round up") == 0) std::fesetround(FE_UPWARD);
-  if (how != nullptr && std::strcmp(how, "trap") == 0) trap_afterwards();
+  const char* const variable = std::getenv("HOSTILE_LOAD");
+  const std::string how = variable == nullptr ? "" : variable;
+  if (how == "segv") std::raise(SIGSEGV);
+  if (how == "round up") std::fesetround(FE_UPWARD);
+  if (how == "trap") trap_afterwards();
+  if (how == "exit") std::exit(0);
+  if (how == "hang") for_ever();
+  if (how == "fork") static_cast<void>(fork());
+}
+
+// What it can do when all is over: HOSTILE_END is where and how, "static hang".
+void end(const std::string& where) {
+  const char* const variable = std::getenv("HOSTILE_END");
+  const std::string how = variable == nullptr ? "" : variable;
+  if (how == where + " hang") for_ever();
+  if (how == where + " exit") std::exit(0);
+  if (how == where + " segv") std::raise(SIGSEGV);
+  if (how == where + " print") static_cast<void>(!write(STDERR_FILENO, "ended\n", 6));
+}
+const struct StaticEnd {
+  ~StaticEnd() { end("static"); }
+} g_static_end;
+__attribute__((destructor)) void unload() {
+  end("shared object");
 }
 
 bool g_never_deinit = false;
@@ -241,6 +272,8 @@ bool init(const lockstep_host*, const lockstep_caller*) {
   const char* how = std::getenv("HOSTILE_INIT");
   if (how != nullptr && std::strcmp(how, "segv") == 0) std::raise(SIGSEGV);
   if (how != nullptr && std::strcmp(how, "hang") == 0) for_ever();
+  if (how != nullptr && std::strcmp(how, "fork") == 0) static_cast<void>(fork());
+  std::atexit([] { end("atexit"); });
   g_never_deinit = std::getenv("HOSTILE_DEINIT") != nullptr;
   return true;
 }

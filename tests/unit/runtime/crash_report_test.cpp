@@ -2,6 +2,7 @@
 #include "runtime/crash_report.h"
 
 #include <signal.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -15,6 +16,7 @@
 #include <thread>
 
 #include "core/own_thread.h"
+#include "runtime/watchdog.h"
 #include "unit/runtime/forked_child.h"
 
 namespace lockstep::test {
@@ -58,19 +60,19 @@ LOCKSTEP_UNCHECKED int overflow(int depth) {  // NOLINT(misc-no-recursion)
 // `body` in the leaf's tick 12.
 Ended in_tick(const std::function<void()>& body, void (*words)() = last_words) {
   return in_child([&] {
-    CrashReport::install(kCrashed, words);
-    CrashReport::begin_run();
+    CrashReport::install(kCrashed);
+    CrashReport::set_last_words(words);
     CallMark::this_thread().set_tick(12);
     const MarkedCall call(leaf, PluginFunction::Tick);
     body();
   });
 }
 
-// `body` while a run goes on, outside of all calls.
-Ended in_run(const std::function<void()>& body) {
+// `body` outside of all calls.
+Ended outside(const std::function<void()>& body) {
   return in_child([&] {
-    CrashReport::install(kCrashed, last_words);
-    CrashReport::begin_run();
+    CrashReport::install(kCrashed);
+    CrashReport::set_last_words(last_words);
     body();
   });
 }
@@ -113,7 +115,7 @@ TEST_CASE("a stack overflow is told on a stack of its own") {
 }
 
 TEST_CASE("a stack overflow in a thread of our own is told, too") {
-  const Ended ended = in_run([] {
+  const Ended ended = outside([] {
     std::thread([] {
       adopt_thread();
       const MarkedCall call(leaf, PluginFunction::Create);
@@ -129,21 +131,59 @@ TEST_CASE("exit inside a call is a crash") {
   check_report(in_tick([] { std::quick_exit(0); }), kLeaf + "called exit() in tick 12");
 }
 
-TEST_CASE("exit in a thread of a plugin is a crash while a run goes on") {
-  check_report(in_run([] { std::thread([] { std::quick_exit(0); }).join(); }),
-               "lockstep: error: a thread that a plugin has started called exit() during the run");
+TEST_CASE("exit in a thread of a plugin is a crash until our work is done") {
+  check_report(
+      outside([] { std::thread([] { std::quick_exit(0); }).join(); }),
+      "lockstep: error: a thread that a plugin has started called exit() before the work was done");
 }
 
-TEST_CASE("exit without a run is an exit") {
-  const Ended ended = in_child([] {
-    CrashReport::install(kCrashed, last_words);
-    CrashReport::begin_run();
-    CrashReport::end_run();
+TEST_CASE("our own exit is an exit, and what was given to atexit is done") {
+  const Ended ended = outside([] {
     { const MarkedCall call(leaf, PluginFunction::Tick); }
-    std::quick_exit(7);
+    std::atexit([] { say("done\n"); });
+    CrashReport::exit(7);
   });
   CHECK(ended.exit_code == 7);
-  CHECK(ended.said.empty());
+  CHECK(ended.said == "done\n");
+}
+
+struct ExitsWithItsThread {
+  ~ExitsWithItsThread() { std::exit(7); }
+};
+
+TEST_CASE("exit of a plugin within our own exit is a crash, whatever its code") {
+  const auto end = [] {
+    CallMark::this_thread().enter(CallSite::of("", "motion"), PluginFunction::End);
+    CrashReport::exit(7);
+  };
+  const std::string line =
+      "lockstep: error: the plugin 'motion' called exit() in its destructors or exit handlers";
+  check_report(outside([&] {
+                 std::atexit([] { std::exit(7); });
+                 end();
+               }),
+               line);
+  check_report(outside([&] {
+                 static thread_local const ExitsWithItsThread it;
+                 static_cast<void>(it);
+                 end();
+               }),
+               line);
+}
+
+TEST_CASE("what a plugin gave to atexit is watched") {
+  const Ended ended = outside([] {
+    std::atexit([] {
+      while (true) pause();
+    });
+    const Watchdog watchdog(ends_process(std::chrono::milliseconds(100)));
+    CallMark::this_thread().enter(CallSite::of("", "motion"), PluginFunction::End);
+    CrashReport::exit(7);
+  });
+  CHECK(ended.exit_code == kCrashed);
+  CHECK(
+      has(ended,
+          "the plugin 'motion' has not returned from its destructors or exit handlers for 0.1 s"));
 }
 
 TEST_CASE("a crash in a thread that a plugin started is not that of a leaf") {
@@ -154,7 +194,7 @@ TEST_CASE("a crash in a thread that a plugin started is not that of a leaf") {
 }
 
 TEST_CASE("a crash of our own is told as such") {
-  const Ended ended = in_run([] { write_to(0x10); });
+  const Ended ended = outside([] { write_to(0x10); });
   check_report(ended,
                "lockstep: error: lockstep crashed: SIGSEGV, invalid memory reference "
                "(address 0x10)");
@@ -170,7 +210,7 @@ TEST_CASE("a crash of the report itself ends the process at once") {
 }
 
 TEST_CASE("of two threads that crash at once one reports") {
-  const Ended ended = in_run([] {
+  const Ended ended = outside([] {
     std::atomic<int> ready{0};
     const auto crash = [&] {
       ++ready;
@@ -208,6 +248,32 @@ TEST_CASE("a hang of a thread that takes no signal is told without a backtrace")
   CHECK(has(ended, kLeaf + "has not returned from tick 12 for 2.0 s"));
   CHECK(has(ended, "last words\n"));
   CHECK_FALSE(has(ended, "backtrace:\n"));
+}
+
+// Forked off without the C library, which therefore cannot know.
+pid_t raw_fork() {
+  return static_cast<pid_t>(syscall(SYS_clone, SIGCHLD, 0, 0, 0, 0));
+}
+
+TEST_CASE("a child that comes back from the call is told of and ends there") {
+  for (pid_t (*forked)() : {static_cast<pid_t (*)()>(fork), raw_fork}) {
+    const Ended ended = in_tick([&] {
+      int status = 0;
+      {
+        const MarkedCall call(leaf, PluginFunction::Halt);
+        const pid_t child = forked();
+        if (child == 0) return;
+        waitpid(child, &status, 0);
+      }
+      _exit(WIFEXITED(status) ? WEXITSTATUS(status) : 99);
+    });
+    CHECK(ended.exit_code == 1);
+    CHECK(ended.said ==
+          "lockstep: warning: the leaf 'Main/arm' (Advance of plugin 'motion') "
+          "forked in its halt function (tick 12), and the child came back from "
+          "the call; the child was ended\n"
+          "  hint: a child must call exec or _exit; the run goes on without it\n");
+  }
 }
 
 TEST_CASE("what a process does that a leaf forks off is its own matter") {

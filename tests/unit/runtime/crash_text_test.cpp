@@ -63,6 +63,15 @@ TEST_CASE("a crash of lockstep tells the last call, which may have overwritten m
         std::string::npos);
 }
 
+TEST_CASE("a crash in a study is told with its run") {
+  Crash crash = segv(in(kLeaf, PluginFunction::Tick));
+  crash.run = {.cell = 3, .number = 17, .seed = 1234};
+  SignalText text;
+  describe(crash, text);
+  CHECK(std::string(text.text()).find("hint: this was run 17 of cell 3, with the seed 1234\n") !=
+        std::string::npos);
+}
+
 TEST_CASE("exit and hang are told with the function they were in") {
   const std::string begin = "lockstep: error: the leaf 'Main/arm' (Advance of plugin 'motion') ";
   Crash crash{.kind = CrashKind::Exit, .call = in(kLeaf, PluginFunction::Tick), .tick = 0};
@@ -70,7 +79,8 @@ TEST_CASE("exit and hang are told with the function they were in") {
   crash.call = {};
   crash.is_foreign_thread = true;
   CHECK(first_line(crash) ==
-        "lockstep: error: a thread that a plugin has started called exit() during the run");
+        "lockstep: error: a thread that a plugin has started called exit() before the work was "
+        "done");
   crash = {
       .kind = CrashKind::Hang, .call = in(kLeaf, PluginFunction::Tick), .tick = 3, .seconds = 1.96};
   CHECK(first_line(crash) == begin + "has not returned from tick 3 for 2.0 s");
