@@ -9,7 +9,7 @@
 
 namespace lockstep {
 
-// Of the file and the directory it lies in.
+// Of the file and the directory it lies in; of a symbolic link, of all that it leads to as well.
 void warn_of_writable_plugin(const std::string& path, const SourceLocation& where,
                              Diagnostics& diagnostics);
 // Of directories that are searched: who may add a file to one that comes first decides what is

@@ -66,6 +66,36 @@ TEST_CASE("a plugin that everyone may replace is warned of, and loaded") {
   }
 }
 
+TEST_CASE("the directories behind a plugin that is a symbolic link are looked at, each of them") {
+  const Installed it;
+  const auto make = [&](const std::string& name, mode_t mode) {
+    const std::string path = it.directory.path(name);
+    REQUIRE(mkdir(path.c_str(), 0755) == 0);
+    Installed::permit(path, mode);
+    return path;
+  };
+  const std::string first = make("first", 0755), middle = make("middle", 0777);
+  const std::string last = make("last", 0777);
+  fs::rename(it.plugin, last + "/real.so");
+  fs::create_symlink("../last/real.so", middle + "/link.so");
+  fs::create_symlink(middle + "/link.so", first + "/motion.so");
+  const Outcome by_name = lockstep::test::lockstep({"check", it.tree, "--plugin-path", first});
+  const Outcome by_file =
+      lockstep::test::lockstep({"check", it.tree, "--plugin", first + "/motion.so"});
+  for (const Outcome& outcome : {by_name, by_file}) {
+    INFO(outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(contains(outcome.err, kWarning + (" directory '" + middle + "'")));
+    CHECK(contains(outcome.err, kWarning + (" directory '" + last + "'")));
+    CHECK_FALSE(contains(outcome.err, "'" + first + "'"));
+  }
+  Installed::permit(middle, 0755);
+  Installed::permit(last, 0755);
+  const Outcome quiet = lockstep::test::lockstep({"check", it.tree, "--plugin-path", first});
+  CHECK(quiet.code == 0);
+  CHECK_FALSE(contains(quiet.err, kWarning));
+}
+
 TEST_CASE("a directory that everyone may write to is warned of when it is searched first") {
   const Installed it;
   const std::string open = it.directory.path("open");
