@@ -1,8 +1,23 @@
+#include <stdlib.h>
+#include <unistd.h>
+
 #include "cli/command.h"
 #include "cli/exit_code.h"
 #include "core/descriptors.h"
 #include "runtime/crash_report.h"
+#include "runtime/fuse.h"
 #include "runtime/plugin_thread.h"
+
+// NOLINTBEGIN(bugprone-reserved-identifier)
+// What plugins end the process with: a name of the program is found before that of the C library.
+extern "C" void _exit(int exit_code) {
+  lockstep::CrashReport::foreign_exit();
+  lockstep::end_at_once(exit_code);
+}
+extern "C" void _Exit(int exit_code) noexcept {
+  _exit(exit_code);
+}
+// NOLINTEND(bugprone-reserved-identifier)
 
 int main(int argc, char** argv) {
   lockstep::hold_standard_descriptors();

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
@@ -16,6 +15,7 @@
 #include "cli/exit_code.h"
 #include "cli/log.h"
 #include "observers/raw_terminal.h"
+#include "runtime/fuse.h"
 #include "runtime/outlet.h"
 
 namespace lockstep {
@@ -29,7 +29,7 @@ namespace {
   } catch (const std::bad_alloc&) {
     RawTerminal::restore();
     messages().say("lockstep: error: out of memory\n");
-    _exit(kExitInternal);
+    end_at_once(kExitInternal);
   } catch (...) {
   }
   std::abort();

@@ -27,7 +27,9 @@ constexpr unsigned kLongestReport = 5;  // seconds; then the process ends withou
 constexpr std::chrono::milliseconds kBeforeReport{200};
 constexpr int kMostFrames = 64;
 
-int g_exit_code = 1;  // written by install(), before anything can crash
+// Written by install(), before anything can crash.
+int g_exit_code = 1;
+pid_t g_process = 0;
 std::atomic<void (*)()> g_crash_words{nullptr};
 
 // What our own exit() is called with: of this number the system keeps the last byte, the exit code.
@@ -65,7 +67,7 @@ void begin_report() {
   const auto thread = static_cast<pid_t>(syscall(SYS_gettid));
   pid_t reporter = 0;
   if (!g_reporter.compare_exchange_strong(reporter, thread)) {
-    if (reporter == thread) _exit(g_exit_code);
+    if (reporter == thread) end_at_once(g_exit_code);
     while (true) pause();
   }
   sigset_t unblocked;
@@ -106,7 +108,7 @@ enum class Backtrace : bool { No, Yes };
     signal(crash.signal, SIG_DFL);
     raise(crash.signal);
   }
-  _exit(g_exit_code);
+  end_at_once(g_exit_code);
 }
 
 Crash crash_here(CrashKind kind) {
@@ -148,22 +150,16 @@ void on_fatal_signal(int number, siginfo_t* info, void* context) {
   report(crash_of(number, *info, registers), Backtrace::Yes, registers.instruction);
 }
 
-void on_foreign_exit() {
-  if (ForkGuard::is_child() || g_exit_code == CrashReport::kAsWithoutReport) return;
-  begin_report();
-  report(crash_here(CrashKind::Exit), Backtrace::Yes);
-}
-
 // exit() begins with the destructors of thread_local objects: this one has come to life in our own
 // exit(), after they had gone.
 struct ExitWithinExit {
-  ~ExitWithinExit() { on_foreign_exit(); }
+  ~ExitWithinExit() { CrashReport::foreign_exit(); }
 };
 
 // The last of what was given to atexit, since it was the first. The destructors of shared objects
 // are still to come.
 void at_exit(int status, void* /*nothing*/) {
-  if (status != g_our_status) return on_foreign_exit();
+  if (status != g_our_status) return CrashReport::foreign_exit();
   static thread_local const ExitWithinExit detector;
   static_cast<void>(detector);
 }
@@ -174,7 +170,7 @@ bool register_exit_handlers() {
   constexpr int kMostThreads = 1100;
   bool good = true;
   for (int thread = 0; thread < kMostThreads; ++thread) {
-    good &= on_exit(at_exit, nullptr) == 0 && std::at_quick_exit(on_foreign_exit) == 0;
+    good &= on_exit(at_exit, nullptr) == 0 && std::at_quick_exit(CrashReport::foreign_exit) == 0;
   }
   return good;
 }
@@ -184,13 +180,14 @@ void end_child() {
   SignalText text;
   describe(crash_here(CrashKind::Fork), text);
   write_now(STDERR_FILENO, text.text());
-  _exit(1);
+  end_at_once(1);
 }
 
 }  // namespace
 
 void CrashReport::install(int exit_code) {
   g_exit_code = exit_code;
+  g_process = getpid();
   ForkGuard::arm(end_child);
   adopt_thread();
   messages();  // made, before a signal handler asks for it
@@ -214,6 +211,13 @@ void CrashReport::set_last_words(void (*last_words)()) {
 void CrashReport::exit(int exit_code) {
   g_our_status = kOurExit | exit_code;
   std::exit(g_our_status);
+}
+
+void CrashReport::foreign_exit() {
+  // The number also tells a child that shares our memory, as vfork makes one.
+  if (getpid() != g_process || g_exit_code == CrashReport::kAsWithoutReport) return;
+  begin_report();
+  report(crash_here(CrashKind::Exit), Backtrace::Yes);
 }
 
 void CrashReport::hang(pthread_t thread, const CallMark& mark, double seconds) {

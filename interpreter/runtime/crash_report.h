@@ -13,8 +13,8 @@ namespace lockstep {
 class CrashReport {
  public:
   // From now on SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT and any exit() but exit() below end this
-  // process with a report and `exit_code`. What is not caught: _exit(), SIGKILL, and a stack
-  // overflow in a thread that is not ours. A process that a plugin forks off ends as it would
+  // process with a report and `exit_code`. What is not caught: SIGKILL, and a stack overflow in a
+  // thread that is not ours. A process that a plugin forks off ends as it would
   // without us, unless it comes back from the call: then it ends there, and is told of.
   static void install(int exit_code);
   // Called once, after the culprit is named and before the backtrace. Must be async-signal-safe.
@@ -26,6 +26,8 @@ class CrashReport {
   // The end of the process in order. An exit() of a plugin, also one in a destructor or in what it
   // gave to atexit, is a crash; results that were written stand.
   [[noreturn]] static void exit(int exit_code);
+  // What every other end is to call: reports it. Returns in a process that was forked off.
+  static void foreign_exit();
 
   // Reports that `thread`, whose mark is given, has been in a call for too long, with its backtrace
   // when it still takes a signal, and ends the process. Called by the watchdog's thread.

@@ -1,6 +1,7 @@
 #include "runtime/fuse.h"
 
 #include <signal.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 namespace lockstep {
@@ -13,13 +14,17 @@ volatile sig_atomic_t g_fuse_code = 0;
 void light_fuse(unsigned seconds, int exit_code) {
   g_fuse_code = exit_code;
   struct sigaction action {};
-  action.sa_handler = [](int) { _exit(g_fuse_code); };
+  action.sa_handler = [](int) { end_at_once(g_fuse_code); };
   sigaction(SIGALRM, &action, nullptr);
   sigset_t alarm_only;
   sigemptyset(&alarm_only);
   sigaddset(&alarm_only, SIGALRM);
   pthread_sigmask(SIG_UNBLOCK, &alarm_only, nullptr);
   alarm(seconds);
+}
+
+void end_at_once(int exit_code) {
+  while (true) syscall(SYS_exit_group, exit_code);
 }
 
 }  // namespace lockstep

@@ -46,7 +46,7 @@ void on_signal(int number) {
   if (is_echo || !is_of_people(number)) return;
   light_fuse(1, 128 + number);
   if (g_last_words != nullptr) g_last_words();
-  _exit(128 + number);
+  end_at_once(128 + number);
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ struct Commands {
 TEST_CASE(
     "a plugin that crashes, hangs or calls exit while it is loaded is named in every command") {
   const Commands commands;
-  for (const std::string how : {"segv", "hang", "exit"}) {
+  for (const std::string how : {"segv", "hang", "exit", "_exit"}) {
     for (Strings arguments : commands.all) {
       INFO(arguments[0] << " " << how);
       const Outcome in_process = commands.run_one(arguments, {{"HOSTILE_LOAD", how}});
@@ -70,7 +70,7 @@ TEST_CASE("what plugins do at the very end is done, and its result is that of th
 TEST_CASE(
     "a plugin that crashes, hangs or calls exit at the very end is named, its results stand") {
   for (const std::string where : {"static", "atexit", "shared object", "thread"}) {
-    for (const std::string how : {"segv", "hang", "exit"}) {
+    for (const std::string how : {"segv", "hang", "exit", "_exit"}) {
       INFO(where << " " << how);
       const std::map<std::string, std::string> environment = {{"HOSTILE_END", where + " " + how}};
       const Strings options = {"--clock", "virtual", "--hang-limit", "0.2", "--json"};
@@ -104,7 +104,7 @@ TEST_CASE("the end of a plugin's is named in every command") {
 
 TEST_CASE("a leaf that brings down a study is named, with its run") {
   const TemporaryDirectory directory;
-  for (const std::string how : {"segv", "hang", "exit", "throw hanging what"}) {
+  for (const std::string how : {"segv", "hang", "exit", "_exit", "throw hanging what"}) {
     INFO(how);
     const std::string tree = directory.file("tree.xml", hostile_tree({how}));
     const Strings arguments = {"study",
@@ -133,7 +133,7 @@ TEST_CASE("a leaf that brings down a study is named, with its run") {
 
 TEST_CASE("a plugin whose thread_local objects do not go keeps no study from ending") {
   const Commands commands;
-  for (const std::string how : {"hang", "exit", "segv"}) {
+  for (const std::string how : {"hang", "exit", "_exit", "segv"}) {
     const Outcome outcome =
         commands.run_one(commands.all.back(), {{"HOSTILE_END", "thread " + how}});
     INFO(outcome.err);
@@ -169,6 +169,14 @@ TEST_CASE("a child that a leaf forks off never comes back into the run") {
         CHECK(contains(with.err, "and the child came back from the call; the child was ended"));
       }
     }
+  }
+}
+
+TEST_CASE("a child that a leaf starts as system() does may end") {
+  for (const Where where : {Where::InProcess, Where::Isolated}) {
+    const Outcome outcome = run_hostile({"vfork"}, where, {"--clock", "virtual"});
+    INFO(outcome.err);
+    CHECK(outcome.code == 0);
   }
 }
 

@@ -172,6 +172,7 @@ void Leaf::misbehave(const std::string& how) {
     }).detach();
   }
   if (how == "fork") static_cast<void>(fork());
+  if (how == "vfork" && vfork() == 0) _exit(0);  // NOLINT: as system() does
   if (how == "clone") syscall(SYS_clone, SIGCHLD, 0, 0, 0, 0);
   if (how == "stop") std::raise(SIGSTOP);
   if (how == "stop with the host") {
@@ -247,6 +248,7 @@ __attribute__((constructor)) void load() {
   if (how == "round up") std::fesetround(FE_UPWARD);
   if (how == "trap") trap_afterwards();
   if (how == "exit") std::exit(0);
+  if (how == "_exit") _exit(0);
   if (how == "hang") for_ever();
   if (how == "fork") static_cast<void>(fork());
 }
@@ -257,6 +259,7 @@ void end(const std::string& where) {
   const std::string how = variable == nullptr ? "" : variable;
   if (how == where + " hang") for_ever();
   if (how == where + " exit") std::exit(0);
+  if (how == where + " _exit") std::_Exit(0);
   if (how == where + " segv") std::raise(SIGSEGV);
   if (how == where + " print") static_cast<void>(!write(STDERR_FILENO, "ended\n", 6));
 }

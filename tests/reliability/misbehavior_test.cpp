@@ -183,6 +183,7 @@ TEST_CASE("a leaf that crashes brings down its own process only") {
   check_crash({"abort"}, "SIGABRT", "killed by SIGABRT");
   check_crash({"overflow"}, "SIGSEGV", "killed by SIGSEGV");
   check_crash({"exit"}, "called exit", "ended with exit code 3");
+  check_crash({"_exit"}, "called exit", "ended with exit code 3");
 #if !defined(__SANITIZE_ADDRESS__)  // which fails in a check of its own when a thread unwinds so
   check_crash({"exit thread"}, "SIGABRT", "killed by SIGABRT");
 #endif
