@@ -2,7 +2,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/node_reference.h"
-#include "definition/attributes.h"
+#include "core/parameter_value.h"
 
 namespace lockstep {
 
@@ -41,10 +41,10 @@ std::string_view children_text(const NodeType& type) {
   return type.arity.max == 1 ? "exactly one child" : "one or more children";
 }
 
-std::string facts_text(const NodeType& type, const Parameter& parameter) {
+std::string facts_text(const Parameter& parameter) {
   std::string text(to_string(parameter.type));
   if (!parameter.unit.empty()) text += fmt::format(" in {}", parameter.unit);
-  if (type.binding != nullptr && parameter.direction != Direction::Input) {
+  if (parameter.direction != Direction::Input) {
     text += fmt::format(", {}put to a blackboard entry", to_string(parameter.direction));
   }
   if (!parameter.choices.empty()) text += fmt::format(", {}", fmt::join(parameter.choices, " or "));
@@ -56,6 +56,7 @@ std::string facts_text(const NodeType& type, const Parameter& parameter) {
   } else {
     text += parameter.required ? ", required" : ", optional";
   }
+  if (parameter.constant) text += ", never a {key}";
   return text;
 }
 

@@ -17,7 +17,7 @@ Json range_json(const Range& range) {
   return json;
 }
 
-Json parameter_json(const NodeType& type, const Parameter& parameter) {
+Json parameter_json(const Parameter& parameter) {
   Json json{{"name", parameter.name},
             {"type", to_string(parameter.type)},
             {"direction", to_string(parameter.direction)},
@@ -26,7 +26,7 @@ Json parameter_json(const NodeType& type, const Parameter& parameter) {
             {"unit", parameter.unit},
             {"range", range_json(parameter.range)},
             {"choices", parameter.choices},
-            {"blackboard", type.binding != nullptr},
+            {"blackboard", !parameter.constant},
             {"doc", parameter.doc}};
   if (parameter.default_text) json["default"] = *parameter.default_text;
   return json;
@@ -49,7 +49,7 @@ std::string nodes_as_json(NodeTypes types) {
   auto all = Json::array();
   for (const NodeType* type : types) {
     auto parameters = Json::array();
-    for (const Parameter& it : type->parameters) parameters.push_back(parameter_json(*type, it));
+    for (const Parameter& it : type->parameters) parameters.push_back(parameter_json(it));
     all.push_back({{"id", type->id},
                    {"category", to_string(type->category)},
                    {"plugin", type->plugin},

@@ -19,8 +19,7 @@ std::string escaped(std::string_view text) {
 std::string table_rows(const NodeType& type) {
   std::string text;
   for (const Parameter& it : type.parameters) {
-    text += fmt::format("| `{}` | {} | {} |\n", it.name, escaped(facts_text(type, it)),
-                        escaped(it.doc));
+    text += fmt::format("| `{}` | {} | {} |\n", it.name, escaped(facts_text(it)), escaped(it.doc));
   }
   if (type.category != NodeCategory::SubTree) return text;
   for (const CommonAttribute& it : subtree_attributes()) {

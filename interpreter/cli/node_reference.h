@@ -29,7 +29,7 @@ std::span<const NodeGroup> node_groups();
 // "no children", "exactly one child", "one or more children".
 std::string_view children_text(const NodeType& type);
 // "number in s, required, from 0 to 1": all but the name and the doc.
-std::string facts_text(const NodeType& type, const Parameter& parameter);
+std::string facts_text(const Parameter& parameter);
 // A line that shows how it is written in a tree.
 std::string usage_text(const NodeType& type);
 // The attributes that are not parameters of one node, one sentence each.

@@ -49,7 +49,7 @@ struct Row {
 std::vector<Row> rows(const NodeType& type) {
   std::vector<Row> rows;
   for (const Parameter& parameter : type.parameters) {
-    rows.push_back({parameter.name, facts_text(type, parameter), parameter.doc});
+    rows.push_back({parameter.name, facts_text(parameter), parameter.doc});
   }
   if (type.category != NodeCategory::SubTree) return rows;
   for (const CommonAttribute& it : subtree_attributes()) rows.push_back({it.name, "", it.doc});

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "core/diagnostics.h"
 
 namespace lockstep {
@@ -10,13 +12,11 @@ namespace {
 
 constexpr std::size_t kMostBarriers = 12;
 
-const Value& parameter(const Drawn& drawn, const DefinitionNode& node, std::string_view name) {
-  std::uint32_t place = node.first;
-  for (const Parameter& it : node.type->parameters) {
-    if (it.name == name) break;
-    ++place;
-  }
-  return drawn.definition.values[place];
+// A parameter that is a constant; null when an entry gives it.
+const Value* constant(const Drawn& drawn, const DefinitionNode& node, std::string_view name) {
+  const auto& parameters = node.type->parameters;
+  const auto it = std::ranges::find(parameters, name, &Parameter::name);
+  return drawn.definition.constant(node, static_cast<std::size_t>(it - parameters.begin()));
 }
 
 std::string barriers_text(const std::vector<double>& barriers) {
@@ -28,10 +28,13 @@ std::string barriers_text(const std::vector<double>& barriers) {
 // What the sign of a control node does not say.
 std::vector<std::string> control_lines(const Drawn& drawn, const DefinitionNode& node) {
   if (node.type->synchronization == Synchronization::Absolute) {
-    return {barriers_text(std::get<std::vector<double>>(parameter(drawn, node, "barriers")))};
-  }
-  if (node.type->synchronization == Synchronization::Relative) {
-    return {fmt::format("Δ = {}", std::get<double>(parameter(drawn, node, "delta")))};
+    if (const Value* barriers = constant(drawn, node, "barriers")) {
+      return {barriers_text(std::get<std::vector<double>>(*barriers))};
+    }
+  } else if (node.type->synchronization == Synchronization::Relative) {
+    if (const Value* delta = constant(drawn, node, "delta")) {
+      return {fmt::format("Δ = {}", std::get<double>(*delta))};
+    }
   }
   return shown_attributes(drawn, node);
 }

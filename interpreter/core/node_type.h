@@ -13,6 +13,9 @@
 #include "core/status.h"
 #include "core/value.h"
 
+struct lockstep_plugin;
+struct lockstep_leaf_type;
+
 namespace lockstep {
 
 enum class NodeCategory : std::uint8_t { Control, Decorator, Action, Condition, SubTree };
@@ -29,8 +32,8 @@ struct Range {
   bool min_excluded = false;
 };
 
-// An attribute of a node: a parameter of a built-in, fixed when the tree is loaded, or a port of a
-// leaf, which may also name a blackboard entry as {key}.
+// An attribute of a node: a constant, or the value of a blackboard entry that it names as {key}.
+// The parameters of leaves are also called ports.
 struct Parameter {
   std::string_view name;
   ValueType type;
@@ -41,6 +44,7 @@ struct Parameter {
   std::string_view unit = {};                      // "s", "" for none
   Range range = {};                                // numbers, and each number of a list
   std::span<const std::string_view> choices = {};  // strings: the words that are allowed
+  bool constant = false;                           // shapes the tree, so it is never a {key}
 };
 
 struct Arity {
@@ -48,11 +52,23 @@ struct Arity {
   std::uint32_t max = std::numeric_limits<std::uint32_t>::max();
 };
 
-// What is wrong with the parameters of a node taken together.
+// What is wrong with the parameters of a node.
 struct RuleBreak {
   int parameter = -1;  // its index, or -1: the node itself
   std::string message;
   std::string hint;
+};
+
+// The parameters of one node, in the order of NodeType::parameters.
+struct ParameterValues {
+  std::span<Value> values;  // monostate: absent, or from an entry
+  std::uint32_t children;   // how many the node has
+  // Bit i: parameter i comes from an entry, and its value is not known yet.
+  std::uint64_t from_entry = 0;
+
+  bool is_given(unsigned index) const {
+    return (from_entry >> index & 1) != 0 || !std::holds_alternative<std::monostate>(values[index]);
+  }
 };
 
 struct NodeType {
@@ -61,9 +77,9 @@ struct NodeType {
   std::string_view doc;
   Arity arity = {};
   std::span<const Parameter> parameters = {};
-  // Checks what no single parameter can say, and fills in values that follow from others. The
-  // values stand in the order of `parameters`; an absent one is monostate. May be null.
-  std::optional<RuleBreak> (*rule)(std::span<Value> values, std::uint32_t children) = nullptr;
+  // Checks what no single parameter can say, and fills in values that follow from others. May be
+  // null. Asked when the tree is loaded, and during a run after an entry was written.
+  std::optional<RuleBreak> (*rule)(const ParameterValues& parameters) = nullptr;
   // What advice and drawings need to know.
   std::string_view sign = {};  // as papers draw it, "→"; "": by its id
   Synchronization synchronization = Synchronization::None;
@@ -74,8 +90,9 @@ struct NodeType {
   bool real_time = false;               // an action that works on while no tick comes
   bool has_progress = true;             // false: an action that reports none, so 0 until Success
   std::string_view plugin = {};         // the plugin it comes from; "" = built in
-  const void* origin = nullptr;         // the plugin it comes from, for those who know what that is
-  const void* binding = nullptr;        // a leaf's lockstep_leaf_type; null = built in
+  // Of a leaf of a plugin; both are null for built-ins.
+  const lockstep_plugin* origin = nullptr;
+  const lockstep_leaf_type* leaf = nullptr;
 };
 
 constexpr std::string_view to_string(NodeCategory category) {

@@ -39,7 +39,7 @@ class Adviser {
   }
 
   bool has_memory(std::uint32_t node) const {
-    return std::get<bool>(definition_.values[at(node).first]);
+    return *definition_.constant(at(node), 0) == Value(true);
   }
 
   // What is known of a node, or of the children of a node together.
@@ -190,7 +190,6 @@ class Adviser {
   void for_each_port(Visit visit) const {
     for (std::uint32_t node = 0; node < definition_.nodes.size(); ++node) {
       const NodeType& type = *at(node).type;
-      if (type.binding == nullptr) continue;
       for (std::uint32_t i = 0; i < type.parameters.size(); ++i) {
         const Port& port = definition_.ports[at(node).first + i];
         if (port.entry != Port::kNone) visit(node, type.parameters[i], port.entry);

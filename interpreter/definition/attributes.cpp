@@ -1,12 +1,11 @@
 #include "definition/attributes.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
-#include <cmath>
+#include <span>
 
 #include "core/identifier.h"
+#include "core/parameter_value.h"
 #include "core/suggest.h"
 #include "core/wording.h"
 #include "definition/foreign_nodes.h"
@@ -17,26 +16,6 @@ namespace {
 std::string join_hints(const std::string& first, const std::string& second) {
   if (first.empty()) return second;
   return second.empty() ? first : first + "; " + second;
-}
-
-bool in_range(const Range& range, double number) {
-  const bool above = range.min_excluded ? number > range.min : number >= range.min;
-  return above && number <= range.max;
-}
-
-// The first number of a value that the range does not allow.
-std::optional<double> out_of_range(const Range& range, const Value& value) {
-  const auto outside = [&](double number) { return !in_range(range, number); };
-  if (const auto* integer = std::get_if<std::int64_t>(&value)) {
-    const auto number = static_cast<double>(*integer);
-    if (outside(number)) return number;
-  } else if (const auto* number = std::get_if<double>(&value)) {
-    if (outside(*number)) return *number;
-  } else if (const auto* list = std::get_if<std::vector<double>>(&value)) {
-    const auto it = std::find_if(list->begin(), list->end(), outside);
-    if (it != list->end()) return *it;
-  }
-  return std::nullopt;
 }
 
 constexpr auto kOwnAttributes =
@@ -73,13 +52,10 @@ class AttributeChecker {
                                    expected_text(parameter.type), parameter.name));
       return {};
     }
-    if (const auto number = out_of_range(parameter.range, *value)) {
-      report_.at_value(node_.element, parameter.name,
-                       fmt::format("{} is outside the range of '{}'", *number, parameter.name),
-                       "it must be " + range_text(parameter.range));
+    if (const auto refused = refuse_value(parameter, *value)) {
+      report_.at_value(node_.element, parameter.name, refused->message, refused->hint);
       return {};
     }
-    if (!is_choice(parameter, *value)) return {};
     return *value;
   }
 
@@ -90,7 +66,7 @@ class AttributeChecker {
  private:
   // A leaf of a plugin only shares its name with a node of another library.
   std::string unknown_hint(const Attribute& attribute) const {
-    const bool built_in = node_.type->binding == nullptr;
+    const bool built_in = node_.type->leaf == nullptr;
     std::string hint = foreign_attribute_hint(built_in ? node_.type->id : "", attribute);
     if (!hint.empty()) return hint;
     return join_hints(did_you_mean(attribute.name, names()), parameters_hint(*node_.type));
@@ -105,16 +81,6 @@ class AttributeChecker {
           parameters_hint(*node_.type));
     }
     return {};
-  }
-
-  bool is_choice(const Parameter& parameter, const Value& value) const {
-    if (parameter.choices.empty()) return true;
-    const auto& word = std::get<std::string>(value);
-    if (std::ranges::find(parameter.choices, word) != parameter.choices.end()) return true;
-    report_.at_value(node_.element, parameter.name,
-                     fmt::format("'{}' is not a value of '{}'", brief(word), parameter.name),
-                     "it must be one of " + listed(parameter.choices));
-    return false;
   }
 
   const Parameter* parameter(std::string_view name) const {
@@ -145,91 +111,91 @@ void check_name(const Document& document, const Reporter& report, std::uint32_t 
   }
 }
 
+// What follows from values that entries give follows during the run, so it is not filled in here.
+void check_rule(const Document& document, const Reporter& report, const CheckedNode& node,
+                std::span<const CheckedPort> ports, std::span<Value> values) {
+  ParameterValues parameters{.values = values, .children = node.children};
+  std::vector<Value> copy;
+  for (std::size_t i = 0; i < ports.size(); ++i) {
+    if (!ports[i].key.empty()) parameters.from_entry |= std::uint64_t{1} << i;
+  }
+  if (parameters.from_entry != 0) {
+    copy.assign(values.begin(), values.end());
+    parameters.values = copy;
+  }
+  const auto broken = node.type->rule(parameters);
+  if (!broken) return;
+  if (broken->parameter >= 0) {
+    const auto& name = node.type->parameters[static_cast<unsigned>(broken->parameter)].name;
+    if (document.find_attribute(node.element, name) != nullptr) {
+      report.at_value(node.element, name, broken->message, broken->hint);
+      return;
+    }
+  }
+  report.at_element(node.element, broken->message, broken->hint);
+}
+
+// The key of {key}; "" when that is an error, which is reported.
+std::string_view checked_key(const Reporter& report, const CheckedNode& node,
+                             const Parameter& parameter, std::string_view key) {
+  if (parameter.constant) {
+    report.at_value(
+        node.element, parameter.name,
+        fmt::format("'{}' of '{}' cannot be a blackboard entry", parameter.name, node.type->id),
+        "it is fixed when the tree is loaded: write a value, or ${name} with an <arg>");
+    return {};
+  }
+  if (is_identifier(key)) return key;
+  report.at_value(node.element, parameter.name, fmt::format("'{}' is not a key", brief(key)),
+                  fmt::format("a key is {}", kIdentifierRule));
+  return {};
+}
+
+// What one parameter is: a value, a key with its default, or nothing. False after an error.
+bool check_parameter(const Reporter& report, const AttributeChecker& checker,
+                     const CheckedNode& node, const Parameter& parameter, CheckedPort& port,
+                     Value& value) {
+  const Attribute* attribute = checker.attribute(parameter);
+  const auto key = attribute == nullptr ? std::string_view() : key_of(attribute->value);
+  if (!key.empty()) {
+    port.key = checked_key(report, node, parameter, key);
+    if (parameter.default_text) value = *parse_value(parameter.type, *parameter.default_text);
+    return !port.key.empty();
+  }
+  if (attribute != nullptr && parameter.direction != Direction::Input) {
+    report.at_value(
+        node.element, parameter.name,
+        fmt::format("the {} '{}' needs a blackboard entry",
+                    parameter.direction == Direction::Output ? "output" : "inout", parameter.name),
+        fmt::format("write {}=\"{{key}}\"", parameter.name));
+    return false;
+  }
+  value = checker.constant(parameter);
+  const bool absent = std::holds_alternative<std::monostate>(value);
+  return !absent || (attribute == nullptr && !parameter.required);
+}
+
 void check_parameters(const Document& document, const Reporter& report,
                       const AttributeChecker& checker, CheckedNode& node, CheckedTrees& trees) {
-  node.first = static_cast<std::uint32_t>(trees.values.size());
-  bool all_good = true;
-  for (const Parameter& parameter : node.type->parameters) {
-    const Attribute* attribute = checker.attribute(parameter);
-    if (attribute != nullptr && !key_of(attribute->value).empty()) {
-      report.at_value(
-          node.element, parameter.name,
-          fmt::format("'{}' of '{}' cannot be a blackboard entry", parameter.name, node.type->id),
-          "it is fixed when the tree is loaded: write a value, or ${name} with an <arg>");
-      trees.values.emplace_back();
-      all_good = false;
-      continue;
-    }
-    trees.values.push_back(checker.constant(parameter));
-    const bool absent = std::holds_alternative<std::monostate>(trees.values.back());
-    all_good &= !absent || (attribute == nullptr && !parameter.required);
-  }
-  if (!all_good || node.type->rule == nullptr) return;
-  const auto values = std::span(trees.values).subspan(node.first);
-  const auto broken = node.type->rule(values, node.children);
-  if (!broken) return;
-  if (broken->parameter < 0) {
-    report.at_element(node.element, broken->message, broken->hint);
-    return;
-  }
-  const auto& name = node.type->parameters[static_cast<unsigned>(broken->parameter)].name;
-  if (document.find_attribute(node.element, name) != nullptr) {
-    report.at_value(node.element, name, broken->message, broken->hint);
-  } else {
-    report.at_element(node.element, broken->message, broken->hint);
-  }
-}
-
-// What a port that is bound to an entry has until somebody writes that.
-void set_default(const Parameter& port, CheckedPort& checked, CheckedTrees& trees) {
-  if (!port.default_text) return;
-  checked.value = static_cast<std::uint32_t>(trees.values.size());
-  trees.values.push_back(*parse_value(port.type, *port.default_text));
-}
-
-void check_ports(const Reporter& report, const AttributeChecker& checker, CheckedNode& node,
-                 CheckedTrees& trees) {
+  const auto& parameters = node.type->parameters;
+  const std::size_t first_value = trees.values.size();
   node.first = static_cast<std::uint32_t>(trees.ports.size());
-  for (const Parameter& port : node.type->parameters) {
-    CheckedPort checked;
-    const Attribute* attribute = checker.attribute(port);
-    if (attribute != nullptr) checked.key = key_of(attribute->value);
-    if (!checked.key.empty()) set_default(port, checked, trees);
-    if (attribute != nullptr && checked.key.empty() && port.direction != Direction::Input) {
-      report.at_value(
-          node.element, port.name,
-          fmt::format("the {} '{}' needs a blackboard entry",
-                      port.direction == Direction::Output ? "output" : "inout", port.name),
-          fmt::format("write {}=\"{{key}}\"", port.name));
-    } else if (checked.key.empty()) {
-      Value value = checker.constant(port);
-      if (!std::holds_alternative<std::monostate>(value)) {
-        checked.value = static_cast<std::uint32_t>(trees.values.size());
-        trees.values.push_back(std::move(value));
-      }
-    } else if (!is_identifier(checked.key)) {
-      report.at_value(node.element, port.name, fmt::format("'{}' is not a key", brief(checked.key)),
-                      fmt::format("a key is {}", kIdentifierRule));
-      checked.key = {};
-    }
-    trees.ports.push_back(checked);
+  trees.ports.resize(node.first + parameters.size());
+  trees.values.resize(first_value + parameters.size());
+  const auto ports = std::span(trees.ports).subspan(node.first);
+  const auto values = std::span(trees.values).subspan(first_value);
+  bool good = true;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    good &= check_parameter(report, checker, node, parameters[i], ports[i], values[i]);
+  }
+  if (good && node.type->rule != nullptr) check_rule(document, report, node, ports, values);
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (std::holds_alternative<std::monostate>(values[i])) continue;
+    ports[i].value = static_cast<std::uint32_t>(first_value + i);
   }
 }
 
 }  // namespace
-
-std::string range_text(const Range& range) {
-  const bool has_min = std::isfinite(range.min);
-  const bool has_max = std::isfinite(range.max);
-  if (!has_min && !has_max) return {};
-  const std::string_view above = range.min_excluded ? "more than" : "at least";
-  if (has_min && has_max && !range.min_excluded) {
-    return fmt::format("from {} to {}", range.min, range.max);
-  }
-  if (has_min && has_max) return fmt::format("{} {}, at most {}", above, range.min, range.max);
-  if (has_min) return fmt::format("{} {}", above, range.min);
-  return fmt::format("at most {}", range.max);
-}
 
 bool is_common_attribute(std::string_view name) {
   return name == "name" || name == "_description";
@@ -252,11 +218,7 @@ void check_attributes(const Document& document, const Reporter& report, bool exp
   const AttributeChecker checker(document, report, node);
   check_name(document, report, node.element);
   checker.find_unknown(explicit_form);
-  if (node.type->binding != nullptr) {
-    check_ports(report, checker, node, trees);
-  } else {
-    check_parameters(document, report, checker, node, trees);
-  }
+  check_parameters(document, report, checker, node, trees);
 }
 
 void check_subtree_attributes(const Document& document, const Reporter& report, CheckedNode& node) {

@@ -20,7 +20,4 @@ bool is_common_attribute(std::string_view name);
 // "parameters of 'X': 'a', 'b', 'c'" for a hint.
 std::string parameters_hint(const NodeType& type);
 
-// "from 0 to 1", "more than 0, at most 1", …; "" when every number is allowed.
-std::string range_text(const Range& range);
-
 }  // namespace lockstep

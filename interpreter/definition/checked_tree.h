@@ -12,7 +12,7 @@
 
 namespace lockstep {
 
-// An attribute of a leaf: a constant, a {key} (then the value is the port's default), or absent.
+// A parameter of a node: a constant, a {key} with its default, or absent.
 struct CheckedPort {
   std::uint32_t value = 0xffffffff;  // in CheckedTrees::values
   std::string_view key;
@@ -25,7 +25,7 @@ struct CheckedNode {
   std::uint32_t element = 0;
   std::uint32_t end = 0;  // in CheckedTrees::nodes
   std::uint32_t children = 0;
-  std::uint32_t first = 0;        // as in DefinitionNode: in values, or in ports
+  std::uint32_t first = 0;        // in CheckedTrees::ports
   std::string_view subtree = {};  // the ID that a SubTree names
 };
 

@@ -17,16 +17,16 @@ struct DefinitionNode {
   std::uint32_t end;       // one past the last descendant
   std::uint32_t parent;    // the root is its own
   std::uint32_t children;  // how many
-  // One for each of type->parameters: a built-in's start here in `values`, a leaf's in `ports`.
-  std::uint32_t first;
+  std::uint32_t first;     // in `ports`, one for each of type->parameters
   std::string_view name;   // the name attribute, else the id
   std::uint32_t document;  // its place: Project::documents[document], element
   std::uint32_t element;
 };
 
+// Where a parameter gets its value. Neither: it is absent, or an output that goes nowhere.
 struct Port {
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-  std::uint32_t entry = kNone;  // in `entries`; neither: an output that goes nowhere
+  std::uint32_t entry = kNone;  // in `entries`
   std::uint32_t value = kNone;  // in `values`; with an entry: its value until somebody writes it
 };
 
@@ -42,6 +42,12 @@ struct Definition {
   std::vector<Value> values;
   std::vector<Port> ports;
   std::vector<BlackboardEntry> entries;
+
+  // A parameter that is a constant; null when it is absent or comes from an entry.
+  const Value* constant(const DefinitionNode& node, std::size_t parameter) const {
+    const Port& port = ports[node.first + parameter];
+    return port.entry == Port::kNone && port.value != Port::kNone ? &values[port.value] : nullptr;
+  }
 };
 
 // What a tree may not exceed; each is named in the message that refuses one.

@@ -28,6 +28,7 @@ class Expander {
   Definition expand(std::string_view main) {
     definition_.id = main;
     definition_.values = std::move(trees_.values);
+    shared_.assign(trees_.ports.size(), Port::kNone);
     definition_.nodes.reserve(trees_.nodes.size());  // without subtrees, all that will be needed
     Scope scope(definition_.entries);
     for (const auto& [key, text] : options_.values) scope.set_text(key, text);
@@ -58,7 +59,7 @@ class Expander {
     if (checked.type->category == NodeCategory::SubTree) {
       definition_.nodes[place].children = 1;
       enter_subtree(report, checked, place, scope);
-    } else if (checked.type->binding != nullptr) {
+    } else if (!checked.type->parameters.empty()) {
       definition_.nodes[place].first = bind_ports(report, checked, scope);
     }
     for (std::uint32_t child = from + 1; child < checked.end; child = trees_.nodes[child].end) {
@@ -101,16 +102,21 @@ class Expander {
     }
   }
 
+  // Where nothing comes from an entry, all expansions of a tree share their ports.
   std::uint32_t bind_ports(const Reporter& report, const CheckedNode& checked, Scope& scope) {
+    if (shared_[checked.first] != Port::kNone) return shared_[checked.first];
     const auto first = static_cast<std::uint32_t>(definition_.ports.size());
+    bool constant = true;
     for (std::uint32_t i = 0; i < checked.type->parameters.size(); ++i) {
       const CheckedPort& port = trees_.ports[checked.first + i];
       Port bound{.value = port.value};
       if (!port.key.empty()) {
+        constant = false;
         bound.entry = use(report, checked, checked.type->parameters[i], port.key, scope);
       }
       definition_.ports.push_back(bound);
     }
+    if (constant) shared_[checked.first] = first;
     return first;
   }
 
@@ -166,7 +172,8 @@ class Expander {
   const ResolveOptions& options_;
   Diagnostics& diagnostics_;
   Definition definition_;
-  std::vector<Use> uses_;  // of each entry
+  std::vector<Use> uses_;              // of each entry
+  std::vector<std::uint32_t> shared_;  // of each first checked port: its ports, made already
 };
 
 }  // namespace

@@ -147,12 +147,12 @@ std::string doc_of(const Parameter& parameter) {
   return doc;
 }
 
-std::string attribute(const NodeType& type, const Parameter& parameter) {
+std::string attribute(const Parameter& parameter) {
   const bool required = parameter.required && !parameter.default_text;
   return fmt::format(
       "      <xs:attribute name=\"{}\"{}>\n        {}\n        {}\n      </xs:attribute>\n",
       parameter.name, required ? " use=\"required\"" : "", annotation(doc_of(parameter)),
-      xsd_type(type, parameter));
+      xsd_type(parameter));
 }
 
 std::string element(std::string_view name, std::string_view doc, std::string_view content) {
@@ -217,7 +217,7 @@ std::string node(const NodeType& type) {
                         "      <xs:attribute name=\"_autoremap\" type=\"boolean\"/>\n");
   }
   std::string text = element(type.id, type.doc, children(type.arity));
-  for (const Parameter& parameter : type.parameters) text += attribute(type, parameter);
+  for (const Parameter& parameter : type.parameters) text += attribute(parameter);
   return text + std::string(kElementEnd);
 }
 

@@ -19,7 +19,7 @@ std::string make_xsd(std::span<const NodeType* const> types,
                      UnknownNodes unknown = UnknownNodes::Allowed);
 
 // The xs:simpleType of a parameter, for attributes that are named `name`. Only within xsd*.cpp.
-std::string xsd_type(const NodeType& type, const Parameter& parameter);
+std::string xsd_type(const Parameter& parameter);
 std::string xsd_escaped(std::string_view text);
 
 }  // namespace lockstep

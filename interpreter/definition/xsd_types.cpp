@@ -1,6 +1,5 @@
 // The types of attributes. A value is what parse_value reads, within the parameter's range or
-// choices; or it contains ${…}, which is not known before the tree is loaded; or, for a port of a
-// leaf, it is a {key}.
+// choices; or it contains ${…}, which is not known before the tree is loaded; or it is a {key}.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -50,12 +49,11 @@ std::string facets(const Parameter& parameter) {
 
 }  // namespace
 
-std::string xsd_type(const NodeType& type, const Parameter& parameter) {
-  const bool is_port = type.binding != nullptr;
-  const std::string_view others = is_port ? "substituted key" : "substituted";
-  if (is_port && parameter.direction != Direction::Input) {
-    return fmt::format("<xs:simpleType><xs:union memberTypes=\"{}\"/></xs:simpleType>", others);
+std::string xsd_type(const Parameter& parameter) {
+  if (parameter.direction != Direction::Input) {
+    return "<xs:simpleType><xs:union memberTypes=\"substituted key\"/></xs:simpleType>";
   }
+  const std::string_view others = parameter.constant ? "substituted" : "substituted key";
   const std::string_view base = base_of(parameter.type);
   const std::string limits = facets(parameter);
   if (limits.empty()) {

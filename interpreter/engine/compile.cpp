@@ -6,12 +6,13 @@
 
 #include "engine/name_table.h"
 #include "engine/nodes/kinds.h"
+#include "engine/ticker.h"
 
 namespace lockstep {
 namespace {
 
 const NodeKind* kind_of(const NodeType& type) {
-  if (type.binding != nullptr) {
+  if (type.leaf != nullptr) {
     return type.category == NodeCategory::Condition ? &kPluginCondition : &kPluginAction;
   }
   static const auto by_type = [] {
@@ -22,12 +23,26 @@ const NodeKind* kind_of(const NodeType& type) {
   return by_type.at(&type);
 }
 
+// The same kind with a tick that reads the entries of its parameters first.
+const NodeKind* bound_kind_of(const NodeKind* kind) {
+  static const auto by_kind = [] {
+    std::unordered_map<const NodeKind*, NodeKind> map;
+    for (const NodeKind* it : built_in_kinds()) {
+      NodeKind bound = *it;
+      bound.tick = [](Ticker& ticker, NodeIndex self) { return ticker.tick_bound(self); };
+      map.emplace(it, bound);
+    }
+    return map;
+  }();
+  return &by_kind.at(kind);
+}
+
 class Compiler {
  public:
   explicit Compiler(const Definition& definition)
       : definition_(definition),
         constants_(definition.values.size(), kNone),
-        cells_(definition.values.size(), kNone) {}
+        cells_(definition.ports.size(), kNone) {}
 
   Tree compile() {
     tree_.id = definition_.id;
@@ -57,7 +72,13 @@ class Compiler {
               .children = from.children,
               .params = 0,
               .state = static_cast<std::uint32_t>(tree_.state_size)};
-    node.params = from.type->binding != nullptr ? add_leaf(from) : add_parameters(from);
+    if (from.type->leaf != nullptr) {
+      node.params = add_leaf(from);
+    } else if (is_bound(from)) {
+      add_bound(from, node);
+    } else {
+      node.params = add_parameters(from);
+    }
     const std::size_t size =
         node.kind->state_size + std::size_t{node.kind->state_per_child} * node.children;
     tree_.state_size += (size + 7) / 8 * 8;
@@ -68,14 +89,37 @@ class Compiler {
     const auto index = static_cast<std::uint32_t>(tree_.leaves.size());
     tree_.leaves.push_back({.node = static_cast<NodeIndex>(tree_.nodes.size()),
                             .type = from.type,
-                            .first_port = static_cast<std::uint32_t>(tree_.ports.size())});
+                            .first_port = add_ports(from)});
+    return index;
+  }
+
+  std::uint32_t add_ports(const DefinitionNode& from) {
+    const auto first = static_cast<std::uint32_t>(tree_.ports.size());
     for (std::size_t i = 0; i < from.type->parameters.size(); ++i) {
       const Port& port = definition_.ports[from.first + i];
       PortBinding binding{.slot = port.entry, .constant = PortBinding::kUnbound};
       if (port.value != Port::kNone) binding.constant = add_constant(port.value);
       tree_.ports.push_back(binding);
     }
-    return index;
+    return first;
+  }
+
+  bool is_bound(const DefinitionNode& from) const {
+    const auto ports = std::span(definition_.ports).subspan(from.first);
+    for (std::size_t i = 0; i < from.type->parameters.size(); ++i) {
+      if (ports[i].entry != Port::kNone) return true;
+    }
+    return false;
+  }
+
+  void add_bound(const DefinitionNode& from, Node& node) {
+    tree_.cells.push_back({.integer = static_cast<std::int64_t>(tree_.bound.size())});
+    tree_.bound.push_back({.node = static_cast<NodeIndex>(tree_.nodes.size()),
+                           .kind = node.kind,
+                           .first_port = add_ports(from)});
+    node.kind = bound_kind_of(node.kind);
+    node.params = static_cast<std::uint32_t>(tree_.cells.size());
+    tree_.cells.insert(tree_.cells.end(), from.type->parameters.size(), {.integer = 0});
   }
 
   // Subtrees that are used often share their constants.
@@ -94,25 +138,19 @@ class Compiler {
     if (first != kNone) return first;
     first = static_cast<std::uint32_t>(tree_.cells.size());
     for (std::size_t i = 0; i < from.type->parameters.size(); ++i) {
-      tree_.cells.push_back(cell(from.type->parameters[i], definition_.values[from.first + i]));
+      const Value* value = definition_.constant(from, i);
+      tree_.cells.push_back(value != nullptr ? cell(from.type->parameters[i], *value)
+                                             : Cell{.integer = 0});
     }
     return first;
   }
 
   Cell cell(const Parameter& parameter, const Value& value) {
-    Cell cell{.integer = 0};
-    if (const auto* flag = std::get_if<bool>(&value)) cell.boolean = *flag;
-    if (const auto* integer = std::get_if<std::int64_t>(&value)) cell.integer = *integer;
-    if (const auto* number = std::get_if<double>(&value)) cell.number = *number;
-    if (const auto* word = std::get_if<std::string>(&value)) {
-      cell.integer = std::ranges::find(parameter.choices, *word) - parameter.choices.begin();
-    }
-    if (const auto* list = std::get_if<std::vector<double>>(&value)) {
-      cell.list = {static_cast<std::uint32_t>(tree_.numbers.size()),
-                   static_cast<std::uint32_t>(list->size())};
-      tree_.numbers.insert(tree_.numbers.end(), list->begin(), list->end());
-    }
-    return cell;
+    const auto* list = std::get_if<std::vector<double>>(&value);
+    if (list == nullptr) return scalar_cell(parameter, value);
+    const auto first = static_cast<std::uint32_t>(tree_.numbers.size());
+    tree_.numbers.insert(tree_.numbers.end(), list->begin(), list->end());
+    return {.list = {first, static_cast<std::uint32_t>(list->size())}};
   }
 
   void add_labels() {
@@ -168,7 +206,7 @@ class Compiler {
   const Definition& definition_;
   Tree tree_;
   std::vector<std::uint32_t> constants_;  // of each value of the definition: its constant
-  std::vector<std::uint32_t> cells_;      // of each first value of a node: its first cell
+  std::vector<std::uint32_t> cells_;      // of each first port of a node: its first cell
   std::vector<NameTable::Entry> names_;   // the memory of the tables
   const NodeType* last_type_ = nullptr;
   const NodeKind* last_kind_ = nullptr;

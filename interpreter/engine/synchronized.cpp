@@ -1,16 +1,6 @@
 #include "engine/synchronized.h"
 
-#include "engine/nodes/synchronized_tick.h"
-
 namespace lockstep {
-
-std::span<const double> child_progress(Ticker& ticker, NodeIndex node) {
-  return ticker.child_numbers(node);
-}
-
-bool succeeded(Ticker& ticker, NodeIndex node) {
-  return ticker.state<synchronized::State>(node).succeeded;
-}
 
 std::span<const double> barriers(const Tree& tree, NodeIndex node) {
   if (synchronization(tree.nodes[node]) != Synchronization::Absolute) return {};

@@ -16,13 +16,25 @@ bool has_no_idle(const Activity* first) {
 
 }  // namespace
 
-Ticker::Ticker(const Tree& tree, std::span<LeafSlot> leaves, FaultPolicy policy)
-    : tree_(tree), leaves_(leaves), state_(tree), policy_(policy) {}
+Ticker::Ticker(const Tree& tree, std::span<LeafSlot> leaves, const Blackboard& board,
+               FaultPolicy policy)
+    : tree_(tree), leaves_(leaves), parameters_(tree, board), state_(tree), policy_(policy) {}
 
 Status Ticker::tick_root(Nanoseconds now) {
   set_now(now);
   ++tick_number_;
   return tick(0);
+}
+
+Status Ticker::tick_bound(NodeIndex node) {
+  const auto bound =
+      static_cast<std::uint32_t>(parameters_.cells()[tree_.nodes[node].params - 1].integer);
+  std::string wrong = parameters_.read(bound);
+  if (wrong.empty()) return tree_.bound[bound].kind->tick(*this, node);
+  set_fault(node, std::move(wrong));
+  if (faulted_) return Status::Running;
+  halt_running_children(node);
+  return Status::Failure;
 }
 
 // A subtree that was not reached costs nothing, however large it is: below an idle node all are
@@ -90,7 +102,7 @@ void Ticker::pause(NodeIndex node) {
 void Ticker::set_fault(NodeIndex node, std::string message) {
   Fault fault{node, std::move(message), in_last_halt_};
   if (in_last_halt_ ? faulted_ : policy_ == FaultPolicy::Fail) {
-    leaf(node).failed = true;
+    if (tree_.labels[node].type->leaf != nullptr) leaf(node).failed = true;
     tolerated_.push_back(std::move(fault));
     return;
   }
@@ -113,6 +125,7 @@ void Ticker::note_out_of_range(NodeIndex node, double reported) {
 
 void Ticker::reset() {
   state_.reset();
+  parameters_.reset();
   now_ = Nanoseconds(0);
   tick_number_ = 0;
   faulted_ = false;

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "core/clock.h"
+#include "engine/blackboard.h"
+#include "engine/bound_parameters.h"
 #include "engine/leaf_slot.h"
 #include "engine/run_state.h"
 #include "engine/tree.h"
@@ -37,8 +39,9 @@ enum class FaultPolicy : std::uint8_t {
 
 class Ticker {
  public:
-  // `tree` and `leaves` (one for each Tree::leaves, in order) must outlive the ticker.
-  Ticker(const Tree& tree, std::span<LeafSlot> leaves, FaultPolicy policy = FaultPolicy::Stop);
+  // `tree`, `leaves` (one for each Tree::leaves, in order) and `board` must outlive the ticker.
+  Ticker(const Tree& tree, std::span<LeafSlot> leaves, const Blackboard& board,
+         FaultPolicy policy = FaultPolicy::Stop);
 
   // --- for node kinds, inside a tick -------------------------------------------------------------
 
@@ -87,14 +90,17 @@ class Ticker {
     return {reinterpret_cast<double*>(state_bytes() + it.state + it.kind->state_size), it.children};
   }
   const Cell& parameter(NodeIndex node, unsigned index) const {
-    return tree_.cells[tree_.nodes[node].params + index];
+    return parameters_.cells()[tree_.nodes[node].params + index];
   }
   std::span<const double> numbers(const Cell& cell) const {
-    return std::span(tree_.numbers).subspan(cell.list.first, cell.list.count);
+    return {parameters_.numbers() + cell.list.first, cell.list.count};
   }
+  // Ticks a node of Tree::bound as what it is, with the parameters that its entries now give. A
+  // value that it cannot take is a fault.
+  Status tick_bound(NodeIndex node);
   LeafSlot& leaf(NodeIndex node) { return leaves_[tree_.nodes[node].params]; }
 
-  // Under FaultPolicy::Fail the fault is noted in tolerated() and the leaf's slot is marked failed:
+  // Under FaultPolicy::Fail the fault is noted in tolerated(), and a leaf's slot is marked failed:
   // its tick, or the next one, returns Failure.
   void set_fault(NodeIndex node, std::string message);
   bool faulted() const { return faulted_; }
@@ -147,6 +153,7 @@ class Ticker {
 
   const Tree& tree_;
   std::span<LeafSlot> leaves_;
+  BoundParameters parameters_;
   RunState state_;
   Nanoseconds now_{0};
   std::uint32_t tick_number_ = 0;

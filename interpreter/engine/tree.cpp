@@ -1,6 +1,19 @@
 #include "engine/tree.h"
 
+#include <algorithm>
+
 namespace lockstep {
+
+Cell scalar_cell(const Parameter& parameter, const Value& value) {
+  Cell cell{.integer = 0};
+  if (const auto* flag = std::get_if<bool>(&value)) cell.boolean = *flag;
+  if (const auto* integer = std::get_if<std::int64_t>(&value)) cell.integer = *integer;
+  if (const auto* number = std::get_if<double>(&value)) cell.number = *number;
+  if (const auto* word = std::get_if<std::string>(&value)) {
+    cell.integer = std::ranges::find(parameter.choices, *word) - parameter.choices.begin();
+  }
+  return cell;
+}
 
 std::string Tree::segment(NodeIndex node) const {
   const NodeLabel& label = labels[node];

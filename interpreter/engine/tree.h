@@ -13,8 +13,6 @@
 #include "core/value.h"
 #include "engine/node_kind.h"
 
-struct lockstep_leaf_type;
-
 namespace lockstep {
 
 struct Node {
@@ -35,7 +33,7 @@ union Cell {
   } list;
 };
 
-// Where a leaf's port gets its value.
+// Where a parameter gets its value.
 struct PortBinding {
   static constexpr std::uint32_t kUnbound = 0xffffffff;
   std::uint32_t slot = kUnbound;      // blackboard entry
@@ -44,8 +42,16 @@ struct PortBinding {
 
 struct LeafNode {
   NodeIndex node;
-  const NodeType* type;  // binding = its lockstep_leaf_type, origin = its plugin
-  std::uint32_t first_port;
+  const NodeType* type;
+  std::uint32_t first_port;  // in Tree::ports
+};
+
+// A built-in node with a parameter from an entry. Its kind in Tree::nodes reads the entries and
+// then ticks as this one. The cell before its first is its place in Tree::bound.
+struct BoundNode {
+  NodeIndex node;
+  const NodeKind* kind;
+  std::uint32_t first_port;  // in Tree::ports, one for each parameter
 };
 
 struct Slot {
@@ -66,7 +72,8 @@ struct Tree {
   std::vector<Cell> cells;
   std::vector<double> numbers;
   std::vector<LeafNode> leaves;
-  std::vector<PortBinding> ports;  // of all leaves, each type's ports in order
+  std::vector<BoundNode> bound;
+  std::vector<PortBinding> ports;  // of leaves and bound nodes, each type's parameters in order
   std::vector<Value> constants;
   std::vector<Slot> slots;
   std::size_t state_size = 0;     // bytes of all node states
@@ -80,5 +87,8 @@ struct Tree {
   // "OpenDoor/pull/arm": the tree's id and the segments down to the node.
   std::string path(NodeIndex node) const;
 };
+
+// The cell of a value that is no list; of an absent one: 0.
+Cell scalar_cell(const Parameter& parameter, const Value& value);
 
 }  // namespace lockstep

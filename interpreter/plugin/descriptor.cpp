@@ -73,7 +73,7 @@ NodeType node_type(const lockstep_plugin& plugin, const Descriptors::Leaf& leaf)
                   .has_progress = !is_action || leaf.type.progress != nullptr,
                   .plugin = plugin.name,
                   .origin = &plugin,
-                  .binding = &leaf.type};
+                  .leaf = &leaf.type};
 }
 
 }  // namespace

@@ -61,16 +61,19 @@ bool get_double_list(const lockstep_caller* caller, std::uint32_t port, const do
   return true;
 }
 
-void note_written(std::vector<Value*>& written, Value* entry) {
+void note_written(std::vector<Entry*>& written, Entry* entry) {
   if (std::ranges::find(written, entry) == written.end()) written.push_back(entry);
 }
 
+// What the caller is about to write; counted as written.
 Value* writable(const lockstep_caller* caller, std::uint32_t port, ValueType type) {
   if (is_foreign(caller) || port >= caller->ports.size()) return nullptr;
   if (caller->ports[port].type != type) return nullptr;
-  Value* const entry = caller->ports[port].write;
-  if (caller->written != nullptr && entry != nullptr) note_written(*caller->written, entry);
-  return entry;
+  Entry* const entry = caller->ports[port].write;
+  if (entry == nullptr) return nullptr;
+  ++entry->writes;
+  if (caller->written != nullptr) note_written(*caller->written, entry);
+  return &entry->value;
 }
 
 template <class T, ValueType type>
@@ -85,8 +88,9 @@ bool set(const lockstep_caller* caller, std::uint32_t port, T value) {
 
 bool set_string(const lockstep_caller* caller, std::uint32_t port, const char* text,
                 std::size_t length) {
+  if (text == nullptr && length != 0) return false;
   Value* const target = writable(caller, port, ValueType::String);
-  if (target == nullptr || (text == nullptr && length != 0)) return false;
+  if (target == nullptr) return false;
   try {
     // Also right when the text is (a part of) this entry's own.
     held<std::string>(*target).assign(length == 0 ? "" : text, length);
@@ -98,11 +102,12 @@ bool set_string(const lockstep_caller* caller, std::uint32_t port, const char* t
 
 bool set_double_list(const lockstep_caller* caller, std::uint32_t port, const double* values,
                      std::size_t count) {
-  Value* const target = writable(caller, port, ValueType::DoubleList);
-  if (target == nullptr || (values == nullptr && count != 0)) return false;
+  if (values == nullptr && count != 0) return false;
   if (!std::all_of(values, values + count, [](double it) { return std::isfinite(it); })) {
     return false;
   }
+  Value* const target = writable(caller, port, ValueType::DoubleList);
+  if (target == nullptr) return false;
   try {
     auto& list = held<std::vector<double>>(*target);
     if (count > list.size()) {

@@ -9,6 +9,7 @@
 #include "core/random.h"
 #include "core/shortened.h"
 #include "core/value.h"
+#include "engine/blackboard.h"
 #include "engine/leaf_slot.h"
 #include "lockstep/leaf.h"
 #include "plugin/leaf_set.h"
@@ -20,7 +21,7 @@ constexpr std::size_t kLongestLogLine = std::size_t{32} << 10;  // bytes; the re
 struct BoundPort {
   ValueType type;
   const Value* read = nullptr;      // null: no value
-  Value* write = nullptr;           // null: an input, or not bound to an entry
+  Entry* write = nullptr;           // null: an input, or not bound to an entry
   const Value* fallback = nullptr;  // the default, while the entry that it is bound to has no value
   std::string_view name = {};       // in a process that only mirrors the entries: not known
   std::string_view entry = {};
@@ -38,7 +39,7 @@ struct lockstep_caller {
   lockstep::LeafSlot* slot;                 // its `error` tells of set_error
   const lockstep_plugin* plugin = nullptr;  // of a run: whose run context it is
   // Collects the entries that are set, for a process that only mirrors them; null: nobody asks.
-  std::vector<lockstep::Value*>* written = nullptr;
+  std::vector<lockstep::Entry*>* written = nullptr;
   lockstep::Shortened error = {};
 };
 

@@ -42,8 +42,8 @@ std::vector<BoundPort> resolve_ports(const Tree& tree, const LeafNode& leaf,
     const Value* const constant =
         binding.constant != PortBinding::kUnbound ? &tree.constants[binding.constant] : nullptr;
     if (binding.slot != PortBinding::kUnbound) {
-      Value& entry = blackboard.values[binding.slot];
-      port.read = &entry;
+      Entry& entry = blackboard.entries[binding.slot];
+      port.read = &entry.value;
       if (parameter.direction != Direction::Input) port.write = &entry;
       port.fallback = constant;
       port.entry = tree.slots[binding.slot].name;
@@ -106,14 +106,14 @@ LeafSet::Implementation::Implementation(const Tree& tree, Blackboard& blackboard
     : tree_(tree), time_(time), log_(std::move(log)), watch_(watch), slots_(tree.leaves.size()) {
   for (const LeafNode& leaf : tree.leaves) {
     if (find_context(leaf.type->origin) == nullptr) {
-      const auto* plugin = static_cast<const lockstep_plugin*>(leaf.type->origin);
+      const lockstep_plugin* const plugin = leaf.type->origin;
       contexts_.push_back(std::make_unique<Context>(
           Context{plugin, leaf.node, nullptr, &CallSite::of("", plugin->name), {}}));
       contexts_.back()->caller = make_caller(plugin->name, contexts_.back()->slot);
       contexts_.back()->caller->plugin = plugin;
     }
     LeafSlot& slot = slots_[callers_.size()];
-    slot.type = static_cast<const lockstep_leaf_type*>(leaf.type->binding);
+    slot.type = leaf.type->leaf;
     callers_.push_back(make_caller(tree.path(leaf.node), slot));
     sites_.push_back(&site_of(tree, leaf));
     callers_.back()->ports = resolve_ports(tree, leaf, blackboard);

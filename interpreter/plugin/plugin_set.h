@@ -60,8 +60,8 @@ class PluginSet {
   // may initialize it.
   bool initialize(Diagnostics& diagnostics);
 
-  // The leaves of all plugins, for each: origin = its lockstep_plugin, binding = its
-  // lockstep_leaf_type, both in full size whatever the plugin's age. Valid as long as the set.
+  // The leaves of all plugins; `origin` and `leaf` are in full size whatever the plugin's age.
+  // Valid as long as the set.
   std::vector<const NodeType*> types() const;
 
   // Of each plugin, in the order of loading.

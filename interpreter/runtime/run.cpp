@@ -7,7 +7,7 @@ Run::Run(const Tree& tree, const RunOptions& options)
       time_{.now = Nanoseconds(0), .period = options.period, .thread = this_thread_id()},
       watch_(options.watch),
       leaves_(tree, blackboard_, time_, options.seed, options.log, options.watch),
-      ticker_(tree, leaves_.slots(), options.on_fault) {}
+      ticker_(tree, leaves_.slots(), blackboard_, options.on_fault) {}
 
 Run::~Run() {
   halt();

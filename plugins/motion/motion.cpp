@@ -71,6 +71,27 @@ class Profile : public lockstep::Action<ProfilePorts> {
   bool is_sigmoid_ = false;
 };
 
+struct ReplanPorts : lockstep::Ports {
+  Input<std::vector<double>> first{this, "first", required, "the barriers at the beginning"};
+  Input<std::vector<double>> second{this, "second", required, "the barriers after that"};
+  Input<double> after{this, "after", "1", "when the second list replaces the first", "s"};
+  Output<std::vector<double>> barriers{this, "barriers", "the barriers that count now"};
+};
+
+class Replan : public lockstep::Action<ReplanPorts> {
+ public:
+  void start() override { start_ = now(); }
+
+  Status tick() override {
+    const bool changed = now() - start_ >= after.get();
+    barriers.set(changed ? second.get() : first.get());
+    return changed ? Status::Success : Status::Running;
+  }
+
+ private:
+  double start_ = 0;
+};
+
 }  // namespace
 
 LOCKSTEP_PLUGIN("motion", "1.0", "Actions that do nothing but make progress",
@@ -82,4 +103,8 @@ LOCKSTEP_PLUGIN("motion", "1.0", "Actions that do nothing but make progress",
                     "Profile",
                     "A progress to keep pace with, rising from 0 to 1 in 1 / step ticks. At x = "
                     "ticks * step, line is x, sigmoid is (s(x) - s(0)) / (s(1) - s(0)) with s(x) = "
-                    "1 / (1 + exp(-10 (x - 0.5)))."));
+                    "1 / (1 + exp(-10 (x - 0.5)))."),
+                lockstep::leaf<Replan>(
+                    "Replan",
+                    "Stands for a planner that changes its mind: writes a list of barriers, and "
+                    "after a time another one; then Success."));

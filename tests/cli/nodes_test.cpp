@@ -49,11 +49,12 @@ TEST_CASE("nodes as JSON says what the checker knows") {
   CHECK(barriers["range"] == json{{"min", 0.0}, {"max", 1.0}, {"min_excluded", true}});
   CHECK(barriers["required"] == false);
   CHECK(barriers["default"].is_null());
-  CHECK(barriers["blackboard"] == false);
+  CHECK(barriers["blackboard"] == true);
   const json& at_barrier = node["parameters"][2];
   CHECK(at_barrier["choices"] == json{"wait", "tick"});
   CHECK(at_barrier["default"] == "wait");
   CHECK(listed({"Wait"})[0]["parameters"][0]["unit"] == "s");
+  CHECK(listed({"Sequence"})[0]["parameters"][0]["blackboard"] == false);  // memory
   CHECK(listed({"Inverter"})[0]["children"] == json{{"min", 1}, {"max", 1}});
   CHECK(listed({"SubTree"})[0]["children"] == json{{"min", 0}, {"max", 0}});
 }

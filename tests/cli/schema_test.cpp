@@ -93,7 +93,7 @@ TEST_CASE("what check refuses, the schema refuses where it can say it") {
       around("<ParallelAbsolute barriers=\"0.5;1.5\"><AlwaysSuccess/></ParallelAbsolute>"),
       around("<Timeout seconds=\"0\"><AlwaysSuccess/></Timeout>"),
       around("<Repeat times=\"1.5\"><AlwaysSuccess/></Repeat>"),
-      around("<Repeat times=\"{n}\"><AlwaysSuccess/></Repeat>"),
+      around("<Sequence memory=\"{m}\"><AlwaysSuccess/></Sequence>"),
       around("<Wait seconds=\"INF\"/>"),
       around("<Sequence memory=\"yes\"><AlwaysSuccess/></Sequence>"),
       around("<Inverter><AlwaysSuccess/><AlwaysSuccess/></Inverter>"),

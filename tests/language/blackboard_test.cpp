@@ -53,8 +53,12 @@ TEST_CASE("ports: given, left out, bound") {
        "2:1 error: 'Say' needs the parameter 'text'\n2:6 error: 'Say' has no parameter 'txt'"},
       {"a key is an identifier", R"(<Say text="{the door}"/>)",
        "2:12 error: 'the door' is not a key"},
-      {"a parameter of a built-in node is fixed when loaded", R"(<Wait seconds="{pause}"/>)",
-       "2:16 error: 'seconds' of 'Wait' cannot be a blackboard entry"},
+      {"a parameter of a built-in node may be a key", R"(<Wait seconds="{pause}"/>)",
+       "2:16 warning: nothing writes '{pause}'"},
+      {"a list too", R"(<ParallelAbsolute barriers="{plan}"><AlwaysSuccess/></ParallelAbsolute>)",
+       "2:29 warning: nothing writes '{plan}'"},
+      {"what shapes the tree may not", R"(<Sequence memory="{m}"><AlwaysSuccess/></Sequence>)",
+       "2:19 error: 'memory' of 'Sequence' cannot be a blackboard entry"},
   };
   check_told(kRows);
 }

@@ -24,7 +24,10 @@ std::map<std::string, LeafScript> scripts(std::string_view text) {
 }  // namespace
 
 ScriptedRun::ScriptedRun(std::string_view tree, std::string_view leaves, FaultPolicy policy)
-    : tree_(tree_from_text(tree)), slots_(tree_.leaves.size()), ticker_(tree_, slots_, policy) {
+    : tree_(tree_from_text(tree)),
+      board_(tree_),
+      slots_(tree_.leaves.size()),
+      ticker_(tree_, slots_, board_, policy) {
   const auto by_name = scripts(leaves);
   for (std::uint32_t number = 0; number < slots_.size(); ++number) {
     const auto script = by_name.find(leaf_name(number));
@@ -33,13 +36,23 @@ ScriptedRun::ScriptedRun(std::string_view tree, std::string_view leaves, FaultPo
     }
     LeafSlot& slot = slots_[number];
     leaves_.emplace_back(script->second, number, &tree_tick_, &events, &slot.error);
-    slot.type = static_cast<const lockstep_leaf_type*>(tree_.leaves[number].type->binding);
+    slot.type = tree_.leaves[number].type->leaf;
     slot.self = &leaves_.back();
   }
 }
 
 std::string ScriptedRun::leaf_name(std::uint32_t leaf) const {
   return std::string(tree_.labels[tree_.leaves[leaf].node].name);
+}
+
+void ScriptedRun::set(std::string_view key, Value value) {
+  for (std::size_t slot = 0; slot < tree_.slots.size(); ++slot) {
+    if (tree_.slots[slot].name != key) continue;
+    board_.entries[slot].value = std::move(value);
+    ++board_.entries[slot].writes;
+    return;
+  }
+  throw std::invalid_argument("no entry '" + std::string(key) + "'");
 }
 
 Status ScriptedRun::tick_root(Nanoseconds now) {
@@ -55,6 +68,7 @@ Status ScriptedRun::tick(Nanoseconds now) {
 
 void ScriptedRun::restart() {
   ticker_.halt_all();
+  board_.reset(tree_);
   ticker_.reset();
   for (ScriptedLeaf& leaf : leaves_) leaf.rewind();
   for (LeafSlot& slot : slots_) slot.error = nullptr;

@@ -28,11 +28,14 @@ class ScriptedRun {
 
   const Tree& tree() const { return tree_; }
   Ticker& ticker() { return ticker_; }
+  // Writes an entry, as a leaf would.
+  void set(std::string_view key, Value value);
   std::string leaf_name(std::uint32_t leaf) const;
   EventLog events;  // since it was last cleared
 
  private:
   Tree tree_;
+  Blackboard board_;
   std::uint32_t tree_tick_ = 0;
   std::deque<ScriptedLeaf> leaves_;
   std::vector<LeafSlot> slots_;

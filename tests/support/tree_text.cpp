@@ -15,18 +15,18 @@ const NodeType kScriptedActionType{.id = "Scripted",
                                    .category = NodeCategory::Action,
                                    .doc = "",
                                    .arity = {0, 0},
-                                   .binding = &kScriptedAction};
+                                   .leaf = &kScriptedAction};
 const NodeType kScriptedConditionType{.id = "ScriptedCondition",
                                       .category = NodeCategory::Condition,
                                       .doc = "",
                                       .arity = {0, 0},
-                                      .binding = &kScriptedCondition};
+                                      .leaf = &kScriptedCondition};
 const NodeType kBareActionType{.id = "Bare",
                                .category = NodeCategory::Action,
                                .doc = "",
                                .arity = {0, 0},
                                .has_progress = false,
-                               .binding = &kBareAction};
+                               .leaf = &kBareAction};
 
 struct Attribute {
   std::string_view name, value;
@@ -95,15 +95,14 @@ class Builder {
     if (children < type.arity.min || children > type.arity.max) {
       fail("arity of " + std::string(type.id));
     }
-    const auto typed = values(type, given, children);
+    const std::uint32_t first = parameters(type, given, children);
     DefinitionNode& it = definition_.nodes[self];
     it.type = &type;
     it.parent = parent;
     it.name = name;
     it.children = children;
-    it.first = static_cast<std::uint32_t>(definition_.values.size());
+    it.first = first;
     it.end = static_cast<std::uint32_t>(definition_.nodes.size());
-    definition_.values.insert(definition_.values.end(), typed.begin(), typed.end());
   }
 
   std::uint32_t nodes_until_end(std::uint32_t parent) {
@@ -128,27 +127,56 @@ class Builder {
     fail("no node '" + std::string(name) + "'");
   }
 
-  std::vector<Value> values(const NodeType& type, const std::vector<Attribute>& given,
-                            std::uint32_t children) const {
-    std::vector<Value> list;
+  // Appends the ports of a node; returns where they begin.
+  std::uint32_t parameters(const NodeType& type, const std::vector<Attribute>& given,
+                           std::uint32_t children) {
+    const auto first = static_cast<std::uint32_t>(definition_.ports.size());
+    const auto first_value = static_cast<std::uint32_t>(definition_.values.size());
+    std::vector<Value> values;
+    ParameterValues all{.values = {}, .children = children};
     std::size_t used = 0;
     for (const Parameter& parameter : type.parameters) {
       std::optional<std::string_view> text = parameter.default_text;
+      Port port;
       for (const Attribute& attribute : given) {
         if (attribute.name != parameter.name) continue;
-        text = attribute.value;
         ++used;
+        if (attribute.value.starts_with('{')) {
+          port.entry = entry(attribute.value.substr(1, attribute.value.size() - 2), parameter.type);
+          all.from_entry |= std::uint64_t{1} << values.size();
+        } else {
+          text = attribute.value;
+        }
       }
-      if (parameter.required && !text) fail("missing " + std::string(parameter.name));
+      if (parameter.required && !text && port.entry == Port::kNone) {
+        fail("missing " + std::string(parameter.name));
+      }
       const auto value = text ? parse_value(parameter.type, *text) : Value();
       if (!value || !is_choice(parameter, *value)) fail("value of " + std::string(parameter.name));
-      list.push_back(*value);
+      values.push_back(*value);
+      definition_.ports.push_back(port);
     }
     if (used != given.size()) fail("unknown parameter of " + std::string(type.id));
+    std::vector<Value> ruled = values;
+    all.values = ruled;
     if (type.rule != nullptr) {
-      if (const auto broken = type.rule(list, children)) fail(broken->message);
+      if (const auto broken = type.rule(all)) fail(broken->message);
     }
-    return list;
+    if (all.from_entry == 0) values = std::move(ruled);
+    for (std::uint32_t i = 0; i < values.size(); ++i) {
+      if (std::holds_alternative<std::monostate>(values[i])) continue;
+      definition_.ports[first + i].value = first_value + i;
+    }
+    definition_.values.insert(definition_.values.end(), values.begin(), values.end());
+    return first;
+  }
+
+  std::uint32_t entry(std::string_view key, ValueType type) {
+    for (std::uint32_t i = 0; i < definition_.entries.size(); ++i) {
+      if (definition_.entries[i].name == key) return i;
+    }
+    definition_.entries.push_back({std::string(key), type, {}});
+    return static_cast<std::uint32_t>(definition_.entries.size() - 1);
   }
 
   std::string_view all_, rest_;

@@ -15,7 +15,8 @@ inline constexpr Parameter kParameters[] = {
     {.name = "memory",
      .type = ValueType::Bool,
      .doc = "Do not tick again the children that already completed in this activation.",
-     .default_text = "false"},
+     .default_text = "false",
+     .constant = true},
 };
 
 template <Status kGoOn>

@@ -23,11 +23,13 @@ constexpr Parameter kParameters[] = {
      .range = {.min = 1}},
 };
 
-std::optional<RuleBreak> rule(std::span<Value> values, std::uint32_t children) {
+std::optional<RuleBreak> rule(const ParameterValues& given) {
+  const std::uint32_t children = given.children;
   const std::int64_t all = children;
-  if (std::holds_alternative<std::monostate>(values[kSuccessCount])) values[kSuccessCount] = all;
+  if (!given.is_given(kSuccessCount)) given.values[kSuccessCount] = all;
   for (const unsigned parameter : {kSuccessCount, kFailureCount}) {
-    if (std::get<std::int64_t>(values[parameter]) <= all) continue;
+    const auto* count = std::get_if<std::int64_t>(&given.values[parameter]);
+    if (count == nullptr || *count <= all) continue;
     return RuleBreak{static_cast<int>(parameter),
                      "'" + std::string(kParameters[parameter].name) + "' is more than the " +
                          std::to_string(children) + " children of the node",

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <functional>
 #include <limits>
 #include <string>
 
@@ -34,34 +36,36 @@ constexpr Parameter kParameters[] = {
 };
 
 std::optional<RuleBreak> check_order(const std::vector<double>& barriers) {
+  const auto not_rising = std::ranges::adjacent_find(barriers, std::greater_equal<>());
+  if (not_rising == barriers.end()) return std::nullopt;
   auto sorted = barriers;
-  std::sort(sorted.begin(), sorted.end());
-  if (const auto twice = std::adjacent_find(sorted.begin(), sorted.end()); twice != sorted.end()) {
+  std::ranges::sort(sorted);
+  if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end()) {
     return RuleBreak{kBarriers, "barrier " + to_text(*twice) + " is given twice", ""};
   }
-  if (sorted == barriers) return std::nullopt;
   constexpr std::size_t kMostShown = 20;
   return RuleBreak{kBarriers, "barriers must rise",
                    sorted.size() > kMostShown ? "" : "write '" + to_text(sorted) + "'"};
 }
 
-std::optional<RuleBreak> rule(std::span<Value> values, std::uint32_t) {
-  const auto* barriers = std::get_if<std::vector<double>>(&values[kBarriers]);
-  const auto* count = std::get_if<std::int64_t>(&values[kBarrierCount]);
-  if (barriers != nullptr && count != nullptr) {
+std::optional<RuleBreak> rule(const ParameterValues& given) {
+  if (given.is_given(kBarriers) && given.is_given(kBarrierCount)) {
     return RuleBreak{kBarrierCount, "both 'barriers' and 'barrier_count' are given",
                      "give exactly one of the two"};
   }
-  if (barriers != nullptr) return check_order(*barriers);
-  if (count == nullptr) {
+  if (!given.is_given(kBarriers) && !given.is_given(kBarrierCount)) {
     return RuleBreak{-1, "'barriers' or 'barrier_count' is missing",
                      "give exactly one of the two, such as barriers=\"0.25;0.5;0.75\""};
   }
-  std::vector<double> equidistant;
-  for (std::int64_t i = 1; i <= *count; ++i) {
-    equidistant.push_back(static_cast<double>(i) / static_cast<double>(*count));
+  const auto* barriers = std::get_if<std::vector<double>>(&given.values[kBarriers]);
+  if (barriers != nullptr) return check_order(*barriers);
+  if (const auto* count = std::get_if<std::int64_t>(&given.values[kBarrierCount])) {
+    std::vector<double> equidistant;
+    for (std::int64_t i = 1; i <= *count; ++i) {
+      equidistant.push_back(static_cast<double>(i) / static_cast<double>(*count));
+    }
+    given.values[kBarriers] = std::move(equidistant);
   }
-  values[kBarriers] = std::move(equidistant);
   return std::nullopt;
 }
 
@@ -74,6 +78,7 @@ double current_barrier(std::span<const double> barriers, double least) {
 Status tick(Ticker& ticker, NodeIndex self) {
   const auto barriers = ticker.numbers(ticker.parameter(self, kBarriers));
   const double barrier = current_barrier(barriers, synchronized::take_snapshot(ticker, self));
+  ticker.state<SynchronizedState>(self).limit = barrier;
   if (ticker.parameter(self, kAtBarrier).integer == kTickAtBarrier) {
     return synchronized::tick_children(
         ticker, self, [barrier](double reached) { return reached > barrier + kEpsilon; });
@@ -97,7 +102,7 @@ const NodeKind kParallelAbsolute{
              .synchronization = Synchronization::Absolute},
     .tick = tick,
     .progress = synchronized::progress,
-    .state_size = sizeof(synchronized::State),
+    .state_size = sizeof(SynchronizedState),
     .state_per_child = sizeof(double)};
 
 }  // namespace lockstep

@@ -17,9 +17,10 @@ constexpr Parameter kParameters[] = {
 
 Status tick(Ticker& ticker, NodeIndex self) {
   const double least = synchronized::take_snapshot(ticker, self);
-  const double limit = least + ticker.parameter(self, kDelta).number + synchronized::kEpsilon;
-  return synchronized::tick_children(ticker, self,
-                                     [limit](double reached) { return reached > limit; });
+  const double limit = least + ticker.parameter(self, kDelta).number;
+  ticker.state<SynchronizedState>(self).limit = limit;
+  return synchronized::tick_children(
+      ticker, self, [limit](double reached) { return reached > limit + synchronized::kEpsilon; });
 }
 
 }  // namespace
@@ -35,7 +36,7 @@ const NodeKind kParallelRelative{
              .synchronization = Synchronization::Relative},
     .tick = tick,
     .progress = synchronized::progress,
-    .state_size = sizeof(synchronized::State),
+    .state_size = sizeof(SynchronizedState),
     .state_per_child = sizeof(double)};
 
 }  // namespace lockstep

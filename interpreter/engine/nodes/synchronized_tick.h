@@ -5,15 +5,12 @@
 
 #include <algorithm>
 
+#include "engine/synchronized.h"
 #include "engine/ticker.h"
 
 namespace lockstep::synchronized {
 
 inline constexpr double kEpsilon = 1e-9;  // 0.8 <= 0.7 + 0.1 is false in doubles
-
-struct alignas(double) State {  // the snapshot stands behind it
-  bool succeeded;               // in its last tick, which an ancestor may have ended since
-};
 
 // One snapshot before any child is ticked; returns its minimum. A child that succeeded counts as 1.
 inline double take_snapshot(Ticker& ticker, NodeIndex self) {
@@ -57,7 +54,7 @@ Status tick_each(Ticker& ticker, NodeIndex self, Held held) {
 template <class Held>
 Status tick_children(Ticker& ticker, NodeIndex self, Held held) {
   const Status status = tick_each(ticker, self, held);
-  ticker.state<State>(self).succeeded = status == Status::Success;
+  ticker.state<SynchronizedState>(self).succeeded = status == Status::Success;
   return status;
 }
 

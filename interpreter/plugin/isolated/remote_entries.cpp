@@ -31,7 +31,8 @@ bool RemoteEntries::read(MessageReader& message) {
     Entry& entry = entries_[number];
     if (!message.value_into(entry.last)) return false;
     if (entry.last.index() != static_cast<std::size_t>(entry.type) + 1) return false;
-    *entry.write = entry.last;
+    entry.write->value = entry.last;
+    ++entry.write->writes;
     entry.known = true;
   }
   return message.good();

@@ -29,7 +29,7 @@ class RemoteEntries {
  private:
   struct Entry {
     const Value* read;
-    Value* write;  // null: nobody there may set it
+    lockstep::Entry* write;  // null: nobody there may set it
     ValueType type;
     bool known = false;
     Value last = {};  // what the other side knows

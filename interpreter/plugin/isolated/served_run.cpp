@@ -52,7 +52,7 @@ ServedRun::Object* ServedRun::create_run(MessageReader& request) {
   return (objects_[0] = std::move(run)).get();
 }
 
-Value* ServedRun::entry(std::uint32_t number) {
+Entry* ServedRun::entry(std::uint32_t number) {
   if (number >= kMostEntries) return nullptr;
   while (number >= entries_.size()) {
     numbers_.emplace(&entries_.emplace_back(), static_cast<std::uint32_t>(numbers_.size()));
@@ -68,11 +68,16 @@ bool ServedRun::read_ports(MessageReader& request, std::vector<BoundPort>& ports
     const bool is_writable = request.get<std::uint8_t>() != 0;
     const auto number = request.get<std::uint32_t>();
     const auto fallback = request.get<std::uint32_t>();
-    if (fallback != RemoteEntries::kNone) port.fallback = entry(fallback);
+    if (fallback != RemoteEntries::kNone) {
+      const Entry* const held = entry(fallback);
+      if (held == nullptr) return false;
+      port.fallback = &held->value;
+    }
     if (number == RemoteEntries::kNone) continue;
-    Value* const value = entry(number);
-    port.read = value;
-    if (is_writable) port.write = value;
+    Entry* const bound = entry(number);
+    if (bound == nullptr) return false;
+    port.read = &bound->value;
+    if (is_writable) port.write = bound;
   }
   return request.good();
 }
@@ -99,8 +104,8 @@ ServedRun::Object* ServedRun::find(std::uint32_t number) {
 bool ServedRun::read_entries(MessageReader& request) {
   for (auto number = request.get<std::uint32_t>(); number != RemoteEntries::kNone;
        number = request.get<std::uint32_t>()) {
-    Value* const value = entry(number);
-    if (value == nullptr || !request.value_into(*value)) return false;
+    Entry* const known = entry(number);
+    if (known == nullptr || !request.value_into(known->value)) return false;
   }
   return request.good();
 }
@@ -161,11 +166,11 @@ std::string ServedRun::call(Object& object, PluginFunction function, std::uint64
 }
 
 void ServedRun::write_entries(MessageWriter& answer) const {
-  for (const Value* value : written_) {
+  for (const Entry* entry : written_) {
     // A set that failed for want of memory may have left nothing there.
-    if (std::holds_alternative<std::monostate>(*value)) continue;
-    answer.put(numbers_.at(value));
-    answer.put_value(*value);
+    if (std::holds_alternative<std::monostate>(entry->value)) continue;
+    answer.put(numbers_.at(entry));
+    answer.put_value(entry->value);
   }
   answer.put(RemoteEntries::kNone);
 }

@@ -38,7 +38,7 @@ class ServedRun {
   Object* find(std::uint32_t number);
   bool read_ports(MessageReader& request, std::vector<BoundPort>& ports);
   bool read_entries(MessageReader& request);
-  Value* entry(std::uint32_t number);
+  Entry* entry(std::uint32_t number);
   // Returns what it threw, "" when it came back.
   std::string call(Object& object, PluginFunction function, std::uint64_t& result);
   std::uint64_t create(Object& object);
@@ -51,9 +51,9 @@ class ServedRun {
   HostLog& log_;
   LeafTime time_;
   std::unordered_map<std::uint32_t, std::unique_ptr<Object>> objects_;
-  std::deque<Value> entries_;  // none of them moves
-  std::unordered_map<const Value*, std::uint32_t> numbers_;
-  std::vector<Value*> written_;  // in this call
+  std::deque<Entry> entries_;  // none of them moves
+  std::unordered_map<const Entry*, std::uint32_t> numbers_;
+  std::vector<Entry*> written_;  // in this call
 };
 
 }  // namespace lockstep

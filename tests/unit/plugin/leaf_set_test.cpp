@@ -139,7 +139,11 @@ TEST_CASE("get leaves the value alone when there is none to get") {
 TEST_CASE("set writes entries of the port's type, and nothing else") {
   lab = {};
   Fixture fixture(2);
-  const std::vector<Value>& entries = fixture.blackboard->values;
+  const auto entries = [&] {
+    std::vector<Value> values;
+    for (const Entry& entry : fixture.blackboard->entries) values.push_back(entry.value);
+    return values;
+  };
   const double nan = std::nan("");
   CHECK(host.set_int(fixture.leaf(0), kCount, 3));
   std::int64_t count = 0;
@@ -150,7 +154,7 @@ TEST_CASE("set writes entries of the port's type, and nothing else") {
   const std::vector<Value> expected = {Value(std::int64_t{3}), Value(2.5),
                                        Value(std::string("ab\0c", 4)),
                                        Value(std::vector<double>{})};
-  CHECK(entries == expected);
+  CHECK(entries() == expected);
 
   CHECK_FALSE(host.set_bool(fixture.leaf(), kFlag, false));      // an input
   CHECK_FALSE(host.set_double(fixture.leaf(), kLimit, 1));       // a constant
@@ -161,7 +165,8 @@ TEST_CASE("set writes entries of the port's type, and nothing else") {
   CHECK_FALSE(host.set_double_list(fixture.leaf(), kList, &nan, 1));
   CHECK_FALSE(host.set_string(fixture.leaf(), kText, nullptr, 1));
   CHECK_FALSE(host.set_double(lab.run, kSpeed, 1));
-  CHECK(entries == expected);
+  CHECK(entries() == expected);
+  for (const Entry& entry : fixture.blackboard->entries) CHECK(entry.writes == 1);
 }
 
 TEST_CASE("a string or list that does not grow stays where it is, even when set to itself") {
@@ -174,11 +179,11 @@ TEST_CASE("a string or list that does not grow stays where it is, even when set 
   REQUIRE(host.get_double_list(fixture.leaf(), kList, &list, &length));
   CHECK(host.set_string(fixture.leaf(), kText, text + 1, 3));
   CHECK(host.set_double_list(fixture.leaf(), kList, list + 1, 2));
-  const auto& entries = fixture.blackboard->values;
-  CHECK(std::get<std::string>(entries[2]) == "ell");
-  CHECK(std::get<std::string>(entries[2]).data() == text);
-  CHECK(std::get<std::vector<double>>(entries[3]) == std::vector{2.0, 3.0});
-  CHECK(std::get<std::vector<double>>(entries[3]).data() == list);
+  const auto& entries = fixture.blackboard->entries;
+  CHECK(std::get<std::string>(entries[2].value) == "ell");
+  CHECK(std::get<std::string>(entries[2].value).data() == text);
+  CHECK(std::get<std::vector<double>>(entries[3].value) == std::vector{2.0, 3.0});
+  CHECK(std::get<std::vector<double>>(entries[3].value).data() == list);
 }
 
 TEST_CASE("set_error keeps a copy of the first message until it is taken") {

@@ -75,7 +75,7 @@ struct Fixture {
 };
 
 const lockstep_leaf_type* own_type(const Tree& tree, std::size_t leaf) {
-  return static_cast<const lockstep_leaf_type*>(tree.leaves[leaf].type->binding);
+  return tree.leaves[leaf].type->leaf;
 }
 
 TEST_CASE("without a watch the slots hold the plugin's own leaves") {

@@ -1,0 +1,119 @@
+#include "engine/bound_parameters.h"
+
+#include <algorithm>
+
+#include "core/parameter_value.h"
+
+namespace lockstep {
+
+BoundParameters::BoundParameters(const Tree& tree, const Blackboard& board)
+    : tree_(tree), board_(board), cells_(tree.cells.data()), numbers_(tree.numbers.data()) {
+  if (tree.bound.empty()) return;
+  values_.resize(tree.bound.size());
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    const std::size_t count = tree.labels[tree.bound[i].node].type->parameters.size();
+    values_[i].values.resize(count);
+    values_[i].seen.resize(count);
+    values_[i].space.resize(count);
+  }
+  own_cells_ = tree.cells;
+  own_numbers_ = tree.numbers;
+  cells_ = own_cells_.data();
+  numbers_ = own_numbers_.data();
+}
+
+void BoundParameters::reset() {
+  for (Values& values : values_) values.known = false;
+}
+
+std::string BoundParameters::read(std::uint32_t bound) {
+  const BoundNode& node = tree_.bound[bound];
+  Values& values = values_[bound];
+  if (is_current(node, values)) return {};
+  std::string wrong = take_values(node, values);
+  values.known = wrong.empty();
+  if (values.known) set_cells(node, values);
+  return wrong;
+}
+
+bool BoundParameters::is_current(const BoundNode& node, const Values& values) const {
+  if (!values.known) return false;
+  for (std::size_t i = 0; i < values.seen.size(); ++i) {
+    const std::uint32_t slot = tree_.ports[node.first_port + i].slot;
+    if (slot != PortBinding::kUnbound && board_.entries[slot].writes != values.seen[i])
+      return false;
+  }
+  return true;
+}
+
+std::string BoundParameters::take_values(const BoundNode& node, Values& values) const {
+  const NodeType& type = node.kind->type;
+  for (unsigned i = 0; i < values.values.size(); ++i) {
+    const PortBinding& port = tree_.ports[node.first_port + i];
+    const Entry* entry = port.slot == PortBinding::kUnbound ? nullptr : &board_.entries[port.slot];
+    const bool written = entry != nullptr && !std::holds_alternative<std::monostate>(entry->value);
+    if (entry != nullptr) values.seen[i] = entry->writes;
+    if (written) {
+      if (const auto why = refuse_value(type.parameters[i], entry->value)) {
+        return refusal(node, i, *why);
+      }
+      values.values[i] = entry->value;
+    } else if (port.constant != PortBinding::kUnbound) {
+      values.values[i] = tree_.constants[port.constant];
+    } else {
+      values.values[i] = {};
+      if (entry == nullptr || !type.parameters[i].required) continue;
+      return "nothing has written the entry '" + tree_.slots[port.slot].name + "', and '" +
+             std::string(type.parameters[i].name) + "' has no default";
+    }
+  }
+  if (type.rule == nullptr) return {};
+  const auto broken =
+      type.rule({.values = values.values, .children = tree_.nodes[node.node].children});
+  if (!broken) return {};
+  return refusal(node, static_cast<unsigned>(broken->parameter), *broken);
+}
+
+std::string BoundParameters::refusal(const BoundNode& node, unsigned parameter,
+                                     const RuleBreak& why) const {
+  std::string text = why.message;
+  const NodeType& type = node.kind->type;
+  if (parameter < type.parameters.size()) {
+    const std::uint32_t slot = tree_.ports[node.first_port + parameter].slot;
+    if (slot != PortBinding::kUnbound) {
+      text += ": '" + std::string(type.parameters[parameter].name) + "' is '" +
+              to_text(board_.entries[slot].value) + "', from the entry '" + tree_.slots[slot].name +
+              "'";
+    }
+  }
+  if (!why.hint.empty()) text += "; " + why.hint;
+  return text;
+}
+
+void BoundParameters::set_cells(const BoundNode& node, Values& values) {
+  Cell* const cells = own_cells_.data() + tree_.nodes[node.node].params;
+  const auto& parameters = node.kind->type.parameters;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const auto* list = std::get_if<std::vector<double>>(&values.values[i]);
+    if (list == nullptr) {
+      cells[i] = scalar_cell(parameters[i], values.values[i]);
+    } else {
+      set_list(cells[i], values.space[i], *list);
+    }
+  }
+}
+
+// A list that has outgrown its place gets a new one of twice the size at the end.
+void BoundParameters::set_list(Cell& cell, std::uint32_t& space, const std::vector<double>& list) {
+  const auto count = static_cast<std::uint32_t>(list.size());
+  if (count > space) {
+    space = std::max(count, 2 * space);
+    cell.list.first = static_cast<std::uint32_t>(own_numbers_.size());
+    own_numbers_.resize(own_numbers_.size() + space);
+    numbers_ = own_numbers_.data();
+  }
+  cell.list.count = count;
+  std::ranges::copy(list, own_numbers_.begin() + cell.list.first);
+}
+
+}  // namespace lockstep

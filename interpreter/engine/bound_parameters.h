@@ -1,0 +1,53 @@
+// The parameters of built-in nodes in one run. Constants are the tree's own cells. Where a tree has
+// parameters from entries, the run has cells of its own: an entry that was written since the node's
+// last tick is checked as the loader checks constants, and becomes a cell.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/blackboard.h"
+#include "engine/tree.h"
+
+namespace lockstep {
+
+class BoundParameters {
+ public:
+  // `tree` and `board` must outlive this.
+  BoundParameters(const Tree& tree, const Blackboard& board);
+  BoundParameters(const BoundParameters&) = delete;
+  BoundParameters& operator=(const BoundParameters&) = delete;
+
+  const Cell* cells() const { return cells_; }
+  const double* numbers() const { return numbers_; }
+
+  // Takes over the entries that were written. What is wrong with a value, else "": then the node's
+  // cells are as before. Allocates only for texts and lists that are longer than before, or where
+  // the kind's rule does.
+  std::string read(std::uint32_t bound);
+  // As new, for the next run.
+  void reset();
+
+ private:
+  struct Values {
+    std::vector<Value> values;         // as the rule sees them
+    std::vector<std::uint32_t> seen;   // of each: Entry::writes when it was read
+    std::vector<std::uint32_t> space;  // of each list: how many numbers fit behind its first
+    bool known = false;                // all entries were read once
+  };
+  bool is_current(const BoundNode& node, const Values& values) const;
+  std::string take_values(const BoundNode& node, Values& values) const;
+  std::string refusal(const BoundNode& node, unsigned parameter, const RuleBreak& why) const;
+  void set_cells(const BoundNode& node, Values& values);
+  void set_list(Cell& cell, std::uint32_t& space, const std::vector<double>& list);
+
+  const Tree& tree_;
+  const Blackboard& board_;
+  const Cell* cells_;
+  const double* numbers_;
+  std::vector<Cell> own_cells_;  // empty when the tree has no bound nodes
+  std::vector<double> own_numbers_;
+  std::vector<Values> values_;  // of each Tree::bound
+};
+
+}  // namespace lockstep
