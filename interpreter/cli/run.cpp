@@ -50,7 +50,7 @@ std::string describe(const Fault& fault, const Tree& tree, const RunEnd& end) {
                ? "failed before the first tick"
                : fmt::format("failed in tick {} at {:.3f} s", end.ticks - 1, to_seconds(end.time));
   }
-  return fmt::format("the leaf {} {}: {}", describe_leaf(tree, fault.node), what, fault.message);
+  return fmt::format("{} {}: {}", describe_node(tree, fault.node), what, fault.message);
 }
 
 // There is one, and its members end in the order in which they may.

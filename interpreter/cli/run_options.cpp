@@ -44,7 +44,10 @@ void define_loop_options(CLI::App& app, RunCommandOptions& options) {
       ->type_name("N")
       ->transform(whole_number())
       ->capture_default_str();
-  app.add_option("--max-ticks", options.max_ticks, "Stop after N ticks, at least 1")
+  app.add_option(
+         "--max-ticks", options.max_ticks,
+         "Stop after N ticks, at least 1 (default on the virtual clock: 1000000, unless there is a "
+         "--timeout)")
       ->type_name("N")
       ->transform(whole_number(1));
   app.add_option("--timeout", options.timeout, "Stop after S seconds of the run's clock")
@@ -106,6 +109,8 @@ LoopOptions RunCommandOptions::loop() const {
                    .stop_signal = StopSignals::received,
                    .overrun = overrun};
   if (timeout) loop.timeout = from_seconds(*timeout);
+  // A tree that never completes would fill a disk with its recording in minutes.
+  if (!is_wall() && !timeout && !max_ticks) loop.max_ticks = kMostVirtualTicks;
   return loop;
 }
 

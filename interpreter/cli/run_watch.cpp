@@ -31,9 +31,10 @@ double milliseconds(Nanoseconds time) {
 
 }  // namespace
 
-std::string describe_leaf(const Tree& tree, NodeIndex leaf) {
-  const NodeType& type = *tree.labels[leaf].type;
-  return fmt::format("'{}' ({} of plugin '{}')", tree.path(leaf), type.id, type.plugin);
+std::string describe_node(const Tree& tree, NodeIndex node) {
+  const NodeType& type = *tree.labels[node].type;
+  if (type.leaf == nullptr) return fmt::format("the node '{}' ({})", tree.path(node), type.id);
+  return fmt::format("the leaf '{}' ({} of plugin '{}')", tree.path(node), type.id, type.plugin);
 }
 
 RunWatch::RunWatch(const Tree& tree, const RunCommandOptions& options,
@@ -50,13 +51,13 @@ LeafWatchOptions RunWatch::leaf_watch_options() {
   LeafWatchOptions watch{
       .budget = options_.tick_budget(), .clock = nullptr, .on_slow = {}, .on_float_mode = {}};
   watch.on_slow = [this](NodeIndex leaf, PluginFunction function, Nanoseconds took) {
-    print_(fmt::format("the leaf {} took {:.3f} ms in {}, more than the budget of {:.3f} ms",
-                       describe_leaf(tree_, leaf), milliseconds(took), name_of(function),
+    print_(fmt::format("{} took {:.3f} ms in {}, more than the budget of {:.3f} ms",
+                       describe_node(tree_, leaf), milliseconds(took), name_of(function),
                        milliseconds(*options_.tick_budget())));
   };
   watch.on_float_mode = [this](NodeIndex leaf, PluginFunction function) {
-    print_(fmt::format("the leaf {} changed the floating-point mode in {}; it was set back",
-                       describe_leaf(tree_, leaf), name_of(function)));
+    print_(fmt::format("{} changed the floating-point mode in {}; it was set back",
+                       describe_node(tree_, leaf), name_of(function)));
   };
   return watch;
 }
@@ -83,8 +84,7 @@ void RunWatch::after_tick(Ticker& ticker, const TickReport&) {
   const auto all = ticker.out_of_range();
   for (; out_of_range_ < std::min(all.size(), kMostLeaves); ++out_of_range_) {
     const OutOfRange& it = all[out_of_range_];
-    print_(fmt::format("the leaf {} {}", describe_leaf(tree_, it.node),
-                       out_of_range_text(it.reported)));
+    print_(fmt::format("{} {}", describe_node(tree_, it.node), out_of_range_text(it.reported)));
   }
 }
 

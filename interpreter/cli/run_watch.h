@@ -15,8 +15,8 @@
 
 namespace lockstep {
 
-// "'Main/arm' (Advance of plugin 'motion')".
-std::string describe_leaf(const Tree& tree, NodeIndex leaf);
+// "the leaf 'Main/arm' (Advance of plugin 'motion')" or "the node 'Main/Wait' (Wait)".
+std::string describe_node(const Tree& tree, NodeIndex node);
 
 class RunWatch final : public Observer {
  public:

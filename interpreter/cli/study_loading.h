@@ -7,6 +7,7 @@
 
 #include "cli/loading.h"
 #include "measure/measure_spec.h"
+#include "runtime/loop.h"
 #include "study/study_run.h"
 
 namespace lockstep {
@@ -20,7 +21,7 @@ struct StudyOptions {
   std::vector<std::string> measures;  // none: progress-distance
   std::string shard;                  // I/N
   double rate = 100;
-  std::uint64_t max_ticks = 1'000'000;
+  std::uint64_t max_ticks = kMostVirtualTicks;
 };
 
 struct LoadedStudy {

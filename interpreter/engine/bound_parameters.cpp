@@ -63,8 +63,9 @@ std::string BoundParameters::take_values(const BoundNode& node, Values& values) 
     } else {
       values.values[i] = {};
       if (entry == nullptr || !type.parameters[i].required) continue;
-      return "nothing has written the entry '" + tree_.slots[port.slot].name + "', and '" +
-             std::string(type.parameters[i].name) + "' has no default";
+      return "'" + std::string(type.parameters[i].name) +
+             "' has no value: nothing has written the entry '{" + tree_.slots[port.slot].name +
+             "}'";
     }
   }
   if (type.rule == nullptr) return {};
@@ -82,8 +83,8 @@ std::string BoundParameters::refusal(const BoundNode& node, unsigned parameter,
     const std::uint32_t slot = tree_.ports[node.first_port + parameter].slot;
     if (slot != PortBinding::kUnbound) {
       text += ": '" + std::string(type.parameters[parameter].name) + "' is '" +
-              to_text(board_.entries[slot].value) + "', from the entry '" + tree_.slots[slot].name +
-              "'";
+              to_text(board_.entries[slot].value) + "', from the entry '{" +
+              tree_.slots[slot].name + "}'";
     }
   }
   if (!why.hint.empty()) text += "; " + why.hint;

@@ -19,9 +19,9 @@ std::string why(const Summary& summary) {
     case StopReason::Fault:
       return printable(summary.fault);
     case StopReason::Timeout:
-      return "the time limit was reached";
+      return "the time limit (--timeout) was reached";
     case StopReason::MaxTicks:
-      return "the tick limit was reached";
+      return "the tick limit (--max-ticks) was reached";
     case StopReason::Signal:
       return fmt::format("signal: {}", strsignal(summary.signal));
     case StopReason::Overrun:

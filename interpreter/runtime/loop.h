@@ -22,6 +22,9 @@ enum class OverrunPolicy : std::uint8_t {
   Fail,     // the run ends
 };
 
+// Of a run on the virtual clock, if nobody says how many.
+constexpr std::uint64_t kMostVirtualTicks = 1'000'000;
+
 struct LoopOptions {
   double rate = 100;                       // Hz, in [0.001, 100000]
   std::optional<std::uint64_t> max_ticks;  // stop after this many

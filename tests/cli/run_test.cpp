@@ -90,6 +90,30 @@ TEST_CASE("run --max-ticks and --timeout end with 124, all running leaves halted
   CHECK(contains(time.out, "after 5 ticks"));
 }
 
+TEST_CASE("on the virtual clock a tree that never completes is stopped after a million ticks") {
+  const Outcome outcome = Simulation("<AlwaysRunning/>").run();
+  CHECK(outcome.code == 124);
+  CHECK(outcome.out.starts_with(
+      "stopped: the tick limit (--max-ticks) was reached after 1000000 ticks, 10000.000 s"));
+  const Outcome longer = Simulation("<AlwaysRunning/>").run({"--timeout", "10001"});
+  CHECK(longer.out.starts_with(
+      "stopped: the time limit (--timeout) was reached after 1000100 ticks, 10001.000 s"));
+}
+
+TEST_CASE("a value that a built-in node does not take is a fault that names node, entry, value") {
+  const Simulation it(
+      "<ParallelRelative name=\"pair\" delta=\"{delta}\"><Advance step=\"0.1\"/>"
+      "</ParallelRelative>");
+  const Outcome outcome = it.run({"--set", "delta=1.5"});
+  CHECK(outcome.code == 5);
+  CHECK(
+      contains(outcome.err,
+               "the node 'Main/pair' (ParallelRelative) failed in tick 0 at 0.000 s: 1.5 is "
+               "outside the range of 'delta': 'delta' is '1.5', from the entry '{delta}'; it must "
+               "be from 0 to 1"));
+  CHECK(it.run({"--set", "delta=0.5"}).code == 0);
+}
+
 TEST_CASE("run --rate is ticks per second") {
   const Outcome outcome = Simulation("<Wait seconds=\"1\"/>").run({"--rate", "20", "--json"});
   CHECK(json::parse(outcome.out)["ticks"] == 21);
@@ -288,8 +312,8 @@ TEST_CASE("a port whose entry nobody has written has its default, or the fault n
     CHECK(nlohmann::json::parse(with_default.out)["ticks"] == ticks);
     const Outcome without = run_tree(unwritten, more);
     CHECK(without.code == 5);
-    CHECK(contains(without.err,
-                   "port 'text' has no value: nothing has written the entry '{words}'"));
+    CHECK(
+        contains(without.err, "port 'text' has no value: nothing has written the entry '{words}'"));
   }
 }
 

@@ -121,26 +121,27 @@ TEST_CASE("entry parameter: an entry that nobody wrote") {
   ScriptedRun missing("Sequence(Wait[seconds={pause}])", "");
   missing.tick(at(0));
   CHECK(fault_of(missing) ==
-        "Test/Sequence/Wait: nothing has written the entry 'pause', and 'seconds' has no default");
+        "Test/Sequence/Wait: 'seconds' has no value: nothing has written the entry '{pause}'");
 }
 
 TEST_CASE("entry parameter: a value that the node cannot take is a fault that says all") {
   CHECK(refused("ParallelRelative[delta={it}](a b)", "a=R b=R", 1.5) ==
         "Test/ParallelRelative: 1.5 is outside the range of 'delta': 'delta' is '1.5', from the "
-        "entry 'it'; it must be from 0 to 1");
-  CHECK(refused("ParallelAbsolute[barriers={it}](a b)", "a=R b=R", List{0.5, 0.2}) ==
-        "Test/ParallelAbsolute: barriers must rise: 'barriers' is '0.5;0.2', from the entry 'it'; "
-        "write '0.2;0.5'");
+        "entry '{it}'; it must be from 0 to 1");
+  CHECK(
+      refused("ParallelAbsolute[barriers={it}](a b)", "a=R b=R", List{0.5, 0.2}) ==
+      "Test/ParallelAbsolute: barriers must rise: 'barriers' is '0.5;0.2', from the entry '{it}'; "
+      "write '0.2;0.5'");
   CHECK(refused("ParallelAbsolute[barriers={it}](a b)", "a=R b=R", List{0.5, 1.2}) ==
         "Test/ParallelAbsolute: 1.2 is outside the range of 'barriers': 'barriers' is '0.5;1.2', "
-        "from the entry 'it'; it must be more than 0, at most 1");
+        "from the entry '{it}'; it must be more than 0, at most 1");
   CHECK(refused("Parallel[success_count={it}](a b)", "a=R b=R", std::int64_t{3}) ==
         "Test/Parallel: 'success_count' is more than the 2 children of the node: 'success_count' "
-        "is '3', from the entry 'it'; give at most 2");
+        "is '3', from the entry '{it}'; give at most 2");
   CHECK(refused("ParallelAbsolute[barriers=.5 at_barrier={it}](a b)", "a=R b=R",
                 std::string("jump")) ==
         "Test/ParallelAbsolute: 'jump' is not a value of 'at_barrier': 'at_barrier' is 'jump', "
-        "from the entry 'it'; it must be one of 'wait', 'tick'");
+        "from the entry '{it}'; it must be one of 'wait', 'tick'");
 }
 
 TEST_CASE("entry parameter: a refused value is a Failure under the policy that goes on") {
@@ -162,7 +163,7 @@ TEST_CASE("entry parameter: a run that begins again knows nothing of the last on
   CHECK(run.tick(at(0)) == Status::Running);
   run.restart();
   run.tick(at(0));
-  CHECK(fault_of(run).starts_with("Test/Wait: nothing has written"));
+  CHECK(fault_of(run).starts_with("Test/Wait: 'seconds' has no value"));
 }
 
 }  // namespace lockstep::test

@@ -199,9 +199,9 @@ TEST_CASE("synchronized nodes that no tick reached are only counted") {
 TEST_CASE("why a run stopped") {
   Summary summary;
   summary.reason = StopReason::Timeout;
-  CHECK(text_of(summary).starts_with("stopped: the time limit was reached after 0 ticks"));
+  CHECK(text_of(summary).starts_with("stopped: the time limit (--timeout) was reached after 0 ticks"));
   summary.reason = StopReason::MaxTicks;
-  CHECK(text_of(summary).starts_with("stopped: the tick limit was reached after"));
+  CHECK(text_of(summary).starts_with("stopped: the tick limit (--max-ticks) was reached after"));
   summary.reason = StopReason::Signal;
   summary.signal = SIGINT;
   CHECK(text_of(summary).starts_with("stopped: signal: Interrupt after"));
