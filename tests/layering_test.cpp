@@ -52,6 +52,7 @@ const std::vector<Layer> kThirdParty{
     {"tinyxml2", {"interpreter/document/"}},
     {"dlfcn.h", {"interpreter/plugin/"}},
     {"CLI/", {"interpreter/cli/"}},
+    {"simdjson.h", {"interpreter/core/json_reader.h"}},
     {"nlohmann/", {"interpreter/observers/", "interpreter/study/", "interpreter/cli/"}},
     {"fmt/",
      {"interpreter/core/", "interpreter/document/", "interpreter/definition/",

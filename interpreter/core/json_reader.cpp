@@ -1,0 +1,168 @@
+#include "core/json_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <new>
+#include <utility>
+
+#include "core/wording.h"
+
+namespace lockstep {
+namespace {
+
+namespace ondemand = simdjson::ondemand;
+
+// simdjson reads a bit beyond the end of a text. Zeros there are the beginning of no value.
+class Padding {
+ public:
+  explicit Padding(std::string& text) : text_(text), size_(text.size()) {
+    text_.resize(size_ + simdjson::SIMDJSON_PADDING);
+  }
+  ~Padding() { text_.resize(size_); }
+  Padding(const Padding&) = delete;
+  Padding& operator=(const Padding&) = delete;
+
+  std::size_t size() const { return size_; }
+
+ private:
+  std::string& text_;
+  const std::size_t size_;
+};
+
+// True when there is a value in `result`, false when it is of another type or out of range.
+template <class Value>
+bool take(simdjson::simdjson_result<Value> result, Value& value) {
+  const simdjson::error_code error = std::move(result).get(value);
+  if (error == simdjson::INCORRECT_TYPE || error == simdjson::NUMBER_ERROR) return false;
+  if (error != simdjson::SUCCESS) throw simdjson::simdjson_error(error);
+  return true;
+}
+
+ondemand::object root(ondemand::document& document) {
+  ondemand::object object;
+  const ondemand::json_type type = document.type();
+  if (type != ondemand::json_type::object) throw JsonError("expected a JSON object");
+  if (const auto error = document.get_object().get(object)) throw simdjson::simdjson_error(error);
+  return object;
+}
+
+}  // namespace
+
+void JsonValue::fail(std::string_view expected) const {
+  throw JsonError(fmt::format("{}'{}' is not {}", of_ == Of::List ? "an item of " : "",
+                              brief(name_), expected));
+}
+
+bool JsonValue::get(std::string_view& text) {
+  return take(value_.get_string(), text);
+}
+bool JsonValue::get(double& number) {
+  return take(value_.get_double(), number);
+}
+bool JsonValue::get(std::uint64_t& number) {
+  return take(value_.get_uint64(), number);
+}
+bool JsonValue::is_null() {
+  bool is_null = false;
+  return take(value_.is_null(), is_null) && is_null;
+}
+bool JsonValue::is_list() {
+  return ondemand::json_type(value_.type()) == ondemand::json_type::array;
+}
+
+std::string_view JsonValue::text() {
+  std::string_view text;
+  if (!get(text)) fail("a string");
+  return text;
+}
+
+double JsonValue::number() {
+  double number = 0;
+  if (!get(number)) fail("a number");
+  return number;
+}
+
+std::uint64_t JsonValue::whole() {
+  std::uint64_t number = 0;
+  if (!get(number)) fail(fmt::format("a whole number from 0 to {}", UINT64_MAX));
+  return number;
+}
+
+JsonObject JsonValue::object() {
+  ondemand::object object;
+  if (!take(value_.get_object(), object)) fail("a JSON object");
+  return JsonObject(object);
+}
+
+ondemand::array JsonValue::list() {
+  ondemand::array list;
+  if (!take(value_.get_array(), list)) fail("a list");
+  return list;
+}
+
+std::size_t JsonValue::count_items() {
+  if (!is_list()) fail("a list");
+  return value_.count_elements();
+}
+
+void JsonValue::skip(unsigned levels) {
+  const ondemand::json_type type = value_.type();
+  const bool nests = type == ondemand::json_type::array || type == ondemand::json_type::object;
+  if (nests && levels == 0)
+    throw JsonError(fmt::format("values are nested deeper than {} levels", kDeepest));
+  switch (type) {
+    case ondemand::json_type::array:
+      return each_item([&](JsonValue item) { item.skip(levels - 1); });
+    case ondemand::json_type::object:
+      return object().each_field([&](auto, JsonValue value) { value.skip(levels - 1); });
+    case ondemand::json_type::string:
+      static_cast<void>(std::string_view(value_.get_string()));
+      return;
+    case ondemand::json_type::number:
+      static_cast<void>(double(value_.get_double()));
+      return;
+    case ondemand::json_type::boolean:
+      static_cast<void>(bool(value_.get_bool()));
+      return;
+    case ondemand::json_type::null:
+      if (!is_null()) throw NotJson();
+  }
+}
+
+void JsonObject::each_field(const std::function<void(std::string_view, JsonValue)>& read) {
+  for (auto field : object_) {
+    const std::string_view name = field.unescaped_key();
+    read(name, JsonValue(field.value(), name, JsonValue::Of::Field));
+  }
+}
+
+void JsonObject::read(std::initializer_list<JsonField> fields) {
+  std::uint64_t seen = 0;  // a bit for each of the fields
+  const auto bit = [&](const JsonField* field) { return 1ull << (field - fields.begin()); };
+  each_field([&](std::string_view name, JsonValue value) {
+    const auto* const field = std::ranges::find(fields, name, &JsonField::name);
+    if (field == fields.end()) return value.skip();
+    if ((seen & bit(field)) != 0) throw JsonError(fmt::format("'{}' is there twice", name));
+    seen |= bit(field);
+    field->read(value);
+  });
+  for (const JsonField& field : fields) {
+    if (!field.may_lack && (seen & bit(&field)) == 0)
+      throw JsonError(fmt::format("'{}' is missing", field.name));
+  }
+}
+
+void JsonReader::read(std::string& text, const std::function<void(JsonObject)>& use) {
+  const Padding padding(text);
+  try {
+    ondemand::document document = parser_.iterate(text.data(), padding.size(), text.size());
+    use(JsonObject(root(document)));
+    if (document.current_location().error() != simdjson::OUT_OF_BOUNDS) throw NotJson();
+  } catch (const simdjson::simdjson_error& error) {
+    if (error.error() == simdjson::MEMALLOC) throw std::bad_alloc();
+    throw NotJson();
+  }
+}
+
+}  // namespace lockstep

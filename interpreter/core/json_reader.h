@@ -1,0 +1,118 @@
+// Reads JSON that strangers wrote: once, from its beginning to its end, without building a tree of
+// it. Each value is checked, also those that nobody asks for. A text takes six times its size in
+// memory at most, whatever is in it. The only place that sees simdjson.
+#pragma once
+
+#include <simdjson.h>
+
+#include <cstdint>
+#include <functional>
+#include <initializer_list>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lockstep {
+
+// The text is not what it must be: "'seed' is missing".
+struct JsonError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+// It is not even JSON, or the end of it is missing.
+struct NotJson : JsonError {
+  NotJson() : JsonError("not JSON") {}
+};
+
+class JsonObject;
+
+// To be read once, before the next value of its object or list.
+class JsonValue {
+ public:
+  static constexpr unsigned kDeepest = 64;  // lists and objects inside each other that are skipped
+
+  enum class Of : bool { Field, List };
+  // `name` is that of the field, or of the list.
+  JsonValue(simdjson::ondemand::value value, std::string_view name, Of of)
+      : value_(value), name_(name), of_(of) {}
+
+  // False when it is something else, which can be asked for then. Text is valid until the whole
+  // text has been read.
+  bool get(std::string_view& text);
+  bool get(double& number);
+  bool get(std::uint64_t& number);
+  bool is_null();
+  bool is_list();
+
+  // The same, but throws a JsonError that names the value.
+  std::string_view text();
+  double number();
+  std::uint64_t whole();  // below 2^64
+  JsonObject object();
+  std::size_t count_items();
+  template <class Read>
+  void each_item(Read read) {
+    for (simdjson::ondemand::value item : list()) read(JsonValue(item, name_, Of::List));
+  }
+
+  // Only checks it.
+  void skip() { skip(kDeepest); }
+
+ private:
+  simdjson::ondemand::array list();
+  void skip(unsigned levels);
+  [[noreturn]] void fail(std::string_view expected) const;
+
+  simdjson::ondemand::value value_;
+  std::string_view name_;
+  Of of_;
+};
+
+constexpr bool kMayLack = true;
+
+// What is done with one field of an object.
+struct JsonField {
+  std::string_view name;
+  std::function<void(JsonValue)> read;
+  bool may_lack = false;
+};
+
+class JsonObject {
+ public:
+  explicit JsonObject(simdjson::ondemand::object object) : object_(object) {}
+
+  // Reads these fields, in whatever order they come, and skips all others.
+  void read(std::initializer_list<JsonField> fields);
+  void each_field(const std::function<void(std::string_view name, JsonValue)>& read);
+
+ private:
+  simdjson::ondemand::object object_;
+};
+
+class JsonReader {
+ public:
+  // Reads an object that is the whole of `text`, which is the same again afterwards.
+  void read(std::string& text, const std::function<void(JsonObject)>& use);
+
+ private:
+  simdjson::ondemand::parser parser_;
+};
+
+// For JsonField: stores the value.
+inline auto into(std::string& text) {
+  return [&text](JsonValue value) { text = value.text(); };
+}
+inline auto into(std::vector<std::string>& texts) {
+  return [&texts](JsonValue value) {
+    texts.reserve(value.count_items());
+    value.each_item([&](JsonValue item) { texts.emplace_back(item.text()); });
+  };
+}
+inline auto into(double& number) {
+  return [&number](JsonValue value) { number = value.number(); };
+}
+inline auto into(std::uint64_t& number) {
+  return [&number](JsonValue value) { number = value.whole(); };
+}
+
+}  // namespace lockstep
