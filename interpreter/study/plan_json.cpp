@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
-#include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
+#include "core/json_reader.h"
 #include "study/plan_check.h"
 
 namespace lockstep {
@@ -14,6 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr auto kReplace = Json::error_handler_t::replace;  // what is not UTF-8
 constexpr int kFormat = 2;
 constexpr char kGap[] = "gap";
 constexpr char kNotOurs[] = "it is not as lockstep has written it";
@@ -26,13 +28,6 @@ Json pairs(const std::vector<std::pair<std::string, std::string>>& list, const c
   return array;
 }
 
-std::vector<std::pair<std::string, std::string>> pairs(const Json& array, const char* first,
-                                                       const char* second) {
-  std::vector<std::pair<std::string, std::string>> list;
-  for (const Json& it : array) list.emplace_back(it.at(first), it.at(second));
-  return list;
-}
-
 Json grid_json(const StudyPlan& plan) {
   Json grid = Json::array();
   for (const GridAxis& axis : plan.grid) {
@@ -43,25 +38,11 @@ Json grid_json(const StudyPlan& plan) {
   return grid;
 }
 
-GridAxis axis_from(const Json& json) {
-  const std::string kind = json.at("is");
-  const auto found = std::ranges::find(kKinds, kind);
-  if (found == kKinds.end()) throw std::runtime_error("'is' of a grid is not known");
-  return {static_cast<GridAxis::Kind>(found - kKinds.begin()), json.at("name"), json.at("values")};
-}
-
 Json column_json(const StudyColumn& column) {
   Json json{{"measure", column.measure}, {"node", column.node}};
   if (column.is_gap) json["is"] = kGap;
   if (!column.cells.empty()) json["cells"] = column.cells;
   return json;
-}
-
-StudyColumn column_from(const Json& json) {
-  StudyColumn column{json.at("measure"), json.at("node")};
-  column.is_gap = json.contains("is") && json["is"] == kGap;
-  if (json.contains("cells")) json["cells"].get_to(column.cells);
-  return column;
 }
 
 Json json_of(const StudyPlan& plan) {
@@ -88,66 +69,104 @@ Json json_of(const StudyPlan& plan) {
   return json;
 }
 
-// The library would convert -1, 1.5 or 2^64 in silence.
-std::uint64_t count(const Json& json, const char* key) {
-  const Json& value = json.at(key);
-  if (value.is_number_unsigned()) return value;
-  throw std::runtime_error(fmt::format("'{}' is {}, expected a whole number from 0 to {}", key,
-                                       value.is_number() ? value.dump() : "not a number",
-                                       std::numeric_limits<std::uint64_t>::max()));
+// For JsonField: stores a list of two texts each, an object of texts.
+auto into_pairs(std::vector<std::pair<std::string, std::string>>& list, const char* first,
+                const char* second) {
+  return [&list, first, second](JsonValue value) {
+    value.each_item([&](JsonValue item) {
+      auto& [a, b] = list.emplace_back();
+      item.object().read({{first, into(a)}, {second, into(b)}});
+    });
+  };
 }
 
-StudyPlan plan_of(const Json& json) {
-  if (json.at("lockstep_study") != kFormat) {
-    throw std::runtime_error("it is of another version of lockstep");
-  }
-  StudyPlan plan;
-  plan.version = json.at("version");
-  plan.tree_file = json.at("tree");
-  plan.main_tree = json.at("main_tree");
-  plan.arguments = json.at("arguments");
-  plan.values = json.at("values");
-  for (const Json& axis : json.at("grid")) plan.grid.push_back(axis_from(axis));
-  plan.runs = count(json, "runs");
-  plan.seed = count(json, "seed");
-  plan.rate = json.at("rate");
-  plan.max_ticks = count(json, "max_ticks");
-  plan.measures = json.at("measures");
-  for (const Json& column : json.at("columns")) plan.columns.push_back(column_from(column));
-  plan.plugins = pairs(json.at("plugins"), "name", "version");
-  plan.files = pairs(json.at("files"), "path", "text");
-  if (json.contains("shard")) {
-    plan.shard = {count(json["shard"], "part"), count(json["shard"], "of")};
-  }
-  return plan;
+auto into_map(std::map<std::string, std::string>& map) {
+  return [&map](JsonValue value) {
+    value.object().each_field(
+        [&](std::string_view name, JsonValue text) { map.emplace(name, text.text()); });
+  };
+}
+
+GridAxis axis_from(JsonObject json) {
+  GridAxis axis;
+  std::string kind;
+  json.read({{"name", into(axis.name)}, {"is", into(kind)}, {"values", into(axis.values)}});
+  const auto found = std::ranges::find(kKinds, kind);
+  if (found == kKinds.end()) throw JsonError("'is' of a grid is not known");
+  axis.kind = static_cast<GridAxis::Kind>(found - kKinds.begin());
+  return axis;
+}
+
+StudyColumn column_from(JsonObject json) {
+  StudyColumn column;
+  const auto read_cells = [&](JsonValue value) {
+    value.each_item([&](JsonValue item) { column.cells.push_back(item.whole()); });
+  };
+  json.read({{"measure", into(column.measure)},
+             {"node", into(column.node)},
+             {"is", [&](JsonValue value) { column.is_gap = value.text() == kGap; }, kMayLack},
+             {"cells", read_cells, kMayLack}});
+  return column;
+}
+
+void check_format(JsonValue value) {
+  if (value.whole() != kFormat) throw JsonError("it is of another version of lockstep");
+}
+
+void read(JsonObject json, StudyPlan& plan) {
+  const auto read_grid = [&](JsonValue value) {
+    value.each_item([&](JsonValue item) { plan.grid.push_back(axis_from(item.object())); });
+  };
+  const auto read_columns = [&](JsonValue value) {
+    value.each_item([&](JsonValue item) { plan.columns.push_back(column_from(item.object())); });
+  };
+  const auto read_shard = [&](JsonValue value) {
+    value.object().read({{"part", into(plan.shard.part)}, {"of", into(plan.shard.of)}});
+  };
+  json.read({{"lockstep_study", check_format},
+             {"version", into(plan.version)},
+             {"tree", into(plan.tree_file)},
+             {"main_tree", into(plan.main_tree)},
+             {"arguments", into_map(plan.arguments)},
+             {"values", into_map(plan.values)},
+             {"grid", read_grid},
+             {"runs", into(plan.runs)},
+             {"seed", into(plan.seed)},
+             {"rate", into(plan.rate)},
+             {"max_ticks", into(plan.max_ticks)},
+             {"measures", into(plan.measures)},
+             {"columns", read_columns},
+             {"plugins", into_pairs(plan.plugins, "name", "version")},
+             {"files", into_pairs(plan.files, "path", "text")},
+             {"shard", read_shard, kMayLack}});
 }
 
 }  // namespace
 
 std::string to_json(const StudyPlan& plan) {
   // A text that is not UTF-8 was refused with the tree; a path need not be.
-  return json_of(plan).dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  return json_of(plan).dump(2, ' ', false, kReplace) + '\n';
 }
 
-std::optional<StudyPlan> plan_from_json(const std::string& text, std::string& error) {
+std::optional<StudyPlan> plan_from_json(std::string text, std::string& error) {
+  StudyPlan plan;
   try {
-    StudyPlan plan = plan_of(Json::parse(text));
+    JsonReader().read(text, [&](JsonObject json) { read(json, plan); });
     error = check_plan(plan);
-    // Keys that are not known, are there twice or in another order.
-    if (error.empty() && to_json(plan) != text) error = kNotOurs;
-    if (error.empty()) return plan;
-  } catch (const Json::exception&) {
-    error = kNotOurs;
-  } catch (const std::runtime_error& exception) {
-    error = exception.what();
+  } catch (const JsonError& bad) {
+    error = bad.what();
   }
-  return std::nullopt;
+  // Keys that are not known, or are in another order.
+  if (error.empty() && to_json(plan) != text) error = kNotOurs;
+  return error.empty() ? std::optional(plan) : std::nullopt;
 }
 
 std::string first_difference(const StudyPlan& one, const StudyPlan& other, bool with_shard) {
-  const Json a = Json::parse(to_json(one)), b = Json::parse(to_json(other));
+  // As they are written: a path that is not UTF-8 is something else there.
+  const auto text_of = [](const Json& json) { return json.dump(-1, ' ', false, kReplace); };
+  const Json a = json_of(one), b = json_of(other);
   for (const auto& [key, value] : a.items()) {
-    if (key != "shard" && b.at(key) != value) return key;
+    if (key != "shard" && text_of(b.at(key)) != text_of(value)) return key;
   }
   return with_shard && one.shard != other.shard ? "shard" : "";
 }

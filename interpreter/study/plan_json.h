@@ -14,7 +14,7 @@ std::string to_json(const StudyPlan& plan);
 
 // Only of what to_json() gives of a plan that check_plan() accepts, byte for byte. On failure
 // `error` says why.
-std::optional<StudyPlan> plan_from_json(const std::string& text, std::string& error);
+std::optional<StudyPlan> plan_from_json(std::string text, std::string& error);
 
 // The first thing in which two plans differ, as study.json calls it; "" when they are of one study
 // (`with_shard` false: perhaps parts of it).
