@@ -52,7 +52,7 @@ std::filesystem::path image_of(const LogPlotOptions& options, const ProgressPlot
   std::filesystem::path image = options.out;
   if (plots.size() == 1) return image;
   const auto name_of = [](const ProgressPlot& one) {
-    return file_stem(one.node.path.substr(one.node.path.rfind('/') + 1));
+    return file_stem(last_segment(one.node.path));
   };
   std::string name = name_of(plot);
   const auto same = std::count_if(plots.begin(), plots.end(), [&](const ProgressPlot& other) {

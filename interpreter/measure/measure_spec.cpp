@@ -113,4 +113,8 @@ std::optional<std::size_t> find_path(std::span<const std::string> paths, std::st
   return found;
 }
 
+std::string last_segment(std::string_view path) {
+  return std::string(path.substr(path.rfind('/') + 1));
+}
+
 }  // namespace lockstep

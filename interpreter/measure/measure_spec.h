@@ -38,5 +38,7 @@ std::string_view axis_label(MeasureKind kind);
 // The only path that is `node` or ends in "/" + `node`. Else nothing, and why in `error`.
 std::optional<std::size_t> find_path(std::span<const std::string> paths, std::string_view node,
                                      std::string& error);
+// "arm" of "Main/pull/arm".
+std::string last_segment(std::string_view path);
 
 }  // namespace lockstep

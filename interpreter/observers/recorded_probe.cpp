@@ -1,6 +1,9 @@
 #include "observers/recorded_probe.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "measure/measure_spec.h"
 
 namespace lockstep {
 
@@ -12,17 +15,19 @@ std::vector<NodeIndex> synchronized_nodes(const RecordingHeader& header) {
   return nodes;
 }
 
-RecordedProbe::RecordedProbe(const RecordingHeader& header, NodeIndex node)
-    : node_(node), held_(0) {
-  for (NodeIndex child = node + 1; child < header.nodes.size(); ++child) {
-    if (header.nodes[child].parent < node) break;  // in pre-order: not below the node any more
-    if (header.nodes[child].parent != node) continue;
-    const std::string& path = header.nodes[child].path;
-    children_.push_back(child);
-    names_.push_back(path.substr(path.rfind('/') + 1));
+std::vector<std::vector<NodeIndex>> children_of(const RecordingHeader& header) {
+  std::vector<std::vector<NodeIndex>> children(header.nodes.size());
+  for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
+    if (const auto parent = header.nodes[node].parent) children[*parent].push_back(node);
   }
+  return children;
+}
+
+RecordedProbe::RecordedProbe(const RecordingHeader& header, NodeIndex node,
+                             std::vector<NodeIndex> children)
+    : node_(node), children_(std::move(children)), held_(children_.size()) {
+  for (const NodeIndex child : children_) names_.push_back(last_segment(header.nodes[child].path));
   progress_.resize(children_.size());
-  held_ = HeldChildren(children_.size());
 }
 
 SynchronizedTick RecordedProbe::read(const RecordedTick& tick) {
@@ -37,6 +42,17 @@ SynchronizedTick RecordedProbe::read(const RecordedTick& tick) {
           .status = succeeded ? Status::Success : tick.nodes[node_].status,
           .progress = progress_,
           .held = {held_.data(), children_.size()}};
+}
+
+std::vector<RecordedMeasure> measures_of(const RecordingHeader& header) {
+  auto children = children_of(header);
+  std::vector<RecordedMeasure> measures;
+  for (const NodeIndex node : synchronized_nodes(header)) {
+    const std::size_t count = children[node].size();
+    measures.push_back(
+        {RecordedProbe(header, node, std::move(children[node])), SynchronizedMeasure(count)});
+  }
+  return measures;
 }
 
 }  // namespace lockstep

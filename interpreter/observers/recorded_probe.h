@@ -1,5 +1,5 @@
-// Reads the ticks of one synchronized node from a recording, as SynchronizedProbe does from a
-// Ticker. Used by all that measures or draws recordings.
+// Reads the ticks of synchronized nodes from a recording, as SynchronizedProbe does from a Ticker.
+// Used by all that measures or draws recordings.
 #pragma once
 
 #include <string>
@@ -11,10 +11,12 @@
 namespace lockstep {
 
 std::vector<NodeIndex> synchronized_nodes(const RecordingHeader& header);
+// Of each node, by index.
+std::vector<std::vector<NodeIndex>> children_of(const RecordingHeader& header);
 
 class RecordedProbe {
  public:
-  RecordedProbe(const RecordingHeader& header, NodeIndex node);
+  RecordedProbe(const RecordingHeader& header, NodeIndex node, std::vector<NodeIndex> children);
   // Valid until the next call.
   SynchronizedTick read(const RecordedTick& tick);
 
@@ -30,5 +32,16 @@ class RecordedProbe {
   std::vector<double> progress_;
   HeldChildren held_;
 };
+
+// A synchronized node and what is measured of it.
+struct RecordedMeasure {
+  RecordedProbe probe;
+  SynchronizedMeasure measure;
+
+  void after_tick(const RecordedTick& tick) { measure.after_tick(probe.read(tick)); }
+};
+
+// One for each synchronized node.
+std::vector<RecordedMeasure> measures_of(const RecordingHeader& header);
 
 }  // namespace lockstep

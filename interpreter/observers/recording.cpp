@@ -38,6 +38,10 @@ std::vector<RecordedNode> describe(const Tree& tree) {
   return nodes;
 }
 
+Nanoseconds period_of(const RecordingHeader& header) {
+  return header.rate_hz > 0 ? from_seconds(1 / header.rate_hz) : Nanoseconds(0);
+}
+
 std::string to_json(const RecordingHeader& header) {
   Json json = {{"lockstep_recording", kRecordingVersion},
                {"tree", header.tree},

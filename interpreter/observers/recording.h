@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/clock.h"
 #include "core/status.h"
 #include "engine/synchronized.h"
 
@@ -57,8 +58,8 @@ struct RecordedTick {
   std::uint64_t tick = 0;
   double time = 0;  // seconds
   std::span<const RecordedState> nodes;
-  std::vector<NodeIndex> succeeded = {};  // synchronized nodes that an ancestor has ended since
-  std::vector<RecordedFault> faults = {};
+  std::span<const NodeIndex> succeeded = {};  // synchronized, that an ancestor has ended since
+  std::span<const RecordedFault> faults = {};
 };
 
 // Ticks in a row that have no line: the disk was too slow for them.
@@ -70,7 +71,7 @@ struct RecordedGap {
 struct RecordedEnd {
   std::string result, reason;
   std::string fault;  // or ""
-  std::optional<std::int64_t> signal;
+  std::optional<std::uint64_t> signal;
   std::uint64_t ticks = 0;
   double time = 0;  // seconds
   std::uint64_t overruns = 0, skipped = 0;
@@ -80,6 +81,8 @@ struct RecordedEnd {
 
 // The header's part about the nodes.
 std::vector<RecordedNode> describe(const Tree& tree);
+// From one tick to the next; 0 when the rate is not known.
+Nanoseconds period_of(const RecordingHeader& header);
 
 // One line each, without the newline.
 std::string to_json(const RecordingHeader& header);

@@ -103,7 +103,7 @@ Values compare_ends(const std::optional<RecordedEnd>& a, const std::optional<Rec
 }
 
 std::vector<std::string> texts(const RecordingHeader& header,
-                               const std::vector<RecordedFault>& faults) {
+                               std::span<const RecordedFault> faults) {
   std::vector<std::string> texts;
   for (const RecordedFault& fault : faults) {
     texts.push_back(fmt::format("{}: {}", header.nodes[fault.node].path, fault.message));

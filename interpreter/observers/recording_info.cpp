@@ -9,30 +9,9 @@
 #include "observers/recorded_probe.h"
 #include "observers/style.h"
 #include "observers/summary.h"
-#include "observers/tree_shape.h"
 
 namespace lockstep {
 namespace {
-
-// A synchronized node of the recording and what is measured of it.
-class Replayed {
- public:
-  Replayed(const RecordingHeader& header, NodeIndex node)
-      : probe_(header, node), measure_(probe_.children().size()) {}
-
-  void after_tick(const RecordedTick& tick) { measure_.after_tick(probe_.read(tick)); }
-
-  bool is_reached() const { return measure_.distance().samples() > 0; }
-  SynchronizedSummary summary(const RecordingHeader& header, double end) {
-    measure_.run_ended(from_seconds(end));
-    const RecordedNode& node = header.nodes[probe_.node()];
-    return summarize(measure_, node.path, node.kind, probe_.names());
-  }
-
- private:
-  RecordedProbe probe_;
-  SynchronizedMeasure measure_;
-};
 
 void write_header(const RecordingHeader& header, std::string& out, bool color) {
   fmt::format_to(std::back_inserter(out), "{} from {}, recorded by lockstep {}\n",
@@ -70,10 +49,10 @@ std::vector<DecidingSummary> why_failed(const RecordingReader& reader, const Rec
   const auto& end = reader.end();
   const bool failed = end && end->result == to_string(RunResult::Failure);
   if (!failed || last.tick + 1 != end->ticks) return {};
-  const TreeShape shape = shape_of(header);
+  const auto children = children_of(header);
   std::vector<DecidingSummary> path;
   for (const DecidingNode& node : deciding_path({
-           .children = [&](NodeIndex node) { return shape.nodes[node].children; },
+           .children = [&](NodeIndex node) { return children[node]; },
          .status = [&](NodeIndex node) { return last.nodes[node].status; },
          .ticked = [&](NodeIndex node) { return last.nodes[node].ticked; },
        })) {
@@ -99,15 +78,14 @@ void write_warnings(const RecordingReader& reader, std::uint64_t faults, std::st
 
 std::string info_text(RecordingReader& reader, bool color) {
   const RecordingHeader& header = reader.header();
-  std::vector<Replayed> nodes;
-  for (const NodeIndex node : synchronized_nodes(header)) nodes.emplace_back(header, node);
+  std::vector<RecordedMeasure> nodes = measures_of(header);
   std::uint64_t ticks = 0, faults = 0;
   RecordedTick last;
   while (const auto tick = reader.next()) {
     ++ticks;
     faults += tick->faults.size();
     last = *tick;
-    for (Replayed& node : nodes) node.after_tick(last);
+    for (RecordedMeasure& node : nodes) node.after_tick(last);
   }
   if (!reader.error().empty()) return {};
   std::string out;
@@ -117,8 +95,11 @@ std::string info_text(RecordingReader& reader, bool color) {
   if (ticks > 0) write_text(why_failed(reader, last), out, color);
   write_warnings(reader, faults, out, color);
   std::vector<SynchronizedSummary> reached;
-  for (Replayed& node : nodes) {
-    if (node.is_reached()) reached.push_back(node.summary(header, time));
+  for (auto& [probe, measure] : nodes) {
+    if (measure.distance().samples() == 0) continue;
+    measure.run_ended(from_seconds(time));
+    const RecordedNode& node = header.nodes[probe.node()];
+    reached.push_back(summarize(measure, node.path, node.kind, probe.names()));
   }
   write_text(reached, nodes.size() - reached.size(), out, color);
   return out;

@@ -1,23 +1,29 @@
-// The lines of a recording, taken apart and checked. Throws BadLine, which the reader turns into
-// an error with a line number; nobody else uses this.
+// The lines of a recording: JSON, taken apart and checked. What is wrong with a line is thrown as a
+// JsonError, which the reader turns into an error with a line number; nobody else uses this.
 #pragma once
 
-#include <nlohmann/json.hpp>
-#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
 
+#include "core/json_reader.h"
 #include "observers/recording.h"
 
 namespace lockstep {
 
-struct BadLine : std::runtime_error {
-  using std::runtime_error::runtime_error;
+class RecordingJson {
+ public:
+  RecordingHeader header(std::string& line);
+
+  // Of any other line. The changes of a tick are taken over into `states`; what it points to is
+  // valid until the next call.
+  using Line = std::variant<RecordedTick, RecordedGap, RecordedEnd>;
+  Line line(std::string& line, std::vector<RecordedState>& states);
+
+ private:
+  JsonReader json_;
+  std::vector<NodeIndex> succeeded_;
+  std::vector<RecordedFault> faults_;
 };
-
-RecordingHeader header_from(const nlohmann::json& line);
-RecordedEnd end_from(const nlohmann::json& line);
-RecordedGap gap_from(const nlohmann::json& line);
-
-// Takes over the changes of one tick's line into `states`; the tick's number and time are returned.
-RecordedTick tick_from(const nlohmann::json& line, std::vector<RecordedState>& states);
 
 }  // namespace lockstep

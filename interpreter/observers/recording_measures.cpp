@@ -21,20 +21,6 @@ std::string text_of(double value) {
   return std::isnan(value) ? "-" : fmt::format("{:.6g}", value);
 }
 
-class Synchronized {
- public:
-  Synchronized(const RecordingHeader& header, NodeIndex node)
-      : probe_(header, node), measure_(probe_.children().size()) {}
-
-  NodeIndex node() const { return probe_.node(); }
-  void after_tick(const RecordedTick& tick) { measure_.after_tick(probe_.read(tick)); }
-  const ProgressDistance& distance() const { return measure_.distance(); }
-
- private:
-  RecordedProbe probe_;
-  SynchronizedMeasure measure_;
-};
-
 std::vector<std::string> paths_of(const RecordingHeader& header) {
   std::vector<std::string> paths;
   for (const RecordedNode& node : header.nodes) paths.push_back(node.path);
@@ -65,9 +51,7 @@ class Measuring {
   // A node that is not there is told in `error`.
   Measuring(const RecordingHeader& header, std::span<const MeasureSpec> measures,
             std::string& error)
-      : header_(header),
-        period_(header.rate_hz > 0 ? from_seconds(1 / header.rate_hz) : Nanoseconds(0)) {
-    for (const NodeIndex node : synchronized_nodes(header)) nodes_.emplace_back(header, node);
+      : header_(header), period_(period_of(header)), nodes_(measures_of(header)) {
     const auto paths = paths_of(header);
     for (const MeasureSpec& measure : measures) {
       if (measure.kind != MeasureKind::Predictability) continue;
@@ -80,7 +64,7 @@ class Measuring {
   void after_tick(const RecordedTick& tick) {
     // A tick lasts until the next would begin, also the last.
     duration_ = to_seconds(from_seconds(tick.time) + period_);
-    for (Synchronized& node : nodes_) node.after_tick(tick);
+    for (RecordedMeasure& node : nodes_) node.after_tick(tick);
     for (Instant& instant : instants_) instant.after_tick(tick);
   }
 
@@ -109,10 +93,11 @@ class Measuring {
  private:
   void add_of_nodes(const MeasureSpec& measure, double (ProgressDistance::*number)() const,
                     std::vector<MeasuredValue>& values) const {
-    for (const Synchronized& node : nodes_) {
-      const ProgressDistance& distance = node.distance();
+    for (const RecordedMeasure& node : nodes_) {
+      const ProgressDistance& distance = node.measure.distance();
       const bool reached = distance.samples() > 0;
-      values.push_back({header_.nodes[node.node()].path, measure,
+      values.push_back({header_.nodes[node.probe.node()].path,
+                        measure,
                         reached ? (distance.*number)() : std::numeric_limits<double>::quiet_NaN(),
                         {}});
     }
@@ -120,7 +105,7 @@ class Measuring {
 
   const RecordingHeader& header_;
   Nanoseconds period_;
-  std::vector<Synchronized> nodes_;
+  std::vector<RecordedMeasure> nodes_;
   std::vector<Instant> instants_;
   double duration_ = 0;
 };

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "observers/recording_json.h"
@@ -10,136 +9,114 @@
 namespace lockstep {
 
 RecordingReader::RecordingReader(std::istream& in, std::string name, Limits limits)
-    : in_(in), name_(std::move(name)), limits_(limits) {
+    : lines_(in, limits.line), format_(std::make_unique<RecordingJson>()), name_(std::move(name)) {
   if (!next_line()) {
-    if (!error_.empty()) return;
-    line_ = 1;
-    fail("the file is empty, expected a recording");
+    if (error_.empty()) error_ = name_ + ":1: the file is empty, expected a recording";
     return;
   }
-  read_line([this](const nlohmann::json& json) {
-    header_ = header_from(json);
-    states_.resize(header_.nodes.size());
-  });
-  if (last_line_cut_) fail("the header is cut");
+  read_line([this] { header_ = format_->header(lines_.text()); });
+  states_.resize(header_.nodes.size());
+  if (is_cut_) fail("the header is cut");
 }
+
+RecordingReader::~RecordingReader() = default;
 
 std::optional<RecordedTick> RecordingReader::next() {
   // Also after the closing line: nothing must come there, and only reading on finds that.
-  while (error_.empty()) {
-    if (!next_line()) return std::nullopt;
-    bool is_tick = false;
-    read_line([&](const nlohmann::json& json) { is_tick = read_further(json); });
-    if (!error_.empty() || last_line_cut_) return std::nullopt;
-    if (is_tick) return tick_;
+  while (error_.empty() && next_line()) {
+    std::optional<RecordedTick> tick;
+    read_line([&] { tick = read_further(); });
+    if (tick || is_cut_) return tick;
   }
   return std::nullopt;
 }
 
-RecordingReader::Place RecordingReader::place() const {
-  return {.bytes = bytes_,
-          .lines = line_,
-          .tick = tick_,
-          .states = states_,
-          .first_gap = first_gap_,
-          .lost = lost_};
-}
-
-bool RecordingReader::go_to(const Place& place) {
-  in_.clear();
-  if (!in_.seekg(static_cast<std::streamoff>(place.bytes))) return false;
-  bytes_ = place.bytes;
-  line_ = place.lines;
-  tick_ = place.tick;
-  states_ = place.states;
-  tick_.nodes = states_;
-  last_ = tick_.tick;
-  first_gap_ = place.first_gap;
-  lost_ = place.lost;
+bool RecordingReader::go_to(const Place& place, std::span<const RecordedState> states) {
+  if (!lines_.go_to(place.lines)) return false;
+  states_.assign(states.begin(), states.end());
+  next_tick_ = place.next_tick;
+  last_time_ = place.time;
   // A tick is neither behind the closing line nor behind an error.
   end_.reset();
   error_.clear();
-  last_line_cut_ = false;
+  is_cut_ = false;
   return true;
 }
 
-// Any line but the header. True: of a tick.
-bool RecordingReader::read_further(const nlohmann::json& json) {
-  if (end_) throw BadLine("a line after the closing line");
-  if (json.is_object() && json.contains("end")) {
-    end_ = end_from(json);
-    return false;
-  }
-  if (json.is_object() && json.contains("lost")) {
-    const RecordedGap gap = gap_from(json);
-    in_order(gap.from, gap.from + (gap.ticks - 1));
-    if (!first_gap_) first_gap_ = gap;
-    lost_ += gap.ticks;
-    return false;
-  }
-  tick_ = tick_from(json, states_);
-  in_order(tick_.tick, tick_.tick);
-  return true;
+// Any line but the header: its tick, if it is of one.
+std::optional<RecordedTick> RecordingReader::read_further() {
+  if (end_) throw JsonError("a line after the closing line");
+  auto line = format_->line(lines_.text(), states_);
+  std::visit([this](auto& it) { take(std::move(it)); }, line);
+  const auto* tick = std::get_if<RecordedTick>(&line);
+  return tick == nullptr ? std::nullopt : std::optional(*tick);
 }
 
-void RecordingReader::in_order(std::uint64_t first, std::uint64_t last) {
-  if (last_ && first <= *last_) {
-    throw BadLine(fmt::format("tick {} comes after tick {}", first, *last_));
+void RecordingReader::take(const RecordedTick& tick) {
+  pass_ticks(tick.tick, 1);
+  if (tick.time < last_time_)
+    throw JsonError(fmt::format("time_s {} comes after {}", tick.time, last_time_));
+  last_time_ = tick.time;
+}
+
+void RecordingReader::take(const RecordedGap& gap) {
+  pass_ticks(gap.from, gap.ticks);
+  if (!first_lost_) first_lost_ = gap.from;
+  lost_ += gap.ticks;
+}
+
+void RecordingReader::take(RecordedEnd end) {
+  if (end.ticks != next_tick_)
+    throw JsonError(fmt::format("'ticks' is {}, but the run had {}", end.ticks, next_tick_));
+  if (end.lost != lost_)
+    throw JsonError(fmt::format("'lost' is {}, but {} ticks have no line", end.lost, lost_));
+  end_ = std::move(end);
+}
+
+// A line has only what has changed: without the one before it, it says nothing.
+void RecordingReader::pass_ticks(std::uint64_t first, std::uint64_t count) {
+  if (first != next_tick_) {
+    throw JsonError(next_tick_ == 0
+                        ? fmt::format("the first tick is {}, expected 0", first)
+                        : fmt::format("tick {} comes after tick {}", first, next_tick_ - 1));
   }
-  last_ = last;
+  next_tick_ += count;
 }
 
 std::string RecordingReader::gaps() const {
-  if (!first_gap_) return {};
+  if (!first_lost_) return {};
   return fmt::format("{} tick{} missing, the first is {}: the disk was too slow", lost_,
-                     lost_ == 1 ? " is" : "s are", first_gap_->from);
+                     lost_ == 1 ? " is" : "s are", *first_lost_);
 }
 
 std::string RecordingReader::cut() const {
   if (end_ || !error_.empty()) return {};
-  if (last_line_cut_) return fmt::format("line {} is cut, the run did not end there", line_);
-  return fmt::format("it ends after line {} without a closing line", line_);
+  const std::uint64_t line = lines_.place().lines;
+  if (is_cut_) return fmt::format("line {} is cut, the run did not end there", line);
+  return fmt::format("it ends after line {} without a closing line", line);
 }
 
 bool RecordingReader::next_line() {
-  text_.clear();
-  char part[1u << 12u];
-  while (true) {
-    in_.getline(part, sizeof part);
-    const auto count = static_cast<std::size_t>(in_.gcount());
-    const bool goes_on = in_.fail() && !in_.eof() && count > 0;
-    const bool has_end = in_.good();  // gcount() counts it
-    if (count == 0 && text_.empty()) return false;
-    text_.append(part, has_end ? count - 1 : count);
-    if (!goes_on) break;
-    in_.clear();
-    if (text_.size() > limits_.line) break;
-  }
-  ++line_;
-  bytes_ += text_.size() + 1;
-  if (text_.size() <= limits_.line) return true;
-  fail(fmt::format("the line is longer than {} bytes", limits_.line));
+  if (lines_.next()) return true;
+  if (lines_.is_too_long()) fail(fmt::format("the line is longer than {} bytes", lines_.longest()));
   return false;
 }
 
-// Only the last line can lack its newline, and only there is broken JSON a sign of a kill.
+// Only the last line can lack its end, and only there is broken JSON a sign of a kill.
 template <class Read>
 void RecordingReader::read_line(Read read) {
-  const auto json = nlohmann::json::parse(text_, nullptr, false);
-  if (json.is_discarded()) {
-    last_line_cut_ = in_.eof();
-    if (!last_line_cut_) fail("not JSON");
-    return;
-  }
   try {
-    read(json);
-  } catch (const BadLine& bad) {
+    read();
+  } catch (const NotJson& bad) {
+    is_cut_ = !lines_.has_end();
+    if (!is_cut_) fail(bad.what());
+  } catch (const JsonError& bad) {
     fail(bad.what());
   }
 }
 
 void RecordingReader::fail(const std::string& message) {
-  error_ = fmt::format("{}:{}: {}", name_, line_, message);
+  error_ = fmt::format("{}:{}: {}", name_, lines_.place().lines, message);
 }
 
 }  // namespace lockstep

@@ -4,14 +4,17 @@
 #pragma once
 
 #include <istream>
-#include <nlohmann/json_fwd.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "observers/line_reader.h"
 #include "observers/recording.h"
 
 namespace lockstep {
+
+class RecordingJson;
 
 // What is known of a recording once it has been read; each "" when there is nothing to tell.
 struct RecordingOutcome {
@@ -29,35 +32,31 @@ class RecordingReader {
   // `in` must outlive the reader; `name` is how errors call it. Reads the header: check error().
   RecordingReader(std::istream& in, std::string name) : RecordingReader(in, std::move(name), {}) {}
   RecordingReader(std::istream& in, std::string name, Limits limits);
+  ~RecordingReader();
 
-  // The next tick, or nothing at the end or after an error. Its nodes are valid until the next
-  // call.
+  // The next tick, or nothing at the end or after an error. What it points to is valid until the
+  // next call.
   std::optional<RecordedTick> next();
 
-  // Where the reader stands, after a tick: all it needs to go on from there.
+  // Where the reader stands after a tick.
   struct Place {
-    std::uint64_t bytes = 0;  // of the file, that have been read
-    std::size_t lines = 0;    // the same
-    RecordedTick tick;
-    std::vector<RecordedState> states;
-    std::optional<RecordedGap> first_gap;
-    std::uint64_t lost = 0;
+    LineReader::Place lines;
+    std::uint64_t next_tick = 0;
+    double time = 0;
   };
-  Place place() const;
-  std::uint64_t bytes_read() const { return bytes_; }
-  // To where this reader once stood: next() gives the tick after place.tick. The file must not have
-  // been changed before `bytes`, and be one that can seek. False when it is not.
-  bool go_to(const Place& place);
+  Place place() const { return {lines_.place(), next_tick_, last_time_}; }
+  // To where this reader once stood; `states` are those of then. The next tick is the one after it.
+  // The file must not have been changed before that place, and be one that can seek. False when it
+  // is not.
+  bool go_to(const Place& place, std::span<const RecordedState> states);
 
   // "" while all is well, else "run.jsonl:12: no node 99, expected 0 to 4".
   const std::string& error() const { return error_; }
   const RecordingHeader& header() const { return header_; }
   // The closing line, once it has been read.
   const std::optional<RecordedEnd>& end() const { return end_; }
-  // Of the lines read so far: the first gap, and the number of ticks in all of them.
-  const std::optional<RecordedGap>& first_gap() const { return first_gap_; }
-  std::uint64_t lost() const { return lost_; }
-  // "" when there is no gap, else "2 ticks are missing, the first is 7: the disk was too slow".
+  // Of the lines read so far: "" when no tick is lost, else "2 ticks are missing, the first is 7:
+  // the disk was too slow".
   std::string gaps() const;
   // After the last tick: "" when the recording is whole, else how it ends.
   std::string cut() const;
@@ -65,26 +64,26 @@ class RecordingReader {
 
  private:
   bool next_line();  // false at the end, and after an error
-  bool read_further(const nlohmann::json& json);
-  void in_order(std::uint64_t first, std::uint64_t last);
-  void fail(const std::string& message);
   template <class Read>
   void read_line(Read read);
+  std::optional<RecordedTick> read_further();
+  void take(const RecordedTick& tick);
+  void take(const RecordedGap& gap);
+  void take(RecordedEnd end);
+  void pass_ticks(std::uint64_t first, std::uint64_t count);
+  void fail(const std::string& message);
 
-  std::istream& in_;
+  LineReader lines_;
+  std::unique_ptr<RecordingJson> format_;
   std::string name_;
-  Limits limits_;
-  std::string text_;  // of the line
   std::string error_;
-  std::size_t line_ = 0;
-  std::uint64_t bytes_ = 0;
-  bool last_line_cut_ = false;
+  bool is_cut_ = false;  // within the last line
   RecordingHeader header_;
   std::optional<RecordedEnd> end_;
   std::vector<RecordedState> states_;
-  RecordedTick tick_;
-  std::optional<std::uint64_t> last_;  // tick that was read or lost
-  std::optional<RecordedGap> first_gap_;
+  std::uint64_t next_tick_ = 0;
+  double last_time_ = 0;  // of a tick
+  std::optional<std::uint64_t> first_lost_;
   std::uint64_t lost_ = 0;
 };
 

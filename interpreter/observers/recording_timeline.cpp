@@ -10,7 +10,7 @@ void take(const RecordedTick& tick, std::uint64_t lost, Moment& moment) {
   moment.tick = tick.tick;
   moment.time = tick.time;
   moment.nodes.assign(tick.nodes.begin(), tick.nodes.end());
-  moment.faults = tick.faults;
+  moment.faults.assign(tick.faults.begin(), tick.faults.end());
   moment.lost = lost;
 }
 
@@ -18,7 +18,8 @@ RecordingTimeline::RecordingTimeline(RecordingReader& reader, const TimelineOpti
     : reader_(reader), options_(options) {
   std::uint64_t expected = 0;
   while (const auto tick = reader_.next()) {
-    keep(size_++, tick->tick - expected);
+    keep(*tick, tick->tick - expected);
+    ++size_;
     last_tick_ = tick->tick;
     last_time_ = tick->time;
     expected = tick->tick + 1;
@@ -27,34 +28,41 @@ RecordingTimeline::RecordingTimeline(RecordingReader& reader, const TimelineOpti
   if (size_ > 0) go_to_begin();
 }
 
+std::size_t RecordingTimeline::Keyframe::memory() const {
+  std::size_t size = sizeof(Keyframe) + moment.nodes.size() * sizeof(RecordedState);
+  for (const RecordedFault& fault : moment.faults) size += sizeof fault + fault.message.size();
+  return size;
+}
+
 // A keyframe of the tick that was just read, when it is time for one.
-void RecordingTimeline::keep(std::uint64_t number, std::uint64_t lost) {
-  if (!keyframes_.empty() &&
-      reader_.bytes_read() - keyframes_.back().place.bytes < options_.distance) {
-    return;
-  }
-  keyframes_.push_back({number, lost, reader_.place()});
-  const std::uint64_t size =
-      sizeof(Keyframe) + reader_.header().nodes.size() * sizeof(RecordedState);
-  while (keyframes_.size() > 2 && keyframes_.size() * size > options_.most_memory) thin_out();
+void RecordingTimeline::keep(const RecordedTick& tick, std::uint64_t lost) {
+  const RecordingReader::Place place = reader_.place();
+  const auto distance = [&] { return place.lines.bytes - keyframes_.back().place.lines.bytes; };
+  if (!keyframes_.empty() && distance() < options_.distance) return;
+  Keyframe& keyframe = keyframes_.emplace_back();
+  keyframe.place = place;
+  keyframe.moment.number = size_;
+  take(tick, lost, keyframe.moment);
+  memory_ += keyframe.memory();
+  while (keyframes_.size() > 2 && memory_ > options_.most_memory) thin_out();
 }
 
 void RecordingTimeline::thin_out() {
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < keyframes_.size(); i += 2) {
-    if (i != kept) keyframes_[kept] = std::move(keyframes_[i]);
-    ++kept;
+  for (std::size_t i = 0; i < keyframes_.size(); ++i) {
+    if (i % 2 != 0) {
+      memory_ -= keyframes_[i].memory();
+    } else if (i != kept++) {
+      keyframes_[kept - 1] = std::move(keyframes_[i]);
+    }
   }
   keyframes_.resize(kept);
   options_.distance *= 2;
 }
 
 void RecordingTimeline::restore(const Keyframe& keyframe) {
-  RecordedTick tick = keyframe.place.tick;
-  tick.nodes = keyframe.place.states;
-  take(tick, keyframe.lost, now_);
-  now_.number = keyframe.number;
-  failed_ = !reader_.go_to(keyframe.place);
+  now_ = keyframe.moment;
+  failed_ = !reader_.go_to(keyframe.place, now_.nodes);
   read_next();
 }
 
@@ -75,13 +83,14 @@ void RecordingTimeline::step_back() {
 }
 
 void RecordingTimeline::go_to_number(std::uint64_t number) {
-  const auto after = std::ranges::upper_bound(keyframes_, number, {}, &Keyframe::number);
+  const auto number_of = [](const Keyframe& keyframe) { return keyframe.moment.number; };
+  const auto after = std::ranges::upper_bound(keyframes_, number, {}, number_of);
   restore(*std::prev(after));
   while (now_.number < number && !failed_) step_forward();
 }
 
 void RecordingTimeline::go_to_tick(std::uint64_t tick) {
-  const auto tick_of = [](const Keyframe& keyframe) { return keyframe.place.tick.tick; };
+  const auto tick_of = [](const Keyframe& keyframe) { return keyframe.moment.tick; };
   const auto after = std::ranges::upper_bound(keyframes_, tick, {}, tick_of);
   restore(after == keyframes_.begin() ? *after : *std::prev(after));
   while (!at_end() && !failed_ && next_->tick <= tick) step_forward();

@@ -44,7 +44,7 @@ class RecordingTimeline {
   const RecordingOutcome& outcome() const { return outcome_; }
   // How many ticks it has. With none, nothing of what follows may be called.
   std::uint64_t size() const { return size_; }
-  std::uint64_t first_tick() const { return keyframes_.front().place.tick.tick; }
+  std::uint64_t first_tick() const { return keyframes_.front().moment.tick; }
   std::uint64_t last_tick() const { return last_tick_; }
   double last_time() const { return last_time_; }
 
@@ -68,11 +68,11 @@ class RecordingTimeline {
 
  private:
   struct Keyframe {
-    std::uint64_t number;
-    std::uint64_t lost;
+    Moment moment;
     RecordingReader::Place place;
+    std::size_t memory() const;
   };
-  void keep(std::uint64_t number, std::uint64_t lost);
+  void keep(const RecordedTick& tick, std::uint64_t lost);
   void thin_out();
   void restore(const Keyframe& keyframe);
   void go_to_number(std::uint64_t number);
@@ -82,6 +82,7 @@ class RecordingTimeline {
   TimelineOptions options_;
   RecordingOutcome outcome_;
   std::vector<Keyframe> keyframes_;  // rising; the first is of the first tick
+  std::uint64_t memory_ = 0;         // of them
   std::uint64_t size_ = 0;
   std::uint64_t last_tick_ = 0;
   double last_time_ = 0;

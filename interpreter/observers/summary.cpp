@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "core/diagnostics.h"
+#include "measure/measure_spec.h"
 
 namespace lockstep {
 namespace {
@@ -86,7 +87,7 @@ void write_node(const SynchronizedSummary& node, std::string& out, bool color) {
 }
 
 void write_deciding(const DecidingSummary& node, std::size_t indent, std::string& out, bool color) {
-  const std::string name = node.path.substr(node.path.rfind('/') + 1);
+  const std::string name = last_segment(node.path);
   const Style style = node.status == Status::Success ? Style::Good : Style::Bad;
   fmt::format_to(std::back_inserter(out), "{:{}}{}", "", indent, printable(name));
   if (name != node.kind) fmt::format_to(std::back_inserter(out), " ({})", printable(node.kind));

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "measure/measure_spec.h"
+
 namespace lockstep {
 namespace {
 
@@ -37,7 +39,7 @@ TreeShape shape_of(const Tree& tree) {
 TreeShape shape_of(const RecordingHeader& header) {
   TreeShape shape{.id = header.tree};
   for (const RecordedNode& node : header.nodes) {
-    add(shape, {.segment = node.path.substr(node.path.rfind('/') + 1),
+    add(shape, {.segment = last_segment(node.path),
                 .kind = node.kind,
                 .parent = node.parent,
                 .synchronization = node.synchronization,

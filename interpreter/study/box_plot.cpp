@@ -15,10 +15,6 @@ namespace {
 
 constexpr double kGroupWidth = 0.7;  // of the distance of two groups
 
-std::string last_segment(const std::string& path) {
-  return path.substr(path.rfind('/') + 1);
-}
-
 std::string measure_label(const std::string& text) {
   std::string error;
   const auto measure = parse_measure(text, error);

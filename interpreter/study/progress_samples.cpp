@@ -9,9 +9,8 @@ namespace {
 // Collects the samples of one node.
 class Collector {
  public:
-  Collector(const RecordingHeader& header, NodeIndex node)
-      : probe_(header, node),
-        period_(header.rate_hz > 0 ? from_seconds(1 / header.rate_hz) : Nanoseconds(0)) {
+  Collector(const RecordingHeader& header, NodeIndex node, std::vector<NodeIndex> children)
+      : probe_(header, node, std::move(children)), period_(period_of(header)) {
     plot_.index = node;
     plot_.node = header.nodes[node];
     plot_.children = probe_.names();
@@ -58,8 +57,11 @@ class Collector {
 
 std::vector<ProgressPlot> progress_plots(RecordingReader& reader,
                                          std::span<const NodeIndex> nodes) {
+  const auto children = children_of(reader.header());
   std::vector<Collector> collectors;
-  for (const NodeIndex node : nodes) collectors.emplace_back(reader.header(), node);
+  for (const NodeIndex node : nodes) {
+    collectors.emplace_back(reader.header(), node, children[node]);
+  }
   while (const auto tick = reader.next()) {
     for (Collector& collector : collectors) collector.after_tick(*tick);
   }

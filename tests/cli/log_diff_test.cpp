@@ -68,7 +68,9 @@ TEST_CASE("what log diff cannot read") {
   CHECK(call({"log", "diff", a, a, "--tolerance", "-1"}).code == 2);
   CHECK(call({"log", "diff", a, directory.file("none", "{}\n")}).code == 3);
   const std::string text = read_file(a);
-  const Outcome damaged = call({"log", "diff", a, directory.file("damaged", text + "x\n")});
+  std::string damaged_text = text;
+  damaged_text.insert(text.rfind("{\"end\""), "x\n");
+  const Outcome damaged = call({"log", "diff", a, directory.file("damaged", damaged_text)});
   CHECK(damaged.code == 3);
   CHECK(contains(damaged.err, "not JSON"));
   const std::string cut_text = text.substr(0, text.rfind("{\"end\""));

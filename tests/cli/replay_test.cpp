@@ -79,7 +79,7 @@ TEST_CASE("a replay of what is cut, damaged or has gaps shows what is there") {
   const auto tick2 = text.find("{\"tick\":2"), tick3 = text.find("{\"tick\":3");
   const std::string gap =
       directory.file("gap.jsonl", text.substr(0, tick2) + "{\"lost\":{\"ticks\":1,\"from\":2}}\n" +
-                                      text.substr(tick3));
+                                      with_replaced(text.substr(tick3), "}}", ",\"lost\":1}}"));
   const Outcome of_gap = call({"replay", gap, "--at", "2"});
   CHECK(of_gap.code == 0);
   CHECK(of_gap.out == kTick1);

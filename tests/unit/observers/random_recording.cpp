@@ -48,11 +48,14 @@ void append_line(const Moment& moment, const std::vector<RecordedState>& before,
 std::string RandomRecording::text() const {
   std::string out = to_json(header) + "\n";
   std::vector<RecordedState> before(header.nodes.size());
+  RecordedEnd closing = end;
   for (const Moment& moment : ticks) {
     append_line(moment, before, out);
     before = moment.nodes;
+    closing.ticks = moment.tick + 1;
+    closing.lost += moment.lost;
   }
-  return out + to_json(end) + "\n";
+  return out + to_json(closing) + "\n";
 }
 
 RandomRecording random_recording(std::mt19937& random, const RandomRecordingOptions& options) {
@@ -92,12 +95,10 @@ RandomRecording random_recording(std::mt19937& random, const RandomRecordingOpti
           {static_cast<NodeIndex>(below(random, options.nodes)), fmt::format("fault {}", number)});
     }
     recording.ticks.push_back(moment);
-    recording.end.lost += lost;
     ++tick;
   }
   recording.end.result = "stopped";
   recording.end.reason = "max_ticks";
-  recording.end.ticks = tick;
   return recording;
 }
 

@@ -12,7 +12,7 @@ namespace lockstep::test {
 struct RandomRecording {
   RecordingHeader header;
   std::vector<Moment> ticks;
-  RecordedEnd end;
+  RecordedEnd end;  // but for how many ticks there are, and are lost
 
   // The file, each line with what has changed.
   std::string text() const;

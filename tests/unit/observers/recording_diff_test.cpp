@@ -83,7 +83,8 @@ TEST_CASE("times, faults and lost ticks differ too") {
   CHECK(in_b.tick->lost);
   CHECK(diff_of(lost.text(), one.text()).tick->missing == TickDifference::Missing::InA);
   CHECK(to_text(in_b, "a", "b", false) ==
-        "--- a\n+++ b\n@@ tick 11 @@\n-recorded\n+lost\n@@ length @@\n-60 ticks\n+59 ticks\n");
+        "--- a\n+++ b\n@@ tick 11 @@\n-recorded\n+lost\n@@ length @@\n-60 ticks\n+59 ticks\n"
+        "@@ end @@\n-lost 0\n+lost 1\n");
 }
 
 TEST_CASE("progress within the tolerance is the same, a status never") {

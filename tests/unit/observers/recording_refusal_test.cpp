@@ -40,6 +40,8 @@ std::string error_of(const std::string& text) {
   return reader.error();
 }
 
+const std::string kNoWholeNumber = " is not a whole number from 0 to 18446744073709551615";
+
 struct Row {
   std::string from, to, error;
 };
@@ -67,14 +69,14 @@ TEST_CASE("the recording that the rows below change is right") {
     CHECK(error_of(replaced(kHeader, "\"rate_hz\":10", "\"rate_hz\":" + rate)) == "");
   }
   CHECK(error_of(kHeader + kTick + replaced(kEnd, "\"time_s\":0", "\"time_s\":9e9")) == "");
-  const std::string last = std::to_string(UINT64_MAX);
-  CHECK(error_of(kHeader + "{\"lost\":{\"ticks\":1,\"from\":" + last + "}}\n") == "");
+  CHECK(error_of(kHeader + "{\"lost\":{\"ticks\":9223372036854775808,\"from\":0}}\n") == "");
 }
 
 TEST_CASE("a gap ends where ticks can be counted") {
-  const std::string last = std::to_string(UINT64_MAX);
-  CHECK(error_of(kHeader + "{\"lost\":{\"ticks\":2,\"from\":" + last + "}}\n") ==
-        "r:2: no 2 ticks can be lost from tick " + last + " on");
+  CHECK(error_of(kHeader + "{\"lost\":{\"ticks\":9223372036854775809,\"from\":0}}\n") ==
+        "r:2: no 9223372036854775809 ticks can be lost from tick 0 on");
+  CHECK(error_of(kHeader + "{\"lost\":{\"ticks\":9223372036854775807,\"from\":2}}\n") ==
+        "r:2: no 9223372036854775807 ticks can be lost from tick 2 on");
   CHECK(error_of(kHeader + "{\"lost\":{\"ticks\":0,\"from\":7}}\n") ==
         "r:2: no 0 ticks can be lost from tick 7 on");
 }
@@ -91,24 +93,27 @@ TEST_CASE("a header is refused for each value that is not what it must be") {
              {"\"rate_hz\":10", "\"rate_hz\":1e-300", rate},
              {"\"rate_hz\":10", "\"rate_hz\":1e300", rate},
              {"\"rate_hz\":10", "\"rate_hz\":[]", "'rate_hz' is not a number"},
-             {"\"seed\":1", "\"seed\":-1", "'seed' is not a whole number"},
-             {"\"seed\":1", "\"seed\":1.5", "'seed' is not a whole number"},
+             {"\"seed\":1", "\"seed\":-1", "'seed'" + kNoWholeNumber},
+             {"\"seed\":1", "\"seed\":1.5", "'seed'" + kNoWholeNumber},
+             {"\"seed\":1", "\"seed\":18446744073709551616", "'seed'" + kNoWholeNumber},
              {"{\"x\":\"1\"}", "{\"x\":1}", "argument 'x' is not a string"},
+             {"{\"x\":\"1\"}", "{\"x\":\"1\",\"x\":\"2\"}", "argument 'x' is there twice"},
              {"{\"x\":\"1\"}", "1", "'arguments' is not a JSON object"},
              {"{\"x\":\"1\"}", "[\"1\"]", "'arguments' is not a JSON object"},
              {"[" + kNodes + "]", "[]", "'nodes' is empty"},
              {"[" + kNodes + "]", "{}", "'nodes' is not a list"},
-             {"[" + kNodes + "]", "[7]", "expected a JSON object"},
+             {"[" + kNodes + "]", "[7]", "an item of 'nodes' is not a JSON object"},
              {"\"path\":\"T/p\"", "\"path\":1", "'path' is not a string"},
              {"\"kind\":\"Wait\"", "\"kind\":{}", "'kind' is not a string"},
              {"\"name\":\"q\"", "\"nam\":\"q\"", "'name' is missing"},
              {"\"parent\":null", "\"parent\":0", "parent of node 0 comes after it"},
              {"\"parent\":1", "\"parent\":2", "parent of node 2 comes after it"},
-             {"\"parent\":1", "\"parent\":-1", "'parent' is not a whole number"},
+             {"\"parent\":1", "\"parent\":-1", "'parent'" + kNoWholeNumber},
              {"\"parent\":1", "\"parent\":null", "node 2 is not in pre-order"},
              {"\"path\":\"T/p\"", "\"path\":\"T/p/q\"", "two nodes have the path 'T/p/q'"},
-             {"[0.5,1]", "0.5", "'barriers' is not a list of numbers"},
-             {"[0.5,1]", "[\"0.5\"]", "'barriers' is not a list of numbers"},
+             {"[0.5,1]", "0.5", "'barriers' is not a list"},
+             {"[0.5,1]", "[\"0.5\"]", "an item of 'barriers' is not a number"},
+             {"[0.5,1]", "[0.5,1],\"delta\":1", "node 0 has both barriers and delta"},
              {"[0.5,1]", "[0.5,1.5]", "a barrier of node 0 is not in [0, 1]"},
              {"[0.5,1]", "[-0.5,1]", "a barrier of node 0 is not in [0, 1]"},
              {"0.25", "1.25", "the delta of node 1 is not in [0, 1]"},
@@ -121,8 +126,14 @@ TEST_CASE("a tick is refused for each value that is not what it must be") {
   const std::string time = "'time_s' is not a time in seconds";
   const std::string change = "a node's change is not [index, status, progress, ticked, held]";
   const std::string status = ", expected idle, running, success or failure";
-  check_all({{"\"tick\":0", "\"tick\":-1", "'tick' is not a whole number"},
-             {"\"tick\":0", "\"tick\":\"0\"", "'tick' is not a whole number"},
+  check_all({{"\"tick\":0", "\"tick\":-1", "'tick'" + kNoWholeNumber},
+             {"\"tick\":0", "\"tick\":\"0\"", "'tick'" + kNoWholeNumber},
+             {"\"tick\":0", "\"tick\":18446744073709551616", "'tick'" + kNoWholeNumber},
+             {"\"tick\":0", "\"tick\":1", "the first tick is 1, expected 0"},
+             {"\"tick\":0", "\"tick\":0,\"tick\":0", "'tick' is there twice"},
+             {"\"tick\":0,", "", "'tick' is missing"},
+             {"\"tick\":0", "\"tick\":0,\"lost\":{\"ticks\":1,\"from\":0}", "a line of two kinds"},
+             {"\"tick\":0", "\"tick\":0,\"x\":[nul]", "not JSON"},
              {"\"time_s\":0", "\"time_s\":-1e-9", time},
              {"\"time_s\":0", "\"time_s\":9.000001e9", time},
              {"\"time_s\":0", "\"time_s\":\"0\"", "'time_s' is not a number"},
@@ -131,8 +142,8 @@ TEST_CASE("a tick is refused for each value that is not what it must be") {
              {"[2,\"running\",0.5,1,0]", "2", change},
              {"[2,\"running\"", "[-2,\"running\"", change},
              {"[2,\"running\"", "[3,\"running\"", "no node 3, expected 0 to 2"},
-             {"\"running\"", "3", "no status 3" + status},
-             {"\"running\"", "\"paused\"", "no status \"paused\"" + status},
+             {"\"running\"", "3", "a node's change has a status that is not a string"},
+             {"\"running\"", "\"paused\"", "no status 'paused'" + status},
              {"0.5,1,0", "-0.5,1,0", "a node's change has a progress that is not in [0, 1]"},
              {"0.5,1,0", "1.1,1,0", "a node's change has a progress that is not in [0, 1]"},
              {"0.5,1,0", "null,1,0", "a node's change has a progress that is not in [0, 1]"},
@@ -152,20 +163,23 @@ TEST_CASE("a closing line is refused for each value that is not what it must be"
   check_all({{"{\"result\"", "{\"resul\"", "'result' is missing"},
              {"\"success\",\"reason\"", "1,\"reason\"", "'result' is not a string"},
              {"\"completed\"", "null", "'reason' is not a string"},
-             {"\"ticks\":1", "\"ticks\":-1", "'ticks' is not a whole number"},
+             {"\"ticks\":1", "\"ticks\":-1", "'ticks'" + kNoWholeNumber},
+             {"\"ticks\":1", "\"ticks\":2", "'ticks' is 2, but the run had 1"},
              {"\"time_s\":0,\"over", "\"time_s\":1e10,\"over", "'time_s' is not a time in seconds"},
-             {"\"overruns\":0", "\"overruns\":0.5", "'overruns' is not a whole number"},
-             {"\"skipped\":0", "\"skipped\":[]", "'skipped' is not a whole number"},
+             {"\"overruns\":0", "\"overruns\":0.5", "'overruns'" + kNoWholeNumber},
+             {"\"skipped\":0", "\"skipped\":[]", "'skipped'" + kNoWholeNumber},
              {"[\"y\"]", "\"y\"", "'notes' is not a list"},
-             {"[\"y\"]", "[1]", "a note is not a string"},
-             {"\"signal\":2", "\"signal\":\"2\"", "'signal' is not a whole number"},
-             {"\"lost\":0", "\"lost\":-1", "'lost' is not a whole number"},
+             {"[\"y\"]", "[1]", "an item of 'notes' is not a string"},
+             {"\"signal\":2", "\"signal\":\"2\"", "'signal'" + kNoWholeNumber},
+             {"\"lost\":0", "\"lost\":-1", "'lost'" + kNoWholeNumber},
+             {"\"lost\":0", "\"lost\":1", "'lost' is 1, but 0 ticks have no line"},
              {"\"fault\":\"x\"", "\"fault\":0", "'fault' is not a string"}},
             3);
-  CHECK(error_of(kHeader + "{\"end\":3}\n") == "r:2: expected a JSON object");
-  CHECK(error_of(kHeader + "{\"lost\":3}\n") == "r:2: expected a JSON object");
+  CHECK(error_of(kHeader + "{\"end\":3}\n") == "r:2: 'end' is not a JSON object");
+  CHECK(error_of(kHeader + "{\"lost\":3}\n") == "r:2: 'lost' is not a JSON object");
   CHECK(error_of(kHeader + "3\n") == "r:2: expected a JSON object");
-  CHECK(error_of(kHeader + "[\n") == "r:2: not JSON");
+  CHECK(error_of(kHeader + "[]\n") == "r:2: expected a JSON object");
+  CHECK(error_of(kHeader + "x\n") == "r:2: not JSON");
   CHECK(error_of(kHeader + "\xff\n") == "r:2: not JSON");
 }
 

@@ -1,0 +1,42 @@
+// The lines of a stream, one after the other, of at most so many bytes each. Used by
+// recording_reader.
+#pragma once
+
+#include <cstdint>
+#include <istream>
+#include <string>
+
+namespace lockstep {
+
+class LineReader {
+ public:
+  // `in` must outlive the reader.
+  LineReader(std::istream& in, std::size_t longest) : in_(in), longest_(longest) {}
+
+  // Reads the next line; false at the end, and when the line is too long. That one is counted, but
+  // not kept.
+  bool next();
+  // Without its end. May be changed: it is not read again.
+  std::string& text() { return text_; }
+  // Only the last line can lack its end.
+  bool has_end() const { return has_end_; }
+  bool is_too_long() const { return text_.size() > longest_; }
+  std::size_t longest() const { return longest_; }
+
+  // How much has been read.
+  struct Place {
+    std::uint64_t lines = 0, bytes = 0;
+  };
+  const Place& place() const { return place_; }
+  // Reads on where this reader once stood. False when the stream cannot seek.
+  bool go_to(const Place& place);
+
+ private:
+  std::istream& in_;
+  const std::size_t longest_;
+  std::string text_;
+  bool has_end_ = true;
+  Place place_;
+};
+
+}  // namespace lockstep
