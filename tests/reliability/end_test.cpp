@@ -177,6 +177,7 @@ TEST_CASE("a child that a leaf starts as system() does may end") {
     const Outcome outcome = run_hostile({"vfork"}, where, {"--clock", "virtual"});
     INFO(outcome.err);
     CHECK(outcome.code == 0);
+    CHECK_FALSE(contains(outcome.err, "called exit"));
   }
 }
 
