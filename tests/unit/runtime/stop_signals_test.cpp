@@ -1,10 +1,12 @@
 #include "runtime/stop_signals.h"
 
 #include <signal.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
 
+#include "core/fork_guard.h"
 #include "unit/runtime/forked_child.h"
 
 namespace lockstep::test {
@@ -59,6 +61,23 @@ TEST_CASE("stop signals: what a plugin or nohup has chosen stays") {
     raise(SIGUSR1);
   });
   CHECK(ended.exit_code == 77);
+}
+
+TEST_CASE("stop signals: they end a child that a plugin forks off") {
+  const Ended ended = in_child([] {
+    ForkGuard::arm([] {});
+    StopSignals::install(last_words);
+    int status = 0;
+    const pid_t child = fork();
+    if (child == 0) {
+      raise(SIGTERM);
+      _exit(0);
+    }
+    waitpid(child, &status, 0);
+    _exit(WIFSIGNALED(status) ? WTERMSIG(status) : 99);
+  });
+  CHECK(ended.exit_code == SIGTERM);
+  CHECK(ended.said.empty());
 }
 
 }  // namespace
