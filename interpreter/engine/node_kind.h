@@ -13,6 +13,11 @@ namespace lockstep {
 class Ticker;
 using NodeIndex = std::uint32_t;
 
+// Which time it is that a node runs its child, from 1, and of how many times; 0: without end.
+struct Round {
+  std::int64_t number = 0, of = 0;
+};
+
 struct NodeKind {
   NodeType type;
   // One tick. Returns Running, Success or Failure. Allocates nothing, throws nothing of its own.
@@ -26,6 +31,8 @@ struct NodeKind {
   // was paused finds itself Activity::Paused in its next tick.
   void (*halt)(Ticker& ticker, NodeIndex self) = nullptr;
   void (*pause)(Ticker& ticker, NodeIndex self) = nullptr;
+  // For people who watch. Null where the child runs once. Asked only while the node is Running.
+  Round (*round)(Ticker& ticker, NodeIndex self) = nullptr;
 };
 
 // All built-in kinds, in the order in which they are documented.

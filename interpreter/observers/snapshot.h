@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/clock.h"
+#include "engine/node_kind.h"
 #include "engine/run_state.h"
 #include "runtime/observer.h"
 
@@ -15,6 +16,7 @@ namespace lockstep {
 struct NodeView {
   Activity activity = Activity::Idle;
   double progress = 0;  // children of synchronized nodes only
+  Round round = {};     // of a node that runs its child again and again; number 0: not known
 };
 
 // Of a child of a synchronized node, given its progress as the node used it in its last tick.

@@ -8,7 +8,11 @@ namespace lockstep {
 SnapshotFeed::SnapshotFeed(const Tree& tree)
     : synchronized_nodes_(synchronized_nodes(tree)),
       activity_(tree.nodes.size()),
-      snapshots_(Snapshot{.header = {}, .nodes = std::vector<NodeView>(tree.nodes.size())}) {}
+      snapshots_(Snapshot{.header = {}, .nodes = std::vector<NodeView>(tree.nodes.size())}) {
+  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
+    if (tree.nodes[node].kind->round != nullptr) repeating_nodes_.push_back(node);
+  }
+}
 
 void SnapshotFeed::run_started(Ticker& ticker, const RunStart& start) {
   header_.rate_hz = 1.0 / to_seconds(start.period);
@@ -39,7 +43,13 @@ void SnapshotFeed::publish(Ticker& ticker) {
     back.nodes[node] = {.activity = activity_[node]};
   }
   for (const NodeIndex node : synchronized_nodes_) take_progress(ticker, node, back.nodes);
+  for (const NodeIndex node : repeating_nodes_) take_round(ticker, node, back.nodes[node]);
   snapshots_.publish();
+}
+
+void SnapshotFeed::take_round(Ticker& ticker, NodeIndex node, NodeView& view) {
+  if (view.activity != Activity::Running && view.activity != Activity::Paused) return;
+  view.round = ticker.tree().nodes[node].kind->round(ticker, node);
 }
 
 void SnapshotFeed::take_progress(Ticker& ticker, NodeIndex node,

@@ -29,8 +29,9 @@ class SnapshotFeed final : public Observer {
  private:
   void publish(Ticker& ticker);
   void take_progress(Ticker& ticker, NodeIndex node, std::vector<NodeView>& views) const;
+  static void take_round(Ticker& ticker, NodeIndex node, NodeView& view);
 
-  std::vector<NodeIndex> synchronized_nodes_;
+  std::vector<NodeIndex> synchronized_nodes_, repeating_nodes_;
   Snapshot::Header header_;
   std::vector<Activity> activity_;  // after the last tick
   std::chrono::steady_clock::time_point published_{};

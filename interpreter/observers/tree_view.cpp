@@ -116,6 +116,12 @@ class View {
     line.add(!here ? "  " : options_.unicode ? "→ " : "* ", Style::Strong);
   }
 
+  void add_round(TextLine& line, const Round& round) const {
+    if (round.number == 0) return;
+    line.add(round.of == 0 ? fmt::format("  {}", round.number)
+                           : fmt::format("  {}/{}", round.number, round.of));
+  }
+
   // What is below a node that is folded.
   void add_folded(TextLine& line, NodeIndex node) const {
     if (browsing_.folded.count(node) == 0) return;
@@ -136,6 +142,7 @@ class View {
     if (!has_bar(node) && shape.segment != shape.kind) {
       line.add(fmt::format(" ({})", shape.kind), Style::Dim);
     }
+    add_round(line, snapshot_.nodes[node].round);
     add_folded(line, node);
     return line.text() + "\n";
   }

@@ -36,6 +36,10 @@ double progress(Ticker& ticker, NodeIndex self) {
   return (done + current) / static_cast<double>(times);
 }
 
+Round round(Ticker& ticker, NodeIndex self) {
+  return {ticker.state<State>(self).done + 1, ticker.parameter(self, kTimes).integer};
+}
+
 }  // namespace
 
 const NodeKind kRepeat{
@@ -48,6 +52,7 @@ const NodeKind kRepeat{
              .can_run = true},
     .tick = tick,
     .progress = progress,
-    .state_size = sizeof(State)};
+    .state_size = sizeof(State),
+    .round = round};
 
 }  // namespace lockstep

@@ -27,6 +27,10 @@ Status tick(Ticker& ticker, NodeIndex self) {
                                                                    : Status::Running;
 }
 
+Round round(Ticker& ticker, NodeIndex self) {
+  return {ticker.state<State>(self).failed + 1, ticker.parameter(self, kAttempts).integer};
+}
+
 }  // namespace
 
 const NodeKind kRetry{
@@ -39,6 +43,7 @@ const NodeKind kRetry{
              .can_run = true},
     .tick = tick,
     .progress = decorator::child_progress,
-    .state_size = sizeof(State)};
+    .state_size = sizeof(State),
+    .round = round};
 
 }  // namespace lockstep

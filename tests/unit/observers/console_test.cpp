@@ -192,6 +192,20 @@ TEST_CASE("the live view leaves the last state and the cursor on the screen") {
   CHECK(text.substr(text.size() - std::min(text.size(), last.size())) == last);
 }
 
+TEST_CASE("the live view shows which round of Retry and Repeat it is") {
+  TextFile out;
+  WatchedRun run("Parallel(Retry[attempts=8](a) Repeat[times=4](b) Repeat(c) d)",
+                 "a=RF b=RS c=RS d=R");
+  ConsoleLive live(run.run.tree(), {.color = false, .unicode = false}, out.outlet());
+  run.watch({&live}, 3);
+  const std::string text = out.text();
+  const std::string last = text.substr(text.rfind("Test  10 Hz"));
+  CHECK(last.find("> Retry  3/8\x1b[K\n") != std::string::npos);
+  CHECK(last.find("  3/4\x1b[K\n") != std::string::npos);
+  CHECK(last.find("  3\x1b[K\n") != std::string::npos);
+  CHECK(last.find("> d (Scripted)\x1b[K\n") != std::string::npos);
+}
+
 TEST_CASE("no line is lost after the last frame, and too many are counted") {
   TextFile out;
   WatchedRun run("Sequence(a)", "a=S");
