@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <system_error>
@@ -15,6 +14,7 @@
 #include "cli/outputs.h"
 #include "measure/measure_spec.h"
 #include "observers/recorded_probe.h"
+#include "runtime/stop_signals.h"
 #include "study/gnuplot.h"
 #include "study/progress_plot.h"
 
@@ -74,6 +74,7 @@ bool would_replace_recording(const LogPlotOptions& options, std::filesystem::pat
 }
 
 int draw_all(const LogPlotOptions& options, std::span<const ProgressPlot> plots) {
+  StopSignals::install();  // a signal leaves nothing half drawn
   int drawn = 0, written = kExitSuccess;
   for (const ProgressPlot& plot : plots) {
     if (plot.samples.empty()) {
@@ -83,7 +84,10 @@ int draw_all(const LogPlotOptions& options, std::span<const ProgressPlot> plots)
     const auto image = image_of(options, plot, plots);
     if (would_replace_recording(options, image)) return kExitUsage;
     const PlotResult result = draw(plot, image, options.size);
-    if (!result.ok()) return usage_error(result.error);
+    if (!result.ok()) {
+      print_error(result.error);
+      return StopSignals::received() == 0 ? kExitUsage : kExitSignal + StopSignals::received();
+    }
     written = first_failure(written, write_results(printable(result.files.back().string()) + "\n"));
     ++drawn;
   }
@@ -98,7 +102,7 @@ int plot(const LogPlotOptions& options) {
   return with_recording(options.file, [&](RecordingReader& reader) -> int {
     const auto nodes = chosen_nodes(options, reader.header());
     if (nodes.empty()) return kExitUsage;
-    const auto plots = progress_plots(reader, nodes);
+    const auto plots = progress_plots(reader, nodes, options.size);
     if (const int code = report_end(reader); code != kExitSuccess) return code;
     return draw_all(options, plots);
   });
@@ -118,11 +122,14 @@ LogSubcommand define_log_plot(CLI::App& log) {
       ->required();
   app->add_option("--node", options->node, "Only this node: its path, or the end of it")
       ->type_name("NODE");
-  app->add_option("--width", options->size.width, "In pixels; a PNG has twice as many")
-      ->transform(whole_number(200, 8000))
+  app->add_option(
+         "--width", options->size.width,
+         "In pixels, 360 at least, for a smaller picture cannot be read; a PNG has twice as many")
+      ->transform(whole_number(PlotSize::kLeastWidth, PlotSize::kMost))
       ->capture_default_str();
-  app->add_option("--height", options->size.height, "In pixels; a PNG has twice as many")
-      ->transform(whole_number(150, 8000))
+  app->add_option("--height", options->size.height,
+                  "In pixels, 240 at least; a PNG has twice as many")
+      ->transform(whole_number(PlotSize::kLeastHeight, PlotSize::kMost))
       ->capture_default_str();
   return {app, [options] { return plot(*options); }};
 }

@@ -5,15 +5,22 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "core/diagnostics.h"
 #include "measure/measure_spec.h"
+#include "observers/text_line.h"
 #include "study/gnuplot.h"
+#include "study/plot_style.h"
 
 namespace lockstep {
 namespace {
 
-constexpr double kGroupWidth = 0.7;  // of the distance of two groups
+constexpr double kBoxWidth = 0.525;  // of the distance of two groups
+constexpr std::size_t kLongestLabel = 24;
+// Below the axis are two rows before the labels of the groups.
+constexpr double kRowN = -0.9, kRowSuccess = -1.9, kLabels = -2;  // heights of a letter
+constexpr char kColor[] = "rgb '#0072b2'";
 
 std::string measure_label(const std::string& text) {
   std::string error;
@@ -49,22 +56,14 @@ void make_unique(std::vector<BoxPlot>& plots) {
   }
 }
 
-template <class Use>
-void for_each_box(const BoxPlot& plot, Use use) {
-  for (const BoxGroup& group : plot.groups) {
-    for (const auto& box : group.boxes) {
-      if (box) use(*box);
-    }
-  }
-}
-
 // 0 is always in sight; all equal to 0 would leave gnuplot without a range.
 std::string y_range(const BoxPlot& plot) {
   double least = 0, most = 0;
-  for_each_box(plot, [&](const SampleSummary& box) {
-    least = std::min(least, box.min);
-    most = std::max(most, box.max);
-  });
+  for (const BoxGroup& group : plot.groups) {
+    if (!group.box) continue;
+    least = std::min(least, group.box->min);
+    most = std::max(most, group.box->max);
+  }
   if (least == 0 && most == 0) return "[0:1]";
   return fmt::format("[{}:{}]", least < 0 ? "*" : "0", most > 0 ? "*" : "0");
 }
@@ -72,7 +71,7 @@ std::string y_range(const BoxPlot& plot) {
 // The text of a tic is a format.
 std::string tic_text(std::string_view label) {
   std::string text;
-  for (const char c : label) text.append(c == '%' ? 2 : 1, c);
+  for (const char c : shortened(label, kLongestLabel)) text.append(c == '%' ? 2 : 1, c);
   return gnuplot_string(text);
 }
 
@@ -80,31 +79,70 @@ std::string x_tics(const BoxPlot& plot) {
   std::string tics;
   std::size_t letters = 0;
   for (std::size_t group = 0; group < plot.groups.size(); ++group) {
-    letters += plot.groups[group].label.size() + 2;
-    tics +=
-        fmt::format("{}{} {}", group == 0 ? "" : ", ", tic_text(plot.groups[group].label), group);
+    const std::string label = tic_text(plot.groups[group].label);
+    letters += columns(label);
+    tics += fmt::format("{}{} {}", group == 0 ? "" : ", ", label, group);
   }
   const bool crowded = letters > 64;
-  return fmt::format("set xtics nomirror scale 0{} ({})\n", crowded ? " rotate by -35" : "", tics);
+  return fmt::format("set xtics nomirror scale 0 offset 0,{}{} ({})\n", kLabels,
+                     crowded ? " rotate by -35" : "", tics);
 }
 
-// The box, its median, its mean.
-std::string series_commands(const BoxPlot& plot, std::size_t series) {
-  const auto color = plot_color(series);
-  const bool legend = plot.series.size() > 1;
-  const std::string title = legend ? "title " + gnuplot_string(plot.series[series]) : "notitle";
+std::string n_of(const BoxGroup& group) {
+  return fmt::format("{}", group.box ? group.box->count : 0);
+}
+
+std::string success_of(const BoxGroup& group) {
+  const auto success = static_cast<std::size_t>(StudyResult::Success);
+  return percent(group.results.of[success], group.results.runs);
+}
+
+// Of many groups the letters are smaller, so that they stay apart: in pixels.
+int row_letters(const BoxPlot& plot, PlotSize size) {
+  std::size_t longest = 1;
+  for (const BoxGroup& group : plot.groups) {
+    longest = std::max({longest, n_of(group).size(), success_of(group).size()});
+  }
+  const double of_group = 0.85 * size.width / static_cast<double>(plot.groups.size());
+  return std::clamp(static_cast<int>(of_group / (0.6 * static_cast<double>(longest + 1))), 4,
+                    letter_height(size));
+}
+
+// How many values each box is of, and how many of the runs succeeded.
+std::string rows_below(const BoxPlot& plot, PlotSize size) {
+  std::string text;
+  const auto add = [&](std::string_view what, std::string_view place, double row) {
+    text +=
+        fmt::format("set label {} at {}, graph 0 offset 0,{}", gnuplot_string(what), place, row);
+  };
+  const int letters = row_letters(plot, size);
+  for (const auto& [row, name] : {std::pair(kRowN, "n"), std::pair(kRowSuccess, "success")}) {
+    add(name, "screen 0.008", row);
+    text += " left\n";
+  }
+  for (std::size_t group = 0; group < plot.groups.size(); ++group) {
+    const std::string place = fmt::format("first {}", group);
+    add(n_of(plot.groups[group]), place, kRowN);
+    text += fmt::format(" center font ',{}'\n", letters);
+    add(success_of(plot.groups[group]), place, kRowSuccess);
+    text += fmt::format(" center font ',{}'\n", letters);
+  }
+  return text;
+}
+
+// The box, its median, its mean; then what each of them is.
+std::string plot_command() {
   return fmt::format(
-      "  data index {0} using 1:3:2:6:5 with candlesticks whiskerbars 0.5 lc rgb '{1}' lw 1.4 {2}, "
-      "\\\n"
-      "  data index {0} using ($1-width/2):4:(width):(0) with vectors nohead lc rgb '{1}' lw 3 "
-      "notitle, \\\n"
-      "  data index {0} using 1:7 with points pt 7 ps 0.75 lc rgb 'white' notitle, \\\n"
-      "  data index {0} using 1:7 with points pt 6 ps 0.75 lw 1.4 lc rgb '{1}' notitle",
-      series, color, title);
-}
-
-double box_width(const BoxPlot& plot) {
-  return kGroupWidth / static_cast<double>(std::max<std::size_t>(plot.series.size(), 1));
+      "plot \\\n"
+      "  data using 1:3:2:6:5 with candlesticks whiskerbars 0.5 lc {0} lw 1.4 notitle, \\\n"
+      "  data using ($1-width/2):4:(width):(0) with vectors nohead lc {0} lw 3 notitle, \\\n"
+      "  data using 1:7 with points pt 7 ps 0.75 lc rgb 'white' notitle, \\\n"
+      "  data using 1:7 with points pt 6 ps 0.75 lw 1.4 lc {0} notitle, \\\n"
+      "  keyentry with boxes lc {0} lw 1.4 title 'quartiles', \\\n"
+      "  keyentry with lines lc {0} lw 3 title 'median', \\\n"
+      "  keyentry with lines lc {0} lw 1.4 title 'min, max', \\\n"
+      "  keyentry with points pt 6 ps 0.75 lw 1.4 lc {0} title 'mean'\n",
+      kColor);
 }
 
 }  // namespace
@@ -122,7 +160,8 @@ std::vector<BoxPlot> box_plots(std::span<const std::string> grid_names,
     const std::string label = row.grid.empty() ? "" : row.grid.back();
     const bool is_there = row.summary.count > 0;
     BoxPlot& plot = plots[place->second];
-    plot.groups.push_back({label, {is_there ? std::optional(row.summary) : std::nullopt}});
+    plot.groups.push_back(
+        {label, is_there ? std::optional(row.summary) : std::nullopt, row.results});
     plot.results = plot.results + row.results;
   }
   for (BoxPlot& plot : plots) plot.title += "  (" + to_text(plot.results) + ")";
@@ -132,20 +171,11 @@ std::vector<BoxPlot> box_plots(std::span<const std::string> grid_names,
 
 std::string box_plot_data(const BoxPlot& plot) {
   std::string text = "# x min q1 median q3 max mean n, and what stands at x\n";
-  const double width = box_width(plot);
-  for (std::size_t series = 0; series < plot.series.size(); ++series) {
-    if (series > 0) text += "\n\n";
-    text += fmt::format("# {}\n", printable(plot.series[series]));
-    const double offset =
-        width * (static_cast<double>(series) - (static_cast<double>(plot.series.size()) - 1) / 2);
-    for (std::size_t group = 0; group < plot.groups.size(); ++group) {
-      const auto& boxes = plot.groups[group].boxes;
-      if (series >= boxes.size() || !boxes[series]) continue;
-      const SampleSummary& box = *boxes[series];
-      text += fmt::format("{:.6g} {} {} {} {} {} {} {} # {}\n", static_cast<double>(group) + offset,
-                          box.min, box.q1, box.median, box.q3, box.max, box.mean, box.count,
-                          printable(plot.groups[group].label));
-    }
+  for (std::size_t group = 0; group < plot.groups.size(); ++group) {
+    if (!plot.groups[group].box) continue;
+    const SampleSummary& box = *plot.groups[group].box;
+    text += fmt::format("{} {} {} {} {} {} {} {} # {}\n", group, box.min, box.q1, box.median,
+                        box.q3, box.max, box.mean, box.count, printable(plot.groups[group].label));
   }
   return text;
 }
@@ -154,10 +184,13 @@ std::string box_plot_script(const BoxPlot& plot, PlotSize size) {
   std::string text = "# Made by lockstep. Box: quartiles; line: median; whiskers: minimum and ";
   text += fmt::format("maximum; circle: mean.\n# To draw it again: gnuplot {}.gp\n", plot.stem);
   text += fmt::format("data = {}\nset encoding utf8\n", gnuplot_file(plot.stem + ".dat"));
-  text += fmt::format("set title {} noenhanced\n", gnuplot_string(plot.title));
-  text += fmt::format("set xlabel {} noenhanced\n", gnuplot_string(plot.x_label));
+  text += fmt::format("set title {} noenhanced\n", plot_title(plot.title, size));
+  text += fmt::format(
+      "set xlabel {} noenhanced offset 0,{}\n",
+      gnuplot_string(shortened(plot.x_label, letters_in(0.7 * size.width, letter_height(size)))),
+      kLabels);
   text += fmt::format("set ylabel {} noenhanced\n", gnuplot_string(plot.y_label));
-  text += x_tics(plot);
+  text += x_tics(plot) + rows_below(plot, size);
   text += fmt::format("set xrange [-0.6:{}]\n", static_cast<double>(plot.groups.size()) - 0.4);
   text += fmt::format("set yrange {}\n", y_range(plot));
   text +=
@@ -167,13 +200,9 @@ std::string box_plot_script(const BoxPlot& plot, PlotSize size) {
       "set xzeroaxis lt 1 lw 0.8 lc rgb '#404040'\n"
       "set key tmargin center horizontal reverse Left samplen 1.5 noenhanced\n"
       "set style fill solid 0.25 border\n";
-  text += fmt::format("width = {:.4g}\nset boxwidth width\n", 0.75 * box_width(plot));
-  text += gnuplot_terminal(plot.stem + ".svg", size) + "plot \\\n";
-  for (std::size_t series = 0; series < plot.series.size(); ++series) {
-    text += series_commands(plot, series) + (series + 1 < plot.series.size() ? ", \\\n" : "\n");
-  }
-  text += gnuplot_terminal(plot.stem + ".png", size) + "replot\n";
-  return text;
+  text += fmt::format("width = {}\nset boxwidth width\n", kBoxWidth);
+  text += gnuplot_terminal(plot.stem + ".svg", size) + plot_command();
+  return text + gnuplot_terminal(plot.stem + ".png", size) + "replot\n";
 }
 
 PlotResult draw(const BoxPlot& plot, const std::filesystem::path& directory, PlotSize size) {

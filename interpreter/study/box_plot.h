@@ -14,16 +14,16 @@
 namespace lockstep {
 
 struct BoxGroup {
-  std::string label;                                // below it
-  std::vector<std::optional<SampleSummary>> boxes;  // one for each series, side by side
+  std::string label;                 // below it
+  std::optional<SampleSummary> box;  // none: no run has a value
+  ResultCounts results;              // of all its runs
 };
 
 struct BoxPlot {
   std::string stem;  // of its files: letters, digits, '_', '-' and '.' only
   std::string title, x_label, y_label;
-  std::vector<std::string> series = {""};  // with only one there is no legend
-  std::vector<BoxGroup> groups;            // from left to right
-  ResultCounts results;                    // of all runs behind it
+  std::vector<BoxGroup> groups;  // from left to right
+  ResultCounts results;          // of all runs behind it
 };
 
 // One plot for each node, measure and combination of values of the other grid names; the values of

@@ -1,19 +1,53 @@
 #include "study/gnuplot.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <system_error>
 
 #include "core/diagnostics.h"
 #include "study/gnuplot_process.h"
+#include "study/plot_style.h"
 
 namespace lockstep {
 namespace {
 
+constexpr double kPointsPerPixel = 11.0 / 15;
 constexpr char kMissing[] =
     "there is no gnuplot, so no image was made: install the package 'gnuplot-nox'";
+
+// In another directory, so that what is finished can be moved there; removed with what is left.
+class WorkDirectory {
+ public:
+  explicit WorkDirectory(const std::filesystem::path& parent)
+      : path_((parent / ".lockstep-plot-XXXXXX").string()) {
+    if (mkdtemp(path_.data()) == nullptr) reason_ = errno;
+  }
+  ~WorkDirectory() {
+    std::error_code ignored;
+    if (reason_ == 0) std::filesystem::remove_all(path_, ignored);
+  }
+  WorkDirectory(const WorkDirectory&) = delete;
+  WorkDirectory& operator=(const WorkDirectory&) = delete;
+
+  // For whom gnuplot writes, when we have more rights than the user: it gives these up. What we
+  // write into it comes before that.
+  void give_to_user() const {
+    if (getuid() == geteuid()) return;
+    [[maybe_unused]] const int ignored = chown(path_.c_str(), getuid(), getgid());
+  }
+  // 0, or why it could not be made.
+  int reason() const { return reason_; }
+  std::filesystem::path path() const { return path_; }
+
+ private:
+  std::string path_;
+  int reason_ = 0;
+};
 
 // 0, or why not.
 int write_file(const std::filesystem::path& path, const std::string& text) {
@@ -46,12 +80,6 @@ std::string failure(const GnuplotEnd& ended) {
 
 }  // namespace
 
-std::string_view plot_color(std::size_t index) {
-  constexpr std::string_view kColors[] = {"#0072b2", "#e69f00", "#009e73",
-                                          "#cc79a7", "#56b4e9", "#d55e00"};
-  return kColors[index % std::size(kColors)];
-}
-
 // In single quotes all is as it stands, but a quote at the beginning cannot be doubled there. In
 // double quotes a backquote would run a command; written as octal digits it is only a letter.
 std::string gnuplot_string(std::string_view text) {
@@ -80,15 +108,14 @@ std::string gnuplot_terminal(const std::filesystem::path& image, PlotSize size) 
   const std::string output = gnuplot_file(image.filename().string());
   if (image.extension() == ".svg") {
     return fmt::format(
-        "set terminal svg noenhanced size {},{} font 'sans-serif,15' background 'white'\n"
+        "set terminal svg noenhanced size {},{} font 'sans-serif,{}' background 'white'\n"
         "set output {}\n",
-        size.width, size.height, output);
+        size.width, size.height, letter_height(size), output);
   }
   return fmt::format(
-      "set terminal pngcairo noenhanced size {},{} font 'sans-serif,11' fontscale 2 linewidth 2 "
-      "pointscale 2\n"
-      "set output {}\n",
-      2 * size.width, 2 * size.height, output);
+      "set terminal pngcairo noenhanced size {},{} font 'sans-serif,{}' fontscale {:.4g} "
+      "linewidth 2 pointscale 2\nset output {}\n",
+      2 * size.width, 2 * size.height, letter_height(size), 2 * kPointsPerPixel, output);
 }
 
 std::string file_stem(std::string_view text) {
@@ -108,28 +135,30 @@ std::string file_stem(std::string_view text) {
 
 PlotResult draw(const PlotFiles& files) {
   PlotResult result;
-  const std::pair<std::string, const std::string&> texts[] = {{files.stem + ".dat", files.data},
-                                                              {files.stem + ".gp", files.script}};
-  for (const auto& [name, text] : texts) {
-    const auto path = files.directory / name;
-    if (const int reason = write_file(path, text); reason != 0) {
-      result.error =
-          fmt::format("cannot write '{}': {}", printable(path.string()), strerror(reason));
-      return result;
-    }
-    result.files.push_back(path);
+  const std::filesystem::path directory = files.directory.empty() ? "." : files.directory;
+  const WorkDirectory work(directory);
+  std::vector<std::string> finished{files.stem + ".dat", files.stem + ".gp"};
+  const auto fails = [&result](const std::filesystem::path& path, int reason) {
+    if (reason == 0) return false;
+    result.error = fmt::format("cannot write '{}': {}", printable(path.string()), strerror(reason));
+    return true;
+  };
+  if (fails(directory / finished[0], work.reason())) return result;
+  if (fails(directory / finished[0], write_file(work.path() / finished[0], files.data)) ||
+      fails(directory / finished[1], write_file(work.path() / finished[1], files.script))) {
+    return result;
   }
-  const auto directory = files.directory.empty() ? "." : files.directory;
-  const GnuplotEnd ended = run_gnuplot(directory, files.stem + ".gp");
+  work.give_to_user();
+  const GnuplotEnd ended = run_gnuplot(work.path(), finished[1]);
   result.error = failure(ended);
   result.gnuplot_missing = ended.reason == ENOENT;
-  for (const std::string& image : files.images) {
-    std::error_code ignored;
-    if (result.ok()) {
-      result.files.push_back(files.directory / image);
-    } else if (ended.reason == 0) {
-      std::filesystem::remove(files.directory / image, ignored);
-    }
+  if (ended.stopped) return result;
+  if (result.ok()) finished.insert(finished.end(), files.images.begin(), files.images.end());
+  for (const std::string& name : finished) {
+    std::error_code failed;
+    std::filesystem::rename(work.path() / name, directory / name, failed);
+    if (fails(directory / name, failed.value())) return result;
+    result.files.push_back(files.directory / name);
   }
   return result;
 }

@@ -12,9 +12,6 @@
 
 namespace lockstep {
 
-// Colors that differ also for the color-blind and in gray (Okabe and Ito), again and again.
-std::string_view plot_color(std::size_t index);
-
 // A string literal of gnuplot that stands for exactly this text; control characters are made
 // visible as printable() does.
 std::string gnuplot_string(std::string_view text);
@@ -37,8 +34,8 @@ struct PlotFiles {
   std::vector<std::string> images;  // file names that the script draws
 };
 
-// Writes the data and the script and has gnuplot run the script in the directory. An image that
-// gnuplot did not finish is removed.
+// Writes the data and the script and has gnuplot run the script, all in a temporary directory
+// beside. What is finished is moved from there; of what is not, nothing stays.
 PlotResult draw(const PlotFiles& files);
 
 }  // namespace lockstep

@@ -19,6 +19,8 @@ struct PlotResult {
 
 struct PlotSize {
   int width = 720, height = 432;  // pixels of the SVG; a PNG has twice as many each way
+  static constexpr int kLeastWidth = 360, kLeastHeight = 240;  // below, nobody can read it
+  static constexpr int kMost = 8000;
 };
 
 }  // namespace lockstep

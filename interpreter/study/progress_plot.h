@@ -9,26 +9,23 @@
 
 #include "observers/recording_reader.h"
 #include "study/plot.h"
+#include "study/progress_sample.h"
 
 namespace lockstep {
-
-struct ProgressSample {
-  double time = 0;               // seconds
-  bool begins = false;           // a new activation of the node: no line leads here
-  std::vector<double> progress;  // of each child
-  std::vector<bool> held;        // of each child; from here to the next sample
-};
 
 struct ProgressPlot {
   NodeIndex index = 0;  // in the recording
   RecordedNode node;
-  std::vector<std::string> children;  // their names
+  std::vector<std::string> children;  // the names of those that are drawn
+  std::size_t all_children = 0;       // how many the node has
   std::vector<ProgressSample> samples;
 };
 
-// One plot for each of the nodes, which must be synchronized ones. Reads to the end; then look at
+// One plot for each of the nodes, which must be synchronized ones, of their first kPlotStyles
+// children, with the samples that a picture of this size can show. Reads to the end; then look at
 // reader.error(). A node that no tick reached has no samples.
-std::vector<ProgressPlot> progress_plots(RecordingReader& reader, std::span<const NodeIndex> nodes);
+std::vector<ProgressPlot> progress_plots(RecordingReader& reader, std::span<const NodeIndex> nodes,
+                                         PlotSize size = {});
 
 // Writes `image`, whose extension is .svg or .png, and beside it the .dat and the .gp. There must
 // be a sample.

@@ -154,9 +154,9 @@ TEST_CASE("log plot draws an SVG or a PNG, with data and script beside it") {
   CHECK(svg.out == directory.path("x.svg") + "\n");
   CHECK(is_svg(directory.path("x.svg")));
   CHECK(contains(read_file(directory.path("x.svg")), ">arm</text>"));
-  CHECK(log({"plot", recording, "--out", directory.path("x.png"), "--width", "300"}).code == 0);
+  CHECK(log({"plot", recording, "--out", directory.path("x.png"), "--width", "360"}).code == 0);
   CHECK(read_file(directory.path("x.png")).starts_with("\x89PNG\r\n\x1a\n"));
-  CHECK(contains(read_file(directory.path("x.gp")), "size 600,"));
+  CHECK(contains(read_file(directory.path("x.gp")), "size 720,"));
   // The last line leads to what the last tick reached: a period after it.
   CHECK(contains(read_file(directory.path("x.dat")), "\n0.1 1 1 1 1\n"));
 }
@@ -197,6 +197,44 @@ TEST_CASE("log plot says what it cannot draw") {
   CHECK((read_file(named) == text));
 }
 
+TEST_CASE("log plot refuses a picture that nobody could read") {
+  const TemporaryDirectory directory;
+  const std::string recording = record(directory, kA1);
+  const auto plot = [&](const std::string& option, const std::string& pixels) {
+    return log({"plot", recording, "--out", directory.path("x.svg"), option, pixels});
+  };
+  CHECK(plot("--width", "360").code == 0);
+  CHECK(plot("--height", "240").code == 0);
+  const Outcome narrow = plot("--width", "359");
+  CHECK(narrow.code == 2);
+  CHECK(contains(narrow.err, "'359' is not a whole number from 360 to 8000"));
+  CHECK(contains(plot("--height", "239").err, "'239' is not a whole number from 240 to 8000"));
+  for (const char* bad : {"8001", "-720", "7e2", "720px", ""}) {
+    CAPTURE(bad);
+    CHECK(plot("--width", bad).code == 2);
+  }
+}
+
+// 20,000 ticks of 1,000 children are 160 MB of progress.
+TEST_CASE("log plot of a large recording takes what its picture needs, not what it holds") {
+  const TemporaryDirectory directory;
+  std::string node = "<ParallelRelative delta=\"1\"><Advance name=\"arm\" step=\"0.0001\"/>";
+  for (int i = 0; i < 999; ++i) node += "<Advance step=\"0\"/>";
+  const std::string tree = directory.file("tree.xml", tree_text(node + "</ParallelRelative>"));
+  const std::string recording = directory.path("run.jsonl");
+  REQUIRE(lockstep::test::lockstep({"run", tree, "--clock", "virtual", "--view", "none",
+                                    "--max-ticks", "20000", "--record", recording})
+              .code == 124);
+  const Outcome outcome = log({"plot", recording, "--out", directory.path("x.svg")});
+  CHECK(outcome.code == 0);
+  CHECK(std::filesystem::file_size(directory.path("x.dat")) < 2'000'000);
+  CHECK(std::filesystem::file_size(directory.path("x.svg")) < 8'000'000);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  CHECK(outcome.peak_megabytes < 100);  // gnuplot's too
+#endif
+  CHECK(contains(read_file(directory.path("x.gp")), "the first 36 of 1000 children"));
+}
+
 TEST_CASE("log plot without gnuplot names the package and leaves the data") {
   const TemporaryDirectory directory;
   const std::string recording = record(directory, kA1);
@@ -218,7 +256,7 @@ TEST_CASE("gnuplot does not outlive log plot") {
   const std::string endless =
       directory.file("gnuplot", "#!/bin/sh\necho $$ > '" + pipe + "'\nexec sleep 1000\n");
   REQUIRE(chmod(endless.c_str(), 0700) == 0);
-  for (const int number : {SIGKILL, SIGTERM, SIGINT}) {
+  for (const int number : {SIGTERM, SIGINT, SIGKILL}) {
     Process process({.arguments = {"log", "plot", recording, "--out", directory.path("x.svg")},
                      .environment = {{"PATH", directory.path("") + ":/usr/bin:/bin"}}});
     const auto gnuplot = static_cast<pid_t>(std::stol(read_file(pipe)));
@@ -230,6 +268,11 @@ TEST_CASE("gnuplot does not outlive log plot") {
     CHECK(poll(&end, 1, 10'000) == 1);
     close(watched);
     kill(gnuplot, SIGKILL);
+    if (number == SIGKILL) continue;
+    for (const auto& file : std::filesystem::directory_iterator(directory.path(""))) {
+      CHECK_FALSE(contains(file.path().string(), "lockstep-plot"));
+      CHECK(file.path().extension() != ".gp");
+    }
   }
 }
 

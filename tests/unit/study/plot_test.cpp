@@ -4,10 +4,12 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include "study/box_plot.h"
 #include "study/gnuplot.h"
+#include "study/plot_style.h"
 #include "study/progress_plot.h"
 
 using namespace lockstep;
@@ -79,7 +81,7 @@ BoxPlot small_plot() {
   plot.title = "t";
   plot.x_label = "delta";
   plot.y_label = "step length";
-  plot.groups = {{"1", {summary(3)}}, {"0.5", {summary(2)}}};
+  plot.groups = {{"1", summary(3), kResults}, {"0.5", summary(2), kResults}};
   return plot;
 }
 
@@ -90,9 +92,10 @@ ProgressPlot small_progress() {
   plot.node.synchronization = Synchronization::Absolute;
   plot.node.barriers = {0.5, 1};
   plot.children = {"arm", "base"};
-  plot.samples = {{0, true, {0, 0}, {false, false}},
-                  {0.1, false, {0.25, 0.5}, {false, true}},
-                  {0.2, false, {0.5, 0.5}, {false, false}}};
+  plot.all_children = 2;
+  plot.samples = {{0, true, 0, {0, 0}, {0, 0}},
+                  {0.1, false, 0.25, {0.25, 0.5}, {0.1, 0.2}},
+                  {0.2, false, 0.5, {0.5, 0.5}, {0.2, 0.2}}};
   return plot;
 }
 
@@ -123,7 +126,7 @@ TEST_CASE("box plots: the last grid name runs along x, the others make plots") {
   CHECK(plots[0].groups[0].label == "0");
   CHECK(plots[0].groups[1].label == "5");
   CHECK(plots[1].y_label == "predictability distance at 0.6 (ticks)");
-  CHECK(plots[1].groups[1].boxes[0]->median == 2);
+  CHECK(plots[1].groups[1].box->median == 2);
   CHECK(plots[2].y_label == "step length");
   CHECK(plots[4].title == "Main/sync/task:  noise = 0.02  (success 80 %, failure 20 %)");
 }
@@ -138,34 +141,27 @@ TEST_CASE("box plots: without a grid there is one box, files never share a name"
   CHECK(plots[1].stem == "sync-duration-2");
 }
 
-TEST_CASE("box plots: the data are the numbers, series by series") {
+TEST_CASE("box plots: the data are the numbers") {
   BoxPlot plot = small_plot();
   CHECK(box_plot_data(plot) ==
         "# x min q1 median q3 max mean n, and what stands at x\n"
-        "# \n"
         "0 1 2 3 4 5 3.5 5 # 1\n"
         "1 0 1 2 3 4 2.5 5 # 0.5\n");
-  plot.series = {"wait", "tick"};
-  plot.groups[0].boxes = {summary(3), std::nullopt};
-  plot.groups[1].boxes = {std::nullopt, summary(2)};
+  plot.groups[0].box.reset();
   CHECK(box_plot_data(plot) ==
         "# x min q1 median q3 max mean n, and what stands at x\n"
-        "# wait\n"
-        "-0.175 1 2 3 4 5 3.5 5 # 1\n"
-        "\n\n"
-        "# tick\n"
-        "1.175 0 1 2 3 4 2.5 5 # 0.5\n");
+        "1 0 1 2 3 4 2.5 5 # 0.5\n");
 }
 
 TEST_CASE("box plots: the script") {
-  const std::string script = box_plot_script(small_plot(), {.width = 300, .height = 200});
+  const std::string script = box_plot_script(small_plot(), {.width = 360, .height = 240});
   CHECK(contains(script,
-                 "set xlabel 'delta' noenhanced\nset ylabel 'step length' noenhanced\n"
-                 "set xtics nomirror scale 0 ('1' 0, '0.5' 1)\n"
-                 "set xrange [-0.6:1.6]\nset yrange [0:*]\n"));
-  CHECK(contains(script, "set terminal svg noenhanced size 300,200 "));
+                 "set xlabel 'delta' noenhanced offset 0,-2\nset ylabel 'step length' noenhanced\n"
+                 "set xtics nomirror scale 0 offset 0,-2 ('1' 0, '0.5' 1)\n"));
+  CHECK(contains(script, "set xrange [-0.6:1.6]\nset yrange [0:*]\n"));
+  CHECK(contains(script, "set terminal svg noenhanced size 360,240 font 'sans-serif,10' "));
   CHECK(contains(script,
-                 "set output './small.svg'\nplot \\\n  data index 0 using 1:3:2:6:5 with "
+                 "set output './small.svg'\nplot \\\n  data using 1:3:2:6:5 with "
                  "candlesticks whiskerbars 0.5 lc rgb '#0072b2' lw 1.4 notitle, \\\n"));
   CHECK(script.ends_with("set output './small.png'\nreplot\n"));
 }
@@ -175,14 +171,13 @@ TEST_CASE("box plots: gnuplot draws them, also when all is 0, below 0 or missing
   BoxPlot plot = small_plot();
   SECTION("as they come") {}
   SECTION("all 0") {
-    plot.groups = {{"1", {SampleSummary{}}}};
+    plot.groups = {{"1", SampleSummary{}, kResults}};
   }
   SECTION("below 0") {
-    plot.groups = {{"1", {summary(-570)}}};
+    plot.groups = {{"1", summary(-570), kResults}};
   }
-  SECTION("a series without a box here") {
-    plot.series = {"wait", "tick"};
-    plot.groups[0].boxes.push_back(summary(1));
+  SECTION("no box here") {
+    plot.groups[0].box.reset();
   }
   const PlotResult result = draw(plot, directory.path());
   CHECK(result.error == "");
@@ -190,6 +185,56 @@ TEST_CASE("box plots: gnuplot draws them, also when all is 0, below 0 or missing
   CHECK(result.files[2] == directory / "small.svg");
   CHECK(is_xml(directory / "small.svg"));
   CHECK(is_png(directory / "small.png"));
+}
+
+TEST_CASE("box plots: a legend says what is drawn, rows below what each box is of") {
+  const Directory directory;
+  BoxPlot plot = small_plot();
+  plot.groups[1].results = {.runs = 4, .of = {3, 1, 0}};
+  plot.groups.push_back({"0.1", std::nullopt, {.runs = 7, .of = {0, 0, 7}}});
+  REQUIRE(draw(plot, directory.path()).error == "");
+  const std::string svg = text_of(directory / "small.svg");
+  for (const char* text : {">quartiles<", ">median<", ">min, max<", ">mean<", ">n<", ">success<",
+                           ">80 %<", ">75 %<", ">5<", ">0 %<"}) {
+    CAPTURE(text);
+    CHECK(contains(svg, text));
+  }
+}
+
+TEST_CASE("plots: as many lines as there are styles can be told apart") {
+  std::set<std::string> styles, fills;
+  for (std::size_t line = 0; line < kPlotStyles; ++line) {
+    styles.insert(plot_color(line) + plot_dash(line));
+    fills.insert(plot_color(line) + plot_fill(line));
+  }
+  CHECK(styles.size() == kPlotStyles);
+  CHECK(fills.size() == kPlotStyles);
+  CHECK(plot_dash(0) == "dt solid");
+  CHECK(plot_dash(6) != plot_dash(0));
+  CHECK(plot_fill(6) != plot_fill(0));
+}
+
+TEST_CASE("plots: a long title has two lines, a longer one loses its beginning") {
+  const PlotSize size;
+  CHECK(plot_title("Main/pull", size) == "'Main/pull'");
+  const std::string path = "Main/" + std::string(60, 'a') + "/pull   (2 barriers)";
+  CHECK(plot_title(path, size) ==
+        "'Main/" + std::string(60, 'a') + "/pull'.\"\\n\".'(2 barriers)'");
+  const std::string longer = plot_title(std::string(300, 'a') + "/" + path, size);
+  CHECK(longer.starts_with("'…aaa"));
+  CHECK(longer.ends_with("aaa/pull   (2 barriers)'"));
+  CHECK(contains(longer, "'.\"\\n\".'"));
+  CHECK(shortened("äöü/äöü", 4) == "…äöü");
+  CHECK(shortened("äöü", 3) == "äöü");
+  const std::string narrow = plot_title(path, {.width = 360, .height = 240});
+  CHECK(narrow.size() < longer.size());
+}
+
+TEST_CASE("plots: letters are smaller in a small picture, not in a large one") {
+  CHECK(letter_height({}) == 15);
+  CHECK(letter_height({.width = 1440, .height = 864}) == 15);
+  CHECK(letter_height({.width = 600, .height = 432}) == 13);
+  CHECK(letter_height({.width = 360, .height = 240}) == 10);
 }
 
 TEST_CASE("plots: any text is drawn as it is, and run by nobody") {
@@ -250,6 +295,41 @@ TEST_CASE("plots: what gnuplot says of an error is told, and no half image stays
   CHECK(!fs::exists(directory / "bad.svg"));
 }
 
+TEST_CASE("plots: what was drawn before stays until there is a new picture, and nothing else") {
+  const Directory directory;
+  REQUIRE(draw(small_plot(), directory.path()).ok());
+  const std::string before = text_of(directory / "small.svg");
+  const auto files = [&] {
+    std::set<std::string> names;
+    for (const auto& file : fs::directory_iterator(directory.path())) {
+      names.insert(file.path().filename().string());
+    }
+    return names;
+  };
+  const std::set<std::string> all{"small.dat", "small.gp", "small.png", "small.svg"};
+  CHECK(files() == all);
+  const PlotResult bad = draw(PlotFiles{.directory = directory.path(),
+                                        .stem = "small",
+                                        .data = "1 2\n",
+                                        .script = "set terminal svg\nset output 'small.svg'\n"
+                                                  "plot sin(x) bogus\n",
+                                        .images = {"small.svg"}});
+  CHECK(!bad.ok());
+  CHECK(text_of(directory / "small.svg") == before);
+  CHECK(files() == all);
+}
+
+TEST_CASE("plots: a link in the place of a file is replaced, never followed") {
+  const Directory directory;
+  std::ofstream(directory / "precious") << "kept";
+  for (const char* name : {"small.dat", "small.gp", "small.svg", "small.png"}) {
+    fs::create_symlink(directory / "precious", directory / name);
+  }
+  CHECK(draw(small_plot(), directory.path()).ok());
+  CHECK(text_of(directory / "precious") == "kept");
+  CHECK(is_xml(directory / "small.svg"));
+}
+
 TEST_CASE("plots: a directory that is not there is told") {
   const Directory directory;
   const PlotResult result = draw(small_plot(), directory / "none");
@@ -269,7 +349,8 @@ TEST_CASE("progress plot: the data are the samples, and when each child was held
         "0.1 0.2 1\n");
   plot.node.synchronization = Synchronization::Relative;
   plot.node.delta = 0.7;
-  plot.samples[2] = {0.4, true, {0.5, 0.5}, {false, false}};
+  plot.samples[1].held_until = {0.1, 0.1};
+  plot.samples[2] = {0.4, true, 0.5, {0.5, 0.5}, {0.4, 0.4}};
   CHECK(progress_plot_data(plot) ==
         "# time_s least most_allowed arm base\n"
         "0 0 0.7 0 0\n"
@@ -281,17 +362,36 @@ TEST_CASE("progress plot: the data are the samples, and when each child was held
 TEST_CASE("progress plot: the script draws barriers or the band of delta") {
   ProgressPlot plot = small_progress();
   const auto script = [&] { return progress_plot_script(plot, "x.svg", {}); };
-  CHECK(contains(script(), "set title 'Main/pull   (2 barriers)' noenhanced\n"));
+  CHECK(contains(script(), "set label 'Main/pull   (2 barriers)' at screen 0.5,"));
   CHECK(contains(script(),
                  "  0.5 with lines lc rgb '#808080' lw 0.8 dt (6,4) title 'barrier', "
                  "\\\n  1 with lines lc rgb '#808080' lw 0.8 dt (6,4) notitle, \\\n"
-                 "  data index 0 using 1:4 with lines lc rgb '#0072b2' lw 2.2 title "
+                 "  data index 0 using 1:4 with lines lc rgb '#0072b2' dt solid lw 2.2 title "
                  "'arm', \\\n"));
   CHECK(contains(script(), "  data index 1 using 1:(-0.1325):1:2:"));
   CHECK(!contains(script(), "data index 2"));
   plot.node.synchronization = Synchronization::Relative;
   plot.node.delta = 0.1;
-  CHECK(contains(script(), "set title 'Main/pull   (delta = 0.1)' noenhanced\n"));
+  CHECK(contains(script(), "set label 'Main/pull   (delta = 0.1)' at screen 0.5,"));
   CHECK(contains(script(), "  data index 0 using 1:2:3 with filledcurves "));
   CHECK(!contains(script(), "'barrier'"));
+}
+
+TEST_CASE("progress plot: of more children than there are styles the first are drawn") {
+  ProgressPlot plot = small_progress();
+  plot.all_children = 40;
+  CHECK(contains(progress_plot_script(plot, "x.svg", {}),
+                 "'Main/pull   (2 barriers; the first 2 of 40 children)'"));
+}
+
+TEST_CASE("progress plot: the longest names, in the smallest picture, are drawn") {
+  const Directory directory;
+  ProgressPlot plot = small_progress();
+  plot.node.path = std::string(100'000, '/');
+  plot.children = {std::string(100'000, '\''), std::string(100'000, '\xff')};
+  const PlotSize smallest{.width = PlotSize::kLeastWidth, .height = PlotSize::kLeastHeight};
+  const PlotResult result = draw(plot, directory / "x.svg", smallest);
+  CHECK(result.error == "");
+  CHECK(is_xml(directory / "x.svg"));
+  CHECK(fs::file_size(directory / "x.gp") < 10'000);
 }

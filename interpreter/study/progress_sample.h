@@ -1,0 +1,24 @@
+// What a plot of progress shows of a synchronized node at one time, and how many of these samples a
+// picture needs: a recording has millions, a picture a few hundred columns.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace lockstep {
+
+struct ProgressSample {
+  double time = 0;                 // seconds
+  bool begins = false;             // a new activation of the node: no line leads here
+  double least = 0;                // of all children
+  std::vector<double> progress;    // of each child that is drawn
+  std::vector<double> held_until;  // of each: from `time` on; not later than it when not held
+};
+
+// Leaves those that give the same picture, when it has so many columns: of the line through a
+// column the first, the least, the most and the last progress of each child, and how long it was
+// held. At most kMostPerColumn samples for each column stay; four where no activation begins.
+constexpr std::size_t kMostPerColumn = 8;
+void thin(std::vector<ProgressSample>& samples, std::size_t columns);
+
+}  // namespace lockstep
