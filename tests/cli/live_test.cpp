@@ -70,6 +70,7 @@ TEST_CASE("a tree that does not fit the terminal: the live view shows the stage 
 
 TEST_CASE("keys scroll and fold the live view, and let it follow what runs again") {
   Live live(stages(20));
+  REQUIRE(live.process.wait_for("> stage10"));  // the cursor begins at what runs
   REQUIRE(live.process.wait_for("up down scroll"));
   live.expect("\x1b[B", "*   > joint0");
   live.expect("\x1b[B", "*   > joint1");
