@@ -2,7 +2,8 @@
 
 #include <unistd.h>
 
-#include <memory>
+#include <cstddef>
+#include <new>
 
 #include "core/own_thread.h"
 #include "plugin/call_mark.h"
@@ -13,14 +14,15 @@
 namespace lockstep {
 
 void watch_this_thread(Nanoseconds hang_limit) {
-  const auto make = [&] { return std::make_unique<Watchdog>(ends_process(hang_limit)); };
   if (gettid() == getpid()) {
-    static const auto& to_the_very_end = *new std::unique_ptr<Watchdog>(make());
-    static_cast<void>(to_the_very_end);
+    // Never destroyed: it watches to the very end.
+    alignas(Watchdog) static std::byte memory[sizeof(Watchdog)];
+    static const auto* const watchdog = new (memory) Watchdog(ends_process(hang_limit));
+    static_cast<void>(watchdog);
   } else {
     adopt_thread();
     // The first such object of the thread, and so the last to go.
-    static thread_local const std::unique_ptr<Watchdog> watchdog = make();
+    static thread_local const Watchdog watchdog(ends_process(hang_limit));
   }
 }
 
