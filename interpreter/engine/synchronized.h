@@ -1,15 +1,20 @@
 // What a synchronized parallel says of itself: the one source for measures, views and recordings.
+// Nobody else works out who waits for what.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "engine/ticker.h"
 
 namespace lockstep {
 
+// Progress is equal within this: 0.8 <= 0.7 + 0.1 is false in doubles.
+inline constexpr double kProgressEpsilon = 1e-9;
+
 // The state of a synchronized node, with the progress of each child behind it (child_numbers).
 struct SynchronizedState {
-  double limit;    // of the last tick: the current barrier, or the least progress + delta
+  double limit;    // see limit()
   bool succeeded;  // in the last tick
 };
 
@@ -17,10 +22,15 @@ inline Synchronization synchronization(const Node& node) {
   return node.kind->type.synchronization;
 }
 
-// How far a child could be without being held in the node's last tick: the current barrier, or the
-// least progress plus delta. Infinity when no barrier is left.
+// The limit that counted in the node's last tick. ParallelAbsolute: the current barrier, infinity
+// when none is left. ParallelRelative: delta.
 inline double limit(Ticker& ticker, NodeIndex node) {
   return ticker.state<SynchronizedState>(node).limit;
+}
+
+// How far a child may be without being held, given that limit and the least progress.
+inline double farthest(Synchronization synchronization, double limit, double least) {
+  return synchronization == Synchronization::Relative ? least + limit : limit;
 }
 
 // The progress of each child at the start of its parallel's last tick, as the node used it: 1 for a
@@ -35,9 +45,9 @@ inline bool succeeded(Ticker& ticker, NodeIndex node) {
   return ticker.state<SynchronizedState>(node).succeeded;
 }
 
-// ParallelAbsolute: its barriers, rising. Else, and where an entry gives them: empty.
-std::span<const double> barriers(const Tree& tree, NodeIndex node);
-// ParallelRelative only; 0 where an entry gives it.
-double delta(const Tree& tree, NodeIndex node);
+// Of a ParallelAbsolute, rising, and the delta of a ParallelRelative. Nothing for other nodes, and
+// where an entry gives any parameter.
+std::optional<std::span<const double>> barriers(const Tree& tree, NodeIndex node);
+std::optional<double> delta(const Tree& tree, NodeIndex node);
 
 }  // namespace lockstep

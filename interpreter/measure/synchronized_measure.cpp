@@ -64,6 +64,7 @@ SynchronizedTick SynchronizedProbe::read(Ticker& ticker, Nanoseconds time) {
   }
   if (!tick.ticked) return tick;
   if (succeeded(ticker, node_)) tick.status = Status::Success;
+  tick.limit = limit(ticker, node_);
   tick.progress = child_progress(ticker, node_);
   tick.held = {held_.data(), children_.size()};
   return tick;

@@ -24,6 +24,7 @@ struct SynchronizedTick {
   Nanoseconds time{0};           // when the tick of the run began, since the run began
   bool ticked = false;           // did the tick reach the node? If not, only the time counts.
   Status status = Status::Idle;  // Success also when an ancestor has ended the node since
+  double limit = 0;              // that counted: engine/synchronized.h
   std::span<const double> progress = {};  // of each child, as the node used it in this tick
   // Of each child: it was running and did not get this tick. It may have been halted since.
   std::span<const bool> held = {};

@@ -128,7 +128,13 @@ void ConsolePlain::tell_wait(Watched& node, std::size_t child, const Synchronize
   const bool is_soon = wait.last_end && wait.since - *wait.last_end <= kShortWait;
   if (wait.told || (is_soon && tick.time - wait.since < kShortWait)) return;
   wait.told = true;
-  std::string text = waiting_text(tree_, node.probe.node(), tick.progress, child);
+  const auto children = node.probe.children();
+  std::string text =
+      waiting_text({.synchronization = synchronization(tree_.nodes[node.probe.node()]),
+                    .limit = tick.limit,
+                    .progress = tick.progress,
+                    .name_of = [&](std::size_t number) { return tree_.segment(children[number]); }},
+                   child);
   if (wait.since != tick.time) text += fmt::format(", since {:.3f} s", to_seconds(wait.since));
   tell(node.probe.children()[child], text);
 }

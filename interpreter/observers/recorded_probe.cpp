@@ -40,6 +40,7 @@ SynchronizedTick RecordedProbe::read(const RecordedTick& tick) {
   return {.time = from_seconds(tick.time),
           .ticked = tick.nodes[node_].ticked,
           .status = succeeded ? Status::Success : tick.nodes[node_].status,
+          .limit = tick.nodes[node_].limit,
           .progress = progress_,
           .held = {held_.data(), children_.size()}};
 }

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "measure/synchronized_measure.h"
 #include "observers/recording_text.h"
 #include "observers/statistics.h"
 
@@ -25,7 +26,9 @@ Recorder::Recorder(const Tree& tree, RecorderOptions options)
     : tree_(tree),
       options_(std::move(options)),
       file_(options_.path, queue_of(tree, options_.queue)),
-      delta_(tree) {}
+      delta_(tree) {
+  line_end_.reserve(most_of_tick_end(synchronized_nodes(tree).size()));
+}
 
 void Recorder::run_started(Ticker&, const RunStart& start) {
   may_wait_ = !start.real_time;
@@ -64,8 +67,8 @@ PacketHead Recorder::head() const {
 }
 
 bool Recorder::push_tick(Ticker& ticker, const TickReport& report) {
-  const std::string line_end = tick_end(delta_.succeeded(ticker), report.faults);
-  Packet packet{.head = head(), .nodes = delta_.changes(ticker), .text = line_end};
+  set_tick_end(line_end_, delta_.limits(ticker), delta_.succeeded(ticker), report.faults);
+  Packet packet{.head = head(), .nodes = delta_.changes(ticker), .text = line_end_};
   packet.head.is_tick = 1;
   packet.head.tick = report.tick;
   packet.head.time = report.time.count();

@@ -52,6 +52,7 @@ class Recorder final : public Observer {
   RecorderOptions options_;
   AppendFile file_;
   RecordingDelta delta_;
+  std::string line_end_;   // of the tick, for its room
   bool may_wait_ = false;  // time stands still, so waiting for the disk delays nothing
   std::uint64_t lost_ = 0;
   std::uint64_t gap_ = 0, gap_from_ = 0;  // of these, the last ones, which no line tells yet

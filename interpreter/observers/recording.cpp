@@ -14,8 +14,11 @@ std::string one_line(const Json& json) {
 Json json_of(const RecordedNode& node, std::size_t index) {
   Json json = {{"index", index}, {"path", node.path}, {"kind", node.kind}, {"name", node.name}};
   json["parent"] = node.parent ? Json(*node.parent) : Json();
-  if (node.synchronization == Synchronization::Absolute) json["barriers"] = node.barriers;
-  if (node.synchronization == Synchronization::Relative) json["delta"] = node.delta;
+  if (node.synchronization == Synchronization::Absolute) {
+    json["barriers"] = node.barriers ? Json(*node.barriers) : Json();
+  } else if (node.synchronization == Synchronization::Relative) {
+    json["delta"] = node.delta ? Json(*node.delta) : Json();
+  }
   return json;
 }
 
@@ -31,9 +34,8 @@ std::vector<RecordedNode> describe(const Tree& tree) {
     node.name = label.name;
     if (label.parent != index) node.parent = label.parent;
     node.synchronization = synchronization(tree.nodes[index]);
-    const auto list = barriers(tree, index);
-    node.barriers.assign(list.begin(), list.end());
-    if (node.synchronization == Synchronization::Relative) node.delta = delta(tree, index);
+    if (const auto list = barriers(tree, index)) node.barriers.emplace(list->begin(), list->end());
+    node.delta = delta(tree, index);
   }
   return nodes;
 }

@@ -21,8 +21,8 @@ struct RecordedNode {
   std::string path, kind, name;
   std::optional<NodeIndex> parent;  // none: the root
   Synchronization synchronization = Synchronization::None;
-  std::vector<double> barriers;  // Absolute
-  double delta = 0;              // Relative
+  std::optional<std::vector<double>> barriers;  // Absolute; none: an entry gives them
+  std::optional<double> delta;                  // Relative; likewise
 };
 
 struct RecordingHeader {
@@ -42,6 +42,7 @@ struct RecordedState {
   double progress = 0;           // at the start of the tick, as its parent used it
   bool ticked = false;
   bool held = false;
+  double limit = 0;  // of a synchronized node: engine/synchronized.h
 
   friend bool operator==(const RecordedState&, const RecordedState&) = default;
 };

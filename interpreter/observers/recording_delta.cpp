@@ -52,13 +52,16 @@ void put_states(const RunState& run, std::uint32_t tick, const std::uint8_t* mov
 RecordingDelta::RecordingDelta(const Tree& tree)
     : synchronized_nodes_(synchronized_nodes(tree)),
       succeeded_(synchronized_nodes_),  // for its room
+      limits_(synchronized_nodes_.size()),
       progress_(tree.nodes.size()),
       source_(tree.nodes.size()),
       moved_(tree.nodes.size()),
       state_(tree.nodes.size()),
       kept_(tree.nodes.size()),
       kept_progress_(tree.nodes.size()),
-      changes_(tree.nodes.size()) {}
+      changes_(tree.nodes.size()) {
+  for (const NodeIndex node : synchronized_nodes_) kept_limits_.push_back({.node = node});
+}
 
 // Only running nodes are asked. Of all others the progress follows from their Activity, so it is
 // looked at when that has become another one.
@@ -92,7 +95,22 @@ std::span<const NodeIndex> RecordingDelta::succeeded(Ticker& ticker) {
   return succeeded_;
 }
 
+std::span<const LimitChange> RecordingDelta::limits(Ticker& ticker) {
+  limits_.clear();
+  for (const LimitChange& kept : kept_limits_) {
+    if (!ticker.ticked(kept.node)) continue;
+    const double limit = lockstep::limit(ticker, kept.node);
+    if (limit != kept.limit) limits_.push_back({kept.node, limit});
+  }
+  return limits_;
+}
+
 void RecordingDelta::keep() {
+  auto kept = kept_limits_.begin();
+  for (const LimitChange& change : limits_) {  // in the same order
+    while (kept->node != change.node) ++kept;
+    kept->limit = change.limit;
+  }
   for (const NodeChange& change : std::span(changes_).first(count_)) {
     kept_[change.node] = change.state;
     kept_progress_[change.node] = change.progress;

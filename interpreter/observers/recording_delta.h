@@ -23,7 +23,10 @@ class RecordingDelta {
   // Of the tick: the synchronized nodes that have succeeded in it and are idle again, because an
   // ancestor has ended them. Valid until the next call.
   std::span<const NodeIndex> succeeded(Ticker& ticker);
-  // What changes() gave last has reached the file.
+  // The synchronized nodes that the tick reached whose limit is not what was kept. Valid until the
+  // next call.
+  std::span<const LimitChange> limits(Ticker& ticker);
+  // What changes() and limits() gave last has reached the file.
   void keep();
 
  private:
@@ -32,6 +35,8 @@ class RecordingDelta {
 
   std::vector<NodeIndex> synchronized_nodes_;
   std::vector<NodeIndex> succeeded_;
+  std::vector<LimitChange> kept_limits_;  // of each synchronized node
+  std::vector<LimitChange> limits_;
   std::vector<double> progress_;      // at the start of this tick
   std::vector<std::uint8_t> source_;  // the Activity that it is of, where it follows from that
 

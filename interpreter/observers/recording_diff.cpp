@@ -22,10 +22,12 @@ void add(Values& values, std::string what, std::optional<std::string> a,
 
 std::string describe(const RecordedNode& node) {
   if (node.synchronization == Synchronization::Absolute) {
-    return fmt::format("{} barriers={}", node.kind, fmt::join(node.barriers, ";"));
+    if (!node.barriers) return node.kind + " barriers from an entry";
+    return fmt::format("{} barriers={}", node.kind, fmt::join(*node.barriers, ";"));
   }
   if (node.synchronization == Synchronization::Relative) {
-    return fmt::format("{} delta={}", node.kind, node.delta);
+    if (!node.delta) return node.kind + " delta from an entry";
+    return fmt::format("{} delta={}", node.kind, *node.delta);
   }
   return node.kind;
 }
@@ -177,8 +179,11 @@ class Comparison {
   }
 
   bool same(const RecordedState& a, const RecordedState& b) const {
+    const auto near = [&](double one, double other) {
+      return one == other || std::abs(one - other) <= options_.tolerance;
+    };
     return a.status == b.status && a.ticked == b.ticked && a.held == b.held &&
-           std::abs(a.progress - b.progress) <= options_.tolerance;
+           near(a.progress, b.progress) && near(a.limit, b.limit);
   }
 
   RecordingReader &a_, &b_;

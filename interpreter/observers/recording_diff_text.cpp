@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/diagnostics.h"
@@ -48,8 +49,10 @@ class Text {
 };
 
 std::string describe(const RecordedState& state) {
-  return fmt::format("  {}, progress {}{}{}", to_string(state.status), state.progress,
-                     state.ticked ? ", ticked" : "", state.held ? ", held" : "");
+  std::string text = fmt::format("  {}, progress {}{}{}", to_string(state.status), state.progress,
+                                 state.ticked ? ", ticked" : "", state.held ? ", held" : "");
+  if (state.limit != 0) text += fmt::format(", limit {}", state.limit);
+  return text;
 }
 
 void add_tick(Text& text, const TickDifference& tick) {
@@ -86,7 +89,8 @@ Json json_of(const RecordedState& state) {
   return {{"status", to_string(state.status)},
           {"progress", state.progress},
           {"ticked", state.ticked},
-          {"held", state.held}};
+          {"held", state.held},
+          {"limit", std::isinf(state.limit) ? Json() : Json(state.limit)}};
 }
 
 Json json_of(const TickDifference& tick) {

@@ -47,25 +47,32 @@ double delta_from(JsonValue value, std::size_t index) {
 RecordedNode node_from(JsonObject object, std::size_t index) {
   RecordedNode node;
   std::uint64_t place = 0;
-  std::optional<double> delta;
-  std::optional<std::vector<double>> barriers;
-  object.read(
-      {{"index", into(place)},
-       {"path", into(node.path)},
-       {"kind", into(node.kind)},
-       {"name", into(node.name)},
-       {"parent",
-        [&](JsonValue value) {
-          if (!value.is_null()) node.parent = parent_from(value, index);
-        }},
-       {"barriers", [&](JsonValue value) { barriers = barriers_from(value, index); }, kMayLack},
-       {"delta", [&](JsonValue value) { delta = delta_from(value, index); }, kMayLack}});
+  bool is_absolute = false, is_relative = false;
+  object.read({{"index", into(place)},
+               {"path", into(node.path)},
+               {"kind", into(node.kind)},
+               {"name", into(node.name)},
+               {"parent",
+                [&](JsonValue value) {
+                  if (!value.is_null()) node.parent = parent_from(value, index);
+                }},
+               {"barriers",
+                [&](JsonValue value) {
+                  is_absolute = true;
+                  if (!value.is_null()) node.barriers = barriers_from(value, index);
+                },
+                kMayLack},
+               {"delta",
+                [&](JsonValue value) {
+                  is_relative = true;
+                  if (!value.is_null()) node.delta = delta_from(value, index);
+                },
+                kMayLack}});
   if (place != index) throw JsonError(fmt::format("node {} is missing", index));
-  if (barriers && delta) throw JsonError(fmt::format("node {} has both barriers and delta", index));
-  if (barriers) node.synchronization = Synchronization::Absolute;
-  if (delta) node.synchronization = Synchronization::Relative;
-  node.barriers = std::move(barriers).value_or(std::vector<double>());
-  node.delta = delta.value_or(0);
+  if (is_absolute && is_relative)
+    throw JsonError(fmt::format("node {} has both barriers and delta", index));
+  if (is_absolute) node.synchronization = Synchronization::Absolute;
+  if (is_relative) node.synchronization = Synchronization::Relative;
   return node;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 
 #include "core/wording.h"
@@ -78,7 +79,27 @@ void apply(JsonValue change, std::vector<RecordedState>& states) {
     }
   });
   if (field != kFields) throw JsonError(kNone);
+  state.limit = states[node].limit;
   states[node] = state;
+}
+
+// Nothing: no barrier is left.
+void apply_limit(JsonValue change, std::vector<RecordedState>& states) {
+  constexpr char kNone[] = "a node's limit is not [index, number in [0, 1] or null]";
+  if (!change.is_list()) throw JsonError(kNone);
+  NodeIndex node = 0;
+  double limit = std::numeric_limits<double>::infinity();
+  unsigned field = 0;
+  change.each_item([&](JsonValue item) {
+    if (field == 0) {
+      node = node_from(item, states.size(), kNone);
+    } else if (field > 1 || (!item.is_null() && !(item.get(limit) && limit >= 0 && limit <= 1))) {
+      throw JsonError(kNone);
+    }
+    ++field;
+  });
+  if (field != 2) throw JsonError(kNone);
+  states[node].limit = limit;
 }
 
 RecordedFault fault_from(JsonValue value, std::size_t nodes) {
@@ -155,6 +176,9 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
     has_nodes = true;
     value.each_item([&](JsonValue change) { apply(change, states); });
   };
+  const auto read_limits = [&](JsonValue value) {
+    value.each_item([&](JsonValue change) { apply_limit(change, states); });
+  };
   const auto read_faults = [&](JsonValue value) {
     faults_.reserve(value.count_items());
     value.each_item([&](JsonValue it) { faults_.push_back(fault_from(it, states.size())); });
@@ -170,6 +194,7 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
         {{"tick", [&](JsonValue value) { tick = value.whole(); }, kMayLack},
          {"time_s", [&](JsonValue value) { into_seconds(time.emplace())(value); }, kMayLack},
          {"nodes", read_nodes, kMayLack},
+         {"limits", read_limits, kMayLack},
          {"succeeded", read_succeeded, kMayLack},
          {"faults", read_faults, kMayLack},
          {"lost", [&](JsonValue value) { gap = gap_from(value.object()); }, kMayLack},

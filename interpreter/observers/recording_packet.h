@@ -24,6 +24,12 @@ struct NodeChange {
   bool ticked() const { return (state & kTicked) != 0; }
 };
 
+// What a tick line says of the limit of a synchronized node (engine/synchronized.h).
+struct LimitChange {
+  NodeIndex node = 0;
+  double limit = 0;
+};
+
 struct PacketHead {
   std::uint64_t lost = 0, lost_from = 0;  // a line before all else, if there are lost ticks
   std::uint64_t tick = 0;

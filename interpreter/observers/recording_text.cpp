@@ -2,11 +2,11 @@
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -41,6 +41,32 @@ char* put_progress(char* to, double progress) {
   if (progress == 1.0) return put(to, "1");
   if (progress == 0.0 && !std::signbit(progress)) return put(to, "0");
   return fmt::format_to(to, FMT_COMPILE("{}"), progress);
+}
+
+void add_limits(std::string& text, std::span<const LimitChange> limits) {
+  text += ",\"limits\":";
+  char separator = '[';
+  for (const LimitChange& it : limits) {
+    text += separator;
+    separator = ',';
+    if (std::isinf(it.limit)) {
+      fmt::format_to(std::back_inserter(text), FMT_COMPILE("[{},null]"), it.node);
+    } else {
+      fmt::format_to(std::back_inserter(text), FMT_COMPILE("[{},{}]"), it.node, it.limit);
+    }
+  }
+  text += ']';
+}
+
+void add_succeeded(std::string& text, std::span<const NodeIndex> succeeded) {
+  text += ",\"succeeded\":";
+  char separator = '[';
+  for (const NodeIndex node : succeeded) {
+    text += separator;
+    separator = ',';
+    fmt::format_to(std::back_inserter(text), FMT_COMPILE("{}"), node);
+  }
+  text += ']';
 }
 
 std::string faults_text(std::span<const Fault> faults) {
@@ -78,12 +104,13 @@ char* put_node(char* to, NodeIndex node, const RecordedState& state) {
   return put(to, kFlags[2 * state.ticked + state.held]);
 }
 
-std::string tick_end(std::span<const NodeIndex> succeeded, std::span<const Fault> faults) {
-  std::string text = "]";
-  if (!succeeded.empty()) {
-    text += fmt::format(",\"succeeded\":[{}]", fmt::join(succeeded, ","));
-  }
+void set_tick_end(std::string& text, std::span<const LimitChange> limits,
+                  std::span<const NodeIndex> succeeded, std::span<const Fault> faults) {
+  text = ']';
+  if (!limits.empty()) add_limits(text, limits);
+  if (!succeeded.empty()) add_succeeded(text, succeeded);
   if (!faults.empty()) text += faults_text(faults);
-  return text + "}\n";
+  text += "}\n";
 }
+
 }  // namespace lockstep

@@ -9,6 +9,7 @@
 #include "core/clock.h"
 #include "engine/ticker.h"
 #include "observers/recording.h"
+#include "observers/recording_packet.h"
 
 namespace lockstep {
 
@@ -26,8 +27,14 @@ char* put_tick(char* to, std::uint64_t tick, Nanoseconds time);
 constexpr std::size_t kMostOfNode = 64;
 char* put_node(char* to, NodeIndex node, const RecordedState& state);
 
-// What ends a tick's line: ]} or ],"succeeded":[1],"faults":[[3,"threw …"],…]} and a newline; of a
-// long message only the beginning. Allocates only if there is something to tell.
-std::string tick_end(std::span<const NodeIndex> succeeded, std::span<const Fault> faults);
+// What ends a tick's line: ]} or ],"limits":[[1,0.5]],"succeeded":[1],"faults":[[3,"threw …"],…]}
+// and a newline; of a long message only the beginning. Replaces `text`; allocates only for faults,
+// and where it has no room.
+void set_tick_end(std::string& text, std::span<const LimitChange> limits,
+                  std::span<const NodeIndex> succeeded, std::span<const Fault> faults);
+// The most that this is without faults, with so many synchronized nodes.
+constexpr std::size_t most_of_tick_end(std::size_t synchronized_nodes) {
+  return 64 + 64 * synchronized_nodes;
+}
 
 }  // namespace lockstep

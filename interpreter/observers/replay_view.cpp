@@ -81,6 +81,7 @@ Snapshot snapshot_of(const RecordingHeader& header, const TreeShape& shape, cons
   for (NodeIndex node = 0; node < snapshot.nodes.size(); ++node) {
     const RecordedState& state = moment.nodes[node];
     NodeView& view = snapshot.nodes[node];
+    view.limit = state.limit;
     view.activity = state.held ? Activity::Paused : static_cast<Activity>(state.status);
     const auto parent = shape.nodes[node].parent;
     if (parent && shape.nodes[*parent].synchronization != Synchronization::None) {

@@ -17,6 +17,7 @@ struct NodeView {
   Activity activity = Activity::Idle;
   double progress = 0;  // children of synchronized nodes only
   Round round = {};     // of a node that runs its child again and again; number 0: not known
+  double limit = 0;     // synchronized nodes only: that counted, see engine/synchronized.h
 };
 
 // Of a child of a synchronized node, given its progress as the node used it in its last tick.

@@ -54,6 +54,7 @@ void SnapshotFeed::take_round(Ticker& ticker, NodeIndex node, NodeView& view) {
 
 void SnapshotFeed::take_progress(Ticker& ticker, NodeIndex node,
                                  std::vector<NodeView>& views) const {
+  views[node].limit = limit(ticker, node);
   NodeIndex child = node + 1;
   for (const double used : child_progress(ticker, node)) {
     views[child].progress = shown_progress(views[child].activity, used);

@@ -28,9 +28,7 @@ TreeShape shape_of(const Tree& tree) {
         .segment = tree.segment(index), .kind = std::string(label.type->id), .parent = {}};
     if (label.parent != index) node.parent = label.parent;
     node.synchronization = synchronization(tree.nodes[index]);
-    const auto list = barriers(tree, index);
-    node.barriers.assign(list.begin(), list.end());
-    if (node.synchronization == Synchronization::Relative) node.delta = delta(tree, index);
+    if (const auto list = barriers(tree, index)) node.barriers.assign(list->begin(), list->end());
     add(shape, std::move(node));
   }
   return shape;
@@ -43,8 +41,7 @@ TreeShape shape_of(const RecordingHeader& header) {
                 .kind = node.kind,
                 .parent = node.parent,
                 .synchronization = node.synchronization,
-                .barriers = node.barriers,
-                .delta = node.delta});
+                .barriers = node.barriers.value_or(std::vector<double>())});
   }
   return shape;
 }

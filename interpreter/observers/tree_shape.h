@@ -17,8 +17,7 @@ struct ShapeNode {
   std::size_t depth = 0;
   std::vector<NodeIndex> children = {};
   Synchronization synchronization = Synchronization::None;
-  std::vector<double> barriers = {};  // Absolute
-  double delta = 0;                   // Relative
+  std::vector<double> barriers = {};  // Absolute; empty where an entry gives them
 };
 
 struct TreeShape {

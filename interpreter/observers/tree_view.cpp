@@ -175,7 +175,7 @@ class View {
     const auto place = static_cast<std::size_t>(found - parent.children.begin());
     const std::size_t gutter = browsing_.cursor ? 2 : 0;
     line.fill_to(gutter + indent(node) + 3 + std::min<std::size_t>(name, 24));
-    line.add(bar(parent, progress[place], least), style);
+    line.add(bar(self, progress[place], least), style);
     line.add(fmt::format(" {:.2f}", progress[place]));
     // Under a parent that is held itself, the parent says what is waited for.
     if (snapshot_.nodes[node].activity != Activity::Paused ||
@@ -183,30 +183,33 @@ class View {
       return;
     }
     line.add("  ");
-    line.add(waiting(parent, progress, place), Style::Warning);
+    line.add(waiting(self, progress, place), Style::Warning);
   }
 
-  std::string waiting(const ShapeNode& parent, const std::vector<double>& progress,
+  std::string waiting(NodeIndex node, const std::vector<double>& progress,
                       std::size_t place) const {
+    const ShapeNode& shape = tree_.nodes[node];
     return waiting_text(
-        {.synchronization = parent.synchronization,
-         .barriers = parent.barriers,
-         .delta = parent.delta,
-         .name_of = [&](std::size_t child) { return tree_.nodes[parent.children[child]].segment; }},
-        progress, place);
+        {.synchronization = shape.synchronization,
+         .limit = snapshot_.nodes[node].limit,
+         .progress = progress,
+         .name_of = [&](std::size_t child) { return tree_.nodes[shape.children[child]].segment; }},
+        place);
   }
 
-  std::string bar(const ShapeNode& parent, double progress, double least) const {
+  // Barriers that an entry gives are not known but for the current one.
+  std::string bar(NodeIndex node, double progress, double least) const {
+    const ShapeNode& shape = tree_.nodes[node];
+    const double most =
+        std::min(1.0, farthest(shape.synchronization, snapshot_.nodes[node].limit, least));
+    const bool relative = shape.synchronization == Synchronization::Relative;
     ProgressBar bar{.progress = progress,
-                    .marks = parent.barriers,
+                    .marks = shape.barriers,
                     .cells = std::clamp<std::size_t>(options_.width / 4, 8, 40)};
-    double limit = 1;
-    if (parent.synchronization == Synchronization::Relative) {
-      bar.band_begin = least;
-      bar.band_end = std::min(1.0, bar.band_begin + parent.delta);
-      limit = bar.band_end;
-      bar.marks = {&limit, 1};
-    }
+    // An idle node has no limit yet.
+    if (shape.barriers.empty() && most > 0) bar.marks = {&most, 1};
+    if (relative) bar.band_begin = least;
+    if (relative) bar.band_end = most;
     return to_text(bar, options_.unicode);
   }
 

@@ -3,20 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace lockstep {
 namespace {
 
-constexpr double kEqual = 1e-9;  // as the engine compares progress
-
 // The names of the children with the least progress: "a", "a and b", "a, b and 4 more".
-std::string slowest(const WaitedAt& node, std::span<const double> progress, double least) {
+std::string slowest(const WaitedAt& node, double least) {
   constexpr std::size_t kNamed = 2;
   std::vector<std::string> names;
   std::size_t count = 0;
-  for (std::size_t child = 0; child < progress.size(); ++child) {
-    if (progress[child] > least + kEqual) continue;
+  for (std::size_t child = 0; child < node.progress.size(); ++child) {
+    if (node.progress[child] > least + kProgressEpsilon) continue;
     if (++count <= kNamed) names.push_back(node.name_of(child));
   }
   if (count == 1) return names[0];
@@ -26,32 +25,15 @@ std::string slowest(const WaitedAt& node, std::span<const double> progress, doub
 
 }  // namespace
 
-std::string waiting_text(const WaitedAt& node, std::span<const double> progress,
-                         std::size_t child) {
-  const double least = *std::min_element(progress.begin(), progress.end());
-  const std::string whom = slowest(node, progress, least);
+std::string waiting_text(const WaitedAt& node, std::size_t child) {
+  const double least = *std::ranges::min_element(node.progress);
+  const std::string whom = slowest(node, least);
   if (node.synchronization == Synchronization::Relative) {
-    return fmt::format("waits for {}, {:.2f} ahead (delta {})", whom, progress[child] - least,
-                       node.delta);
+    return fmt::format("waits for {}, {:.2f} ahead (delta {})", whom, node.progress[child] - least,
+                       node.limit);
   }
-  const auto next = std::upper_bound(node.barriers.begin(), node.barriers.end(), least + kEqual);
-  if (next == node.barriers.end()) return fmt::format("waits for {}", whom);
-  return fmt::format("waits for {} at barrier {:.6g}", whom, *next);
-}
-
-std::string waiting_text(const Tree& tree, NodeIndex node, std::span<const double> progress,
-                         std::size_t child) {
-  const auto kind = synchronization(tree.nodes[node]);
-  const auto name_of = [&](std::size_t number) {
-    NodeIndex index = node + 1;
-    for (; number > 0; --number) index = tree.nodes[index].end;
-    return tree.segment(index);
-  };
-  return waiting_text({.synchronization = kind,
-                       .barriers = barriers(tree, node),
-                       .delta = kind == Synchronization::Relative ? delta(tree, node) : 0,
-                       .name_of = name_of},
-                      progress, child);
+  if (std::isinf(node.limit)) return fmt::format("waits for {}", whom);
+  return fmt::format("waits for {} at barrier {:.6g}", whom, node.limit);
 }
 
 std::string standstill_text(const Tree& tree, const Standstill& standstill) {

@@ -11,19 +11,17 @@
 
 namespace lockstep {
 
-// A synchronized node, of a tree that runs or of a recording.
+// A synchronized node in one tick, of a tree that runs or of a recording.
 struct WaitedAt {
   Synchronization synchronization = Synchronization::None;
-  std::span<const double> barriers = {};
-  double delta = 0;
+  double limit = 0;                       // that counted: engine/synchronized.h
+  std::span<const double> progress = {};  // of each child, as the node used it
   std::function<std::string(std::size_t child)> name_of;
 };
 
-// "waits for base at barrier 0.5" or "waits for base, 0.12 ahead (delta 0.1)". `progress` is that
-// of all children of the node, as it used it; `child` is the number of the one that is held.
-std::string waiting_text(const WaitedAt& node, std::span<const double> progress, std::size_t child);
-std::string waiting_text(const Tree& tree, NodeIndex node, std::span<const double> progress,
-                         std::size_t child);
+// "waits for base at barrier 0.5" or "waits for base, 0.12 ahead (delta 0.1)". `child` is the
+// number of the one that is held.
+std::string waiting_text(const WaitedAt& node, std::size_t child);
 
 // "Door/pull/base stands still at 0.31 since 2.4 s and holds the other children of 'pull' back".
 std::string standstill_text(const Tree& tree, const Standstill& standstill);

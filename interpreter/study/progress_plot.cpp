@@ -36,8 +36,8 @@ std::string sample_lines(const ProgressPlot& plot) {
   text += "\n";
   for (const ProgressSample& sample : plot.samples) {
     if (sample.begins && &sample != plot.samples.data()) text += "\n";
-    const double limit = is_relative(plot) ? std::min(1.0, sample.least + plot.node.delta) : 1.0;
-    text += fmt::format("{} {} {} {}\n", sample.time, sample.least, limit,
+    const double most = farthest(plot.node.synchronization, sample.limit, sample.least);
+    text += fmt::format("{} {} {} {}\n", sample.time, sample.least, std::min(1.0, most),
                         fmt::join(sample.progress, " "));
   }
   return text;
@@ -68,12 +68,15 @@ bool is_ever_held(const ProgressPlot& plot, std::size_t child) {
   return !held_lines(plot, child).empty();
 }
 
+std::string law(const RecordedNode& node) {
+  if (node.delta) return fmt::format("delta = {}", *node.delta);
+  if (node.synchronization == Synchronization::Relative) return "delta from an entry";
+  if (!node.barriers) return "barriers from an entry";
+  return node.barriers->empty() ? "no barriers" : counted(node.barriers->size(), "barrier");
+}
+
 std::string caption(const ProgressPlot& plot) {
-  std::string what = fmt::format("delta = {}", plot.node.delta);
-  if (!is_relative(plot)) {
-    const std::size_t barriers = plot.node.barriers.size();
-    what = barriers == 0 ? "no barriers" : counted(barriers, "barrier");
-  }
+  std::string what = law(plot.node);
   if (plot.all_children > plot.children.size()) {
     what += fmt::format("; the first {} of {} children", plot.children.size(), plot.all_children);
   }
@@ -105,8 +108,12 @@ std::string band_command() {
 // The first is the entry of the legend.
 std::string barrier_commands(const ProgressPlot& plot) {
   std::string text;
-  const bool many = plot.node.barriers.size() > 12;
-  for (const double barrier : plot.node.barriers) {
+  if (!plot.node.barriers) {
+    return "  data index 0 using 1:3 with steps lc rgb '#808080' lw 1 dt 1 title 'barrier', "
+           "\\\n";
+  }
+  const bool many = plot.node.barriers->size() > 12;
+  for (const double barrier : *plot.node.barriers) {
     text += fmt::format("  {} with lines lc rgb '{}' lw 0.8 {} {}, \\\n", barrier,
                         many ? "#cccccc" : "#808080", many ? "dt 1" : "dt (6,4)",
                         text.empty() ? "title 'barrier'" : "notitle");

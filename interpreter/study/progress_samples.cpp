@@ -63,6 +63,7 @@ class Collector {
     push({.time = time,
           .begins = !running_,
           .least = *std::ranges::min_element(all),
+          .limit = tick.limit,
           .progress = {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(drawn())},
           .held_until = std::vector<double>(drawn(), time)});
     held_.assign(tick.held.begin(), tick.held.begin() + static_cast<std::ptrdiff_t>(drawn()));

@@ -5,7 +5,9 @@
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
+#include <cstdio>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "cli/program.h"
@@ -301,4 +303,39 @@ TEST_CASE("log measure and log plot read what a cut recording has") {
     CHECK(!outcome.out.empty());
     CHECK(contains(outcome.err, "the recording is cut"));
   }
+}
+
+TEST_CASE(
+    "barriers from an entry: recording, plot and replay show those that counted in each tick") {
+  const TemporaryDirectory directory;
+  const std::string file = directory.path("run.jsonl");
+  const Outcome outcome = lockstep::test::lockstep(
+      {"run", LOCKSTEP_SOURCE_DIR "/trees/replanning.xml", "--clock", "virtual", "--record", file});
+  REQUIRE(outcome.code == 0);
+  CHECK(contains(outcome.err,
+                 "1.000 s  tick 100     Replanning/open/pull/base: waits for arm at "
+                 "barrier 0.4\n"));
+  std::vector<std::string> limits;
+  for (const std::string& line : lines(read_file(file))) {
+    const auto json = nlohmann::json::parse(line);
+    if (json.contains("limits")) limits.push_back(json["tick"].dump() + json["limits"].dump());
+  }
+  CHECK(limits == std::vector<std::string>{"0[[2,0.5]]", "100[[2,0.4]]", "200[[2,0.55]]",
+                                           "275[[2,0.7]]", "350[[2,0.85]]", "425[[2,null]]"});
+  REQUIRE(log({"plot", file, "--out", directory.path("plot.svg")}).code == 0);
+  std::map<double, double> limit_at;  // the third column
+  for (const std::string& line : lines(read_file(directory.path("plot.dat")))) {
+    double time = 0, least = 0, limit = 0;
+    if (std::sscanf(line.c_str(), "%lf %lf %lf", &time, &least, &limit) == 3) {
+      limit_at.emplace(time, limit);  // later lines tell when a child was held
+    }
+  }
+  CHECK(limit_at.at(0.99) == 0.5);
+  CHECK(limit_at.at(1) == 0.4);
+  CHECK(limit_at.at(1.99) == 0.4);
+  CHECK(limit_at.at(2) == 0.55);
+  CHECK(limit_at.at(4.5) == 1);
+  CHECK(contains(read_file(directory.path("plot.gp")), "(barriers from an entry)"));
+  const Outcome replay = lockstep::test::lockstep({"replay", file, "--print", "--at", "150"});
+  CHECK(contains(replay.out, "waits for arm at barrier 0.4"));
 }

@@ -9,8 +9,6 @@
 namespace lockstep {
 namespace {
 
-using synchronized::kEpsilon;
-
 constexpr unsigned kBarriers = 0;
 constexpr unsigned kBarrierCount = 1;
 constexpr unsigned kAtBarrier = 2;
@@ -71,7 +69,7 @@ std::optional<RuleBreak> rule(const ParameterValues& given) {
 
 // The smallest barrier that not every child has passed; infinity when none is left.
 double current_barrier(std::span<const double> barriers, double least) {
-  const auto next = std::upper_bound(barriers.begin(), barriers.end(), least + kEpsilon);
+  const auto next = std::upper_bound(barriers.begin(), barriers.end(), least + kProgressEpsilon);
   return next == barriers.end() ? std::numeric_limits<double>::infinity() : *next;
 }
 
@@ -81,10 +79,10 @@ Status tick(Ticker& ticker, NodeIndex self) {
   ticker.state<SynchronizedState>(self).limit = barrier;
   if (ticker.parameter(self, kAtBarrier).integer == kTickAtBarrier) {
     return synchronized::tick_children(
-        ticker, self, [barrier](double reached) { return reached > barrier + kEpsilon; });
+        ticker, self, [barrier](double reached) { return reached > barrier + kProgressEpsilon; });
   }
   return synchronized::tick_children(
-      ticker, self, [barrier](double reached) { return reached >= barrier - kEpsilon; });
+      ticker, self, [barrier](double reached) { return reached >= barrier - kProgressEpsilon; });
 }
 
 }  // namespace

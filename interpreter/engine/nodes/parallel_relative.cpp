@@ -17,10 +17,11 @@ constexpr Parameter kParameters[] = {
 
 Status tick(Ticker& ticker, NodeIndex self) {
   const double least = synchronized::take_snapshot(ticker, self);
-  const double limit = least + ticker.parameter(self, kDelta).number;
-  ticker.state<SynchronizedState>(self).limit = limit;
-  return synchronized::tick_children(
-      ticker, self, [limit](double reached) { return reached > limit + synchronized::kEpsilon; });
+  const double delta = ticker.parameter(self, kDelta).number;
+  ticker.state<SynchronizedState>(self).limit = delta;
+  const double most = farthest(Synchronization::Relative, delta, least) + kProgressEpsilon;
+  return synchronized::tick_children(ticker, self,
+                                     [most](double reached) { return reached > most; });
 }
 
 }  // namespace

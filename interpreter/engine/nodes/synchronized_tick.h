@@ -10,8 +10,6 @@
 
 namespace lockstep::synchronized {
 
-inline constexpr double kEpsilon = 1e-9;  // 0.8 <= 0.7 + 0.1 is false in doubles
-
 // One snapshot before any child is ticked; returns its minimum. A child that succeeded counts as 1.
 inline double take_snapshot(Ticker& ticker, NodeIndex self) {
   double least = 1.0;

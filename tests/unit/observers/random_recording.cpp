@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "observers/recording_text.h"
 
 namespace lockstep::test {
@@ -22,7 +24,9 @@ RecordedState random_state(std::mt19937& random) {
   return {.status = static_cast<Status>(below(random, 4)),
           .progress = static_cast<double>(below(random, 1001)) / 1000,
           .ticked = below(random, 2) == 1,
-          .held = below(random, 4) == 0};
+          .held = below(random, 4) == 0,
+          .limit = below(random, 5) == 0 ? std::numeric_limits<double>::infinity()
+                                         : static_cast<double>(below(random, 11)) / 10};
 }
 
 void append_line(const Moment& moment, const std::vector<RecordedState>& before, std::string& out) {
@@ -38,9 +42,16 @@ void append_line(const Moment& moment, const std::vector<RecordedState>& before,
     out += text_of(
         [&](char* to) { return put_node(to, static_cast<NodeIndex>(node), moment.nodes[node]); });
   }
+  std::vector<LimitChange> limits;
+  for (NodeIndex node = 0; node < before.size(); ++node) {
+    const double limit = moment.nodes[node].limit;
+    if (limit != before[node].limit) limits.push_back({node, limit});
+  }
   std::vector<Fault> faults;
   for (const RecordedFault& fault : moment.faults) faults.push_back({fault.node, fault.message});
-  out += tick_end({}, faults);
+  std::string end;
+  set_tick_end(end, limits, {}, faults);
+  out += end;
 }
 
 }  // namespace
@@ -67,14 +78,19 @@ RandomRecording random_recording(std::mt19937& random, const RandomRecordingOpti
                       .clock = "virtual",
                       .arguments = {},
                       .nodes = {}};
-  recording.header.nodes.push_back(
-      {.path = "Main/root", .kind = "Parallel", .name = "root", .parent = {}, .barriers = {}});
+  recording.header.nodes.push_back({.path = "Main/root",
+                                    .kind = "Parallel",
+                                    .name = "root",
+                                    .parent = {},
+                                    .barriers = {},
+                                    .delta = {}});
   for (std::size_t node = 1; node < options.nodes; ++node) {
     recording.header.nodes.push_back({.path = fmt::format("Main/root/{}", node),
                                       .kind = "Advance",
                                       .name = fmt::to_string(node),
                                       .parent = 0,
-                                      .barriers = {}});
+                                      .barriers = {},
+                                      .delta = {}});
   }
   std::uint64_t tick = 0;
   std::vector<RecordedState> nodes(options.nodes);
@@ -104,7 +120,7 @@ RandomRecording random_recording(std::mt19937& random, const RandomRecordingOpti
 
 RecordedState other_state(std::mt19937& random, const RecordedState& state) {
   RecordedState other = state;
-  switch (below(random, 4)) {
+  switch (below(random, 5)) {
     case 0:
       other.status = static_cast<Status>((static_cast<unsigned>(state.status) + 1) % 4);
       break;
@@ -113,6 +129,9 @@ RecordedState other_state(std::mt19937& random, const RecordedState& state) {
       break;
     case 2:
       other.ticked = !state.ticked;
+      break;
+    case 3:
+      other.limit = state.limit == 0.5 ? 0.25 : 0.5;
       break;
     default:
       other.held = !state.held;

@@ -2,6 +2,7 @@
 // place, or read as a slow and obvious reader reads it. No number ever changes in silence.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -62,9 +63,9 @@ bool same(const RecordedNode& node, const Json& json) {
   const bool same_parent =
       node.parent ? json.at("parent") == *node.parent : json.at("parent").is_null();
   const bool same_barriers =
-      node.synchronization != Synchronization::Absolute || json.at("barriers") == node.barriers;
+      node.synchronization != Synchronization::Absolute || json.at("barriers") == *node.barriers;
   const bool same_delta =
-      node.synchronization != Synchronization::Relative || json.at("delta") == node.delta;
+      node.synchronization != Synchronization::Relative || json.at("delta") == *node.delta;
   return json.at("path") == node.path && json.at("kind") == node.kind &&
          json.at("name") == node.name && same_parent && same_barriers && same_delta;
 }
@@ -104,6 +105,14 @@ void apply(const Json& changes, std::vector<RecordedState>& states) {
   }
 }
 
+void apply_limits(const Json& changes, std::vector<RecordedState>& states) {
+  for (const Json& change : changes) {
+    REQUIRE(change.size() == 2);
+    states.at(change[0].get<std::size_t>()).limit =
+        change[1].is_null() ? std::numeric_limits<double>::infinity() : change[1].get<double>();
+  }
+}
+
 bool same(const Moment& moment, const Json& json, const std::vector<RecordedState>& states) {
   const Json faults = json.value("faults", Json::array());
   bool is_same = json.at("tick") == moment.tick && json.at("time_s") == moment.time &&
@@ -138,6 +147,7 @@ bool same(const Reading& reading, const std::string& text) {
       if (!reading.outcome.end || !same(*reading.outcome.end, json["end"])) return false;
     } else if (!json.contains("lost")) {
       apply(json.at("nodes"), states);
+      apply_limits(json.value("limits", Json::array()), states);
       if (number == reading.ticks.size() || !same(reading.ticks[number], json, states))
         return false;
       ++number;

@@ -118,7 +118,7 @@ TEST_CASE("a header is refused for each value that is not what it must be") {
              {"[0.5,1]", "[-0.5,1]", "a barrier of node 0 is not in [0, 1]"},
              {"0.25", "1.25", "the delta of node 1 is not in [0, 1]"},
              {"0.25", "-0.25", "the delta of node 1 is not in [0, 1]"},
-             {"0.25", "null", "'delta' is not a number"}},
+             {"0.25", "\"\"", "'delta' is not a number"}},
             1);
 }
 
@@ -126,6 +126,11 @@ TEST_CASE("a tick is refused for each value that is not what it must be") {
   const std::string time = "'time_s' is not a time in seconds";
   const std::string change = "a node's change is not [index, status, progress, ticked, held]";
   const std::string status = ", expected idle, running, success or failure";
+  const std::string limit = "a node's limit is not [index, number in [0, 1] or null]";
+  for (const std::string wrong :
+       {"7", "[]", "[0]", "[0,0.5,1]", "[0,1.5]", "[0,-0.1]", "[0,\"1\"]"}) {
+    check_all({{"\"tick\":0", "\"limits\":[" + wrong + "],\"tick\":0", limit}}, 2);
+  }
   check_all({{"\"tick\":0", "\"tick\":-1", "'tick'" + kNoWholeNumber},
              {"\"tick\":0", "\"tick\":\"0\"", "'tick'" + kNoWholeNumber},
              {"\"tick\":0", "\"tick\":18446744073709551616", "'tick'" + kNoWholeNumber},

@@ -1,5 +1,6 @@
 // The recorder, the reader and the table made from a recording, against each other and as text.
 #include <catch2/catch.hpp>
+#include <limits>
 #include <sstream>
 
 #include "observers/recorder.h"
@@ -40,11 +41,11 @@ constexpr const char* kRecording =
     R"({"index":1,"path":"Test/ParallelAbsolute/a","kind":"Scripted","name":"a","parent":0},)"
     R"({"index":2,"path":"Test/ParallelAbsolute/b","kind":"Scripted","name":"b","parent":0}]})"
     "\n"
-    R"({"tick":0,"time_s":0.0,"nodes":[[0,"running",0,1,0],[1,"running",0,1,0],[2,"running",0,1,0]]})"
+    R"({"tick":0,"time_s":0.0,"nodes":[[0,"running",0,1,0],[1,"running",0,1,0],[2,"running",0,1,0]],"limits":[[0,0.5]]})"
     "\n"
     R"({"tick":1,"time_s":0.1,"nodes":[[0,"running",0.25,1,0],[1,"running",0.25,1,0],[2,"running",0.5,0,1]]})"
     "\n"
-    R"({"tick":2,"time_s":0.2,"nodes":[[0,"running",0.5,1,0],[1,"running",0.5,1,0],[2,"success",0.5,1,0]]})"
+    R"({"tick":2,"time_s":0.2,"nodes":[[0,"running",0.5,1,0],[1,"running",0.5,1,0],[2,"success",0.5,1,0]],"limits":[[0,1]]})"
     "\n"
     R"({"tick":3,"time_s":0.3,"nodes":[[0,"success",0.75,1,0],[1,"success",0.75,1,0],[2,"success",1,0,0]]})"
     "\n"
@@ -88,12 +89,23 @@ TEST_CASE("numbers are written with as many digits as are needed, and no more") 
   CHECK(text_of(2.2250738585072014e-308) == expected("2.2250738585072014e-308"));
 }
 
+std::string tick_end(std::span<const LimitChange> limits, std::span<const Fault> faults) {
+  std::string text = "of the tick before";
+  set_tick_end(text, limits, {}, faults);
+  return text;
+}
+
 TEST_CASE("of the message of a fault 4096 bytes are kept") {
   const std::string longest(4096, 'm');
   const std::vector<Fault> faults = {{3, longest}, {4, longest + 'x'}};
   CHECK(tick_end({}, faults) ==
         "],\"faults\":[[3,\"" + longest + "\"],[4,\"" + longest + "\"]]}\n");
   CHECK(tick_end({}, {}) == "]}\n");
+}
+
+TEST_CASE("the limit of a synchronized node is a number, or null when no barrier is left") {
+  const LimitChange limits[] = {{1, 0.25}, {7, std::numeric_limits<double>::infinity()}};
+  CHECK(tick_end(limits, {}) == "],\"limits\":[[1,0.25],[7,null]]}\n");
 }
 
 TEST_CASE("the closing line of a run with a fault names the leaf") {

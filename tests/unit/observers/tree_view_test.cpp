@@ -21,12 +21,16 @@ Snapshot snapshot(std::vector<NodeView> nodes) {
           .nodes = std::move(nodes)};
 }
 
+// A synchronized node, and the limit that counts.
+NodeView limited(double limit, Activity activity = Activity::Running, double progress = 0) {
+  return {.activity = activity, .progress = progress, .limit = limit};
+}
+
 constexpr DrawOptions kPlain{.width = 72, .height = 24};
 
 TEST_CASE("an absolute node: its barriers are marks in the bars") {
   const Tree tree = tree_from_text("ParallelAbsolute[barriers=.5;1](arm base)");
-  const Snapshot now =
-      snapshot({{Activity::Running}, {Activity::Paused, 0.6}, {Activity::Running, 0.4}});
+  const Snapshot now = snapshot({limited(0.5), {Activity::Paused, 0.6}, {Activity::Running, 0.4}});
   CHECK(draw(tree, now, kPlain) ==
         "Test  10 Hz  tick 4  0.400 s  overruns 0\n"
         "> ParallelAbsolute\n"
@@ -36,8 +40,7 @@ TEST_CASE("an absolute node: its barriers are marks in the bars") {
 
 TEST_CASE("a relative node: the band in which its children may move") {
   const Tree tree = tree_from_text("ParallelRelative[delta=.25](arm base)");
-  const Snapshot now =
-      snapshot({{Activity::Running}, {Activity::Running, 0.5}, {Activity::Paused, 0.8}});
+  const Snapshot now = snapshot({limited(0.25), {Activity::Running, 0.5}, {Activity::Paused, 0.8}});
   CHECK(draw(tree, now, {.width = 80, .height = 24}) ==
         "Test  10 Hz  tick 4  0.400 s  overruns 0\n"
         "> ParallelRelative\n"
@@ -69,9 +72,9 @@ TEST_CASE("colors come in pairs and do not count as columns") {
 TEST_CASE("only the topmost node that is held says for whom it waits") {
   const Tree tree =
       tree_from_text("ParallelRelative[delta=.1](a ParallelAbsolute[barriers=.5](b c))");
-  const Snapshot now = snapshot({{Activity::Running},
+  const Snapshot now = snapshot({limited(0.1),
                                  {Activity::Running, 0.1},
-                                 {Activity::Paused, 0.4},
+                                 limited(0.5, Activity::Paused, 0.4),
                                  {Activity::Paused, 0.6},
                                  {Activity::Paused, 0.4}});
   CHECK(draw(tree, now, {.width = 90, .height = 24}) ==
@@ -100,6 +103,7 @@ TEST_CASE("what does not fit is counted, and what runs stays") {
   std::vector<NodeView> nodes(tree.nodes.size());
   for (const std::size_t running : {0, 5, 6, 7, 9}) nodes[running].activity = Activity::Running;
   nodes[1].activity = Activity::Success;
+  nodes[5].limit = 1;
   const std::string text = draw(tree, snapshot(nodes), {.width = 45, .height = 9, .keys = true});
   CHECK(text ==
         "Test  10 Hz  tick 4  0.400 s  overruns 0\n"

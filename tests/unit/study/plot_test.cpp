@@ -93,9 +93,9 @@ ProgressPlot small_progress() {
   plot.node.barriers = {0.5, 1};
   plot.children = {"arm", "base"};
   plot.all_children = 2;
-  plot.samples = {{0, true, 0, {0, 0}, {0, 0}},
-                  {0.1, false, 0.25, {0.25, 0.5}, {0.1, 0.2}},
-                  {0.2, false, 0.5, {0.5, 0.5}, {0.2, 0.2}}};
+  plot.samples = {{0, true, 0, 0.5, {0, 0}, {0, 0}},
+                  {0.1, false, 0.25, 0.5, {0.25, 0.5}, {0.1, 0.2}},
+                  {0.2, false, 0.5, 1, {0.5, 0.5}, {0.2, 0.2}}};
   return plot;
 }
 
@@ -341,8 +341,8 @@ TEST_CASE("progress plot: the data are the samples, and when each child was held
   ProgressPlot plot = small_progress();
   CHECK(progress_plot_data(plot) ==
         "# time_s least most_allowed arm base\n"
-        "0 0 1 0 0\n"
-        "0.1 0.25 1 0.25 0.5\n"
+        "0 0 0.5 0 0\n"
+        "0.1 0.25 0.5 0.25 0.5\n"
         "0.2 0.5 1 0.5 0.5\n"
         "\n\n"
         "# base is held: from_s to_s child\n"
@@ -350,7 +350,8 @@ TEST_CASE("progress plot: the data are the samples, and when each child was held
   plot.node.synchronization = Synchronization::Relative;
   plot.node.delta = 0.7;
   plot.samples[1].held_until = {0.1, 0.1};
-  plot.samples[2] = {0.4, true, 0.5, {0.5, 0.5}, {0.4, 0.4}};
+  plot.samples[2] = {0.4, true, 0.5, 0.7, {0.5, 0.5}, {0.4, 0.4}};
+  plot.samples[0].limit = plot.samples[1].limit = 0.7;
   CHECK(progress_plot_data(plot) ==
         "# time_s least most_allowed arm base\n"
         "0 0 0.7 0 0\n"
