@@ -9,7 +9,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
-#include "cli/loading.h"
+#include "cli/load/loading.h"
 #include "core/wording.h"
 #include "runtime/outlet.h"
 

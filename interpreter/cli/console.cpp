@@ -11,9 +11,9 @@
 
 #include "cli/exit_code.h"
 #include "core/descriptors.h"
-#include "observers/terminal.h"
 #include "runtime/outlet.h"
 #include "runtime/stop_signals.h"
+#include "terminal/terminal.h"
 
 namespace lockstep {
 namespace {

@@ -2,13 +2,13 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cli/catalog_loading.h"
 #include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
-#include "cli/node_reference.h"
+#include "cli/load/catalog_loading.h"
 #include "core/suggest.h"
+#include "describe/node_reference.h"
 
 namespace lockstep {
 namespace {

@@ -8,9 +8,9 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
-#include "cli/log.h"
+#include "cli/log/log.h"
 #include "cli/replay_session.h"
-#include "observers/terminal.h"
+#include "terminal/terminal.h"
 
 namespace lockstep {
 namespace {

@@ -11,13 +11,13 @@
 
 #include "cli/console.h"
 #include "cli/exit_code.h"
-#include "observers/raw_terminal.h"
-#include "observers/screen.h"
-#include "observers/terminal.h"
-#include "observers/terminal_wait.h"
-#include "observers/tree_browser.h"
 #include "runtime/crash_report.h"
 #include "runtime/stop_signals.h"
+#include "terminal/raw_terminal.h"
+#include "terminal/screen.h"
+#include "terminal/terminal.h"
+#include "terminal/terminal_wait.h"
+#include "view/tree_browser.h"
 
 namespace lockstep {
 namespace {

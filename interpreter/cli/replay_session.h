@@ -2,7 +2,7 @@
 // comes of it.
 #pragma once
 
-#include "observers/replay_view.h"
+#include "view/replay_view.h"
 
 namespace lockstep {
 

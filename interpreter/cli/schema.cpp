@@ -1,10 +1,10 @@
 #include <CLI/CLI.hpp>
 
-#include "cli/catalog_loading.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
-#include "definition/xsd.h"
+#include "cli/load/catalog_loading.h"
+#include "describe/xsd.h"
 
 namespace lockstep {
 namespace {

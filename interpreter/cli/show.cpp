@@ -3,9 +3,9 @@
 #include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
-#include "cli/loading.h"
-#include "cli/tree_drawing.h"
-#include "observers/terminal.h"
+#include "cli/load/loading.h"
+#include "describe/tree_drawing.h"
+#include "terminal/terminal.h"
 
 namespace lockstep {
 namespace {

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <limits>
 
-#include "observers/recording_csv.h"
+#include "core/csv_field.h"
 #include "study/column_names.h"
 
 namespace lockstep {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "observers/recording_csv.h"
+#include "core/csv_field.h"
 #include "study/column_names.h"
 #include "study/row_reader.h"
 

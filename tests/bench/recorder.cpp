@@ -2,7 +2,7 @@
 // in every tick, of nodes that run but do not change, and of nodes that nothing happens to. Beside
 // it, of the same trees, the tick alone, and the questions for progress alone, which no recorder
 // can do without.
-#include "observers/recorder.h"
+#include "recording/write/recorder.h"
 
 #include <benchmark/benchmark.h>
 

@@ -9,10 +9,10 @@
 #include <functional>
 
 #include "bench/bench_tree.h"
-#include "observers/console_live.h"
-#include "observers/recorder.h"
-#include "observers/statistics.h"
+#include "recording/write/recorder.h"
 #include "runtime/run.h"
+#include "summary/statistics.h"
+#include "view/console_live.h"
 
 namespace {
 

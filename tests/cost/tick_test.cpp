@@ -19,11 +19,11 @@
 
 #include "definition/resolve.h"
 #include "engine/compile.h"
-#include "observers/recorder.h"
-#include "observers/statistics.h"
 #include "plugin/plugin_set.h"
+#include "recording/write/recorder.h"
 #include "runtime/loop.h"
 #include "runtime/run.h"
+#include "summary/statistics.h"
 #include "support/paths.h"
 
 namespace {

@@ -5,11 +5,11 @@
 #include <sstream>
 #include <string>
 
-#include "observers/recording_csv.h"
-#include "observers/recording_diff.h"
-#include "observers/recording_info.h"
-#include "observers/recording_measures.h"
-#include "observers/replay_view.h"
+#include "recording/use/recording_csv.h"
+#include "recording/use/recording_diff.h"
+#include "recording/use/recording_info.h"
+#include "recording/use/recording_measures.h"
+#include "view/replay_view.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "cli/loading.h"
+#include "cli/load/loading.h"
 #include "definition/plugin_requests.h"
 #include "definition/resolve.h"
 #include "engine/compile.h"

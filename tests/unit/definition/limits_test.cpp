@@ -1,6 +1,6 @@
 // Each limit of a project, at it and one beyond. Nothing is expanded: a tree at the limit of nodes
 // takes a gigabyte. The limits of a document are in unit/document, of a recording in
-// unit/observers, of a plugin in unit/plugin.
+// unit/recording, of a plugin in unit/plugin.
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>

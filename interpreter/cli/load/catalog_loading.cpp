@@ -1,0 +1,18 @@
+#include "cli/load/catalog_loading.h"
+
+#include "cli/console.h"
+#include "cli/exit_code.h"
+
+namespace lockstep {
+
+int load_catalog(const PluginOptions& options, PluginSet& plugins, Catalog& catalog) {
+  keep_stdout_for_results();
+  Diagnostics diagnostics;
+  const bool good = load_given_plugins(options, plugins, diagnostics);
+  print_diagnostics(diagnostics, Severity::Warning);
+  if (!good) return kExitPluginRefused;
+  catalog = make_catalog(plugins);
+  return kExitSuccess;
+}
+
+}  // namespace lockstep

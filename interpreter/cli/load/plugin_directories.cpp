@@ -1,0 +1,92 @@
+#include "cli/load/plugin_directories.h"
+
+#include <fmt/format.h>
+#include <sys/auxv.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+
+#include "cli/load/loading.h"
+
+namespace lockstep {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kVariable = "LOCKSTEP_PLUGIN_PATH";
+
+bool is_privileged() {
+  return getauxval(AT_SECURE) != 0;
+}
+
+bool check_absolute(const std::string& path, std::string_view option, Diagnostics& diagnostics) {
+  if (fs::path(path).is_absolute()) return true;
+  diagnostics.error({},
+                    fmt::format("{} {}: relative, which a program with more rights than its user "
+                                "does not take",
+                                option, path),
+                    "give the whole path, from '/'");
+  return false;
+}
+
+void warn_of_missing_directories(const PluginOptions& options, Diagnostics& diagnostics) {
+  for (const std::string& directory : options.directories) {
+    std::error_code error;
+    if (fs::is_directory(directory, error)) continue;
+    diagnostics.add(
+        {.severity = Severity::Warning,
+         .location = {},
+         .message = fmt::format("--plugin-path {}: there is no such directory", directory),
+         .hint = {},
+         .excerpt = {}});
+  }
+}
+
+}  // namespace
+
+fs::path program_directory() {
+  std::error_code error;
+  return fs::read_symlink("/proc/self/exe", error).parent_path();
+}
+
+std::vector<std::string> plugin_directories(const PluginOptions& options) {
+  std::vector<std::string> directories = options.directories;
+  if (is_privileged()) {
+    std::erase_if(directories, [](const auto& it) { return !fs::path(it).is_absolute(); });
+  }
+  // Null when privileged.
+  if (const char* path = secure_getenv(kVariable)) {
+    for (const std::string& directory : CLI::detail::split(path, ':')) {
+      if (!directory.empty()) directories.push_back(directory);
+    }
+  }
+  if (const auto beside = program_directory(); !beside.empty()) {
+    directories.push_back((beside / "plugins").string());  // in a build directory
+    directories.push_back((beside / LOCKSTEP_PLUGINS_FROM_BIN).lexically_normal().string());
+  }
+  return directories;
+}
+
+bool check_plugin_options(const PluginOptions& options, Diagnostics& diagnostics) {
+  warn_of_missing_directories(options, diagnostics);
+  if (!is_privileged()) return true;
+  if (std::getenv(kVariable) != nullptr) {
+    diagnostics.add({.severity = Severity::Warning,
+                     .location = {},
+                     .message = fmt::format("{} is not read: this program has more rights than its "
+                                            "user",
+                                            kVariable),
+                     .hint = "give --plugin-path",
+                     .excerpt = {}});
+  }
+  bool good = true;
+  for (const std::string& directory : options.directories) {
+    good &= check_absolute(directory, "--plugin-path", diagnostics);
+  }
+  for (const std::string& plugin : options.plugins) {
+    if (is_plugin_file(plugin)) good &= check_absolute(plugin, "--plugin", diagnostics);
+  }
+  return good;
+}
+
+}  // namespace lockstep

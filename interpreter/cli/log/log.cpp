@@ -1,0 +1,102 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cerrno>
+
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/exit_code.h"
+#include "cli/log/log.h"
+#include "cli/outputs.h"
+#include "core/descriptors.h"
+#include "core/output_file.h"
+#include "recording/use/recording_csv.h"
+#include "recording/use/recording_info.h"
+
+namespace lockstep {
+namespace {
+
+struct LogOptions {
+  std::string file;
+  std::string out;
+};
+
+int csv_to_file(const LogOptions& options, RecordingReader& reader) {
+  const NamedFile recording[] = {named_file(options.file)};
+  if (would_overwrite("--out", options.out, recording)) return kExitUsage;
+  OutputFile out(options.out);
+  if (out.descriptor() < 0) {
+    print_error(printable(out.error()));
+    return kExitUsage;
+  }
+  int reason = 0;
+  const auto write = [&](std::string_view rows) {
+    if (!write_all(out.descriptor(), rows)) reason = errno;
+    return reason == 0;
+  };
+  if (write_csv(reader, write) && !out.take_name()) reason = errno;
+  return reason == 0 ? report_end(reader) : cannot_use("write", options.out, reason);
+}
+
+int csv(const LogOptions& options) {
+  return with_recording(options.file, [&](RecordingReader& reader) {
+    if (!options.out.empty()) return csv_to_file(options, reader);
+    const auto names = is_terminal(results_file()) ? CsvNames::Printable : CsvNames::Exact;
+    int written = kExitSuccess;
+    const auto write = [&written](std::string_view rows) {
+      written = write_results(rows);
+      return written == kExitSuccess;
+    };
+    // Where a reader stops, the recording is not cut.
+    return write_csv(reader, write, names) ? report_end(reader) : written;
+  });
+}
+
+int info(const LogOptions& options) {
+  return with_recording(options.file, [](RecordingReader& reader) {
+    const std::string text = info_text(reader, wants_color(results_file()));
+    return write_results_of(reader, text);
+  });
+}
+
+std::function<int()> define_log(CLI::App& app) {
+  const auto options = std::make_shared<LogOptions>();
+  app.require_subcommand(1);
+  CLI::App* table = app.add_subcommand(
+      "csv", "One row per tick and active node: tick,time_s,node,path,status,progress,ticked,held");
+  CLI::App* summary =
+      app.add_subcommand("info", "What the recording is of, how it ended, and its measures");
+  for (CLI::App* command : {table, summary}) add_recording_file(*command, options->file);
+  table->add_option("--out", options->out, "Write the table to this file instead of stdout")
+      ->type_name("FILE");
+  const auto measures = define_log_measure(app);
+  const auto plot = define_log_plot(app);
+  const auto difference = define_log_diff(app);
+  return [=] {
+    if (measures.app->parsed()) return measures.run();
+    if (plot.app->parsed()) return plot.run();
+    if (difference.app->parsed()) return difference.run();
+    return table->parsed() ? csv(*options) : info(*options);
+  };
+}
+
+}  // namespace
+
+const Command kLogCommand{"log", "Read recordings that `lockstep run --record` has made",
+                          "A recording that ends early, as after a kill, is read up to its last "
+                          "whole line; a message on\n"
+                          "stderr says so.\n"
+                          "Exit code: 0 read, 1 two recordings differ, 2 usage, a file that "
+                          "cannot be read, or a plot\n"
+                          "without gnuplot, 3 not a recording or a damaged one.\n"
+                          "\n"
+                          "Examples:\n"
+                          "  lockstep run trees/door_pulling.xml --record run.jsonl\n"
+                          "  lockstep log info run.jsonl\n"
+                          "  lockstep log csv run.jsonl > run.csv\n"
+                          "  lockstep log measure run.jsonl --measure predictability:arm@0.5\n"
+                          "  lockstep log plot run.jsonl --out progress.svg\n"
+                          "  lockstep log diff run.jsonl again.jsonl",
+                          define_log};
+
+}  // namespace lockstep

@@ -1,0 +1,87 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <new>
+#include <system_error>
+
+#include "cli/console.h"
+#include "cli/exit_code.h"
+#include "cli/log/log.h"
+#include "runtime/fuse.h"
+#include "runtime/outlet.h"
+#include "terminal/raw_terminal.h"
+
+namespace lockstep {
+namespace {
+
+// To destroy a JSON value takes memory: without any, its destructor throws, and nobody can catch
+// that.
+[[noreturn]] void end_without_memory() {
+  try {
+    if (const auto reason = std::current_exception()) std::rethrow_exception(reason);
+  } catch (const std::bad_alloc&) {
+    RawTerminal::restore();
+    messages().say("lockstep: error: out of memory\n");
+    end_at_once(kExitInternal);
+  } catch (...) {
+  }
+  std::abort();
+}
+
+}  // namespace
+
+void add_recording_file(CLI::App& app, std::string& file) {
+  app.add_option("file", file, "The recording; - is stdin")->type_name("FILE.jsonl")->required();
+}
+
+int with_recording(const std::string& path, const std::function<int(RecordingReader&)>& use) {
+  std::set_terminate(end_without_memory);
+  std::ifstream file;
+  if (path != "-") {
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error)) return cannot_use("read", path, EISDIR);
+    errno = 0;
+    file.open(path, std::ios::binary);
+    if (!file) return cannot_use("read", path, errno);
+  }
+  RecordingReader reader(path == "-" ? std::cin : file, path == "-" ? "stdin" : path);
+  return reader.error().empty() ? use(reader) : report_end(reader);
+}
+
+int report_end(const RecordingOutcome& outcome) {
+  if (!outcome.error.empty()) {
+    print_error(outcome.error);
+    return kExitInvalidTree;
+  }
+  if (!outcome.gaps.empty()) print_error(outcome.gaps);
+  if (!outcome.cut.empty()) print_error(fmt::format("the recording is cut: {}", outcome.cut));
+  return kExitSuccess;
+}
+
+int report_end(const RecordingReader& reader) {
+  return report_end(reader.outcome());
+}
+
+int usage_error(const std::string& message) {
+  print_error(message);
+  return kExitUsage;
+}
+
+int cannot_use(std::string_view verb, std::string_view path, int reason) {
+  return usage_error(
+      fmt::format("cannot {} '{}': {}", verb, printable(path), std::strerror(reason)));
+}
+
+int write_results_of(const RecordingReader& reader, std::string_view text) {
+  const int written = write_results(text);
+  return first_failure(report_end(reader), written);
+}
+
+}  // namespace lockstep

@@ -1,0 +1,61 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <vector>
+
+#include "cli/console.h"
+#include "cli/exit_code.h"
+#include "cli/log/log.h"
+#include "recording/use/recording_measures.h"
+
+namespace lockstep {
+namespace {
+
+struct LogMeasureOptions {
+  std::string file;
+  std::vector<std::string> measures = {"progress-distance", "step-length", "duration"};
+  bool json = false;
+};
+
+int print_measures(const LogMeasureOptions& options, std::span<const MeasureSpec> measures,
+                   RecordingReader& reader) {
+  std::string error;
+  const auto values = measure_recording(reader, measures, error);
+  if (!error.empty()) return usage_error(printable(error));
+  if (!reader.error().empty()) return report_end(reader);
+  const std::string text = options.json ? to_json(values) + "\n" : to_table(values);
+  return write_results_of(reader, text);
+}
+
+int measure(const LogMeasureOptions& options) {
+  std::vector<MeasureSpec> measures;
+  for (const std::string& text : options.measures) {
+    std::string error;
+    const auto spec = parse_measure(text, error);
+    if (!spec) return usage_error(fmt::format("--measure {}: {}", printable(text), error));
+    measures.push_back(*spec);
+  }
+  return with_recording(options.file, [&](RecordingReader& reader) {
+    return print_measures(options, measures, reader);
+  });
+}
+
+}  // namespace
+
+LogSubcommand define_log_measure(CLI::App& log) {
+  const auto options = std::make_shared<LogMeasureOptions>();
+  CLI::App* app =
+      log.add_subcommand("measure", "The measures of the run, by the names that a study uses");
+  add_recording_file(*app, options->file);
+  app->add_option("--measure", options->measures,
+                  "progress-distance, step-length, duration or predictability:NODE@P[=T]: the tick "
+                  "at which NODE's progress is nearest to P, minus T; may be repeated. Default: "
+                  "the first three")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  app->add_flag("--json", options->json, "Print one line of JSON");
+  return {app, [options] { return measure(*options); }};
+}
+
+}  // namespace lockstep

@@ -1,0 +1,137 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+#include <vector>
+
+#include "cli/checks.h"
+#include "cli/console.h"
+#include "cli/exit_code.h"
+#include "cli/log/log.h"
+#include "cli/outputs.h"
+#include "measure/measure_spec.h"
+#include "plots/gnuplot.h"
+#include "plots/progress_plot.h"
+#include "recording/use/recorded_probe.h"
+#include "runtime/stop_signals.h"
+
+namespace lockstep {
+namespace {
+
+struct LogPlotOptions {
+  std::string file;
+  std::string out;
+  std::string node;
+  PlotSize size;
+};
+
+// The nodes to draw; none after an error, which it tells.
+std::vector<NodeIndex> chosen_nodes(const LogPlotOptions& options, const RecordingHeader& header) {
+  const auto nodes = synchronized_nodes(header);
+  if (nodes.empty()) {
+    print_error("the recording has no synchronized node, so there is nothing to draw");
+    return {};
+  }
+  if (options.node.empty()) return nodes;
+  std::vector<std::string> paths;
+  for (const NodeIndex node : nodes) paths.push_back(header.nodes[node].path);
+  std::string error;
+  const auto place = find_path(paths, options.node, error);
+  if (place) return {nodes[*place]};
+  print_error(fmt::format("--node: among the synchronized nodes: {}", printable(error)));
+  return {};
+}
+
+// The file as named for one node, a file for each of several: "x.svg" becomes "x-pull.svg", or
+// "x-Main_left_pull.svg" where two nodes are called so.
+std::filesystem::path image_of(const LogPlotOptions& options, const ProgressPlot& plot,
+                               std::span<const ProgressPlot> plots) {
+  std::filesystem::path image = options.out;
+  if (plots.size() == 1) return image;
+  const auto name_of = [](const ProgressPlot& one) {
+    return file_stem(last_segment(one.node.path));
+  };
+  std::string name = name_of(plot);
+  const auto same = std::count_if(plots.begin(), plots.end(), [&](const ProgressPlot& other) {
+    return name_of(other) == name;
+  });
+  if (same > 1) name = file_stem(plot.node.path);
+  const std::string stem = image.stem().string() + "-" + name;
+  return image.replace_filename(stem + image.extension().string());
+}
+
+// What is drawn is written to three files: none may be the recording.
+bool would_replace_recording(const LogPlotOptions& options, std::filesystem::path image) {
+  const NamedFile recording[] = {named_file(options.file)};
+  for (const std::string& extension :
+       {image.extension().string(), std::string(".dat"), std::string(".gp")}) {
+    if (would_overwrite("--out", image.replace_extension(extension), recording)) return true;
+  }
+  return false;
+}
+
+int draw_all(const LogPlotOptions& options, std::span<const ProgressPlot> plots) {
+  StopSignals::install();  // a signal leaves nothing half drawn
+  int drawn = 0, written = kExitSuccess;
+  for (const ProgressPlot& plot : plots) {
+    if (plot.samples.empty()) {
+      print_error(fmt::format("no tick reached '{}'", printable(plot.node.path)));
+      continue;
+    }
+    const auto image = image_of(options, plot, plots);
+    if (would_replace_recording(options, image)) return kExitUsage;
+    const PlotResult result = draw(plot, image, options.size);
+    if (!result.ok()) {
+      print_error(result.error);
+      return StopSignals::received() == 0 ? kExitUsage : kExitSignal + StopSignals::received();
+    }
+    written = first_failure(written, write_results(printable(result.files.back().string()) + "\n"));
+    ++drawn;
+  }
+  return drawn > 0 ? written : kExitUsage;
+}
+
+int plot(const LogPlotOptions& options) {
+  if (!is_plot_image(options.out)) {
+    return usage_error(fmt::format("--out '{}': expected a name that ends in .svg or .png",
+                                   printable(options.out)));
+  }
+  return with_recording(options.file, [&](RecordingReader& reader) -> int {
+    const auto nodes = chosen_nodes(options, reader.header());
+    if (nodes.empty()) return kExitUsage;
+    const auto plots = progress_plots(reader, nodes, options.size);
+    if (const int code = report_end(reader); code != kExitSuccess) return code;
+    return draw_all(options, plots);
+  });
+}
+
+}  // namespace
+
+LogSubcommand define_log_plot(CLI::App& log) {
+  const auto options = std::make_shared<LogPlotOptions>();
+  CLI::App* app = log.add_subcommand(
+      "plot", "Draw the progress of the children of each synchronized node over time (gnuplot)");
+  add_recording_file(*app, options->file);
+  app->add_option("--out", options->out,
+                  "The image: its name ends in .svg or .png; its data and its gnuplot script are "
+                  "written beside it. With several nodes, -NAME is added to it")
+      ->type_name("FILE")
+      ->required();
+  app->add_option("--node", options->node, "Only this node: its path, or the end of it")
+      ->type_name("NODE");
+  app->add_option(
+         "--width", options->size.width,
+         "In pixels, 360 at least, for a smaller picture cannot be read; a PNG has twice as many")
+      ->transform(whole_number(PlotSize::kLeastWidth, PlotSize::kMost))
+      ->capture_default_str();
+  app->add_option("--height", options->size.height,
+                  "In pixels, 240 at least; a PNG has twice as many")
+      ->transform(whole_number(PlotSize::kLeastHeight, PlotSize::kMost))
+      ->capture_default_str();
+  return {app, [options] { return plot(*options); }};
+}
+
+}  // namespace lockstep

@@ -1,0 +1,250 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/exit_code.h"
+#include "cli/load/real_time_leaves.h"
+#include "cli/outputs.h"
+#include "cli/run/run_options.h"
+#include "cli/run/run_watch.h"
+#include "cli/run/view.h"
+#include "recording/write/recorder.h"
+#include "runtime/crash_report.h"
+#include "runtime/loop.h"
+#include "runtime/outlet.h"
+#include "runtime/stop_signals.h"
+#include "summary/capped_notes.h"
+#include "summary/stall_observer.h"
+#include "summary/statistics.h"
+#include "view/waiting.h"
+
+namespace lockstep {
+namespace {
+
+int exit_code_of(const RunEnd& end) {
+  switch (end.reason) {
+    case StopReason::Completed:
+      return end.status == Status::Success ? kExitSuccess : kExitFailure;
+    case StopReason::Fault:
+      return kExitLeafFault;
+    case StopReason::Timeout:
+    case StopReason::MaxTicks:
+      return kExitLimit;
+    case StopReason::Signal:
+      return kExitSignal + end.signal;
+    case StopReason::Overrun:
+      return kExitOverrun;
+    case StopReason::Recording:
+      return kExitRecording;
+  }
+  return kExitLeafFault;
+}
+
+// Whose fault it was, for a person who has to find the culprit.
+std::string describe(const Fault& fault, const Tree& tree, const RunEnd& end) {
+  std::string what = "could not be halted at the end of the run";
+  if (!fault.in_last_halt) {
+    what = end.ticks == 0
+               ? "failed before the first tick"
+               : fmt::format("failed in tick {} at {:.3f} s", end.ticks - 1, to_seconds(end.time));
+  }
+  return fmt::format("{} {}: {}", describe_node(tree, fault.node), what, fault.message);
+}
+
+// There is one, and its members end in the order in which they may.
+class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
+ public:
+  RunCommand(const RunCommandOptions& options, const Loaded& loaded, const Tree& tree)
+      : options_(options),
+        tree_(tree),
+        view_(options.view, tree, options.log_level),
+        watch_(tree, options, [this](const std::string& line) { view_.print("warning: " + line); }),
+        statistics_(tree) {
+    if (!options.record.empty()) recorder_.emplace(tree, recorder_options(loaded));
+    if (options.stall > 0) {
+      stall_.emplace(tree, from_seconds(options.stall), [this](const Standstill& standstill) {
+        const std::string text = standstill_text(tree_, standstill);
+        view_.print("warning: " + text);
+        standstills_.add([&] { return text; });
+      });
+    }
+  }
+
+  // Runs the tree to its end; `plugins` are told to begin and, when all is over, to finish.
+  int run(std::shared_ptr<PluginSet>& plugins) {
+    if (recorder_ && !recorder_->error().empty()) {
+      print_error(recorder_->error());
+      const int signal = StopSignals::received();  // while nobody has opened a pipe to read it
+      return signal == 0 ? kExitUsage : kExitSignal + signal;
+    }
+    Diagnostics refused;
+    if (!plugins->initialize(refused)) {
+      view_.close();
+      print_diagnostics(refused, Severity::Warning);
+      return kExitPluginRefused;
+    }
+    const auto end = run_tree();
+    const int code = end ? first_failure(exit_code_of(*end), print_summary()) : kExitUsage;
+    plugins.reset();
+    return code;
+  }
+
+ private:
+  // Nothing when the system refuses what the user asks of it.
+  std::optional<RunEnd> run_tree() {
+    WallClock wall_clock;
+    VirtualClock virtual_clock;
+    Clock& clock = options_.is_wall() ? static_cast<Clock&>(wall_clock) : virtual_clock;
+    RunEnd end;
+    std::vector<Fault> in_last_halt;
+    {
+      Run run(tree_, run_options());
+      if (!make_realtime()) return std::nullopt;
+      end = run_loop(run, clock, loop_options(), observers());
+      if (end.fault) in_last_halt = run.ticker().take_tolerated();
+    }
+    view_.close();
+    if (end.fault) print_error(describe(*end.fault, tree_, end));
+    for (const Fault& fault : in_last_halt) print_error(describe(fault, tree_, end));
+    return end;
+  }
+
+  // Threads that were started before keep their priority and their processors.
+  bool make_realtime() {
+    const auto problems = apply_realtime(options_.realtime);
+    if (!problems.empty()) view_.close();
+    for (const RealtimeProblem& problem : problems) print_error(problem.message, problem.hint);
+    return problems.empty();
+  }
+
+  RunOptions run_options() {
+    return {.seed = options_.seed,
+            .period = deadline_of(1, options_.rate),
+            .log = view_.leaf_log(),
+            .on_fault = options_.on_fault,
+            .watch = &watch_.leaves()};
+  }
+
+  RecorderOptions recorder_options(const Loaded& loaded) {
+    RecorderOptions recorder{.path = options_.record,
+                             .tree_file = options_.tree,
+                             .rate_hz = options_.rate,
+                             .seed = options_.seed};
+    for (const DeclaredArgument& argument : loaded.project->arguments) {
+      recorder.arguments[argument.name] = argument.value;
+    }
+    recorder.on_error = [this](const std::string& error) { view_.print("error: " + error); };
+    return recorder;
+  }
+
+  LoopOptions loop_options() {
+    LoopOptions loop = options_.loop();
+    if (recorder_ && options_.stop_on_record_error) {
+      loop.recording_failed = [this] { return recorder_->failed(); };
+    }
+    return loop;
+  }
+
+  std::span<Observer* const> observers() {
+    observers_ = {&statistics_};
+    if (recorder_) observers_.push_back(&*recorder_);
+    if (stall_) observers_.push_back(&*stall_);
+    if (view_.observer() != nullptr) observers_.push_back(view_.observer());
+    observers_.push_back(&watch_);
+    return observers_;
+  }
+
+  int print_summary() {
+    Summary summary = statistics_.summary();
+    if (recorder_ && !recorder_->error().empty()) summary.notes.push_back(recorder_->error());
+    if (recorder_ && recorder_->lost() != 0) {
+      summary.notes.push_back(fmt::format("the recording lacks {}: the disk was too slow",
+                                          counted(recorder_->lost(), "tick")));
+    }
+    standstills_.append_to(summary.notes);
+    watch_.add_to(summary);
+    if (const std::string lost = lost_messages(); !lost.empty()) summary.notes.push_back(lost);
+    if (options_.json) return write_results(to_json(summary) + "\n");
+    std::string text;
+    write_text(summary, text, wants_color(results_file()));
+    return write_results(text);
+  }
+
+  const RunCommandOptions& options_;
+  const Tree& tree_;
+  View view_;
+  RunWatch watch_;
+  Statistics statistics_;
+  std::optional<Recorder> recorder_;
+  std::optional<StallObserver> stall_;
+  CappedNotes standstills_{"standstill"};
+  std::vector<Observer*> observers_;
+};
+
+void last_words() {
+  AppendFile::emergency_flush();
+  View::last_words();
+}
+
+// What a recording must not overwrite.
+std::vector<NamedFile> inputs_of_run(const RunCommandOptions& options, const Loaded& loaded) {
+  std::vector<std::string> documents{options.tree};
+  for (const auto& document : loaded.project->documents) documents.push_back(document->path());
+  return inputs_of(documents, *loaded.plugins);
+}
+
+int run(const RunCommandOptions& options) {
+  // First, while /dev/stdout still is what the user means by it.
+  if (!options.record.empty() && would_overwrite("--record", options.record, standard_outputs())) {
+    return kExitUsage;
+  }
+  keep_stdout_for_results();
+  CrashReport::set_last_words(last_words);
+  Loaded loaded;
+  Diagnostics diagnostics;
+  const int code = load(options.tree, options.load, loaded, diagnostics);
+  print_diagnostics(diagnostics, Severity::Warning);
+  if (!loaded.definition) return code;
+  // Until here a signal ends the program as it ends any other: there is nothing to halt or to save.
+  StopSignals::install(last_words);
+  const Outlet::Thread messages_thread(messages());
+  if (!options.record.empty() &&
+      would_overwrite("--record", options.record, inputs_of_run(options, loaded)))
+    return kExitUsage;
+  const Tree tree = take_tree(loaded);
+  if (!options.is_wall()) {
+    Diagnostics warnings;
+    warn_of_real_time_leaves(tree, options.tree, "the run means little; use --clock wall",
+                             warnings);
+    print_diagnostics(warnings, Severity::Warning);
+  }
+  return RunCommand(options, loaded, tree).run(loaded.plugins);
+}
+
+std::function<int()> define_run(CLI::App& app) {
+  const auto options = std::make_shared<RunCommandOptions>();
+  define_run_options(app, *options);
+  return [options] { return run(*options); };
+}
+
+}  // namespace
+
+const Command kRunCommand{
+    "run", "Run a tree at a fixed rate until it completes",
+    "The summary goes to stdout, everything else to stderr.\n"
+    "Exit code: 0 Success, 1 Failure, 2 usage, 3 invalid tree, 4 plugin refused, 5 leaf fault,\n"
+    "6 a plugin crashed or hung, 7 --overrun fail, 8 --on-record-error stop, 9 lockstep failed,\n"
+    "124 --timeout or --max-ticks, 128 + N signal N, as 130 for SIGINT (running leaves are halted "
+    "in\n"
+    "order; a second one ends the program at once), 141 the reader of stdout has gone.\n"
+    "\n"
+    "Examples:\n"
+    "  lockstep run trees/door_pulling.xml\n"
+    "  lockstep run trees/door_pulling.xml --arg barriers=0.5 --rate 50 --record run.jsonl\n"
+    "  lockstep run trees/door_pulling.xml --clock virtual --seed 7 --json\n"
+    "  lockstep run trees/door_pulling.xml --isolate --on-fault fail --realtime --cpu 1",
+    define_run};
+
+}  // namespace lockstep

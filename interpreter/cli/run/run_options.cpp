@@ -1,0 +1,144 @@
+#include "cli/run/run_options.h"
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "cli/checks.h"
+#include "runtime/stop_signals.h"
+
+namespace lockstep {
+namespace {
+
+constexpr lockstep_log_level kNoLogs = LOCKSTEP_LOG_WARNING + 1;
+
+// An option whose value is one of some words.
+template <class T>
+void add_choice(CLI::App& app, const std::string& name, T& value,
+                const std::vector<std::pair<std::string, T>>& choices, const std::string& doc) {
+  const std::map<std::string, T> values(choices.begin(), choices.end());
+  std::vector<std::string> words;
+  std::string current;
+  for (const auto& [word, meaning] : choices) {
+    words.push_back(word);
+    if (meaning == value) current = word;
+  }
+  app.add_option_function<std::string>(
+         name, [&value, values](const std::string& word) { value = values.at(word); }, doc)
+      ->check(one_of(words))
+      ->default_str(current);
+}
+
+void define_loop_options(CLI::App& app, RunCommandOptions& options) {
+  app.add_option("--rate", options.rate, "Ticks per second")
+      ->type_name("HZ")
+      ->check(number_between(0.001, 100000.0))
+      ->capture_default_str();
+  app.add_option("--clock", options.clock,
+                 "wall, or virtual: the same run, as fast as the machine allows")
+      ->check(one_of({"wall", "virtual"}))
+      ->capture_default_str();
+  app.add_option("--seed", options.seed,
+                 "Of the leaves' random numbers: the same seed gives the same numbers")
+      ->type_name("N")
+      ->transform(whole_number())
+      ->capture_default_str();
+  app.add_option(
+         "--max-ticks", options.max_ticks,
+         "Stop after N ticks, at least 1 (default on the virtual clock: 1000000, unless there is a "
+         "--timeout)")
+      ->type_name("N")
+      ->transform(whole_number(1));
+  app.add_option("--timeout", options.timeout, "Stop after S seconds of the run's clock")
+      ->type_name("S")
+      ->check(number_between(0.0, 1e9));
+  app.add_option("--stall", options.stall,
+                 "Report a child that stands still for S seconds while others wait for it; 0 = "
+                 "never")
+      ->type_name("S")
+      ->check(number_between(0.0, 1e9))
+      ->capture_default_str();
+}
+
+void define_time_options(CLI::App& app, RunCommandOptions& options) {
+  add_choice<OverrunPolicy>(app, "--overrun", options.overrun,
+                            {{"skip", OverrunPolicy::Skip},
+                             {"catch-up", OverrunPolicy::CatchUp},
+                             {"fail", OverrunPolicy::Fail}},
+                            "When a tick ends after the next deadline: skip the deadlines it "
+                            "missed, tick for each of them at once, or end the run");
+  app.add_option("--tick-budget", options.tick_budget_ms,
+                 "Report a leaf that takes longer than MS milliseconds; 0 = do not time leaves "
+                 "(default: the period)")
+      ->type_name("MS")
+      ->check(number_between(0.0, 1e9));
+  app.add_flag("--realtime", options.realtime.realtime,
+               "Tick with real-time priority (SCHED_FIFO), memory locked and timer slack 1 ns; "
+               "needs privileges");
+  app.add_option("--cpu", options.realtime.cpu, "Tick on this processor only, counted from 0")
+      ->type_name("N")
+      ->transform(whole_number(0, 4095));
+}
+
+void define_fault_options(CLI::App& app, RunCommandOptions& options) {
+  add_choice<FaultPolicy>(app, "--on-fault", options.on_fault,
+                          {{"stop", FaultPolicy::Stop}, {"fail", FaultPolicy::Fail}},
+                          "When a leaf fails as a program (it throws, crashes in its own process, "
+                          "returns nonsense): stop the run, or count it as Failure and go on");
+  app.add_option("--halt-limit", options.halt_limit,
+                 "Name a leaf that does not return from halt for S seconds; 0 = never")
+      ->type_name("S")
+      ->check(number_between(0.0, 1e6))
+      ->capture_default_str();
+}
+
+}  // namespace
+
+std::optional<Nanoseconds> RunCommandOptions::tick_budget() const {
+  if (!is_wall()) return std::nullopt;
+  if (!tick_budget_ms) return deadline_of(1, rate);
+  if (*tick_budget_ms == 0) return std::nullopt;
+  return from_seconds(*tick_budget_ms / 1e3);
+}
+
+LoopOptions RunCommandOptions::loop() const {
+  LoopOptions loop{.rate = rate,
+                   .max_ticks = max_ticks,
+                   .timeout = std::nullopt,
+                   .stop_signal = StopSignals::received,
+                   .overrun = overrun};
+  if (timeout) loop.timeout = from_seconds(*timeout);
+  // A tree that never completes would fill a disk with its recording in minutes.
+  if (!is_wall() && !timeout && !max_ticks) loop.max_ticks = kMostVirtualTicks;
+  return loop;
+}
+
+void define_run_options(CLI::App& app, RunCommandOptions& options) {
+  app.add_option("tree", options.tree, "Tree file; - is stdin")->type_name("TREE.xml")->required();
+  define_loop_options(app, options);
+  define_time_options(app, options);
+  define_fault_options(app, options);
+  app.add_option("--record", options.record,
+                 "Write a recording (JSON Lines; see docs/recording.md)")
+      ->type_name("FILE.jsonl");
+  add_choice<bool>(app, "--on-record-error", options.stop_on_record_error,
+                   {{"stop", true}, {"go-on", false}},
+                   "When the recording cannot be written any more, as on a full disk");
+  app.add_option("--view", options.view,
+                 "On stderr while it runs: live (a terminal), plain lines, none; auto = live on a "
+                 "terminal, else plain")
+      ->check(one_of({"auto", "live", "plain", "none"}))
+      ->capture_default_str();
+  add_choice<lockstep_log_level>(app, "--log-level", options.log_level,
+                                 {{"debug", LOCKSTEP_LOG_DEBUG},
+                                  {"info", LOCKSTEP_LOG_INFO},
+                                  {"warning", LOCKSTEP_LOG_WARNING},
+                                  {"none", kNoLogs}},
+                                 "What leaves log that is shown on stderr, in any view: this "
+                                 "level and what is more urgent");
+  app.add_flag("--json", options.json, "Print the summary as JSON");
+  add_load_options(app, options.load);
+}
+
+}  // namespace lockstep

@@ -1,0 +1,45 @@
+// What `lockstep run` is told on the command line.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "cli/load/loading.h"
+#include "lockstep/leaf.h"
+#include "runtime/loop.h"
+#include "runtime/realtime.h"
+
+namespace lockstep {
+
+struct RunCommandOptions {
+  LoadOptions load;
+  std::string tree;
+  double rate = 100;
+  std::string clock = "wall";
+  std::uint64_t seed = 0;
+  std::optional<std::uint64_t> max_ticks;
+  std::optional<double> timeout;
+  double stall = 5;
+
+  OverrunPolicy overrun = OverrunPolicy::Skip;
+  std::optional<double> tick_budget_ms;  // none: the period; 0: no budget
+  RealtimeOptions realtime;
+  FaultPolicy on_fault = FaultPolicy::Stop;
+  double halt_limit = 1;  // seconds; 0 = never. The hang limit is among the plugin options.
+
+  std::string record;
+  bool stop_on_record_error = false;
+  std::string view = "auto";
+  lockstep_log_level log_level = LOCKSTEP_LOG_INFO;
+  bool json = false;
+
+  bool is_wall() const { return clock == "wall"; }
+  // None when nobody asked: on the virtual clock, or with --tick-budget 0.
+  std::optional<Nanoseconds> tick_budget() const;
+  LoopOptions loop() const;
+};
+
+void define_run_options(CLI::App& app, RunCommandOptions& options);
+
+}  // namespace lockstep

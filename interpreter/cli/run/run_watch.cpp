@@ -1,0 +1,121 @@
+#include "cli/run/run_watch.h"
+
+#include <fmt/format.h>
+#include <pthread.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+#include "summary/statistics.h"
+
+namespace lockstep {
+namespace {
+
+constexpr std::size_t kMuchMemory = 64u << 20;  // bytes; a run needs far less
+
+// What is in memory of this process, in bytes; 0 when the system does not tell.
+std::size_t resident_memory() {
+  std::FILE* file = std::fopen("/proc/self/statm", "re");
+  if (file == nullptr) return 0;
+  unsigned long all = 0, resident = 0;
+  const bool good = std::fscanf(file, "%lu %lu", &all, &resident) == 2;
+  std::fclose(file);
+  return good ? resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) : 0;
+}
+
+double milliseconds(Nanoseconds time) {
+  return to_seconds(time) * 1e3;
+}
+
+}  // namespace
+
+std::string describe_node(const Tree& tree, NodeIndex node) {
+  const NodeType& type = *tree.labels[node].type;
+  if (type.leaf == nullptr) return fmt::format("the node '{}' ({})", tree.path(node), type.id);
+  return fmt::format("the leaf '{}' ({} of plugin '{}')", tree.path(node), type.id, type.plugin);
+}
+
+RunWatch::RunWatch(const Tree& tree, const RunCommandOptions& options,
+                   std::function<void(const std::string& line)> print)
+    : tree_(tree),
+      options_(options),
+      print_(std::move(print)),
+      leaves_(leaf_watch_options()),
+      watchdog_(watchdog_options()) {
+  pthread_sigmask(SIG_SETMASK, nullptr, &signal_mask_);
+}
+
+LeafWatchOptions RunWatch::leaf_watch_options() {
+  LeafWatchOptions watch{
+      .budget = options_.tick_budget(), .clock = nullptr, .on_slow = {}, .on_float_mode = {}};
+  watch.on_slow = [this](NodeIndex leaf, PluginFunction function, Nanoseconds took) {
+    print_(fmt::format("{} took {:.3f} ms in {}, more than the budget of {:.3f} ms",
+                       describe_node(tree_, leaf), milliseconds(took), name_of(function),
+                       milliseconds(*options_.tick_budget())));
+  };
+  watch.on_float_mode = [this](NodeIndex leaf, PluginFunction function) {
+    print_(fmt::format("{} changed the floating-point mode in {}; it was set back",
+                       describe_node(tree_, leaf), name_of(function)));
+  };
+  return watch;
+}
+
+WatchdogOptions RunWatch::watchdog_options() {
+  // Hangs are watched since plugins were loaded.
+  WatchdogOptions watchdog{.hang_limit = Nanoseconds(0),
+                           .halt_limit = from_seconds(options_.halt_limit),
+                           .on_long_halt = {},
+                           .on_hang = {}};
+  watchdog.on_long_halt = [this](const CallMark::Look& call, Nanoseconds lasts) {
+    print_(fmt::format("the leaf {} has not returned from halt for {:.1f} s", call.site->leaf,
+                       to_seconds(lasts)));
+  };
+  return watchdog;
+}
+
+void RunWatch::run_started(Ticker&, const RunStart&) {
+  memory_at_start_ = resident_memory();
+}
+
+void RunWatch::after_tick(Ticker& ticker, const TickReport&) {
+  constexpr std::size_t kMostLeaves = 20;
+  const auto all = ticker.out_of_range();
+  for (; out_of_range_ < std::min(all.size(), kMostLeaves); ++out_of_range_) {
+    const OutOfRange& it = all[out_of_range_];
+    print_(fmt::format("{} {}", describe_node(tree_, it.node), out_of_range_text(it.reported)));
+  }
+}
+
+void RunWatch::run_ended(Ticker&, const RunEnd&) {
+  sigset_t now;
+  pthread_sigmask(SIG_SETMASK, &signal_mask_, &now);
+  for (int number = 1; number < NSIG; ++number) {
+    if (sigismember(&now, number) == sigismember(&signal_mask_, number)) continue;
+    notes_.emplace_back("a leaf changed the signal mask of the tick thread");
+    break;
+  }
+  const std::size_t memory = resident_memory();
+  if (memory > memory_at_start_ + kMuchMemory) {
+    notes_.push_back(
+        fmt::format("memory grew by {} MiB during the run: a plugin may leak; "
+                    "--isolate tells which",
+                    (memory - memory_at_start_) >> 20));
+  }
+}
+
+void RunWatch::add_to(Summary& summary) const {
+  if (const auto budget = options_.tick_budget()) summary.tick_budget = to_seconds(*budget);
+  for (const LeafWatch::Timing& timing : leaves_.over_budget()) {
+    summary.over_budget.push_back({.path = tree_.path(timing.leaf),
+                                   .calls = timing.ticks,
+                                   .over_budget = timing.over_budget,
+                                   .p50 = to_seconds(timing.p50),
+                                   .p99 = to_seconds(timing.p99),
+                                   .max = to_seconds(timing.max)});
+  }
+  summary.notes.insert(summary.notes.end(), notes_.begin(), notes_.end());
+}
+
+}  // namespace lockstep

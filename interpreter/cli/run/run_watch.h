@@ -1,0 +1,49 @@
+// What keeps an eye on the plugins of `lockstep run`, and how it tells what it sees: slow leaves,
+// halts that do not return, changed modes, memory that grows.
+#pragma once
+
+#include <signal.h>
+
+#include <functional>
+#include <string>
+
+#include "cli/run/run_options.h"
+#include "plugin/leaf_watch.h"
+#include "runtime/observer.h"
+#include "runtime/watchdog.h"
+#include "summary/summary.h"
+
+namespace lockstep {
+
+// "the leaf 'Main/arm' (Advance of plugin 'motion')" or "the node 'Main/Wait' (Wait)".
+std::string describe_node(const Tree& tree, NodeIndex node);
+
+class RunWatch final : public Observer {
+ public:
+  // `print` shows a line to the person; from any thread.
+  RunWatch(const Tree& tree, const RunCommandOptions& options,
+           std::function<void(const std::string& line)> print);
+
+  LeafWatch& leaves() { return leaves_; }
+  // The last of the observers: what the others take to begin with is no leak.
+  void run_started(Ticker& ticker, const RunStart& start) override;
+  void after_tick(Ticker& ticker, const TickReport& report) override;
+  void run_ended(Ticker& ticker, const RunEnd& end) override;
+  void add_to(Summary& summary) const;
+
+ private:
+  LeafWatchOptions leaf_watch_options();
+  WatchdogOptions watchdog_options();
+
+  const Tree& tree_;
+  const RunCommandOptions& options_;
+  std::function<void(const std::string& line)> print_;
+  LeafWatch leaves_;
+  Watchdog watchdog_;
+  sigset_t signal_mask_;             // of the tick thread, as it was
+  std::size_t memory_at_start_ = 0;  // bytes
+  std::size_t out_of_range_ = 0;     // leaves that were told of
+  std::vector<std::string> notes_;   // for the summary
+};
+
+}  // namespace lockstep

@@ -1,0 +1,80 @@
+#include "cli/run/view.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "cli/console.h"
+#include "core/diagnostics.h"
+#include "summary/summary.h"
+#include "terminal/terminal.h"
+
+namespace lockstep {
+namespace {
+
+std::string_view to_string(lockstep_log_level level) {
+  if (level == LOCKSTEP_LOG_WARNING) return "warning";
+  return level == LOCKSTEP_LOG_DEBUG ? "debug" : "info";
+}
+
+}  // namespace
+
+View::View(const std::string& mode, const Tree& tree, lockstep_log_level least) : least_(least) {
+  const bool wants_live = mode == "live" || (mode == "auto" && is_terminal(STDERR_FILENO));
+  if (wants_live && can_draw()) {
+    const bool has_keys = is_terminal(STDIN_FILENO) && is_terminal(STDERR_FILENO);
+    live_.emplace(tree, LiveOptions{.keys = has_keys ? STDIN_FILENO : -1,
+                                    .color = wants_color(STDERR_FILENO),
+                                    .unicode = has_unicode()});
+  } else if (mode != "none") {
+    plain_.emplace(tree);
+  }
+}
+
+Observer* View::observer() {
+  if (live_) return &*live_;
+  return plain_ ? &*plain_ : nullptr;
+}
+
+void View::print(const std::string& line) {
+  if (live_) {
+    live_->print(line);
+  } else if (plain_) {
+    plain_->print(line);
+  } else {
+    messages().say(printable(line) + "\n");
+  }
+}
+
+LeafLog View::leaf_log() {
+  return [this](std::string_view who, lockstep_log_level level, std::string_view message) {
+    if (level < least_) return;
+    log(fmt::format("{}: {}: {}", printable(who), to_string(level), printable(message)));
+  };
+}
+
+void View::log(const std::string& line) {
+  std::uint64_t left_out = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!budget_.take(std::chrono::steady_clock::now())) return;
+    left_out = budget_.take_left_out();
+  }
+  print_left_out(left_out);
+  print(line);
+}
+
+void View::print_left_out(std::uint64_t lines) {
+  if (lines > 0) print(fmt::format("... {} of leaves left out", counted(lines, "line")));
+}
+
+void View::close() {
+  live_.reset();
+  const std::lock_guard lock(mutex_);
+  print_left_out(budget_.take_left_out());
+}
+
+void View::last_words() {
+  RawTerminal::restore();
+}
+
+}  // namespace lockstep

@@ -1,0 +1,47 @@
+// What a person sees of a run while it goes on: the live view, plain lines or nothing.
+#pragma once
+
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "plugin/leaf_set.h"
+#include "view/console_live.h"
+#include "view/console_plain.h"
+#include "view/line_budget.h"
+
+namespace lockstep {
+
+class View {
+ public:
+  // What leaves may log at most, in any view, is as much as the plain lines: a burst of lines, then
+  // one a second.
+  static constexpr std::int64_t kBurst = ConsolePlain::kBurst;
+
+  // `mode` is auto, live, plain or none. Leaves log what is at least as urgent as `least`.
+  View(const std::string& mode, const Tree& tree, lockstep_log_level least);
+
+  // Null when there is nothing to show.
+  Observer* observer();
+  // A line for the person, whatever the view. Any thread.
+  void print(const std::string& line);
+  // Prints what leaves log.
+  LeafLog leaf_log();
+  // The last frame stays; from here on stderr can be written to directly.
+  void close();
+
+  // Leaves the terminal usable. Async-signal-safe.
+  static void last_words();
+
+ private:
+  void log(const std::string& line);
+  void print_left_out(std::uint64_t lines);
+
+  const lockstep_log_level least_;
+  std::mutex mutex_;  // leaves log from any thread
+  LineBudget budget_{kBurst};
+  std::optional<ConsoleLive> live_;
+  std::optional<ConsolePlain> plain_;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,262 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <thread>
+
+#include "cli/checks.h"
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/exit_code.h"
+#include "cli/outputs.h"
+#include "cli/study/study_fault.h"
+#include "cli/study/study_loading.h"
+#include "cli/study/study_out_of_range.h"
+#include "cli/study/study_progress.h"
+#include "cli/study/study_summary.h"
+#include "plots/box_plot.h"
+#include "runtime/outlet.h"
+#include "runtime/stop_signals.h"
+#include "study/folder.h"
+#include "study/merge.h"
+#include "study/plan_check.h"
+#include "study/workers.h"
+
+namespace lockstep {
+namespace {
+
+struct StudyCommandOptions {
+  StudyOptions study;
+  unsigned jobs = 0;  // 0: all cores
+  std::string out;
+  bool resume = false;
+  bool json = false;
+  bool no_plots = false;
+  std::vector<std::string> parts;  // of `merge`
+};
+
+int fail(std::string_view message, int code = kExitUsage) {
+  print_error(message);
+  return code;
+}
+
+int print_summary(const StudyCommandOptions& options, const StudyPlan& plan,
+                  const std::vector<SummaryRow>& rows) {
+  const int written =
+      write_results(options.json ? summary_json(plan, rows) + "\n" : summary_table(plan, rows));
+  Diagnostics notes;
+  for (std::string& warning : summary_warnings(rows)) {
+    notes.add({.severity = Severity::Warning,
+               .location = {},
+               .message = std::move(warning),
+               .hint = {},
+               .excerpt = {}});
+  }
+  print_diagnostics(notes, Severity::Warning);
+  return written;
+}
+
+// Box plots, beside the data. Without gnuplot there are the data.
+int draw_plots(const StudyCommandOptions& options, const std::string& directory,
+               const StudyPlan& plan, const std::vector<SummaryRow>& rows) {
+  if (options.no_plots || plan.shard != StudyShard{}) return kExitSuccess;
+  std::vector<std::string> names;
+  for (const GridAxis& axis : plan.grid) names.push_back(axis.name);
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error) return fail(fmt::format("cannot make '{}': {}", directory, error.message()));
+  for (const BoxPlot& plot : box_plots(names, rows)) {
+    const PlotResult drawn = draw(plot, directory);
+    if (drawn.ok()) continue;
+    print_error(drawn.error);
+    if (const int signal = StopSignals::received(); signal != 0) return kExitSignal + signal;
+    return drawn.gnuplot_missing ? kExitSuccess : kExitUsage;
+  }
+  return kExitSuccess;
+}
+
+int finish(const StudyCommandOptions& options, const StudyFolder& folder, const StudyPlan& plan,
+           const std::vector<SummaryRow>& rows) {
+  const int printed = print_summary(options, plan, rows);
+  const int drawn = draw_plots(options, folder.file("plots"), plan, rows);
+  return first_failure(printed, drawn);
+}
+
+std::string out_directory(const StudyCommandOptions& options) {
+  if (!options.out.empty()) return options.out;
+  return "study-" + std::filesystem::path(options.study.tree).stem().string();
+}
+
+// True, after saying so, when a file that the study writes is one that it reads.
+bool would_overwrite_input(const std::string& directory, const LoadedStudy& study) {
+  std::vector<std::string> documents;
+  for (const auto& [path, text] : study.plan.files) documents.push_back(path);
+  const auto inputs = inputs_of(documents, *study.plugins);
+  std::vector<std::string> outputs;
+  for (const char* name : {"study.json", "study.json.new", "runs.csv", "summary.csv"}) {
+    outputs.push_back(directory + '/' + name);
+  }
+  std::error_code none;
+  for (const auto& plot : std::filesystem::directory_iterator(directory + "/plots", none)) {
+    outputs.push_back(plot.path().string());
+  }
+  return std::ranges::any_of(outputs, [&inputs](const std::string& output) {
+    return would_overwrite("--out", output, inputs);
+  });
+}
+
+int make_study(const StudyCommandOptions& options, const LoadedStudy& study) {
+  const StudyPlan& plan = study.plan;
+  StudyFolder folder(out_directory(options));
+  const auto there = folder.begin(plan, options.resume);
+  if (!there) return fail(folder.error());
+  StopSignals::install();
+  const Outlet::Thread messages_thread(messages());
+  std::optional<StudyFault> fault;
+  StudyOutOfRangeCount out_of_range(study);
+  {
+    StudyProgress progress(*there, row_count(plan));
+    fault = do_work({.plan = plan,
+                     .cells = study.cells,
+                     .measures = study.measures,
+                     .first_row = *there,
+                     .jobs = options.jobs,
+                     .hang_limit = from_seconds(options.study.load.plugins.hang_limit),
+                     .stop_signal = StopSignals::received,
+                     .write =
+                         [&](std::string_view lines, std::uint64_t rows) {
+                           progress.add(rows);
+                           return folder.append(lines);
+                         },
+                     .out_of_range = [&](const StudyOutOfRange& it) { out_of_range.add(it); },
+                     .idle = [&] { progress.show(); }});
+  }
+  Diagnostics warnings;
+  out_of_range.add_to(warnings);
+  print_diagnostics(warnings, Severity::Warning);
+  if (!folder.error().empty()) return fail(folder.error());
+  if (fault) {
+    print_error(fault_text(*fault, study),
+                "see it again: " + run_command(options.study, study.plan, *fault));
+    return kExitLeafFault;
+  }
+  if (const int signal = StopSignals::received(); signal != 0) {
+    return fail("interrupted; the same command with --resume goes on", kExitSignal + signal);
+  }
+  const auto rows = folder.finish(plan);
+  return rows ? finish(options, folder, plan, *rows) : fail(folder.error());
+}
+
+int run(const StudyCommandOptions& options) {
+  keep_stdout_for_results();
+  LoadedStudy study;
+  Diagnostics diagnostics;
+  const int code = load_study(options.study, study, diagnostics);
+  print_diagnostics(diagnostics, Severity::Warning);
+  if (code != kExitSuccess) return code;
+  if (would_overwrite_input(out_directory(options), study)) return kExitUsage;
+  Diagnostics refused;
+  if (!study.plugins->initialize(refused)) {
+    print_diagnostics(refused, Severity::Warning);
+    return kExitPluginRefused;
+  }
+  return make_study(options, study);
+}
+
+int merge(const StudyCommandOptions& options) {
+  StopSignals::install();
+  const Outlet::Thread messages_thread(messages());
+  StudyPlan plan;
+  std::string error;
+  const auto rows = merge_studies(options.parts, options.out, StopSignals::received, plan, error);
+  if (rows) return finish(options, StudyFolder(options.out), plan, *rows);
+  const int signal = StopSignals::received();
+  return fail(error, signal == 0 ? kExitUsage : kExitSignal + signal);
+}
+
+void define_merge(CLI::App& app, const std::shared_ptr<StudyCommandOptions>& options) {
+  app.add_option("parts", options->parts, "The directories of all parts")
+      ->type_name("DIR")
+      ->required();
+  app.add_option("--out", options->out, "Directory to write, new")->type_name("DIR")->required();
+  app.add_flag("--json", options->json, "Print the summary as JSON");
+  app.add_flag("--no-plots", options->no_plots, "Draw no box plots");
+}
+
+void define_runs(CLI::App& app, StudyOptions& options) {
+  app.add_option("-n,--runs", options.runs, "How often each cell of the grid is run")
+      ->type_name("N")
+      ->transform(whole_number(1));
+  app.add_option("--seed", options.seed, "All seeds of the runs are made from this one")
+      ->type_name("S")
+      ->transform(whole_number())
+      ->capture_default_str();
+  app.add_option("--grid", options.grid,
+                 "An <arg> of the tree, or seed, or rate, and its values; may be repeated: a cell "
+                 "for each combination")
+      ->type_name("NAME=V1,V2,...")
+      ->allow_extra_args(false);
+  app.add_option("--measure", options.measures,
+                 "progress-distance (the default), step-length, duration or "
+                 "predictability:NODE@P[=T]; may be repeated")
+      ->type_name("MEASURE")
+      ->allow_extra_args(false);
+  app.add_option("--rate", options.rate, "Ticks per second of the virtual clock")
+      ->type_name("HZ")
+      ->check(number_between(kLeastRate, kMostRate))
+      ->capture_default_str();
+  app.add_option("--max-ticks", options.max_ticks,
+                 "A run that comes so far ends there, with the result 'limit'")
+      ->type_name("N")
+      ->transform(whole_number(1))
+      ->capture_default_str();
+  app.add_option("--shard", options.shard, "Make part I of N only; see `lockstep study merge`")
+      ->type_name("I/N");
+}
+
+std::function<int()> define_study(CLI::App& app) {
+  const auto options = std::make_shared<StudyCommandOptions>();
+  app.add_option("tree", options->study.tree, "Tree file")->type_name("TREE.xml");
+  define_runs(app, options->study);
+  options->jobs = std::max(1u, std::thread::hardware_concurrency());
+  app.add_option("--jobs", options->jobs, "Threads; the result does not depend on it")
+      ->type_name("J")
+      ->transform(whole_number(1, 1024))
+      ->capture_default_str();
+  app.add_option("--out", options->out, "Directory to write (default: study-<tree>)")
+      ->type_name("DIR");
+  app.add_flag("--resume", options->resume,
+               "Go on with the study that is in the directory, if there is one");
+  app.add_flag("--json", options->json, "Print the summary as JSON");
+  app.add_flag("--no-plots", options->no_plots, "Draw no box plots");
+  add_load_options(app, options->study.load);
+  CLI::App* parts = app.add_subcommand("merge", "Put the parts of a study together");
+  define_merge(*parts, options);
+  return [options, parts] {
+    if (parts->parsed()) return merge(*options);
+    if (options->study.tree.empty()) return fail("study: TREE.xml is required");
+    if (options->study.runs == 0) return fail("study: --runs is required");
+    return run(*options);
+  };
+}
+
+}  // namespace
+
+const Command kStudyCommand{
+    "study", "Run a tree many times, over a grid of arguments, and measure it",
+    "Writes runs.csv (a row per run), summary.csv (box-plot numbers), study.json (how it was "
+    "made)\n"
+    "and, with gnuplot, plots/; the summary goes to stdout. See docs/studies.md.\n"
+    "Exit code: 0 made, 2 usage or a directory that cannot be used, 3 invalid tree, 4 plugin\n"
+    "refused, 5 leaf fault, 6 a plugin crashed or hung, 128 + N signal N, as 130 for SIGINT\n"
+    "(what was finished is on disk: --resume).\n"
+    "\n"
+    "Examples:\n"
+    "  lockstep study trees/predictability.xml --runs 1000 --grid barriers=0,5,50 \\\n"
+    "      --measure progress-distance --measure predictability:task@0.6\n"
+    "  lockstep study trees/predictability.xml --runs 1000 --shard 1/4 --out part-1\n"
+    "  lockstep study merge part-* --out study",
+    define_study};
+
+}  // namespace lockstep

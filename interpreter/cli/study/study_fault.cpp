@@ -1,0 +1,60 @@
+#include "cli/study/study_fault.h"
+
+#include <fmt/format.h>
+
+namespace lockstep {
+namespace {
+
+// In single quotes, for a shell.
+std::string quoted(const std::string& text) {
+  if (!text.empty() && text.find_first_of(" \t\n\"'\\$`;&|<>()*?[]{}~#!") == std::string::npos) {
+    return text;
+  }
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+std::string what_failed(const StudyFault& fault) {
+  if (fault.fault.in_last_halt) return "could not be halted at the end of the run";
+  if (fault.ticks == 0) return "failed before the first tick";
+  return fmt::format("failed in tick {}", fault.ticks - 1);
+}
+
+}  // namespace
+
+std::string run_command(const StudyOptions& options, const StudyPlan& plan,
+                        const StudyFault& fault) {
+  const LoadOptions& load = options.load;
+  const std::uint64_t cell = fault.row.cell;
+  std::string text =
+      fmt::format("lockstep run {} --clock virtual --seed {} --rate {} --max-ticks {}",
+                  quoted(plan.tree_file), fault.seed, cell_rate(plan, cell), plan.max_ticks);
+  const auto add = [&](const char* option, const std::string& value) {
+    text += fmt::format(" {} {}", option, quoted(value));
+  };
+  if (!load.main_tree.empty()) add("--tree", load.main_tree);
+  for (const std::string& pair : load.arguments) add("--arg", pair);
+  const auto values = cell_values(plan, cell);
+  for (std::size_t axis = 0; axis < values.size(); ++axis) {
+    if (plan.grid[axis].kind != GridAxis::Kind::Argument) continue;
+    add("--arg", plan.grid[axis].name + '=' + values[axis]);
+  }
+  for (const std::string& pair : load.values) add("--set", pair);
+  for (const std::string& plugin : load.plugins.plugins) add("--plugin", plugin);
+  for (const std::string& directory : load.plugins.directories) add("--plugin-path", directory);
+  return text;
+}
+
+std::string fault_text(const StudyFault& fault, const LoadedStudy& study) {
+  const Tree& tree = study.cells[fault.row.cell].tree;
+  const NodeType& type = *tree.labels[fault.fault.node].type;
+  const std::string cell = cell_text(study.plan, fault.row.cell);
+  return fmt::format(
+      "the leaf '{}' ({} of plugin '{}') {}, in run {} of cell {}{}{}{}, seed {}: {}",
+      tree.path(fault.fault.node), type.id, type.plugin, what_failed(fault), fault.row.run,
+      fault.row.cell, cell.empty() ? "" : " (", cell, cell.empty() ? "" : ")", fault.seed,
+      fault.fault.message);
+}
+
+}  // namespace lockstep

@@ -1,0 +1,17 @@
+// What is told of a leaf that failed in a study.
+#pragma once
+
+#include <string>
+
+#include "cli/study/study_loading.h"
+#include "study/workers.h"
+
+namespace lockstep {
+
+// Which leaf, and in which run.
+std::string fault_text(const StudyFault& fault, const LoadedStudy& study);
+// The command line that shows the run again.
+std::string run_command(const StudyOptions& options, const StudyPlan& plan,
+                        const StudyFault& fault);
+
+}  // namespace lockstep

@@ -1,0 +1,268 @@
+#include "cli/study/study_loading.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "cli/checks.h"
+#include "cli/exit_code.h"
+#include "cli/load/real_time_leaves.h"
+#include "core/suggest.h"
+#include "study/column_names.h"
+#include "study/plan_check.h"
+
+namespace lockstep {
+namespace {
+
+constexpr std::uint64_t kMostCells = 100'000;
+
+// Of what is "name=value".
+std::map<std::string, std::string> pairs(const std::vector<std::string>& texts) {
+  std::map<std::string, std::string> pairs;
+  for (const std::string& text : texts) {
+    const auto equals = text.find('=');
+    if (equals != std::string::npos) pairs[text.substr(0, equals)] = text.substr(equals + 1);
+  }
+  return pairs;
+}
+
+class StudyLoader {
+ public:
+  StudyLoader(const StudyOptions& options, LoadedStudy& study, Diagnostics& diagnostics)
+      : options_(options), study_(study), diagnostics_(diagnostics) {}
+
+  int load();
+
+ private:
+  void error(std::string message, std::string hint = {}) {
+    diagnostics_.error({}, std::move(message), std::move(hint));
+  }
+  void read_measures();
+  void read_shard();
+  void read_grid(const std::vector<DeclaredArgument>& declared);
+  void read_axis(const std::string& text, const std::vector<DeclaredArgument>& declared);
+  void name_axis(GridAxis& axis, const std::vector<DeclaredArgument>& declared);
+  void check_values(const GridAxis& axis);
+  int load_cell(std::uint64_t number);
+  void add_files(const Project& project);
+  void add_columns(StudyCell& cell, std::uint64_t number);
+  Arguments first_arguments() const;
+
+  const StudyOptions& options_;
+  LoadedStudy& study_;
+  Diagnostics& diagnostics_;
+  std::set<std::string> files_;
+  std::map<std::string, std::size_t> columns_;  // of the plan, by name
+  bool warned_of_real_time_ = false;
+};
+
+void StudyLoader::read_measures() {
+  std::vector<std::string> texts = options_.measures;
+  if (texts.empty()) texts.emplace_back("progress-distance");
+  for (const std::string& text : texts) {
+    std::string reason;
+    const auto measure = parse_measure(text, reason);
+    if (!measure) {
+      error(fmt::format("--measure {}: {}", text, reason));
+    } else if (std::ranges::find(study_.measures, *measure) == study_.measures.end()) {
+      study_.measures.push_back(*measure);
+      study_.plan.measures.push_back(to_text(*measure));
+    }
+  }
+}
+
+void StudyLoader::read_shard() {
+  if (options_.shard.empty()) return;
+  const std::string_view text = options_.shard;
+  const auto slash = std::min(text.find('/'), text.size() - 1);
+  const auto part = count_from(text.substr(0, slash)), of = count_from(text.substr(slash + 1));
+  if (!part || !of || *part < 1 || *part > *of) {
+    error(fmt::format("--shard {}: expected I/N with I from 1 to N", options_.shard));
+  } else if (*of > options_.runs) {
+    error(fmt::format("--shard {}: {} runs cannot be made in {} parts", options_.shard,
+                      options_.runs, *of));
+  } else {
+    study_.plan.shard = {*part, *of};
+  }
+}
+
+void StudyLoader::name_axis(GridAxis& axis, const std::vector<DeclaredArgument>& declared) {
+  std::vector<std::string_view> names;
+  for (const DeclaredArgument& argument : declared) names.push_back(argument.name);
+  names.insert(names.end(), {"seed", "rate"});
+  const auto found = std::ranges::find(names, axis.name) - names.begin();
+  const auto count = std::ssize(declared);
+  if (found == std::ssize(names)) {
+    std::string hint = did_you_mean(axis.name, names);
+    if (!hint.empty()) hint += ' ';
+    hint += fmt::format("there are: '{}'", fmt::join(names, "', '"));
+    error(fmt::format("unknown name '{}' in --grid", axis.name), std::move(hint));
+  } else if (found >= count) {
+    axis.kind = found == count ? GridAxis::Kind::Seed : GridAxis::Kind::Rate;
+  }
+}
+
+void StudyLoader::check_values(const GridAxis& axis) {
+  std::set<std::string> seen;
+  for (const std::string& value : axis.values) {
+    if (!seen.insert(value).second) {
+      error(fmt::format("--grid {}: the value '{}' is there twice", axis.name, value));
+    }
+    if (value.find_first_of("\r\n") != std::string::npos) {
+      error(fmt::format("--grid {}: a value is of several lines", axis.name));
+    }
+    if (axis.kind == GridAxis::Kind::Seed) {
+      if (const auto wrong = check_count(value); !wrong.empty()) error("--grid seed: " + wrong);
+    }
+    if (axis.kind == GridAxis::Kind::Rate && !rate_from(value)) {
+      error(fmt::format("--grid rate: '{}' is not a number from {} to {}", value, kLeastRate,
+                        kMostRate));
+    }
+  }
+}
+
+void StudyLoader::read_axis(const std::string& text,
+                            const std::vector<DeclaredArgument>& declared) {
+  GridAxis axis;
+  const auto equals = text.find('=');
+  axis.name = text.substr(0, equals);
+  if (equals == 0 || equals == std::string::npos || equals + 1 == text.size()) {
+    return error(fmt::format("--grid {}: expected name=value,value,…", text));
+  }
+  for (std::size_t at = equals; at != std::string::npos;) {
+    const auto comma = text.find(',', at + 1);
+    axis.values.push_back(text.substr(at + 1, comma == std::string::npos ? comma : comma - at - 1));
+    at = comma;
+  }
+  const auto is_same = [&](const GridAxis& other) { return other.name == axis.name; };
+  if (std::ranges::any_of(study_.plan.grid, is_same)) {
+    return error(fmt::format("--grid {}: given twice", axis.name));
+  }
+  for (const std::string& pair : options_.load.arguments) {
+    if (!pair.starts_with(axis.name + '=')) continue;
+    return error(fmt::format("'{}' is given both by --grid and by --arg", axis.name));
+  }
+  name_axis(axis, declared);
+  check_values(axis);
+  study_.plan.grid.push_back(std::move(axis));
+}
+
+void StudyLoader::read_grid(const std::vector<DeclaredArgument>& declared) {
+  double cells = 1;
+  for (const std::string& text : options_.grid) read_axis(text, declared);
+  for (const GridAxis& axis : study_.plan.grid) cells *= static_cast<double>(axis.values.size());
+  if (cells > static_cast<double>(kMostCells)) {
+    error(fmt::format("the grid has {} cells, {} is the most", cells, kMostCells));
+  } else if (auto wrong = check_size(study_.plan); !wrong.empty()) {
+    error(std::move(wrong));
+  }
+}
+
+void StudyLoader::add_files(const Project& project) {
+  for (const auto& document : project.documents) {
+    if (!files_.insert(document->path()).second) continue;
+    study_.plan.files.emplace_back(document->path(), document->text());
+  }
+}
+
+void StudyLoader::add_columns(StudyCell& cell, std::uint64_t number) {
+  const RunMeasures measures(cell.tree, study_.measures, cell.rate);
+  if (!measures.error().empty()) {
+    const std::string where = cell_text(study_.plan, number);
+    return error(fmt::format("--measure: {}{}{}", measures.error(),
+                             where.empty() ? "" : ", in the cell ", where),
+                 "`lockstep show` draws the tree");
+  }
+  auto& columns = study_.plan.columns;
+  for (const StudyColumn& column : measures.columns()) {
+    const auto [place, is_new] = columns_.try_emplace(column_name(column), columns.size());
+    if (is_new) columns.push_back(column);
+    columns[place->second].cells.push_back(number);
+    cell.columns.push_back(place->second);
+  }
+}
+
+int StudyLoader::load_cell(std::uint64_t number) {
+  StudyPlan& plan = study_.plan;
+  LoadOptions options = options_.load;
+  options.main_file = MainFile::IsRegular;  // it is read for every cell
+  const auto values = cell_values(plan, number);
+  for (std::size_t axis = 0; axis < values.size(); ++axis) {
+    if (plan.grid[axis].kind != GridAxis::Kind::Argument) continue;
+    options.arguments.push_back(plan.grid[axis].name + '=' + values[axis]);
+  }
+  Loaded loaded;
+  loaded.plugins = study_.plugins;
+  const int code = lockstep::load(options_.tree, options, loaded, diagnostics_);
+  study_.plugins = loaded.plugins;
+  if (loaded.project) add_files(*loaded.project);
+  if (!loaded.definition) return code;
+  study_.cells.push_back({take_tree(loaded), cell_rate(plan, number), cell_seed(plan, number)});
+  if (!warned_of_real_time_) {
+    warned_of_real_time_ = warn_of_real_time_leaves(
+        study_.cells.back().tree, options_.tree,
+        "the numbers mean little; a study needs leaves that work in ticks", diagnostics_);
+  }
+  add_columns(study_.cells.back(), number);
+  if (number == 0) plan.main_tree = study_.cells.front().tree.id;
+  return code;
+}
+
+// As many as there can be known before the grid is.
+Arguments StudyLoader::first_arguments() const {
+  Arguments arguments;
+  for (const auto& [name, value] : pairs(options_.load.arguments)) arguments[name] = value;
+  for (const auto& [name, values] : pairs(options_.grid)) {
+    arguments[name] = values.substr(0, values.find(','));
+  }
+  return arguments;
+}
+
+int StudyLoader::load() {
+  StudyPlan& plan = study_.plan;
+  plan.version = LOCKSTEP_VERSION;
+  plan.tree_file = options_.tree;
+  plan.runs = options_.runs;
+  plan.seed = options_.seed;
+  plan.rate = options_.rate;
+  plan.max_ticks = options_.max_ticks;
+  read_measures();
+  read_shard();
+  plan.arguments = pairs(options_.load.arguments);
+  plan.values = pairs(options_.load.values);
+  Diagnostics unheard;  // the cells will tell
+  const auto project = load_project(options_.tree, first_arguments(), unheard);
+  if (project != nullptr) read_grid(project->arguments);
+  if (diagnostics_.has_errors()) return kExitUsage;
+  int code = kExitSuccess;
+  for (std::uint64_t cell = 0; cell < cell_count(plan); ++cell) {
+    const int it = load_cell(cell);
+    if (code == kExitSuccess) code = it;
+    if (it == kExitPluginRefused || study_.plugins == nullptr) return it;
+  }
+  for (StudyColumn& column : plan.columns) {
+    if (column.cells.size() == cell_count(plan)) column.cells.clear();  // all
+  }
+  for (const auto& plugin : study_.plugins->list()) {
+    plan.plugins.emplace_back(plugin.name, plugin.version);
+  }
+  if (code != kExitSuccess) return code;
+  if (diagnostics_.has_errors()) return kExitUsage;
+  if (plan.columns.empty()) {
+    error("there is nothing to measure: the tree has no synchronized node",
+          "give --measure duration, or predictability:NODE@P");
+    return kExitUsage;
+  }
+  return kExitSuccess;
+}
+
+}  // namespace
+
+int load_study(const StudyOptions& options, LoadedStudy& study, Diagnostics& diagnostics) {
+  return StudyLoader(options, study, diagnostics).load();
+}
+
+}  // namespace lockstep

@@ -1,0 +1,37 @@
+// The command line of a study -> its plan and the tree of each cell. All that is wrong in any cell
+// is found before the first run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/load/loading.h"
+#include "measure/measure_spec.h"
+#include "runtime/loop.h"
+#include "study/study_run.h"
+
+namespace lockstep {
+
+struct StudyOptions {
+  LoadOptions load;
+  std::string tree;
+  std::uint64_t runs = 0;
+  std::uint64_t seed = 0;
+  std::vector<std::string> grid;      // name=v1,v2,…
+  std::vector<std::string> measures;  // none: progress-distance
+  std::string shard;                  // I/N
+  double rate = 100;
+  std::uint64_t max_ticks = kMostVirtualTicks;
+};
+
+struct LoadedStudy {
+  StudyPlan plan;
+  std::vector<MeasureSpec> measures;
+  std::vector<StudyCell> cells;
+  std::shared_ptr<PluginSet> plugins;
+};
+
+// Does all that can be done. Returns the exit code; 0 when the study can be made.
+int load_study(const StudyOptions& options, LoadedStudy& study, Diagnostics& diagnostics);
+
+}  // namespace lockstep

@@ -1,0 +1,55 @@
+#include "cli/study/study_progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+
+#include "cli/console.h"
+#include "runtime/outlet.h"
+#include "terminal/terminal.h"
+#include "view/progress_bar.h"
+
+namespace lockstep {
+namespace {
+
+constexpr std::chrono::milliseconds kBarInterval{200};  // the first comes at once
+constexpr std::chrono::seconds kLineInterval{10};
+
+std::string duration_text(double seconds) {
+  const auto whole = std::llround(seconds);
+  if (whole >= 3600)
+    return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+  return fmt::format("{}:{:02}", whole / 60, whole % 60);
+}
+
+}  // namespace
+
+StudyProgress::StudyProgress(std::uint64_t done, std::uint64_t total)
+    : is_terminal_(is_terminal(STDERR_FILENO)),
+      before_(done),
+      total_(total),
+      done_(done),
+      shown_(is_terminal_ ? start_ - kBarInterval : start_) {}
+
+StudyProgress::~StudyProgress() {
+  if (is_visible_) messages().say("\r\x1b[K");
+}
+
+void StudyProgress::show() {
+  const auto now = Clock::now();
+  if (now - shown_ < (is_terminal_ ? Clock::duration(kBarInterval) : kLineInterval)) return;
+  shown_ = now;
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  const double rate = static_cast<double>(done_ - before_) / seconds;
+  const double left = static_cast<double>(total_ - done_);
+  const double part = static_cast<double>(done_) / static_cast<double>(total_);
+  std::string text =
+      fmt::format("{} of {} runs, {:.0f} %, {:.0f} runs/s", done_, total_, part * 100, rate);
+  if (rate > 0) text += fmt::format(", {} left", duration_text(left / rate));
+  if (!is_terminal_) return messages().say(text + "\n");
+  const std::string bar = to_text({.progress = part}, has_unicode());
+  is_visible_ |= messages().show(fmt::format("\r{} {}\x1b[K", bar, text));
+}
+
+}  // namespace lockstep

@@ -1,0 +1,119 @@
+#include "cli/study/study_summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/diagnostics.h"
+#include "core/printable_json.h"
+#include "study/column_names.h"
+#include "terminal/text_line.h"
+
+namespace lockstep {
+namespace {
+
+using Line = std::vector<std::string>;
+
+constexpr char kNone[] = "-";
+
+void append_numbers(const SummaryRow& row, Line& line) {
+  const SampleSummary& it = row.summary;
+  for (const double value : {it.min, it.q1, it.median, it.q3, it.max, it.mean}) {
+    line.push_back(it.count == 0 ? kNone : fmt::format("{:.6g}", value));
+  }
+  const ResultCounts& results = row.results;
+  line.push_back(fmt::format("{}", it.count));
+  line.push_back(fmt::format("{}", results.runs));
+  for (const std::uint64_t count : results.of) line.push_back(percent(count, results.runs));
+}
+
+std::string aligned(const std::vector<Line>& lines, std::size_t names) {
+  std::vector<std::size_t> widths(lines.front().size());
+  for (const Line& line : lines) {
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      widths[i] = std::max(widths[i], columns(line[i]));
+    }
+  }
+  std::string text;
+  for (const Line& line : lines) {
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      const std::string blanks(widths[i] - columns(line[i]), ' ');
+      if (i != 0) text += "  ";
+      text += i < names ? line[i] + blanks : blanks + line[i];
+    }
+    text.erase(text.find_last_not_of(' ') + 1);
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string summary_table(const StudyPlan& plan, const std::vector<SummaryRow>& rows) {
+  Line head = grid_columns(plan);
+  const std::size_t names = head.size() + 2;
+  head.insert(head.end(), kSummaryColumns.begin(), kSummaryColumns.end());
+  const bool has_gaps =
+      std::ranges::any_of(rows, [](const SummaryRow& row) { return row.gap.has_value(); });
+  if (!has_gaps) head.pop_back();
+  std::vector<Line> lines{head};
+  for (const SummaryRow& row : rows) {
+    Line line;
+    for (const std::string& value : row.grid) line.push_back(printable(value));
+    line.push_back(printable(row.node));
+    line.push_back(printable(row.measure));
+    append_numbers(row, line);
+    if (has_gaps) {
+      line.push_back(row.gap ? fmt::format("{:.3g}{}", *row.gap, row.is_far() ? " !" : "  ") : "");
+    }
+    lines.push_back(std::move(line));
+  }
+  return aligned(lines, names);
+}
+
+std::string summary_json(const StudyPlan& plan, const std::vector<SummaryRow>& rows) {
+  using Json = nlohmann::ordered_json;
+  Json array = Json::array();
+  for (const SummaryRow& row : rows) {
+    Json cell = Json::object();
+    for (std::size_t i = 0; i < row.grid.size(); ++i) cell[plan.grid[i].name] = row.grid[i];
+    Json json{{"cell", cell}, {"node", row.node}, {"measure", row.measure}};
+    const SampleSummary& it = row.summary;
+    const std::pair<const char*, double> numbers[] = {{"min", it.min},       {"q1", it.q1},
+                                                      {"median", it.median}, {"q3", it.q3},
+                                                      {"max", it.max},       {"mean", it.mean}};
+    for (const auto& [name, value] : numbers) json[name] = it.count == 0 ? Json() : Json(value);
+    json["n"] = it.count;
+    json["runs"] = row.results.runs;
+    for (std::size_t i = 0; i < kResultNames.size(); ++i) {
+      json[std::string(kResultNames[i])] = row.results.share(i);
+    }
+    json["gap"] = row.gap ? Json(*row.gap) : Json();
+    array.push_back(std::move(json));
+  }
+  return printable_json(array.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+std::vector<std::string> summary_warnings(const std::vector<SummaryRow>& rows) {
+  struct Cells {
+    std::size_t far = 0, all = 0;
+  };
+  std::map<std::pair<std::string, std::string>, Cells> targets;  // by measure and node
+  for (const SummaryRow& row : rows) {
+    Cells& cells = targets[{row.measure, row.node}];
+    ++cells.all;
+    cells.far += row.is_far() ? 1 : 0;
+  }
+  std::vector<std::string> warnings;
+  for (const auto& [target, cells] : targets) {
+    if (cells.far == 0) continue;
+    warnings.push_back(fmt::format(
+        "'{}' of '{}': in {} of {} cells the progress did not come near its target (see gap)",
+        target.first, target.second, cells.far, cells.all));
+  }
+  return warnings;
+}
+
+}  // namespace lockstep

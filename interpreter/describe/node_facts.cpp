@@ -1,0 +1,75 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/parameter_value.h"
+#include "describe/node_reference.h"
+
+namespace lockstep {
+
+std::span<const NodeGroup> node_groups() {
+  static constexpr NodeGroup kGroups[] = {{NodeCategory::Control, "Control nodes"},
+                                          {NodeCategory::Decorator, "Decorators"},
+                                          {NodeCategory::SubTree, "Subtrees"},
+                                          {NodeCategory::Action, "Actions"},
+                                          {NodeCategory::Condition, "Conditions"}};
+  return kGroups;
+}
+
+std::span<const CommonAttribute> common_attributes() {
+  static constexpr CommonAttribute kCommon[] = {
+      {"name",
+       "What the node is called in messages, views and recordings; its id when absent. Without "
+       "'/'."},
+      {"_description", "A remark for readers of the file."}};
+  return kCommon;
+}
+
+std::span<const CommonAttribute> subtree_attributes() {
+  static constexpr CommonAttribute kSubTree[] = {
+      {"ID", "The BehaviorTree that stands here; required."},
+      {"_autoremap",
+       "true: a key that no attribute names is the key of the same name outside; false by "
+       "default."},
+      {"KEY",
+       "Any other attribute: its entry {KEY} inside is the entry {key} outside, or starts with "
+       "the text that is given."}};
+  return kSubTree;
+}
+
+std::string_view children_text(const NodeType& type) {
+  if (type.arity.max == 0 || type.category == NodeCategory::SubTree) return "no children";
+  return type.arity.max == 1 ? "exactly one child" : "one or more children";
+}
+
+std::string facts_text(const Parameter& parameter) {
+  std::string text(to_string(parameter.type));
+  if (!parameter.unit.empty()) text += fmt::format(" in {}", parameter.unit);
+  if (parameter.direction != Direction::Input) {
+    text += fmt::format(", {}put to a blackboard entry", to_string(parameter.direction));
+  }
+  if (!parameter.choices.empty()) text += fmt::format(", {}", fmt::join(parameter.choices, " or "));
+  const std::string range = range_text(parameter.range);
+  if (!range.empty()) text += ", " + range;
+  if (parameter.default_text) {
+    text += fmt::format(", default {}",
+                        parameter.default_text->empty() ? "empty" : *parameter.default_text);
+  } else {
+    text += parameter.required ? ", required" : ", optional";
+  }
+  if (parameter.constant) text += ", never a {key}";
+  return text;
+}
+
+std::string usage_text(const NodeType& type) {
+  std::string text = fmt::format("<{}", type.id);
+  if (type.category == NodeCategory::SubTree) text += " ID=\"…\"";
+  for (const Parameter& parameter : type.parameters) {
+    if (!parameter.required) continue;
+    const bool is_key = parameter.direction != Direction::Input;
+    text += fmt::format(" {}=\"{}\"", parameter.name, is_key ? "{…}" : "…");
+  }
+  if (children_text(type) == "no children") return text + "/>";
+  return text + fmt::format("> … </{}>", type.id);
+}
+
+}  // namespace lockstep

@@ -1,0 +1,64 @@
+#include "describe/tree_drawing.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "core/diagnostics.h"
+
+namespace lockstep {
+namespace {
+
+constexpr std::size_t kMostBarriers = 12;
+
+// A parameter that is a constant; null when an entry gives it.
+const Value* constant(const Drawn& drawn, const DefinitionNode& node, std::string_view name) {
+  const auto& parameters = node.type->parameters;
+  const auto it = std::ranges::find(parameters, name, &Parameter::name);
+  return drawn.definition.constant(node, static_cast<std::size_t>(it - parameters.begin()));
+}
+
+std::string barriers_text(const std::vector<double>& barriers) {
+  if (barriers.empty()) return "no barriers";
+  if (barriers.size() > kMostBarriers) return fmt::format("{} barriers", barriers.size());
+  return fmt::format("{{{:.4g}}}", fmt::join(barriers, ", "));
+}
+
+// What the sign of a control node does not say.
+std::vector<std::string> control_lines(const Drawn& drawn, const DefinitionNode& node) {
+  if (node.type->synchronization == Synchronization::Absolute) {
+    if (const Value* barriers = constant(drawn, node, "barriers")) {
+      return {barriers_text(std::get<std::vector<double>>(*barriers))};
+    }
+  } else if (node.type->synchronization == Synchronization::Relative) {
+    if (const Value* delta = constant(drawn, node, "delta")) {
+      return {fmt::format("Δ = {}", std::get<double>(*delta))};
+    }
+  }
+  return shown_attributes(drawn, node);
+}
+
+}  // namespace
+
+std::vector<std::string> shown_attributes(const Drawn& drawn, const DefinitionNode& node) {
+  const Document& document = *drawn.project.documents[node.document];
+  const bool explicit_form = document.elements()[node.element].tag != node.type->id;
+  std::vector<std::string> shown;
+  for (const Attribute& attribute : document.attributes(node.element)) {
+    if (attribute.name == "name" || (explicit_form && attribute.name == "ID")) continue;
+    shown.push_back(fmt::format("{}=\"{}\"", attribute.name, printable(attribute.value)));
+  }
+  return shown;
+}
+
+std::vector<std::string> shown_lines(const Drawn& drawn, const DefinitionNode& node) {
+  const std::string_view sign = node.type->sign;
+  std::vector<std::string> lines{std::string(sign.empty() ? node.type->id : sign)};
+  if (node.name != node.type->id) lines.push_back(printable(node.name));
+  const auto more = sign.empty() ? shown_attributes(drawn, node) : control_lines(drawn, node);
+  lines.insert(lines.end(), more.begin(), more.end());
+  return lines;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,94 @@
+// A tree as text for programs that draw graphs. Both languages read characters of a label as
+// markup: all that are not letters, digits or harmless are written as what they are.
+#include <fmt/format.h>
+
+#include "core/diagnostics.h"
+#include "describe/tree_drawing.h"
+
+namespace lockstep {
+namespace {
+
+std::string dot_escaped(std::string_view text) {
+  std::string safe;
+  for (const char c : text) {
+    switch (c) {
+      case '"':
+        safe += "\\\"";
+        break;
+      case '\\':
+        safe += "\\\\";
+        break;
+      case '&':
+        safe += "&amp;";
+        break;
+      default:
+        safe += c;
+    }
+  }
+  return safe;
+}
+
+std::string mermaid_escaped(std::string_view text) {
+  constexpr std::string_view kMarkup = "\"#&<>;`\\[](){}|*_~$%@:";
+  std::string safe;
+  for (const char c : text) {
+    safe += kMarkup.find(c) == std::string_view::npos ? std::string(1, c)
+                                                      : fmt::format("#{};", static_cast<int>(c));
+  }
+  return safe;
+}
+
+std::string label(const Drawn& drawn, const DefinitionNode& node,
+                  std::string (*escape)(std::string_view), std::string_view line_break) {
+  std::string text;
+  for (const std::string& line : shown_lines(drawn, node)) {
+    if (!text.empty()) text += line_break;
+    text += escape(line);
+  }
+  return text;
+}
+
+std::string_view dot_shape(NodeCategory category) {
+  constexpr std::string_view kShapes[] = {"square", "diamond", "box", "ellipse", "tab"};
+  return kShapes[static_cast<unsigned>(category)];
+}
+
+struct Brackets {
+  std::string_view open, close;
+};
+
+Brackets mermaid_shape(NodeCategory category) {
+  constexpr Brackets kShapes[] = {{"[", "]"}, {"{{", "}}"}, {"[", "]"}, {"([", "])"}, {"[[", "]]"}};
+  return kShapes[static_cast<unsigned>(category)];
+}
+
+}  // namespace
+
+std::string tree_as_dot(const Drawn& drawn) {
+  std::string text = fmt::format(
+      "digraph \"{}\" {{\n  node [fontname=\"sans-serif\"];\n  edge [arrowhead=none];\n"
+      "  ordering=out;\n",
+      dot_escaped(printable(drawn.definition.id)));
+  const auto& nodes = drawn.definition.nodes;
+  for (std::uint32_t index = 0; index < nodes.size(); ++index) {
+    text += fmt::format("  n{} [shape={}, label=\"{}\"];\n", index,
+                        dot_shape(nodes[index].type->category),
+                        label(drawn, nodes[index], dot_escaped, "\\n"));
+    if (index > 0) text += fmt::format("  n{} -> n{};\n", nodes[index].parent, index);
+  }
+  return text + "}\n";
+}
+
+std::string tree_as_mermaid(const Drawn& drawn) {
+  std::string text = "flowchart TD\n";
+  const auto& nodes = drawn.definition.nodes;
+  for (std::uint32_t index = 0; index < nodes.size(); ++index) {
+    const auto [open, close] = mermaid_shape(nodes[index].type->category);
+    text += fmt::format("  n{}{}\"{}\"{}\n", index, open,
+                        label(drawn, nodes[index], mermaid_escaped, "<br/>"), close);
+    if (index > 0) text += fmt::format("  n{} --- n{}\n", nodes[index].parent, index);
+  }
+  return text;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,216 @@
+#include "plots/box_plot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "core/diagnostics.h"
+#include "measure/measure_spec.h"
+#include "plots/gnuplot.h"
+#include "plots/plot_style.h"
+#include "terminal/text_line.h"
+
+namespace lockstep {
+namespace {
+
+constexpr double kBoxWidth = 0.525;  // of the distance of two groups
+constexpr std::size_t kLongestLabel = 24;
+// Below the axis are two rows before the labels of the groups.
+constexpr double kRowN = -0.9, kRowSuccess = -1.9, kLabels = -2;  // heights of a letter
+constexpr char kColor[] = "rgb '#0072b2'";
+
+std::string measure_label(const std::string& text) {
+  std::string error;
+  const auto measure = parse_measure(text, error);
+  if (!measure) return text;
+  if (measure->kind != MeasureKind::Predictability) return std::string(axis_label(measure->kind));
+  if (!measure->expected) return fmt::format("instant of progress {} (ticks)", measure->progress);
+  return fmt::format("predictability distance at {} (ticks)", measure->progress);
+}
+
+// What the plot is of, beside the grid name along x.
+BoxPlot empty_plot(std::span<const std::string> names, const SummaryRow& row) {
+  BoxPlot plot;
+  plot.stem = last_segment(row.node) + "-" + row.measure;
+  plot.title = row.node;
+  for (std::size_t name = 0; name + 1 < names.size(); ++name) {
+    plot.stem += "-" + names[name] + "_" + row.grid[name];
+    plot.title += fmt::format("{}{} = {}", name == 0 ? ":  " : ", ", names[name], row.grid[name]);
+  }
+  plot.stem = file_stem(plot.stem);
+  if (!names.empty()) plot.x_label = names.back();
+  plot.y_label = measure_label(row.measure);
+  return plot;
+}
+
+void make_unique(std::vector<BoxPlot>& plots) {
+  std::set<std::string> taken;
+  for (BoxPlot& plot : plots) {
+    const std::string stem = plot.stem;
+    for (int number = 2; !taken.insert(plot.stem).second; ++number) {
+      plot.stem = fmt::format("{}-{}", stem, number);
+    }
+  }
+}
+
+// 0 is always in sight; all equal to 0 would leave gnuplot without a range.
+std::string y_range(const BoxPlot& plot) {
+  double least = 0, most = 0;
+  for (const BoxGroup& group : plot.groups) {
+    if (!group.box) continue;
+    least = std::min(least, group.box->min);
+    most = std::max(most, group.box->max);
+  }
+  if (least == 0 && most == 0) return "[0:1]";
+  return fmt::format("[{}:{}]", least < 0 ? "*" : "0", most > 0 ? "*" : "0");
+}
+
+// The text of a tic is a format.
+std::string tic_text(std::string_view label) {
+  std::string text;
+  for (const char c : shortened(label, kLongestLabel)) text.append(c == '%' ? 2 : 1, c);
+  return gnuplot_string(text);
+}
+
+std::string x_tics(const BoxPlot& plot) {
+  std::string tics;
+  std::size_t letters = 0;
+  for (std::size_t group = 0; group < plot.groups.size(); ++group) {
+    const std::string label = tic_text(plot.groups[group].label);
+    letters += columns(label);
+    tics += fmt::format("{}{} {}", group == 0 ? "" : ", ", label, group);
+  }
+  const bool crowded = letters > 64;
+  return fmt::format("set xtics nomirror scale 0 offset 0,{}{} ({})\n", kLabels,
+                     crowded ? " rotate by -35" : "", tics);
+}
+
+std::string n_of(const BoxGroup& group) {
+  return fmt::format("{}", group.box ? group.box->count : 0);
+}
+
+std::string success_of(const BoxGroup& group) {
+  const auto success = static_cast<std::size_t>(StudyResult::Success);
+  return percent(group.results.of[success], group.results.runs);
+}
+
+// Of many groups the letters are smaller, so that they stay apart: in pixels.
+int row_letters(const BoxPlot& plot, PlotSize size) {
+  std::size_t longest = 1;
+  for (const BoxGroup& group : plot.groups) {
+    longest = std::max({longest, n_of(group).size(), success_of(group).size()});
+  }
+  const double of_group = 0.85 * size.width / static_cast<double>(plot.groups.size());
+  return std::clamp(static_cast<int>(of_group / (0.6 * static_cast<double>(longest + 1))), 4,
+                    letter_height(size));
+}
+
+// How many values each box is of, and how many of the runs succeeded.
+std::string rows_below(const BoxPlot& plot, PlotSize size) {
+  std::string text;
+  const auto add = [&](std::string_view what, std::string_view place, double row) {
+    text +=
+        fmt::format("set label {} at {}, graph 0 offset 0,{}", gnuplot_string(what), place, row);
+  };
+  const int letters = row_letters(plot, size);
+  for (const auto& [row, name] : {std::pair(kRowN, "n"), std::pair(kRowSuccess, "success")}) {
+    add(name, "screen 0.008", row);
+    text += " left\n";
+  }
+  for (std::size_t group = 0; group < plot.groups.size(); ++group) {
+    const std::string place = fmt::format("first {}", group);
+    add(n_of(plot.groups[group]), place, kRowN);
+    text += fmt::format(" center font ',{}'\n", letters);
+    add(success_of(plot.groups[group]), place, kRowSuccess);
+    text += fmt::format(" center font ',{}'\n", letters);
+  }
+  return text;
+}
+
+// The box, its median, its mean; then what each of them is.
+std::string plot_command() {
+  return fmt::format(
+      "plot \\\n"
+      "  data using 1:3:2:6:5 with candlesticks whiskerbars 0.5 lc {0} lw 1.4 notitle, \\\n"
+      "  data using ($1-width/2):4:(width):(0) with vectors nohead lc {0} lw 3 notitle, \\\n"
+      "  data using 1:7 with points pt 7 ps 0.75 lc rgb 'white' notitle, \\\n"
+      "  data using 1:7 with points pt 6 ps 0.75 lw 1.4 lc {0} notitle, \\\n"
+      "  keyentry with boxes lc {0} lw 1.4 title 'quartiles', \\\n"
+      "  keyentry with lines lc {0} lw 3 title 'median', \\\n"
+      "  keyentry with lines lc {0} lw 1.4 title 'min, max', \\\n"
+      "  keyentry with points pt 6 ps 0.75 lw 1.4 lc {0} title 'mean'\n",
+      kColor);
+}
+
+}  // namespace
+
+std::vector<BoxPlot> box_plots(std::span<const std::string> grid_names,
+                               std::span<const SummaryRow> rows) {
+  std::vector<BoxPlot> plots;
+  using Key = std::vector<std::string>;
+  std::map<Key, std::size_t> places;
+  for (const SummaryRow& row : rows) {
+    Key key(row.grid.begin(), row.grid.end() - (row.grid.empty() ? 0 : 1));
+    key.insert(key.end(), {row.node, row.measure});
+    const auto [place, is_new] = places.emplace(std::move(key), plots.size());
+    if (is_new) plots.push_back(empty_plot(grid_names, row));
+    const std::string label = row.grid.empty() ? "" : row.grid.back();
+    const bool is_there = row.summary.count > 0;
+    BoxPlot& plot = plots[place->second];
+    plot.groups.push_back(
+        {label, is_there ? std::optional(row.summary) : std::nullopt, row.results});
+    plot.results = plot.results + row.results;
+  }
+  for (BoxPlot& plot : plots) plot.title += "  (" + to_text(plot.results) + ")";
+  make_unique(plots);
+  return plots;
+}
+
+std::string box_plot_data(const BoxPlot& plot) {
+  std::string text = "# x min q1 median q3 max mean n, and what stands at x\n";
+  for (std::size_t group = 0; group < plot.groups.size(); ++group) {
+    if (!plot.groups[group].box) continue;
+    const SampleSummary& box = *plot.groups[group].box;
+    text += fmt::format("{} {} {} {} {} {} {} {} # {}\n", group, box.min, box.q1, box.median,
+                        box.q3, box.max, box.mean, box.count, printable(plot.groups[group].label));
+  }
+  return text;
+}
+
+std::string box_plot_script(const BoxPlot& plot, PlotSize size) {
+  std::string text = "# Made by lockstep. Box: quartiles; line: median; whiskers: minimum and ";
+  text += fmt::format("maximum; circle: mean.\n# To draw it again: gnuplot {}.gp\n", plot.stem);
+  text += fmt::format("data = {}\nset encoding utf8\n", gnuplot_file(plot.stem + ".dat"));
+  text += fmt::format("set title {} noenhanced\n", plot_title(plot.title, size));
+  text += fmt::format(
+      "set xlabel {} noenhanced offset 0,{}\n",
+      gnuplot_string(shortened(plot.x_label, letters_in(0.7 * size.width, letter_height(size)))),
+      kLabels);
+  text += fmt::format("set ylabel {} noenhanced\n", gnuplot_string(plot.y_label));
+  text += x_tics(plot) + rows_below(plot, size);
+  text += fmt::format("set xrange [-0.6:{}]\n", static_cast<double>(plot.groups.size()) - 0.4);
+  text += fmt::format("set yrange {}\n", y_range(plot));
+  text +=
+      "set ytics nomirror scale 0.5\n"
+      "set grid ytics lt 1 lw 0.6 lc rgb '#dcdcdc'\n"
+      "set border 3 lw 0.8 lc rgb '#404040'\n"
+      "set xzeroaxis lt 1 lw 0.8 lc rgb '#404040'\n"
+      "set key tmargin center horizontal reverse Left samplen 1.5 noenhanced\n"
+      "set style fill solid 0.25 border\n";
+  text += fmt::format("width = {}\nset boxwidth width\n", kBoxWidth);
+  text += gnuplot_terminal(plot.stem + ".svg", size) + plot_command();
+  return text + gnuplot_terminal(plot.stem + ".png", size) + "replot\n";
+}
+
+PlotResult draw(const BoxPlot& plot, const std::filesystem::path& directory, PlotSize size) {
+  return draw(PlotFiles{.directory = directory,
+                        .stem = plot.stem,
+                        .data = box_plot_data(plot),
+                        .script = box_plot_script(plot, size),
+                        .images = {plot.stem + ".svg", plot.stem + ".png"}});
+}
+
+}  // namespace lockstep

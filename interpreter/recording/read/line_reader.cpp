@@ -1,0 +1,30 @@
+#include "recording/read/line_reader.h"
+
+namespace lockstep {
+
+bool LineReader::next() {
+  text_.clear();
+  char part[1u << 12u];
+  while (true) {
+    in_.getline(part, sizeof part);
+    const auto count = static_cast<std::size_t>(in_.gcount());
+    const bool goes_on = in_.fail() && !in_.eof() && count > 0;
+    has_end_ = in_.good();  // gcount() counts it
+    if (count == 0 && text_.empty()) return false;
+    text_.append(part, has_end_ ? count - 1 : count);
+    if (!goes_on) break;
+    in_.clear();
+    if (is_too_long()) break;
+  }
+  ++place_.lines;
+  place_.bytes += text_.size() + 1;
+  return !is_too_long();
+}
+
+bool LineReader::go_to(const Place& place) {
+  in_.clear();
+  place_ = place;
+  return static_cast<bool>(in_.seekg(static_cast<std::streamoff>(place.bytes)));
+}
+
+}  // namespace lockstep

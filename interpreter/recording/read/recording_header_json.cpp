@@ -1,0 +1,153 @@
+// The first line of a recording.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <unordered_set>
+
+#include "core/wording.h"
+#include "recording/read/recording_json.h"
+
+namespace lockstep {
+namespace {
+
+// 0 is that of no clock. The rest is more than any can do, and its period fits into nanoseconds.
+double rate_from(JsonValue value) {
+  constexpr double kLeast = 1e-6, kMost = 1e9;
+  const double rate = value.number();
+  if (rate == 0 || (rate >= kLeast && rate <= kMost)) return rate;
+  throw JsonError("'rate_hz' is not a number of ticks per second");
+}
+
+bool is_progress(double value) {
+  return value >= 0 && value <= 1;
+}
+
+NodeIndex parent_from(JsonValue value, std::size_t index) {
+  const std::uint64_t parent = value.whole();
+  if (parent < index) return static_cast<NodeIndex>(parent);
+  throw JsonError(fmt::format("parent of node {} comes after it", index));
+}
+
+std::vector<double> barriers_from(JsonValue value, std::size_t index) {
+  std::vector<double> barriers;
+  barriers.reserve(value.count_items());
+  value.each_item([&](JsonValue item) { barriers.push_back(item.number()); });
+  if (std::ranges::all_of(barriers, is_progress)) return barriers;
+  throw JsonError(fmt::format("a barrier of node {} is not in [0, 1]", index));
+}
+
+double delta_from(JsonValue value, std::size_t index) {
+  const double delta = value.number();
+  if (is_progress(delta)) return delta;
+  throw JsonError(fmt::format("the delta of node {} is not in [0, 1]", index));
+}
+
+RecordedNode node_from(JsonObject object, std::size_t index) {
+  RecordedNode node;
+  std::uint64_t place = 0;
+  bool is_absolute = false, is_relative = false;
+  object.read({{"index", into(place)},
+               {"path", into(node.path)},
+               {"kind", into(node.kind)},
+               {"name", into(node.name)},
+               {"parent",
+                [&](JsonValue value) {
+                  if (!value.is_null()) node.parent = parent_from(value, index);
+                }},
+               {"barriers",
+                [&](JsonValue value) {
+                  is_absolute = true;
+                  if (!value.is_null()) node.barriers = barriers_from(value, index);
+                },
+                kMayLack},
+               {"delta",
+                [&](JsonValue value) {
+                  is_relative = true;
+                  if (!value.is_null()) node.delta = delta_from(value, index);
+                },
+                kMayLack}});
+  if (place != index) throw JsonError(fmt::format("node {} is missing", index));
+  if (is_absolute && is_relative)
+    throw JsonError(fmt::format("node {} has both barriers and delta", index));
+  if (is_absolute) node.synchronization = Synchronization::Absolute;
+  if (is_relative) node.synchronization = Synchronization::Relative;
+  return node;
+}
+
+std::vector<RecordedNode> nodes_from(JsonValue value) {
+  std::vector<RecordedNode> nodes;
+  nodes.reserve(value.count_items());
+  value.each_item([&](JsonValue item) { nodes.push_back(node_from(item.object(), nodes.size())); });
+  return nodes;
+}
+
+void read_arguments(JsonValue value, RecordingHeader& header) {
+  value.object().each_field([&](std::string_view name, JsonValue argument) {
+    std::string_view text;
+    if (!argument.get(text))
+      throw JsonError(fmt::format("argument '{}' is not a string", brief(name)));
+    if (!header.arguments.emplace(name, text).second)
+      throw JsonError(fmt::format("argument '{}' is there twice", brief(name)));
+  });
+}
+
+// The nodes stand in pre-order: a node's parent is the one before it, or one of that one's parents.
+void check_order(std::span<const RecordedNode> nodes) {
+  std::vector<NodeIndex> open;
+  for (NodeIndex node = 0; node < nodes.size(); ++node) {
+    const auto parent = nodes[node].parent;
+    while (!open.empty() && parent && open.back() != *parent) open.pop_back();
+    if (node > 0 && (!parent || open.empty()))
+      throw JsonError(fmt::format("node {} is not in pre-order", node));
+    open.push_back(node);
+  }
+}
+
+// A path is what a node is known by.
+void check_paths(std::span<const RecordedNode> nodes) {
+  std::unordered_set<std::string_view> paths;
+  paths.reserve(nodes.size());
+  for (const RecordedNode& node : nodes) {
+    if (!paths.insert(node.path).second)
+      throw JsonError(fmt::format("two nodes have the path '{}'", brief(node.path)));
+  }
+}
+
+// Before all else: of another version, anything else may be different.
+void check_version(JsonReader& json, std::string& line) {
+  std::optional<std::uint64_t> version;
+  json.read(line, [&](JsonObject object) {
+    object.read(
+        {{"lockstep_recording", [&](JsonValue value) { version = value.whole(); }, kMayLack}});
+  });
+  if (!version) throw JsonError("not a recording: the first line has no 'lockstep_recording'");
+  if (*version != kRecordingVersion) {
+    throw JsonError(
+        fmt::format("recording of version {}, expected {}", *version, kRecordingVersion));
+  }
+}
+
+}  // namespace
+
+RecordingHeader RecordingJson::header(std::string& line) {
+  check_version(json_, line);
+  RecordingHeader header;
+  json_.read(line, [&](JsonObject object) {
+    object.read({{"tree", into(header.tree)},
+                 {"file", into(header.file)},
+                 {"version", into(header.version)},
+                 {"rate_hz", [&](JsonValue value) { header.rate_hz = rate_from(value); }},
+                 {"clock", into(header.clock)},
+                 {"seed", into(header.seed)},
+                 {"arguments", [&](JsonValue value) { read_arguments(value, header); }},
+                 {"nodes", [&](JsonValue value) { header.nodes = nodes_from(value); }}});
+  });
+  if (header.nodes.empty()) throw JsonError("'nodes' is empty");
+  check_order(header.nodes);
+  check_paths(header.nodes);
+  return header;
+}
+
+}  // namespace lockstep

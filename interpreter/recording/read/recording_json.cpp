@@ -1,0 +1,214 @@
+#include "recording/read/recording_json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+
+#include "core/wording.h"
+
+namespace lockstep {
+namespace {
+
+auto into_seconds(double& time) {
+  return [&time](JsonValue value) {
+    constexpr double kMost = 9e9;  // fits into nanoseconds
+    time = value.number();
+    if (!(time >= 0 && time <= kMost)) throw JsonError("'time_s' is not a time in seconds");
+  };
+}
+
+NodeIndex node_from(JsonValue value, std::size_t nodes, const char* otherwise) {
+  std::uint64_t node = 0;
+  if (!value.get(node)) throw JsonError(otherwise);
+  if (node < nodes) return static_cast<NodeIndex>(node);
+  throw JsonError(fmt::format("no node {}, expected 0 to {}", node, nodes - 1));
+}
+
+Status status_from(JsonValue value) {
+  constexpr std::array kAll = {Status::Idle, Status::Running, Status::Success, Status::Failure};
+  std::string_view text;
+  if (!value.get(text)) throw JsonError("a node's change has a status that is not a string");
+  for (const Status status : kAll) {
+    if (text == to_string(status)) return status;
+  }
+  throw JsonError(
+      fmt::format("no status '{}', expected idle, running, success or failure", brief(text)));
+}
+
+double progress_from(JsonValue value) {
+  double progress = 0;
+  if (value.get(progress) && progress >= 0 && progress <= 1) return progress;
+  throw JsonError("a node's change has a progress that is not in [0, 1]");
+}
+
+bool flag_from(JsonValue value) {
+  std::uint64_t flag = 0;
+  if (value.get(flag) && flag <= 1) return flag == 1;
+  throw JsonError("a node's change has a flag that is neither 0 nor 1");
+}
+
+void apply(JsonValue change, std::vector<RecordedState>& states) {
+  constexpr char kNone[] = "a node's change is not [index, status, progress, ticked, held]";
+  constexpr unsigned kFields = 5;
+  if (!change.is_list()) throw JsonError(kNone);
+  NodeIndex node = 0;
+  RecordedState state;
+  unsigned field = 0;
+  change.each_item([&](JsonValue item) {
+    switch (field++) {
+      case 0:
+        node = node_from(item, states.size(), kNone);
+        break;
+      case 1:
+        state.status = status_from(item);
+        break;
+      case 2:
+        state.progress = progress_from(item);
+        break;
+      case 3:
+        state.ticked = flag_from(item);
+        break;
+      case 4:
+        state.held = flag_from(item);
+        break;
+      default:
+        throw JsonError(kNone);
+    }
+  });
+  if (field != kFields) throw JsonError(kNone);
+  state.limit = states[node].limit;
+  states[node] = state;
+}
+
+// Nothing: no barrier is left.
+void apply_limit(JsonValue change, std::vector<RecordedState>& states) {
+  constexpr char kNone[] = "a node's limit is not [index, number in [0, 1] or null]";
+  if (!change.is_list()) throw JsonError(kNone);
+  NodeIndex node = 0;
+  double limit = std::numeric_limits<double>::infinity();
+  unsigned field = 0;
+  change.each_item([&](JsonValue item) {
+    if (field == 0) {
+      node = node_from(item, states.size(), kNone);
+    } else if (field > 1 || (!item.is_null() && !(item.get(limit) && limit >= 0 && limit <= 1))) {
+      throw JsonError(kNone);
+    }
+    ++field;
+  });
+  if (field != 2) throw JsonError(kNone);
+  states[node].limit = limit;
+}
+
+RecordedFault fault_from(JsonValue value, std::size_t nodes) {
+  constexpr char kNone[] = "a fault is not [index, message]";
+  if (!value.is_list()) throw JsonError(kNone);
+  RecordedFault fault;
+  unsigned field = 0;
+  value.each_item([&](JsonValue item) {
+    std::string_view message;
+    if (field == 0) {
+      fault.node = node_from(item, nodes, kNone);
+    } else if (field == 1 && item.get(message)) {
+      fault.message = message;
+    } else {
+      throw JsonError(kNone);
+    }
+    ++field;
+  });
+  if (field != 2) throw JsonError(kNone);
+  return fault;
+}
+
+RecordedGap gap_from(JsonObject object) {
+  RecordedGap gap;
+  object.read({{"ticks", into(gap.ticks)}, {"from", into(gap.from)}});
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 63u;  // ticks of a run
+  if (gap.ticks > 0 && gap.ticks <= kMost && gap.from <= kMost - gap.ticks) return gap;
+  throw JsonError(fmt::format("no {} ticks can be lost from tick {} on", gap.ticks, gap.from));
+}
+
+// More than a summary shows: of many short ones each would take far more than its length.
+auto into_notes(std::vector<std::string>& notes) {
+  return [&notes](JsonValue value) {
+    constexpr std::size_t kMost = 1000;
+    std::size_t more = 0;
+    value.each_item([&](JsonValue item) {
+      const std::string_view note = item.text();
+      if (notes.size() < kMost) {
+        notes.emplace_back(note);
+      } else {
+        ++more;
+      }
+    });
+    if (more > 0) notes.push_back(fmt::format("and {} more", counted(more, "note")));
+  };
+}
+
+RecordedEnd end_from(JsonObject object) {
+  RecordedEnd end;
+  object.read({{"result", into(end.result)},
+               {"reason", into(end.reason)},
+               {"fault", into(end.fault), kMayLack},
+               {"signal", [&](JsonValue value) { end.signal = value.whole(); }, kMayLack},
+               {"ticks", into(end.ticks)},
+               {"time_s", into_seconds(end.time)},
+               {"overruns", into(end.overruns)},
+               {"skipped", into(end.skipped)},
+               {"lost", into(end.lost), kMayLack},
+               {"notes", into_notes(end.notes), kMayLack}});
+  return end;
+}
+
+}  // namespace
+
+RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedState>& states) {
+  std::optional<RecordedEnd> end;
+  std::optional<RecordedGap> gap;
+  std::optional<std::uint64_t> tick;
+  std::optional<double> time;
+  bool has_nodes = false;
+  faults_.clear();
+  succeeded_.clear();
+  const auto read_nodes = [&](JsonValue value) {
+    has_nodes = true;
+    value.each_item([&](JsonValue change) { apply(change, states); });
+  };
+  const auto read_limits = [&](JsonValue value) {
+    value.each_item([&](JsonValue change) { apply_limit(change, states); });
+  };
+  const auto read_faults = [&](JsonValue value) {
+    faults_.reserve(value.count_items());
+    value.each_item([&](JsonValue it) { faults_.push_back(fault_from(it, states.size())); });
+  };
+  const auto read_succeeded = [&](JsonValue value) {
+    constexpr char kNone[] = "'succeeded' is not a list of indices";
+    succeeded_.reserve(value.count_items());
+    value.each_item(
+        [&](JsonValue it) { succeeded_.push_back(node_from(it, states.size(), kNone)); });
+  };
+  json_.read(line, [&](JsonObject object) {
+    object.read(
+        {{"tick", [&](JsonValue value) { tick = value.whole(); }, kMayLack},
+         {"time_s", [&](JsonValue value) { into_seconds(time.emplace())(value); }, kMayLack},
+         {"nodes", read_nodes, kMayLack},
+         {"limits", read_limits, kMayLack},
+         {"succeeded", read_succeeded, kMayLack},
+         {"faults", read_faults, kMayLack},
+         {"lost", [&](JsonValue value) { gap = gap_from(value.object()); }, kMayLack},
+         {"end", [&](JsonValue value) { end = end_from(value.object()); }, kMayLack}});
+  });
+  const bool is_tick = tick || time || has_nodes;
+  if (is_tick + gap.has_value() + end.has_value() > 1) throw JsonError("a line of two kinds");
+  if (end) return *std::move(end);
+  if (gap) return *gap;
+  if (!tick) throw JsonError("'tick' is missing");
+  if (!time) throw JsonError("'time_s' is missing");
+  if (!has_nodes) throw JsonError("'nodes' is missing");
+  return RecordedTick{
+      .tick = *tick, .time = *time, .nodes = states, .succeeded = succeeded_, .faults = faults_};
+}
+
+}  // namespace lockstep

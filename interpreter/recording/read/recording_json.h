@@ -1,0 +1,29 @@
+// The lines of a recording: JSON, taken apart and checked. What is wrong with a line is thrown as a
+// JsonError, which the reader turns into an error with a line number; nobody else uses this.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/json_reader.h"
+#include "recording/recording.h"
+
+namespace lockstep {
+
+class RecordingJson {
+ public:
+  RecordingHeader header(std::string& line);
+
+  // Of any other line. The changes of a tick are taken over into `states`; what it points to is
+  // valid until the next call.
+  using Line = std::variant<RecordedTick, RecordedGap, RecordedEnd>;
+  Line line(std::string& line, std::vector<RecordedState>& states);
+
+ private:
+  JsonReader json_;
+  std::vector<NodeIndex> succeeded_;
+  std::vector<RecordedFault> faults_;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,122 @@
+#include "recording/read/recording_reader.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "recording/read/recording_json.h"
+
+namespace lockstep {
+
+RecordingReader::RecordingReader(std::istream& in, std::string name, Limits limits)
+    : lines_(in, limits.line), format_(std::make_unique<RecordingJson>()), name_(std::move(name)) {
+  if (!next_line()) {
+    if (error_.empty()) error_ = name_ + ":1: the file is empty, expected a recording";
+    return;
+  }
+  read_line([this] { header_ = format_->header(lines_.text()); });
+  states_.resize(header_.nodes.size());
+  if (is_cut_) fail("the header is cut");
+}
+
+RecordingReader::~RecordingReader() = default;
+
+std::optional<RecordedTick> RecordingReader::next() {
+  // Also after the closing line: nothing must come there, and only reading on finds that.
+  while (error_.empty() && next_line()) {
+    std::optional<RecordedTick> tick;
+    read_line([&] { tick = read_further(); });
+    if (tick || is_cut_) return tick;
+  }
+  return std::nullopt;
+}
+
+bool RecordingReader::go_to(const Place& place, std::span<const RecordedState> states) {
+  if (!lines_.go_to(place.lines)) return false;
+  states_.assign(states.begin(), states.end());
+  next_tick_ = place.next_tick;
+  last_time_ = place.time;
+  // A tick is neither behind the closing line nor behind an error.
+  end_.reset();
+  error_.clear();
+  is_cut_ = false;
+  return true;
+}
+
+// Any line but the header: its tick, if it is of one.
+std::optional<RecordedTick> RecordingReader::read_further() {
+  if (end_) throw JsonError("a line after the closing line");
+  auto line = format_->line(lines_.text(), states_);
+  std::visit([this](auto& it) { take(std::move(it)); }, line);
+  const auto* tick = std::get_if<RecordedTick>(&line);
+  return tick == nullptr ? std::nullopt : std::optional(*tick);
+}
+
+void RecordingReader::take(const RecordedTick& tick) {
+  pass_ticks(tick.tick, 1);
+  if (tick.time < last_time_)
+    throw JsonError(fmt::format("time_s {} comes after {}", tick.time, last_time_));
+  last_time_ = tick.time;
+}
+
+void RecordingReader::take(const RecordedGap& gap) {
+  pass_ticks(gap.from, gap.ticks);
+  if (!first_lost_) first_lost_ = gap.from;
+  lost_ += gap.ticks;
+}
+
+void RecordingReader::take(RecordedEnd end) {
+  if (end.ticks != next_tick_)
+    throw JsonError(fmt::format("'ticks' is {}, but the run had {}", end.ticks, next_tick_));
+  if (end.lost != lost_)
+    throw JsonError(fmt::format("'lost' is {}, but {} ticks have no line", end.lost, lost_));
+  end_ = std::move(end);
+}
+
+// A line has only what has changed: without the one before it, it says nothing.
+void RecordingReader::pass_ticks(std::uint64_t first, std::uint64_t count) {
+  if (first != next_tick_) {
+    throw JsonError(next_tick_ == 0
+                        ? fmt::format("the first tick is {}, expected 0", first)
+                        : fmt::format("tick {} comes after tick {}", first, next_tick_ - 1));
+  }
+  next_tick_ += count;
+}
+
+std::string RecordingReader::gaps() const {
+  if (!first_lost_) return {};
+  return fmt::format("{} tick{} missing, the first is {}: the disk was too slow", lost_,
+                     lost_ == 1 ? " is" : "s are", *first_lost_);
+}
+
+std::string RecordingReader::cut() const {
+  if (end_ || !error_.empty()) return {};
+  const std::uint64_t line = lines_.place().lines;
+  if (is_cut_) return fmt::format("line {} is cut, the run did not end there", line);
+  return fmt::format("it ends after line {} without a closing line", line);
+}
+
+bool RecordingReader::next_line() {
+  if (lines_.next()) return true;
+  if (lines_.is_too_long()) fail(fmt::format("the line is longer than {} bytes", lines_.longest()));
+  return false;
+}
+
+// Only the last line can lack its end, and only there is broken JSON a sign of a kill.
+template <class Read>
+void RecordingReader::read_line(Read read) {
+  try {
+    read();
+  } catch (const NotJson& bad) {
+    is_cut_ = !lines_.has_end();
+    if (!is_cut_) fail(bad.what());
+  } catch (const JsonError& bad) {
+    fail(bad.what());
+  }
+}
+
+void RecordingReader::fail(const std::string& message) {
+  error_ = fmt::format("{}:{}: {}", name_, lines_.place().lines, message);
+}
+
+}  // namespace lockstep

@@ -1,0 +1,90 @@
+// Reads a recording line by line and keeps the state of every node as of the line read last. A file
+// that ends early, as after a kill, is read up to its last whole line; anything else that is wrong
+// is an error with its line.
+#pragma once
+
+#include <istream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "recording/read/line_reader.h"
+#include "recording/recording.h"
+
+namespace lockstep {
+
+class RecordingJson;
+
+// What is known of a recording once it has been read; each "" when there is nothing to tell.
+struct RecordingOutcome {
+  std::string error, gaps, cut;    // as RecordingReader tells them
+  std::optional<RecordedEnd> end;  // the closing line
+};
+
+class RecordingReader {
+ public:
+  // A line that is longer is refused, before it takes more memory.
+  struct Limits {
+    std::size_t line = std::size_t{1} << 30u;  // bytes; the header of the largest tree has fewer
+  };
+
+  // `in` must outlive the reader; `name` is how errors call it. Reads the header: check error().
+  RecordingReader(std::istream& in, std::string name) : RecordingReader(in, std::move(name), {}) {}
+  RecordingReader(std::istream& in, std::string name, Limits limits);
+  ~RecordingReader();
+
+  // The next tick, or nothing at the end or after an error. What it points to is valid until the
+  // next call.
+  std::optional<RecordedTick> next();
+
+  // Where the reader stands after a tick.
+  struct Place {
+    LineReader::Place lines;
+    std::uint64_t next_tick = 0;
+    double time = 0;
+  };
+  Place place() const { return {lines_.place(), next_tick_, last_time_}; }
+  // To where this reader once stood; `states` are those of then. The next tick is the one after it.
+  // The file must not have been changed before that place, and be one that can seek. False when it
+  // is not.
+  bool go_to(const Place& place, std::span<const RecordedState> states);
+
+  // "" while all is well, else "run.jsonl:12: no node 99, expected 0 to 4".
+  const std::string& error() const { return error_; }
+  const RecordingHeader& header() const { return header_; }
+  // The closing line, once it has been read.
+  const std::optional<RecordedEnd>& end() const { return end_; }
+  // Of the lines read so far: "" when no tick is lost, else "2 ticks are missing, the first is 7:
+  // the disk was too slow".
+  std::string gaps() const;
+  // After the last tick: "" when the recording is whole, else how it ends.
+  std::string cut() const;
+  RecordingOutcome outcome() const { return {error_, gaps(), cut(), end_}; }
+
+ private:
+  bool next_line();  // false at the end, and after an error
+  template <class Read>
+  void read_line(Read read);
+  std::optional<RecordedTick> read_further();
+  void take(const RecordedTick& tick);
+  void take(const RecordedGap& gap);
+  void take(RecordedEnd end);
+  void pass_ticks(std::uint64_t first, std::uint64_t count);
+  void fail(const std::string& message);
+
+  LineReader lines_;
+  std::unique_ptr<RecordingJson> format_;
+  std::string name_;
+  std::string error_;
+  bool is_cut_ = false;  // within the last line
+  RecordingHeader header_;
+  std::optional<RecordedEnd> end_;
+  std::vector<RecordedState> states_;
+  std::uint64_t next_tick_ = 0;
+  double last_time_ = 0;  // of a tick
+  std::optional<std::uint64_t> first_lost_;
+  std::uint64_t lost_ = 0;
+};
+
+}  // namespace lockstep

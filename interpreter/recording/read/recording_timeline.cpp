@@ -1,0 +1,99 @@
+#include "recording/read/recording_timeline.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace lockstep {
+
+void take(const RecordedTick& tick, std::uint64_t lost, Moment& moment) {
+  moment.tick = tick.tick;
+  moment.time = tick.time;
+  moment.nodes.assign(tick.nodes.begin(), tick.nodes.end());
+  moment.faults.assign(tick.faults.begin(), tick.faults.end());
+  moment.lost = lost;
+}
+
+RecordingTimeline::RecordingTimeline(RecordingReader& reader, const TimelineOptions& options)
+    : reader_(reader), options_(options) {
+  std::uint64_t expected = 0;
+  while (const auto tick = reader_.next()) {
+    keep(*tick, tick->tick - expected);
+    ++size_;
+    last_tick_ = tick->tick;
+    last_time_ = tick->time;
+    expected = tick->tick + 1;
+  }
+  outcome_ = reader_.outcome();
+  if (size_ > 0) go_to_begin();
+}
+
+std::size_t RecordingTimeline::Keyframe::memory() const {
+  std::size_t size = sizeof(Keyframe) + moment.nodes.size() * sizeof(RecordedState);
+  for (const RecordedFault& fault : moment.faults) size += sizeof fault + fault.message.size();
+  return size;
+}
+
+// A keyframe of the tick that was just read, when it is time for one.
+void RecordingTimeline::keep(const RecordedTick& tick, std::uint64_t lost) {
+  const RecordingReader::Place place = reader_.place();
+  const auto distance = [&] { return place.lines.bytes - keyframes_.back().place.lines.bytes; };
+  if (!keyframes_.empty() && distance() < options_.distance) return;
+  Keyframe& keyframe = keyframes_.emplace_back();
+  keyframe.place = place;
+  keyframe.moment.number = size_;
+  take(tick, lost, keyframe.moment);
+  memory_ += keyframe.memory();
+  while (keyframes_.size() > 2 && memory_ > options_.most_memory) thin_out();
+}
+
+void RecordingTimeline::thin_out() {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < keyframes_.size(); ++i) {
+    if (i % 2 != 0) {
+      memory_ -= keyframes_[i].memory();
+    } else if (i != kept++) {
+      keyframes_[kept - 1] = std::move(keyframes_[i]);
+    }
+  }
+  keyframes_.resize(kept);
+  options_.distance *= 2;
+}
+
+void RecordingTimeline::restore(const Keyframe& keyframe) {
+  now_ = keyframe.moment;
+  failed_ = !reader_.go_to(keyframe.place, now_.nodes);
+  read_next();
+}
+
+void RecordingTimeline::read_next() {
+  if (!failed_) next_ = reader_.next();
+  if (!next_ && !at_end()) failed_ = true;
+}
+
+void RecordingTimeline::step_forward() {
+  if (at_end() || failed_) return;
+  take(*next_, next_->tick - now_.tick - 1, now_);
+  ++now_.number;
+  read_next();
+}
+
+void RecordingTimeline::step_back() {
+  if (now_.number > 0) go_to_number(now_.number - 1);
+}
+
+void RecordingTimeline::go_to_number(std::uint64_t number) {
+  const auto number_of = [](const Keyframe& keyframe) { return keyframe.moment.number; };
+  const auto after = std::ranges::upper_bound(keyframes_, number, {}, number_of);
+  restore(*std::prev(after));
+  while (now_.number < number && !failed_) step_forward();
+}
+
+void RecordingTimeline::go_to_tick(std::uint64_t tick) {
+  const auto tick_of = [](const Keyframe& keyframe) { return keyframe.moment.tick; };
+  const auto after = std::ranges::upper_bound(keyframes_, tick, {}, tick_of);
+  restore(after == keyframes_.begin() ? *after : *std::prev(after));
+  while (!at_end() && !failed_ && next_->tick <= tick) step_forward();
+}
+
+}  // namespace lockstep

@@ -1,0 +1,94 @@
+// The ticks of a recording in any order: forward, back, at a number. Used by replays.
+//
+// A line of a recording tells only what has changed, so going back means to read on from an earlier
+// place whose whole state is known: a keyframe. Keyframes lie a number of bytes of the file apart,
+// not of ticks, since bytes are what reading costs: a step back takes a millisecond or so. When
+// they take more than kMostMemory, every second one is dropped and the distance doubles. So memory
+// is bounded however long the recording is, and a step back gets slower only for huge trees in huge
+// files.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "recording/read/recording_reader.h"
+
+namespace lockstep {
+
+// One tick with the state of all nodes after it.
+struct Moment {
+  std::uint64_t number = 0;  // of its line among those of ticks, from 0
+  std::uint64_t tick = 0;
+  double time = 0;  // seconds
+  std::vector<RecordedState> nodes;
+  std::vector<RecordedFault> faults;
+  std::uint64_t lost = 0;  // ticks just before it that are not in the recording
+
+  friend bool operator==(const Moment&, const Moment&) = default;
+};
+
+// Takes the tick that a reader is at over into `moment`.
+void take(const RecordedTick& tick, std::uint64_t lost, Moment& moment);
+
+struct TimelineOptions {
+  std::uint64_t distance = 64 << 10;  // bytes of the file from one keyframe to the next, at first
+  std::uint64_t most_memory = 32 << 20;  // bytes of all keyframes
+};
+
+class RecordingTimeline {
+ public:
+  // Reads the recording to its end, or to where it is damaged, and goes to its first tick. Its file
+  // must be one that can seek; from here on the reader is the timeline's.
+  explicit RecordingTimeline(RecordingReader& reader, const TimelineOptions& options = {});
+
+  const RecordingOutcome& outcome() const { return outcome_; }
+  // How many ticks it has. With none, nothing of what follows may be called.
+  std::uint64_t size() const { return size_; }
+  std::uint64_t first_tick() const { return keyframes_.front().moment.tick; }
+  std::uint64_t last_tick() const { return last_tick_; }
+  double last_time() const { return last_time_; }
+
+  const Moment& now() const { return now_; }
+  bool at_end() const { return now_.number + 1 == size_; }
+  // When the tick after this one began; not at the end.
+  double next_time() const { return next_->time; }
+
+  // At the end, and at the begin, there is nowhere to go.
+  void step_forward();
+  void step_back();
+  // The tick with this number, else the last before it, else the first.
+  void go_to_tick(std::uint64_t tick);
+  void go_to_begin() { go_to_number(0); }
+  void go_to_end() { go_to_number(size_ - 1); }
+
+  // The file is no longer what it was, and nothing can be read any more.
+  bool failed() const { return failed_; }
+
+  std::size_t keyframes() const { return keyframes_.size(); }
+
+ private:
+  struct Keyframe {
+    Moment moment;
+    RecordingReader::Place place;
+    std::size_t memory() const;
+  };
+  void keep(const RecordedTick& tick, std::uint64_t lost);
+  void thin_out();
+  void restore(const Keyframe& keyframe);
+  void go_to_number(std::uint64_t number);
+  void read_next();
+
+  RecordingReader& reader_;
+  TimelineOptions options_;
+  RecordingOutcome outcome_;
+  std::vector<Keyframe> keyframes_;  // rising; the first is of the first tick
+  std::uint64_t memory_ = 0;         // of them
+  std::uint64_t size_ = 0;
+  std::uint64_t last_tick_ = 0;
+  double last_time_ = 0;
+  Moment now_;
+  std::optional<RecordedTick> next_;  // the reader is one tick ahead
+  bool failed_ = false;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,77 @@
+#include "recording/recording.h"
+
+#include <nlohmann/json.hpp>
+
+namespace lockstep {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string one_line(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Json json_of(const RecordedNode& node, std::size_t index) {
+  Json json = {{"index", index}, {"path", node.path}, {"kind", node.kind}, {"name", node.name}};
+  json["parent"] = node.parent ? Json(*node.parent) : Json();
+  if (node.synchronization == Synchronization::Absolute) {
+    json["barriers"] = node.barriers ? Json(*node.barriers) : Json();
+  } else if (node.synchronization == Synchronization::Relative) {
+    json["delta"] = node.delta ? Json(*node.delta) : Json();
+  }
+  return json;
+}
+
+}  // namespace
+
+std::vector<RecordedNode> describe(const Tree& tree) {
+  std::vector<RecordedNode> nodes(tree.nodes.size());
+  for (NodeIndex index = 0; index < nodes.size(); ++index) {
+    RecordedNode& node = nodes[index];
+    const NodeLabel& label = tree.labels[index];
+    node.path = tree.path(index);
+    node.kind = label.type->id;
+    node.name = label.name;
+    if (label.parent != index) node.parent = label.parent;
+    node.synchronization = synchronization(tree.nodes[index]);
+    if (const auto list = barriers(tree, index)) node.barriers.emplace(list->begin(), list->end());
+    node.delta = delta(tree, index);
+  }
+  return nodes;
+}
+
+Nanoseconds period_of(const RecordingHeader& header) {
+  return header.rate_hz > 0 ? from_seconds(1 / header.rate_hz) : Nanoseconds(0);
+}
+
+std::string to_json(const RecordingHeader& header) {
+  Json json = {{"lockstep_recording", kRecordingVersion},
+               {"tree", header.tree},
+               {"file", header.file},
+               {"version", header.version},
+               {"rate_hz", header.rate_hz},
+               {"clock", header.clock},
+               {"seed", header.seed}};
+  json["arguments"] = Json::object();
+  for (const auto& [name, value] : header.arguments) json["arguments"][name] = value;
+  json["nodes"] = Json::array();
+  for (std::size_t index = 0; index < header.nodes.size(); ++index) {
+    json["nodes"].push_back(json_of(header.nodes[index], index));
+  }
+  return one_line(json);
+}
+
+std::string to_json(const RecordedEnd& end) {
+  Json json = {{"result", end.result}, {"reason", end.reason}};
+  if (!end.fault.empty()) json["fault"] = end.fault;
+  if (end.signal) json["signal"] = *end.signal;
+  json["ticks"] = end.ticks;
+  json["time_s"] = end.time;
+  json["overruns"] = end.overruns;
+  json["skipped"] = end.skipped;
+  if (end.lost > 0) json["lost"] = end.lost;
+  if (!end.notes.empty()) json["notes"] = end.notes;
+  return one_line({{"end", std::move(json)}});
+}
+
+}  // namespace lockstep

@@ -1,0 +1,59 @@
+#include "recording/use/recorded_probe.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "measure/measure_spec.h"
+
+namespace lockstep {
+
+std::vector<NodeIndex> synchronized_nodes(const RecordingHeader& header) {
+  std::vector<NodeIndex> nodes;
+  for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
+    if (header.nodes[node].synchronization != Synchronization::None) nodes.push_back(node);
+  }
+  return nodes;
+}
+
+std::vector<std::vector<NodeIndex>> children_of(const RecordingHeader& header) {
+  std::vector<std::vector<NodeIndex>> children(header.nodes.size());
+  for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
+    if (const auto parent = header.nodes[node].parent) children[*parent].push_back(node);
+  }
+  return children;
+}
+
+RecordedProbe::RecordedProbe(const RecordingHeader& header, NodeIndex node,
+                             std::vector<NodeIndex> children)
+    : node_(node), children_(std::move(children)), held_(children_.size()) {
+  for (const NodeIndex child : children_) names_.push_back(last_segment(header.nodes[child].path));
+  progress_.resize(children_.size());
+}
+
+SynchronizedTick RecordedProbe::read(const RecordedTick& tick) {
+  for (std::size_t child = 0; child < children_.size(); ++child) {
+    const RecordedState& state = tick.nodes[children_[child]];
+    progress_[child] = state.progress;
+    held_.set(child, state.status, state.ticked, state.held);
+  }
+  const bool succeeded = std::ranges::find(tick.succeeded, node_) != tick.succeeded.end();
+  return {.time = from_seconds(tick.time),
+          .ticked = tick.nodes[node_].ticked,
+          .status = succeeded ? Status::Success : tick.nodes[node_].status,
+          .limit = tick.nodes[node_].limit,
+          .progress = progress_,
+          .held = {held_.data(), children_.size()}};
+}
+
+std::vector<RecordedMeasure> measures_of(const RecordingHeader& header) {
+  auto children = children_of(header);
+  std::vector<RecordedMeasure> measures;
+  for (const NodeIndex node : synchronized_nodes(header)) {
+    const std::size_t count = children[node].size();
+    measures.push_back(
+        {RecordedProbe(header, node, std::move(children[node])), SynchronizedMeasure(count)});
+  }
+  return measures;
+}
+
+}  // namespace lockstep

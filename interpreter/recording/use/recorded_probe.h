@@ -1,0 +1,47 @@
+// Reads the ticks of synchronized nodes from a recording, as SynchronizedProbe does from a Ticker.
+// Used by all that measures or draws recordings.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "measure/synchronized_measure.h"
+#include "recording/recording.h"
+
+namespace lockstep {
+
+std::vector<NodeIndex> synchronized_nodes(const RecordingHeader& header);
+// Of each node, by index.
+std::vector<std::vector<NodeIndex>> children_of(const RecordingHeader& header);
+
+class RecordedProbe {
+ public:
+  RecordedProbe(const RecordingHeader& header, NodeIndex node, std::vector<NodeIndex> children);
+  // Valid until the next call.
+  SynchronizedTick read(const RecordedTick& tick);
+
+  NodeIndex node() const { return node_; }
+  const std::vector<NodeIndex>& children() const { return children_; }
+  // The last segment of each child's path.
+  const std::vector<std::string>& names() const { return names_; }
+
+ private:
+  NodeIndex node_;
+  std::vector<NodeIndex> children_;
+  std::vector<std::string> names_;
+  std::vector<double> progress_;
+  HeldChildren held_;
+};
+
+// A synchronized node and what is measured of it.
+struct RecordedMeasure {
+  RecordedProbe probe;
+  SynchronizedMeasure measure;
+
+  void after_tick(const RecordedTick& tick) { measure.after_tick(probe.read(tick)); }
+};
+
+// One for each synchronized node.
+std::vector<RecordedMeasure> measures_of(const RecordingHeader& header);
+
+}  // namespace lockstep

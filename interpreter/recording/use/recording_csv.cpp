@@ -1,0 +1,41 @@
+#include "recording/use/recording_csv.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "core/csv_field.h"
+#include "core/diagnostics.h"
+
+namespace lockstep {
+namespace {
+
+bool is_active(const RecordedState& node) {
+  return node.status != Status::Idle || node.ticked;
+}
+
+}  // namespace
+
+bool write_csv(RecordingReader& reader, const CsvSink& write, CsvNames names) {
+  constexpr std::size_t kFull = 1u << 16u;
+  std::vector<std::string> paths;
+  for (const RecordedNode& node : reader.header().nodes) {
+    paths.push_back(csv_field(names == CsvNames::Printable ? printable(node.path) : node.path));
+  }
+  std::string rows = "tick,time_s,node,path,status,progress,ticked,held\n";
+  while (const auto tick = reader.next()) {
+    for (std::size_t index = 0; index < tick->nodes.size(); ++index) {
+      const RecordedState& node = tick->nodes[index];
+      if (!is_active(node)) continue;
+      fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{},{:d},{:d}\n", tick->tick,
+                     tick->time, index, paths[index], to_string(node.status), node.progress,
+                     node.ticked, node.held);
+    }
+    if (rows.size() < kFull) continue;
+    if (!write(rows)) return false;
+    rows.clear();
+  }
+  return write(rows);
+}
+
+}  // namespace lockstep

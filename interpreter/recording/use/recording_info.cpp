@@ -1,0 +1,108 @@
+#include "recording/use/recording_info.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "core/diagnostics.h"
+#include "measure/decision.h"
+#include "recording/use/recorded_probe.h"
+#include "summary/summary.h"
+#include "terminal/style.h"
+
+namespace lockstep {
+namespace {
+
+void write_header(const RecordingHeader& header, std::string& out, bool color) {
+  fmt::format_to(std::back_inserter(out), "{} from {}, recorded by lockstep {}\n",
+                 styled(printable(header.tree), Style::Strong, color), printable(header.file),
+                 printable(header.version));
+  fmt::format_to(std::back_inserter(out), "  {}, {} Hz, {} clock, seed {}\n",
+                 counted(header.nodes.size(), "node"), header.rate_hz, printable(header.clock),
+                 header.seed);
+  for (const auto& [name, value] : header.arguments) {
+    fmt::format_to(std::back_inserter(out), "  argument {} = {}\n", printable(name),
+                   printable(value));
+  }
+}
+
+void write_end(const RecordingReader& reader, std::uint64_t ticks, double time, std::string& out,
+               bool color) {
+  if (const auto& end = reader.end()) {
+    fmt::format_to(std::back_inserter(out), "  {} ({}) after {}, {:.3f} s", printable(end->result),
+                   printable(end->reason), counted(end->ticks, "tick"), end->time);
+    fmt::format_to(std::back_inserter(out), "; {}, {} skipped\n", counted(end->overruns, "overrun"),
+                   counted(end->skipped, "deadline"));
+    if (!end->fault.empty())
+      fmt::format_to(std::back_inserter(out), "  fault: {}\n", printable(end->fault));
+    for (const std::string& note : end->notes)
+      fmt::format_to(std::back_inserter(out), "  note: {}\n", printable(note));
+    return;
+  }
+  fmt::format_to(std::back_inserter(out), "  {}, {:.3f} s; {} {}\n", counted(ticks, "tick"), time,
+                 styled("the recording is cut:", Style::Warning, color), reader.cut());
+}
+
+// Nothing when the last tick is lost: what comes before it does not say.
+std::vector<DecidingSummary> why_failed(const RecordingReader& reader, const RecordedTick& last) {
+  const RecordingHeader& header = reader.header();
+  const auto& end = reader.end();
+  const bool failed = end && end->result == to_string(RunResult::Failure);
+  if (!failed || last.tick + 1 != end->ticks) return {};
+  const auto children = children_of(header);
+  std::vector<DecidingSummary> path;
+  for (const DecidingNode& node : deciding_path({
+           .children = [&](NodeIndex node) { return children[node]; },
+         .status = [&](NodeIndex node) { return last.nodes[node].status; },
+         .ticked = [&](NodeIndex node) { return last.nodes[node].ticked; },
+       })) {
+    const RecordedNode& it = header.nodes[node.node];
+    path.push_back(summarize(node, it.path, it.kind));
+  }
+  return path;
+}
+
+void write_warnings(const RecordingReader& reader, std::uint64_t faults, std::string& out,
+                    bool color) {
+  if (const std::string gaps = reader.gaps(); !gaps.empty()) {
+    fmt::format_to(std::back_inserter(out), "  {}\n", styled(gaps, Style::Warning, color));
+  }
+  if (faults > 0) {
+    fmt::format_to(std::back_inserter(out), "  {}\n",
+                   styled(counted(faults, "fault") + " of leaves that the run went on after",
+                          Style::Warning, color));
+  }
+}
+
+}  // namespace
+
+std::string info_text(RecordingReader& reader, bool color) {
+  const RecordingHeader& header = reader.header();
+  std::vector<RecordedMeasure> nodes = measures_of(header);
+  std::uint64_t ticks = 0, faults = 0;
+  RecordedTick last;
+  while (const auto tick = reader.next()) {
+    ++ticks;
+    faults += tick->faults.size();
+    last = *tick;
+    for (RecordedMeasure& node : nodes) node.after_tick(last);
+  }
+  if (!reader.error().empty()) return {};
+  std::string out;
+  const double time = reader.end() ? reader.end()->time : last.time;
+  write_header(header, out, color);
+  write_end(reader, ticks, time, out, color);
+  if (ticks > 0) write_text(why_failed(reader, last), out, color);
+  write_warnings(reader, faults, out, color);
+  std::vector<SynchronizedSummary> reached;
+  for (auto& [probe, measure] : nodes) {
+    if (measure.distance().samples() == 0) continue;
+    measure.run_ended(from_seconds(time));
+    const RecordedNode& node = header.nodes[probe.node()];
+    reached.push_back(summarize(measure, node.path, node.kind, probe.names()));
+  }
+  write_text(reached, nodes.size() - reached.size(), out, color);
+  return out;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,229 @@
+#include "recording/write/append_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <ctime>
+#include <new>
+#include <system_error>
+
+#include "core/own_thread.h"
+#include "recording/write/packet_printer.h"
+
+namespace lockstep {
+namespace {
+
+// For emergency_flush(). A process has one recording, rarely more; those that find no place here
+// are not saved in an emergency.
+std::array<std::atomic<AppendFile*>, 8> open_files;
+std::atomic<int> emergencies{0};
+
+void enter(AppendFile* file) {
+  for (auto& place : open_files) {
+    AppendFile* nobody = nullptr;
+    if (place.compare_exchange_strong(nobody, file)) return;
+  }
+}
+
+void nap() {
+  const timespec time{.tv_sec = 0, .tv_nsec = 1'000'000};
+  nanosleep(&time, nullptr);
+}
+
+// The file must not go away while a crash handler of another thread works with it.
+void leave(AppendFile* file) {
+  for (auto& place : open_files) {
+    AppendFile* mine = file;
+    place.compare_exchange_strong(mine, nullptr);
+  }
+  while (emergencies.load() != 0) nap();
+}
+
+// As async-signal-safe as clock_gettime.
+std::chrono::nanoseconds now() {
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
+
+}  // namespace
+
+AppendFile::AppendFile(const std::string& path, std::size_t queue)
+    : ring_(queue), path_(path), out_(path), file_(out_.descriptor()), text_(kText) {
+  if (file_ < 0) {
+    error_ = out_.error();
+    failed_.store(true, std::memory_order_release);
+    return;
+  }
+  thread_ = own_thread([this] {
+    try {
+      write_until_stopped();
+    } catch (const std::bad_alloc&) {  // what waits for the file must not wait for ever
+      error_ = "out of memory";
+      failed_.store(true, std::memory_order_release);
+      done_.ring();
+      throw;
+    }
+  });
+  enter(this);
+}
+
+AppendFile::~AppendFile() {
+  if (file_ < 0) return;
+  stopping_.store(true, std::memory_order_release);
+  work_.ring();
+  thread_.join();
+  leave(this);
+}
+
+const std::string& AppendFile::error() const {
+  static const std::string kNone;
+  return failed() ? error_ : kNone;
+}
+
+bool AppendFile::push(const Packet& packet) {
+  if (failed() || !ring_.push(packet)) return false;
+  const std::uint64_t pushed = ring_.pushed();
+  if (pushed - called_for_ >= std::min(kFull, ring_.size() / 2)) {
+    called_for_ = pushed;
+    work_.ring();
+  }
+  return true;
+}
+
+void AppendFile::write(const Packet& packet) {
+  flush();
+  if (failed()) return;
+  ring_.grow(packet_size(packet));
+  ring_.push(packet);
+  flush();
+}
+
+void AppendFile::flush() {
+  while (true) {
+    const std::uint32_t seen = done_.rung();
+    if (failed() || ring_.empty()) return;
+    work_.ring();
+    done_.wait(seen, kLongestDelay);
+  }
+}
+
+void AppendFile::write_until_stopped() {
+  while (true) {
+    const std::uint32_t seen = work_.rung();
+    const bool last = stopping_.load(std::memory_order_acquire);
+    if (claim()) {
+      write_out(Failure::Told);
+      release();
+    }
+    done_.ring();
+    if (last) return;
+    work_.wait(seen, kLongestDelay);
+  }
+}
+
+// Nothing is written after an error: a gap in the middle would be worse than a short file. A packet
+// stays in the ring until its text is in the file, and the text follows from the ring alone. So a
+// crash in the middle of this costs nothing: the handler begins it anew, and leaves out what is
+// written.
+void AppendFile::write_out(Failure failure) {
+  PacketPrinter printer(ring_);
+  std::uint64_t known = written_;
+  while (!failed() && !ring_.empty()) {
+    std::string_view text = printer.print(text_);
+    const std::uint64_t again = std::min<std::uint64_t>(known, text.size());
+    known -= again;
+    write_text(text.substr(again), failure);
+    if (failed()) return;
+    written_ = printer.unfinished_text();
+    ring_.take_until(printer.finished());
+  }
+}
+
+void AppendFile::write_text(std::string_view text, Failure failure) {
+  while (!failed() && !text.empty()) {
+    const ssize_t count = ::write(file_, text.data(), text.size());
+    if (count >= 0) {
+      const auto written = static_cast<std::size_t>(count);
+      count_written(text.substr(0, written));
+      if (written_ > unfinished_ && !out_.take_name()) give_up("replace", failure);
+      text.remove_prefix(written);
+    } else if (errno != EINTR) {
+      give_up("write", failure);
+    }
+  }
+}
+
+void AppendFile::count_written(std::string_view text) {
+  written_ += text.size();
+  unfinished_ += text.size();
+  const auto newline = text.rfind('\n');
+  if (newline != std::string_view::npos) unfinished_ = text.size() - newline - 1;
+}
+
+void AppendFile::give_up(const char* what, Failure failure) {
+  const int reason = errno;
+  cut_back();
+  errno = reason;
+  if (failure == Failure::Told) return fail(what);
+  failed_.store(true, std::memory_order_release);
+}
+
+// A disk that fills up takes a part of a line. Counted from the end: somebody may have emptied the
+// file meanwhile.
+void AppendFile::cut_back() {
+  const off_t end = ::lseek(file_, 0, SEEK_END);
+  const auto unfinished = static_cast<off_t>(unfinished_);
+  // If even that fails, readers know what to do with half a line.
+  if (unfinished > 0 && end >= unfinished && ::ftruncate(file_, end - unfinished) == 0) {
+    unfinished_ = 0;
+  }
+}
+
+void AppendFile::fail(const char* what) {
+  const std::string reason = std::generic_category().message(errno);
+  error_ = fmt::format("cannot {} '{}': {}", what, path_, reason);
+  failed_.store(true, std::memory_order_release);
+}
+
+void AppendFile::emergency_flush() {
+  const int before = errno;
+  ++emergencies;
+  const auto deadline = now() + kLongestEmergency;
+  for (auto& place : open_files) {
+    if (AppendFile* file = place.load()) file->save(deadline);
+  }
+  --emergencies;
+  errno = before;
+}
+
+void AppendFile::save(std::chrono::nanoseconds deadline) {
+  if (ring_.pushed() == 0) return out_.remove();
+  // Later packets, of a tick thread that still runs, are not waited for: it might never end.
+  const std::uint64_t until = ring_.pushed();
+  const auto is_done = [&] { return failed() || ring_.taken() >= until; };
+  // When the crash is in the thread that writes, there is nobody to wait for.
+  const bool mine = claim_.load() == gettid();
+  work_.ring();
+  while (!mine && !is_done() && now() < deadline) nap();
+  if (is_done() || !(mine || claim())) return;
+  // A pipe that nobody reads must not hold up the end of the process.
+  ::fcntl(file_, F_SETFL, O_APPEND | O_NONBLOCK);
+  write_out(Failure::Silent);
+  release();
+}
+
+bool AppendFile::claim() {
+  pid_t nobody = 0;
+  return claim_.compare_exchange_strong(nobody, gettid(), std::memory_order_acquire);
+}
+
+void AppendFile::release() {
+  claim_.store(0, std::memory_order_release);
+}
+
+}  // namespace lockstep

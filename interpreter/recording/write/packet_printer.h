@@ -1,0 +1,49 @@
+// Turns the packets in a ring into the lines of a recording, a piece of text at a time.
+// Async-signal-safe: allocates nothing, and writes to nothing but itself and the text, so that
+// another printer may begin anew where the ring begins. Used by append_file.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "recording/write/packet_ring.h"
+
+namespace lockstep {
+
+class PacketPrinter {
+ public:
+  static constexpr std::size_t kLeastRoom = 512;  // bytes of text for print()
+
+  // Stands before the first packet in the ring.
+  explicit PacketPrinter(const PacketRing& ring) : ring_(ring), at_(ring.taken()), finished_(at_) {}
+
+  // The next of the text, as much as there is and `room` takes; "" when everything is printed.
+  std::string_view print(std::span<char> room);
+
+  // Where in the ring the first packet begins that is not printed as a whole, and how many bytes of
+  // its text are.
+  std::uint64_t finished() const { return finished_; }
+  std::uint64_t unfinished_text() const { return unfinished_text_; }
+
+ private:
+  bool begin_packet();
+  void end_packet();
+  char* put_piece(char* to, const char* end);
+  char* put_opening(char* to);
+  char* put_nodes(char* to, const char* end);
+  char* put_text(char* to, const char* end);
+
+  const PacketRing& ring_;
+  std::uint64_t at_;
+  std::uint64_t finished_;
+  std::uint64_t unfinished_text_ = 0;
+
+  // Of the packet that is being printed, what is left.
+  bool in_packet_ = false;
+  bool opening_left_ = false;
+  std::uint64_t nodes_left_ = 0, text_left_ = 0;
+  PacketHead head_ = {};
+};
+
+}  // namespace lockstep

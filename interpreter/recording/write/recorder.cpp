@@ -1,0 +1,113 @@
+#include "recording/write/recorder.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "measure/synchronized_measure.h"
+#include "recording/write/recording_text.h"
+#include "summary/statistics.h"
+
+namespace lockstep {
+namespace {
+
+// A packet that is longer than the queue could never be written, so the queue has room for several.
+// (Only the messages of faults have no limit. A tick that is too long because of them is lost, the
+// one after it is not.)
+std::size_t queue_of(const Tree& tree, std::size_t wanted) {
+  constexpr std::size_t kTicks = 4;
+  const std::size_t longest = packet_size(tree.nodes.size(), kPacketCell);
+  return std::max(wanted, kTicks * longest);
+}
+
+}  // namespace
+
+Recorder::Recorder(const Tree& tree, RecorderOptions options)
+    : tree_(tree),
+      options_(std::move(options)),
+      file_(options_.path, queue_of(tree, options_.queue)),
+      delta_(tree) {
+  line_end_.reserve(most_of_tick_end(synchronized_nodes(tree).size()));
+}
+
+void Recorder::run_started(Ticker&, const RunStart& start) {
+  may_wait_ = !start.real_time;
+  write(to_json(RecordingHeader{.tree = tree_.id,
+                                .file = options_.tree_file,
+                                .version = LOCKSTEP_VERSION,
+                                .rate_hz = options_.rate_hz,
+                                .clock = start.real_time ? "wall" : "virtual",
+                                .seed = options_.seed,
+                                .arguments = options_.arguments,
+                                .nodes = describe(tree_)}));
+}
+
+// Also when the file has failed: what leaves are asked must not depend on a disk.
+void Recorder::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds) {
+  delta_.before_tick(ticker);
+}
+
+void Recorder::after_tick(Ticker& ticker, const TickReport& report) {
+  if (!failed()) {
+    if (push_tick(ticker, report)) {
+      delta_.keep();
+      gap_ = 0;
+    } else if (!failed()) {
+      if (gap_ == 0) gap_from_ = report.tick;
+      ++gap_;
+      ++lost_;
+    }
+  }
+  tell_error();
+}
+
+// A gap is told together with what comes after it: either both are in the file or none.
+PacketHead Recorder::head() const {
+  return {.lost = gap_, .lost_from = gap_from_};
+}
+
+bool Recorder::push_tick(Ticker& ticker, const TickReport& report) {
+  set_tick_end(line_end_, delta_.limits(ticker), delta_.succeeded(ticker), report.faults);
+  Packet packet{.head = head(), .nodes = delta_.changes(ticker), .text = line_end_};
+  packet.head.is_tick = 1;
+  packet.head.tick = report.tick;
+  packet.head.time = report.time.count();
+  if (file_.push(packet)) return true;
+  if (!may_wait_) return false;
+  file_.flush();
+  return file_.push(packet);
+}
+
+void Recorder::run_ended(Ticker& ticker, const RunEnd& end) {
+  RecordedEnd closing{.result = std::string(to_string(end.result())),
+                      .reason = std::string(to_string(end.reason)),
+                      .fault = end.fault ? fault_text(tree_, *end.fault) : "",
+                      .signal = {},
+                      .ticks = end.ticks,
+                      .time = to_seconds(end.time),
+                      .overruns = end.overruns,
+                      .skipped = end.skipped,
+                      .lost = lost_,
+                      .notes = {}};
+  for (const Fault& fault : ticker.tolerated()) {
+    closing.notes.push_back(fault_text(tree_, fault, end.ticks));
+  }
+  std::ranges::move(out_of_range_notes(ticker), std::back_inserter(closing.notes));
+  if (end.reason == StopReason::Signal) closing.signal = end.signal;
+  write(to_json(closing));
+}
+
+// The first and the last line are not lost, even if the run has to wait for them.
+void Recorder::write(const std::string& line) {
+  const std::string text = line + '\n';
+  file_.write({.head = head(), .text = text});
+  tell_error();
+}
+
+void Recorder::tell_error() {
+  if (error_told_ || !failed()) return;
+  error_told_ = true;
+  if (options_.on_error) options_.on_error(error());
+}
+
+}  // namespace lockstep

@@ -1,0 +1,62 @@
+// Writes a run to a file as JSON Lines, one line per tick with what changed: docs/recording.md. On
+// a virtual clock the same run gives the same bytes. Allocates nothing per tick, leaves the
+// printing to the thread that writes, and on a real clock never waits for the disk: ticks for which
+// there is no room are left out, counted, and told in the recording itself.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "recording/recording.h"
+#include "recording/write/append_file.h"
+#include "recording/write/recording_delta.h"
+#include "runtime/observer.h"
+
+namespace lockstep {
+
+struct RecorderOptions {
+  std::string path;       // of the recording
+  std::string tree_file;  // as the user named it
+  double rate_hz = 0;
+  std::uint64_t seed = 0;
+  std::map<std::string, std::string, std::less<>> arguments = {};
+  // Called once, on the tick thread, when the recording cannot be written. Nothing is written after
+  // it; whether the run goes on is the caller's choice.
+  std::function<void(const std::string& error)> on_error = {};
+  std::size_t queue = AppendFile::kQueue;  // bytes that may wait for the disk, at least
+};
+
+class Recorder final : public Observer {
+ public:
+  Recorder(const Tree& tree, RecorderOptions options);
+
+  void run_started(Ticker& ticker, const RunStart& start) override;
+  void before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) override;
+  void after_tick(Ticker& ticker, const TickReport& report) override;
+  void run_ended(Ticker& ticker, const RunEnd& end) override;
+
+  // Cheap enough to be asked in each tick.
+  bool failed() const { return file_.failed(); }
+  // "" while all is well. Known from construction on when the file cannot be created.
+  const std::string& error() const { return file_.error(); }
+  // Ticks that the recording does not have because the disk was too slow.
+  std::uint64_t lost() const { return lost_; }
+
+ private:
+  PacketHead head() const;
+  bool push_tick(Ticker& ticker, const TickReport& report);
+  void write(const std::string& line);
+  void tell_error();
+
+  const Tree& tree_;
+  RecorderOptions options_;
+  AppendFile file_;
+  RecordingDelta delta_;
+  std::string line_end_;   // of the tick, for its room
+  bool may_wait_ = false;  // time stands still, so waiting for the disk delays nothing
+  std::uint64_t lost_ = 0;
+  std::uint64_t gap_ = 0, gap_from_ = 0;  // of these, the last ones, which no line tells yet
+  bool error_told_ = false;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,139 @@
+#include "recording/write/recording_delta.h"
+
+#include <cstring>
+
+#include "engine/synchronized.h"
+#include "engine/ticker.h"
+#include "measure/synchronized_measure.h"
+
+namespace lockstep {
+namespace {
+
+constexpr std::uint8_t kMoved = 16;     // above NodeChange::kTicked
+constexpr std::uint8_t kUnknown = 255;  // no Activity
+
+std::uint64_t eight(const void* bytes) {
+  std::uint64_t block = 0;
+  std::memcpy(&block, bytes, sizeof block);
+  return block;
+}
+
+// Visits each index at which two arrays of bytes differ.
+template <class Byte, class Visit>
+void for_each_difference(std::span<const Byte> one, const std::uint8_t* other, Visit visit) {
+  std::size_t at = 0;
+  for (; at + 8 <= one.size(); at += 8) {
+    if (eight(&one[at]) == eight(other + at)) continue;
+    for (std::size_t i = at; i < at + 8; ++i) {
+      if (static_cast<std::uint8_t>(one[i]) != other[i]) visit(static_cast<NodeIndex>(i));
+    }
+  }
+  for (; at < one.size(); ++at) {
+    if (static_cast<std::uint8_t>(one[at]) != other[at]) visit(static_cast<NodeIndex>(at));
+  }
+}
+
+// Simple enough for the compiler to do many nodes at a time.
+void put_states(const RunState& run, std::uint32_t tick, const std::uint8_t* moved,
+                std::uint8_t* states) {
+  const std::uint8_t ticked = tick != 0 ? NodeChange::kTicked : 0;  // 0: there was none yet
+  const Activity* const activity = run.activity.data();
+  const std::uint32_t* const last = run.last_tick.data();
+  const std::size_t count = run.activity.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto of_tick = static_cast<std::uint8_t>(last[i] == tick ? ticked : 0);
+    states[i] =
+        static_cast<std::uint8_t>(static_cast<std::uint8_t>(activity[i]) | of_tick | moved[i]);
+  }
+}
+
+}  // namespace
+
+RecordingDelta::RecordingDelta(const Tree& tree)
+    : synchronized_nodes_(synchronized_nodes(tree)),
+      succeeded_(synchronized_nodes_),  // for its room
+      limits_(synchronized_nodes_.size()),
+      progress_(tree.nodes.size()),
+      source_(tree.nodes.size()),
+      moved_(tree.nodes.size()),
+      state_(tree.nodes.size()),
+      kept_(tree.nodes.size()),
+      kept_progress_(tree.nodes.size()),
+      changes_(tree.nodes.size()) {
+  for (const NodeIndex node : synchronized_nodes_) kept_limits_.push_back({.node = node});
+}
+
+// Only running nodes are asked. Of all others the progress follows from their Activity, so it is
+// looked at when that has become another one.
+void RecordingDelta::before_tick(Ticker& ticker) {
+  const std::span<const Activity> activity = ticker.run_state().activity;
+  for_each_difference(activity, source_.data(), [&](NodeIndex node) {
+    set_progress(node, ticker.progress(node));
+    const bool running = status_of(activity[node]) == Status::Running;
+    source_[node] = running ? kUnknown : static_cast<std::uint8_t>(activity[node]);
+  });
+}
+
+std::span<const NodeChange> RecordingDelta::changes(Ticker& ticker) {
+  take_snapshots(ticker);
+  put_states(ticker.run_state(), ticker.tick_number(), moved_.data(), state_.data());
+  NodeChange* next = changes_.data();
+  for_each_difference(std::span<const std::uint8_t>(state_), kept_.data(), [&](NodeIndex node) {
+    const auto state = static_cast<std::uint8_t>(state_[node] & ~kMoved);
+    *next++ = {.progress = progress_[node], .node = node, .state = state};
+  });
+  count_ = static_cast<std::size_t>(next - changes_.data());
+  return {changes_.data(), count_};
+}
+
+std::span<const NodeIndex> RecordingDelta::succeeded(Ticker& ticker) {
+  succeeded_.clear();
+  for (const NodeIndex node : synchronized_nodes_) {
+    if (ticker.status(node) != Status::Idle || !ticker.ticked(node)) continue;
+    if (lockstep::succeeded(ticker, node)) succeeded_.push_back(node);
+  }
+  return succeeded_;
+}
+
+std::span<const LimitChange> RecordingDelta::limits(Ticker& ticker) {
+  limits_.clear();
+  for (const LimitChange& kept : kept_limits_) {
+    if (!ticker.ticked(kept.node)) continue;
+    const double limit = lockstep::limit(ticker, kept.node);
+    if (limit != kept.limit) limits_.push_back({kept.node, limit});
+  }
+  return limits_;
+}
+
+void RecordingDelta::keep() {
+  auto kept = kept_limits_.begin();
+  for (const LimitChange& change : limits_) {  // in the same order
+    while (kept->node != change.node) ++kept;
+    kept->limit = change.limit;
+  }
+  for (const NodeChange& change : std::span(changes_).first(count_)) {
+    kept_[change.node] = change.state;
+    kept_progress_[change.node] = change.progress;
+    moved_[change.node] = 0;
+  }
+}
+
+void RecordingDelta::set_progress(NodeIndex node, double progress) {
+  progress_[node] = progress;
+  moved_[node] = progress != kept_progress_[node] ? kMoved : 0;
+}
+
+// What a synchronized node has seen counts more than what was seen before its tick.
+void RecordingDelta::take_snapshots(Ticker& ticker) {
+  for (const NodeIndex node : synchronized_nodes_) {
+    if (!ticker.ticked(node)) continue;
+    NodeIndex child = node + 1;
+    for (const double progress : child_progress(ticker, node)) {
+      set_progress(child, progress);
+      source_[child] = kUnknown;
+      child = ticker.end_of(child);
+    }
+  }
+}
+
+}  // namespace lockstep

@@ -1,0 +1,116 @@
+#include "recording/write/recording_text.h"
+
+#include <fmt/compile.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+namespace lockstep {
+namespace {
+
+char* put(char* to, std::string_view text) {
+  return std::copy(text.begin(), text.end(), to);
+}
+
+template <class Integer>
+char* put_integer(char* to, Integer number) {
+  return std::to_chars(to, to + std::numeric_limits<Integer>::digits10 + 1, number).ptr;
+}
+
+char* put_seconds(char* to, Nanoseconds time) {
+  constexpr std::uint64_t kSecond = 1'000'000'000;
+  const auto total = static_cast<std::uint64_t>(time.count());
+  to = put_integer(to, total / kSecond);
+  // A digit more, so that none of the fraction's zeros is left out.
+  char digits[24];
+  const char* end = put_integer(digits, kSecond + total % kSecond);
+  while (end[-1] == '0' && end > digits + 2) --end;
+  digits[0] = '.';
+  return std::copy<const char*>(digits, end, to);
+}
+
+// Of nodes that change, most have not begun, have ended, or stand where their parent does: writing
+// a number takes longer than all the rest.
+char* put_progress(char* to, double progress) {
+  if (progress == 1.0) return put(to, "1");
+  if (progress == 0.0 && !std::signbit(progress)) return put(to, "0");
+  return fmt::format_to(to, FMT_COMPILE("{}"), progress);
+}
+
+void add_limits(std::string& text, std::span<const LimitChange> limits) {
+  text += ",\"limits\":";
+  char separator = '[';
+  for (const LimitChange& it : limits) {
+    text += separator;
+    separator = ',';
+    if (std::isinf(it.limit)) {
+      fmt::format_to(std::back_inserter(text), FMT_COMPILE("[{},null]"), it.node);
+    } else {
+      fmt::format_to(std::back_inserter(text), FMT_COMPILE("[{},{}]"), it.node, it.limit);
+    }
+  }
+  text += ']';
+}
+
+void add_succeeded(std::string& text, std::span<const NodeIndex> succeeded) {
+  text += ",\"succeeded\":";
+  char separator = '[';
+  for (const NodeIndex node : succeeded) {
+    text += separator;
+    separator = ',';
+    fmt::format_to(std::back_inserter(text), FMT_COMPILE("{}"), node);
+  }
+  text += ']';
+}
+
+std::string faults_text(std::span<const Fault> faults) {
+  constexpr std::size_t kMostOfMessage = 4096;
+  std::string text = ",\"faults\":[";
+  for (const Fault& fault : faults) {
+    if (&fault != faults.data()) text += ',';
+    const nlohmann::json json = {fault.node, fault.message.substr(0, kMostOfMessage)};
+    text += json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  }
+  return text + "]";
+}
+
+}  // namespace
+
+char* put_lost(char* to, std::uint64_t ticks, std::uint64_t from) {
+  to = put_integer(put(to, "{\"lost\":{\"ticks\":"), ticks);
+  to = put_integer(put(to, ",\"from\":"), from);
+  return put(to, "}}\n");
+}
+
+char* put_tick(char* to, std::uint64_t tick, Nanoseconds time) {
+  to = put_integer(put(to, "{\"tick\":"), tick);
+  to = put_seconds(put(to, ",\"time_s\":"), time);
+  return put(to, ",\"nodes\":[");
+}
+
+char* put_node(char* to, NodeIndex node, const RecordedState& state) {
+  constexpr std::string_view kStatus[] = {",\"idle\",", ",\"running\",", ",\"success\",",
+                                          ",\"failure\","};
+  constexpr std::string_view kFlags[] = {",0,0]", ",0,1]", ",1,0]", ",1,1]"};
+  to = put_integer(put(to, "["), node);
+  to = put(to, kStatus[static_cast<unsigned>(state.status)]);
+  to = put_progress(to, state.progress);
+  return put(to, kFlags[2 * state.ticked + state.held]);
+}
+
+void set_tick_end(std::string& text, std::span<const LimitChange> limits,
+                  std::span<const NodeIndex> succeeded, std::span<const Fault> faults) {
+  text = ']';
+  if (!limits.empty()) add_limits(text, limits);
+  if (!succeeded.empty()) add_succeeded(text, succeeded);
+  if (!faults.empty()) text += faults_text(faults);
+  text += "}\n";
+}
+
+}  // namespace lockstep

@@ -1,0 +1,130 @@
+#include "summary/statistics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lockstep {
+
+Statistics::Statistics(const Tree& tree) : tree_(tree) {
+  for (const NodeIndex node : synchronized_nodes(tree)) {
+    nodes_.push_back(
+        {SynchronizedProbe(tree, node), SynchronizedMeasure(tree.nodes[node].children)});
+  }
+}
+
+void Statistics::run_started(Ticker&, const RunStart& start) {
+  real_time_ = start.real_time;
+}
+
+void Statistics::after_tick(Ticker& ticker, const TickReport& report) {
+  if (report.tick > 0) periods_.record(report.time - last_start_);
+  last_start_ = report.time;
+  for (Measured& node : nodes_) node.measure.after_tick(node.probe.read(ticker, report.time));
+  for (const Fault& fault : report.faults) note(fault, report.tick);
+  if (report.status == Status::Failure) why_failed_ = deciding_path(ticker);
+}
+
+void Statistics::note(const Fault& fault, std::uint64_t tick) {
+  faults_.add([&] { return fault_text(tree_, fault, tick); });
+}
+
+void Statistics::run_ended(Ticker& ticker, const RunEnd& end) {
+  end_ = end;
+  for (const Fault& fault : ticker.tolerated()) note(fault, end.ticks);
+  out_of_range_notes_ = out_of_range_notes(ticker);
+  for (Measured& node : nodes_) node.measure.run_ended(end.time);
+}
+
+Summary Statistics::summary() const {
+  Summary summary{.result = end_.result(),
+                  .reason = end_.reason,
+                  .signal = end_.signal,
+                  .fault = end_.fault ? fault_text(tree_, *end_.fault) : "",
+                  .why_failed = {},
+                  .ticks = end_.ticks,
+                  .seconds = to_seconds(end_.time),
+                  .period = {},
+                  .overruns = end_.overruns,
+                  .skipped = end_.skipped,
+                  .worst = worst_tick(),
+                  .faults = faults_.count(),
+                  .tick_budget = {},
+                  .over_budget = {},
+                  .synchronized_nodes = {},
+                  .never_reached = 0,
+                  .notes = {}};
+  faults_.append_to(summary.notes);
+  summary.notes.insert(summary.notes.end(), out_of_range_notes_.begin(), out_of_range_notes_.end());
+  if (real_time_ && periods_.count() > 0) {
+    summary.period = PeriodSummary{.p50 = to_seconds(periods_.quantile(0.5)),
+                                   .p99 = to_seconds(periods_.quantile(0.99)),
+                                   .max = to_seconds(periods_.max())};
+  }
+  for (const DecidingNode& node : why_failed_) {
+    summary.why_failed.push_back(
+        summarize(node, tree_.path(node.node), std::string(tree_.labels[node.node].type->id)));
+  }
+  for (const Measured& node : nodes_) {
+    if (node.measure.distance().samples() > 0) {
+      summary.synchronized_nodes.push_back(summary_of(node));
+    }
+  }
+  summary.never_reached = nodes_.size() - summary.synchronized_nodes.size();
+  return summary;
+}
+
+std::optional<WorstTickSummary> Statistics::worst_tick() const {
+  const WorstTick& worst = end_.worst;
+  if (!real_time_ || worst.took == Nanoseconds(0)) return std::nullopt;
+  return WorstTickSummary{.tick = worst.tick,
+                          .took = to_seconds(worst.took),
+                          .leaf = worst.leaf ? tree_.path(*worst.leaf) : "",
+                          .leaf_took = to_seconds(worst.leaf_took)};
+}
+
+SynchronizedSummary Statistics::summary_of(const Measured& measured) const {
+  std::vector<std::string> children;
+  for (const NodeIndex child : measured.probe.children()) {
+    children.push_back(tree_.segment(child));
+  }
+  const NodeIndex node = measured.probe.node();
+  return summarize(measured.measure, tree_.path(node), std::string(tree_.labels[node].type->id),
+                   children);
+}
+
+std::string fault_text(const Tree& tree, const Fault& fault, std::uint64_t tick) {
+  const std::string path = tree.path(fault.node);
+  if (fault.in_last_halt) {
+    return fmt::format("the leaf '{}' could not be halted: {}", path, fault.message);
+  }
+  return fmt::format("the leaf '{}' failed in tick {}: {}; counted as Failure", path, tick,
+                     fault.message);
+}
+
+std::string fault_text(const Tree& tree, const Fault& fault) {
+  return fmt::format("{}: {}{}", tree.path(fault.node),
+                     fault.in_last_halt ? "could not be halted: " : "", fault.message);
+}
+
+std::string out_of_range_text(double reported) {
+  return fmt::format(
+      "reported the progress {:.6g}: progress is a share from 0 to 1, so it counts as {}", reported,
+      reported < 0 ? 0 : 1);
+}
+
+std::vector<std::string> out_of_range_notes(const Ticker& ticker) {
+  constexpr std::size_t kMostLeaves = 5;
+  std::vector<std::string> notes;
+  const auto all = ticker.out_of_range();
+  for (const OutOfRange& it : all.first(std::min(all.size(), kMostLeaves))) {
+    notes.push_back(fmt::format("the leaf '{}' {}", ticker.tree().path(it.node),
+                                out_of_range_text(it.reported)));
+  }
+  if (all.size() > kMostLeaves) {
+    notes.push_back(fmt::format("{} leaves in all reported such a progress", all.size()));
+  }
+  return notes;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,58 @@
+// Measures a run for its summary: tick periods, and every synchronized node. Allocates nothing
+// while the run ticks (only a leaf's fault is noted as text, and why the root failed). Prints
+// nothing itself.
+#pragma once
+
+#include <vector>
+
+#include "core/histogram.h"
+#include "measure/decision.h"
+#include "measure/synchronized_measure.h"
+#include "runtime/observer.h"
+#include "summary/capped_notes.h"
+#include "summary/summary.h"
+
+namespace lockstep {
+
+class Statistics final : public Observer {
+ public:
+  explicit Statistics(const Tree& tree);
+
+  void run_started(Ticker& ticker, const RunStart& start) override;
+  void after_tick(Ticker& ticker, const TickReport& report) override;
+  void run_ended(Ticker& ticker, const RunEnd& end) override;
+
+  // Complete once the run has ended.
+  Summary summary() const;
+
+ private:
+  struct Measured {
+    SynchronizedProbe probe;
+    SynchronizedMeasure measure;
+  };
+  void note(const Fault& fault, std::uint64_t tick);
+  std::optional<WorstTickSummary> worst_tick() const;
+  SynchronizedSummary summary_of(const Measured& measured) const;
+
+  const Tree& tree_;
+  std::vector<Measured> nodes_;
+  Histogram periods_;
+  bool real_time_ = false;
+  Nanoseconds last_start_{0};
+  std::vector<DecidingNode> why_failed_;
+  CappedNotes faults_{"fault"};  // that the run went on after
+  std::vector<std::string> out_of_range_notes_;
+  RunEnd end_;
+};
+
+// "the leaf 'Door/pull/arm' failed in tick 12: threw …; counted as Failure"
+std::string fault_text(const Tree& tree, const Fault& fault, std::uint64_t tick);
+// "Door/pull/arm: threw …"
+std::string fault_text(const Tree& tree, const Fault& fault);
+
+// "reported the progress 42: progress is a share from 0 to 1, so it counts as 1"
+std::string out_of_range_text(double reported);
+// "the leaf 'Door/pull/arm' reported …" of the first few leaves, and how many there are.
+std::vector<std::string> out_of_range_notes(const Ticker& ticker);
+
+}  // namespace lockstep

@@ -1,0 +1,186 @@
+#include "summary/summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstring>
+#include <iterator>
+
+#include "core/diagnostics.h"
+#include "measure/measure_spec.h"
+
+namespace lockstep {
+namespace {
+
+std::string why(const Summary& summary) {
+  switch (summary.reason) {
+    case StopReason::Completed:
+      return {};
+    case StopReason::Fault:
+      return printable(summary.fault);
+    case StopReason::Timeout:
+      return "the time limit (--timeout) was reached";
+    case StopReason::MaxTicks:
+      return "the tick limit (--max-ticks) was reached";
+    case StopReason::Signal:
+      return fmt::format("signal: {}", strsignal(summary.signal));
+    case StopReason::Overrun:
+      return "a tick missed the next deadline";
+    case StopReason::Recording:
+      return "the recording cannot be written";
+  }
+  return {};
+}
+
+std::string timing(const Summary& summary) {
+  if (!summary.period) return {};
+  return fmt::format("  period     p50 {:.3f} ms, p99 {:.3f} ms, max {:.3f} ms\n",
+                     summary.period->p50 * 1e3, summary.period->p99 * 1e3,
+                     summary.period->max * 1e3) +
+         fmt::format("  overruns   {} (deadlines skipped: {})\n", summary.overruns,
+                     summary.skipped);
+}
+
+std::string worst_tick(const Summary& summary) {
+  if (!summary.worst) return {};
+  const WorstTickSummary& worst = *summary.worst;
+  std::string text = fmt::format("  worst tick {}: {:.3f} ms", worst.tick, worst.took * 1e3);
+  if (!worst.leaf.empty()) {
+    text += fmt::format(", of which {:.3f} ms in {}", worst.leaf_took * 1e3, printable(worst.leaf));
+  }
+  return text + "\n";
+}
+
+void write_over_budget(const Summary& summary, std::string& out, bool color) {
+  for (const LeafTimingSummary& leaf : summary.over_budget) {
+    fmt::format_to(std::back_inserter(out),
+                   "  {} of {:.6g} ms: {} {} of {}, p50 {:.3f} ms, p99 {:.3f} ms, max {:.3f} ms\n",
+                   styled("over the tick budget", Style::Warning, color),
+                   summary.tick_budget.value_or(0) * 1e3, printable(leaf.path), leaf.over_budget,
+                   counted(leaf.calls, "tick"), leaf.p50 * 1e3, leaf.p99 * 1e3, leaf.max * 1e3);
+  }
+}
+
+std::string waited(const ChildSummary& child) {
+  if (child.waits == 0) return "did not wait";
+  return fmt::format("waited {}, {:.3f} s in {}", counted(child.waits, "time"), child.held_seconds,
+                     counted(child.held_ticks, "tick"));
+}
+
+void write_node(const SynchronizedSummary& node, std::string& out, bool color) {
+  const auto name = styled(printable(node.path), Style::Strong, color);
+  fmt::format_to(std::back_inserter(out), "  {} ({}, {})\n", name, printable(node.kind),
+                 counted(node.samples, "tick"));
+  fmt::format_to(std::back_inserter(out),
+                 "    progress distance {:.6g}, mean {:.6g} a tick; largest spread {:.6g}, ",
+                 node.distance_sum, node.distance_mean, node.largest_spread);
+  fmt::format_to(std::back_inserter(out), "longest step {:.6g}\n", node.step_length);
+  std::size_t width = 0;
+  for (const ChildSummary& child : node.children) {
+    width = std::max(width, printable(child.name).size());
+  }
+  for (const ChildSummary& child : node.children) {
+    fmt::format_to(std::back_inserter(out), "    {:<{}}  {}\n", printable(child.name), width,
+                   waited(child));
+  }
+}
+
+void write_deciding(const DecidingSummary& node, std::size_t indent, std::string& out, bool color) {
+  const std::string name = last_segment(node.path);
+  const Style style = node.status == Status::Success ? Style::Good : Style::Bad;
+  fmt::format_to(std::back_inserter(out), "{:{}}{}", "", indent, printable(name));
+  if (name != node.kind) fmt::format_to(std::back_inserter(out), " ({})", printable(node.kind));
+  fmt::format_to(std::back_inserter(out), ": {}", styled(to_string(node.status), style, color));
+  if (node.agreeing > 1)
+    fmt::format_to(std::back_inserter(out), " ({} of {} children)", node.agreeing, node.children);
+  out += '\n';
+}
+
+}  // namespace
+
+std::string_view to_string(RunResult result) {
+  constexpr std::string_view kNames[] = {"success", "failure", "stopped", "fault"};
+  return kNames[static_cast<unsigned>(result)];
+}
+
+Style style_of(RunResult result) {
+  if (result == RunResult::Success) return Style::Good;
+  return result == RunResult::Stopped ? Style::Warning : Style::Bad;
+}
+
+std::string_view to_string(StopReason reason) {
+  constexpr std::string_view kNames[] = {"completed", "fault",   "timeout",  "max_ticks",
+                                         "signal",    "overrun", "recording"};
+  return kNames[static_cast<unsigned>(reason)];
+}
+
+DecidingSummary summarize(const DecidingNode& node, std::string path, std::string kind) {
+  return {.path = std::move(path),
+          .kind = std::move(kind),
+          .status = node.status,
+          .children = node.children,
+          .agreeing = node.agreeing};
+}
+
+SynchronizedSummary summarize(const SynchronizedMeasure& measure, std::string path,
+                              std::string kind, const std::vector<std::string>& children) {
+  const ProgressDistance& distance = measure.distance();
+  SynchronizedSummary summary{.path = std::move(path),
+                              .kind = std::move(kind),
+                              .samples = distance.samples(),
+                              .distance_sum = distance.sum(),
+                              .distance_mean = distance.mean(),
+                              .largest_spread = distance.largest_spread(),
+                              .step_length = distance.step_length(),
+                              .children = {}};
+  for (std::size_t child = 0; child < children.size(); ++child) {
+    const auto& held = measure.held()[child];
+    summary.children.push_back({children[child], to_seconds(held.time), held.ticks, held.waits});
+  }
+  return summary;
+}
+
+void write_text(std::span<const SynchronizedSummary> nodes, std::size_t never_reached,
+                std::string& out, bool color) {
+  for (const SynchronizedSummary& node : nodes) write_node(node, out, color);
+  if (never_reached == 0) return;
+  fmt::format_to(std::back_inserter(out), "  {} {} never reached\n",
+                 counted(never_reached, "synchronized node"), never_reached == 1 ? "was" : "were");
+}
+
+// Of a deep tree the first and the last nodes: in between a result is mostly passed on.
+void write_text(std::span<const DecidingSummary> why_failed, std::string& out, bool color) {
+  constexpr std::size_t kFirst = 5, kLast = 15;
+  if (why_failed.empty()) return;
+  fmt::format_to(std::back_inserter(out), "  decided by {}:\n", printable(why_failed.back().path));
+  const std::size_t left_out = why_failed.size() - std::min(why_failed.size(), kFirst + kLast);
+  std::size_t indent = 4;
+  for (std::size_t i = 0; i < why_failed.size(); ++i, indent += 2) {
+    if (left_out > 0 && i == kFirst) {
+      fmt::format_to(std::back_inserter(out), "{:{}}... {} more\n", "", indent,
+                     counted(left_out, "node"));
+      i += left_out;
+      indent += 2;
+    }
+    write_deciding(why_failed[i], indent, out, color);
+  }
+}
+
+void write_text(const Summary& summary, std::string& out, bool color) {
+  const auto result = styled(to_string(summary.result), style_of(summary.result), color);
+  const std::string reason = why(summary);
+  fmt::format_to(std::back_inserter(out), "{}{}{} after {}, {:.3f} s\n", result,
+                 reason.empty() ? "" : ": ", reason, counted(summary.ticks, "tick"),
+                 summary.seconds);
+  write_text(summary.why_failed, out, color);
+  out += timing(summary) + worst_tick(summary);
+  write_over_budget(summary, out, color);
+  write_text(summary.synchronized_nodes, summary.never_reached, out, color);
+  for (const std::string& note : summary.notes) {
+    fmt::format_to(std::back_inserter(out), "{} {}\n", styled("note:", Style::Warning, color),
+                   printable(note));
+  }
+}
+
+}  // namespace lockstep

@@ -1,0 +1,100 @@
+// What a run was like, in numbers, and how that is told: as text for people and as JSON for
+// programs. Plain data; statistics.h fills it in.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/wording.h"
+#include "measure/decision.h"
+#include "measure/synchronized_measure.h"
+#include "runtime/observer.h"
+#include "terminal/style.h"
+
+namespace lockstep {
+
+// "success", "failure", "stopped" or "fault".
+std::string_view to_string(RunResult result);
+Style style_of(RunResult result);
+// "completed", "fault", "timeout", "max_ticks", "signal", "overrun" or "recording", as recordings
+// and JSON spell it.
+std::string_view to_string(StopReason reason);
+
+struct ChildSummary {
+  std::string name;
+  double held_seconds = 0;
+  std::uint64_t held_ticks = 0;
+  std::uint64_t waits = 0;
+};
+
+struct SynchronizedSummary {
+  std::string path, kind;
+  std::uint64_t samples = 0;  // ticks of the node
+  double distance_sum = 0, distance_mean = 0;
+  double largest_spread = 0;
+  double step_length = 0;
+  std::vector<ChildSummary> children;
+};
+
+// One of the nodes that decided the result; measure/decision.h.
+struct DecidingSummary {
+  std::string path, kind;
+  Status status = Status::Idle;
+  std::size_t children = 0, agreeing = 0;
+};
+
+DecidingSummary summarize(const DecidingNode& node, std::string path, std::string kind);
+SynchronizedSummary summarize(const SynchronizedMeasure& measure, std::string path,
+                              std::string kind, const std::vector<std::string>& children);
+
+struct PeriodSummary {
+  double p50 = 0, p99 = 0, max = 0;  // seconds from the start of a tick to the start of the next
+};
+
+// Of a leaf whose ticks were over the budget.
+struct LeafTimingSummary {
+  std::string path;
+  std::uint64_t calls = 0, over_budget = 0;  // ticks of the leaf, and those that were over it
+  double p50 = 0, p99 = 0, max = 0;          // seconds
+};
+
+// The tick that took longest.
+struct WorstTickSummary {
+  std::uint64_t tick = 0;
+  double took = 0;   // seconds
+  std::string leaf;  // whose call took most of it, or "" when calls were not timed
+  double leaf_took = 0;
+};
+
+struct Summary {
+  RunResult result = RunResult::Stopped;
+  StopReason reason = StopReason::Completed;
+  int signal = 0;                           // when reason is Signal
+  std::string fault;                        // when reason is Fault: "Door/pull/arm: threw …"
+  std::vector<DecidingSummary> why_failed;  // from the root down, when it failed
+  std::uint64_t ticks = 0;
+  double seconds = 0;
+  std::optional<PeriodSummary> period;  // real time only, and from two ticks on
+  std::uint64_t overruns = 0, skipped = 0;
+  std::optional<WorstTickSummary> worst;  // real time only
+  std::uint64_t faults = 0;               // of leaves that the run went on after
+  std::optional<double> tick_budget;      // seconds
+  std::vector<LeafTimingSummary> over_budget;
+  std::vector<SynchronizedSummary> synchronized_nodes;  // that a tick reached
+  std::size_t never_reached = 0;                        // of the synchronized nodes
+  std::vector<std::string> notes;  // what else the user must know: a recording that is cut, …
+};
+
+void write_text(const Summary& summary, std::string& out, bool color);
+// Parts of it, which a recording tells in the same words.
+void write_text(std::span<const DecidingSummary> why_failed, std::string& out, bool color);
+void write_text(std::span<const SynchronizedSummary> nodes, std::size_t never_reached,
+                std::string& out, bool color);
+
+// One line, no newline. docs/recording.md describes the keys.
+std::string to_json(const Summary& summary);
+
+}  // namespace lockstep

@@ -1,0 +1,107 @@
+#include "terminal/raw_terminal.h"
+
+#include <signal.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+
+#include "terminal/screen.h"
+
+namespace lockstep {
+namespace {
+
+// Of the one terminal that a process has; a signal handler cannot ask an object.
+termios g_before{};
+int g_keys = -1, g_screen = -1;
+std::atomic<bool> g_is_taken{false};
+std::atomic<bool> g_is_stopping{false};  // by Ctrl-Z
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+// Stops the process as it would be stopped without us; returns when it goes on.
+void on_stop(int number) {
+  const int error = errno;
+  g_is_stopping = true;
+  RawTerminal::restore();
+  struct sigaction standard {};
+  struct sigaction before {};
+  standard.sa_handler = SIG_DFL;
+  sigaction(number, &standard, &before);
+  raise(number);
+  sigset_t its;
+  sigemptyset(&its);
+  sigaddset(&its, number);
+  pthread_sigmask(SIG_UNBLOCK, &its, nullptr);  // here it stops
+  sigaction(number, &before, nullptr);
+  g_is_stopping = false;
+  errno = error;
+}
+
+// After SIGSTOP, which nobody can handle, the terminal is the shell's.
+void on_continue(int) {
+  g_is_taken = false;
+}
+
+void handle(int number, void (*handler)(int)) {
+  struct sigaction now {};
+  sigaction(number, nullptr, &now);
+  if (now.sa_handler != SIG_DFL) return;
+  struct sigaction action {};
+  action.sa_handler = handler;
+  action.sa_flags = SA_RESTART;
+  sigaction(number, &action, nullptr);
+}
+
+void leave(int number, void (*handler)(int)) {
+  struct sigaction now {};
+  sigaction(number, nullptr, &now);
+  if (now.sa_handler == handler) signal(number, SIG_DFL);
+}
+
+// A terminal that is not the process's own has no foreground, and may be drawn on.
+bool is_in_foreground() {
+  const pid_t foreground = tcgetpgrp(g_keys >= 0 ? g_keys : g_screen);
+  return foreground < 0 || foreground == getpgrp();
+}
+
+void make_raw() {
+  termios raw = g_before;
+  raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO | IEXTEN);
+  raw.c_cc[VMIN] = 1;
+  raw.c_cc[VTIME] = 0;
+  tcsetattr(g_keys, TCSANOW, &raw);
+}
+
+}  // namespace
+
+RawTerminal::RawTerminal(int keys, int screen) {
+  if (keys >= 0) tcgetattr(keys, &g_before);
+  g_keys = keys;
+  g_screen = screen;
+  handle(SIGTSTP, on_stop);
+  handle(SIGCONT, on_continue);
+}
+
+RawTerminal::~RawTerminal() {
+  restore();
+  leave(SIGTSTP, on_stop);
+  leave(SIGCONT, on_continue);
+}
+
+RawTerminal::State RawTerminal::take() {
+  if (g_is_stopping || !is_in_foreground()) return State::Away;
+  if (g_is_taken) return State::Kept;
+  g_is_taken = true;  // before it is, so that whatever happens from here on restores it
+  if (g_keys >= 0) make_raw();
+  hide_cursor(g_screen);
+  return State::Taken;
+}
+
+void RawTerminal::restore() {
+  if (!g_is_taken.exchange(false)) return;
+  if (g_keys >= 0) tcsetattr(g_keys, TCSANOW, &g_before);
+  show_cursor(g_screen);
+}
+
+}  // namespace lockstep

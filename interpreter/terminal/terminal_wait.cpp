@@ -1,0 +1,51 @@
+#include "terminal/terminal_wait.h"
+
+#include <poll.h>
+
+#include <ctime>
+
+namespace lockstep {
+namespace {
+
+volatile std::sig_atomic_t g_resized = 0;
+
+void on_resize(int) {
+  g_resized = 1;
+}
+
+timespec time_of(double seconds) {
+  const auto whole = static_cast<std::time_t>(seconds);
+  return {.tv_sec = whole,
+          .tv_nsec = static_cast<long>((seconds - static_cast<double>(whole)) * 1e9)};
+}
+
+}  // namespace
+
+// The signal is let in only while wait() waits.
+TerminalWait::TerminalWait(int keys) : keys_(keys) {
+  sigset_t resize;
+  sigemptyset(&resize);
+  sigaddset(&resize, SIGWINCH);
+  pthread_sigmask(SIG_BLOCK, &resize, &before_);
+  struct sigaction action {};
+  action.sa_handler = on_resize;
+  sigaction(SIGWINCH, &action, &action_before_);
+}
+
+TerminalWait::~TerminalWait() {
+  sigaction(SIGWINCH, &action_before_, nullptr);
+  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
+TerminalEvent TerminalWait::wait(double seconds) const {
+  pollfd keys{keys_, POLLIN, 0};
+  const timespec limit = time_of(seconds);
+  const int ready = ppoll(&keys, 1, &limit, &before_);
+  if (g_resized != 0) {
+    g_resized = 0;
+    return TerminalEvent::Resize;
+  }
+  return ready > 0 ? TerminalEvent::Key : TerminalEvent::None;
+}
+
+}  // namespace lockstep

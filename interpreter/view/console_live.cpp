@@ -1,0 +1,149 @@
+#include "view/console_live.h"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <array>
+#include <new>
+#include <utility>
+
+#include "core/diagnostics.h"
+#include "core/own_thread.h"
+#include "summary/statistics.h"
+
+namespace lockstep {
+
+ConsoleLive::ConsoleLive(const Tree& tree, const LiveOptions& options, Outlet& out)
+    : tree_(tree),
+      shape_(shape_of(tree)),
+      options_(options),
+      out_(out),
+      feed_(tree),
+      screen_(out),
+      wake_(eventfd(0, EFD_CLOEXEC)) {}
+
+ConsoleLive::~ConsoleLive() {
+  try {
+    stop();
+  } catch (const std::bad_alloc&) {  // lines that nobody will see; the thread has ended
+  }
+  close(wake_);
+}
+
+void ConsoleLive::run_started(Ticker& ticker, const RunStart& start) {
+  feed_.run_started(ticker, start);
+  terminal_.emplace(options_.keys, out_.file());
+  thread_ = own_thread([this] { draw_until_stopped(); });
+}
+
+void ConsoleLive::after_tick(Ticker& ticker, const TickReport& report) {
+  for (const Fault& fault : report.faults) print(fault_text(tree_, fault, report.tick));
+  feed_.after_tick(ticker, report);
+}
+
+void ConsoleLive::run_ended(Ticker& ticker, const RunEnd& end) {
+  feed_.run_ended(ticker, end);
+  stop();
+}
+
+void ConsoleLive::print(std::string line) {
+  const std::lock_guard lock(mutex_);
+  if (stopped_) {
+    out_.say(printable(line) + "\n");
+  } else if (printed_.size() < kMostLines) {
+    printed_.push_back(std::move(line));
+  } else {
+    ++left_out_;
+  }
+}
+
+void ConsoleLive::stop() {
+  if (thread_.joinable()) {
+    stopping_ = true;
+    eventfd_write(wake_, 1);
+    thread_.join();
+  }
+  terminal_.reset();
+  {
+    const std::lock_guard lock(mutex_);
+    stopped_ = true;
+  }
+  out_.say(std::exchange(above_, {}) + take_printed());
+}
+
+void ConsoleLive::draw_until_stopped() {
+  do {
+    draw_frame();
+  } while (wait());
+  press(Key{KeyKind::Escape});            // the frame that stays shows what ran in the end
+  out_.flush(3 * SnapshotFeed::kPeriod);  // for the last frame there is no later one
+  draw_frame();
+}
+
+// In the background nothing is drawn: the terminal belongs to others. The lines are kept.
+void ConsoleLive::draw_frame() {
+  const RawTerminal::State state = terminal_->take();
+  is_away_ = state == RawTerminal::State::Away;
+  if (is_away_) return;
+  if (state == RawTerminal::State::Taken) {
+    screen_.leave();
+    is_due_ = true;
+  }
+  const TerminalSize size = terminal_size(out_.file());
+  if (std::exchange(size_, size) != size) {
+    is_due_ = true;
+    // Nobody knows how the terminal has laid out again what was there.
+    if (state == RawTerminal::State::Kept) screen_.clear();
+  }
+  if (above_.empty()) above_ = take_printed();
+  if (!feed_.take() && above_.empty() && !is_due_) return;
+  is_due_ = !screen_.show(above_, draw(shape_, feed_.newest(), draw_options()));
+  if (!is_due_) above_.clear();
+}
+
+DrawOptions ConsoleLive::draw_options() const {
+  return {.width = size_.width,
+          .height = size_.height,
+          .color = options_.color,
+          .unicode = options_.unicode,
+          .keys = options_.keys >= 0,
+          .browsing = &browser_.browsing()};
+}
+
+bool ConsoleLive::wait() {
+  const bool listens = options_.keys >= 0 && !is_away_;
+  std::array<pollfd, 2> files{
+      {{wake_, POLLIN, 0}, {listens ? options_.keys : -1, POLLIN, 0}}};  // -1 is passed over
+  const int ready =
+      poll(files.data(), files.size(), static_cast<int>(SnapshotFeed::kPeriod.count()));
+  if (ready == 0) press(decoder_.idle());
+  if (ready > 0 && files[1].revents != 0) read_keys();
+  return !stopping_;
+}
+
+void ConsoleLive::read_keys() {
+  std::array<char, 64> bytes;
+  const ssize_t count = read(options_.keys, bytes.data(), bytes.size());
+  if (count <= 0) options_.keys = -1;  // the terminal is gone
+  for (ssize_t i = 0; i < count; ++i) press(decoder_.take(bytes[static_cast<std::size_t>(i)]));
+}
+
+void ConsoleLive::press(std::optional<Key> key) {
+  if (key && browser_.press(*key, feed_.newest(), rows_for_nodes(draw_options()))) {
+    is_due_ = true;
+  }
+}
+
+std::string ConsoleLive::take_printed() {
+  const std::lock_guard lock(mutex_);
+  std::string text;
+  for (const std::string& line : printed_) text += printable(line) + "\n";
+  if (left_out_ > 0) text += fmt::format("... {} lines left out\n", left_out_);
+  printed_.clear();
+  left_out_ = 0;
+  return text;
+}
+
+}  // namespace lockstep

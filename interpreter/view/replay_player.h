@@ -1,0 +1,53 @@
+// What keys and passing time do to a replay. Knows no terminal and no clock: the command line hands
+// both in, and draws what replay_view.h makes of it.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "recording/read/recording_timeline.h"
+#include "terminal/keys.h"
+
+namespace lockstep {
+
+class ReplayPlayer {
+ public:
+  static constexpr double kSlowest = 1e-3, kFastest = 1e6;
+
+  // Begins at the tick at which the timeline is, playing. `speed` 1 is as recorded.
+  ReplayPlayer(RecordingTimeline& timeline, double speed);
+
+  void press(Key key);
+  // So much real time has passed.
+  void pass(double seconds);
+  // Real seconds until the next tick is due; nothing while no tick is.
+  std::optional<double> wait() const;
+
+  const RecordingTimeline& timeline() const { return timeline_; }
+  double speed() const { return speed_; }
+  bool paused() const { return paused_; }
+  bool has_quit() const { return has_quit_; }
+  // The number of a tick while it is typed.
+  const std::optional<std::string>& typed() const { return typed_; }
+  // What the last key could not do, or "".
+  const std::string& notice() const { return notice_; }
+
+ private:
+  void press_character(char character);
+  void type(Key key);
+  void jump();
+  void play_or_pause();
+  void step(void (RecordingTimeline::*move)());
+  void change_speed(double factor);
+  void place_changed() { position_ = timeline_.now().time; }
+
+  RecordingTimeline& timeline_;
+  double speed_;
+  bool paused_ = false;
+  bool has_quit_ = false;
+  double position_;  // seconds of the recording
+  std::optional<std::string> typed_;
+  std::string notice_;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,119 @@
+#include "view/replay_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "summary/summary.h"
+#include "terminal/text_line.h"
+
+namespace lockstep {
+namespace {
+
+constexpr unsigned kStatusLines = 2;
+
+TextLine new_line(const DrawOptions& options) {
+  return {options.width, options.color, options.unicode};
+}
+
+std::string fault_text(const TreeShape& shape, const RecordedFault& fault) {
+  return fmt::format("fault: {}: {}", shape.nodes[fault.node].segment, fault.message);
+}
+
+std::string where(const ReplayPlayer& player) {
+  const RecordingTimeline& timeline = player.timeline();
+  return fmt::format("  tick {} of {}  {:.3f} of {:.3f} s  speed {:.6g}", timeline.now().tick,
+                     timeline.last_tick(), timeline.now().time, timeline.last_time(),
+                     player.speed());
+}
+
+RunResult result_of(const RecordedEnd& end) {
+  for (const RunResult result : {RunResult::Success, RunResult::Failure, RunResult::Fault}) {
+    if (end.result == to_string(result)) return result;
+  }
+  return RunResult::Stopped;
+}
+
+void add_warnings(TextLine& line, const TreeShape& shape, const RecordingTimeline& timeline) {
+  const Moment& now = timeline.now();
+  if (now.lost > 0) {
+    line.add("  ");
+    line.add(counted(now.lost, "tick") + " lost before this", Style::Warning);
+  }
+  if (timeline.at_end() && !timeline.outcome().error.empty()) {
+    line.add("  ");
+    line.add("damaged after this", Style::Bad);
+  } else if (timeline.at_end() && !timeline.outcome().cut.empty()) {
+    line.add("  ");
+    line.add("the recording is cut here", Style::Warning);
+  }
+  if (!now.faults.empty()) {
+    line.add("  ");
+    line.add(fault_text(shape, now.faults.front()), Style::Bad);
+    if (now.faults.size() > 1) line.add(fmt::format(" and {} more", now.faults.size() - 1));
+  }
+}
+
+void add_keys(TextLine& line, const ReplayPlayer& player, const DrawOptions& options) {
+  if (player.typed()) {
+    line.add(fmt::format("go to tick: {}_", *player.typed()), Style::Strong);
+  } else if (!player.notice().empty()) {
+    line.add(player.notice(), Style::Warning);
+  } else {
+    line.add(fmt::format("space {}  {} step  g go to tick  home end  + - speed  q quit",
+                         player.paused() ? "go on" : "pause", options.unicode ? "← →" : "p n"),
+             Style::Dim);
+  }
+}
+
+}  // namespace
+
+Snapshot snapshot_of(const RecordingHeader& header, const TreeShape& shape, const Moment& moment,
+                     const RecordedEnd* end) {
+  Snapshot snapshot{.header = {.rate_hz = header.rate_hz,
+                               .real_time = header.clock != "virtual",
+                               .tick = moment.tick,
+                               .time = from_seconds(moment.time),
+                               .overruns = {},
+                               .result = {}},
+                    .nodes = std::vector<NodeView>(moment.nodes.size())};
+  if (end != nullptr) snapshot.header.result = result_of(*end);
+  for (NodeIndex node = 0; node < snapshot.nodes.size(); ++node) {
+    const RecordedState& state = moment.nodes[node];
+    NodeView& view = snapshot.nodes[node];
+    view.limit = state.limit;
+    view.activity = state.held ? Activity::Paused : static_cast<Activity>(state.status);
+    const auto parent = shape.nodes[node].parent;
+    if (parent && shape.nodes[*parent].synchronization != Synchronization::None) {
+      view.progress = shown_progress(view.activity, state.progress);
+    }
+  }
+  return snapshot;
+}
+
+std::string draw_moment(const TreeShape& shape, const Snapshot& snapshot, const Moment& moment,
+                        const DrawOptions& options) {
+  std::string text = draw(shape, snapshot, options);
+  for (const RecordedFault& fault : moment.faults) {
+    TextLine line = new_line(options);
+    line.add(fault_text(shape, fault), Style::Bad);
+    text += line.text() + "\n";
+  }
+  return text;
+}
+
+std::string draw_replay(const TreeShape& shape, const Snapshot& snapshot,
+                        const ReplayPlayer& player, const DrawOptions& options) {
+  DrawOptions above = options;
+  above.height -= std::min(above.height, kStatusLines);
+  TextLine status = new_line(options);
+  status.add(player.paused() ? (player.timeline().at_end() ? "end" : "paused") : "plays",
+             player.paused() ? Style::Warning : Style::Active);
+  status.add(where(player));
+  add_warnings(status, shape, player.timeline());
+  TextLine keys = new_line(options);
+  add_keys(keys, player, options);
+  return draw(shape, snapshot, above) + status.text() + "\n" + keys.text() + "\n";
+}
+
+}  // namespace lockstep

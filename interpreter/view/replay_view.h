@@ -1,0 +1,22 @@
+// Draws a tick of a recording: the tree as the live view of a run does, and below it where the
+// replay is. Pure functions.
+#pragma once
+
+#include "view/replay_player.h"
+#include "view/tree_view.h"
+
+namespace lockstep {
+
+// `end`: of the run, when it ended with this tick; else null.
+Snapshot snapshot_of(const RecordingHeader& header, const TreeShape& shape, const Moment& moment,
+                     const RecordedEnd* end);
+
+// One tick as a whole: all nodes, then its faults.
+std::string draw_moment(const TreeShape& shape, const Snapshot& snapshot, const Moment& moment,
+                        const DrawOptions& options);
+
+// At most height - 1 lines, as draw().
+std::string draw_replay(const TreeShape& shape, const Snapshot& snapshot,
+                        const ReplayPlayer& player, const DrawOptions& options);
+
+}  // namespace lockstep

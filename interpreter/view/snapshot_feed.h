@@ -1,0 +1,41 @@
+// Publishes the state of a run as snapshots, ten times a second at most. The tick thread only
+// copies the state of the nodes, as often, into a buffer that nobody locks; another thread takes
+// the newest.
+#pragma once
+
+#include <chrono>
+#include <vector>
+
+#include "view/snapshot.h"
+#include "view/triple_buffer.h"
+
+namespace lockstep {
+
+class SnapshotFeed final : public Observer {
+ public:
+  static constexpr std::chrono::milliseconds kPeriod{100};
+
+  explicit SnapshotFeed(const Tree& tree);
+
+  void run_started(Ticker& ticker, const RunStart& start) override;
+  void after_tick(Ticker& ticker, const TickReport& report) override;
+  // By now everything has been halted; the last snapshot is of the last tick.
+  void run_ended(Ticker& ticker, const RunEnd& end) override;
+
+  // For one thread. True if there is a newer snapshot, which newest() is from then on.
+  bool take() { return snapshots_.take(); }
+  const Snapshot& newest() const { return snapshots_.front(); }
+
+ private:
+  void publish(Ticker& ticker);
+  void take_progress(Ticker& ticker, NodeIndex node, std::vector<NodeView>& views) const;
+  static void take_round(Ticker& ticker, NodeIndex node, NodeView& view);
+
+  std::vector<NodeIndex> synchronized_nodes_, repeating_nodes_;
+  Snapshot::Header header_;
+  std::vector<Activity> activity_;  // after the last tick
+  std::chrono::steady_clock::time_point published_{};
+  TripleBuffer<Snapshot> snapshots_;
+};
+
+}  // namespace lockstep

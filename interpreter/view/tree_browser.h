@@ -1,0 +1,28 @@
+// What keys do to a view of a tree: scroll, fold, follow what runs again. Used by the live view and
+// by replays; knows no terminal.
+#pragma once
+
+#include "terminal/keys.h"
+#include "view/tree_layout.h"
+
+namespace lockstep {
+
+class TreeBrowser {
+ public:
+  // `tree` must outlive it.
+  explicit TreeBrowser(const TreeShape& tree) : tree_(tree) {}
+
+  // False: the key means nothing here. `now` is what is shown, in so many rows.
+  bool press(Key key, const Snapshot& now, std::size_t rows);
+  const Browsing& browsing() const { return browsing_; }
+
+ private:
+  bool press_character(char character, const Snapshot& now);
+  bool move(std::ptrdiff_t rows, const Snapshot& now);
+  bool fold(const Snapshot& now);
+
+  const TreeShape& tree_;
+  Browsing browsing_;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,49 @@
+// Which nodes of a tree are shown when there are fewer rows than nodes. Pure: knows no terminal and
+// draws nothing.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "view/snapshot.h"
+#include "view/tree_shape.h"
+
+namespace lockstep {
+
+// What a person has asked for.
+struct Browsing {
+  std::set<NodeIndex> folded = {};       // the nodes below these are not shown
+  std::optional<NodeIndex> cursor = {};  // its surroundings are shown; none: what runs is
+};
+
+// How many nodes of some are in which state.
+struct Tally {
+  std::size_t running = 0, waiting = 0, succeeded = 0, failed = 0, idle = 0;
+
+  void add(Activity activity);
+  std::size_t sum() const { return running + waiting + succeeded + failed + idle; }
+  // "2 running, 1 waiting, 9 idle"
+  std::string text() const;
+};
+
+struct Layout {
+  std::vector<NodeIndex> rows = {};  // in the order of the tree
+  std::size_t first = 0;             // around a cursor: how many rows there are before these
+  std::size_t all = 0;               // how many rows there would be with enough room
+  Tally left_out = {};               // nodes that have no row, but for those that are folded
+};
+
+// At most `room` rows, at least 1; one of them is left free for a note when there are more nodes.
+// Without a cursor: what runs, then what waits, then what has completed or is idle, the nearest to
+// what runs first.
+Layout lay_out(const TreeShape& tree, const Snapshot& snapshot, const Browsing& browsing,
+               std::size_t room);
+
+// The nodes that have a row with enough room, in the order of the tree.
+std::vector<NodeIndex> unfolded(const TreeShape& tree, const std::set<NodeIndex>& folded);
+// The nodes below one.
+Tally tally_below(const TreeShape& tree, const Snapshot& snapshot, NodeIndex node);
+
+}  // namespace lockstep

@@ -1,0 +1,31 @@
+// What a view draws of a tree besides the state of its nodes. Plain data, made from a tree that
+// runs or from the header of a recording, so that a run and its replay look the same.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/synchronized.h"
+#include "recording/recording.h"
+
+namespace lockstep {
+
+struct ShapeNode {
+  std::string segment, kind;        // the last of its path; its tag
+  std::optional<NodeIndex> parent;  // none: the root
+  std::size_t depth = 0;
+  std::vector<NodeIndex> children = {};
+  Synchronization synchronization = Synchronization::None;
+  std::vector<double> barriers = {};  // Absolute; empty where an entry gives them
+};
+
+struct TreeShape {
+  std::string id;
+  std::vector<ShapeNode> nodes = {};  // by index: pre-order
+};
+
+TreeShape shape_of(const Tree& tree);
+TreeShape shape_of(const RecordingHeader& header);
+
+}  // namespace lockstep

@@ -1,0 +1,28 @@
+// Draws a tree and the state of its nodes as lines of text. A pure function: the live console calls
+// it ten times a second, a replay for each frame, tests compare its text.
+#pragma once
+
+#include <string>
+
+#include "view/snapshot.h"
+#include "view/tree_layout.h"
+#include "view/tree_shape.h"
+
+namespace lockstep {
+
+struct DrawOptions {
+  unsigned width = 80, height = 24;
+  bool color = false;
+  bool unicode = false;
+  bool keys = false;                   // there are some: tell of them
+  const Browsing* browsing = nullptr;  // null: all is as at first
+};
+
+// The rows that there are for nodes.
+std::size_t rows_for_nodes(const DrawOptions& options);
+
+// At most height - 1 lines of at most `width` columns, each ending in a newline. tree_layout.h says
+// which nodes are shown when the tree has more.
+std::string draw(const TreeShape& tree, const Snapshot& snapshot, const DrawOptions& options);
+
+}  // namespace lockstep

@@ -1,0 +1,46 @@
+#include "view/waiting.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace lockstep {
+namespace {
+
+// The names of the children with the least progress: "a", "a and b", "a, b and 4 more".
+std::string slowest(const WaitedAt& node, double least) {
+  constexpr std::size_t kNamed = 2;
+  std::vector<std::string> names;
+  std::size_t count = 0;
+  for (std::size_t child = 0; child < node.progress.size(); ++child) {
+    if (node.progress[child] > least + kProgressEpsilon) continue;
+    if (++count <= kNamed) names.push_back(node.name_of(child));
+  }
+  if (count == 1) return names[0];
+  if (count == kNamed) return fmt::format("{} and {}", names[0], names[1]);
+  return fmt::format("{}, {} and {} more", names[0], names[1], count - kNamed);
+}
+
+}  // namespace
+
+std::string waiting_text(const WaitedAt& node, std::size_t child) {
+  const double least = *std::ranges::min_element(node.progress);
+  const std::string whom = slowest(node, least);
+  if (node.synchronization == Synchronization::Relative) {
+    return fmt::format("waits for {}, {:.2f} ahead (delta {})", whom, node.progress[child] - least,
+                       node.limit);
+  }
+  if (std::isinf(node.limit)) return fmt::format("waits for {}", whom);
+  return fmt::format("waits for {} at barrier {:.6g}", whom, node.limit);
+}
+
+std::string standstill_text(const Tree& tree, const Standstill& standstill) {
+  return fmt::format(
+      "{} stands still at {:.6g} since {:.3f} s and holds the other children of '{}' back",
+      tree.path(standstill.child), standstill.progress, to_seconds(standstill.since),
+      tree.segment(standstill.node));
+}
+
+}  // namespace lockstep

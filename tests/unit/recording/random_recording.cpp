@@ -1,0 +1,142 @@
+#include "unit/recording/random_recording.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "recording/write/recording_text.h"
+
+namespace lockstep::test {
+namespace {
+
+std::size_t below(std::mt19937& random, std::size_t limit) {
+  return std::uniform_int_distribution<std::size_t>(0, limit - 1)(random);
+}
+
+// The pieces of text that the recorder is made of, put together in another way.
+template <class Put>
+std::string text_of(Put put) {
+  char text[kMostOfLost + kMostOfTick + kMostOfNode];
+  return {text, put(text)};
+}
+
+RecordedState random_state(std::mt19937& random) {
+  return {.status = static_cast<Status>(below(random, 4)),
+          .progress = static_cast<double>(below(random, 1001)) / 1000,
+          .ticked = below(random, 2) == 1,
+          .held = below(random, 4) == 0,
+          .limit = below(random, 5) == 0 ? std::numeric_limits<double>::infinity()
+                                         : static_cast<double>(below(random, 11)) / 10};
+}
+
+void append_line(const Moment& moment, const std::vector<RecordedState>& before, std::string& out) {
+  if (moment.lost > 0) {
+    out += text_of([&](char* to) { return put_lost(to, moment.lost, moment.tick - moment.lost); });
+  }
+  out += fmt::format("{{\"tick\":{},\"time_s\":{},\"nodes\":[", moment.tick, moment.time);
+  bool first = true;
+  for (std::size_t node = 0; node < before.size(); ++node) {
+    if (moment.nodes[node] == before[node]) continue;
+    if (!first) out += ',';
+    first = false;
+    out += text_of(
+        [&](char* to) { return put_node(to, static_cast<NodeIndex>(node), moment.nodes[node]); });
+  }
+  std::vector<LimitChange> limits;
+  for (NodeIndex node = 0; node < before.size(); ++node) {
+    const double limit = moment.nodes[node].limit;
+    if (limit != before[node].limit) limits.push_back({node, limit});
+  }
+  std::vector<Fault> faults;
+  for (const RecordedFault& fault : moment.faults) faults.push_back({fault.node, fault.message});
+  std::string end;
+  set_tick_end(end, limits, {}, faults);
+  out += end;
+}
+
+}  // namespace
+
+std::string RandomRecording::text() const {
+  std::string out = to_json(header) + "\n";
+  std::vector<RecordedState> before(header.nodes.size());
+  RecordedEnd closing = end;
+  for (const Moment& moment : ticks) {
+    append_line(moment, before, out);
+    before = moment.nodes;
+    closing.ticks = moment.tick + 1;
+    closing.lost += moment.lost;
+  }
+  return out + to_json(closing) + "\n";
+}
+
+RandomRecording random_recording(std::mt19937& random, const RandomRecordingOptions& options) {
+  RandomRecording recording;
+  recording.header = {.tree = "Main",
+                      .file = "a.xml",
+                      .version = "0.1.0",
+                      .rate_hz = 10,
+                      .clock = "virtual",
+                      .arguments = {},
+                      .nodes = {}};
+  recording.header.nodes.push_back({.path = "Main/root",
+                                    .kind = "Parallel",
+                                    .name = "root",
+                                    .parent = {},
+                                    .barriers = {},
+                                    .delta = {}});
+  for (std::size_t node = 1; node < options.nodes; ++node) {
+    recording.header.nodes.push_back({.path = fmt::format("Main/root/{}", node),
+                                      .kind = "Advance",
+                                      .name = fmt::to_string(node),
+                                      .parent = 0,
+                                      .barriers = {},
+                                      .delta = {}});
+  }
+  std::uint64_t tick = 0;
+  std::vector<RecordedState> nodes(options.nodes);
+  for (std::size_t number = 0; number < options.ticks; ++number) {
+    const std::uint64_t lost = options.gaps && below(random, 8) == 0 ? 1 + below(random, 5) : 0;
+    tick += lost;
+    for (RecordedState& state : nodes) {
+      if (below(random, 3) == 0) state = random_state(random);
+    }
+    Moment moment{.number = number,
+                  .tick = tick,
+                  .time = static_cast<double>(tick) / 10,
+                  .nodes = nodes,
+                  .faults = {},
+                  .lost = lost};
+    if (below(random, 10) == 0) {
+      moment.faults.push_back(
+          {static_cast<NodeIndex>(below(random, options.nodes)), fmt::format("fault {}", number)});
+    }
+    recording.ticks.push_back(moment);
+    ++tick;
+  }
+  recording.end.result = "stopped";
+  recording.end.reason = "max_ticks";
+  return recording;
+}
+
+RecordedState other_state(std::mt19937& random, const RecordedState& state) {
+  RecordedState other = state;
+  switch (below(random, 5)) {
+    case 0:
+      other.status = static_cast<Status>((static_cast<unsigned>(state.status) + 1) % 4);
+      break;
+    case 1:
+      other.progress = state.progress == 0 ? 1 : 0;
+      break;
+    case 2:
+      other.ticked = !state.ticked;
+      break;
+    case 3:
+      other.limit = state.limit == 0.5 ? 0.25 : 0.5;
+      break;
+    default:
+      other.held = !state.held;
+  }
+  return other;
+}
+
+}  // namespace lockstep::test

@@ -1,0 +1,61 @@
+#include "unit/recording/watched_run.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace lockstep::test {
+
+RunEnd WatchedRun::watch(std::initializer_list<Observer*> observers, std::uint64_t max_ticks) {
+  Ticker& ticker = run.ticker();
+  for (Observer* observer : observers) observer->run_started(ticker, start);
+  RunEnd end;
+  end.reason = StopReason::MaxTicks;
+  while (end.ticks < max_ticks && end.reason == StopReason::MaxTicks) {
+    const std::uint64_t tick = end.ticks++;
+    const Nanoseconds now = start.period * static_cast<std::int64_t>(tick);
+    for (Observer* observer : observers) observer->before_tick(ticker, tick, now);
+    end.status = ticker.tick_root(now);
+    end.time = now;
+    const TickReport report{
+        .tick = tick, .time = now, .status = end.status, .skipped = 0, .faults = faults[tick]};
+    for (Observer* observer : observers) observer->after_tick(ticker, report);
+    if (is_complete(end.status)) end.reason = StopReason::Completed;
+    if (ticker.fault() != nullptr) end.reason = StopReason::Fault;
+  }
+  ticker.halt_all();
+  if (ticker.fault() != nullptr) end.fault = *ticker.fault();
+  end.worst = worst;
+  for (Observer* observer : observers) observer->run_ended(ticker, end);
+  return end;
+}
+
+std::string TextFile::text() {
+  std::fflush(file_);
+  std::rewind(file_);
+  std::string text;
+  for (int character = std::fgetc(file_); character != EOF; character = std::fgetc(file_)) {
+    text += static_cast<char>(character);
+  }
+  return text;
+}
+
+TemporaryPath::TemporaryPath() {
+  std::string pattern = (std::filesystem::temp_directory_path() / "lockstep-XXXXXX").string();
+  folder_ = ::mkdtemp(pattern.data());
+  path_ = folder_ + "/run.jsonl";
+}
+
+TemporaryPath::~TemporaryPath() {
+  std::filesystem::remove_all(folder_);
+}
+
+std::string TemporaryPath::text() const {
+  std::ostringstream text;
+  text << std::ifstream(path_).rdbuf();
+  return text.str();
+}
+
+}  // namespace lockstep::test
