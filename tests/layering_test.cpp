@@ -46,7 +46,7 @@ const std::vector<Layer> kLayers{
     {"interpreter/study/", {"core/", "engine/", "plugin/", "runtime/", "measure/"}},
     {"interpreter/plots/",
      {"core/", "runtime/", "measure/", "terminal/", "summary/", "recording/", "study/"}},
-    {"interpreter/describe/", {"core/", "document/", "definition/"}},
+    {"interpreter/describe/", {"core/", "definition/"}},
     {"interpreter/cli/",
      {"core/", "document/", "definition/", "engine/", "plugin/", "runtime/", "measure/",
       "terminal/", "summary/", "recording/", "view/", "study/", "plots/", "describe/",
@@ -194,6 +194,34 @@ TEST_CASE("layers: a library is seen only where the table says") {
   INFO("tinyxml2 belongs in one source of document/: " << fmt::format("{}", fmt::join(xml, ", ")));
   CHECK(xml.size() == 1);
   CHECK(xml.begin()->ends_with(".cpp"));
+}
+
+// What is known of a tree after the check is data. So whatever a document is written in, the check
+// is the last stage that reads it, and a place needs only its text.
+TEST_CASE("layers: no stage after the check sees a document") {
+  const std::vector<std::string> after_check{
+      "interpreter/definition/references.cpp", "interpreter/definition/expand.cpp",
+      "interpreter/definition/advise.cpp",     "interpreter/definition/scope.cpp",
+      "interpreter/engine/compile.cpp",        "interpreter/describe/tree_drawing.cpp",
+      "interpreter/describe/tree_graph.cpp",   "interpreter/describe/tree_lines.cpp"};
+  const Names of_places{"document/reporter.h", "document/sources.h", "document/lines.h",
+                        "document/references.h"};
+  std::vector<std::string> files = after_check;
+  std::set<std::string> seen(files.begin(), files.end());
+  while (!files.empty()) {
+    const std::string file = files.back();
+    files.pop_back();
+    const auto includes = includes_of(file);
+    INFO(file << " is not a file that can be read, or includes nothing");
+    CHECK((!includes.empty() || file.ends_with(".h")));
+    for (const Include& include : includes) {
+      if (!include.quoted || !seen.insert("interpreter/" + include.path).second) continue;
+      const bool of_document = include.path.starts_with("document/");
+      if (of_document && !starts_with_any(include.path, of_places))
+        FAIL_CHECK(at(include) + "of a document, after the check");
+      files.push_back("interpreter/" + include.path);
+    }
+  }
 }
 
 // fmt 11 has fmt::join there and no longer in format.h.

@@ -16,10 +16,10 @@ struct ShowOptions {
   std::string format = "text";
 };
 
-std::string draw(const Drawn& drawn, const std::string& format) {
-  if (format == "dot") return tree_as_dot(drawn);
-  if (format == "mermaid") return tree_as_mermaid(drawn);
-  return tree_as_text(drawn, !has_unicode());
+std::string draw(const Definition& definition, const std::string& format) {
+  if (format == "dot") return tree_as_dot(definition);
+  if (format == "mermaid") return tree_as_mermaid(definition);
+  return tree_as_text(definition, !has_unicode());
 }
 
 int show(const ShowOptions& options) {
@@ -29,7 +29,7 @@ int show(const ShowOptions& options) {
   const int code = load(options.tree, options.load, loaded, diagnostics);
   print_diagnostics(diagnostics, Severity::Error);
   if (!loaded.definition) return code;
-  return write_results(draw({*loaded.project, *loaded.definition}, options.format));
+  return write_results(draw(*loaded.definition, options.format));
 }
 
 std::function<int()> define_show(CLI::App& app) {

@@ -1,20 +1,17 @@
+#include "definition/advise.h"
+
 #include <fmt/format.h>
 
 #include "core/suggest.h"
 #include "core/wording.h"
-#include "definition/expand.h"
-#include "document/reporter.h"
 
 namespace lockstep {
 namespace {
 
 class Adviser {
  public:
-  Adviser(const Project& project, const Definition& definition, Diagnostics& diagnostics)
-      : project_(project),
-        definition_(definition),
-        diagnostics_(diagnostics),
-        conduct_(conducts()) {}
+  Adviser(const Definition& definition, const Reporter& report)
+      : definition_(definition), report_(report), conduct_(conducts()) {}
 
   void advise() const {
     for (std::uint32_t node = 0; node < definition_.nodes.size(); ++node) {
@@ -34,8 +31,7 @@ class Adviser {
   }
 
   void add(std::uint32_t node, Severity severity, std::string message, std::string hint) const {
-    const Reporter report(*project_.documents[at(node).document], diagnostics_);
-    report.at_element(at(node).element, std::move(message), std::move(hint), severity);
+    report_.at(at(node).place, std::move(message), std::move(hint), severity);
   }
 
   bool has_memory(std::uint32_t node) const {
@@ -145,19 +141,17 @@ class Adviser {
     for (std::size_t i = 0; i < valued.size(); ++i) {
       valued[i] = !std::holds_alternative<std::monostate>(definition_.entries[i].initial);
     }
-    for_each_port([&](std::uint32_t, const Parameter& parameter, std::uint32_t entry) {
+    for_each_port([&](const Parameter& parameter, std::uint32_t entry) {
       if (parameter.direction != Direction::Input) valued[entry] = true;
     });
     std::vector<bool> told = valued;  // one warning an entry
-    for_each_port([&](std::uint32_t node, const Parameter& parameter, std::uint32_t entry) {
+    for_each_port([&](const Parameter& parameter, std::uint32_t entry) {
       if (told[entry]) return;
       told[entry] = true;
-      const Reporter report(*project_.documents[at(node).document], diagnostics_);
-      if (report.counted_only(Severity::Warning)) return;
-      const std::string_view name = definition_.entries[entry].name;
-      report.at_value(at(node).element, parameter.name,
-                      fmt::format("nothing writes '{{{}}}'", brief(name)),
-                      unwritten_hint(parameter, name, valued), Severity::Warning);
+      if (report_.counted_only(Severity::Warning)) return;
+      const auto& [name, type, initial, first_use] = definition_.entries[entry];
+      report_.at_value(first_use, fmt::format("nothing writes '{{{}}}'", brief(name)),
+                       unwritten_hint(parameter, name, valued), Severity::Warning);
     });
   }
 
@@ -192,21 +186,20 @@ class Adviser {
       const NodeType& type = *at(node).type;
       for (std::uint32_t i = 0; i < type.parameters.size(); ++i) {
         const Port& port = definition_.ports[at(node).first + i];
-        if (port.entry != Port::kNone) visit(node, type.parameters[i], port.entry);
+        if (port.entry != Port::kNone) visit(type.parameters[i], port.entry);
       }
     }
   }
 
-  const Project& project_;
   const Definition& definition_;
-  Diagnostics& diagnostics_;
+  const Reporter& report_;
   const std::vector<Conduct> conduct_;
 };
 
 }  // namespace
 
-void advise(const Project& project, const Definition& definition, Diagnostics& diagnostics) {
-  Adviser(project, definition, diagnostics).advise();
+void advise(const Definition& definition, const Reporter& report) {
+  Adviser(definition, report).advise();
 }
 
 }  // namespace lockstep

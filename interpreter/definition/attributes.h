@@ -1,21 +1,32 @@
 // The attributes of one node element as typed values: every rule about a single node's parameters.
 #pragma once
 
+#include <span>
+
 #include "definition/checked_tree.h"
+#include "document/element.h"
 #include "document/reporter.h"
 
 namespace lockstep {
 
-// Checks the attributes of `node` (whose type, element and children are known) against its type and
-// appends its values or ports to `trees`. `explicit_form`: its ID attribute names the type.
-void check_attributes(const Document& document, const Reporter& report, bool explicit_form,
-                      CheckedNode& node, CheckedTrees& trees);
+// What the check of a node reads of its element.
+struct NodeElement {
+  Place place;
+  std::span<const Attribute> attributes;
+  bool is_explicit;  // its ID attribute names the type
+};
 
-// The same for a SubTree, whose attributes are a remapping.
-void check_subtree_attributes(const Document& document, const Reporter& report, CheckedNode& node);
+// Checks the attributes of `node` (whose type and children are known) against its type and appends
+// its values or ports to `trees`.
+void check_attributes(const NodeElement& element, const Reporter& report, CheckedNode& node,
+                      CheckedTrees& trees);
 
-// Whether an attribute is one that every node may have: name, _description.
-bool is_common_attribute(std::string_view name);
+// The same for a SubTree, whose attributes are remappings.
+void check_subtree_attributes(const NodeElement& element, const Reporter& report,
+                              CheckedSubTree& subtree, CheckedTrees& trees);
+
+// Appends to `trees` what is shown of them as it is written.
+void keep_written(const NodeElement& element, CheckedNode& node, CheckedTrees& trees);
 
 // "parameters of 'X': 'a', 'b', 'c'" for a hint.
 std::string parameters_hint(const NodeType& type);

@@ -1,62 +1,80 @@
-// What a project says before subtrees are expanded: each element of each BehaviorTree with its node
-// type and its attributes as values. Between resolve.cpp's two passes; nobody else uses it.
+// What a project says before subtrees are expanded: each node of each BehaviorTree with its type,
+// its parameters as values, and the places that messages may have to name. All that later stages
+// know: they do not see the documents.
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string_view>
 #include <vector>
 
-#include "core/diagnostics.h"
-#include "definition/catalog.h"
-#include "document/project.h"
+#include "core/node_type.h"
+#include "core/place.h"
+#include "definition/definition.h"
 
 namespace lockstep {
 
 // A parameter of a node: a constant, a {key} with its default, or absent.
 struct CheckedPort {
-  std::uint32_t value = 0xffffffff;  // in CheckedTrees::values
-  std::string_view key;
+  std::uint32_t value = Port::kNone;  // in CheckedTrees::values
+  Place place = {};                   // of the attribute that has the key
+  std::string_view key = {};
 };
 
 struct CheckedNode {
-  const NodeType* type = nullptr;
+  const NodeType* type = nullptr;  // null after an error
   std::string_view name;
-  std::uint32_t document = 0;
-  std::uint32_t element = 0;
+  Place place;
   std::uint32_t end = 0;  // in CheckedTrees::nodes
   std::uint32_t children = 0;
-  std::uint32_t first = 0;        // in CheckedTrees::ports
-  std::string_view subtree = {};  // the ID that a SubTree names
+  std::uint32_t first = 0;              // in CheckedTrees::ports; of a SubTree, in subtrees
+  std::uint32_t written = Port::kNone;  // its first in CheckedTrees::written
 };
 
-// A SubTree that names a tree, and where in its own tree it stands.
-struct CheckedReference {
+// What a SubTree says of a key of its tree: that it is an entry outside, or its start value.
+struct Remapping {
+  std::string_view key;
+  std::string_view value;  // the key outside, or the text
+  bool is_entry;
+  Place place;
+};
+
+// A SubTree: the tree that it names, what it gives to that, and where in its own tree it stands.
+struct CheckedSubTree {
   std::uint32_t node;
-  std::uint32_t depth;      // below the root
-  std::uint64_t path_size;  // bytes of its path, from the root on
+  std::string_view id = {};  // "" after an error
+  Place place = {};          // of the attribute that has it
+  bool autoremap = false;
+  std::uint32_t first = 0, remappings = 0;  // in CheckedTrees::remappings
+  std::uint32_t depth = 0;                  // below the root
+  std::uint64_t path_size = 0;              // bytes of its path, from the root on
 };
 
 // One BehaviorTree, its subtrees not expanded.
 struct CheckedTree {
-  std::uint32_t root;                                 // in CheckedTrees::nodes
-  std::uint32_t first_reference = 0, references = 0;  // in CheckedTrees::references
-  std::uint32_t depth = 0;                            // levels
+  std::uint32_t root;                             // in CheckedTrees::nodes
+  std::uint32_t first_subtree = 0, subtrees = 0;  // in CheckedTrees::subtrees
+  std::uint32_t depth = 0;                        // levels
   std::uint64_t paths_size = 0;  // bytes of the paths of all its nodes, from the root on
+};
+
+// The main file.
+struct CheckedMain {
+  Place place;
+  std::optional<std::string_view> tree = {};  // that it names to be run
+  Place tree_place = {};                      // of the attribute that does
 };
 
 struct CheckedTrees {
   std::vector<CheckedNode> nodes;
   std::vector<Value> values;
   std::vector<CheckedPort> ports;
-  std::vector<CheckedReference> references;
+  std::vector<CheckedSubTree> subtrees;
+  std::vector<Remapping> remappings;
+  std::vector<WrittenAttribute> written;
   std::map<std::string_view, CheckedTree> trees;  // by the ID of the BehaviorTree
   std::vector<std::string_view> ids;              // as they stand in the documents
+  std::optional<CheckedMain> main;                // none: it is no tree file
 };
-
-// Checks every BehaviorTree of the project, used or not.
-CheckedTrees check_trees(const Project& project, const Catalog& catalog, Diagnostics& diagnostics);
-
-// "key" when `text` is "{key}", else "".
-std::string_view key_of(std::string_view text);
 
 }  // namespace lockstep

@@ -1,14 +1,17 @@
 // The checked meaning of a project: one tree in pre-order, subtrees expanded, parameters typed,
-// keys resolved to blackboard entries. What the engine compiles. Views point into the project.
+// keys resolved to blackboard entries. What the engine compiles, and all that is known of a tree
+// when its documents are no longer asked. Views point into the project.
 #pragma once
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/node_type.h"
+#include "core/place.h"
 
 namespace lockstep {
 
@@ -19,8 +22,15 @@ struct DefinitionNode {
   std::uint32_t children;  // how many
   std::uint32_t first;     // in `ports`, one for each of type->parameters
   std::string_view name;   // the name attribute, else the id
-  std::uint32_t document;  // its place: Project::documents[document], element
-  std::uint32_t element;
+  Place place = {};
+  std::uint32_t written = 0xffffffff;  // its first in Definition::written; or none
+};
+
+// An attribute as it is written, with arguments substituted. Not what only names the node.
+struct WrittenAttribute {
+  std::string_view name;
+  std::string_view value;
+  bool is_last;  // of its node
 };
 
 // Where a parameter gets its value. Neither: it is absent, or an output that goes nowhere.
@@ -33,7 +43,8 @@ struct Port {
 struct BlackboardEntry {
   std::string name;  // the key, after the path of names to its SubTree
   ValueType type = ValueType::String;
-  Value initial;  // monostate: none
+  Value initial;         // monostate: none
+  Place first_use = {};  // of the attribute that names it first
 };
 
 struct Definition {
@@ -42,11 +53,19 @@ struct Definition {
   std::vector<Value> values;
   std::vector<Port> ports;
   std::vector<BlackboardEntry> entries;
+  std::vector<WrittenAttribute> written = {};
 
   // A parameter that is a constant; null when it is absent or comes from an entry.
   const Value* constant(const DefinitionNode& node, std::size_t parameter) const {
     const Port& port = ports[node.first + parameter];
     return port.entry == Port::kNone && port.value != Port::kNone ? &values[port.value] : nullptr;
+  }
+
+  std::span<const WrittenAttribute> attributes(const DefinitionNode& node) const {
+    if (node.written >= written.size()) return {};
+    auto last = written.begin() + node.written;
+    while (!last->is_last) ++last;
+    return {written.begin() + node.written, last + 1};
   }
 };
 

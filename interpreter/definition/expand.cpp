@@ -1,16 +1,12 @@
 #include "definition/expand.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
+#include <span>
 
-#include "core/identifier.h"
 #include "core/suggest.h"
 #include "core/wording.h"
-#include "definition/attributes.h"
 #include "definition/scope.h"
-#include "document/reporter.h"
 
 namespace lockstep {
 namespace {
@@ -21,46 +17,40 @@ std::string with_article(ValueType type) {
 
 class Expander {
  public:
-  Expander(const Project& project, CheckedTrees& trees, const ResolveOptions& options,
-           Diagnostics& diagnostics)
-      : project_(project), trees_(trees), options_(options), diagnostics_(diagnostics) {}
+  Expander(CheckedTrees& trees, const StartValues& values, const Reporter& report)
+      : trees_(trees), values_(values), report_(report) {}
 
   Definition expand(std::string_view main) {
     definition_.id = main;
     definition_.values = std::move(trees_.values);
+    definition_.written = std::move(trees_.written);
     shared_.assign(trees_.ports.size(), Port::kNone);
     definition_.nodes.reserve(trees_.nodes.size());  // without subtrees, all that will be needed
     Scope scope(definition_.entries);
-    for (const auto& [key, text] : options_.values) scope.set_text(key, text);
+    for (const auto& [key, text] : values_) scope.set_text(key, text);
     add(trees_.trees.at(main).root, 0, scope);
     check_set_keys(scope);
     return std::move(definition_);
   }
 
  private:
-  struct Use {  // where an entry got its type
-    std::uint32_t document, element;
-    std::string_view port;
-  };
-
   void add(std::uint32_t from, std::uint32_t parent, Scope& scope) {
     const CheckedNode& checked = trees_.nodes[from];
-    const Reporter report(*project_.documents[checked.document], diagnostics_);
     if (checked.type == nullptr) return;  // reported already
     const auto place = static_cast<std::uint32_t>(definition_.nodes.size());
     definition_.nodes.push_back({.type = checked.type,
                                  .end = 0,
                                  .parent = parent,
                                  .children = checked.children,
-                                 .first = checked.first,
+                                 .first = 0,
                                  .name = checked.name,
-                                 .document = checked.document,
-                                 .element = checked.element});
+                                 .place = checked.place,
+                                 .written = checked.written});
     if (checked.type->category == NodeCategory::SubTree) {
       definition_.nodes[place].children = 1;
-      enter_subtree(report, checked, place, scope);
+      enter_subtree(trees_.subtrees[checked.first], checked.name, place, scope);
     } else if (!checked.type->parameters.empty()) {
-      definition_.nodes[place].first = bind_ports(report, checked, scope);
+      definition_.nodes[place].first = bind_ports(checked, scope);
     }
     for (std::uint32_t child = from + 1; child < checked.end; child = trees_.nodes[child].end) {
       add(child, place, scope);
@@ -68,42 +58,27 @@ class Expander {
     definition_.nodes[place].end = static_cast<std::uint32_t>(definition_.nodes.size());
   }
 
-  void enter_subtree(const Reporter& report, const CheckedNode& checked, std::uint32_t place,
+  void enter_subtree(const CheckedSubTree& subtree, std::string_view name, std::uint32_t place,
                      Scope& outer) {
-    const auto tree = trees_.trees.find(checked.subtree);
+    const auto tree = trees_.trees.find(subtree.id);
     if (tree == trees_.trees.end()) return;  // reported already
-    const Document& document = *project_.documents[checked.document];
-    const Attribute* autoremap = document.find_attribute(checked.element, "_autoremap");
-    Scope scope(
-        outer, std::string(checked.name) + "/",
-        autoremap != nullptr && parse_value(ValueType::Bool, autoremap->value) == Value(true));
-    for_each_remapping(document, checked.element, [&](const Attribute& attribute) {
-      const auto key = key_of(attribute.value);
-      key.empty() ? scope.set_text(attribute.name, attribute.value)
-                  : scope.remap(attribute.name, key);
-    });
+    Scope scope(outer, std::string(name) + "/", subtree.autoremap);
+    const auto remappings = std::span(trees_.remappings).subspan(subtree.first, subtree.remappings);
+    for (const Remapping& it : remappings) {
+      it.is_entry ? scope.remap(it.key, it.value) : scope.set_text(it.key, it.value);
+    }
     add(tree->second.root, place, scope);
-    for_each_remapping(document, checked.element, [&](const Attribute& attribute) {
-      if (scope.used(attribute.name) || report.counted_only(Severity::Warning)) return;
-      report.at_attribute(checked.element, attribute.name,
-                          fmt::format("the tree '{}' does not use '{{{}}}'", brief(checked.subtree),
-                                      brief(attribute.name)),
-                          suggest(attribute.name, scope.open_keys(), "it also uses"),
-                          Severity::Warning);
-    });
-  }
-
-  template <class Visit>
-  static void for_each_remapping(const Document& document, std::uint32_t element, Visit visit) {
-    for (const Attribute& attribute : document.attributes(element)) {
-      const bool is_own = is_common_attribute(attribute.name) || attribute.name == "ID" ||
-                          attribute.name.starts_with('_');
-      if (!is_own && is_identifier(attribute.name)) visit(attribute);  // else reported already
+    for (const Remapping& it : remappings) {
+      if (scope.used(it.key) || report_.counted_only(Severity::Warning)) continue;
+      report_.at(
+          it.place,
+          fmt::format("the tree '{}' does not use '{{{}}}'", brief(subtree.id), brief(it.key)),
+          suggest(it.key, scope.open_keys(), "it also uses"), Severity::Warning);
     }
   }
 
   // Where nothing comes from an entry, all expansions of a tree share their ports.
-  std::uint32_t bind_ports(const Reporter& report, const CheckedNode& checked, Scope& scope) {
+  std::uint32_t bind_ports(const CheckedNode& checked, Scope& scope) {
     if (shared_[checked.first] != Port::kNone) return shared_[checked.first];
     const auto first = static_cast<std::uint32_t>(definition_.ports.size());
     bool constant = true;
@@ -112,7 +87,7 @@ class Expander {
       Port bound{.value = port.value};
       if (!port.key.empty()) {
         constant = false;
-        bound.entry = use(report, checked, checked.type->parameters[i], port.key, scope);
+        bound.entry = use(port, checked.type->parameters[i], scope);
       }
       definition_.ports.push_back(bound);
     }
@@ -120,38 +95,35 @@ class Expander {
     return first;
   }
 
-  std::uint32_t use(const Reporter& report, const CheckedNode& checked, const Parameter& port,
-                    std::string_view key, Scope& scope) {
-    const Scope::Found found = scope.find(key);
+  std::uint32_t use(const CheckedPort& port, const Parameter& parameter, Scope& scope) {
+    const Scope::Found found = scope.find(port.key);
     BlackboardEntry& entry = definition_.entries[found.entry];
     if (found.is_new) {
-      entry.type = port.type;
-      uses_.push_back({checked.document, checked.element, port.name});
-      if (found.has_text) set_initial(report, checked, port, found.text, entry);
-    } else if (entry.type != port.type) {
-      const Use& first = uses_[found.entry];
-      const auto where =
-          project_.documents[first.document]->locate_attribute(first.element, first.port);
-      report.at_value(
-          checked.element, port.name,
-          fmt::format("'{{{}}}' is {} for '{}', but {} elsewhere", brief(key),
-                      with_article(port.type), port.name, with_article(entry.type)),
-          fmt::format("the other use is at {}:{}:{}", where.file, where.line, where.column));
+      entry.type = parameter.type;
+      entry.first_use = port.place;
+      if (found.has_text) set_initial(port.place, parameter, found.text, entry);
+    } else if (entry.type != parameter.type) {
+      report_.at_value(
+          port.place,
+          fmt::format("'{{{}}}' is {} for '{}', but {} elsewhere", brief(port.key),
+                      with_article(parameter.type), parameter.name, with_article(entry.type)),
+          fmt::format("the other use is at {}",
+                      to_text(report_.sources().locate(entry.first_use))));
     }
     return found.entry;
   }
 
-  void set_initial(const Reporter& report, const CheckedNode& checked, const Parameter& port,
-                   std::string_view text, BlackboardEntry& entry) {
-    const auto value = parse_value(port.type, text);
+  void set_initial(Place place, const Parameter& parameter, std::string_view text,
+                   BlackboardEntry& entry) {
+    const auto value = parse_value(parameter.type, text);
     if (value) {
       entry.initial = *value;
       return;
     }
-    report.at_value(
-        checked.element, port.name,
+    report_.at_value(
+        place,
         fmt::format("the start value '{}' of '{}' is not {}, which '{}' must be", brief(text),
-                    brief(entry.name), expected_text(port.type), port.name),
+                    brief(entry.name), expected_text(parameter.type), parameter.name),
         "it comes from --set or from an attribute of a SubTree");
   }
 
@@ -160,27 +132,25 @@ class Expander {
     for (const BlackboardEntry& entry : definition_.entries) {
       if (entry.name.find('/') == std::string::npos) keys.push_back(entry.name);
     }
-    for (const auto& [key, text] : options_.values) {
+    for (const auto& [key, text] : values_) {
       if (scope.used(key)) continue;
-      diagnostics_.error({}, fmt::format("--set {0}: the main tree does not use '{{{0}}}'", key),
-                         suggest(key, keys, "entries of the main tree"));
+      report_.nowhere(fmt::format("--set {0}: the main tree does not use '{{{0}}}'", key),
+                      suggest(key, keys, "entries of the main tree"));
     }
   }
 
-  const Project& project_;
   CheckedTrees& trees_;
-  const ResolveOptions& options_;
-  Diagnostics& diagnostics_;
+  const StartValues& values_;
+  const Reporter& report_;
   Definition definition_;
-  std::vector<Use> uses_;              // of each entry
   std::vector<std::uint32_t> shared_;  // of each first checked port: its ports, made already
 };
 
 }  // namespace
 
-Definition expand(const Project& project, CheckedTrees& trees, std::string_view main,
-                  const ResolveOptions& options, Diagnostics& diagnostics) {
-  return Expander(project, trees, options, diagnostics).expand(main);
+Definition expand(CheckedTrees& trees, std::string_view main, const StartValues& values,
+                  const Reporter& report) {
+  return Expander(trees, values, report).expand(main);
 }
 
 }  // namespace lockstep

@@ -1,18 +1,21 @@
 // Checked trees -> Definition: subtrees expanded into the main tree, keys resolved to entries.
 #pragma once
 
+#include <map>
+#include <string>
+
 #include "definition/checked_tree.h"
 #include "definition/definition.h"
-#include "definition/resolve.h"
+#include "document/reporter.h"
 
 namespace lockstep {
 
-// `main` is an ID in `trees`, which can be expanded (check_references). What had an error is left
-// out, so that the rest is checked too. Takes the values out of `trees`.
-Definition expand(const Project& project, CheckedTrees& trees, std::string_view main,
-                  const ResolveOptions& options, Diagnostics& diagnostics);
+// `--set key=value`.
+using StartValues = std::map<std::string, std::string, std::less<>>;
 
-// Warnings and notes about a definition that is legal but probably not what was meant.
-void advise(const Project& project, const Definition& definition, Diagnostics& diagnostics);
+// `main` is an ID in `trees`, which can be expanded (check_references). What had an error is left
+// out, so that the rest is checked too. Takes from `trees` what the definition keeps.
+Definition expand(CheckedTrees& trees, std::string_view main, const StartValues& values,
+                  const Reporter& report);
 
 }  // namespace lockstep

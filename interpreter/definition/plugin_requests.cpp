@@ -12,52 +12,51 @@
 namespace lockstep {
 namespace {
 
-std::optional<PluginRequest> read_plugin(const Document& document, std::uint32_t element,
-                                         Diagnostics& diagnostics) {
-  const Reporter report(document, diagnostics);
-  if (document.elements()[element].end > element + 1) {
-    report.at_element(element + 1, "'plugin' takes no elements inside");
+std::optional<PluginRequest> read_plugin(const Document& document, std::uint32_t index,
+                                         const Reporter& report) {
+  const Element& element = document.elements()[index];
+  if (element.end > index + 1) {
+    report.at(document.elements()[index + 1].place, "'plugin' takes no elements inside");
   }
-  PluginRequest request{.name = {}, .document = &document, .element = element};
-  for (const Attribute& attribute : document.attributes(element)) {
-    if (attribute.name == "name") {
-      request.name = attribute.value;
-    } else if (attribute.name == "isolate") {
-      const auto isolate = parse_value(ValueType::Bool, attribute.value);
-      if (isolate) {
-        request.isolate = std::get<bool>(*isolate);
-      } else {
-        report.at_value(element, "isolate",
-                        fmt::format("'{}' is not true or false, which 'isolate' must be",
-                                    brief(attribute.value)));
-      }
+  std::optional<PluginRequest> request;
+  bool isolated = false;
+  for (const auto& [name, value, place] : document.attributes(index)) {
+    if (name == "name") {
+      request = PluginRequest{std::string(value), place};
+    } else if (name == "isolate") {
+      const auto isolate = parse_value(ValueType::Bool, value);
+      isolated = isolate == Value(true);
+      if (isolate) continue;
+      report.at_value(
+          place, fmt::format("'{}' is not true or false, which 'isolate' must be", brief(value)));
     } else {
-      report.at_attribute(
-          element, attribute.name,
-          fmt::format("'plugin' has no attribute '{}'", brief(attribute.name)),
-          "attributes of 'plugin': name (a tree names plugins, never paths) and isolate");
+      report.at(place, fmt::format("'plugin' has no attribute '{}'", brief(name)),
+                "attributes of 'plugin': name (a tree names plugins, never paths) and isolate");
     }
   }
-  if (document.find_attribute(element, "name") != nullptr) return request;
-  report.at_element(element, "'plugin' needs the attribute 'name'", "write <plugin name=\"…\"/>");
-  return std::nullopt;
+  if (request) {
+    request->isolate = isolated;
+  } else {
+    report.at(element.place, "'plugin' needs the attribute 'name'", "write <plugin name=\"…\"/>");
+  }
+  return request;
 }
 
 }  // namespace
 
 std::vector<PluginRequest> requested_plugins(const Project& project, Diagnostics& diagnostics) {
+  const Reporter report(project.sources, diagnostics);
   std::vector<PluginRequest> requests;
   for (const auto& document : project.documents) {
     const auto elements = document->elements();
     for (std::uint32_t child = 1; child < elements[0].end; child = elements[child].end) {
       if (elements[child].tag != "plugin") continue;
-      const auto request = read_plugin(*document, child, diagnostics);
+      const auto request = read_plugin(*document, child, report);
       if (!request) continue;
       const auto known = std::ranges::find(requests, request->name, &PluginRequest::name);
       if (known == requests.end()) {
         if (requests.size() == kMaxPlugins) {
-          Reporter(*document, diagnostics)
-              .at_element(child, fmt::format("more than {} plugins", kMaxPlugins));
+          report.at(elements[child].place, fmt::format("more than {} plugins", kMaxPlugins));
           return requests;
         }
         requests.push_back(*request);

@@ -14,11 +14,8 @@ inline constexpr std::size_t kMaxPlugins = 256;  // each may be a process
 
 struct PluginRequest {
   std::string name;
-  const Document* document = nullptr;  // where the name stands: an attribute of `element`
-  std::uint32_t element = 0;
+  Place place;           // of the attribute that names it
   bool isolate = false;  // in a process of its own
-
-  SourceLocation where() const { return document->locate_value(element, "name"); }
 };
 
 // Each name once, in the order of the documents; isolated when one of its elements says so.

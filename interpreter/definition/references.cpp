@@ -1,14 +1,11 @@
 #include "definition/references.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
 #include "core/suggest.h"
 #include "core/wording.h"
-#include "definition/definition.h"
-#include "document/reporter.h"
 
 namespace lockstep {
 namespace {
@@ -16,8 +13,8 @@ namespace {
 // Depth-first over the graph of trees, with a stack of its own: a chain of subtrees may be long.
 class ReferenceChecker {
  public:
-  ReferenceChecker(const Project& project, const CheckedTrees& trees, Diagnostics& diagnostics)
-      : project_(project), trees_(trees), diagnostics_(diagnostics) {}
+  ReferenceChecker(const CheckedTrees& trees, const Reporter& report)
+      : trees_(trees), report_(report) {}
 
   bool check() {
     for (const std::string_view id : trees_.ids) {
@@ -30,7 +27,7 @@ class ReferenceChecker {
   enum class State { New, Open, Done };
   struct Visit {
     State state = State::New;
-    std::uint32_t next = 0;  // of the tree's references, the one to look at next
+    std::uint32_t next = 0;  // of the tree's subtrees, the one to look at next
     // Expanded:
     std::uint64_t size = 0;
     std::uint32_t depth = 0;
@@ -42,8 +39,8 @@ class ReferenceChecker {
     while (!chain_.empty()) {
       const std::string_view id = chain_.back();
       const CheckedTree& tree = trees_.trees.at(id);
-      if (Visit& visit = visits_[id]; visit.next < tree.references) {
-        follow(visit, trees_.references[tree.first_reference + visit.next]);
+      if (Visit& visit = visits_[id]; visit.next < tree.subtrees) {
+        follow(visit, trees_.subtrees[tree.first_subtree + visit.next]);
       } else {
         close(id, visit);
       }
@@ -57,28 +54,27 @@ class ReferenceChecker {
     chain_.push_back(id);
   }
 
-  void follow(Visit& from, const CheckedReference& reference) {
-    const CheckedNode& node = trees_.nodes[reference.node];
-    if (!trees_.trees.contains(node.subtree)) {
-      unknown(node);
+  void follow(Visit& from, const CheckedSubTree& subtree) {
+    if (!trees_.trees.contains(subtree.id)) {
+      if (!subtree.id.empty()) unknown(subtree);
       ++from.next;
       return;
     }
-    const Visit& to = visits_[node.subtree];
+    const Visit& to = visits_[subtree.id];
     if (to.state == State::New) {
-      open(node.subtree);  // and come back to this reference
+      open(subtree.id);  // and come back to this one
       return;
     }
     ++from.next;
     if (to.state == State::Open) {
-      contains_itself(node);
+      contains_itself(subtree);
       return;
     }
     constexpr std::uint64_t kMost = 1ull << 60u;  // far above the limits, and sums do not overflow
     from.size = std::min(from.size + to.size, kMost);
-    from.depth = std::min(std::max(from.depth, reference.depth + 1 + to.depth), 1u << 30u);
+    from.depth = std::min(std::max(from.depth, subtree.depth + 1 + to.depth), 1u << 30u);
     // With more nodes than that the tree is refused whatever their paths are.
-    const auto paths_above = reference.path_size * std::min<std::uint64_t>(to.size, kMaxNodes);
+    const auto paths_above = subtree.path_size * std::min<std::uint64_t>(to.size, kMaxNodes);
     from.paths_size = std::min(from.paths_size + to.paths_size + paths_above, kMost);
   }
 
@@ -106,36 +102,29 @@ class ReferenceChecker {
   }
 
   void too_large(const CheckedNode& root, std::string message, std::string hint) {
-    if (expandable_) report(root).at_element(root.element, std::move(message), std::move(hint));
+    if (expandable_) report_.at(root.place, std::move(message), std::move(hint));
     expandable_ = false;
   }
 
-  void unknown(const CheckedNode& reference) const {
-    if (report(reference).counted_only(Severity::Error)) return;
-    report(reference).at_value(reference.element, "ID",
-                               fmt::format("unknown tree '{}'", brief(reference.subtree)),
-                               suggest(reference.subtree, trees_.ids, "trees in this project"));
+  void unknown(const CheckedSubTree& subtree) const {
+    if (report_.counted_only(Severity::Error)) return;
+    report_.at_value(subtree.place, fmt::format("unknown tree '{}'", brief(subtree.id)),
+                     suggest(subtree.id, trees_.ids, "trees in this project"));
   }
 
-  void contains_itself(const CheckedNode& reference) {
+  void contains_itself(const CheckedSubTree& subtree) {
     expandable_ = false;
-    if (report(reference).counted_only(Severity::Error)) return;
-    std::vector<std::string_view> circle(std::ranges::find(chain_, reference.subtree),
-                                         chain_.end());
-    circle.push_back(reference.subtree);
-    report(reference).at_value(
-        reference.element, "ID",
-        fmt::format("the tree '{}' contains itself: {}", brief(reference.subtree), chained(circle)),
+    if (report_.counted_only(Severity::Error)) return;
+    std::vector<std::string_view> circle(std::ranges::find(chain_, subtree.id), chain_.end());
+    circle.push_back(subtree.id);
+    report_.at_value(
+        subtree.place,
+        fmt::format("the tree '{}' contains itself: {}", brief(subtree.id), chained(circle)),
         "use a decorator such as Repeat for a loop");
   }
 
-  Reporter report(const CheckedNode& node) const {
-    return Reporter(*project_.documents[node.document], diagnostics_);
-  }
-
-  const Project& project_;
   const CheckedTrees& trees_;
-  Diagnostics& diagnostics_;
+  const Reporter& report_;
   std::map<std::string_view, Visit> visits_;
   std::vector<std::string_view> chain_;
   bool expandable_ = true;
@@ -143,8 +132,8 @@ class ReferenceChecker {
 
 }  // namespace
 
-bool check_references(const Project& project, const CheckedTrees& trees, Diagnostics& diagnostics) {
-  return ReferenceChecker(project, trees, diagnostics).check();
+bool check_references(const CheckedTrees& trees, const Reporter& report) {
+  return ReferenceChecker(trees, report).check();
 }
 
 }  // namespace lockstep

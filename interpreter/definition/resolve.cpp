@@ -1,14 +1,11 @@
 #include "definition/resolve.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <algorithm>
 
 #include "core/suggest.h"
 #include "core/wording.h"
-#include "definition/attributes.h"
-#include "definition/expand.h"
+#include "definition/advise.h"
+#include "definition/check_trees.h"
 #include "definition/references.h"
 #include "document/reporter.h"
 
@@ -16,36 +13,34 @@ namespace lockstep {
 namespace {
 
 // The ID of the tree to run; nothing after an error.
-std::optional<std::string_view> choose_main(const Project& project, const CheckedTrees& trees,
-                                            const ResolveOptions& options,
-                                            Diagnostics& diagnostics) {
-  const Document& main = *project.documents.front();
-  const Reporter report(main, diagnostics);
+std::optional<std::string_view> choose_main(const CheckedTrees& trees, std::string_view given,
+                                            const Reporter& report) {
+  const auto& main = trees.main;
   if (trees.ids.empty()) {
     // Else it is there, but without an ID, or this is no tree file at all: reported already.
-    if (trees.nodes.empty() && main.elements()[0].tag == "root") {
-      report.at_element(0, "there is no BehaviorTree", "put a <BehaviorTree ID=\"…\"> into <root>");
+    if (trees.nodes.empty() && main) {
+      report.at(main->place, "there is no BehaviorTree",
+                "put a <BehaviorTree ID=\"…\"> into <root>");
     }
     return std::nullopt;
   }
-  if (!options.main_tree.empty()) {
-    const auto it = trees.trees.find(options.main_tree);
+  if (!given.empty()) {
+    const auto it = trees.trees.find(given);
     if (it != trees.trees.end()) return it->first;
-    diagnostics.error({}, fmt::format("--tree {}: unknown tree", options.main_tree),
-                      suggest(options.main_tree, trees.ids, "trees in this project"));
+    report.nowhere(fmt::format("--tree {}: unknown tree", given),
+                   suggest(given, trees.ids, "trees in this project"));
     return std::nullopt;
   }
-  if (const Attribute* attribute = main.find_attribute(0, "main_tree_to_execute")) {
-    const auto it = trees.trees.find(attribute->value);
+  if (main->tree) {
+    const auto it = trees.trees.find(*main->tree);
     if (it != trees.trees.end()) return it->first;
-    report.at_value(0, "main_tree_to_execute",
-                    fmt::format("unknown tree '{}'", brief(attribute->value)),
-                    suggest(attribute->value, trees.ids, "trees in this project"));
+    report.at_value(main->tree_place, fmt::format("unknown tree '{}'", brief(*main->tree)),
+                    suggest(*main->tree, trees.ids, "trees in this project"));
     return std::nullopt;
   }
   if (trees.ids.size() == 1) return trees.ids.front();
-  report.at_element(
-      0, "it is not said which tree to run",
+  report.at(
+      main->place, "it is not said which tree to run",
       fmt::format("add main_tree_to_execute=\"…\" or give --tree; trees: {}", listed(trees.ids)));
   return std::nullopt;
 }
@@ -54,12 +49,13 @@ std::optional<std::string_view> choose_main(const Project& project, const Checke
 
 std::optional<Definition> resolve(const Project& project, const Catalog& catalog,
                                   const ResolveOptions& options, Diagnostics& diagnostics) {
+  const Reporter report(project.sources, diagnostics);
   CheckedTrees trees = check_trees(project, catalog, diagnostics);
-  const auto main = choose_main(project, trees, options, diagnostics);
-  if (!check_references(project, trees, diagnostics) || !main) return std::nullopt;
-  Definition definition = expand(project, trees, *main, options, diagnostics);
-  if (diagnostics.has_errors()) return std::nullopt;
-  advise(project, definition, diagnostics);
+  const auto main = choose_main(trees, options.main_tree, report);
+  if (!check_references(trees, report) || !main) return std::nullopt;
+  Definition definition = expand(trees, *main, options.values, report);
+  if (report.has_errors()) return std::nullopt;
+  advise(definition, report);
   return definition;
 }
 

@@ -1,20 +1,20 @@
 // Project + Catalog -> Definition: every rule about trees. Reports all it finds in one pass.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 
 #include "core/diagnostics.h"
 #include "definition/catalog.h"
 #include "definition/definition.h"
+#include "definition/expand.h"
 #include "document/project.h"
 
 namespace lockstep {
 
 struct ResolveOptions {
-  std::string main_tree;                                   // "": main_tree_to_execute, or the only
-  std::map<std::string, std::string, std::less<>> values;  // `--set key=value`
+  std::string main_tree;  // "": main_tree_to_execute, or the only
+  StartValues values;
 };
 
 // Nothing when there are errors. Warnings and notes are reported as well.

@@ -13,10 +13,11 @@ namespace {
 constexpr std::size_t kMostBarriers = 12;
 
 // A parameter that is a constant; null when an entry gives it.
-const Value* constant(const Drawn& drawn, const DefinitionNode& node, std::string_view name) {
+const Value* constant(const Definition& definition, const DefinitionNode& node,
+                      std::string_view name) {
   const auto& parameters = node.type->parameters;
   const auto it = std::ranges::find(parameters, name, &Parameter::name);
-  return drawn.definition.constant(node, static_cast<std::size_t>(it - parameters.begin()));
+  return definition.constant(node, static_cast<std::size_t>(it - parameters.begin()));
 }
 
 std::string barriers_text(const std::vector<double>& barriers) {
@@ -26,37 +27,36 @@ std::string barriers_text(const std::vector<double>& barriers) {
 }
 
 // What the sign of a control node does not say.
-std::vector<std::string> control_lines(const Drawn& drawn, const DefinitionNode& node) {
+std::vector<std::string> control_lines(const Definition& definition, const DefinitionNode& node) {
   if (node.type->synchronization == Synchronization::Absolute) {
-    if (const Value* barriers = constant(drawn, node, "barriers")) {
+    if (const Value* barriers = constant(definition, node, "barriers")) {
       return {barriers_text(std::get<std::vector<double>>(*barriers))};
     }
   } else if (node.type->synchronization == Synchronization::Relative) {
-    if (const Value* delta = constant(drawn, node, "delta")) {
+    if (const Value* delta = constant(definition, node, "delta")) {
       return {fmt::format("Δ = {}", std::get<double>(*delta))};
     }
   }
-  return shown_attributes(drawn, node);
+  return shown_attributes(definition, node);
 }
 
 }  // namespace
 
-std::vector<std::string> shown_attributes(const Drawn& drawn, const DefinitionNode& node) {
-  const Document& document = *drawn.project.documents[node.document];
-  const bool explicit_form = document.elements()[node.element].tag != node.type->id;
+std::vector<std::string> shown_attributes(const Definition& definition,
+                                          const DefinitionNode& node) {
   std::vector<std::string> shown;
-  for (const Attribute& attribute : document.attributes(node.element)) {
-    if (attribute.name == "name" || (explicit_form && attribute.name == "ID")) continue;
+  for (const WrittenAttribute& attribute : definition.attributes(node)) {
     shown.push_back(fmt::format("{}=\"{}\"", attribute.name, printable(attribute.value)));
   }
   return shown;
 }
 
-std::vector<std::string> shown_lines(const Drawn& drawn, const DefinitionNode& node) {
+std::vector<std::string> shown_lines(const Definition& definition, const DefinitionNode& node) {
   const std::string_view sign = node.type->sign;
   std::vector<std::string> lines{std::string(sign.empty() ? node.type->id : sign)};
   if (node.name != node.type->id) lines.push_back(printable(node.name));
-  const auto more = sign.empty() ? shown_attributes(drawn, node) : control_lines(drawn, node);
+  const auto more =
+      sign.empty() ? shown_attributes(definition, node) : control_lines(definition, node);
   lines.insert(lines.end(), more.begin(), more.end());
   return lines;
 }

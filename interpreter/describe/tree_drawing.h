@@ -6,26 +6,20 @@
 #include <vector>
 
 #include "definition/definition.h"
-#include "document/project.h"
 
 namespace lockstep {
 
-struct Drawn {
-  const Project& project;
-  const Definition& definition;
-};
-
 // Lines of box-drawing characters, or of ASCII.
-std::string tree_as_text(const Drawn& drawn, bool ascii);
-std::string tree_as_dot(const Drawn& drawn);
-std::string tree_as_mermaid(const Drawn& drawn);
+std::string tree_as_text(const Definition& definition, bool ascii);
+std::string tree_as_dot(const Definition& definition);
+std::string tree_as_mermaid(const Definition& definition);
 
 // What is shared by the above.
 
-// name="value" of the node's element, with arguments substituted; without what names the node.
-std::vector<std::string> shown_attributes(const Drawn& drawn, const DefinitionNode& node);
+// name="value" as the node is written, with arguments substituted; without what names the node.
+std::vector<std::string> shown_attributes(const Definition& definition, const DefinitionNode& node);
 // The lines that stand in a node's shape: the sign that papers use for its kind, or its id; its
 // name when it has one; barriers or delta; its attributes.
-std::vector<std::string> shown_lines(const Drawn& drawn, const DefinitionNode& node);
+std::vector<std::string> shown_lines(const Definition& definition, const DefinitionNode& node);
 
 }  // namespace lockstep

@@ -38,10 +38,10 @@ std::string mermaid_escaped(std::string_view text) {
   return safe;
 }
 
-std::string label(const Drawn& drawn, const DefinitionNode& node,
+std::string label(const Definition& definition, const DefinitionNode& node,
                   std::string (*escape)(std::string_view), std::string_view line_break) {
   std::string text;
-  for (const std::string& line : shown_lines(drawn, node)) {
+  for (const std::string& line : shown_lines(definition, node)) {
     if (!text.empty()) text += line_break;
     text += escape(line);
   }
@@ -64,28 +64,28 @@ Brackets mermaid_shape(NodeCategory category) {
 
 }  // namespace
 
-std::string tree_as_dot(const Drawn& drawn) {
+std::string tree_as_dot(const Definition& definition) {
   std::string text = fmt::format(
       "digraph \"{}\" {{\n  node [fontname=\"sans-serif\"];\n  edge [arrowhead=none];\n"
       "  ordering=out;\n",
-      dot_escaped(printable(drawn.definition.id)));
-  const auto& nodes = drawn.definition.nodes;
+      dot_escaped(printable(definition.id)));
+  const auto& nodes = definition.nodes;
   for (std::uint32_t index = 0; index < nodes.size(); ++index) {
     text += fmt::format("  n{} [shape={}, label=\"{}\"];\n", index,
                         dot_shape(nodes[index].type->category),
-                        label(drawn, nodes[index], dot_escaped, "\\n"));
+                        label(definition, nodes[index], dot_escaped, "\\n"));
     if (index > 0) text += fmt::format("  n{} -> n{};\n", nodes[index].parent, index);
   }
   return text + "}\n";
 }
 
-std::string tree_as_mermaid(const Drawn& drawn) {
+std::string tree_as_mermaid(const Definition& definition) {
   std::string text = "flowchart TD\n";
-  const auto& nodes = drawn.definition.nodes;
+  const auto& nodes = definition.nodes;
   for (std::uint32_t index = 0; index < nodes.size(); ++index) {
     const auto [open, close] = mermaid_shape(nodes[index].type->category);
     text += fmt::format("  n{}{}\"{}\"{}\n", index, open,
-                        label(drawn, nodes[index], mermaid_escaped, "<br/>"), close);
+                        label(definition, nodes[index], mermaid_escaped, "<br/>"), close);
     if (index > 0) text += fmt::format("  n{} --- n{}\n", nodes[index].parent, index);
   }
   return text;

@@ -12,19 +12,19 @@ struct Strokes {
 constexpr Strokes kBoxes{"├── ", "└── ", "│   ", "    "};
 constexpr Strokes kAscii{"|-- ", "`-- ", "|   ", "    "};
 
-std::string line(const Drawn& drawn, const DefinitionNode& node) {
+std::string line(const Definition& definition, const DefinitionNode& node) {
   std::string text(node.type->id);
   if (node.name != node.type->id) text += fmt::format(" '{}'", printable(node.name));
-  for (const std::string& attribute : shown_attributes(drawn, node)) text += " " + attribute;
+  for (const std::string& attribute : shown_attributes(definition, node)) text += " " + attribute;
   return text;
 }
 
 }  // namespace
 
-std::string tree_as_text(const Drawn& drawn, bool ascii) {
+std::string tree_as_text(const Definition& definition, bool ascii) {
   const Strokes& strokes = ascii ? kAscii : kBoxes;
-  const auto& nodes = drawn.definition.nodes;
-  std::string text = printable(drawn.definition.id) + "\n";
+  const auto& nodes = definition.nodes;
+  std::string text = printable(definition.id) + "\n";
   // What stands before the children of each node: they come after it.
   std::vector<std::string> before(nodes.size());
   for (std::uint32_t index = 0; index < nodes.size(); ++index) {
@@ -32,7 +32,7 @@ std::string tree_as_text(const Drawn& drawn, bool ascii) {
     const std::string prefix = index == 0 ? "" : before[node.parent];
     const bool last = index == 0 || node.end == nodes[node.parent].end;
     text.append(prefix).append(last ? strokes.last : strokes.branch);
-    text.append(line(drawn, node)).append("\n");
+    text.append(line(definition, node)).append("\n");
     if (node.children > 0)
       before[index] = prefix + std::string(last ? strokes.blank : strokes.pass);
   }

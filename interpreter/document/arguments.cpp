@@ -8,7 +8,6 @@
 #include "core/identifier.h"
 #include "core/suggest.h"
 #include "core/wording.h"
-#include "document/reporter.h"
 #include "document/vocabulary.h"
 
 namespace lockstep {
@@ -22,34 +21,31 @@ std::optional<std::string> value_of(const Attribute* attribute) {
   return std::string(attribute->value);
 }
 
-std::string to_place(const SourceLocation& location) {
-  return fmt::format("{}:{}:{}", location.file, location.line, location.column);
-}
-
 }  // namespace
 
 void ArgumentTable::declare(Document& document, std::uint32_t element) {
-  if (!check_vocabulary(document, element, kAttributes, 1, diagnostics_)) return;
-  const Reporter report(document, diagnostics_);
+  if (!check_vocabulary(document, element, kAttributes, 1, report_)) return;
   const bool sound = substitute(document, element);
-  const std::string name(document.find_attribute(element, "name")->value);
-  const auto location = document.locate_value(element, "name");
+  const Attribute& named = *document.find_attribute(element, "name");
+  const std::string name(named.value);
   if (!is_identifier(name))
-    return report.at_value(element, "name", fmt::format("'{}' is not an identifier", brief(name)),
-                           "letters, digits and '_', not a digit first");
-  const auto [entry, is_new] = by_name_.try_emplace(name, Where{declared_.size(), location, sound});
+    return report_.at_value(named.place, fmt::format("'{}' is not an identifier", brief(name)),
+                            "letters, digits and '_', not a digit first");
+  const auto [entry, is_new] =
+      by_name_.try_emplace(name, Where{declared_.size(), named.place, sound});
   if (!is_new)
-    return report.at_value(element, "name",
-                           fmt::format("argument '{}' is declared twice", brief(name)),
-                           fmt::format("the first is at {}", to_place(entry->second.location)));
+    return report_.at_value(
+        named.place, fmt::format("argument '{}' is declared twice", brief(name)),
+        fmt::format("the first is at {}",
+                    to_text(report_.sources().locate_value(entry->second.place))));
 
   auto default_value = value_of(document.find_attribute(element, "default"));
   const auto given = given_.find(name);
   if (given == given_.end() && !default_value) {
     entry->second.has_value = false;
-    report.at_element(element,
-                      fmt::format("argument '{}' has no default and is not given", brief(name)),
-                      fmt::format("give it with --arg {}=value", brief(name)));
+    report_.at(document.elements()[element].place,
+               fmt::format("argument '{}' has no default and is not given", brief(name)),
+               fmt::format("give it with --arg {}=value", brief(name)));
   }
   if (given != given_.end()) entry->second.has_value = true;
   auto value = given != given_.end() ? given->second : default_value.value_or("");
@@ -63,19 +59,15 @@ bool ArgumentTable::substitute(Document& document, std::uint32_t element) {
   bool sound = true;
   for (const auto& attribute : document.attributes(element)) {
     if (attribute.value.find("${") == std::string_view::npos) continue;
-    auto value = expand(document, element, attribute);
+    auto value = expand(attribute);
     sound = sound && value.has_value();
     if (value) document.set_value(attribute, std::move(*value));
   }
   return sound;
 }
 
-std::optional<std::string> ArgumentTable::expand(const Document& document, std::uint32_t element,
-                                                 const Attribute& attribute) {
+std::optional<std::string> ArgumentTable::expand(const Attribute& attribute) {
   const auto text = attribute.value;
-  const auto place = [&](std::size_t offset) {
-    return document.locate_value(element, attribute.name, offset);
-  };
   std::string out;
   bool sound = true;
   std::size_t unknown = 0;
@@ -90,21 +82,21 @@ std::optional<std::string> ArgumentTable::expand(const Document& document, std::
     }
     const auto close = text.find('}', done);
     if (close == std::string_view::npos) {
-      Reporter(document, diagnostics_)
-          .at(place(at), "'${' is not closed",
-              "write ${name}, or $${ for the characters themselves");
+      report_.in_value(attribute.place, at, "'${' is not closed",
+                       "write ${name}, or $${ for the characters themselves");
       return std::nullopt;
     }
     const auto name = text.substr(done, close - done);
     done = close + 1;
     const auto* where = find(name);
-    if (!where && !Reporter(document, diagnostics_).counted_only(Severity::Error))
-      report_unknown(name, document, place(at));
+    if (!where && !report_.counted_only(Severity::Error))
+      report_.in_value(attribute.place, at, fmt::format("unknown argument '{}'", brief(name)),
+                       list_declared(name));
     if (!where && ++unknown == kMaxUnknown) return std::nullopt;
     sound = sound && where && where->has_value;
     if (!sound) continue;
     const auto& value = declared_[where->index].value;
-    if (!fits(out.size() + value.size(), document, element, attribute)) return std::nullopt;
+    if (!fits(out.size() + value.size(), attribute)) return std::nullopt;
     out += value;
   }
   if (!sound) return std::nullopt;
@@ -113,10 +105,9 @@ std::optional<std::string> ArgumentTable::expand(const Document& document, std::
   return out;
 }
 
-bool ArgumentTable::fits(std::size_t bytes, const Document& document, std::uint32_t element,
-                         const Attribute& attribute) {
+bool ArgumentTable::fits(std::size_t bytes, const Attribute& attribute) {
   const auto fail = [&](std::string message) {
-    Reporter(document, diagnostics_).at_value(element, attribute.name, std::move(message));
+    report_.at_value(attribute.place, std::move(message));
     return false;
   };
   if (bytes > kMaxValueMiB << 20u)
@@ -134,13 +125,6 @@ const ArgumentTable::Where* ArgumentTable::find(std::string_view name) const {
   return entry == by_name_.end() ? nullptr : &entry->second;
 }
 
-void ArgumentTable::report_unknown(std::string_view name, const Document& document,
-                                   SourceLocation location) {
-  Reporter(document, diagnostics_)
-      .at(std::move(location), fmt::format("unknown argument '{}'", brief(name)),
-          list_declared(name));
-}
-
 std::string ArgumentTable::list_declared(std::string_view near) const {
   if (declared_.empty()) return "no <arg> is declared";
   std::vector<std::string_view> names;
@@ -151,8 +135,8 @@ std::string ArgumentTable::list_declared(std::string_view near) const {
 void ArgumentTable::check_given() const {
   for (const auto& [name, value] : given_)
     if (!find(name))
-      diagnostics_.error({}, fmt::format("unknown argument '{}' in --arg", brief(name)),
-                         list_declared(name));
+      report_.nowhere(fmt::format("unknown argument '{}' in --arg", brief(name)),
+                      list_declared(name));
 }
 
 }  // namespace lockstep

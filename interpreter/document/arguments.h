@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "document/project.h"
+#include "document/reporter.h"
 
 namespace lockstep {
 
@@ -18,8 +19,8 @@ constexpr std::size_t kMaxExpandedMiB = 64;
 
 class ArgumentTable {
  public:
-  ArgumentTable(const Arguments& given, Diagnostics& diagnostics)
-      : given_(given), diagnostics_(diagnostics) {}
+  // `report` is for the texts that elements are in.
+  ArgumentTable(const Arguments& given, const Reporter& report) : given_(given), report_(report) {}
 
   // `element` is an <arg>. Its own attributes may use what is declared before it.
   void declare(Document& document, std::uint32_t element);
@@ -33,20 +34,17 @@ class ArgumentTable {
  private:
   struct Where {
     std::size_t index;
-    SourceLocation location;
+    Place place;  // of the attribute that names it
     bool has_value;
   };
 
-  std::optional<std::string> expand(const Document& document, std::uint32_t element,
-                                    const Attribute& attribute);
+  std::optional<std::string> expand(const Attribute& attribute);
   const Where* find(std::string_view name) const;
-  bool fits(std::size_t bytes, const Document& document, std::uint32_t element,
-            const Attribute& attribute);
-  void report_unknown(std::string_view name, const Document& document, SourceLocation location);
+  bool fits(std::size_t bytes, const Attribute& attribute);
   std::string list_declared(std::string_view near) const;
 
   const Arguments& given_;
-  Diagnostics& diagnostics_;
+  Reporter report_;
   std::vector<DeclaredArgument> declared_;
   std::map<std::string, Where, std::less<>> by_name_;
   std::size_t expanded_ = 0;  // bytes of all substituted values

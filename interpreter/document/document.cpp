@@ -5,54 +5,21 @@
 
 #include <deque>
 
-#include "core/utf8.h"
-#include "document/lines.h"
-#include "document/references.h"
 #include "document/well_formed.h"
 
 namespace lockstep {
-namespace {
-
-constexpr std::size_t kExcerptBytes = 200;
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-
-// As written, between the quotes, of the attribute whose name ends at `offset`.
-std::string_view value_after(std::string_view text, std::size_t offset) {
-  const auto open = text.find_first_of("\"'", offset);
-  return text.substr(open + 1, text.find(text[open], open + 1) - open - 1);
-}
-
-}  // namespace
-
 struct Document::Implementation {
-  std::string path;
-  std::string text;
+  std::shared_ptr<const Source> source;
   std::vector<Element> elements;
   std::vector<Attribute> attributes;
   std::vector<std::uint32_t> coded;      // attributes whose values the reader has to read
   std::vector<std::string_view> unread;  // parts of the text that the reader must not see
   std::deque<std::string> values;        // those that are not as the text has them; never moved
-  std::optional<Lines> lines;
 
-  std::size_t offset_of(std::string_view part) const {
-    return static_cast<std::size_t>(part.data() - text.data());
-  }
-
-  SourceLocation at(std::size_t offset) {
-    if (!lines) lines.emplace(text);
-    const auto [line, column] = lines->locate(offset);
-    return {path, line, column};
-  }
-
-  std::string excerpt(std::uint32_t line) {
-    if (!lines) lines.emplace(text);
-    return std::string(utf8_front(lines->line(line), kExcerptBytes));
-  }
-
-  void report(XmlFault fault, Diagnostics& diagnostics) {
-    const auto location = at(fault.offset);
+  void report(XmlFault fault, Diagnostics& diagnostics) const {
+    const auto location = source->locate(source->place_of(fault.offset));
     diagnostics.error(location, std::move(fault.message), std::move(fault.hint),
-                      excerpt(location.line));
+                      source->excerpt(location.line));
   }
 
   bool check(Diagnostics& diagnostics);
@@ -62,16 +29,17 @@ struct Document::Implementation {
 };
 
 bool Document::Implementation::check(Diagnostics& diagnostics) {
+  const std::string_view text = source->text();
   if (text.size() > kMaxBytes) {
-    diagnostics.error({path}, fmt::format("the file is larger than {} MiB", kMaxBytes >> 20u));
+    diagnostics.error({source->path()},
+                      fmt::format("the file is larger than {} MiB", kMaxBytes >> 20u));
     return false;
   }
-  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
   if (auto fault = check_encoding(text)) {
     report(std::move(*fault), diagnostics);
     return false;
   }
-  auto written = check_well_formed(text);
+  auto written = check_well_formed(text, source->place_of(0));
   for (auto& fault : written.faults) report(std::move(fault), diagnostics);
   elements = std::move(written.elements);
   attributes = std::move(written.attributes);
@@ -82,8 +50,12 @@ bool Document::Implementation::check(Diagnostics& diagnostics) {
 
 // Blanks are where it was: they are not part of any value.
 std::string Document::Implementation::without_unread() const {
-  std::string blanked = text;
-  for (const auto part : unread) blanked.replace(offset_of(part), part.size(), part.size(), ' ');
+  const std::string_view text = source->text();
+  std::string blanked(text);
+  for (const auto part : unread) {
+    const auto offset = static_cast<std::size_t>(part.data() - text.data());
+    blanked.replace(offset, part.size(), part.size(), ' ');
+  }
   return blanked;
 }
 
@@ -92,14 +64,15 @@ std::string Document::Implementation::without_unread() const {
 bool Document::Implementation::read(Diagnostics& diagnostics) {
   tinyxml2::XMLDocument xml;
   const std::string blanked = unread.empty() ? std::string() : without_unread();
-  const std::string& readable = unread.empty() ? text : blanked;
+  const std::string_view readable = unread.empty() ? source->text() : blanked;
   if (xml.Parse(readable.data(), readable.size()) == tinyxml2::XML_SUCCESS) {
     read_values(xml.RootElement());
     return true;
   }
   const auto line = static_cast<std::uint32_t>(xml.ErrorLineNum());
-  diagnostics.error({path, line}, fmt::format("not XML that can be read ({})", xml.ErrorName()), {},
-                    excerpt(line));
+  diagnostics.error({source->path(), line},
+                    fmt::format("not XML that can be read ({})", xml.ErrorName()), {},
+                    source->excerpt(line));
   return false;
 }
 
@@ -127,21 +100,18 @@ Document::Document() : it_(std::make_unique<Implementation>()) {}
 Document::~Document() = default;
 
 std::unique_ptr<Document> Document::parse(std::string path, std::string text,
-                                          Diagnostics& diagnostics) {
+                                          Diagnostics& diagnostics, Place first) {
   std::unique_ptr<Document> document(new Document);
   auto& it = *document->it_;
-  it.path = std::move(path);
-  it.text = std::move(text);
+  it.source = std::make_shared<const Source>(std::move(path), std::move(text), first);
   if (!it.check(diagnostics) || !it.read(diagnostics)) return nullptr;
   return document;
 }
 
-const std::string& Document::path() const {
-  return it_->path;
+const std::shared_ptr<const Source>& Document::source() const {
+  return it_->source;
 }
-std::string_view Document::text() const {
-  return it_->text;
-}
+
 std::span<const Element> Document::elements() const {
   return it_->elements;
 }
@@ -152,36 +122,13 @@ std::span<const Attribute> Document::attributes(std::uint32_t element) const {
 }
 
 const Attribute* Document::find_attribute(std::uint32_t element, std::string_view name) const {
-  for (const auto& attribute : attributes(element))
-    if (attribute.name == name) return &attribute;
-  return nullptr;
+  return lockstep::find_attribute(attributes(element), name);
 }
 
 void Document::set_value(const Attribute& attribute, std::string value) {
   const auto index = &attribute - it_->attributes.data();
   it_->attributes[static_cast<std::size_t>(index)].value =
       it_->values.emplace_back(std::move(value));
-}
-
-SourceLocation Document::locate(std::uint32_t element) const {
-  return it_->at(it_->offset_of(it_->elements[element].tag) - 1);
-}
-
-SourceLocation Document::locate_attribute(std::uint32_t element, std::string_view name) const {
-  const auto* attribute = find_attribute(element, name);
-  return attribute ? it_->at(it_->offset_of(attribute->name)) : locate(element);
-}
-
-SourceLocation Document::locate_value(std::uint32_t element, std::string_view name,
-                                      std::size_t offset) const {
-  const auto* attribute = find_attribute(element, name);
-  if (!attribute) return locate(element);
-  const auto raw = value_after(it_->text, it_->offset_of(attribute->name) + attribute->name.size());
-  return it_->at(it_->offset_of(raw) + raw_offset(raw, offset));
-}
-
-std::string Document::excerpt(const SourceLocation& location) const {
-  return it_->excerpt(location.line);
 }
 
 }  // namespace lockstep

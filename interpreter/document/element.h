@@ -1,15 +1,19 @@
 // The elements of an XML file and their attributes, flat and in pre-order. Views into the text of
-// their document.
+// their document; their places stay where they are written, whatever their values become.
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string_view>
+
+#include "core/place.h"
 
 namespace lockstep {
 
 struct Attribute {
   std::string_view name;
   std::string_view value;  // entities resolved, and arguments once the project has substituted them
+  Place place = {};        // of its name
 };
 
 struct Element {
@@ -17,6 +21,15 @@ struct Element {
   std::uint32_t end;  // one past its last descendant in Document::elements(); children as in Tree
   std::uint32_t first_attribute;
   std::uint32_t attribute_count;
+  Place place = {};  // of its '<'
 };
+
+// Null when there is none.
+inline const Attribute* find_attribute(std::span<const Attribute> attributes,
+                                       std::string_view name) {
+  for (const Attribute& attribute : attributes)
+    if (attribute.name == name) return &attribute;
+  return nullptr;
+}
 
 }  // namespace lockstep

@@ -16,9 +16,9 @@ struct LineColumn {
 
 // Knows how many lines begin in each block of the text, and counts out the rest: a text of nothing
 // but line ends takes no more memory than another.
-class Lines {
+class LineIndex {
  public:
-  explicit Lines(std::string_view text);
+  explicit LineIndex(std::string_view text);
   LineColumn locate(std::size_t offset) const;
   // Line 1 is the first; without its line end. "" when there is no such line.
   std::string_view line(std::uint32_t number) const;

@@ -34,7 +34,9 @@ bool is_root(const Document& document) {
 class Loader {
  public:
   Loader(const Arguments& given, Diagnostics& diagnostics)
-      : arguments_(given, diagnostics), diagnostics_(diagnostics) {}
+      : report_(project_->sources, diagnostics),
+        arguments_(given, report_),
+        diagnostics_(diagnostics) {}
 
   std::unique_ptr<Project> load(const std::string& path, std::string text) {
     bytes_ = text.size();
@@ -60,6 +62,7 @@ class Loader {
   void for_each_child(Document& document, std::string_view tag, Visit visit);
 
   std::unique_ptr<Project> project_ = std::make_unique<Project>();
+  Reporter report_;
   ArgumentTable arguments_;
   Diagnostics& diagnostics_;
   std::vector<Reading> open_;   // the chain of includes that is being read
@@ -76,13 +79,14 @@ void Loader::for_each_child(Document& document, std::string_view tag, Visit visi
 
 bool Loader::add(const Reading& file, std::string text) {
   read_.insert(file.identity);
-  auto parsed = Document::parse(file.path, std::move(text), diagnostics_);
+  auto parsed = Document::parse(file.path, std::move(text), diagnostics_, project_->sources.next());
   if (!parsed) return false;
+  project_->sources.add(parsed->source());
   auto& document = *project_->documents.emplace_back(std::move(parsed));
   if (!is_root(document)) {
-    Reporter(document, diagnostics_)
-        .at_element(0, fmt::format("the first element must be 'root', not '{}'",
-                                   brief(document.elements()[0].tag)));
+    const Element& first = document.elements()[0];
+    report_.at(first.place,
+               fmt::format("the first element must be 'root', not '{}'", brief(first.tag)));
     return true;
   }
   open_.push_back(file);
@@ -94,12 +98,14 @@ bool Loader::add(const Reading& file, std::string text) {
 }
 
 void Loader::include(Document& document, std::uint32_t element) {
-  if (!check_vocabulary(document, element, kIncludeAttributes, 1, diagnostics_)) return;
+  if (!check_vocabulary(document, element, kIncludeAttributes, 1, report_)) return;
   if (!arguments_.substitute(document, element)) return;
-  const fs::path written(document.find_attribute(element, "path")->value);
-  const auto path = (fs::path(document.path()).parent_path() / written).lexically_normal().string();
+  const Attribute& attribute = *document.find_attribute(element, "path");
+  const fs::path written(attribute.value);
+  const auto path =
+      (fs::path(document.source()->path()).parent_path() / written).lexically_normal().string();
   const auto fail = [&](std::string message) {
-    Reporter(document, diagnostics_).at_value(element, "path", std::move(message));
+    report_.at_value(attribute.place, std::move(message));
   };
   const Reading next{path, identity_of(path)};
   if (const auto chain = cycle(next); !chain.empty()) return fail("include cycle: " + chain);
@@ -129,7 +135,7 @@ std::string Loader::cycle(const Reading& next) const {
 // A character reference may stand for a part of "${", so it counts too.
 bool may_use_arguments(const Document& document) {
   const auto has = [&](std::string_view part) {
-    return document.text().find(part) != std::string_view::npos;
+    return document.source()->text().find(part) != std::string_view::npos;
   };
   return has("${") || has("&#");
 }

@@ -25,7 +25,8 @@ struct DeclaredArgument {
 struct Project {
   // The main file first, then as included. Their paths are as a user would write them: relative
   // ones stay relative.
-  std::vector<std::unique_ptr<Document>> documents;
+  Sources sources;
+  std::vector<std::unique_ptr<Document>> documents;  // of the sources
   std::vector<DeclaredArgument> arguments;
 };
 

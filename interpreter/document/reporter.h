@@ -1,19 +1,19 @@
-// Reports errors at places in one document, with the source line. For all who check what it says.
+// Reports errors at places in the texts, with the source line. For all who check what they say.
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "core/diagnostics.h"
-#include "document/document.h"
+#include "document/sources.h"
 
 namespace lockstep {
 
 class Reporter {
  public:
-  Reporter(const Document& document, Diagnostics& diagnostics)
-      : document_(document), diagnostics_(diagnostics) {}
+  Reporter(const Sources& sources, Diagnostics& diagnostics)
+      : sources_(sources), diagnostics_(diagnostics) {}
 
+  const Sources& sources() const { return sources_; }
   bool has_errors() const { return diagnostics_.has_errors(); }
 
   // What is not kept needs neither words nor a place: a document may have a million errors. True
@@ -24,31 +24,40 @@ class Reporter {
     return true;
   }
 
-  void at_element(std::uint32_t element, std::string message, std::string hint = {},
-                  Severity severity = Severity::Error) const {
+  void at(Place place, std::string message, std::string hint = {},
+          Severity severity = Severity::Error) const {
     if (counted_only(severity)) return;
-    at(document_.locate(element), std::move(message), std::move(hint), severity);
+    const Source& source = sources_.of(place);
+    add(source, source.locate(place), std::move(message), std::move(hint), severity);
   }
-  void at_attribute(std::uint32_t element, std::string_view name, std::string message,
-                    std::string hint = {}, Severity severity = Severity::Error) const {
+  // At the value of the attribute that is at this place.
+  void at_value(Place attribute, std::string message, std::string hint = {},
+                Severity severity = Severity::Error) const {
     if (counted_only(severity)) return;
-    at(document_.locate_attribute(element, name), std::move(message), std::move(hint), severity);
+    const Source& source = sources_.of(attribute);
+    add(source, source.locate_value(attribute), std::move(message), std::move(hint), severity);
   }
-  void at_value(std::uint32_t element, std::string_view name, std::string message,
-                std::string hint = {}, Severity severity = Severity::Error) const {
-    if (counted_only(severity)) return;
-    at(document_.locate_value(element, name), std::move(message), std::move(hint), severity);
+  // The same at a byte of the value, as it was read from the text.
+  void in_value(Place attribute, std::size_t byte, std::string message, std::string hint) const {
+    if (counted_only(Severity::Error)) return;
+    const Source& source = sources_.of(attribute);
+    add(source, source.locate_value(attribute, byte), std::move(message), std::move(hint),
+        Severity::Error);
+  }
+  // What is wrong with what was given beside the texts.
+  void nowhere(std::string message, std::string hint = {}) const {
+    diagnostics_.error({}, std::move(message), std::move(hint));
   }
 
-  void at(SourceLocation location, std::string message, std::string hint = {},
-          Severity severity = Severity::Error) const {
-    std::string excerpt = document_.excerpt(location);
+ private:
+  void add(const Source& source, SourceLocation location, std::string message, std::string hint,
+           Severity severity) const {
+    std::string excerpt = source.excerpt(location.line);
     diagnostics_.add(
         {severity, std::move(location), std::move(message), std::move(hint), std::move(excerpt)});
   }
 
- private:
-  const Document& document_;
+  const Sources& sources_;
   Diagnostics& diagnostics_;
 };
 

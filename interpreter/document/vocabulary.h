@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "document/document.h"
+#include "document/reporter.h"
 
 namespace lockstep {
 
@@ -12,6 +13,6 @@ namespace lockstep {
 // first `required` of `known`), and elements inside it. False when a required one is missing.
 bool check_vocabulary(const Document& document, std::uint32_t element,
                       std::span<const std::string_view> known, std::size_t required,
-                      Diagnostics& diagnostics);
+                      const Reporter& report);
 
 }  // namespace lockstep

@@ -16,7 +16,7 @@ constexpr std::size_t kMaxFaults = 100;
 
 class Checker {
  public:
-  explicit Checker(std::string_view text) : text_(text), scanner_(text) {
+  Checker(std::string_view text, Place first) : text_(text), first_(first), scanner_(text) {
     result_.elements.reserve(at_most('<', "<a/>"));
     result_.attributes.reserve(at_most('=', " a=''"));
   }
@@ -67,7 +67,7 @@ class Checker {
                    fmt::format("elements are nested deeper than {} levels", kMaxElementDepth),
                    "the XML reader's limit is 100, and it needs two of them; use a SubTree"});
     open_.push_back(count(result_.elements));
-    result_.elements.push_back({token.name, 0, count(result_.attributes), 0});
+    result_.elements.push_back({token.name, 0, count(result_.attributes), 0, place(token)});
     prolog_ = false;
   }
 
@@ -78,7 +78,7 @@ class Checker {
                                             kMaxAttributes)});
     ++element.attribute_count;
     if (token.is_coded) result_.coded.push_back(count(result_.attributes));
-    result_.attributes.push_back({token.name, token.value});
+    result_.attributes.push_back({token.name, token.value, place(token)});
     if (token.is_coded) references(token);
   }
 
@@ -185,7 +185,12 @@ class Checker {
     return 1 + static_cast<std::size_t>(std::count(text_.begin(), text_.begin() + offset, '\n'));
   }
 
+  Place place(const Token& token) const {
+    return {first_.byte + static_cast<std::uint32_t>(token.begin)};
+  }
+
   std::string_view text_;
+  Place first_;
   Scanner scanner_;
   std::vector<std::uint32_t> open_;      // elements
   std::vector<std::string_view> names_;  // of the attributes of one element
@@ -197,8 +202,8 @@ class Checker {
 
 }  // namespace
 
-WellFormed check_well_formed(std::string_view text) {
-  return Checker(text).run();
+WellFormed check_well_formed(std::string_view text, Place first) {
+  return Checker(text, first).run();
 }
 
 }  // namespace lockstep

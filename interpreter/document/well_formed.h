@@ -32,6 +32,7 @@ struct WellFormed {
   std::vector<std::string_view> unread;
 };
 
-WellFormed check_well_formed(std::string_view text);
+// `first` is the place of the first byte.
+WellFormed check_well_formed(std::string_view text, Place first = {});
 
 }  // namespace lockstep

@@ -50,7 +50,7 @@ void compare_with_reader(std::string text) {
   Diagnostics diagnostics;
   const auto document = Document::parse("tree.xml", text, diagnostics);
   if (document == nullptr) return;
-  text = document->text();
+  text = document->source()->text();
   for (const auto part : check_well_formed(text).unread)
     std::fill_n(text.begin() + (part.data() - text.data()), part.size(), ' ');
   tinyxml2::XMLDocument xml;

@@ -52,7 +52,7 @@ bool load_requested_plugins(const PluginOptions& options, const Project& project
     Diagnostics refused;
     good &= plugins.load_named(request.name, directories, refused, {}, isolation);
     for (Diagnostic diagnostic : refused.all()) {
-      diagnostic.location = request.where();
+      diagnostic.location = project.sources.locate_value(request.place);
       diagnostics.add(std::move(diagnostic));
     }
   }
@@ -161,6 +161,7 @@ Tree take_tree(Loaded& loaded) {
   Tree tree = compile(*loaded.definition);
   loaded.definition.reset();
   loaded.project->documents.clear();
+  loaded.project->sources = {};
   return_freed_memory();
   return tree;
 }

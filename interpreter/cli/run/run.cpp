@@ -191,7 +191,7 @@ void last_words() {
 // What a recording must not overwrite.
 std::vector<NamedFile> inputs_of_run(const RunCommandOptions& options, const Loaded& loaded) {
   std::vector<std::string> documents{options.tree};
-  for (const auto& document : loaded.project->documents) documents.push_back(document->path());
+  for (const auto& source : loaded.project->sources.all()) documents.push_back(source->path());
   return inputs_of(documents, *loaded.plugins);
 }
 

@@ -162,9 +162,9 @@ void StudyLoader::read_grid(const std::vector<DeclaredArgument>& declared) {
 }
 
 void StudyLoader::add_files(const Project& project) {
-  for (const auto& document : project.documents) {
-    if (!files_.insert(document->path()).second) continue;
-    study_.plan.files.emplace_back(document->path(), document->text());
+  for (const auto& source : project.sources.all()) {
+    if (!files_.insert(source->path()).second) continue;
+    study_.plan.files.emplace_back(source->path(), source->text());
   }
 }
 

@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "definition/checked_tree.h"
+#include "definition/check_trees.h"
 #include "definition/definition.h"
 #include "definition/plugin_requests.h"
 #include "definition/references.h"
@@ -34,7 +34,7 @@ struct Checked {
                                   diagnostics)) {
     for (const NodeKind* kind : built_in_kinds()) catalog.add(&kind->type);
     trees = check_trees(*project, catalog, diagnostics);
-    may_expand = check_references(*project, trees, diagnostics);
+    may_expand = check_references(trees, {project->sources, diagnostics});
   }
 
   Diagnostics diagnostics;

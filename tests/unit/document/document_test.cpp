@@ -20,6 +20,21 @@ std::string place(const SourceLocation& at) {
   return std::to_string(at.line) + ":" + std::to_string(at.column);
 }
 
+// Where an element or one of its attributes, which it has, is written.
+std::string element_place(const Document& document, std::uint32_t element) {
+  return place(document.source()->locate(document.elements()[element].place));
+}
+
+std::string name_place(const Document& document, std::uint32_t element, std::string_view name) {
+  return place(document.source()->locate(document.find_attribute(element, name)->place));
+}
+
+std::string value_place(const Document& document, std::uint32_t element, std::string_view name,
+                        std::size_t byte = 0) {
+  const Place attribute = document.find_attribute(element, name)->place;
+  return place(document.source()->locate_value(attribute, byte));
+}
+
 // "tag[end](attribute=value …) …"
 std::string outline(const Document& document) {
   std::string text;
@@ -88,9 +103,9 @@ TEST_CASE("elements and attributes are found in the original bytes") {
   for (const auto& row : rows) {
     INFO(row.law << ": " << row.text);
     const auto document = parse(row.text);
-    CHECK(place(document->locate(1)) == row.element);
-    CHECK(place(document->locate_attribute(1, "x")) == row.name);
-    CHECK(place(document->locate_value(1, "x")) == row.value);
+    CHECK(element_place(*document, 1) == row.element);
+    CHECK(name_place(*document, 1, "x") == row.name);
+    CHECK(value_place(*document, 1, "x") == row.value);
   }
 }
 
@@ -103,29 +118,27 @@ TEST_CASE("a byte of a value is found behind what is written longer than it is r
                                                       {"A", "2:1"},  {"z", "2:6"}};
   for (const auto& [part, expected] : rows) {
     INFO(part);
-    CHECK(place(document->locate_value(0, "x", value.find(part))) == expected);
+    CHECK(value_place(*document, 0, "x", value.find(part)) == expected);
   }
-  CHECK(place(document->locate_value(0, "x", 1000)) == "2:7");
+  CHECK(value_place(*document, 0, "x", 1000) == "2:7");
 }
 
-TEST_CASE("an element without the attribute stands for it") {
-  const auto document = parse("<r>\n <a x='1'/></r>");
-  CHECK(document->find_attribute(1, "y") == nullptr);
-  CHECK(place(document->locate_value(1, "y")) == "2:2");
-  CHECK(place(document->locate_attribute(1, "y")) == "2:2");
+TEST_CASE("an attribute that is not there is not found") {
+  CHECK(parse("<r>\n <a x='1'/></r>")->find_attribute(1, "y") == nullptr);
 }
 
 TEST_CASE("the excerpt is the whole line") {
   const auto document = parse("<r>\r\n\t<a/> <b/>\r\n</r>");
-  CHECK(document->excerpt(document->locate(2)) == "\t<a/> <b/>");
-  CHECK(document->excerpt({"f", 3, 1}) == "</r>");
-  CHECK(document->excerpt({"f", 0, 0}).empty());
-  CHECK(document->excerpt({"f", 99, 1}).empty());
+  const Source& source = *document->source();
+  CHECK(source.excerpt(source.locate(document->elements()[2].place).line) == "\t<a/> <b/>");
+  CHECK(source.excerpt(3) == "</r>");
+  CHECK(source.excerpt(0).empty());
+  CHECK(source.excerpt(99).empty());
 }
 
 TEST_CASE("a long line is cut to 200 bytes, not inside of a character") {
   const auto document = parse("<r x='" + std::string(193, 'a') + "é'/>");
-  CHECK(document->excerpt({"f", 1, 1}) == "<r x='" + std::string(193, 'a'));
+  CHECK(document->source()->excerpt(1) == "<r x='" + std::string(193, 'a'));
 }
 
 TEST_CASE("a value that is set stays, and places stay where they are written") {
@@ -134,7 +147,7 @@ TEST_CASE("a value that is set stays, and places stay where they are written") {
   document->set_value(*document->find_attribute(0, "y"), "3");
   CHECK(document->find_attribute(0, "x")->value == std::string(1000, 'z'));
   CHECK(document->find_attribute(0, "y")->value == "3");
-  CHECK(place(document->locate_value(0, "y")) == "1:13");
+  CHECK(value_place(*document, 0, "y") == "1:13");
 }
 
 TEST_CASE("a tree of a hundred thousand elements has all its places") {
@@ -143,5 +156,5 @@ TEST_CASE("a tree of a hundred thousand elements has all its places") {
   for (std::uint32_t i = 0; i < kCount; ++i) text += "  <a x='&amp;'/>\n";
   const auto document = parse(text + "</r>");
   REQUIRE(document->elements().size() == kCount + 1);
-  CHECK(place(document->locate_value(kCount, "x")) == "100001:9");
+  CHECK(value_place(*document, kCount, "x") == "100001:9");
 }

@@ -29,7 +29,7 @@ class Files {
   Lines hints() const { return shorten(lockstep::hints(diagnostics_)); }
   Lines paths() const {
     Lines lines;
-    for (const auto& document : project_->documents) lines.push_back(document->path());
+    for (const auto& source : project_->sources.all()) lines.push_back(source->path());
     return shorten(lines);
   }
   const Project* project() const { return project_.get(); }

@@ -1,0 +1,58 @@
+#include "document/sources.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/utf8.h"
+#include "document/references.h"
+
+namespace lockstep {
+namespace {
+
+constexpr std::size_t kExcerptBytes = 200;
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+}  // namespace
+
+Source::Source(std::string path, std::string text, Place first)
+    : path_(std::move(path)), text_(std::move(text)), first_(first) {
+  if (text_.starts_with(kByteOrderMark)) text_.erase(0, kByteOrderMark.size());
+}
+
+const LineIndex& Source::lines() const {
+  if (!lines_) lines_.emplace(text_);
+  return *lines_;
+}
+
+SourceLocation Source::at(std::size_t offset) const {
+  const auto [line, column] = lines().locate(offset);
+  return {path_, line, column};
+}
+
+SourceLocation Source::locate(Place place) const {
+  return at(place.byte - first_.byte);
+}
+
+SourceLocation Source::locate_value(Place attribute, std::size_t byte) const {
+  const auto open = text_.find_first_of("\"'", attribute.byte - first_.byte);
+  const auto begin = open + 1;
+  const auto raw = text().substr(begin, text_.find(text_[open], begin) - begin);
+  return at(begin + raw_offset(raw, byte));
+}
+
+std::string Source::excerpt(std::uint32_t line) const {
+  return std::string(utf8_front(lines().line(line), kExcerptBytes));
+}
+
+const Source& Sources::of(Place place) const {
+  const auto after = std::ranges::upper_bound(
+      all_, place.byte, {}, [](const auto& source) { return source->place_of(0).byte; });
+  return **std::prev(after);
+}
+
+std::string to_text(const SourceLocation& location) {
+  return fmt::format("{}:{}:{}", location.file, location.line, location.column);
+}
+
+}  // namespace lockstep
