@@ -66,7 +66,8 @@ int print_tick(const ReplayOptions& options, RecordingReader& reader) {
   const TreeShape shape = shape_of(reader.header());
   const bool ended = moment.tick == found.last && reader.end();
   const std::string text = draw_moment(
-      shape, snapshot_of(reader.header(), shape, moment, ended ? &*reader.end() : nullptr), moment,
+      reader.header(), shape,
+      snapshot_of(reader.header(), shape, moment, ended ? &*reader.end() : nullptr), moment,
       {.width = kUnlimited,
        .height = kUnlimited,
        .color = wants_color(results_file()),

@@ -18,6 +18,7 @@ class BoundParameters {
   BoundParameters(const BoundParameters&) = delete;
   BoundParameters& operator=(const BoundParameters&) = delete;
 
+  const Blackboard& board() const { return board_; }
   const Cell* cells() const { return cells_; }
   const double* numbers() const { return numbers_; }
 

@@ -110,6 +110,7 @@ class Ticker {
   // --- for both ----------------------------------------------------------------------------------
 
   const Tree& tree() const { return tree_; }
+  const Blackboard& blackboard() const { return parameters_.board(); }
   const Node& node(NodeIndex node) const { return tree_.nodes[node]; }
   NodeIndex end_of(NodeIndex node) const { return tree_.nodes[node].end; }
   Activity activity(NodeIndex node) const { return state_.activity[node]; }

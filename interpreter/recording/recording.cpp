@@ -22,6 +22,21 @@ Json json_of(const RecordedNode& node, std::size_t index) {
   return json;
 }
 
+Json json_of(const RecordedKey& entry) {
+  return {{"key", entry.key}, {"type", entry.type}};
+}
+
+Json json_of(const RecordedLog& log) {
+  return {log.who, log.level, log.text};
+}
+
+template <class Item>
+Json list_of(const std::vector<Item>& items) {
+  Json list = Json::array();
+  for (const Item& item : items) list.push_back(json_of(item));
+  return list;
+}
+
 }  // namespace
 
 std::vector<RecordedNode> describe(const Tree& tree) {
@@ -44,6 +59,10 @@ Nanoseconds period_of(const RecordingHeader& header) {
   return header.rate_hz > 0 ? from_seconds(1 / header.rate_hz) : Nanoseconds(0);
 }
 
+std::string shown_value(const RecordedEntry& entry) {
+  return entry.value.value_or("(too long to be recorded)");
+}
+
 std::string to_json(const RecordingHeader& header) {
   Json json = {{"lockstep_recording", kRecordingVersion},
                {"tree", header.tree},
@@ -58,6 +77,7 @@ std::string to_json(const RecordingHeader& header) {
   for (std::size_t index = 0; index < header.nodes.size(); ++index) {
     json["nodes"].push_back(json_of(header.nodes[index], index));
   }
+  if (!header.entries.empty()) json["entries"] = list_of(header.entries);
   return one_line(json);
 }
 
@@ -71,6 +91,7 @@ std::string to_json(const RecordedEnd& end) {
   json["skipped"] = end.skipped;
   if (end.lost > 0) json["lost"] = end.lost;
   if (!end.notes.empty()) json["notes"] = end.notes;
+  if (!end.logs.empty()) json["logs"] = list_of(end.logs);
   return one_line({{"end", std::move(json)}});
 }
 

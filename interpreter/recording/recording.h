@@ -25,6 +25,10 @@ struct RecordedNode {
   std::optional<double> delta;                  // Relative; likewise
 };
 
+struct RecordedKey {
+  std::string key, type;  // of a blackboard entry
+};
+
 struct RecordingHeader {
   std::string tree;     // the id of the tree
   std::string file;     // as the user named it
@@ -33,7 +37,8 @@ struct RecordingHeader {
   std::string clock;  // "wall" or "virtual"
   std::uint64_t seed = 0;
   std::map<std::string, std::string, std::less<>> arguments;
-  std::vector<RecordedNode> nodes;  // by index: pre-order
+  std::vector<RecordedNode> nodes;        // by index: pre-order
+  std::vector<RecordedKey> entries = {};  // those that the recording shows
 };
 
 // Of one node in one tick. Before the first tick all are as constructed here.
@@ -55,12 +60,32 @@ struct RecordedFault {
   friend bool operator==(const RecordedFault&, const RecordedFault&) = default;
 };
 
+// A blackboard entry that has another value than in the line before.
+struct RecordedEntry {
+  std::uint32_t entry = 0;           // in RecordingHeader::entries
+  std::optional<std::string> value;  // as text; none: too long to be shown
+
+  friend bool operator==(const RecordedEntry&, const RecordedEntry&) = default;
+};
+
+// Its value, or that it is too long.
+std::string shown_value(const RecordedEntry& entry);
+
+// What a leaf logged in the tick, or since the one before.
+struct RecordedLog {
+  std::string who, level, text;  // the path of a leaf, or the name of a plugin; "info"; the line
+
+  friend bool operator==(const RecordedLog&, const RecordedLog&) = default;
+};
+
 struct RecordedTick {
   std::uint64_t tick = 0;
   double time = 0;  // seconds
   std::span<const RecordedState> nodes;
   std::span<const NodeIndex> succeeded = {};  // synchronized, that an ancestor has ended since
   std::span<const RecordedFault> faults = {};
+  std::span<const RecordedEntry> entries = {};
+  std::span<const RecordedLog> logs = {};
 };
 
 // Ticks in a row that have no line: the disk was too slow for them.
@@ -78,6 +103,7 @@ struct RecordedEnd {
   std::uint64_t overruns = 0, skipped = 0;
   std::uint64_t lost = 0;  // ticks that have no line
   std::vector<std::string> notes = {};
+  std::vector<RecordedLog> logs = {};  // after the last tick, as in halts
 };
 
 // The header's part about the nodes.

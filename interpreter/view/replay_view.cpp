@@ -91,12 +91,23 @@ Snapshot snapshot_of(const RecordingHeader& header, const TreeShape& shape, cons
   return snapshot;
 }
 
-std::string draw_moment(const TreeShape& shape, const Snapshot& snapshot, const Moment& moment,
+std::string draw_moment(const RecordingHeader& header, const TreeShape& shape,
+                        const Snapshot& snapshot, const Moment& moment,
                         const DrawOptions& options) {
   std::string text = draw(shape, snapshot, options);
   for (const RecordedFault& fault : moment.faults) {
     TextLine line = new_line(options);
     line.add(fault_text(shape, fault), Style::Bad);
+    text += line.text() + "\n";
+  }
+  for (const RecordedEntry& entry : moment.entries) {
+    TextLine line = new_line(options);
+    line.add(header.entries[entry.entry].key + " = " + shown_value(entry));
+    text += line.text() + "\n";
+  }
+  for (const RecordedLog& log : moment.logs) {
+    TextLine line = new_line(options);
+    line.add(log.who + ": " + log.level + ": " + log.text, Style::Dim);
     text += line.text() + "\n";
   }
   return text;

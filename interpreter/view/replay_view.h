@@ -11,9 +11,10 @@ namespace lockstep {
 Snapshot snapshot_of(const RecordingHeader& header, const TreeShape& shape, const Moment& moment,
                      const RecordedEnd* end);
 
-// One tick as a whole: all nodes, then its faults.
-std::string draw_moment(const TreeShape& shape, const Snapshot& snapshot, const Moment& moment,
-                        const DrawOptions& options);
+// One tick as a whole: all nodes, then its faults, the entries that have changed, what leaves
+// logged.
+std::string draw_moment(const RecordingHeader& header, const TreeShape& shape,
+                        const Snapshot& snapshot, const Moment& moment, const DrawOptions& options);
 
 // At most height - 1 lines, as draw().
 std::string draw_replay(const TreeShape& shape, const Snapshot& snapshot,

@@ -2,6 +2,7 @@
 #include <sys/stat.h>
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include "cli/program.h"
 #include "support/paths.h"
@@ -26,19 +27,66 @@ TEST_CASE("a recording has the permissions that the umask leaves") {
   }
 }
 
-TEST_CASE("a recording holds arguments, and no value of the blackboard") {
+TEST_CASE("a recording holds arguments, and values of the blackboard unless they are kept out") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file(
       "tree.xml",
       "<root lockstep=\"1\"><plugin name=\"motion\"/><arg name=\"told\" default=\"x\"/>"
       "<BehaviorTree ID=\"Main\"><Advance step=\"{step}\"/></BehaviorTree></root>");
   const std::string file = directory.path("run.jsonl");
-  const Outcome outcome = lockstep({"run", tree, "--arg", "told=argument", "--set", "step=0.7317",
-                                    "--clock", "virtual", "--max-ticks", "1", "--record", file});
-  INFO(outcome.err);
-  CHECK(outcome.code == 124);
-  CHECK(contains(read_file(file), "\"told\":\"argument\""));
-  CHECK_FALSE(contains(read_file(file), "7317"));
+  for (const std::string entries : {"all", "none"}) {
+    const Outcome outcome =
+        lockstep({"run", tree, "--arg", "told=argument", "--set", "step=0.7317", "--clock",
+                  "virtual", "--max-ticks", "1", "--record", file, "--record-entries", entries});
+    INFO(outcome.err);
+    CHECK(outcome.code == 124);
+    CHECK(contains(read_file(file), "\"told\":\"argument\""));
+    CHECK(contains(read_file(file), "7317") == (entries == "all"));
+  }
+}
+
+TEST_CASE("a recording has the entries that changed and what leaves logged, of each tick") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "tree.xml",
+      "<root lockstep=\"1\"><plugin name=\"motion\"/><plugin name=\"fetch\"/>"
+      "<BehaviorTree ID=\"Main\"><Sequence memory=\"true\"><Say text=\"a &quot;word&quot;\"/>"
+      "<Parallel><Replan first=\"0.5\" second=\"0.4;0.8\" after=\"0.2\" barriers=\"{plan}\"/>"
+      "<Advance step=\"{s}\"/></Parallel></Sequence></BehaviorTree></root>");
+  const std::string file = directory.path("run.jsonl");
+  // The text after `key` of each line that has it, by its tick.
+  const auto recorded = [&](const std::string& key, std::vector<std::string> more) {
+    more.insert(more.begin(), {"run", tree, "--clock", "virtual", "--rate", "10", "--set", "s=0.1",
+                               "--record", file});
+    CHECK(lockstep::test::lockstep(more).code == 0);
+    std::vector<std::string> found;
+    for (const std::string& line : lines(read_file(file))) {
+      const auto json = nlohmann::json::parse(line);
+      if (json.contains("tick") && json.contains(key)) {
+        found.push_back(json["tick"].dump() + json[key].dump());
+      }
+    }
+    return found;
+  };
+  const std::vector<std::string> all = recorded("entries", {});
+  REQUIRE(all.size() == 3);
+  CHECK(all[0] == R"(0[[1,"0.1"]])");
+  CHECK(contains(all[1], R"([[0,"0.5"]])"));
+  CHECK(contains(all[2], R"([[0,"0.4;0.8"]])"));
+  const auto header = nlohmann::json::parse(lines(read_file(file))[0]);
+  CHECK(header["entries"] == nlohmann::json::parse(R"([{"key":"plan","type":"list of double"},
+                                                       {"key":"s","type":"double"}])"));
+  CHECK(recorded("logs", {"--log-level", "none"}) ==
+        std::vector<std::string>{R"(0[["Main/Sequence/Say","info","says: a \"word\""]])"});
+  const Outcome replay = lockstep::test::lockstep({"replay", file, "--print", "--at", "0"});
+  CHECK(contains(replay.out, "\ns = 0.1\nMain/Sequence/Say: info: says: a \"word\"\n"));
+  CHECK(recorded("entries", {"--record-entries", "s"}) ==
+        std::vector<std::string>{R"(0[[0,"0.1"]])"});
+  CHECK(recorded("entries", {"--record-entries", "none"}).empty());
+  const Outcome typo =
+      lockstep::test::lockstep({"run", tree, "--record", file, "--record-entries", "plam"});
+  CHECK(typo.code == 2);
+  CHECK(contains(typo.err, "the tree has no entry 'plam'\n  hint: did you mean 'plan'?"));
 }
 
 }  // namespace lockstep::test

@@ -63,7 +63,7 @@ void replay(const std::string& text) {
     const auto snapshot = snapshot_of(recording.reader.header(), shape, timeline.now(), nullptr);
     const ReplayPlayer player(timeline, 1);
     draw_replay(shape, snapshot, player, options);
-    draw_moment(shape, snapshot, timeline.now(), options);
+    draw_moment(recording.reader.header(), shape, snapshot, timeline.now(), options);
   };
   const Moment first = timeline.now();
   draw();

@@ -10,6 +10,8 @@
 #include "cli/run/run_options.h"
 #include "cli/run/run_watch.h"
 #include "cli/run/view.h"
+#include "core/suggest.h"
+#include "core/wording.h"
 #include "recording/write/recorder.h"
 #include "runtime/crash_report.h"
 #include "runtime/loop.h"
@@ -51,6 +53,29 @@ std::string describe(const Fault& fault, const Tree& tree, const RunEnd& end) {
                : fmt::format("failed in tick {} at {:.3f} s", end.ticks - 1, to_seconds(end.time));
   }
   return fmt::format("{} {}: {}", describe_node(tree, fault.node), what, fault.message);
+}
+
+// None: all.
+std::optional<std::vector<std::string>> recorded_keys(const RunCommandOptions& options) {
+  if (options.record_entries == "all") return std::nullopt;
+  std::vector<std::string> keys;
+  if (options.record_entries == "none") return keys;
+  std::istringstream text(options.record_entries);
+  for (std::string key; std::getline(text, key, ',');) keys.push_back(key);
+  return keys;
+}
+
+bool knows_recorded_keys(const RunCommandOptions& options, const Tree& tree) {
+  std::vector<std::string_view> known;
+  for (const Slot& slot : tree.slots) known.emplace_back(slot.name);
+  for (const std::string& key : recorded_keys(options).value_or(std::vector<std::string>())) {
+    if (std::ranges::find(known, key) != known.end()) continue;
+    const std::string near = did_you_mean(key, known);
+    print_error(fmt::format("--record-entries: the tree has no entry '{}'", printable(key)),
+                near.empty() ? "its entries: " + (known.empty() ? "none" : listed(known)) : near);
+    return false;
+  }
+  return true;
 }
 
 // There is one, and its members end in the order in which they may.
@@ -122,9 +147,17 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   RunOptions run_options() {
     return {.seed = options_.seed,
             .period = deadline_of(1, options_.rate),
-            .log = view_.leaf_log(),
+            .log = leaf_log(),
             .on_fault = options_.on_fault,
             .watch = &watch_.leaves()};
+  }
+
+  LeafLog leaf_log() {
+    return [this, view = view_.leaf_log()](std::string_view who, lockstep_log_level level,
+                                           std::string_view text) {
+      if (recorder_) recorder_->log(who, name_of(level), text);
+      view(who, level, text);
+    };
   }
 
   RecorderOptions recorder_options(const Loaded& loaded) {
@@ -135,6 +168,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     for (const DeclaredArgument& argument : loaded.project->arguments) {
       recorder.arguments[argument.name] = argument.value;
     }
+    recorder.entries = recorded_keys(options_);
     recorder.on_error = [this](const std::string& error) { view_.print("error: " + error); };
     return recorder;
   }
@@ -214,6 +248,7 @@ int run(const RunCommandOptions& options) {
       would_overwrite("--record", options.record, inputs_of_run(options, loaded)))
     return kExitUsage;
   const Tree tree = take_tree(loaded);
+  if (!knows_recorded_keys(options, tree)) return kExitUsage;
   if (!options.is_wall()) {
     Diagnostics warnings;
     warn_of_real_time_leaves(tree, options.tree, "the run means little; use --clock wall",

@@ -122,6 +122,11 @@ void define_run_options(CLI::App& app, RunCommandOptions& options) {
   app.add_option("--record", options.record,
                  "Write a recording (JSON Lines; see docs/recording.md)")
       ->type_name("FILE.jsonl");
+  app.add_option("--record-entries", options.record_entries,
+                 "Blackboard entries in the recording: all, none, or KEY,KEY,… (of a value that is "
+                 "longer than 256 bytes only that it changed)")
+      ->type_name("KEYS")
+      ->capture_default_str();
   add_choice<bool>(app, "--on-record-error", options.stop_on_record_error,
                    {{"stop", true}, {"go-on", false}},
                    "When the recording cannot be written any more, as on a full disk");

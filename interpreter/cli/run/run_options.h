@@ -32,6 +32,7 @@ struct RunCommandOptions {
   bool stop_on_record_error = false;
   std::string view = "auto";
   lockstep_log_level log_level = LOCKSTEP_LOG_INFO;
+  std::string record_entries = "all";
   bool json = false;
 
   bool is_wall() const { return clock == "wall"; }

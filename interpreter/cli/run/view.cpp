@@ -9,14 +9,11 @@
 #include "terminal/terminal.h"
 
 namespace lockstep {
-namespace {
 
-std::string_view to_string(lockstep_log_level level) {
+std::string_view name_of(lockstep_log_level level) {
   if (level == LOCKSTEP_LOG_WARNING) return "warning";
   return level == LOCKSTEP_LOG_DEBUG ? "debug" : "info";
 }
-
-}  // namespace
 
 View::View(const std::string& mode, const Tree& tree, lockstep_log_level least) : least_(least) {
   const bool wants_live = mode == "live" || (mode == "auto" && is_terminal(STDERR_FILENO));
@@ -48,7 +45,7 @@ void View::print(const std::string& line) {
 LeafLog View::leaf_log() {
   return [this](std::string_view who, lockstep_log_level level, std::string_view message) {
     if (level < least_) return;
-    log(fmt::format("{}: {}: {}", printable(who), to_string(level), printable(message)));
+    log(fmt::format("{}: {}: {}", printable(who), name_of(level), printable(message)));
   };
 }
 

@@ -12,6 +12,9 @@
 
 namespace lockstep {
 
+// "debug", "info" or "warning".
+std::string_view name_of(lockstep_log_level level);
+
 class View {
  public:
   // What leaves may log at most, in any view, is as much as the plain lines: a burst of lines, then

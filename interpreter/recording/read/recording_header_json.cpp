@@ -83,6 +83,16 @@ std::vector<RecordedNode> nodes_from(JsonValue value) {
   return nodes;
 }
 
+std::vector<RecordedKey> keys_from(JsonValue value) {
+  std::vector<RecordedKey> keys;
+  keys.reserve(value.count_items());
+  value.each_item([&](JsonValue item) {
+    RecordedKey& it = keys.emplace_back();
+    item.object().read({{"key", into(it.key)}, {"type", into(it.type)}});
+  });
+  return keys;
+}
+
 void read_arguments(JsonValue value, RecordingHeader& header) {
   value.object().each_field([&](std::string_view name, JsonValue argument) {
     std::string_view text;
@@ -135,14 +145,17 @@ RecordingHeader RecordingJson::header(std::string& line) {
   check_version(json_, line);
   RecordingHeader header;
   json_.read(line, [&](JsonObject object) {
-    object.read({{"tree", into(header.tree)},
-                 {"file", into(header.file)},
-                 {"version", into(header.version)},
-                 {"rate_hz", [&](JsonValue value) { header.rate_hz = rate_from(value); }},
-                 {"clock", into(header.clock)},
-                 {"seed", into(header.seed)},
-                 {"arguments", [&](JsonValue value) { read_arguments(value, header); }},
-                 {"nodes", [&](JsonValue value) { header.nodes = nodes_from(value); }}});
+    object.read(
+        {{"tree", into(header.tree)},
+         {"file", into(header.file)},
+         {"version", into(header.version)},
+         {"rate_hz", [&](JsonValue value) { header.rate_hz = rate_from(value); }},
+         {"clock", into(header.clock)},
+         {"seed", into(header.seed)},
+         {"arguments", [&](JsonValue value) { read_arguments(value, header); }},
+         {"nodes", [&](JsonValue value) { header.nodes = nodes_from(value); }},
+         {"entries", [&](JsonValue value) { header.entries = keys_from(value); }, kMayLack}});
+    keys_ = header.entries.size();
   });
   if (header.nodes.empty()) throw JsonError("'nodes' is empty");
   check_order(header.nodes);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -122,6 +123,54 @@ RecordedFault fault_from(JsonValue value, std::size_t nodes) {
   return fault;
 }
 
+RecordedEntry entry_from(JsonValue value, std::size_t keys) {
+  constexpr char kNone[] = "an entry is not [index, text or null]";
+  if (!value.is_list()) throw JsonError(kNone);
+  RecordedEntry entry;
+  unsigned field = 0;
+  value.each_item([&](JsonValue item) {
+    std::uint64_t number = 0;
+    std::string_view text;
+    if (field == 0 && item.get(number)) {
+      if (number >= keys)
+        throw JsonError(fmt::format("no entry {}, the header has {}", number, keys));
+      entry.entry = static_cast<std::uint32_t>(number);
+    } else if (field == 1 && item.get(text)) {
+      entry.value = text;
+    } else if (field != 1 || !item.is_null()) {
+      throw JsonError(kNone);
+    }
+    ++field;
+  });
+  if (field != 2) throw JsonError(kNone);
+  return entry;
+}
+
+RecordedLog log_from(JsonValue value) {
+  constexpr char kNone[] = "a log line is not [who, level, text]";
+  if (!value.is_list()) throw JsonError(kNone);
+  RecordedLog log;
+  std::string* const fields[] = {&log.who, &log.level, &log.text};
+  std::size_t field = 0;
+  value.each_item([&](JsonValue item) {
+    std::string_view text;
+    if (field == std::size(fields) || !item.get(text)) throw JsonError(kNone);
+    *fields[field++] = text;
+  });
+  if (field != std::size(fields)) throw JsonError(kNone);
+  return log;
+}
+
+auto into_logs(std::vector<RecordedLog>& logs) {
+  return [&logs](JsonValue value) {
+    constexpr std::size_t kMost = 1000;  // a recorder leaves out more
+    value.each_item([&](JsonValue it) {
+      if (logs.size() == kMost) throw JsonError(fmt::format("more than {} log lines", kMost));
+      logs.push_back(log_from(it));
+    });
+  };
+}
+
 RecordedGap gap_from(JsonObject object) {
   RecordedGap gap;
   object.read({{"ticks", into(gap.ticks)}, {"from", into(gap.from)}});
@@ -158,7 +207,8 @@ RecordedEnd end_from(JsonObject object) {
                {"overruns", into(end.overruns)},
                {"skipped", into(end.skipped)},
                {"lost", into(end.lost), kMayLack},
-               {"notes", into_notes(end.notes), kMayLack}});
+               {"notes", into_notes(end.notes), kMayLack},
+               {"logs", into_logs(end.logs), kMayLack}});
   return end;
 }
 
@@ -172,6 +222,8 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
   bool has_nodes = false;
   faults_.clear();
   succeeded_.clear();
+  entries_.clear();
+  logs_.clear();
   const auto read_nodes = [&](JsonValue value) {
     has_nodes = true;
     value.each_item([&](JsonValue change) { apply(change, states); });
@@ -189,6 +241,12 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
     value.each_item(
         [&](JsonValue it) { succeeded_.push_back(node_from(it, states.size(), kNone)); });
   };
+  const auto read_entries = [&](JsonValue value) {
+    value.each_item([&](JsonValue it) {
+      if (entries_.size() == keys_) throw JsonError("an entry is there twice");
+      entries_.push_back(entry_from(it, keys_));
+    });
+  };
   json_.read(line, [&](JsonObject object) {
     object.read(
         {{"tick", [&](JsonValue value) { tick = value.whole(); }, kMayLack},
@@ -197,6 +255,8 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
          {"limits", read_limits, kMayLack},
          {"succeeded", read_succeeded, kMayLack},
          {"faults", read_faults, kMayLack},
+         {"entries", read_entries, kMayLack},
+         {"logs", into_logs(logs_), kMayLack},
          {"lost", [&](JsonValue value) { gap = gap_from(value.object()); }, kMayLack},
          {"end", [&](JsonValue value) { end = end_from(value.object()); }, kMayLack}});
   });
@@ -207,8 +267,13 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
   if (!tick) throw JsonError("'tick' is missing");
   if (!time) throw JsonError("'time_s' is missing");
   if (!has_nodes) throw JsonError("'nodes' is missing");
-  return RecordedTick{
-      .tick = *tick, .time = *time, .nodes = states, .succeeded = succeeded_, .faults = faults_};
+  return RecordedTick{.tick = *tick,
+                      .time = *time,
+                      .nodes = states,
+                      .succeeded = succeeded_,
+                      .faults = faults_,
+                      .entries = entries_,
+                      .logs = logs_};
 }
 
 }  // namespace lockstep

@@ -24,6 +24,9 @@ class RecordingJson {
   JsonReader json_;
   std::vector<NodeIndex> succeeded_;
   std::vector<RecordedFault> faults_;
+  std::vector<RecordedEntry> entries_;
+  std::vector<RecordedLog> logs_;
+  std::size_t keys_ = 0;  // how many entries the header names
 };
 
 }  // namespace lockstep

@@ -11,6 +11,8 @@ void take(const RecordedTick& tick, std::uint64_t lost, Moment& moment) {
   moment.time = tick.time;
   moment.nodes.assign(tick.nodes.begin(), tick.nodes.end());
   moment.faults.assign(tick.faults.begin(), tick.faults.end());
+  moment.entries.assign(tick.entries.begin(), tick.entries.end());
+  moment.logs.assign(tick.logs.begin(), tick.logs.end());
   moment.lost = lost;
 }
 
@@ -31,6 +33,8 @@ RecordingTimeline::RecordingTimeline(RecordingReader& reader, const TimelineOpti
 std::size_t RecordingTimeline::Keyframe::memory() const {
   std::size_t size = sizeof(Keyframe) + moment.nodes.size() * sizeof(RecordedState);
   for (const RecordedFault& fault : moment.faults) size += sizeof fault + fault.message.size();
+  for (const RecordedEntry& it : moment.entries) size += sizeof it + it.value.value_or("").size();
+  for (const RecordedLog& it : moment.logs) size += sizeof it + it.who.size() + it.text.size();
   return size;
 }
 

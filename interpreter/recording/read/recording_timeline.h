@@ -22,6 +22,8 @@ struct Moment {
   double time = 0;  // seconds
   std::vector<RecordedState> nodes;
   std::vector<RecordedFault> faults;
+  std::vector<RecordedEntry> entries = {};  // that have changed in this tick
+  std::vector<RecordedLog> logs = {};
   std::uint64_t lost = 0;  // ticks just before it that are not in the recording
 
   friend bool operator==(const Moment&, const Moment&) = default;

@@ -113,6 +113,15 @@ std::vector<std::string> texts(const RecordingHeader& header,
   return texts;
 }
 
+std::vector<std::string> texts(const RecordingHeader& header,
+                               std::span<const RecordedEntry> entries) {
+  std::vector<std::string> texts;
+  for (const RecordedEntry& it : entries) {
+    texts.push_back(header.entries[it.entry].key + " = " + shown_value(it));
+  }
+  return texts;
+}
+
 // Compares tick by tick until one differs.
 class Comparison {
  public:
@@ -173,8 +182,14 @@ class Comparison {
       tick.faults_b = texts(b_.header(), b.faults);
       if (tick.faults_a == tick.faults_b) tick.faults_a = tick.faults_b = {};
     }
+    if (!a.entries.empty() || !b.entries.empty()) {
+      tick.entries_a = texts(a_.header(), a.entries);
+      tick.entries_b = texts(b_.header(), b.entries);
+      if (tick.entries_a == tick.entries_b) tick.entries_a = tick.entries_b = {};
+    }
     const bool is_same = tick.nodes.empty() && tick.time_a == tick.time_b &&
-                         tick.faults_a.empty() && tick.faults_b.empty();
+                         tick.faults_a.empty() && tick.faults_b.empty() && tick.entries_a.empty() &&
+                         tick.entries_b.empty();
     if (!is_same) diff_.tick = std::move(tick);
   }
 

@@ -36,6 +36,8 @@ struct TickDifference {
   std::vector<NodeDifference> nodes = {};
   // Each as "path: message"; empty when they are the same.
   std::vector<std::string> faults_a = {}, faults_b = {};
+  // Each as "key = value", of those that have changed; empty when they are the same.
+  std::vector<std::string> entries_a = {}, entries_b = {};
 };
 
 struct RecordingDiff {

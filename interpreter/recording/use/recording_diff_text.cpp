@@ -71,6 +71,8 @@ void add_tick(Text& text, const TickDifference& tick) {
   }
   for (const std::string& fault : tick.faults_a) text.removed("fault " + fault);
   for (const std::string& fault : tick.faults_b) text.added("fault " + fault);
+  for (const std::string& entry : tick.entries_a) text.removed("entry " + entry);
+  for (const std::string& entry : tick.entries_b) text.added("entry " + entry);
 }
 
 Json json_of(const std::optional<std::string>& value) {
@@ -107,6 +109,9 @@ Json json_of(const TickDifference& tick) {
   }
   if (!tick.faults_a.empty() || !tick.faults_b.empty()) {
     json["faults"] = {{"a", tick.faults_a}, {"b", tick.faults_b}};
+  }
+  if (!tick.entries_a.empty() || !tick.entries_b.empty()) {
+    json["entries"] = {{"a", tick.entries_a}, {"b", tick.entries_b}};
   }
   return json;
 }

@@ -1,9 +1,12 @@
 #include "recording/write/recorder.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 #include <utility>
 
+#include "core/wording.h"
 #include "measure/synchronized_measure.h"
 #include "recording/write/recording_text.h"
 #include "summary/statistics.h"
@@ -20,13 +23,25 @@ std::size_t queue_of(const Tree& tree, std::size_t wanted) {
   return std::max(wanted, kTicks * longest);
 }
 
+std::vector<std::uint32_t> slots_of(const Tree& tree,
+                                    const std::optional<std::vector<std::string>>& keys) {
+  std::vector<std::uint32_t> slots;
+  for (std::uint32_t slot = 0; slot < tree.slots.size(); ++slot) {
+    const bool wanted = !keys || std::ranges::find(*keys, tree.slots[slot].name) != keys->end();
+    if (wanted) slots.push_back(slot);
+  }
+  return slots;
+}
+
 }  // namespace
 
 Recorder::Recorder(const Tree& tree, RecorderOptions options)
     : tree_(tree),
       options_(std::move(options)),
       file_(options_.path, queue_of(tree, options_.queue)),
-      delta_(tree) {
+      delta_(tree),
+      slots_(slots_of(tree, options_.entries)),
+      entries_(slots_) {
   line_end_.reserve(most_of_tick_end(synchronized_nodes(tree).size()));
 }
 
@@ -39,7 +54,21 @@ void Recorder::run_started(Ticker&, const RunStart& start) {
                                 .clock = start.real_time ? "wall" : "virtual",
                                 .seed = options_.seed,
                                 .arguments = options_.arguments,
-                                .nodes = describe(tree_)}));
+                                .nodes = describe(tree_),
+                                .entries = keys()}));
+}
+
+std::vector<RecordedKey> Recorder::keys() const {
+  std::vector<RecordedKey> keys;
+  for (const std::uint32_t slot : slots_) {
+    const auto& entry = tree_.slots[slot];
+    keys.push_back({entry.name, std::string(to_string(entry.type))});
+  }
+  return keys;
+}
+
+void Recorder::log(std::string_view who, std::string_view level, std::string_view text) {
+  lines_.add(who, level, text);
 }
 
 // Also when the file has failed: what leaves are asked must not depend on a disk.
@@ -51,6 +80,8 @@ void Recorder::after_tick(Ticker& ticker, const TickReport& report) {
   if (!failed()) {
     if (push_tick(ticker, report)) {
       delta_.keep();
+      entries_.keep();
+      lines_.keep();
       gap_ = 0;
     } else if (!failed()) {
       if (gap_ == 0) gap_from_ = report.tick;
@@ -67,7 +98,11 @@ PacketHead Recorder::head() const {
 }
 
 bool Recorder::push_tick(Ticker& ticker, const TickReport& report) {
-  set_tick_end(line_end_, delta_.limits(ticker), delta_.succeeded(ticker), report.faults);
+  set_tick_end(line_end_, {.limits = delta_.limits(ticker),
+                           .succeeded = delta_.succeeded(ticker),
+                           .faults = report.faults,
+                           .entries = entries_.changes(ticker.blackboard()),
+                           .logs = lines_.lines()});
   Packet packet{.head = head(), .nodes = delta_.changes(ticker), .text = line_end_};
   packet.head.is_tick = 1;
   packet.head.tick = report.tick;
@@ -88,12 +123,19 @@ void Recorder::run_ended(Ticker& ticker, const RunEnd& end) {
                       .overruns = end.overruns,
                       .skipped = end.skipped,
                       .lost = lost_,
-                      .notes = {}};
+                      .notes = {},
+                      .logs = {}};
   for (const Fault& fault : ticker.tolerated()) {
     closing.notes.push_back(fault_text(tree_, fault, end.ticks));
   }
   std::ranges::move(out_of_range_notes(ticker), std::back_inserter(closing.notes));
   if (end.reason == StopReason::Signal) closing.signal = end.signal;
+  const auto lines = lines_.lines();
+  closing.logs.assign(lines.begin(), lines.end());
+  if (lines_.left_out() > 0) {
+    closing.notes.push_back(
+        fmt::format("{} that leaves logged are not recorded", counted(lines_.left_out(), "line")));
+  }
   write(to_json(closing));
 }
 

@@ -1,7 +1,8 @@
 // Writes a run to a file as JSON Lines, one line per tick with what changed: docs/recording.md. On
 // a virtual clock the same run gives the same bytes. Allocates nothing per tick, leaves the
 // printing to the thread that writes, and on a real clock never waits for the disk: ticks for which
-// there is no room are left out, counted, and told in the recording itself.
+// there is no room are left out, counted, and told in the recording itself. (Entries that change
+// and lines that leaves log are texts; they are made on the tick thread.)
 #pragma once
 
 #include <functional>
@@ -9,6 +10,8 @@
 
 #include "recording/recording.h"
 #include "recording/write/append_file.h"
+#include "recording/write/entry_changes.h"
+#include "recording/write/leaf_lines.h"
 #include "recording/write/recording_delta.h"
 #include "runtime/observer.h"
 
@@ -20,6 +23,7 @@ struct RecorderOptions {
   double rate_hz = 0;
   std::uint64_t seed = 0;
   std::map<std::string, std::string, std::less<>> arguments = {};
+  std::optional<std::vector<std::string>> entries = {};  // of these keys; none: all
   // Called once, on the tick thread, when the recording cannot be written. Nothing is written after
   // it; whether the run goes on is the caller's choice.
   std::function<void(const std::string& error)> on_error = {};
@@ -35,6 +39,9 @@ class Recorder final : public Observer {
   void after_tick(Ticker& ticker, const TickReport& report) override;
   void run_ended(Ticker& ticker, const RunEnd& end) override;
 
+  // What a leaf logs: the recording has it in the line of its tick. From any thread.
+  void log(std::string_view who, std::string_view level, std::string_view text);
+
   // Cheap enough to be asked in each tick.
   bool failed() const { return file_.failed(); }
   // "" while all is well. Known from construction on when the file cannot be created.
@@ -44,6 +51,7 @@ class Recorder final : public Observer {
 
  private:
   PacketHead head() const;
+  std::vector<RecordedKey> keys() const;
   bool push_tick(Ticker& ticker, const TickReport& report);
   void write(const std::string& line);
   void tell_error();
@@ -52,6 +60,9 @@ class Recorder final : public Observer {
   RecorderOptions options_;
   AppendFile file_;
   RecordingDelta delta_;
+  std::vector<std::uint32_t> slots_;  // of the entries that are recorded
+  EntryChanges entries_;
+  LeafLines lines_;
   std::string line_end_;   // of the tick, for its room
   bool may_wait_ = false;  // time stands still, so waiting for the disk delays nothing
   std::uint64_t lost_ = 0;

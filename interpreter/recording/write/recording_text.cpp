@@ -69,15 +69,36 @@ void add_succeeded(std::string& text, std::span<const NodeIndex> succeeded) {
   text += ']';
 }
 
-std::string faults_text(std::span<const Fault> faults) {
-  constexpr std::size_t kMostOfMessage = 4096;
-  std::string text = ",\"faults\":[";
-  for (const Fault& fault : faults) {
-    if (&fault != faults.data()) text += ',';
-    const nlohmann::json json = {fault.node, fault.message.substr(0, kMostOfMessage)};
+// ,"name":[…] of what `json_of` makes of each item.
+template <class Item, class JsonOf>
+std::string list_text(std::string_view name, std::span<const Item> items, JsonOf json_of) {
+  std::string text = fmt::format(",\"{}\":[", name);
+  for (const Item& item : items) {
+    if (&item != items.data()) text += ',';
+    const nlohmann::json json = json_of(item);
     text += json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   }
   return text + "]";
+}
+
+std::string faults_text(std::span<const Fault> faults) {
+  constexpr std::size_t kMostOfMessage = 4096;
+  return list_text("faults", faults, [](const Fault& fault) {
+    return nlohmann::json{fault.node, fault.message.substr(0, kMostOfMessage)};
+  });
+}
+
+std::string entries_text(std::span<const RecordedEntry> entries) {
+  return list_text("entries", entries, [](const RecordedEntry& entry) {
+    return nlohmann::json{entry.entry,
+                          entry.value ? nlohmann::json(*entry.value) : nlohmann::json()};
+  });
+}
+
+std::string logs_text(std::span<const RecordedLog> logs) {
+  return list_text("logs", logs, [](const RecordedLog& log) {
+    return nlohmann::json{log.who, log.level, log.text};
+  });
 }
 
 }  // namespace
@@ -104,12 +125,13 @@ char* put_node(char* to, NodeIndex node, const RecordedState& state) {
   return put(to, kFlags[2 * state.ticked + state.held]);
 }
 
-void set_tick_end(std::string& text, std::span<const LimitChange> limits,
-                  std::span<const NodeIndex> succeeded, std::span<const Fault> faults) {
+void set_tick_end(std::string& text, const TickEnd& end) {
   text = ']';
-  if (!limits.empty()) add_limits(text, limits);
-  if (!succeeded.empty()) add_succeeded(text, succeeded);
-  if (!faults.empty()) text += faults_text(faults);
+  if (!end.limits.empty()) add_limits(text, end.limits);
+  if (!end.succeeded.empty()) add_succeeded(text, end.succeeded);
+  if (!end.faults.empty()) text += faults_text(end.faults);
+  if (!end.entries.empty()) text += entries_text(end.entries);
+  if (!end.logs.empty()) text += logs_text(end.logs);
   text += "}\n";
 }
 

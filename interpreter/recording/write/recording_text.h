@@ -27,12 +27,20 @@ char* put_tick(char* to, std::uint64_t tick, Nanoseconds time);
 constexpr std::size_t kMostOfNode = 64;
 char* put_node(char* to, NodeIndex node, const RecordedState& state);
 
-// What ends a tick's line: ]} or ],"limits":[[1,0.5]],"succeeded":[1],"faults":[[3,"threw …"],…]}
-// and a newline; of a long message only the beginning. Replaces `text`; allocates only for faults,
-// and where it has no room.
-void set_tick_end(std::string& text, std::span<const LimitChange> limits,
-                  std::span<const NodeIndex> succeeded, std::span<const Fault> faults);
-// The most that this is without faults, with so many synchronized nodes.
+// What ends a tick's line, after its nodes.
+struct TickEnd {
+  std::span<const LimitChange> limits = {};
+  std::span<const NodeIndex> succeeded = {};
+  std::span<const Fault> faults = {};
+  std::span<const RecordedEntry> entries = {};
+  std::span<const RecordedLog> logs = {};
+};
+
+// ]} or ],"limits":[[1,0.5]],"succeeded":[1],"faults":[[3,"threw …"],…],… } and a newline; of a
+// long message only the beginning. Replaces `text`; allocates for faults, entries and logs, and
+// where that has no room.
+void set_tick_end(std::string& text, const TickEnd& end);
+// The most that this is without those, with so many synchronized nodes.
 constexpr std::size_t most_of_tick_end(std::size_t synchronized_nodes) {
   return 64 + 64 * synchronized_nodes;
 }

@@ -50,7 +50,7 @@ void append_line(const Moment& moment, const std::vector<RecordedState>& before,
   std::vector<Fault> faults;
   for (const RecordedFault& fault : moment.faults) faults.push_back({fault.node, fault.message});
   std::string end;
-  set_tick_end(end, limits, {}, faults);
+  set_tick_end(end, {.limits = limits, .faults = faults});
   out += end;
 }
 

@@ -131,6 +131,13 @@ TEST_CASE("a tick is refused for each value that is not what it must be") {
        {"7", "[]", "[0]", "[0,0.5,1]", "[0,1.5]", "[0,-0.1]", "[0,\"1\"]"}) {
     check_all({{"\"tick\":0", "\"limits\":[" + wrong + "],\"tick\":0", limit}}, 2);
   }
+  const std::string log = "a log line is not [who, level, text]";
+  check_all({{"\"tick\":0", "\"entries\":[7],\"tick\":0", "an entry is there twice"},
+             {"\"tick\":0", "\"logs\":[7],\"tick\":0", log},
+             {"\"tick\":0", "\"logs\":[[\"a\",\"info\"]],\"tick\":0", log},
+             {"\"tick\":0", "\"logs\":[[\"a\",\"info\",\"b\",\"c\"]],\"tick\":0", log},
+             {"\"tick\":0", "\"logs\":[[\"a\",\"info\",1]],\"tick\":0", log}},
+            2);
   check_all({{"\"tick\":0", "\"tick\":-1", "'tick'" + kNoWholeNumber},
              {"\"tick\":0", "\"tick\":\"0\"", "'tick'" + kNoWholeNumber},
              {"\"tick\":0", "\"tick\":18446744073709551616", "'tick'" + kNoWholeNumber},

@@ -92,7 +92,7 @@ TEST_CASE("numbers are written with as many digits as are needed, and no more") 
 
 std::string tick_end(std::span<const LimitChange> limits, std::span<const Fault> faults) {
   std::string text = "of the tick before";
-  set_tick_end(text, limits, {}, faults);
+  set_tick_end(text, {.limits = limits, .faults = faults});
   return text;
 }
 

@@ -1,0 +1,40 @@
+#include "recording/write/leaf_lines.h"
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+
+namespace lockstep {
+
+void LeafLines::add(std::string_view who, std::string_view level, std::string_view text) {
+  const std::lock_guard lock(mutex_);
+  const std::size_t size = sizeof(RecordedLog) + who.size() + text.size();
+  if (size_ + size > kRoom) {
+    ++left_out_;
+    return;
+  }
+  size_ += size;
+  new_.push_back({std::string(who), std::string(level), std::string(text)});
+  has_new_ = true;
+}
+
+std::span<const RecordedLog> LeafLines::lines() {
+  if (has_new_.exchange(false)) {
+    const std::lock_guard lock(mutex_);
+    std::ranges::move(new_, std::back_inserter(waiting_));
+    new_.clear();
+  }
+  return waiting_;
+}
+
+void LeafLines::keep() {
+  if (waiting_.empty()) return;
+  waiting_.clear();
+  const std::lock_guard lock(mutex_);
+  size_ = 0;
+  for (const RecordedLog& line : new_) {
+    size_ += sizeof(RecordedLog) + line.who.size() + line.text.size();
+  }
+}
+
+}  // namespace lockstep

@@ -1,0 +1,96 @@
+// What a recording has of the blackboard and of what leaves log, before it is text.
+#include <catch2/catch.hpp>
+#include <string>
+
+#include "recording/write/entry_changes.h"
+#include "recording/write/leaf_lines.h"
+#include "support/tree_text.h"
+
+namespace lockstep::test {
+namespace {
+
+// Two entries that are read by nodes: 0 is 'pause', 1 is 'plan'.
+struct Board {
+  Tree tree =
+      tree_from_text("Parallel(Wait[seconds={pause}] ParallelAbsolute[barriers={plan}](a))");
+  Blackboard board{tree};
+
+  void set(std::size_t slot, Value value) {
+    board.entries[slot].value = std::move(value);
+    ++board.entries[slot].writes;
+  }
+};
+
+// "0=0.5 1=(too long to be recorded)"
+std::string text_of(std::span<const RecordedEntry> changes) {
+  std::string text;
+  for (const RecordedEntry& it : changes) {
+    text += (text.empty() ? "" : " ") + std::to_string(it.entry) + "=" + shown_value(it);
+  }
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("entries: one is shown when it has another value than in the last line") {
+  Board it;
+  EntryChanges changes({0, 1});
+  CHECK(text_of(changes.changes(it.board)).empty());  // nobody has written anything
+  it.set(0, 0.5);
+  it.set(1, std::vector<double>{0.25, 1});
+  CHECK(text_of(changes.changes(it.board)) == "0=0.5 1=0.25;1");
+  CHECK(text_of(changes.changes(it.board)) == "0=0.5 1=0.25;1");  // the file did not take it
+  changes.keep();
+  CHECK(text_of(changes.changes(it.board)).empty());
+  it.set(0, 0.5);  // the same value
+  CHECK(text_of(changes.changes(it.board)).empty());
+  it.set(0, 0.75);
+  CHECK(text_of(changes.changes(it.board)) == "0=0.75");
+}
+
+TEST_CASE("entries: only those that were asked for, numbered in their order") {
+  Board it;
+  EntryChanges changes({1});
+  it.set(0, 0.5);
+  it.set(1, std::vector<double>{0.5});
+  CHECK(text_of(changes.changes(it.board)) == "0=0.5");
+  CHECK(changes.changes(it.board).size() == 1);
+}
+
+TEST_CASE("entries: a value of more than 256 bytes is only named, each time it is written") {
+  Board it;
+  EntryChanges changes({0, 1});
+  it.set(0, std::string(EntryChanges::kLongest, 'x'));
+  CHECK(changes.changes(it.board)[0].value->size() == EntryChanges::kLongest);
+  changes.keep();
+  it.set(0, std::string(EntryChanges::kLongest + 1, 'x'));
+  CHECK(text_of(changes.changes(it.board)) == "0=(too long to be recorded)");
+  changes.keep();
+  CHECK(changes.changes(it.board).empty());
+  it.set(0, std::string(EntryChanges::kLongest + 1, 'y'));
+  CHECK(changes.changes(it.board).size() == 1);
+  changes.keep();
+  it.set(1, std::vector<double>(200, 0.123456));
+  CHECK(text_of(changes.changes(it.board)) == "1=(too long to be recorded)");
+}
+
+TEST_CASE("logs: lines wait until a line of the file has them, what has no room is counted") {
+  LeafLines lines;
+  CHECK(lines.lines().empty());
+  lines.add("Main/arm", "info", "begins");
+  CHECK(lines.lines().size() == 1);
+  lines.add("Main/base", "warning", "slips");
+  REQUIRE(lines.lines().size() == 2);
+  CHECK(lines.lines()[1] == RecordedLog{"Main/base", "warning", "slips"});
+  lines.keep();
+  CHECK(lines.lines().empty());
+  const std::string long_line(LeafLines::kRoom / 2, 'x');
+  for (int i = 0; i < 4; ++i) lines.add("Main/arm", "debug", long_line);
+  CHECK(lines.lines().size() == 1);
+  CHECK(lines.left_out() == 3);
+  lines.keep();
+  lines.add("Main/arm", "debug", long_line);  // there is room again
+  CHECK(lines.lines().size() == 1);
+}
+
+}  // namespace lockstep::test
