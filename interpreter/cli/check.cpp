@@ -9,7 +9,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
-#include "cli/load/loading.h"
+#include "cli/load/load_options.h"
 #include "core/wording.h"
 #include "runtime/outlet.h"
 
@@ -17,7 +17,7 @@ namespace lockstep {
 namespace {
 
 struct CheckOptions {
-  LoadOptions load;
+  LoadCommandOptions load;
   std::vector<std::string> trees;
   std::string format = "text";
   bool strict = false;
@@ -55,9 +55,9 @@ int check(const CheckOptions& options) {
   std::vector<Diagnostic> all;
   int worst = kExitSuccess, written = kExitSuccess;
   for (const std::string& tree : options.trees) {
-    Loaded loaded;
     Diagnostics diagnostics;
-    int code = load(tree, options.load, loaded, diagnostics);
+    const auto loaded = load_given(tree, options.load, diagnostics);
+    int code = loaded ? kExitSuccess : exit_code_of(loaded.error());
     const bool doubtful = diagnostics.count(Severity::Warning) > 0;
     if (code == kExitSuccess && options.strict && doubtful) code = kExitInvalidTree;
     if (worst == kExitSuccess) worst = code;

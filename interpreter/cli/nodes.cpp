@@ -7,6 +7,7 @@
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/load/catalog_loading.h"
+#include "cli/load/load_options.h"
 #include "core/suggest.h"
 #include "describe/node_reference.h"
 

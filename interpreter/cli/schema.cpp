@@ -4,6 +4,7 @@
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/load/catalog_loading.h"
+#include "cli/load/load_options.h"
 #include "describe/xsd.h"
 
 namespace lockstep {

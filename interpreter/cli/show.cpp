@@ -3,7 +3,7 @@
 #include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
-#include "cli/load/loading.h"
+#include "cli/load/load_options.h"
 #include "describe/tree_drawing.h"
 #include "terminal/terminal.h"
 
@@ -11,7 +11,7 @@ namespace lockstep {
 namespace {
 
 struct ShowOptions {
-  LoadOptions load;
+  LoadCommandOptions load;
   std::string tree;
   std::string format = "text";
 };
@@ -24,12 +24,11 @@ std::string draw(const Definition& definition, const std::string& format) {
 
 int show(const ShowOptions& options) {
   keep_stdout_for_results();
-  Loaded loaded;
   Diagnostics diagnostics;
-  const int code = load(options.tree, options.load, loaded, diagnostics);
+  const auto loaded = load_given(options.tree, options.load, diagnostics);
   print_diagnostics(diagnostics, Severity::Error);
-  if (!loaded.definition) return code;
-  return write_results(draw(*loaded.definition, options.format));
+  if (!loaded) return exit_code_of(loaded.error());
+  return write_results(draw(loaded->definition, options.format));
 }
 
 std::function<int()> define_show(CLI::App& app) {

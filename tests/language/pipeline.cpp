@@ -5,11 +5,11 @@
 
 #include <catch2/catch.hpp>
 
-#include "cli/load/loading.h"
 #include "definition/plugin_requests.h"
 #include "definition/resolve.h"
 #include "engine/compile.h"
 #include "language/robot_plugin.h"
+#include "loading/plugins.h"
 #include "runtime/run.h"
 
 namespace lockstep::test {

@@ -2,11 +2,14 @@
 
 #include "cli/console.h"
 #include "cli/exit_code.h"
+#include "core/clock.h"
+#include "runtime/plugin_thread.h"
 
 namespace lockstep {
 
 int load_catalog(const PluginOptions& options, PluginSet& plugins, Catalog& catalog) {
   keep_stdout_for_results();
+  watch_this_thread(from_seconds(options.hang_limit));
   Diagnostics diagnostics;
   const bool good = load_given_plugins(options, plugins, diagnostics);
   print_diagnostics(diagnostics, Severity::Warning);

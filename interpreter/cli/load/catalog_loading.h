@@ -2,7 +2,7 @@
 // command line names. For `lockstep nodes` and `lockstep schema`.
 #pragma once
 
-#include "cli/load/loading.h"
+#include "loading/plugins.h"
 
 namespace lockstep {
 

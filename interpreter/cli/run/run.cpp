@@ -81,15 +81,16 @@ bool knows_recorded_keys(const RunCommandOptions& options, const Tree& tree) {
 // There is one, and its members end in the order in which they may.
 class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
  public:
-  RunCommand(const RunCommandOptions& options, const Loaded& loaded, const Tree& tree)
+  RunCommand(const RunCommandOptions& options, const Runnable& runnable)
       : options_(options),
-        tree_(tree),
-        view_(options.view, tree, options.log_level),
-        watch_(tree, options, [this](const std::string& line) { view_.print("warning: " + line); }),
-        statistics_(tree) {
-    if (!options.record.empty()) recorder_.emplace(tree, recorder_options(loaded));
+        tree_(runnable.tree),
+        view_(options.view, tree_, options.log_level),
+        watch_(tree_, options,
+               [this](const std::string& line) { view_.print("warning: " + line); }),
+        statistics_(tree_) {
+    if (!options.record.empty()) recorder_.emplace(tree_, recorder_options(runnable.arguments));
     if (options.stall > 0) {
-      stall_.emplace(tree, from_seconds(options.stall), [this](const Standstill& standstill) {
+      stall_.emplace(tree_, from_seconds(options.stall), [this](const Standstill& standstill) {
         const std::string text = standstill_text(tree_, standstill);
         view_.print("warning: " + text);
         standstills_.add([&] { return text; });
@@ -160,12 +161,12 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     };
   }
 
-  RecorderOptions recorder_options(const Loaded& loaded) {
+  RecorderOptions recorder_options(std::span<const DeclaredArgument> arguments) {
     RecorderOptions recorder{.path = options_.record,
                              .tree_file = options_.tree,
                              .rate_hz = options_.rate,
                              .seed = options_.seed};
-    for (const DeclaredArgument& argument : loaded.project->arguments) {
+    for (const DeclaredArgument& argument : arguments) {
       recorder.arguments[argument.name] = argument.value;
     }
     recorder.entries = recorded_keys(options_);
@@ -236,26 +237,25 @@ int run(const RunCommandOptions& options) {
   }
   keep_stdout_for_results();
   CrashReport::set_last_words(last_words);
-  Loaded loaded;
   Diagnostics diagnostics;
-  const int code = load(options.tree, options.load, loaded, diagnostics);
+  auto loaded = load_given(options.tree, options.load, diagnostics);
   print_diagnostics(diagnostics, Severity::Warning);
-  if (!loaded.definition) return code;
+  if (!loaded) return exit_code_of(loaded.error());
   // Until here a signal ends the program as it ends any other: there is nothing to halt or to save.
   StopSignals::install(last_words);
   const Outlet::Thread messages_thread(messages());
   if (!options.record.empty() &&
-      would_overwrite("--record", options.record, inputs_of_run(options, loaded)))
+      would_overwrite("--record", options.record, inputs_of_run(options, *loaded)))
     return kExitUsage;
-  const Tree tree = take_tree(loaded);
-  if (!knows_recorded_keys(options, tree)) return kExitUsage;
+  Runnable runnable = make_runnable(std::move(*loaded));
+  if (!knows_recorded_keys(options, runnable.tree)) return kExitUsage;
   if (!options.is_wall()) {
     Diagnostics warnings;
-    warn_of_real_time_leaves(tree, options.tree, "the run means little; use --clock wall",
+    warn_of_real_time_leaves(runnable.tree, options.tree, "the run means little; use --clock wall",
                              warnings);
     print_diagnostics(warnings, Severity::Warning);
   }
-  return RunCommand(options, loaded, tree).run(loaded.plugins);
+  return RunCommand(options, runnable).run(runnable.plugins);
 }
 
 std::function<int()> define_run(CLI::App& app) {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "cli/load/loading.h"
+#include "cli/load/load_options.h"
 #include "lockstep/leaf.h"
 #include "runtime/loop.h"
 #include "runtime/realtime.h"
@@ -13,7 +13,7 @@
 namespace lockstep {
 
 struct RunCommandOptions {
-  LoadOptions load;
+  LoadCommandOptions load;
   std::string tree;
   double rate = 100;
   std::string clock = "wall";

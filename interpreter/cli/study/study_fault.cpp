@@ -25,7 +25,7 @@ std::string what_failed(const StudyFault& fault) {
 
 std::string run_command(const StudyOptions& options, const StudyPlan& plan,
                         const StudyFault& fault) {
-  const LoadOptions& load = options.load;
+  const LoadCommandOptions& load = options.load;
   const std::uint64_t cell = fault.row.cell;
   std::string text =
       fmt::format("lockstep run {} --clock virtual --seed {} --rate {} --max-ticks {}",

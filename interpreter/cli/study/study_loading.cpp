@@ -187,20 +187,18 @@ void StudyLoader::add_columns(StudyCell& cell, std::uint64_t number) {
 
 int StudyLoader::load_cell(std::uint64_t number) {
   StudyPlan& plan = study_.plan;
-  LoadOptions options = options_.load;
+  LoadCommandOptions options = options_.load;
   options.main_file = MainFile::IsRegular;  // it is read for every cell
   const auto values = cell_values(plan, number);
   for (std::size_t axis = 0; axis < values.size(); ++axis) {
     if (plan.grid[axis].kind != GridAxis::Kind::Argument) continue;
     options.arguments.push_back(plan.grid[axis].name + '=' + values[axis]);
   }
-  Loaded loaded;
-  loaded.plugins = study_.plugins;
-  const int code = lockstep::load(options_.tree, options, loaded, diagnostics_);
-  study_.plugins = loaded.plugins;
-  if (loaded.project) add_files(*loaded.project);
-  if (!loaded.definition) return code;
-  study_.cells.push_back({take_tree(loaded), cell_rate(plan, number), cell_seed(plan, number)});
+  auto loaded = load_given(options_.tree, options, diagnostics_, study_.plugins);
+  if (!loaded) return exit_code_of(loaded.error());
+  add_files(*loaded->project);
+  study_.cells.push_back(
+      {make_runnable(std::move(*loaded)).tree, cell_rate(plan, number), cell_seed(plan, number)});
   if (!warned_of_real_time_) {
     warned_of_real_time_ = warn_of_real_time_leaves(
         study_.cells.back().tree, options_.tree,
@@ -208,7 +206,7 @@ int StudyLoader::load_cell(std::uint64_t number) {
   }
   add_columns(study_.cells.back(), number);
   if (number == 0) plan.main_tree = study_.cells.front().tree.id;
-  return code;
+  return kExitSuccess;
 }
 
 // As many as there can be known before the grid is.
@@ -241,7 +239,7 @@ int StudyLoader::load() {
   for (std::uint64_t cell = 0; cell < cell_count(plan); ++cell) {
     const int it = load_cell(cell);
     if (code == kExitSuccess) code = it;
-    if (it == kExitPluginRefused || study_.plugins == nullptr) return it;
+    if (it == kExitPluginRefused) return it;
   }
   for (StudyColumn& column : plan.columns) {
     if (column.cells.size() == cell_count(plan)) column.cells.clear();  // all

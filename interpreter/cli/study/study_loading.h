@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/load/loading.h"
+#include "cli/load/load_options.h"
 #include "measure/measure_spec.h"
 #include "runtime/loop.h"
 #include "study/study_run.h"
@@ -13,7 +13,7 @@
 namespace lockstep {
 
 struct StudyOptions {
-  LoadOptions load;
+  LoadCommandOptions load;
   std::string tree;
   std::uint64_t runs = 0;
   std::uint64_t seed = 0;
@@ -28,7 +28,7 @@ struct LoadedStudy {
   StudyPlan plan;
   std::vector<MeasureSpec> measures;
   std::vector<StudyCell> cells;
-  std::shared_ptr<PluginSet> plugins;
+  std::shared_ptr<PluginSet> plugins = std::make_shared<PluginSet>();
 };
 
 // Does all that can be done. Returns the exit code; 0 when the study can be made.

@@ -6,11 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/diagnostics.h"
+#include "loading/plugins.h"
 
 namespace lockstep {
-
-struct PluginOptions;
 
 // Of this program; "" when the system does not tell.
 std::filesystem::path program_directory();

@@ -1,12 +1,10 @@
-#include "cli/load/plugin_directories.h"
+#include "loading/plugin_directories.h"
 
 #include <fmt/format.h>
 #include <sys/auxv.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdlib>
-
-#include "cli/load/loading.h"
+#include <sstream>
 
 namespace lockstep {
 namespace {
@@ -56,7 +54,8 @@ std::vector<std::string> plugin_directories(const PluginOptions& options) {
   }
   // Null when privileged.
   if (const char* path = secure_getenv(kVariable)) {
-    for (const std::string& directory : CLI::detail::split(path, ':')) {
+    std::istringstream list(path);
+    for (std::string directory; std::getline(list, directory, ':');) {
       if (!directory.empty()) directories.push_back(directory);
     }
   }

@@ -1,0 +1,53 @@
+#include "loading/load.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/freed_memory.h"
+#include "engine/compile.h"
+
+namespace lockstep {
+namespace {
+
+// What is wrong with the options has no place in a file.
+std::optional<LoadFailure> failure_of(const Project* project, const Diagnostics& diagnostics) {
+  const bool in_file = std::ranges::any_of(diagnostics.all(), [](const Diagnostic& it) {
+    return it.severity == Severity::Error && !it.location.file.empty();
+  });
+  if (in_file) return project == nullptr ? LoadFailure::Unreadable : LoadFailure::Invalid;
+  return diagnostics.has_errors() ? std::optional(LoadFailure::Options) : std::nullopt;
+}
+
+}  // namespace
+
+tl::expected<Loaded, LoadFailure> load(const std::string& path, const LoadOptions& options,
+                                       Diagnostics& diagnostics,
+                                       std::shared_ptr<PluginSet> plugins) {
+  keep_freed_memory();
+  auto project = load_project(path, options.arguments, diagnostics, options.main_file);
+  const auto failed = failure_of(project.get(), diagnostics);
+  Diagnostics refused;
+  bool good = load_given_plugins(options.plugins, *plugins, refused);
+  if (project) good &= load_requested_plugins(options.plugins, *project, *plugins, refused);
+  for (const Diagnostic& diagnostic : refused.all()) diagnostics.add(diagnostic);
+  // Without its leaves, most of the tree would be called unknown.
+  if (!good) return tl::unexpected(failed.value_or(LoadFailure::PluginRefused));
+  std::optional<Definition> definition;
+  if (project) {
+    definition =
+        resolve(*project, make_catalog(*plugins), {options.main_tree, options.values}, diagnostics);
+  }
+  if (const auto wrong = failure_of(project.get(), diagnostics)) return tl::unexpected(*wrong);
+  return Loaded{std::move(plugins), std::move(project), std::move(definition).value()};
+}
+
+Runnable make_runnable(Loaded loaded) {
+  Runnable runnable{std::move(loaded.plugins), std::move(loaded.project->arguments),
+                    compile(loaded.definition)};
+  loaded.definition = {};
+  loaded.project.reset();
+  return_freed_memory();
+  return runnable;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,55 @@
+// From a file name to a tree that can run: the arrows of docs/architecture.md, one after the other.
+// For any program that carries lockstep: nothing here prints or knows an exit code.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "definition/resolve.h"
+#include "document/project.h"
+#include "engine/tree.h"
+#include "loading/plugins.h"
+
+namespace lockstep {
+
+struct LoadOptions {
+  PluginOptions plugins;
+  Arguments arguments;    // of <arg>
+  StartValues values;     // of blackboard entries
+  std::string main_tree;  // "": the one that the file names, or its only one
+  MainFile main_file = MainFile::MayBePipe;
+};
+
+// A definition without errors, and what it refers to.
+struct Loaded {
+  std::shared_ptr<PluginSet> plugins;
+  std::unique_ptr<Project> project;
+  Definition definition;
+};
+
+// Why there is none; the errors say more.
+enum class LoadFailure : unsigned char {
+  Options,        // the file is not to blame: an option names what it does not have
+  Unreadable,     // the main file is not there, or not XML
+  Invalid,        // a file breaks a rule of the language
+  PluginRefused,  // a plugin cannot be loaded
+};
+
+// Reports all it finds, warnings and notes as well; errors that are in `diagnostics` count too.
+// Several trees may share `plugins`, which keep what was loaded, also after a failure.
+[[nodiscard]] tl::expected<Loaded, LoadFailure> load(
+    const std::string& path, const LoadOptions& options, Diagnostics& diagnostics,
+    std::shared_ptr<PluginSet> plugins = std::make_shared<PluginSet>());
+
+// All that a run needs; the documents and the definition are gone.
+struct Runnable {
+  std::shared_ptr<PluginSet> plugins;
+  std::vector<DeclaredArgument> arguments;
+  Tree tree;
+};
+
+[[nodiscard]] Runnable make_runnable(Loaded loaded);
+
+}  // namespace lockstep

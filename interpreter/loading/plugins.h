@@ -1,0 +1,35 @@
+// The plugins that a program is given or a tree asks for: where they are searched, how they are
+// loaded, and which nodes there are then.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "definition/catalog.h"
+#include "document/project.h"
+#include "plugin/plugin_set.h"
+
+namespace lockstep {
+
+// Messages call them by the options of the command line.
+struct PluginOptions {
+  std::vector<std::string> plugins;      // --plugin: a path, or a name to search for
+  std::vector<std::string> directories;  // --plugin-path
+  bool isolate = false;                  // --isolate
+  double hang_limit = 10;                // --hang-limit, in seconds; 0 = never
+};
+
+// Whether a plugin is given as a file, and not as a name to search for.
+bool is_plugin_file(const std::string& plugin);
+
+// Loads what `options` names. On false, errors tell why.
+[[nodiscard]] bool load_given_plugins(const PluginOptions& options, PluginSet& plugins,
+                                      Diagnostics& diagnostics);
+// The same for what the trees of `project` ask for.
+[[nodiscard]] bool load_requested_plugins(const PluginOptions& options, const Project& project,
+                                          PluginSet& plugins, Diagnostics& diagnostics);
+
+// The built-in nodes and the leaves of `plugins`. It lives as long as these.
+Catalog make_catalog(const PluginSet& plugins);
+
+}  // namespace lockstep
