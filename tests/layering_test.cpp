@@ -62,7 +62,6 @@ const std::vector<Layer> kThirdParty{
     {"tinyxml2", {"interpreter/document/"}},
     {"dlfcn.h", {"interpreter/plugin/"}},
     {"CLI/", {"interpreter/cli/"}},
-    {"tl/expected.hpp", {"interpreter/loading/", "interpreter/cli/"}},
     {"simdjson.h", {"interpreter/core/json_reader.h"}},
     {"nlohmann/",
      {"interpreter/summary/", "interpreter/recording/", "interpreter/study/",

@@ -5,21 +5,18 @@
 #include <cstddef>
 #include <string>
 
-namespace lockstep {
+#include "core/problem.h"
 
-struct FileText {
-  std::string text;
-  std::string failure;  // "" when the text is there
-};
+namespace lockstep {
 
 enum class FileKinds : bool { Regular, RegularOrPipe };
 
 // At most a little more than `limit` bytes, so that the reader of the text sees that it is too
 // much, whatever size the system tells. Waits for who writes to a pipe, as long as that takes.
-FileText read_file(const std::string& path, std::size_t limit,
-                   FileKinds kinds = FileKinds::Regular);
+[[nodiscard]] Result<std::string> read_file(const std::string& path, std::size_t limit,
+                                            FileKinds kinds = FileKinds::Regular);
 
 // The same of stdin, unless it is a terminal or another device.
-FileText read_stdin(std::size_t limit);
+[[nodiscard]] Result<std::string> read_stdin(std::size_t limit);
 
 }  // namespace lockstep

@@ -112,13 +112,13 @@ void Loader::include(Document& document, std::uint32_t element) {
   if (read_.count(next.identity) > 0) return;
   if (open_.size() > kMaxIncludeDepth)
     return fail(fmt::format("includes are nested deeper than {} levels", kMaxIncludeDepth));
-  auto [text, failure] = read_file(path, Document::kMaxBytes);
-  if (!failure.empty()) return fail(fmt::format("cannot read '{}': {}", brief(path), failure));
-  bytes_ += text.size();
+  auto text = read_file(path, Document::kMaxBytes);
+  if (!text) return fail(fmt::format("cannot read '{}': {}", brief(path), text.error().message));
+  bytes_ += text->size();
   if (bytes_ > Document::kMaxBytes)
     return fail(fmt::format("with '{}' the files are larger than {} MiB together", path,
                             Document::kMaxBytes >> 20u));
-  add(next, std::move(text));
+  add(next, std::move(*text));
 }
 
 std::string Loader::cycle(const Reading& next) const {
@@ -160,14 +160,14 @@ std::unique_ptr<Project> load_project(const std::string& path, const Arguments& 
                                       Diagnostics& diagnostics, MainFile main) {
   const bool is_stdin = main == MainFile::MayBePipe && path == "-";
   const auto kinds = main == MainFile::MayBePipe ? FileKinds::RegularOrPipe : FileKinds::Regular;
-  auto [text, failure] =
+  auto text =
       is_stdin ? read_stdin(Document::kMaxBytes) : read_file(path, Document::kMaxBytes, kinds);
   const std::string name = is_stdin ? "stdin" : path;
-  if (!failure.empty()) {
-    diagnostics.error({name}, "cannot be read: " + failure);
+  if (!text) {
+    diagnostics.error({name}, "cannot be read: " + text.error().message);
     return nullptr;
   }
-  return load_project_text(name, std::move(text), arguments, diagnostics);
+  return load_project_text(name, std::move(*text), arguments, diagnostics);
 }
 
 std::unique_ptr<Project> load_project_text(const std::string& path, std::string text,

@@ -15,21 +15,21 @@ constexpr std::size_t kHandshakeSize =
 constexpr std::size_t kPluginSizeIn10 =
     offsetof(lockstep_plugin, get_extension) + sizeof(lockstep_plugin::get_extension);
 
-std::optional<Refusal> check_handshake(const lockstep_plugin& entry, std::size_t exported_size) {
+std::optional<Problem> check_handshake(const lockstep_plugin& entry, std::size_t exported_size) {
   if (exported_size != 0 && exported_size < kHandshakeSize) {
-    return Refusal{
+    return Problem{
         fmt::format("exports a constant of {} bytes, expected a lockstep_plugin", exported_size),
         "define lockstep_plugin_entry as in docs/plugins.md"};
   }
   if (entry.abi_major != LOCKSTEP_ABI_MAJOR) {
-    return Refusal{
+    return Problem{
         fmt::format("was built for plugin ABI {}.{}, this program has {}.{}", entry.abi_major,
                     entry.abi_minor, LOCKSTEP_ABI_MAJOR, LOCKSTEP_ABI_MINOR),
         "build it with the lockstep/leaf.h of this version"};
   }
   const bool too_long = exported_size != 0 && entry.struct_size > exported_size;
   if (entry.struct_size < kPluginSizeIn10 || too_long) {
-    return Refusal{
+    return Problem{
         fmt::format("has a lockstep_plugin with struct_size {}, expected {} {}", entry.struct_size,
                     too_long ? "at most" : "at least", too_long ? exported_size : kPluginSizeIn10),
         "set it to sizeof(lockstep_plugin)"};
@@ -37,23 +37,23 @@ std::optional<Refusal> check_handshake(const lockstep_plugin& entry, std::size_t
   return std::nullopt;
 }
 
-std::optional<Refusal> check_plugin(const lockstep_plugin& plugin) {
-  if (plugin.name == nullptr) return Refusal{"has no name", "set lockstep_plugin::name"};
+std::optional<Problem> check_plugin(const lockstep_plugin& plugin) {
+  if (plugin.name == nullptr) return Problem{"has no name", "set lockstep_plugin::name"};
   if (!is_plugin_name(plugin.name)) {
-    return Refusal{fmt::format("is named '{}'", plugin.name),
+    return Problem{fmt::format("is named '{}'", plugin.name),
                    "a plugin's name is made of letters, digits, '_' and '-'"};
   }
   if (plugin.leaf_type_count > kMaxDescriptorCount) {
-    return Refusal{fmt::format("claims to have {} leaf types, expected at most {}",
+    return Problem{fmt::format("claims to have {} leaf types, expected at most {}",
                                plugin.leaf_type_count, kMaxDescriptorCount),
                    "check lockstep_plugin::leaf_type_count"};
   }
   if (plugin.leaf_type_count != 0 && plugin.leaf_types == nullptr) {
-    return Refusal{fmt::format("has {} leaf types but no list of them", plugin.leaf_type_count),
+    return Problem{fmt::format("has {} leaf types but no list of them", plugin.leaf_type_count),
                    "set lockstep_plugin::leaf_types"};
   }
   if ((plugin.create_run == nullptr) != (plugin.destroy_run == nullptr)) {
-    return Refusal{fmt::format("has {} without {}",
+    return Problem{fmt::format("has {} without {}",
                                plugin.create_run != nullptr ? "create_run" : "destroy_run",
                                plugin.create_run != nullptr ? "destroy_run" : "create_run"),
                    "a plugin has both or none"};
@@ -78,7 +78,7 @@ NodeType node_type(const lockstep_plugin& plugin, const Descriptors::Leaf& leaf)
 
 }  // namespace
 
-std::optional<Refusal> read_descriptors(const lockstep_plugin& entry, std::size_t exported_size,
+std::optional<Problem> read_descriptors(const lockstep_plugin& entry, std::size_t exported_size,
                                         Descriptors& descriptors) {
   if (auto refusal = check_handshake(entry, exported_size)) return refusal;
   lockstep_plugin& plugin = descriptors.plugin;  // what else there is in it stays
@@ -87,13 +87,13 @@ std::optional<Refusal> read_descriptors(const lockstep_plugin& entry, std::size_
   for (std::uint32_t index = 0; index < plugin.leaf_type_count; ++index) {
     auto leaf = std::make_unique<Descriptors::Leaf>();
     if (auto refusal = read_leaf(plugin.leaf_types[index], *leaf)) {
-      return Refusal{fmt::format("is malformed: leaf type {} {}", index, refusal->message),
+      return Problem{fmt::format("is malformed: leaf type {} {}", index, refusal->message),
                      std::move(refusal->hint)};
     }
     if (std::ranges::any_of(descriptors.leaves, [&](const auto& other) {
           return other->node_type.id == leaf->type.id;
         })) {
-      return Refusal{fmt::format("is malformed: leaf type {} has the id '{}', as one before it",
+      return Problem{fmt::format("is malformed: leaf type {} has the id '{}', as one before it",
                                  index, leaf->type.id),
                      "give each leaf its own id"};
     }

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/node_type.h"
+#include "core/problem.h"
 #include "lockstep/leaf.h"
-#include "plugin/refusal.h"
 
 namespace lockstep {
 
@@ -33,7 +33,7 @@ struct Descriptors {
 
 // `exported_size` is the size of `entry` as the shared object's symbol table has it; 0 = not known.
 // The descriptors point into the plugin's strings.
-std::optional<Refusal> read_descriptors(const lockstep_plugin& entry, std::size_t exported_size,
+std::optional<Problem> read_descriptors(const lockstep_plugin& entry, std::size_t exported_size,
                                         Descriptors& descriptors);
 
 // Letters, digits, '_' and '-'.

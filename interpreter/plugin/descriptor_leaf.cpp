@@ -24,23 +24,23 @@ bool is_taken(std::string_view id) {
                              [&](const NodeKind* kind) { return kind->type.id == id; });
 }
 
-std::optional<Refusal> check_id(const char* id) {
-  if (id == nullptr) return Refusal{"has no id", "set lockstep_leaf_type::id"};
+std::optional<Problem> check_id(const char* id) {
+  if (id == nullptr) return Problem{"has no id", "set lockstep_leaf_type::id"};
   if (!is_attribute_name(id)) {
-    return Refusal{fmt::format("has the id '{}'", id),
+    return Problem{fmt::format("has the id '{}'", id),
                    "an id is a letter, then letters, digits and '_'"};
   }
   if (is_taken(id)) {
-    return Refusal{fmt::format("has the id '{}', which is a tag of the tree language", id),
+    return Problem{fmt::format("has the id '{}', which is a tag of the tree language", id),
                    "give the leaf another id"};
   }
   return std::nullopt;
 }
 
-std::optional<Refusal> check_leaf(const lockstep_leaf_type& leaf) {
+std::optional<Problem> check_leaf(const lockstep_leaf_type& leaf) {
   if (auto refusal = check_id(leaf.id)) return refusal;
   if (leaf.kind != LOCKSTEP_ACTION && leaf.kind != LOCKSTEP_CONDITION) {
-    return Refusal{fmt::format("('{}') has kind {}", leaf.id, leaf.kind),
+    return Problem{fmt::format("('{}') has kind {}", leaf.id, leaf.kind),
                    "use LOCKSTEP_ACTION or LOCKSTEP_CONDITION, 1 or 2"};
   }
   const char* missing = leaf.create == nullptr    ? "create"
@@ -48,27 +48,27 @@ std::optional<Refusal> check_leaf(const lockstep_leaf_type& leaf) {
                         : leaf.tick == nullptr    ? "tick"
                                                   : nullptr;
   if (missing != nullptr) {
-    return Refusal{fmt::format("('{}') has no {} function", leaf.id, missing),
+    return Problem{fmt::format("('{}') has no {} function", leaf.id, missing),
                    "create, destroy and tick must not be NULL"};
   }
   if (leaf.port_count > kMaxDescriptorCount) {
-    return Refusal{fmt::format("('{}') claims to have {} ports, expected at most {}", leaf.id,
+    return Problem{fmt::format("('{}') claims to have {} ports, expected at most {}", leaf.id,
                                leaf.port_count, kMaxDescriptorCount),
                    "check lockstep_leaf_type::port_count"};
   }
   if (leaf.port_count != 0 && leaf.ports == nullptr) {
-    return Refusal{fmt::format("('{}') has {} ports but no list of them", leaf.id, leaf.port_count),
+    return Problem{fmt::format("('{}') has {} ports but no list of them", leaf.id, leaf.port_count),
                    "set lockstep_leaf_type::ports"};
   }
   return std::nullopt;
 }
 
-std::optional<Refusal> read_ports(const lockstep_leaf_type& leaf, std::vector<Parameter>& ports) {
+std::optional<Problem> read_ports(const lockstep_leaf_type& leaf, std::vector<Parameter>& ports) {
   ports.reserve(leaf.port_count);
   for (std::uint32_t index = 0; index < leaf.port_count; ++index) {
     Parameter port{};
     if (auto refusal = read_port(leaf.ports[index], ports, port)) {
-      return Refusal{fmt::format("('{}'): port {} {}", leaf.id, index, refusal->message),
+      return Problem{fmt::format("('{}'): port {} {}", leaf.id, index, refusal->message),
                      std::move(refusal->hint)};
     }
     ports.push_back(port);
@@ -78,10 +78,10 @@ std::optional<Refusal> read_ports(const lockstep_leaf_type& leaf, std::vector<Pa
 
 }  // namespace
 
-std::optional<Refusal> read_leaf(const lockstep_leaf_type* from, Descriptors::Leaf& leaf) {
-  if (from == nullptr) return Refusal{"is NULL", "list leaf_type_count leaf types"};
+std::optional<Problem> read_leaf(const lockstep_leaf_type* from, Descriptors::Leaf& leaf) {
+  if (from == nullptr) return Problem{"is NULL", "list leaf_type_count leaf types"};
   if (from->struct_size < kLeafSizeIn10) {
-    return Refusal{
+    return Problem{
         fmt::format("has struct_size {}, expected at least {}", from->struct_size, kLeafSizeIn10),
         "set it to sizeof(lockstep_leaf_type)"};
   }

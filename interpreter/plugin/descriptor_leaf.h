@@ -8,6 +8,6 @@
 namespace lockstep {
 
 // The message says what is wrong with "it". Leaves `node_type` alone.
-std::optional<Refusal> read_leaf(const lockstep_leaf_type* from, Descriptors::Leaf& leaf);
+std::optional<Problem> read_leaf(const lockstep_leaf_type* from, Descriptors::Leaf& leaf);
 
 }  // namespace lockstep

@@ -23,48 +23,48 @@ std::string_view text_or_empty(const char* text) {
   return text == nullptr ? "" : text;
 }
 
-std::optional<Refusal> check_name(const lockstep_port& port, std::span<const Parameter> others) {
-  if (port.name == nullptr) return Refusal{"has no name", "set lockstep_port::name"};
+std::optional<Problem> check_name(const lockstep_port& port, std::span<const Parameter> others) {
+  if (port.name == nullptr) return Problem{"has no name", "set lockstep_port::name"};
   const std::string_view name = port.name;
   if (!is_attribute_name(name)) {
-    return Refusal{fmt::format("is named '{}'", name),
+    return Problem{fmt::format("is named '{}'", name),
                    "a port's name is a letter, then letters, digits and '_'"};
   }
   if (name == "name" || name == "ID") {
-    return Refusal{fmt::format("is named '{}', an attribute that every node has", name),
+    return Problem{fmt::format("is named '{}', an attribute that every node has", name),
                    "give the port another name"};
   }
   if (std::ranges::any_of(others, [&](const Parameter& other) { return other.name == name; })) {
-    return Refusal{fmt::format("is named '{}', as a port before it", name),
+    return Problem{fmt::format("is named '{}', as a port before it", name),
                    "give each port of a leaf its own name"};
   }
   return std::nullopt;
 }
 
-std::optional<Refusal> check_default(const lockstep_port& port, ValueType type) {
+std::optional<Problem> check_default(const lockstep_port& port, ValueType type) {
   if (port.default_value == nullptr) return std::nullopt;
   const std::string_view text = port.default_value;
   if (port.direction == LOCKSTEP_OUTPUT) {
-    return Refusal{fmt::format("('{}') is an output with a default", port.name),
+    return Problem{fmt::format("('{}') is an output with a default", port.name),
                    "only an input or inout port has a default"};
   }
   const bool is_key = text.size() > 1 && text.front() == '{' && text.back() == '}';
   if (is_key || !parse_value(type, text)) {
-    return Refusal{fmt::format("('{}') has the default '{}', expected {}", port.name, text,
+    return Problem{fmt::format("('{}') has the default '{}', expected {}", port.name, text,
                                expected_text(type)),
                    "a default is a constant, written as in a tree"};
   }
   return std::nullopt;
 }
 
-std::optional<Refusal> check(const lockstep_port& port, std::span<const Parameter> others) {
+std::optional<Problem> check(const lockstep_port& port, std::span<const Parameter> others) {
   if (auto refusal = check_name(port, others)) return refusal;
   if (port.type < LOCKSTEP_BOOL || port.type > LOCKSTEP_DOUBLE_LIST) {
-    return Refusal{fmt::format("('{}') has type {}", port.name, port.type),
+    return Problem{fmt::format("('{}') has type {}", port.name, port.type),
                    "use one of the LOCKSTEP_ types, 1 to 5"};
   }
   if (port.direction < LOCKSTEP_INPUT || port.direction > LOCKSTEP_INOUT) {
-    return Refusal{fmt::format("('{}') has direction {}", port.name, port.direction),
+    return Problem{fmt::format("('{}') has direction {}", port.name, port.direction),
                    "use LOCKSTEP_INPUT, LOCKSTEP_OUTPUT or LOCKSTEP_INOUT, 1 to 3"};
   }
   return check_default(port, static_cast<ValueType>(port.type - 1));
@@ -82,11 +82,11 @@ bool is_plugin_name(std::string_view name) {
   });
 }
 
-std::optional<Refusal> read_port(const lockstep_port* from, std::span<const Parameter> others,
+std::optional<Problem> read_port(const lockstep_port* from, std::span<const Parameter> others,
                                  Parameter& port) {
-  if (from == nullptr) return Refusal{"is NULL", "list port_count ports"};
+  if (from == nullptr) return Problem{"is NULL", "list port_count ports"};
   if (from->struct_size < kSizeIn10) {
-    return Refusal{
+    return Problem{
         fmt::format("has struct_size {}, expected at least {}", from->struct_size, kSizeIn10),
         "set it to sizeof(lockstep_port)"};
   }

@@ -5,8 +5,8 @@
 #include <span>
 
 #include "core/node_type.h"
+#include "core/problem.h"
 #include "lockstep/leaf.h"
-#include "plugin/refusal.h"
 
 namespace lockstep {
 
@@ -16,7 +16,7 @@ inline constexpr std::uint32_t kMaxDescriptorCount = 4096;  // of leaves, and of
 bool is_attribute_name(std::string_view text);
 
 // `others` are the ports before it. The message says what is wrong with "it".
-std::optional<Refusal> read_port(const lockstep_port* from, std::span<const Parameter> others,
+std::optional<Problem> read_port(const lockstep_port* from, std::span<const Parameter> others,
                                  Parameter& port);
 
 }  // namespace lockstep

@@ -68,12 +68,12 @@ bool is_cut_off(std::ifstream& file, const Header& header, std::uintmax_t size) 
   return false;
 }
 
-Refusal not_a_shared_object(const char* what) {
+Problem not_a_shared_object(const char* what) {
   return {fmt::format("is not a shared object: {}", what),
           "build it as a MODULE or SHARED library (docs/plugins.md)"};
 }
 
-std::optional<Refusal> inspect_header(std::ifstream& file, std::uintmax_t size) {
+std::optional<Problem> inspect_header(std::ifstream& file, std::uintmax_t size) {
   Header header{};
   file.read(reinterpret_cast<char*>(&header), sizeof header);
   const auto length = static_cast<std::size_t>(file.gcount());
@@ -81,25 +81,25 @@ std::optional<Refusal> inspect_header(std::ifstream& file, std::uintmax_t size) 
     return not_a_shared_object("it does not begin like an ELF file");
   }
   if (const Header own = own_header(); !same_machine(header, own)) {
-    return Refusal{
+    return Problem{
         fmt::format("is for {}, this program is for {}", machine_name(header), machine_name(own)),
         "build it on, or cross-compile it for, the machine that runs the tree"};
   }
   if (header.e_type == ET_REL) return not_a_shared_object("it is an object file");
   if (header.e_type != ET_DYN) return not_a_shared_object("it is a program");
   if (length < sizeof header || is_cut_off(file, header, size)) {
-    return Refusal{"is cut off: parts of the file are missing", "copy or build it again"};
+    return Problem{"is cut off: parts of the file are missing", "copy or build it again"};
   }
   return std::nullopt;
 }
 
 }  // namespace
 
-std::optional<Refusal> inspect_elf_file(const std::string& path) {
+std::optional<Problem> inspect_elf_file(const std::string& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) {
-    return Refusal{error && error != std::errc::no_such_file_or_directory
+    return Problem{error && error != std::errc::no_such_file_or_directory
                        ? fmt::format("cannot be opened: {}", error.message())
                        : "does not exist",
                    "check the path; a tree names plugins without path and without '.so'"};
@@ -110,7 +110,7 @@ std::optional<Refusal> inspect_elf_file(const std::string& path) {
   }
   std::ifstream file(path, std::ios::binary);
   if (!file) {
-    return Refusal{fmt::format("cannot be opened: {}", std::strerror(errno)),
+    return Problem{fmt::format("cannot be opened: {}", std::strerror(errno)),
                    "check its permissions"};
   }
   return inspect_header(file, std::filesystem::file_size(path, error));

@@ -4,11 +4,11 @@
 #include <optional>
 #include <string>
 
-#include "plugin/refusal.h"
+#include "core/problem.h"
 
 namespace lockstep {
 
 // Nothing when the file is a complete shared object for this machine.
-std::optional<Refusal> inspect_elf_file(const std::string& path);
+std::optional<Problem> inspect_elf_file(const std::string& path);
 
 }  // namespace lockstep

@@ -44,28 +44,28 @@ std::string with_prefix(std::string_view name, std::span<const std::string> dire
 
 }  // namespace
 
-std::optional<Refusal> find_plugin_file(std::string_view name,
-                                        std::span<const std::string> directories,
-                                        std::string& path) {
+Result<std::string> find_plugin_file(std::string_view name,
+                                     std::span<const std::string> directories) {
   for (const std::string& directory : directories) {
-    path = (fs::path(directory) / fmt::format("{}.so", name)).string();
+    std::string path = (fs::path(directory) / fmt::format("{}.so", name)).string();
     std::error_code error;
-    if (fs::exists(path, error)) return std::nullopt;
+    if (fs::exists(path, error)) return path;
   }
   if (directories.empty()) {
-    return Refusal{"is not found: there is no directory to search", kAddDirectory};
+    return tl::unexpected(Problem{"is not found: there is no directory to search", kAddDirectory});
   }
   const std::string message =
       fmt::format("is not found: '{}.so' is not in {}", brief(name), fmt::join(directories, ", "));
   if (const std::string file = with_prefix(name, directories); !file.empty()) {
-    return Refusal{message, fmt::format("'{0}' is: rename it to '{1}.so' (in CMake: "
-                                        "lockstep_add_plugin, or PREFIX \"\")",
-                                        file, name)};
+    return tl::unexpected(Problem{message, fmt::format("'{0}' is: rename it to '{1}.so' (in CMake: "
+                                                       "lockstep_add_plugin, or PREFIX \"\")",
+                                                       file, name)});
   }
   const std::vector<std::string> names = available(directories);
   const std::vector<std::string_view> candidates(names.begin(), names.end());
   std::string hint = did_you_mean(name, candidates);
-  return Refusal{message, hint.empty() ? std::string(kAddDirectory) : std::move(hint)};
+  if (hint.empty()) hint = kAddDirectory;
+  return tl::unexpected(Problem{message, std::move(hint)});
 }
 
 }  // namespace lockstep

@@ -19,16 +19,17 @@
 namespace lockstep {
 namespace {
 
-bool refuse(const std::string& origin, Refusal refusal, Diagnostics& diagnostics,
+// `refusal` continues "plugin 'x.so' ".
+bool refuse(const std::string& origin, Problem refusal, Diagnostics& diagnostics,
             SourceLocation where) {
   diagnostics.error(std::move(where), fmt::format("plugin '{}' {}", brief(origin), refusal.message),
                     std::move(refusal.hint));
   return false;
 }
 
-std::optional<Refusal> check_expected_name(std::string_view name, std::string_view expected) {
+std::optional<Problem> check_expected_name(std::string_view name, std::string_view expected) {
   if (expected.empty() || name == expected) return std::nullopt;
-  return Refusal{fmt::format("calls itself '{}', expected '{}'", name, expected),
+  return Problem{fmt::format("calls itself '{}', expected '{}'", name, expected),
                  fmt::format("name the file '{}.so', or give the plugin the file's name", name)};
 }
 
@@ -53,19 +54,19 @@ struct PluginSet::Plugin {
   }
 
   // What keeps two plugins from living in one set.
-  static std::optional<Refusal> check_against(const Plugin& newcomer, const Plugin& other);
+  static std::optional<Problem> check_against(const Plugin& newcomer, const Plugin& other);
 };
 
-std::optional<Refusal> PluginSet::Plugin::check_against(const Plugin& newcomer,
+std::optional<Problem> PluginSet::Plugin::check_against(const Plugin& newcomer,
                                                         const Plugin& other) {
   if (newcomer.name() == other.name()) {
-    return Refusal{fmt::format("is named '{}', as is '{}'", newcomer.name(), other.origin),
+    return Problem{fmt::format("is named '{}', as is '{}'", newcomer.name(), other.origin),
                    "load one of the two"};
   }
   for (const auto& leaf : newcomer.descriptors.leaves) {
     for (const auto& known : other.descriptors.leaves) {
       if (leaf->node_type.id != known->node_type.id) continue;
-      return Refusal{fmt::format("has the leaf '{}', which plugin '{}' has already",
+      return Problem{fmt::format("has the leaf '{}', which plugin '{}' has already",
                                  leaf->node_type.id, other.origin),
                      "load one of the two, or rename the leaf"};
     }
@@ -107,11 +108,11 @@ bool PluginSet::load_named(std::string_view name, std::span<const std::string> d
     return true;
   }
   warn_of_writable_directories(directories, where, diagnostics);
-  std::string path;
-  if (auto refusal = find_plugin_file(name, directories, path)) {
-    return refuse(std::string(name), std::move(*refusal), diagnostics, std::move(where));
+  auto path = find_plugin_file(name, directories);
+  if (!path) {
+    return refuse(std::string(name), std::move(path.error()), diagnostics, std::move(where));
   }
-  return open({std::move(path), name, std::move(where), isolation}, diagnostics);
+  return open({std::move(*path), name, std::move(where), isolation}, diagnostics);
 }
 
 bool PluginSet::add(const lockstep_plugin& plugin, std::string origin, Diagnostics& diagnostics,
@@ -129,23 +130,25 @@ bool PluginSet::open(const Request& request, Diagnostics& diagnostics) {
   if (isolation_.all || request.isolation == Isolation::Isolated) {
     return open_isolated(request, diagnostics);
   }
-  SharedObject object;
-  ExportedConstant constant;
-  auto refusal = open_shared_object(request.origin, object);
-  if (!refusal) refusal = find_constant(object, LOCKSTEP_PLUGIN_ENTRY, constant);
-  if (refusal) return refuse(request.origin, std::move(*refusal), diagnostics, request.where);
-  const auto* const entry = static_cast<const lockstep_plugin*>(constant.address);
-  return accept(std::make_unique<Plugin>(Plugin{entry, request.origin}), constant.size, request,
+  auto constant = open_shared_object(request.origin).and_then([](const SharedObject& object) {
+    return find_constant(object, LOCKSTEP_PLUGIN_ENTRY);
+  });
+  if (!constant) {
+    return refuse(request.origin, std::move(constant.error()), diagnostics, request.where);
+  }
+  const auto* const entry = static_cast<const lockstep_plugin*>(constant->address);
+  return accept(std::make_unique<Plugin>(Plugin{entry, request.origin}), constant->size, request,
                 diagnostics);
 }
 
 bool PluginSet::open_isolated(const Request& request, Diagnostics& diagnostics) {
-  std::unique_ptr<IsolatedPlugin> isolated;
-  auto refusal = IsolatedPlugin::open(request.origin, isolation_, isolated);
-  if (refusal) return refuse(request.origin, std::move(*refusal), diagnostics, request.where);
-  auto plugin = std::make_unique<Plugin>(Plugin{&isolated->entry(), request.origin});
-  plugin->descriptors.plugin.isolated = isolated.get();
-  plugin->isolated = std::move(isolated);
+  auto opened = IsolatedPlugin::open(request.origin, isolation_);
+  if (!opened) {
+    return refuse(request.origin, std::move(opened.error()), diagnostics, request.where);
+  }
+  auto plugin = std::make_unique<Plugin>(Plugin{&(*opened)->entry(), request.origin});
+  plugin->isolated = std::move(*opened);
+  plugin->descriptors.plugin.isolated = plugin->isolated.get();
   return accept(std::move(plugin), 0, request, diagnostics);
 }
 

@@ -52,10 +52,11 @@ const CallSite* opened_shared_objects() {
   return g_opened;
 }
 
-std::optional<Refusal> open_shared_object(const std::string& path, SharedObject& object) {
-  if (auto refusal = inspect_elf_file(path)) return refusal;
+Result<SharedObject> open_shared_object(const std::string& path) {
+  if (auto refusal = inspect_elf_file(path)) return tl::unexpected(std::move(*refusal));
   // A name without a slash would be searched in the system's library directories.
   const std::string file = path.find('/') == path.npos ? "./" + path : path;
+  SharedObject object;
   const FloatMode mode = FloatMode::current();
   {
     const MarkedCall mark(CallSite::of("", path), PluginFunction::Load);
@@ -64,30 +65,31 @@ std::optional<Refusal> open_shared_object(const std::string& path, SharedObject&
   mode.restore();
   if (object.handle != nullptr) {
     note_opened(path);
-    return std::nullopt;
+    return object;
   }
   const std::string error = linker_error(file);
-  return Refusal{fmt::format("cannot be loaded: {}", error), hint_for(error)};
+  return tl::unexpected(Problem{fmt::format("cannot be loaded: {}", error), hint_for(error)});
 }
 
-std::optional<Refusal> find_constant(const SharedObject& object, const char* symbol,
-                                     ExportedConstant& found) {
-  const Refusal missing{fmt::format("does not export '{}'", symbol),
-                        "is it a lockstep plugin? docs/plugins.md shows how one is built"};
-  found.address = dlsym(object.handle, symbol);
-  if (found.address == nullptr) return missing;
+Result<ExportedConstant> find_constant(const SharedObject& object, const char* symbol) {
+  ExportedConstant found{.address = dlsym(object.handle, symbol)};
+  if (found.address == nullptr) {
+    return tl::unexpected(
+        Problem{fmt::format("does not export '{}'", symbol),
+                "is it a lockstep plugin? docs/plugins.md shows how one is built"});
+  }
   Dl_info info{};
   void* extra = nullptr;
   if (dladdr1(found.address, &info, &extra, RTLD_DL_SYMENT) == 0 || extra == nullptr) {
-    return std::nullopt;
+    return found;
   }
   const auto& entry = *static_cast<const ElfW(Sym)*>(extra);
   if (ELF64_ST_TYPE(entry.st_info) == STT_FUNC) {
-    return Refusal{fmt::format("exports '{}' as a function", symbol),
-                   "define it as a constant of type lockstep_plugin"};
+    return tl::unexpected(Problem{fmt::format("exports '{}' as a function", symbol),
+                                  "define it as a constant of type lockstep_plugin"});
   }
   found.size = entry.st_size;
-  return std::nullopt;
+  return found;
 }
 
 }  // namespace lockstep

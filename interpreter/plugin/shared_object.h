@@ -3,11 +3,10 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 
+#include "core/problem.h"
 #include "plugin/call_mark.h"
-#include "plugin/refusal.h"
 
 namespace lockstep {
 
@@ -17,7 +16,7 @@ struct SharedObject {
 
 // What the linker would refuse in words that help nobody (or would crash on) is found beforehand:
 // a file that is missing, not a shared object, for another machine, or cut off.
-std::optional<Refusal> open_shared_object(const std::string& path, SharedObject& object);
+[[nodiscard]] Result<SharedObject> open_shared_object(const std::string& path);
 
 // Those that this process has opened so far, in one name, as the culprit of what they do at the end
 // of a thread or the process; null: none.
@@ -28,7 +27,7 @@ struct ExportedConstant {
   std::size_t size = 0;  // as the symbol table says; 0 = it does not say
 };
 
-std::optional<Refusal> find_constant(const SharedObject& object, const char* symbol,
-                                     ExportedConstant& found);
+[[nodiscard]] Result<ExportedConstant> find_constant(const SharedObject& object,
+                                                     const char* symbol);
 
 }  // namespace lockstep

@@ -13,7 +13,7 @@
 namespace lockstep {
 namespace {
 
-using Problems = std::vector<RealtimeProblem>;
+using Problems = std::vector<Problem>;
 
 constexpr std::string_view kSetcap = "'setcap cap_sys_nice,cap_ipc_lock+ep' on the program";
 
@@ -81,7 +81,7 @@ void bind_to(int cpu, Problems& problems) {
 
 }  // namespace
 
-std::vector<RealtimeProblem> apply_realtime(const RealtimeOptions& options) {
+std::vector<Problem> apply_realtime(const RealtimeOptions& options) {
   Problems problems;
   if (options.cpu) bind_to(*options.cpu, problems);
   if (!options.realtime) return problems;

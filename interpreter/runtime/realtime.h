@@ -3,8 +3,9 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
+
+#include "core/problem.h"
 
 namespace lockstep {
 
@@ -16,14 +17,10 @@ struct RealtimeOptions {
   std::optional<int> cpu;  // the processor that the thread is bound to
 };
 
-struct RealtimeProblem {
-  std::string message;
-  std::string hint;  // the privilege that is missing and who gives it; or what to choose instead
-};
-
 // Applies to the calling thread; locked memory is the process's. The priority does not pass to
 // threads and processes that the thread starts later, the processor does. Does all that is possible
-// and returns what is not.
-std::vector<RealtimeProblem> apply_realtime(const RealtimeOptions& options);
+// and returns what is not, with the privilege that is missing and who gives it, or what to choose
+// instead.
+[[nodiscard]] std::vector<Problem> apply_realtime(const RealtimeOptions& options);
 
 }  // namespace lockstep

@@ -182,8 +182,8 @@ void parse_alone(const std::vector<std::string>& paths, Times& times) {
   std::vector<std::unique_ptr<tinyxml2::XMLDocument>> documents;
   for (const std::string& path : paths) {
     documents.push_back(std::make_unique<tinyxml2::XMLDocument>());
-    const FileText file = read_file(path, Document::kMaxBytes);
-    documents.back()->Parse(file.text.data(), file.text.size());
+    const auto text = read_file(path, Document::kMaxBytes);
+    documents.back()->Parse(text->data(), text->size());
   }
   documents.clear();
   times.tinyxml2 = watch.lap();

@@ -155,7 +155,7 @@ int main(int argc, char** argv) {
   app.add_option("--benchmark_out_format", format, "json");
   CLI11_PARSE(app, argc, argv);
   const auto missing = apply_realtime(realtime);
-  for (const RealtimeProblem& problem : missing) fmt::print(stderr, "{}\n", problem.message);
+  for (const Problem& problem : missing) fmt::print(stderr, "{}\n", problem.message);
   if (!missing.empty()) return 1;
 
   const Tree tree = endless_tree();

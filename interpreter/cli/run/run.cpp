@@ -141,7 +141,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   bool make_realtime() {
     const auto problems = apply_realtime(options_.realtime);
     if (!problems.empty()) view_.close();
-    for (const RealtimeProblem& problem : problems) print_error(problem.message, problem.hint);
+    for (const Problem& problem : problems) print_error(problem.message, problem.hint);
     return problems.empty();
   }
 

@@ -34,46 +34,45 @@ IsolatedPlugin::~IsolatedPlugin() {
   for (const auto& session : idle_) session->end();
 }
 
-std::optional<Refusal> IsolatedPlugin::open(const std::string& path,
-                                            const IsolationOptions& options,
-                                            std::unique_ptr<IsolatedPlugin>& plugin) {
-  plugin.reset(new IsolatedPlugin(path, options));
+Result<std::unique_ptr<IsolatedPlugin>> IsolatedPlugin::open(const std::string& path,
+                                                             const IsolationOptions& options) {
+  std::unique_ptr<IsolatedPlugin> plugin(new IsolatedPlugin(path, options));
   auto session = std::make_unique<Session>();
-  if (auto refusal = plugin->start(*session)) return refusal;
+  if (auto refusal = plugin->start(*session)) return tl::unexpected(std::move(*refusal));
   plugin->idle_.push_back(std::move(session));
-  return std::nullopt;
+  return plugin;
 }
 
 // A process that has the plugin loaded.
-std::optional<Refusal> IsolatedPlugin::start(Session& session) {
+std::optional<Problem> IsolatedPlugin::start(Session& session) {
   if (std::string failure = session.start(options_, path_); !failure.empty()) {
-    return Refusal{
+    return Problem{
         fmt::format("cannot be isolated: '{}' does not start: {}", options_.leafhost, failure),
         "lockstep-leafhost is installed with lockstep, in libexec/lockstep"};
   }
   session.begin_request(PluginFunction::Load);
   if (!session.call({})) {
-    return Refusal{"cannot be loaded: " + words(session),
+    return Problem{"cannot be loaded: " + words(session),
                    "what a shared object does while it is loaded, it does in its constructors"};
   }
   MessageReader answer = session.answer();
   if (answer.has_text()) {
     std::string message(answer.text());
-    return Refusal{std::move(message), std::string(answer.text())};
+    return Problem{std::move(message), std::string(answer.text())};
   }
   return describe(answer);
 }
 
 // What the first process says, the others must say too.
-std::optional<Refusal> IsolatedPlugin::describe(MessageReader description) {
+std::optional<Problem> IsolatedPlugin::describe(MessageReader description) {
   const auto bytes = description.rest();
   if (!description_.empty()) {
     if (std::ranges::equal(bytes, description_)) return std::nullopt;
-    return Refusal{"has changed since it was loaded", "start anew"};
+    return Problem{"has changed since it was loaded", "start anew"};
   }
   description_.assign(bytes.begin(), bytes.end());
   if (descriptors_.read(description, remote_plugin(), remote_leaf_type())) return std::nullopt;
-  return Refusal{"cannot be loaded: its process answered with bytes that make no sense",
+  return Problem{"cannot be loaded: its process answered with bytes that make no sense",
                  "is lockstep-leafhost of the same build as lockstep?"};
 }
 

@@ -8,18 +8,18 @@
 #include <string>
 #include <vector>
 
+#include "core/problem.h"
 #include "plugin/isolated/descriptor_message.h"
 #include "plugin/isolated/session.h"
 #include "plugin/plugin_set.h"
-#include "plugin/refusal.h"
 
 namespace lockstep {
 
 class IsolatedPlugin {
  public:
   // Starts the first process, which opens the file, checks it and describes the plugin.
-  static std::optional<Refusal> open(const std::string& path, const IsolationOptions& options,
-                                     std::unique_ptr<IsolatedPlugin>& plugin);
+  [[nodiscard]] static Result<std::unique_ptr<IsolatedPlugin>> open(
+      const std::string& path, const IsolationOptions& options);
   // Deinitializes the plugin in each of its processes and ends them. No run may go on.
   ~IsolatedPlugin();
   IsolatedPlugin(const IsolatedPlugin&) = delete;
@@ -40,8 +40,8 @@ class IsolatedPlugin {
 
  private:
   IsolatedPlugin(std::string path, IsolationOptions options);
-  std::optional<Refusal> start(Session& session);
-  std::optional<Refusal> describe(MessageReader description);
+  std::optional<Problem> start(Session& session);
+  std::optional<Problem> describe(MessageReader description);
 
   std::string path_;
   IsolationOptions options_;

@@ -57,13 +57,12 @@ void watch_host(int descriptor) {
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
-std::optional<Refusal> load(const std::string& path, Descriptors& descriptors) {
+std::optional<Problem> load(const std::string& path, Descriptors& descriptors) {
   const MarkedCall mark(CallSite::of("", path), PluginFunction::Load);
-  SharedObject object;
-  ExportedConstant constant;
-  if (auto refusal = open_shared_object(path, object)) return refusal;
-  if (auto refusal = find_constant(object, LOCKSTEP_PLUGIN_ENTRY, constant)) return refusal;
-  return read_descriptors(*static_cast<const lockstep_plugin*>(constant.address), constant.size,
+  const auto constant = open_shared_object(path).and_then(
+      [](const SharedObject& object) { return find_constant(object, LOCKSTEP_PLUGIN_ENTRY); });
+  if (!constant) return constant.error();
+  return read_descriptors(*static_cast<const lockstep_plugin*>(constant->address), constant->size,
                           descriptors);
 }
 
