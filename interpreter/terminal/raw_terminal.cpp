@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <ctime>
 
 #include "terminal/screen.h"
 
@@ -16,6 +17,7 @@ namespace {
 termios g_before{};
 int g_keys = -1, g_screen = -1;
 std::atomic<bool> g_is_taken{false};
+std::atomic<bool> g_is_being_taken{false};
 std::atomic<bool> g_is_stopping{false};  // by Ctrl-Z
 static_assert(std::atomic<bool>::is_always_lock_free);
 
@@ -73,6 +75,34 @@ void make_raw() {
   tcsetattr(g_keys, TCSANOW, &raw);
 }
 
+// The time in which the terminal is taken: who gives it back waits for its end. No signal handler
+// runs in this thread then, which would wait for itself.
+class Taking {
+ public:
+  Taking() {
+    sigset_t all;
+    sigfillset(&all);
+    sigdelset(&all, SIGTTOU);  // blocked, it would let the background set the terminal
+    pthread_sigmask(SIG_BLOCK, &all, &before_);
+    g_is_being_taken = true;
+  }
+  ~Taking() {
+    g_is_being_taken = false;
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+  Taking(const Taking&) = delete;
+  Taking& operator=(const Taking&) = delete;
+
+  // Not for ever: a terminal may be stuck.
+  static void wait_for_end() {
+    constexpr timespec kNap{.tv_sec = 0, .tv_nsec = 100'000};
+    for (int nap = 0; g_is_being_taken && nap < 1000; ++nap) nanosleep(&kNap, nullptr);
+  }
+
+ private:
+  sigset_t before_;
+};
+
 }  // namespace
 
 RawTerminal::RawTerminal(int keys, int screen) {
@@ -92,6 +122,8 @@ RawTerminal::~RawTerminal() {
 RawTerminal::State RawTerminal::take() {
   if (g_is_stopping || !is_in_foreground()) return State::Away;
   if (g_is_taken) return State::Kept;
+  const Taking taking;
+  if (g_is_stopping || !is_in_foreground()) return State::Away;
   g_is_taken = true;  // before it is, so that whatever happens from here on restores it
   if (g_keys >= 0) make_raw();
   hide_cursor(g_screen);
@@ -99,6 +131,7 @@ RawTerminal::State RawTerminal::take() {
 }
 
 void RawTerminal::restore() {
+  Taking::wait_for_end();
   if (!g_is_taken.exchange(false)) return;
   if (g_keys >= 0) tcsetattr(g_keys, TCSANOW, &g_before);
   show_cursor(g_screen);
