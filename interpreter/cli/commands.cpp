@@ -1,5 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdlib>
+#include <exception>
 #include <new>
 #include <sstream>
 #include <vector>
@@ -9,7 +11,11 @@
 #include "cli/exit_code.h"
 #include "cli/usage.h"
 #include "core/descriptors.h"
+#include "core/own_thread.h"
+#include "plugin/call_mark.h"
+#include "runtime/fuse.h"
 #include "runtime/outlet.h"
+#include "terminal/raw_terminal.h"
 
 namespace lockstep {
 
@@ -78,9 +84,35 @@ int run_command_line(int argc, char** argv) {
   return kExitUsage;
 }
 
+void say_out_of_memory() {
+  messages().say("lockstep: error: out of memory\n");  // which takes none
+}
+
+bool is_in_plugin() {
+  return !is_own_thread() || CallMark::this_thread().look().function() != PluginFunction::None;
+}
+
+// A destructor that takes memory, as that of a JSON value does, ends here when there is none. What
+// nobody catches in a plugin is its crash.
+[[noreturn]] void on_terminate() {
+  try {
+    if (const auto reason = std::current_exception(); reason != nullptr && !is_in_plugin()) {
+      std::rethrow_exception(reason);
+    }
+  } catch (const std::bad_alloc&) {
+    RawTerminal::restore();
+    say_out_of_memory();
+    messages().flush(Outlet::kPatience);
+    end_at_once(kExitInternal);
+  } catch (...) {  // the report of the crash says no less
+  }
+  std::abort();
+}
+
 }  // namespace
 
 int run_program(int argc, char** argv) {
+  std::set_terminate(on_terminate);
   make_writes_fail();
   try {
     try {
@@ -91,7 +123,7 @@ int run_program(int argc, char** argv) {
       print_error(error.what(), "this is a bug of lockstep; please report it");
     }
   } catch (const std::bad_alloc&) {
-    messages().say("lockstep: error: out of memory\n");  // which takes none
+    say_out_of_memory();
   }
   return kExitInternal;
 }

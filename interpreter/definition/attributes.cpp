@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "core/identifier.h"
 #include "core/parameter_value.h"
 #include "core/suggest.h"
@@ -52,7 +54,7 @@ class AttributeChecker {
   // wrong.
   Value constant(const Parameter& parameter, const Attribute* attribute) const {
     if (attribute == nullptr) return absent(parameter);
-    const auto value = parse_value(parameter.type, attribute->value);
+    auto value = parse_value(parameter.type, attribute->value);
     // An argument that is wrong or missing is told already; $${ is a literal, and wrong here.
     const bool unknown = attribute->value.find("${") != std::string_view::npos;
     if (!value && unknown && report_.has_errors()) return {};
@@ -66,7 +68,8 @@ class AttributeChecker {
       report_.at_value(attribute->place, refused->message, refused->hint);
       return {};
     }
-    return *value;
+    // Moved: g++ 12 destroys the result when it cannot be copied, though there is none.
+    return *std::move(value);
   }
 
  private:

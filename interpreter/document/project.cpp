@@ -164,7 +164,8 @@ std::unique_ptr<Project> load_project(const std::string& path, const Arguments& 
       is_stdin ? read_stdin(Document::kMaxBytes) : read_file(path, Document::kMaxBytes, kinds);
   const std::string name = is_stdin ? "stdin" : path;
   if (!text) {
-    diagnostics.error({name}, "cannot be read: " + text.error().message);
+    const std::string verdict = name.empty() ? "'' cannot be read: " : "cannot be read: ";
+    diagnostics.error({name}, verdict + text.error().message);
     return nullptr;
   }
   return load_project_text(name, std::move(*text), arguments, diagnostics);

@@ -1,4 +1,5 @@
 // A program without memory: every command ends with a message and a code, wherever it runs out.
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "cli/program.h"
@@ -19,6 +20,13 @@ Outcome without_memory(const Strings& arguments, long from) {
                                "intercept_tls_get_addr=0"}}});
 }
 
+void check_end(const Outcome& outcome) {
+  CAPTURE(outcome.err);
+  // 5: a leaf, which has no memory either. 4: a plugin.
+  CHECK((outcome.code == 0 || outcome.code == 9 || outcome.code == 5 || outcome.code == 4));
+  if (outcome.code == 9) CHECK(contains(outcome.err, "lockstep: error: out of memory"));
+}
+
 }  // namespace
 
 TEST_CASE("out of memory, every command says so and has a code for it") {
@@ -30,26 +38,40 @@ TEST_CASE("out of memory, every command says so and has a code for it") {
   REQUIRE(lockstep({"run", tree, "--clock", "virtual", "--record", file}).code == 0);
   const std::vector<Strings> commands = {
       {"check", tree},
+      {"check", tree, "--format", "sarif"},
       {"show", tree},
       {"nodes"},
       {"schema"},
       {"run", tree, "--clock", "virtual", "--record", directory.path("again.jsonl")},
       {"run", tree, "--clock", "virtual", "--view", "live"},
+      {"run", tree, "--clock", "virtual", "--json"},
       {"study", tree, "--runs", "60", "--jobs", "2", "--no-plots", "--out", directory.path("s")},
-      {"log", "measure", file}};
+      {"log", "info", file},
+      {"log", "csv", file},
+      {"log", "measure", file},
+      {"log", "measure", file, "--json"},
+      {"log", "diff", file, file},
+      {"replay", file, "--print"}};
+  constexpr long kLast = 30;  // each of them: what is done in the end is the command itself
   for (const Strings& command : commands) {
-    bool ended_well = false;
-    for (long from = 1; !ended_well; from += from / 2 + 1) {
+    const auto succeeds = [&](long from) {
       CAPTURE(command, from);
       run({.arguments = {"-rf", directory.path("s")}, .program = "/bin/rm"});
       const Outcome outcome = without_memory(command, from);
-      CAPTURE(outcome.err);
-      ended_well = outcome.code == 0;
-      // 5: a leaf, which has no memory either. 4: a plugin.
-      CHECK((ended_well || outcome.code == 9 || outcome.code == 5 || outcome.code == 4));
-      if (outcome.code == 9) CHECK(contains(outcome.err, "lockstep: error: out of memory"));
-      REQUIRE(from < 100'000'000);
+      check_end(outcome);
+      return outcome.code == 0;
+    };
+    long fails = 0, enough = 1;
+    while (!succeeds(enough)) {
+      fails = enough;
+      enough += enough / 2 + 1;
+      REQUIRE(enough < 100'000'000);
     }
+    while (enough - fails > 1) {
+      const long middle = fails + (enough - fails) / 2;
+      (succeeds(middle) ? enough : fails) = middle;
+    }
+    for (long from = std::max(1L, enough - kLast); from < enough; ++from) succeeds(from);
   }
 }
 

@@ -2,47 +2,23 @@
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
-#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <new>
 #include <system_error>
 
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/log/log.h"
-#include "runtime/fuse.h"
-#include "runtime/outlet.h"
-#include "terminal/raw_terminal.h"
 
 namespace lockstep {
-namespace {
-
-// To destroy a JSON value takes memory: without any, its destructor throws, and nobody can catch
-// that.
-[[noreturn]] void end_without_memory() {
-  try {
-    if (const auto reason = std::current_exception()) std::rethrow_exception(reason);
-  } catch (const std::bad_alloc&) {
-    RawTerminal::restore();
-    messages().say("lockstep: error: out of memory\n");
-    end_at_once(kExitInternal);
-  } catch (...) {
-  }
-  std::abort();
-}
-
-}  // namespace
 
 void add_recording_file(CLI::App& app, std::string& file) {
   app.add_option("file", file, "The recording; - is stdin")->type_name("FILE.jsonl")->required();
 }
 
 int with_recording(const std::string& path, const std::function<int(RecordingReader&)>& use) {
-  std::set_terminate(end_without_memory);
   std::ifstream file;
   if (path != "-") {
     std::error_code error;

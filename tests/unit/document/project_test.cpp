@@ -120,6 +120,9 @@ TEST_CASE("a main file that cannot be read is no project") {
   Files files;
   files.load("none.xml");
   CHECK(files.told() == Lines{"none.xml: cannot be read: No such file or directory"});
+  Diagnostics of_no_name;
+  CHECK(load_project("", {}, of_no_name) == nullptr);
+  CHECK(told(of_no_name) == Lines{"'' cannot be read: No such file or directory"});
   CHECK(files.project() == nullptr);
   files.load("");
   CHECK(files.told()[0].find("Is a directory") != std::string::npos);
