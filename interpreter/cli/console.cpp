@@ -79,9 +79,14 @@ int results_file() {
 }
 
 int write_results(std::string_view text) {
-  const bool was_stopped = StopSignals::received() != 0;
+  return write_results(text, StopSignals::received());
+}
+
+int write_results(std::string_view text, int stopped_by) {
   const auto is_stopped = [] { return StopSignals::received() != 0; };
-  if (write_all(g_results, text, was_stopped ? nullptr : +is_stopped)) return kExitSuccess;
+  const bool written =
+      stopped_by == 0 ? write_all(g_results, text, is_stopped) : write_all(g_results, text);
+  if (written) return kExitSuccess;
   if (errno == EPIPE) return kExitSignal + SIGPIPE;
   if (errno == EINTR) return kExitSignal + StopSignals::received();
   print_error(fmt::format("cannot write to stdout: {}", std::strerror(errno)));

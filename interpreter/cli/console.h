@@ -28,6 +28,8 @@ void keep_stdout_for_results();
 int results_file();
 // Writes what a command was asked for to stdout. The exit code: kExitSuccess, or what to end with
 // because not all of it has arrived. It says why, unless nobody wants to read on.
+// A signal ends the wait for a reader, but not the one that has stopped the command before.
 int write_results(std::string_view text);
+int write_results(std::string_view text, int stopped_by);
 
 }  // namespace lockstep

@@ -25,11 +25,31 @@ void make_writes_fail() noexcept {
   signal(SIGXFSZ, SIG_IGN);
 }
 
-bool write_all(int file, std::string_view text, bool (*gives_up)()) noexcept {
+bool write_all(int file, std::string_view text) noexcept {
   while (!text.empty()) {
     const ssize_t count = write(file, text.data(), text.size());
-    if (count < 0 && (errno != EINTR || (gives_up != nullptr && gives_up()))) return false;
+    if (count < 0 && errno != EINTR) return false;
     if (count > 0) text.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return true;
+}
+
+bool write_all(int file, std::string_view text, bool (*gives_up)()) noexcept {
+  constexpr int kLook =
+      100;  // milliseconds; a signal may come before the wait, or to another thread
+  while (!text.empty()) {
+    pollfd reader{file, POLLOUT, 0};
+    while (poll(&reader, 1, 0) == 0) {
+      if (gives_up()) {
+        errno = EINTR;
+        return false;
+      }
+      poll(&reader, 1, kLook);
+    }
+    // So much does not wait.
+    const std::string_view part = text.substr(0, PIPE_BUF);
+    if (!write_all(file, part)) return false;
+    text.remove_prefix(part.size());
   }
   return true;
 }

@@ -15,9 +15,10 @@ void hold_standard_descriptors() noexcept;
 // the limit of a file's size (SIGXFSZ) ends the process.
 void make_writes_fail() noexcept;
 
-// Waits for whoever reads. False, with errno, when not all was written; EINTR when a signal came
-// and `gives_up` then.
-bool write_all(int file, std::string_view text, bool (*gives_up)() = nullptr) noexcept;
+// Waits for whoever reads. False, with errno, when not all was written.
+bool write_all(int file, std::string_view text) noexcept;
+// Waits no longer than until `gives_up`: errno is EINTR then.
+bool write_all(int file, std::string_view text, bool (*gives_up)()) noexcept;
 
 // Writes what the reader takes at once; the rest is gone. Async-signal-safe.
 void write_now(int file, std::string_view text) noexcept;

@@ -1,6 +1,9 @@
 // What a command does when what it says, or what it was asked for, cannot be written: the reader
 // has gone, stopped reading, the disk is full, or the descriptor was closed from the start.
+#include <sched.h>
+
 #include <catch2/catch.hpp>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "cli/program.h"
@@ -150,6 +153,24 @@ TEST_CASE("a reader who stops reading stderr holds nothing up") {
     CHECK(summary["ticks"] > 100);
     CHECK(contains(summary["notes"].dump(), "of stderr are lost: nobody read them"));
     CHECK(contains(lines(read_file(shell.path("stuck.jsonl"))).back(), "\"reason\":\"timeout\""));
+  }
+}
+
+TEST_CASE("a signal ends the wait for a reader of stdout, also when it comes before the wait") {
+  const TemporaryDirectory directory;
+  const DeadEnd stuck(DeadEnd::Reader::Stuck);
+  const std::string tree = directory.file("tree.xml", tree_text("<AlwaysRunning/>"));
+  for (int round = 0; round < 20; ++round) {
+    const std::string record = directory.path(std::to_string(round));
+    Process process({.arguments = {"-c", "exec " LOCKSTEP_BINARY_DIR "/lockstep run " + tree +
+                                             " --max-ticks 2 --view none --record " + record +
+                                             " >&" + stuck.number()},
+                     .program = "/bin/sh"});
+    while (!std::filesystem::exists(record) || !contains(read_file(record), "max_ticks")) {
+      sched_yield();
+    }
+    process.signal(SIGINT);
+    CHECK(process.finish().code == 124);
   }
 }
 

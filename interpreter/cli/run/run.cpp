@@ -201,10 +201,10 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     standstills_.append_to(summary.notes);
     watch_.add_to(summary);
     if (const std::string lost = lost_messages(); !lost.empty()) summary.notes.push_back(lost);
-    if (options_.json) return write_results(to_json(summary) + "\n");
+    if (options_.json) return write_results(to_json(summary) + "\n", summary.signal);
     std::string text;
     write_text(summary, text, wants_color(results_file()));
-    return write_results(text);
+    return write_results(text, summary.signal);
   }
 
   const RunCommandOptions& options_;

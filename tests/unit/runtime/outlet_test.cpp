@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -178,6 +179,20 @@ TEST_CASE("outlet: the reader who comes back is told what a full disk has cost")
   CHECK(pipe.read_to("three\n") ==
         "lockstep: warning: 2 lines are lost here: No space left on device\nthree\n");
   close(file);
+}
+
+TEST_CASE("write_all waits until it is to give up, and then not at all") {
+  const auto always = [] { return true; };
+  OnePage pipe;
+  CHECK(write_all(pipe.file(), line_of(kPage), always));
+  CHECK_FALSE(write_all(pipe.file(), "more", always));
+  CHECK(errno == EINTR);
+  CHECK(pipe.read_to("x\n") == line_of(kPage));
+  CHECK(pipe.is_empty());
+  pipe.stop_reading();
+  signal(SIGPIPE, SIG_IGN);
+  CHECK_FALSE(write_all(pipe.file(), "more", always));
+  CHECK(errno == EPIPE);
 }
 
 TEST_CASE("write_now never waits") {
