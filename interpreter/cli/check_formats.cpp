@@ -74,10 +74,12 @@ std::string uri_of(const std::string& path) {
 // SARIF counts characters, we count bytes; nothing where the line is not known so far.
 std::optional<std::size_t> column_in_characters(const Diagnostic& message) {
   const std::size_t before = message.location.column - std::size_t{1};
-  if (message.location.column == 0 || before > message.excerpt.size()) return std::nullopt;
+  if (message.location.column == 0 || message.excerpt.column != 1 ||
+      before > message.excerpt.text.size())
+    return std::nullopt;
   std::size_t characters = 1;
   for (std::size_t at = 0; at < before; ++characters) {
-    at += std::max<std::size_t>(utf8_length(std::string_view(message.excerpt).substr(at)), 1);
+    at += std::max<std::size_t>(utf8_length(std::string_view(message.excerpt.text).substr(at)), 1);
   }
   return characters;
 }

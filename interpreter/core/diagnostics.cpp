@@ -99,7 +99,7 @@ void Diagnostics::count_one(Severity severity) {
 }
 
 void Diagnostics::error(SourceLocation location, std::string message, std::string hint,
-                        std::string excerpt) {
+                        Excerpt excerpt) {
   add({Severity::Error, std::move(location), std::move(message), std::move(hint),
        std::move(excerpt)});
 }
@@ -146,12 +146,15 @@ std::string render(const Diagnostic& diagnostic, bool color) {
   auto text = fmt::format("{}{} {}\n", paint("1", place(location)),
                           paint(color_of(severity), fmt::format("{}:", to_string(severity))),
                           printable(message));
-  if (!excerpt.empty()) {
-    text += fmt::format("  {}\n", visible(excerpt, Tabs::Kept));
-    // A column beyond the excerpt: the line was cut before it.
-    if (location.column > 0 && location.column <= excerpt.size() + 1) {
-      const auto before = std::string_view(excerpt).substr(0, location.column - 1);
-      text += fmt::format("  {}{}\n", caret_padding(before), paint("1;32", "^"));
+  if (!excerpt.text.empty()) {
+    const std::string_view mark = excerpt.column > 1 ? "..." : "";  // for what comes before it
+    text += fmt::format("  {}{}\n", mark, visible(excerpt.text, Tabs::Kept));
+    if (location.column >= excerpt.column &&
+        location.column - excerpt.column <= excerpt.text.size()) {
+      const auto before =
+          std::string_view(excerpt.text).substr(0, location.column - excerpt.column);
+      text +=
+          fmt::format("  {:{}}{}{}\n", "", mark.size(), caret_padding(before), paint("1;32", "^"));
     }
   }
   if (!hint.empty()) text += fmt::format("  {} {}\n", paint("1", "hint:"), printable(hint));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -20,12 +21,20 @@ struct SourceLocation {
 
 enum class Severity : std::uint8_t { Error, Warning, Note };
 
+// A source line, or of a long one the part around the place that is meant.
+struct Excerpt {
+  std::string text = {};
+  std::uint32_t column = 1;  // of its first byte
+
+  friend auto operator<=>(const Excerpt&, const Excerpt&) = default;
+};
+
 struct Diagnostic {
   Severity severity = Severity::Error;
   SourceLocation location;
   std::string message;  // lower case, no full stop, names in single quotes
   std::string hint;     // what to do, or ""
-  std::string excerpt;  // the source line, or ""
+  Excerpt excerpt;      // no text: there is none
 };
 
 class Diagnostics {
@@ -35,7 +44,7 @@ class Diagnostics {
 
   void add(Diagnostic diagnostic);
   void error(SourceLocation location, std::string message, std::string hint = {},
-             std::string excerpt = {});
+             Excerpt excerpt = {});
 
   bool has_errors() const;
   // No further one of that severity is kept, so that it need not be worded: count_one() is enough.

@@ -19,7 +19,7 @@ struct Document::Implementation {
   void report(XmlFault fault, Diagnostics& diagnostics) const {
     const auto location = source->locate(source->place_of(fault.offset));
     diagnostics.error(location, std::move(fault.message), std::move(fault.hint),
-                      source->excerpt(location.line));
+                      source->excerpt(location.line, location.column));
   }
 
   bool check(Diagnostics& diagnostics);

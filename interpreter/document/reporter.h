@@ -52,7 +52,7 @@ class Reporter {
  private:
   void add(const Source& source, SourceLocation location, std::string message, std::string hint,
            Severity severity) const {
-    std::string excerpt = source.excerpt(location.line);
+    Excerpt excerpt = source.excerpt(location.line, location.column);
     diagnostics_.add(
         {severity, std::move(location), std::move(message), std::move(hint), std::move(excerpt)});
   }

@@ -41,8 +41,17 @@ SourceLocation Source::locate_value(Place attribute, std::size_t byte) const {
   return at(begin + raw_offset(raw, byte));
 }
 
-std::string Source::excerpt(std::uint32_t line) const {
-  return std::string(utf8_front(lines().line(line), kExcerptBytes));
+Excerpt Source::excerpt(std::uint32_t line, std::uint32_t column) const {
+  std::string_view text = lines().line(line);
+  // A place within the first part needs nothing before it to be left out.
+  constexpr std::size_t kBefore = 100;
+  std::size_t begin = 0;
+  if (text.size() > kExcerptBytes && column > kExcerptBytes - kBefore / 2) {
+    begin = std::min<std::size_t>(column - 1, text.size()) - kBefore;
+    while (begin > 0 && (static_cast<unsigned char>(text[begin]) & 0xC0u) == 0x80) --begin;
+  }
+  text.remove_prefix(begin);
+  return {std::string(utf8_front(text, kExcerptBytes)), static_cast<std::uint32_t>(begin + 1)};
 }
 
 const Source& Sources::of(Place place) const {

@@ -35,8 +35,8 @@ class Source {
   // Inside the quotes of the attribute whose name is at `attribute`, at byte `byte` of its value as
   // it was read from the text.
   SourceLocation locate_value(Place attribute, std::size_t byte = 0) const;
-  // The whole line without its line end; cut to 200 bytes.
-  std::string excerpt(std::uint32_t line) const;
+  // The line of a place without its line end; of a longer one 200 bytes with the place in them.
+  Excerpt excerpt(std::uint32_t line, std::uint32_t column = 1) const;
 
  private:
   const LineIndex& lines() const;

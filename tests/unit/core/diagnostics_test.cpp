@@ -8,7 +8,7 @@ namespace {
 
 Diagnostic error(SourceLocation location, std::string excerpt, std::string hint = {}) {
   return {Severity::Error, std::move(location), "unknown node 'Sequnce'", std::move(hint),
-          std::move(excerpt)};
+          Excerpt{std::move(excerpt)}};
 }
 
 std::vector<std::string> messages(const Diagnostics& diagnostics) {
@@ -55,6 +55,14 @@ TEST_CASE("the caret stands below its character") {
           "f:1:" + std::to_string(row.column) + ": error: unknown node 'Sequnce'\n  " + row.shown +
               "\n  " + row.caret + "\n");
   }
+}
+
+TEST_CASE("of a long line the part around the column is shown, and that something is before it") {
+  Diagnostic diagnostic = error({"f", 1, 103}, "<Sequnce/>");
+  diagnostic.excerpt.column = 101;
+  CHECK(render(diagnostic, false) ==
+        "f:1:103: error: unknown node 'Sequnce'\n  ...<Sequnce/>\n     "
+        "  ^\n");
 }
 
 TEST_CASE("no caret where the line was cut before the column") {

@@ -112,7 +112,7 @@ TEST_CASE("an unknown argument is told at its exact place, with what is declared
   CHECK(told(loaded.diagnostics) ==
         Lines{"f:3:21: unknown argument 'sped'", "f:5:2: unknown argument ''"});
   CHECK(hints(loaded.diagnostics) == Lines{"did you mean 'speed'?", "declared: 'speed', 'b'"});
-  CHECK(loaded.diagnostics.all()[0].excerpt == "<N x='&lt;é${speed}${sped}'");
+  CHECK(loaded.diagnostics.all()[0].excerpt.text == "<N x='&lt;é${speed}${sped}'");
 }
 
 TEST_CASE("of a value full of unknown arguments some are told, in good time") {

@@ -130,15 +130,19 @@ TEST_CASE("an attribute that is not there is not found") {
 TEST_CASE("the excerpt is the whole line") {
   const auto document = parse("<r>\r\n\t<a/> <b/>\r\n</r>");
   const Source& source = *document->source();
-  CHECK(source.excerpt(source.locate(document->elements()[2].place).line) == "\t<a/> <b/>");
-  CHECK(source.excerpt(3) == "</r>");
-  CHECK(source.excerpt(0).empty());
-  CHECK(source.excerpt(99).empty());
+  CHECK(source.excerpt(source.locate(document->elements()[2].place).line).text == "\t<a/> <b/>");
+  CHECK(source.excerpt(3).text == "</r>");
+  CHECK(source.excerpt(0).text.empty());
+  CHECK(source.excerpt(99).text.empty());
 }
 
 TEST_CASE("a long line is cut to 200 bytes, not inside of a character") {
   const auto document = parse("<r x='" + std::string(193, 'a') + "é'/>");
-  CHECK(document->source()->excerpt(1) == "<r x='" + std::string(193, 'a'));
+  CHECK(document->source()->excerpt(1).text == "<r x='" + std::string(193, 'a'));
+  CHECK(document->source()->excerpt(1, 140).column == 1);
+  const Excerpt far = document->source()->excerpt(1, 180);
+  CHECK(far.column == 80);
+  CHECK(far.text.size() <= 200);
 }
 
 TEST_CASE("a value that is set stays, and places stay where they are written") {

@@ -15,7 +15,7 @@ inline std::vector<std::string> told(Diagnostics diagnostics) {
   std::vector<std::string> lines;
   for (auto diagnostic : diagnostics.all()) {
     diagnostic.hint.clear();
-    diagnostic.excerpt.clear();
+    diagnostic.excerpt = {};
     auto line = render(diagnostic, false);
     line.pop_back();
     const std::string_view severity = "error: ";
