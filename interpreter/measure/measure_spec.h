@@ -1,43 +1,31 @@
-// The measures that a user can ask for by name, the same for a study and for a recording:
-// progress-distance, step-length, duration, predictability:NODE@P[=T]. Only the names: the numbers
-// come from synchronized_measure.h and predictability.h.
+// Measures as users write them: their names with their arguments, and the nodes that these name.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
+#include "measure/measure.h"
+
 namespace lockstep {
-
-enum class MeasureKind : std::uint8_t {
-  ProgressDistance,  // of a synchronized node: the sum over its ticks
-  StepLength,        // of a synchronized node
-  Duration,          // of the run: seconds, a period for each tick
-  Predictability,    // of any node: ticks
-};
-
-struct MeasureSpec {
-  MeasureKind kind = MeasureKind::ProgressDistance;
-  std::string node;                // Predictability: a path, or the end of one
-  double progress = 0;             // Predictability: in [0, 1]
-  std::optional<double> expected;  // Predictability: the tick, from 0. None: the instant is told
-
-  friend bool operator==(const MeasureSpec&, const MeasureSpec&) = default;
-};
 
 // The measure that `text` names. Else nothing, and what is wrong with it in `error`.
 std::optional<MeasureSpec> parse_measure(std::string_view text, std::string& error);
 
 // As parse_measure reads it: "predictability:task@0.6=600".
-std::string to_text(const MeasureSpec& measure);
+std::string to_text(const MeasureSpec& spec);
 // For the axis of a plot: "duration (s)".
-std::string_view axis_label(MeasureKind kind);
+std::string axis_label(const MeasureSpec& spec);
+// What a measure is of, for people: "each parallel".
+std::string_view to_string(MeasureOf of);
+// "progress-distance[[K1:K2]], …, predictability:NODE@P[=T]": all that there are.
+std::string measure_usages();
 
-// The only path that is `node` or ends in "/" + `node`. Else nothing, and why in `error`.
-std::optional<std::size_t> find_path(std::span<const std::string> paths, std::string_view node,
-                                     std::string& error);
+// The only path that is `name` or ends in "/" + `name`. Else nothing, and why in `error`; `what` is
+// what the paths are of.
+std::optional<std::size_t> find_path(std::span<const std::string> paths, std::string_view name,
+                                     std::string& error, std::string_view what = "node");
 // "arm" of "Main/pull/arm".
 std::string last_segment(std::string_view path);
 

@@ -2,23 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "core/value.h"
 
 namespace lockstep {
 namespace {
 
 constexpr double kEqualGap = 1e-9;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-double mean_of(std::span<const double> values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-double median_of(std::span<const double> sorted) {
-  const std::size_t half = sorted.size() / 2;
-  if (sorted.size() % 2 == 1) return sorted[half];
-  return sorted[half - 1] + (sorted[half] - sorted[half - 1]) / 2;
-}
 
 }  // namespace
 
@@ -35,11 +25,12 @@ bool NearestInstant::reached() const {
   return least_ <= target_ + kEqualGap && most_ >= target_ - kEqualGap;
 }
 
-void Predictability::after_tick(std::uint64_t tick, double progress, bool ticked, Status status) {
-  nearest_.sample(static_cast<double>(tick), progress);
-  ticks_ = static_cast<double>(tick + 1);
-  ticked_ |= ticked;
-  succeeded_ = status == Status::Success;
+void Predictability::after_tick(const TickView& view) {
+  const NodeTick& node = view.nodes[place_];
+  nearest_.sample(static_cast<double>(view.tick), node.progress);
+  ticks_ = static_cast<double>(view.tick + 1);
+  ticked_ |= node.ticked;
+  succeeded_ = node.status == Status::Success;
 }
 
 NearestInstant Predictability::nearest() const {
@@ -48,33 +39,81 @@ NearestInstant Predictability::nearest() const {
   return nearest;
 }
 
-double Predictability::value() const {
+double Predictability::value(const EndView&) const {
   const NearestInstant it = nearest();
-  return ticked_ && it.reached() ? it.time() - expected_ : kNone;
+  return ticked_ && it.reached() ? it.time() - expected_ : kNoValue;
 }
 
 double Predictability::gap() const {
-  if (!ticked_) return kNone;
+  if (!ticked_) return kNoValue;
   const double gap = nearest().gap();
   return gap <= kEqualGap ? 0 : gap;
 }
 
-double predictability_distance(std::span<const double> times, double expected) {
-  return mean_of(times) - expected;
+namespace {
+
+// Of the numbers of a spec: P, and T where it is given.
+double expected_of(const MeasureSpec& spec) {
+  return spec.numbers.size() > 1 ? spec.numbers[1] : 0;
 }
 
-SampleSummary summarize(std::vector<double> values) {
-  if (values.empty()) return {};
-  std::sort(values.begin(), values.end());
-  const std::span<const double> sorted = values;
-  const std::size_t half = std::max<std::size_t>(sorted.size() / 2, 1);
-  return {.count = sorted.size(),
-          .min = sorted.front(),
-          .q1 = median_of(sorted.first(half)),
-          .median = median_of(sorted),
-          .q3 = median_of(sorted.last(half)),
-          .max = sorted.back(),
-          .mean = mean_of(sorted)};
+// ":NODE@P[=T]". A path may hold '@' and '=', so P is what follows the last '@'.
+std::string parse_predictability(std::string_view argument, MeasureSpec& spec) {
+  const auto at = argument.rfind('@');
+  if (!argument.starts_with(':') || at == std::string_view::npos || at == 1) {
+    return "expected 'predictability:NODE@P' or 'predictability:NODE@P=T'";
+  }
+  const auto equals = std::min(argument.find('=', at), argument.size());
+  const std::string progress_text(argument.substr(at + 1, equals - at - 1));
+  const auto progress = parse_double(progress_text);
+  if (!progress || *progress < 0 || *progress > 1) {
+    return "the progress after '@' is '" + progress_text + "', expected a number from 0 to 1";
+  }
+  spec.name = argument.substr(1, at - 1);
+  spec.numbers = {*progress};
+  spec.argument = ":" + spec.name + "@" + to_text(Value(*progress));
+  if (equals == argument.size()) return {};
+  const std::string expected_text(argument.substr(equals + 1));
+  const auto expected = parse_double(expected_text);
+  if (!expected || *expected < 0) {
+    return "the instant after '=' is '" + expected_text + "', expected a number of ticks from 0";
+  }
+  spec.numbers.push_back(*expected);
+  spec.argument += "=" + to_text(Value(*expected));
+  return {};
 }
+
+// A number of ticks, minus the expected one.
+bool is_instant(double value, const MeasureSpec& spec, const MeasuredRun& run) {
+  const double expected = expected_of(spec);
+  const double instant = std::round(value + expected);
+  return instant >= 0 && instant <= static_cast<double>(run.ticks) && instant - expected == value;
+}
+
+}  // namespace
+
+extern const Measure kPredictability{
+    .name = "predictability",
+    .argument = ":NODE@P[=T]",
+    .of = MeasureOf::Node,
+    .axis = "predictability distance",
+    .unit = "ticks",
+    .doc =
+        "the first tick, from 0, before which the node's progress was nearest to P; with T, the "
+        "same minus T, so that negative is early",
+    .has_gap = true,
+    .make = [](const MeasureSpec& spec,
+               const MeasureTarget& target) -> std::unique_ptr<Accumulator> {
+      return std::make_unique<Predictability>(target.place, spec.numbers[0], expected_of(spec));
+    },
+    .is_possible = is_instant,
+    .parse = parse_predictability,
+    .label =
+        [](const MeasureSpec& spec) {
+          const bool is_distance = spec.numbers.size() > 1;
+          const std::string what =
+              is_distance ? "predictability distance at " : "instant of progress ";
+          return what + to_text(Value(spec.numbers[0])) + " (ticks)";
+        }};
 
 }  // namespace lockstep

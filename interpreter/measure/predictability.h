@@ -1,14 +1,11 @@
 // The paper's predictability distance: how far from an expected time an action reaches a given
-// progress. Also the numbers that a box plot is drawn from. Used by studies.
+// progress.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <span>
-#include <vector>
 
-#include "core/status.h"
+#include "measure/measure.h"
 
 namespace lockstep {
 
@@ -34,44 +31,30 @@ class NearestInstant {
   double most_ = -std::numeric_limits<double>::infinity();
 };
 
-// Of one node in one run, in ticks.
-class Predictability {
+// Of one node, in ticks, which count from 0.
+class Predictability final : public Accumulator {
  public:
-  Predictability(double target, double expected) : target_(target), expected_(expected) {}
+  Predictability(std::size_t place, double target, double expected)
+      : place_(place), target_(target), expected_(expected) {}
 
-  // As new, for the next run.
-  void reset() { *this = Predictability(target_, expected_); }
-  // After each tick of the run, which count from 0: the progress before it, as the node's parent
-  // used it, whether it reached the node, and the node's status since.
-  void after_tick(std::uint64_t tick, double progress, bool ticked, Status status);
+  void reset() override { *this = Predictability(place_, target_, expected_); }
+  void after_tick(const TickView& view) override;
 
   // The instant minus the expected one; negative is early. What the node reached in the last tick
   // counts as if there were one more. NaN: its progress did not reach the target.
-  double value() const;
+  double value(const EndView&) const override;
   // How far from the target the progress was at that instant. NaN: no tick reached the node.
-  double gap() const;
+  double gap() const override;
 
  private:
   NearestInstant nearest() const;
 
+  std::size_t place_;
   double target_, expected_;
   NearestInstant nearest_{target_};
   double ticks_ = 0;
   bool ticked_ = false;
   bool succeeded_ = false;
 };
-
-// The mean over runs of the time of nearest progress, minus the expected time: negative is early.
-// `times` must not be empty.
-double predictability_distance(std::span<const double> times, double expected);
-
-struct SampleSummary {
-  std::size_t count = 0;
-  double min = 0, q1 = 0, median = 0, q3 = 0, max = 0, mean = 0;
-};
-
-// The quartiles are the medians of the lower and the upper half; the median belongs to neither half
-// when the count is odd. One value is its own quartiles; no values give zeros.
-SampleSummary summarize(std::vector<double> values);
 
 }  // namespace lockstep

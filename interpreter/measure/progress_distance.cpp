@@ -1,32 +1,15 @@
 #include "measure/progress_distance.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "core/value.h"
 
 namespace lockstep {
 
-namespace {
-
-// A study does this in every tick, and a few children are nearly sorted already.
-void copy_sorted(std::span<const double> from, std::span<double> to) {
-  constexpr std::size_t kFew = 16;
-  if (from.size() > kFew) {
-    std::copy(from.begin(), from.end(), to.begin());
-    std::sort(to.begin(), to.end());
-    return;
-  }
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    std::size_t at = i;
-    for (; at > 0 && to[at - 1] > from[i]; --at) to[at] = to[at - 1];
-    to[at] = from[i];
-  }
-}
-
-}  // namespace
-
 double progress_distance(std::span<const double> progress, std::span<double> scratch) {
   const auto sorted = scratch.first(progress.size());
-  copy_sorted(progress, sorted);
+  std::ranges::copy(progress, sorted.begin());
+  std::ranges::sort(sorted);
   // The gap between two neighbors is part of the distance of each pair that lies around it.
   double sum = 0;
   for (std::size_t i = 1; i < sorted.size(); ++i) {
@@ -35,34 +18,84 @@ double progress_distance(std::span<const double> progress, std::span<double> scr
   return sum;
 }
 
-double spread(std::span<const double> progress) {
-  if (progress.empty()) return 0;
-  const auto [least, most] = std::minmax_element(progress.begin(), progress.end());
-  return *most - *least;
-}
-
-void ProgressDistance::reset() {
-  has_last_ = running_ = false;
-  samples_ = 0;
-  sum_ = largest_spread_ = step_length_ = 0;
-}
-
-void ProgressDistance::sample(std::span<const double> progress) {
+void ProgressDistance::after_tick(const TickView& view) {
+  const SynchronizedTick& tick = view.parallels[place_];
+  if (!tick.ticked) return;
+  const std::uint64_t sample = seen_++;
+  if (sample < range_.first || sample > range_.last) return;
   ++samples_;
-  if (progress.empty()) return;
-  sum_ += progress_distance(progress, scratch_);
-  largest_spread_ = std::max(largest_spread_, scratch_.back() - scratch_.front());  // sorted now
-  for (std::size_t child = 0; child < progress.size(); ++child) step(child, progress[child]);
-  has_last_ = true;
+  sum_ += progress_distance(tick.progress, scratch_);
 }
 
-void ProgressDistance::succeeded() {
-  for (std::size_t child = 0; child < last_.size(); ++child) step(child, 1.0);
+namespace {
+
+class ProgressDistanceMean final : public ProgressDistance {
+ public:
+  using ProgressDistance::ProgressDistance;
+  double value(const EndView&) const override { return samples() == 0 ? kNoValue : mean(); }
+};
+
+class ProgressDistanceSeconds final : public ProgressDistance {
+ public:
+  using ProgressDistance::ProgressDistance;
+  double value(const EndView& end) const override {
+    return samples() == 0 || end.rate == 0 ? kNoValue : sum() / end.rate;
+  }
+};
+
+// "[K1:K2]", or nothing.
+std::string parse_samples(std::string_view argument, MeasureSpec& spec) {
+  if (argument.empty()) return {};
+  const auto colon = argument.find(':');
+  if (argument.front() == '[' && argument.back() == ']' && colon != std::string_view::npos) {
+    const auto first = parse_int(argument.substr(1, colon - 1));
+    const auto last = parse_int(argument.substr(colon + 1, argument.size() - colon - 2));
+    if (first && last && *first >= 0 && *first <= *last) {
+      spec.numbers = {static_cast<double>(*first), static_cast<double>(*last)};
+      spec.argument = "[" + std::to_string(*first) + ":" + std::to_string(*last) + "]";
+      return {};
+    }
+  }
+  return "expected 'progress-distance[K1:K2]', with whole numbers from 0 and K1 no more than K2";
 }
 
-void ProgressDistance::step(std::size_t child, double progress) {
-  if (has_last_) step_length_ = std::max(step_length_, std::abs(progress - last_[child]));
-  last_[child] = progress;
+std::unique_ptr<Accumulator> make_distance(const MeasureSpec& spec, const MeasureTarget& target) {
+  if (spec.numbers.empty()) return std::make_unique<ProgressDistance>(target);
+  const ProgressDistance::Samples samples{static_cast<std::uint64_t>(spec.numbers[0]),
+                                          static_cast<std::uint64_t>(spec.numbers[1])};
+  return std::make_unique<ProgressDistance>(target, samples);
 }
+
+}  // namespace
+
+extern const Measure kProgressDistance{
+    .name = "progress-distance",
+    .argument = "[[K1:K2]]",
+    .of = MeasureOf::Parallel,
+    .axis = "progress distance",
+    .doc =
+        "the sum, over its ticks and all pairs of its children, of how far their progress is "
+        "apart; taken before the children are ticked, completed children at 1. With `[K1:K2]` "
+        "only over its ticks K1 to K2, counted from 0",
+    .make = make_distance,
+    .is_possible = is_sum,
+    .parse = parse_samples};
+
+extern const Measure kProgressDistanceMean{
+    .name = "progress-distance-mean",
+    .of = MeasureOf::Parallel,
+    .axis = "progress distance per tick",
+    .doc = "the progress distance, divided by the ticks of the parallel",
+    .make = make_accumulator<ProgressDistanceMean>,
+    .is_possible = is_sum};
+
+extern const Measure kProgressDistanceSeconds{
+    .name = "progress-distance-seconds",
+    .of = MeasureOf::Parallel,
+    .axis = "progress distance",
+    .unit = "s",
+    .doc = "the progress distance times the period, so that it does not grow with the rate",
+    .make = make_accumulator<ProgressDistanceSeconds>,
+    .is_possible = is_sum};
 
 }  // namespace lockstep

@@ -1,7 +1,5 @@
 #include "measure/synchronized_measure.h"
 
-#include <algorithm>
-
 #include "engine/synchronized.h"
 
 namespace lockstep {
@@ -23,35 +21,39 @@ std::vector<NodeIndex> children_of(const Tree& tree, NodeIndex node) {
   return children;
 }
 
-void SynchronizedMeasure::reset() {
-  distance_.reset();
-  std::ranges::fill(held_, Held{});
-  last_ = Nanoseconds(0);
+SynchronizedMeasure::SynchronizedMeasure(std::size_t children)
+    : distance_({.children = children}), spread_({}), step_length_({.children = children}) {
+  for (std::size_t child = 0; child < children; ++child) {
+    held_.emplace_back(MeasureTarget{.child = child});
+  }
 }
 
 void SynchronizedMeasure::after_tick(const SynchronizedTick& tick) {
-  pass_time(tick.time);
-  distance_.after_tick(tick.ticked, tick.status, tick.progress);
-  for (std::size_t child = 0; child < held_.size(); ++child) {
-    Held& child_held = held_[child];
-    const bool held = tick.ticked && tick.held[child];
-    child_held.ticks += held;
-    child_held.now = held && tick.status == Status::Running;
-    if (!tick.ticked && tick.status == Status::Running) continue;
-    child_held.waits += held && !child_held.is_waiting;
-    child_held.is_waiting = child_held.now;
-  }
+  const TickView view{.parallels = {&tick, 1}};
+  distance_.after_tick(view);
+  spread_.after_tick(view);
+  step_length_.after_tick(view);
+  for (HeldChild& child : held_) child.after_tick(view);
 }
 
-void SynchronizedMeasure::pass_time(Nanoseconds time) {
-  for (Held& child : held_) {
-    if (child.now) child.time += time - last_;
-  }
-  last_ = time;
+void SynchronizedMeasure::run_ended(Nanoseconds time) {
+  for (HeldChild& child : held_) child.run_ended(time);
 }
 
 SynchronizedProbe::SynchronizedProbe(const Tree& tree, NodeIndex node)
-    : node_(node), children_(children_of(tree, node)), held_(children_.size()) {}
+    : node_(node), children_(children_of(tree, node)), held_(children_.size()) {
+  if (synchronization(tree.nodes[node]) == Synchronization::None) {
+    progress_.resize(children_.size());
+  }
+}
+
+// A node that does not run begins anew: none of its children has progress then.
+void SynchronizedProbe::before_tick(Ticker& ticker) {
+  const bool runs = ticker.status(node_) == Status::Running;
+  for (std::size_t child = 0; child < progress_.size(); ++child) {
+    progress_[child] = runs ? ticker.progress(children_[child]) : 0;
+  }
+}
 
 SynchronizedTick SynchronizedProbe::read(Ticker& ticker, Nanoseconds time) {
   SynchronizedTick tick;
@@ -63,10 +65,12 @@ SynchronizedTick SynchronizedProbe::read(Ticker& ticker, Nanoseconds time) {
     held_.set(child, ticker.status(node), ticker.ticked(node), ticker.held(node));
   }
   if (!tick.ticked) return tick;
+  tick.held = {held_.data(), children_.size()};
+  tick.progress = progress_;
+  if (!progress_.empty()) return tick;
   if (succeeded(ticker, node_)) tick.status = Status::Success;
   tick.limit = limit(ticker, node_);
   tick.progress = child_progress(ticker, node_);
-  tick.held = {held_.data(), children_.size()};
   return tick;
 }
 

@@ -1,5 +1,5 @@
-// What is measured of one synchronized node over a run: its progress distance, and how long each
-// child was held. Fed once per tick of the run, from a Ticker or from a recording.
+// The measures of one synchronized node that the summary of a run and `lockstep log info` report,
+// and how a Ticker's ticks of one parallel are read.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "core/clock.h"
 #include "engine/tree.h"
+#include "measure/held.h"
 #include "measure/progress_distance.h"
+#include "measure/spread.h"
+#include "measure/step_length.h"
 
 namespace lockstep {
 
@@ -18,17 +20,6 @@ class Ticker;
 // The nodes of the tree that keep their children in step, in pre-order.
 std::vector<NodeIndex> synchronized_nodes(const Tree& tree);
 std::vector<NodeIndex> children_of(const Tree& tree, NodeIndex node);
-
-// Of one node, after a tick of the run.
-struct SynchronizedTick {
-  Nanoseconds time{0};           // when the tick of the run began, since the run began
-  bool ticked = false;           // did the tick reach the node? If not, only the time counts.
-  Status status = Status::Idle;  // Success also when an ancestor has ended the node since
-  double limit = 0;              // that counted: engine/synchronized.h
-  std::span<const double> progress = {};  // of each child, as the node used it in this tick
-  // Of each child: it was running and did not get this tick. It may have been halted since.
-  std::span<const bool> held = {};
-};
 
 // Tells from the states after each tick which children their node held in it.
 class HeldChildren {
@@ -50,36 +41,29 @@ class HeldChildren {
 
 class SynchronizedMeasure {
  public:
-  explicit SynchronizedMeasure(std::size_t children) : distance_(children), held_(children) {}
+  explicit SynchronizedMeasure(std::size_t children);
 
-  // As new, for the next run. No allocation.
-  void reset();
   void after_tick(const SynchronizedTick& tick);
-  void run_ended(Nanoseconds time) { pass_time(time); }
+  void run_ended(Nanoseconds time);
 
-  struct Held {
-    bool now = false;
-    Nanoseconds time{0};  // from a tick in which it is held to the next, or to the end of the run
-    std::uint64_t ticks = 0;
-    std::uint64_t waits = 0;  // ticks in a row of the node are one
-    bool is_waiting = false;  // also while the node itself is held
-  };
   const ProgressDistance& distance() const { return distance_; }
-  // Only what this node withheld: while the node itself is held, its children are not counted.
-  std::span<const Held> held() const { return held_; }
+  double largest_spread() const { return spread_.value({}); }
+  double step_length() const { return step_length_.value({}); }
+  std::span<const HeldChild> held() const { return held_; }
 
  private:
-  void pass_time(Nanoseconds time);
-
   ProgressDistance distance_;
-  std::vector<Held> held_;
-  Nanoseconds last_{0};
+  Spread spread_;
+  StepLength step_length_;
+  std::vector<HeldChild> held_;
 };
 
-// Reads the ticks of one node from a Ticker. No allocation after it is made.
+// Reads the ticks of one parallel from a Ticker. No allocation after it is made.
 class SynchronizedProbe {
  public:
   SynchronizedProbe(const Tree& tree, NodeIndex node);
+  // A parallel that does not synchronize keeps no progress of its children: it is asked for here.
+  void before_tick(Ticker& ticker);
   // Valid until the next call.
   SynchronizedTick read(Ticker& ticker, Nanoseconds time);
 
@@ -90,6 +74,7 @@ class SynchronizedProbe {
   NodeIndex node_;
   std::vector<NodeIndex> children_;
   HeldChildren held_;
+  std::vector<double> progress_;  // only where the node does not synchronize
 };
 
 }  // namespace lockstep

@@ -25,10 +25,7 @@ constexpr char kColor[] = "rgb '#0072b2'";
 std::string measure_label(const std::string& text) {
   std::string error;
   const auto measure = parse_measure(text, error);
-  if (!measure) return text;
-  if (measure->kind != MeasureKind::Predictability) return std::string(axis_label(measure->kind));
-  if (!measure->expected) return fmt::format("instant of progress {} (ticks)", measure->progress);
-  return fmt::format("predictability distance at {} (ticks)", measure->progress);
+  return measure ? axis_label(*measure) : text;
 }
 
 // What the plot is of, beside the grid name along x.

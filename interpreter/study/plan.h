@@ -25,7 +25,7 @@ struct GridAxis {
 struct StudyColumn {
   std::string measure;  // as --measure spells it
   std::string node;     // the path of the node, or the tree's id for what is of the whole run
-  // Of the predictability in the column before: how far from its target the progress was.
+  // Of the column before: how far from what was asked for the run stayed.
   bool is_gap = false;
   std::vector<std::uint64_t> cells = {};  // in which the tree has the node; empty: in all
 

@@ -67,10 +67,12 @@ bool is_rising(const std::vector<std::uint64_t>& numbers, std::uint64_t end) {
 }
 
 bool has_gap(const StudyColumn& column) {
-  return column.measure.starts_with("predictability") && !column.is_gap;
+  std::string unheard;
+  const auto spec = parse_measure(column.measure, unheard);
+  return spec && spec->measure->has_gap && !column.is_gap;
 }
 
-// A gap follows its predictability, and nothing else does.
+// A gap follows the value that it is of, and nothing else does.
 bool may_follow(const StudyColumn& before, const StudyColumn& column) {
   return has_gap(before) ? column.is_gap && column.measure == before.measure &&
                                column.node == before.node && column.cells == before.cells

@@ -3,20 +3,10 @@
 #include <cmath>
 
 namespace lockstep {
-namespace {
-
-// A number of ticks, minus the expected one.
-bool is_instant(double value, double expected, std::uint64_t ticks) {
-  const double instant = std::round(value + expected);
-  return instant >= 0 && instant <= static_cast<double>(ticks) && instant - expected == value;
-}
-
-}  // namespace
-
 RowRules::RowRules(const StudyPlan& plan) : plan_(plan), there_(plan.columns.size()) {
   std::string unheard;  // a plan that was checked has no other measures
   for (const StudyColumn& column : plan.columns) {
-    measures_.push_back(parse_measure(column.measure, unheard).value_or(MeasureSpec{}));
+    measures_.push_back(parse_measure(column.measure, unheard).value());
   }
 }
 
@@ -27,20 +17,12 @@ void RowRules::enter(std::uint64_t cell) {
   }
 }
 
-bool RowRules::allow_value(std::size_t column, double value, std::uint64_t ticks) const {
+bool RowRules::allow_value(std::size_t column, double value, const RowResult& row) const {
   if (plan_.columns[column].is_gap) return value >= 0 && value <= 1;
-  const MeasureSpec& measure = measures_[column];
-  switch (measure.kind) {
-    case MeasureKind::ProgressDistance:
-      return value >= 0 && std::isfinite(value);
-    case MeasureKind::StepLength:
-      return value >= 0 && value <= 1;
-    case MeasureKind::Duration:
-      return value == static_cast<double>(ticks) / rate_;
-    case MeasureKind::Predictability:
-      return is_instant(value, measure.expected.value_or(0), ticks);
-  }
-  return false;
+  const MeasureSpec& spec = measures_[column];
+  const bool succeeded = row.result == StudyResult::Success;
+  return spec.measure->is_possible(value, spec,
+                                   {.ticks = row.ticks, .rate = rate_, .succeeded = succeeded});
 }
 
 bool RowRules::allow(std::size_t column, const RowResult& row) const {
@@ -49,7 +31,7 @@ bool RowRules::allow(std::size_t column, const RowResult& row) const {
   // An instant that was reached is some way from its target.
   const bool has_gap = column + 1 < there_.size() && plan_.columns[column + 1].is_gap;
   if (has_gap && std::isnan(row.values[column + 1])) return false;
-  return there_[column] && allow_value(column, value, row.ticks);
+  return there_[column] && allow_value(column, value, row);
 }
 
 bool RowRules::allow(const RowResult& row) const {

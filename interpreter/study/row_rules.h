@@ -21,7 +21,7 @@ class RowRules {
 
  private:
   bool allow(std::size_t column, const RowResult& row) const;
-  bool allow_value(std::size_t column, double value, std::uint64_t ticks) const;
+  bool allow_value(std::size_t column, double value, const RowResult& row) const;
 
   const StudyPlan& plan_;
   std::vector<MeasureSpec> measures_;  // of each column

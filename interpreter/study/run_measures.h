@@ -2,15 +2,11 @@
 // column that the tree has in a study.
 #pragma once
 
-#include <limits>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "measure/measure_spec.h"
-#include "measure/predictability.h"
-#include "measure/progress_distance.h"
+#include "measure/live_ticks.h"
 #include "runtime/observer.h"
 #include "study/plan.h"
 
@@ -18,10 +14,10 @@ namespace lockstep {
 
 class RunMeasures final : public Observer {
  public:
-  // A predictability of a node that is not in the tree is told in error(), and has no column.
+  // `measures` must outlive this. What a measure names and the tree does not have is in error().
   RunMeasures(const Tree& tree, std::span<const MeasureSpec> measures, double rate);
 
-  const std::string& error() const { return error_; }
+  const std::string& error() const { return measuring_.error(); }
   const std::vector<StudyColumn>& columns() const { return columns_; }
   // Of the last run, in the order of columns(); NaN where it has no such number.
   std::span<const double> values() const { return values_; }
@@ -32,28 +28,10 @@ class RunMeasures final : public Observer {
   void run_ended(Ticker& ticker, const RunEnd& end) override;
 
  private:
-  struct Distance {
-    NodeIndex node;
-    ProgressDistance measure;
-    std::optional<std::size_t> sum, step_length;  // their columns
-  };
-  struct Instant {
-    NodeIndex node;
-    std::optional<NodeIndex> parent;  // if it is synchronized
-    std::size_t child;                // the node's place among the parent's children
-    Predictability measure;
-    std::size_t column;  // the gap has the next
-    double seen = 0;     // before the tick
-  };
-  std::size_t add_column(const MeasureSpec& measure, std::string node);
-  void add_distances(const Tree& tree, const MeasureSpec& measure);
-  void add_instant(const Tree& tree, const MeasureSpec& measure);
-
+  Measuring measuring_;
+  LiveTicks ticks_;
   double rate_;
-  std::vector<Distance> distances_;
-  std::vector<Instant> instants_;
-  std::vector<std::size_t> durations_;  // their columns
-  std::string error_;
+  Nanoseconds last_{0};  // tick of the run
   std::vector<StudyColumn> columns_;
   std::vector<double> values_;
 };

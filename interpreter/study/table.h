@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "measure/predictability.h"
 #include "study/plan.h"
 #include "study/results.h"
+#include "study/sample_summary.h"
 
 namespace lockstep {
 
@@ -18,8 +18,7 @@ struct SummaryRow {
   std::string measure;            // as to_text(MeasureSpec) writes it
   SampleSummary summary;  // of the runs that have a value; without any only count, 0, counts
   ResultCounts results;   // of all runs of the cell
-  // Of a predictability: how far from its target the progress was at its nearest, the median of the
-  // runs that ticked the node.
+  // Of a measure that has one, as a predictability: the median over the runs.
   std::optional<double> gap;
 
   // Whatever the instants say, they are not those of the target.

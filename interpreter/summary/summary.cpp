@@ -132,12 +132,13 @@ SynchronizedSummary summarize(const SynchronizedMeasure& measure, std::string pa
                               .samples = distance.samples(),
                               .distance_sum = distance.sum(),
                               .distance_mean = distance.mean(),
-                              .largest_spread = distance.largest_spread(),
-                              .step_length = distance.step_length(),
+                              .largest_spread = measure.largest_spread(),
+                              .step_length = measure.step_length(),
                               .children = {}};
   for (std::size_t child = 0; child < children.size(); ++child) {
     const auto& held = measure.held()[child];
-    summary.children.push_back({children[child], to_seconds(held.time), held.ticks, held.waits});
+    summary.children.push_back(
+        {children[child], to_seconds(held.time()), held.ticks(), held.pauses()});
   }
   return summary;
 }

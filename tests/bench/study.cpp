@@ -7,6 +7,7 @@
 
 #include "definition/resolve.h"
 #include "engine/compile.h"
+#include "measure/measure_spec.h"
 #include "plugin/plugin_set.h"
 #include "study/workers.h"
 
@@ -39,10 +40,11 @@ class Example5 {
 
  private:
   PluginSet plugins_;
+  std::string unheard_;
 
  public:
   StudyCell cell;
-  std::vector<MeasureSpec> measures{MeasureSpec{}};
+  std::vector<MeasureSpec> measures{parse_measure("progress-distance", unheard_).value()};
 };
 
 // Time per tick of the tree.

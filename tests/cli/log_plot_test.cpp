@@ -117,7 +117,14 @@ TEST_CASE("log measure tells which name it does not know") {
   const TemporaryDirectory directory;
   const std::string recording = record(directory, kA1);
   const std::pair<std::string, std::string> wrong[] = {
-      {"speed", "unknown measure 'speed', expected progress-distance, "},
+      {"speed", "unknown measure 'speed', did you mean 'spread'?"},
+      {"color", "unknown measure 'color', there are: progress-distance[[K1:K2]], "},
+      {"progress-distance:x", "expected 'progress-distance[K1:K2]', with whole numbers"},
+      {"progress-distance[3:2]", "expected 'progress-distance[K1:K2]', with whole numbers"},
+      {"held", "expected 'held:NODE'"},
+      {"held:pull", "'Main/pull' is not a child of a synchronized node, so nobody holds it"},
+      {"pauses:arn", "no node 'arn', did you mean 'arm'?"},
+      {"entry:lap", "no entry 'lap'"},
       {"duration:x", "expected nothing after 'duration'"},
       {"predictability", "expected 'predictability:NODE@P'"},
       {"predictability:@0.5", "expected 'predictability:NODE@P'"},

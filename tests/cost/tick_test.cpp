@@ -19,10 +19,12 @@
 
 #include "definition/resolve.h"
 #include "engine/compile.h"
+#include "measure/measure_spec.h"
 #include "plugin/plugin_set.h"
 #include "recording/write/recorder.h"
 #include "runtime/loop.h"
 #include "runtime/run.h"
+#include "study/run_measures.h"
 #include "summary/statistics.h"
 #include "support/paths.h"
 
@@ -75,16 +77,27 @@ constexpr const char* kTree = R"(
   <BehaviorTree ID="Part"><RunOnce><AlwaysSuccess/></RunOnce></BehaviorTree>
 </root>)";
 
+constexpr const char* kMeasuredTree = R"(
+<root lockstep="1" main_tree_to_execute="Main">
+  <BehaviorTree ID="Main">
+    <Parallel>
+      <ParallelRelative delta="1e-8"><Advance name="a" step="1e-9"/><Advance name="b" step="9e-9"/></ParallelRelative>
+      <SubTree ID="Rest" seconds="1e6"/>
+    </Parallel>
+  </BehaviorTree>
+  <BehaviorTree ID="Rest"><Wait seconds="{seconds}"/></BehaviorTree>
+</root>)";
+
 class TickingTree {
  public:
-  TickingTree() {
+  explicit TickingTree(const char* text = kTree) {
     Diagnostics diagnostics;
     REQUIRE(plugins_.load_file(LOCKSTEP_BINARY_DIR "/plugins/motion.so", diagnostics));
     REQUIRE(plugins_.initialize(diagnostics));
     Catalog catalog;
     for (const NodeKind* kind : built_in_kinds()) catalog.add(&kind->type);
     for (const NodeType* type : plugins_.types()) catalog.add(type);
-    const auto project = load_project_text("cost.xml", kTree, {}, diagnostics);
+    const auto project = load_project_text("cost.xml", text, {}, diagnostics);
     const auto definition = resolve(*project, catalog, {}, diagnostics);
     for (const Diagnostic& it : diagnostics.all()) UNSCOPED_INFO(it.message);
     REQUIRE(definition);
@@ -171,6 +184,43 @@ TEST_CASE("the counters count") {
   pthread_mutex_unlock(&mutex);
   CHECK(g_allocations == 2);
   CHECK(g_locks == 1);
+}
+
+TEST_CASE("measuring the runs of a study allocates nothing and locks nothing") {
+  const TickingTree tree(kMeasuredTree);
+  std::vector<MeasureSpec> measures;
+  std::string error;
+  for (const char* text :
+       {"progress-distance[2:5]", "progress-distance-mean", "progress-distance-seconds", "spread",
+        "step-length", "held:b", "pauses:b", "duration", "ticks", "success", "predictability:b@0.5",
+        "entry:seconds"}) {
+    measures.push_back(parse_measure(text, error).value());
+  }
+  REQUIRE(measures.size() == all_measures().size());
+  RunMeasures measured(tree.tree(), measures, 100);
+  REQUIRE(measured.error() == "");
+  Run run(tree.tree(), {});
+  RunEnd end;
+  end.ticks = 1000;
+  std::uint64_t tick = 0;
+  const auto make_run = [&] {
+    measured.run_started(run.ticker(), {});
+    for (const std::uint64_t last = tick + 1000; tick < last; ++tick) {
+      const Nanoseconds now = deadline_of(tick, 100);
+      run.set_now(now);
+      measured.before_tick(run.ticker(), tick, now);
+      measured.after_tick(run.ticker(), {tick, now, run.tick(now)});
+    }
+    measured.run_ended(run.ticker(), end);
+  };
+  make_run();
+  g_allocations = g_locks = 0;
+  t_counting = true;
+  make_run();
+  t_counting = false;
+  CHECK(run.fault() == nullptr);
+  CHECK(g_allocations == 0);
+  CHECK(g_locks == 0);
 }
 
 namespace {

@@ -66,12 +66,12 @@ TEST_CASE("what is wrong in several cells is told for all of them") {
   for (const char* value : {"much", "more", "few"}) CHECK(contains(outcome.err, value));
 }
 
-TEST_CASE("a tree without a synchronized node has no progress distance") {
+TEST_CASE("a tree without a parallel has no progress distance") {
   const StudyCase it;
   const auto tree = it.file("tree.xml", tree_text("<Advance/>"));
   const Outcome outcome = it.study({tree, "--runs", "1"}, "out");
   CHECK(outcome.code == 2);
-  CHECK(contains(outcome.err, "no synchronized node"));
+  CHECK(contains(outcome.err, "the tree has no parallel"));
 }
 
 }  // namespace lockstep::test

@@ -7,6 +7,7 @@
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/log/log.h"
+#include "measure/measure_spec.h"
 #include "recording/use/recording_measures.h"
 
 namespace lockstep {
@@ -48,10 +49,9 @@ LogSubcommand define_log_measure(CLI::App& log) {
   CLI::App* app =
       log.add_subcommand("measure", "The measures of the run, by the names that a study uses");
   add_recording_file(*app, options->file);
-  app->add_option("--measure", options->measures,
-                  "progress-distance, step-length, duration or predictability:NODE@P[=T]: the tick "
-                  "at which NODE's progress is nearest to P, minus T; may be repeated. Default: "
-                  "the first three")
+  app->add_option(
+         "--measure", options->measures,
+         measure_usages() + "; may be repeated. Default: progress-distance, step-length, duration")
       ->type_name("NAME")
       ->allow_extra_args(false);
   app->add_flag("--json", options->json, "Print one line of JSON");

@@ -198,8 +198,7 @@ void define_runs(CLI::App& app, StudyOptions& options) {
       ->type_name("NAME=V1,V2,...")
       ->allow_extra_args(false);
   app.add_option("--measure", options.measures,
-                 "progress-distance (the default), step-length, duration or "
-                 "predictability:NODE@P[=T]; may be repeated")
+                 measure_usages() + "; may be repeated. Default: progress-distance")
       ->type_name("MEASURE")
       ->allow_extra_args(false);
   app.add_option("--rate", options.rate, "Ticks per second of the virtual clock")

@@ -250,7 +250,7 @@ int StudyLoader::load() {
   if (code != kExitSuccess) return code;
   if (diagnostics_.has_errors()) return kExitUsage;
   if (plan.columns.empty()) {
-    error("there is nothing to measure: the tree has no synchronized node",
+    error("there is nothing to measure: the tree has no parallel",
           "give --measure duration, or predictability:NODE@P");
     return kExitUsage;
   }

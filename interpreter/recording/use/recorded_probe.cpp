@@ -25,7 +25,10 @@ std::vector<std::vector<NodeIndex>> children_of(const RecordingHeader& header) {
 
 RecordedProbe::RecordedProbe(const RecordingHeader& header, NodeIndex node,
                              std::vector<NodeIndex> children)
-    : node_(node), children_(std::move(children)), held_(children_.size()) {
+    : node_(node),
+      children_(std::move(children)),
+      held_(children_.size()),
+      synchronizes_(header.nodes[node].synchronization != Synchronization::None) {
   for (const NodeIndex child : children_) names_.push_back(last_segment(header.nodes[child].path));
   progress_.resize(children_.size());
 }
@@ -33,9 +36,12 @@ RecordedProbe::RecordedProbe(const RecordingHeader& header, NodeIndex node,
 SynchronizedTick RecordedProbe::read(const RecordedTick& tick) {
   for (std::size_t child = 0; child < children_.size(); ++child) {
     const RecordedState& state = tick.nodes[children_[child]];
-    progress_[child] = state.progress;
+    // A parallel that does not synchronize is judged by what was there before its tick, and none of
+    // its children has progress when it begins anew.
+    progress_[child] = synchronizes_ || runs_ ? state.progress : 0;
     held_.set(child, state.status, state.ticked, state.held);
   }
+  runs_ = tick.nodes[node_].status == Status::Running;
   const bool succeeded = std::ranges::find(tick.succeeded, node_) != tick.succeeded.end();
   return {.time = from_seconds(tick.time),
           .ticked = tick.nodes[node_].ticked,

@@ -1,5 +1,5 @@
-// Reads the ticks of synchronized nodes from a recording, as SynchronizedProbe does from a Ticker.
-// Used by all that measures or draws recordings.
+// Reads the ticks of parallels from a recording, as SynchronizedProbe does from a Ticker. Used by
+// all that measures or draws recordings.
 #pragma once
 
 #include <string>
@@ -31,6 +31,8 @@ class RecordedProbe {
   std::vector<std::string> names_;
   std::vector<double> progress_;
   HeldChildren held_;
+  bool synchronizes_;
+  bool runs_ = false;  // after the last tick
 };
 
 // A synchronized node and what is measured of it.

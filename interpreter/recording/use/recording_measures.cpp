@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/diagnostics.h"
 #include "core/printable_json.h"
-#include "measure/predictability.h"
+#include "core/value.h"
+#include "measure/measuring.h"
 #include "recording/use/recorded_probe.h"
+#include "summary/summary.h"
 
 namespace lockstep {
 namespace {
@@ -21,93 +22,64 @@ std::string text_of(double value) {
   return std::isnan(value) ? "-" : fmt::format("{:.6g}", value);
 }
 
-std::vector<std::string> paths_of(const RecordingHeader& header) {
-  std::vector<std::string> paths;
-  for (const RecordedNode& node : header.nodes) paths.push_back(node.path);
-  return paths;
+MeasuredTree measured_tree(const RecordingHeader& header) {
+  MeasuredTree tree{.id = header.tree, .paths = {}, .nodes = {}, .entries = {}, .entry_types = {}};
+  for (const RecordedNode& node : header.nodes) {
+    tree.paths.push_back(node.path);
+    tree.nodes.push_back({node.parent.value_or(0), node.synchronization, node.kind});
+  }
+  for (const RecordedKey& entry : header.entries) {
+    tree.entries.push_back(entry.key);
+    tree.entry_types.push_back(entry.type);
+  }
+  return tree;
 }
 
-class Instant {
- public:
-  Instant(const MeasureSpec& measure, std::size_t node)
-      : node_(node), measure_(measure.progress, measure.expected.value_or(0)) {}
+// Of a bool 1 or 0.
+double number_of(const RecordedEntry& entry) {
+  const std::string text = entry.value.value_or("");
+  if (text == "true" || text == "false") return text == "true" ? 1 : 0;
+  return parse_double(text).value_or(kNoValue);
+}
 
-  void after_tick(const RecordedTick& tick) {
-    const RecordedState& state = tick.nodes[node_];
-    measure_.after_tick(tick.tick, state.progress, state.ticked, state.status);
+// What measures see of a recording.
+class RecordedTicks {
+ public:
+  RecordedTicks(const RecordingHeader& header, const Measuring& measuring)
+      : measuring_(measuring),
+        parallel_ticks_(measuring.parallels().size()),
+        node_ticks_(measuring.nodes().size()),
+        numbers_(header.entries.size(), kNoValue),
+        measured_numbers_(measuring.entries().size()) {
+    auto children = children_of(header);
+    for (const NodeIndex node : measuring.parallels()) {
+      parallels_.emplace_back(header, node, std::move(children[node]));
+    }
   }
-  MeasuredValue value(const RecordingHeader& header, const MeasureSpec& measure) const {
-    return {header.nodes[node_].path, measure, measure_.value(), measure_.gap()};
+
+  // Valid until the next call.
+  TickView read(const RecordedTick& tick) {
+    for (std::size_t i = 0; i < parallels_.size(); ++i) {
+      parallel_ticks_[i] = parallels_[i].read(tick);
+    }
+    for (std::size_t i = 0; i < node_ticks_.size(); ++i) {
+      const RecordedState& state = tick.nodes[measuring_.nodes()[i]];
+      node_ticks_[i] = {state.ticked, state.status, state.progress};
+    }
+    for (const RecordedEntry& entry : tick.entries) numbers_[entry.entry] = number_of(entry);
+    for (std::size_t i = 0; i < measured_numbers_.size(); ++i) {
+      measured_numbers_[i] = numbers_[measuring_.entries()[i]];
+    }
+    return {tick.tick, from_seconds(tick.time), parallel_ticks_, node_ticks_, measured_numbers_};
   }
 
  private:
-  std::size_t node_;
-  Predictability measure_;
-};
-
-// Feeds each tick to what was asked for.
-class Measuring {
- public:
-  // A node that is not there is told in `error`.
-  Measuring(const RecordingHeader& header, std::span<const MeasureSpec> measures,
-            std::string& error)
-      : header_(header), period_(period_of(header)), nodes_(measures_of(header)) {
-    const auto paths = paths_of(header);
-    for (const MeasureSpec& measure : measures) {
-      if (measure.kind != MeasureKind::Predictability) continue;
-      const auto node = find_path(paths, measure.node, error);
-      if (!node) return;
-      instants_.emplace_back(measure, *node);
-    }
-  }
-
-  void after_tick(const RecordedTick& tick) {
-    // A tick lasts until the next would begin, also the last.
-    duration_ = to_seconds(from_seconds(tick.time) + period_);
-    for (RecordedMeasure& node : nodes_) node.after_tick(tick);
-    for (Instant& instant : instants_) instant.after_tick(tick);
-  }
-
-  std::vector<MeasuredValue> values(std::span<const MeasureSpec> measures) {
-    std::vector<MeasuredValue> values;
-    auto instant = instants_.begin();
-    for (const MeasureSpec& measure : measures) {
-      switch (measure.kind) {
-        case MeasureKind::ProgressDistance:
-          add_of_nodes(measure, &ProgressDistance::sum, values);
-          break;
-        case MeasureKind::StepLength:
-          add_of_nodes(measure, &ProgressDistance::step_length, values);
-          break;
-        case MeasureKind::Duration:
-          values.push_back({header_.tree, measure, duration_, {}});
-          break;
-        case MeasureKind::Predictability:
-          values.push_back((instant++)->value(header_, measure));
-          break;
-      }
-    }
-    return values;
-  }
-
- private:
-  void add_of_nodes(const MeasureSpec& measure, double (ProgressDistance::*number)() const,
-                    std::vector<MeasuredValue>& values) const {
-    for (const RecordedMeasure& node : nodes_) {
-      const ProgressDistance& distance = node.measure.distance();
-      const bool reached = distance.samples() > 0;
-      values.push_back({header_.nodes[node.probe.node()].path,
-                        measure,
-                        reached ? (distance.*number)() : std::numeric_limits<double>::quiet_NaN(),
-                        {}});
-    }
-  }
-
-  const RecordingHeader& header_;
-  Nanoseconds period_;
-  std::vector<RecordedMeasure> nodes_;
-  std::vector<Instant> instants_;
-  double duration_ = 0;
+  const Measuring& measuring_;
+  std::vector<RecordedProbe> parallels_;
+  std::vector<SynchronizedTick> parallel_ticks_;
+  std::vector<NodeTick> node_ticks_;
+  std::vector<double> numbers_;  // of all entries
+  std::vector<double> measured_numbers_;
 };
 
 }  // namespace
@@ -115,17 +87,34 @@ class Measuring {
 std::vector<MeasuredValue> measure_recording(RecordingReader& reader,
                                              std::span<const MeasureSpec> measures,
                                              std::string& error) {
-  Measuring measuring(reader.header(), measures, error);
+  const RecordingHeader& header = reader.header();
+  Measuring measuring(measured_tree(header), measures);
+  error = measuring.error();
   if (!error.empty()) return {};
-  while (const auto tick = reader.next()) measuring.after_tick(*tick);
-  return measuring.values(measures);
+  RecordedTicks ticks(header, measuring);
+  EndView end{.rate = header.rate_hz, .real_time = header.clock != "virtual"};
+  while (const auto tick = reader.next()) {
+    const TickView view = ticks.read(*tick);
+    measuring.after_tick(view);
+    end.ticks = view.tick + 1;
+    end.last = view.time;
+  }
+  if (reader.end()) end.succeeded = reader.end()->result == to_string(RunResult::Success);
+  if (reader.end()) end.ticks = reader.end()->ticks;
+  std::vector<MeasuredValue> values;
+  for (std::size_t column = 0; column < measuring.columns().size(); ++column) {
+    const auto& [spec, node] = measuring.columns()[column];
+    values.push_back({node, spec, measuring.value(column, end), {}});
+    if (spec->measure->has_gap) values.back().gap = measuring.gap(column);
+  }
+  return values;
 }
 
 std::string to_json(std::span<const MeasuredValue> values) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const MeasuredValue& value : values) {
     json.push_back(
-        {{"node", value.node}, {"measure", to_text(value.measure)}, {"value", value.value}});
+        {{"node", value.node}, {"measure", to_text(*value.measure)}, {"value", value.value}});
     if (value.gap) json.back()["gap"] = *value.gap;
   }
   return printable_json(
@@ -138,7 +127,7 @@ std::string to_table(std::span<const MeasuredValue> values) {
       std::ranges::any_of(values, [](const auto& it) { return it.gap.has_value(); });
   std::vector<Row> rows = {{"node", "measure", "value", has_gaps ? "gap" : ""}};
   for (const MeasuredValue& value : values) {
-    rows.push_back({printable(value.node), printable(to_text(value.measure)), text_of(value.value),
+    rows.push_back({printable(value.node), printable(to_text(*value.measure)), text_of(value.value),
                     value.gap ? text_of(*value.gap) : ""});
   }
   std::array<std::size_t, 3> widths{};

@@ -13,14 +13,15 @@
 namespace lockstep {
 
 struct MeasuredValue {
-  std::string node;  // its path; of a duration, the tree
-  MeasureSpec measure;
+  std::string node;  // its path; the tree's id for what is of the run
+  const MeasureSpec* measure = nullptr;
   double value = 0;           // NaN: what it is of was not reached
-  std::optional<double> gap;  // of a predictability: see Predictability::gap()
+  std::optional<double> gap;  // where the measure has one
 };
 
-// One value for each measure; of those that are of a synchronized node, one for each such node.
-// Reads to the end; then look at reader.error(). `error`: a node that a measure names is not there.
+// One value for each measure, of which it keeps the address; of those that are of each parallel,
+// one for each of them. Reads to the end; then look at reader.error(). `error`: a node that a
+// measure names is not there.
 std::vector<MeasuredValue> measure_recording(RecordingReader& reader,
                                              std::span<const MeasureSpec> measures,
                                              std::string& error);

@@ -1,7 +1,11 @@
 #include "measure/progress_distance.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <string>
+
+#include "measure/spread.h"
+#include "measure/step_length.h"
 
 namespace lockstep {
 namespace {
@@ -62,50 +66,88 @@ const Trace kTraces[] = {
     {"R4", {{0, 0}, {.25, .5}, {.5, 1}, {.75, 1}}, 1.00, .5, .5},
 };
 
+// A parallel that is ticked and runs on, or ends with `status`.
+void sample(Accumulator& measure, const std::vector<double>& progress,
+            Status status = Status::Running) {
+  const SynchronizedTick tick{.ticked = true, .status = status, .progress = progress};
+  measure.after_tick({.parallels = {&tick, 1}});
+}
+
 TEST_CASE("progress distance of the worked traces") {
   for (const Trace& trace : kTraces) {
     INFO(trace.name);
-    ProgressDistance measured(2);
-    for (const auto& sample : trace.samples) measured.sample(sample);
+    ProgressDistance distance({.children = 2});
+    Spread spread({.children = 2});
+    StepLength step({.children = 2});
+    for (const auto& progress : trace.samples) {
+      for (Accumulator* it :
+           {static_cast<Accumulator*>(&distance), static_cast<Accumulator*>(&spread),
+            static_cast<Accumulator*>(&step)}) {
+        sample(*it, progress);
+      }
+    }
     const auto count = static_cast<double>(trace.samples.size());
-    CHECK(measured.samples() == trace.samples.size());
-    CHECK(measured.sum() == Approx(trace.sum));
-    CHECK(measured.mean() == Approx(trace.sum / count));
-    CHECK(measured.largest_spread() == Approx(trace.largest_spread));
-    CHECK(measured.step_length() == Approx(trace.step));
+    CHECK(distance.samples() == trace.samples.size());
+    CHECK(distance.value({}) == Approx(trace.sum));
+    CHECK(distance.mean() == Approx(trace.sum / count));
+    CHECK(spread.value({}) == Approx(trace.largest_spread));
+    CHECK(step.value({}) == Approx(trace.step));
   }
 }
 
-TEST_CASE("progress distance without samples is zero") {
-  const ProgressDistance measured(3);
-  CHECK(measured.samples() == 0);
-  CHECK(measured.mean() == 0);
+TEST_CASE("a parallel that no tick has reached has no measures") {
+  const MeasureTarget target{.children = 3};
+  const SynchronizedTick tick;
+  ProgressDistance distance(target);
+  Spread spread(target);
+  StepLength step(target);
+  for (Accumulator* it : {static_cast<Accumulator*>(&distance), static_cast<Accumulator*>(&spread),
+                          static_cast<Accumulator*>(&step)}) {
+    it->after_tick({.parallels = {&tick, 1}});
+    CHECK(std::isnan(it->value({})));
+    sample(*it, {0, 0, 1});
+    CHECK_FALSE(std::isnan(it->value({})));
+    it->reset();
+    CHECK(std::isnan(it->value({})));
+  }
+  CHECK(distance.mean() == 0);
+}
+
+TEST_CASE("progress distance of some samples only") {
+  const auto measured = [](std::uint64_t first, std::uint64_t last) {
+    ProgressDistance distance({.children = 2}, {first, last});
+    for (const auto& progress : kTraces[0].samples) sample(distance, progress);
+    return distance.value({});
+  };
+  CHECK(measured(0, 9) == Approx(2.10));
+  CHECK(measured(1, 2) == Approx(0.2 + 0.4));
+  CHECK(measured(9, 9) == Approx(0.1));
+  CHECK(measured(8, 20) == Approx(0.2 + 0.1));
+  CHECK(std::isnan(measured(10, 20)));
 }
 
 TEST_CASE("no step leads from one activation to the next") {
-  ProgressDistance measured(1);
-  measured.sample(std::vector{0.0});
-  measured.sample(std::vector{0.9});
-  measured.begin_activation();
-  measured.sample(std::vector{0.0});
-  CHECK(measured.step_length() == Approx(0.9));
-  measured.sample(std::vector{0.05});
-  CHECK(measured.step_length() == Approx(0.9));
+  StepLength step({.children = 1});
+  sample(step, {0.0});
+  CHECK(step.value({}) == 0);
+  sample(step, {0.9}, Status::Failure);
+  sample(step, {0.0});
+  CHECK(step.value({}) == Approx(0.9));
+  sample(step, {0.05});
+  CHECK(step.value({}) == Approx(0.9));
 }
 
 TEST_CASE("the last step of a node that succeeds leads to 1") {
-  ProgressDistance measured(2);
-  measured.sample(std::vector{0.2, 1.0});
-  measured.succeeded();
-  CHECK(measured.step_length() == Approx(0.8));
-  CHECK(measured.samples() == 1);
+  StepLength step({.children = 2});
+  sample(step, {0.2, 1.0}, Status::Success);
+  CHECK(step.value({}) == Approx(0.8));
 }
 
 TEST_CASE("a fall of progress is a step") {
-  ProgressDistance measured(1);
-  measured.sample(std::vector{0.6});
-  measured.sample(std::vector{0.1});
-  CHECK(measured.step_length() == Approx(0.5));
+  StepLength step({.children = 1});
+  sample(step, {0.6});
+  sample(step, {0.1});
+  CHECK(step.value({}) == Approx(0.5));
 }
 
 }  // namespace

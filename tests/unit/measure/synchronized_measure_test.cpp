@@ -25,8 +25,8 @@ struct Measured {
     }
     measure.run_ended(now);
   }
-  double held_seconds(std::size_t child) const { return to_seconds(measure.held()[child].time); }
-  std::uint64_t held_ticks(std::size_t child) const { return measure.held()[child].ticks; }
+  double held_seconds(std::size_t child) const { return to_seconds(measure.held()[child].time()); }
+  std::uint64_t held_ticks(std::size_t child) const { return measure.held()[child].ticks(); }
 
   ScriptedRun run;
   SynchronizedProbe probe;
@@ -110,25 +110,25 @@ TEST_CASE("the last step of a node counts, also when an ancestor ends in the sam
                     "a+.5 b+.3,.7 w=R c=RF");
   CHECK(measured.ticks == 2);
   CHECK(measured.run.ticker().status(2) == Status::Idle);
-  CHECK(measured.measure.distance().step_length() == Approx(0.7));
+  CHECK(measured.measure.step_length() == Approx(0.7));
 }
 
 TEST_CASE("a node that an ancestor has ended begins anew, without a step back") {
   const Measured measured("Retry[attempts=2](Parallel(ParallelRelative[delta=1](a b) c))",
                           "a+.4 b+.2 c=RRFRRF");
   CHECK(measured.ticks == 6);
-  CHECK(measured.measure.distance().step_length() == Approx(0.4));
+  CHECK(measured.measure.step_length() == Approx(0.4));
 }
 
 TEST_CASE("ticks in a row in which a child is held are one wait") {
   const Measured often("ParallelRelative[delta=0](a b)", "a+.2 b+.3");
   CHECK(often.held_ticks(1) == 3);
-  CHECK(often.measure.held()[0].waits == 1);
-  CHECK(often.measure.held()[1].waits == 3);
+  CHECK(often.measure.held()[0].pauses() == 1);
+  CHECK(often.measure.held()[1].pauses() == 3);
   const Measured once("ParallelAbsolute[barriers=.5;1](a b)", "a+.1 b+.3");
   CHECK(once.held_ticks(1) == 3);
-  CHECK(once.measure.held()[1].waits == 1);
-  CHECK(once.measure.held()[0].waits == 0);
+  CHECK(once.measure.held()[1].pauses() == 1);
+  CHECK(once.measure.held()[0].pauses() == 0);
 }
 
 TEST_CASE("a wait goes on while the node itself is held") {
@@ -136,13 +136,13 @@ TEST_CASE("a wait goes on while the node itself is held") {
   const Measured inner("ParallelAbsolute[barriers=.2](a ParallelRelative[delta=0](b c))",
                        "a+.05 b+.1 c+.5", 1);
   CHECK(inner.held_ticks(1) == 4);
-  CHECK(inner.measure.held()[1].waits == 1);
+  CHECK(inner.measure.held()[1].pauses() == 1);
 }
 
 TEST_CASE("a new activation is measured on, without a step back to zero") {
   const Measured measured("Repeat[times=2](ParallelRelative[delta=1](a b))", "a+.1 b+.2");
   CHECK(measured.ticks == 20);
-  CHECK(measured.measure.distance().step_length() == Approx(0.2));
+  CHECK(measured.measure.step_length() == Approx(0.2));
 }
 
 }  // namespace

@@ -3,8 +3,11 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
+#include <set>
 #include <sstream>
 
+#include "measure/measure_spec.h"
 #include "recording/write/recorder.h"
 #include "study/run_measures.h"
 #include "unit/recording/watched_run.h"
@@ -15,14 +18,11 @@ namespace {
 using test::TemporaryPath;
 using test::WatchedRun;
 
-std::vector<MeasureSpec> all_measures(const std::string& node) {
+std::vector<MeasureSpec> measures_of(std::initializer_list<const char*> texts) {
   std::vector<MeasureSpec> measures;
-  for (const std::string text :
-       {"progress-distance", "step-length", "duration", "predictability:NODE@0.4=1"}) {
+  for (const char* text : texts) {
     std::string error;
-    std::string spec = text;
-    if (const auto at = spec.find("NODE"); at != spec.npos) spec.replace(at, 4, node);
-    measures.push_back(parse_measure(spec, error).value());
+    measures.push_back(parse_measure(text, error).value());
   }
   return measures;
 }
@@ -40,14 +40,22 @@ constexpr Case kCases[] = {
     {"a node that succeeds and that an ancestor ends in the same tick",
      "Parallel(Sequence[memory=true](ParallelRelative[delta=1](a b) w) c)",
      "a+.5 b+.3,.7 w=R c=RF"},
+    {"a node that is held, and a plain parallel beside it",
+     "Sequence[memory=true](ParallelAbsolute[barriers=.5;1](a b) Parallel(c d))",
+     "a+.1 b+.3 c+.5 d+.2"},
 };
 
 }  // namespace
 
 TEST_CASE("a recording has the measures of its run") {
+  const auto measures =
+      measures_of({"progress-distance", "progress-distance[1:3]", "progress-distance-mean",
+                   "progress-distance-seconds", "spread", "step-length", "held:b", "pauses:b",
+                   "duration", "ticks", "success", "predictability:b@0.4=1"});
+  REQUIRE(measures.size() == all_measures().size());      // entry: below; twice progress-distance
+  std::map<std::string, std::vector<double>> of_measure;  // in all cases; -1: not reached
   for (const Case& it : kCases) {
     INFO(it.law);
-    const auto measures = all_measures("b");
     const TemporaryPath file;
     WatchedRun run(it.tree, it.leaves);
     Recorder recorder(run.run.tree(), {.path = file.path(), .tree_file = "a.xml", .rate_hz = 10});
@@ -70,17 +78,78 @@ TEST_CASE("a recording has the measures of its run") {
         continue;
       }
       const MeasuredValue& measured = of_recording.at(at++);
-      CHECK(to_text(measured.measure) == column.measure);
+      CHECK(to_text(*measured.measure) == column.measure);
       CHECK(measured.node == column.node);
       const double expected = of_run.values()[i];
       CHECK((measured.value == expected || (std::isnan(measured.value) && std::isnan(expected))));
+      of_measure[column.measure].push_back(std::isnan(expected) ? -1 : expected);
     }
     CHECK(at == of_recording.size());
-    // Each measure has a number of its own, so that one cannot pass for another.
-    for (std::size_t i = 1; i < of_recording.size(); ++i) {
-      CHECK(of_recording[i].value != of_recording[i - 1].value);
-    }
   }
+  // None of them can pass for another.
+  std::set<std::vector<double>> different;
+  for (const auto& [measure, numbers] : of_measure) {
+    INFO(measure);
+    CHECK(different.insert(numbers).second);
+  }
+}
+
+TEST_CASE("a plain Parallel is measured by the progress before each of its ticks") {
+  const TemporaryPath file;
+  // It runs twice: none of its children has progress when it begins again.
+  WatchedRun run("Repeat[times=2](Parallel(a b))", "a+.5 b+.25");
+  Recorder recorder(run.run.tree(), {.path = file.path(), .tree_file = "a.xml", .rate_hz = 10});
+  const auto measures = measures_of({"progress-distance", "spread", "step-length"});
+  RunMeasures of_run(run.run.tree(), measures, 10);
+  run.watch({&recorder, &of_run});
+  // Before its ticks (0, 0) (.5, .25) (1, .5) (1, .75), and the same again.
+  CHECK(of_run.values()[0] == Approx(2 * (.25 + .5 + .25)));
+  CHECK(of_run.values()[1] == Approx(.5));
+  CHECK(of_run.values()[2] == Approx(.5));
+  std::istringstream text(file.text());
+  RecordingReader reader(text, "run.jsonl");
+  std::string error;
+  const auto of_recording = measure_recording(reader, measures, error);
+  REQUIRE(of_recording.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) CHECK(of_recording[i].value == of_run.values()[i]);
+}
+
+TEST_CASE("a recording has the number of an entry after the last tick") {
+  const TemporaryPath file;
+  WatchedRun run("Parallel(Wait[seconds={pause}] ParallelAbsolute[barriers={plan}](a))", "a=RS");
+  Recorder recorder(run.run.tree(), {.path = file.path(), .tree_file = "a.xml", .rate_hz = 10});
+  const auto measures = measures_of({"entry:pause"});
+  RunMeasures of_run(run.run.tree(), measures, 10);
+  run.run.set("pause", 0.25);
+  run.run.set("plan", std::vector<double>{0.5});
+  run.watch({&recorder, &of_run});
+  CHECK(of_run.values()[0] == 0.25);
+  std::istringstream text(file.text());
+  RecordingReader reader(text, "run.jsonl");
+  std::string error;
+  const auto of_recording = measure_recording(reader, measures, error);
+  REQUIRE(of_recording.size() == 1);
+  CHECK(of_recording[0].value == 0.25);
+  std::istringstream again(file.text());
+  RecordingReader other(again, "run.jsonl");
+  measure_recording(other, measures_of({"entry:plan"}), error);
+  CHECK(error == "the entry 'plan' is a list of double, expected a number");
+}
+
+TEST_CASE("a recording that is cut does not say whether the run succeeded") {
+  const TemporaryPath file;
+  WatchedRun run("ParallelRelative[delta=1](a b)", "a+.5 b+.5");
+  Recorder recorder(run.run.tree(), {.path = file.path(), .tree_file = "a.xml", .rate_hz = 10});
+  run.watch({&recorder});
+  const std::string whole = file.text();
+  std::istringstream text(whole.substr(0, whole.find("{\"end\"")));
+  RecordingReader reader(text, "run.jsonl");
+  std::string error;
+  const auto measures = measures_of({"success", "ticks"});
+  const auto values = measure_recording(reader, measures, error);
+  REQUIRE(values.size() == 2);
+  CHECK(std::isnan(values[0].value));
+  CHECK(values[1].value == 2);
 }
 
 TEST_CASE("a recording tells of a node that has succeeded and was ended in the same tick") {

@@ -1,0 +1,84 @@
+#include "measure/live_ticks.h"
+
+#include <algorithm>
+
+#include "engine/synchronized.h"
+
+namespace lockstep {
+
+namespace {
+
+// Of a bool 1 or 0.
+double number_of(const Value& value) {
+  if (const auto* number = std::get_if<double>(&value)) return *number;
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
+  const auto* flag = std::get_if<bool>(&value);
+  return flag != nullptr ? static_cast<double>(*flag) : kNoValue;
+}
+
+}  // namespace
+
+MeasuredTree measured_tree(const Tree& tree) {
+  MeasuredTree measured{.id = tree.id, .paths = {}, .nodes = {}, .entries = {}, .entry_types = {}};
+  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
+    const NodeLabel& label = tree.labels[node];
+    measured.paths.push_back(tree.path(node));
+    measured.nodes.push_back({label.parent, label.type->synchronization, label.type->id});
+  }
+  for (const Slot& slot : tree.slots) {
+    measured.entries.push_back(slot.name);
+    measured.entry_types.emplace_back(to_string(slot.type));
+  }
+  return measured;
+}
+
+LiveTicks::LiveTicks(const Tree& tree, const Measuring& measuring)
+    : slots_(measuring.entries().begin(), measuring.entries().end()),
+      numbers_(slots_.size()),
+      parallel_ticks_(measuring.parallels().size()),
+      node_ticks_(measuring.nodes().size()) {
+  for (const NodeIndex node : measuring.parallels()) parallels_.emplace_back(tree, node);
+  for (const NodeIndex node : measuring.nodes()) {
+    Node measured{.index = node, .parent = {}, .child = 0};
+    const NodeIndex parent = tree.labels[node].parent;
+    if (synchronization(tree.nodes[parent]) != Synchronization::None && parent != node) {
+      const auto children = children_of(tree, parent);
+      measured.parent = parent;
+      measured.child =
+          static_cast<std::size_t>(std::ranges::find(children, node) - children.begin());
+    }
+    nodes_.push_back(measured);
+  }
+}
+
+void LiveTicks::before_tick(Ticker& ticker) {
+  for (SynchronizedProbe& parallel : parallels_) parallel.before_tick(ticker);
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    node_ticks_[i].progress = ticker.progress(nodes_[i].index);
+  }
+}
+
+TickView LiveTicks::read(Ticker& ticker, std::uint64_t tick, Nanoseconds time) {
+  for (std::size_t i = 0; i < parallels_.size(); ++i) {
+    parallel_ticks_[i] = parallels_[i].read(ticker, time);
+  }
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
+    node_ticks_[i].ticked = ticker.ticked(node.index);
+    node_ticks_[i].status = ticker.status(node.index);
+    // What a synchronized node has seen counts more than what was seen before its tick.
+    if (node.parent && ticker.ticked(*node.parent)) {
+      node_ticks_[i].progress = child_progress(ticker, *node.parent)[node.child];
+    }
+  }
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    numbers_[i] = number_of(ticker.blackboard().entries[slots_[i]].value);
+  }
+  return {.tick = tick,
+          .time = time,
+          .parallels = parallel_ticks_,
+          .nodes = node_ticks_,
+          .entries = numbers_};
+}
+
+}  // namespace lockstep

@@ -1,0 +1,37 @@
+// What measures see of a run that a Ticker makes. No allocation after it is made.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "measure/measuring.h"
+#include "measure/synchronized_measure.h"
+
+namespace lockstep {
+
+MeasuredTree measured_tree(const Tree& tree);
+
+class LiveTicks {
+ public:
+  // Of what `measuring` measures in this tree.
+  LiveTicks(const Tree& tree, const Measuring& measuring);
+
+  void before_tick(Ticker& ticker);
+  // After the tick. Valid until the next call.
+  TickView read(Ticker& ticker, std::uint64_t tick, Nanoseconds time);
+
+ private:
+  struct Node {
+    NodeIndex index;
+    std::optional<NodeIndex> parent;  // if it is synchronized
+    std::size_t child;                // the node's place among the parent's children
+  };
+  std::vector<SynchronizedProbe> parallels_;
+  std::vector<Node> nodes_;
+  std::vector<std::size_t> slots_;
+  std::vector<double> numbers_;  // in them
+  std::vector<SynchronizedTick> parallel_ticks_;
+  std::vector<NodeTick> node_ticks_;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,101 @@
+// A measure is a row: its name, unit and axis, what it is of, and the accumulator that makes one
+// number of a run. Each file of this folder defines the rows of one idea; measures.cpp lists them.
+// A study, `lockstep log measure` and all that is said about measures follow from the rows.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "measure/tick_view.h"
+
+namespace lockstep {
+
+// What was not reached has no value.
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
+
+// Measures one run after the other. Allocates nothing after it is made.
+class Accumulator {
+ public:
+  virtual ~Accumulator() = default;
+  virtual void reset() = 0;  // as new, for the next run
+  virtual void after_tick(const TickView& view) = 0;
+  virtual double value(const EndView& end) const = 0;
+  virtual double gap() const { return kNoValue; }  // only where the row has one
+};
+
+enum class MeasureOf : std::uint8_t {
+  Run,
+  Parallel,  // each parallel of the tree, synchronized or not
+  Child,     // the child of a synchronized node that the argument names
+  Node,      // the node that the argument names
+  Entry,     // the blackboard entry that the argument names
+};
+
+// Where an accumulator finds what it is of.
+struct MeasureTarget {
+  // In TickView::parallels (Parallel, Child), TickView::nodes (Node) or TickView::entries (Entry).
+  std::size_t place = 0;
+  std::size_t children = 0;  // of the parallel
+  std::size_t child = 0;     // which of them
+};
+
+struct Measure;
+
+// A measure with its argument, as a user asks for it.
+struct MeasureSpec {
+  const Measure* measure = nullptr;
+  std::string argument = {};         // as to_text() writes it: ":arm@0.6=600"
+  std::string name = {};             // of the node or the entry
+  std::vector<double> numbers = {};  // what else the argument says; the row knows what they mean
+
+  friend bool operator==(const MeasureSpec&, const MeasureSpec&) = default;
+};
+
+// What else is known of a run that gave a value.
+struct MeasuredRun {
+  std::uint64_t ticks = 0;
+  double rate = 0;
+  bool succeeded = false;
+};
+
+struct Measure {
+  std::string_view name;
+  std::string_view argument = {};  // as users read it: ":NODE@P[=T]"
+  MeasureOf of = MeasureOf::Run;
+  std::string_view axis;
+  std::string_view unit = {};
+  std::string_view doc;
+  // A second number beside the value: how far the run stayed from what was asked for.
+  bool has_gap = false;
+  std::unique_ptr<Accumulator> (*make)(const MeasureSpec& spec, const MeasureTarget& target);
+  // Can a run have this value? Another one in a file is damage.
+  bool (*is_possible)(double value, const MeasureSpec& spec, const MeasuredRun& run);
+  // Reads what follows the name and the colon, and returns what is wrong with it or "". Null: it is
+  // the name of what `of` says, or there is none.
+  std::string (*parse)(std::string_view argument, MeasureSpec& spec) = nullptr;
+  // The text for an axis, where it depends on the argument. Null: axis and unit.
+  std::string (*label)(const MeasureSpec& spec) = nullptr;
+};
+
+std::span<const Measure* const> all_measures();
+
+// For the rows.
+template <class Class>
+std::unique_ptr<Accumulator> make_accumulator(const MeasureSpec&, const MeasureTarget& target) {
+  return std::make_unique<Class>(target);
+}
+inline bool is_share(double value, const MeasureSpec&, const MeasuredRun&) {
+  return value >= 0 && value <= 1;
+}
+inline bool is_sum(double value, const MeasureSpec&, const MeasuredRun&) {
+  return value >= 0 && std::isfinite(value);
+}
+inline bool is_count_of_ticks(double value, const MeasureSpec&, const MeasuredRun& run) {
+  return value >= 0 && value <= static_cast<double>(run.ticks) && value == std::floor(value);
+}
+
+}  // namespace lockstep

@@ -1,0 +1,25 @@
+#include "measure/measure.h"
+
+namespace lockstep {
+
+extern const Measure kProgressDistance, kProgressDistanceMean, kProgressDistanceSeconds, kSpread,
+    kStepLength, kHeld, kPauses, kDuration, kTicks, kSuccess, kEntry, kPredictability;
+
+// In the order in which they are documented.
+std::span<const Measure* const> all_measures() {
+  static constexpr const Measure* kMeasures[] = {&kProgressDistance,
+                                                 &kProgressDistanceMean,
+                                                 &kProgressDistanceSeconds,
+                                                 &kSpread,
+                                                 &kStepLength,
+                                                 &kHeld,
+                                                 &kPauses,
+                                                 &kDuration,
+                                                 &kTicks,
+                                                 &kSuccess,
+                                                 &kEntry,
+                                                 &kPredictability};
+  return kMeasures;
+}
+
+}  // namespace lockstep

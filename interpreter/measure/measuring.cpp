@@ -1,0 +1,103 @@
+#include "measure/measuring.h"
+
+#include "measure/measure_spec.h"
+
+namespace lockstep {
+namespace {
+
+bool is_parallel(const MeasuredTree::Node& node) {
+  return node.synchronization != Synchronization::None || node.kind == "Parallel";
+}
+
+}  // namespace
+
+Measuring::Measuring(const MeasuredTree& tree, std::span<const MeasureSpec> specs)
+    : children_(tree.nodes.size()), number_(tree.nodes.size()) {
+  for (std::size_t node = 1; node < tree.nodes.size(); ++node) {
+    number_[node] = children_[tree.nodes[node].parent]++;
+  }
+  for (const MeasureSpec& spec : specs) {
+    switch (spec.measure->of) {
+      case MeasureOf::Run:
+        add(spec, tree.id, {});
+        break;
+      case MeasureOf::Parallel:
+        add_parallels(spec, tree);
+        break;
+      case MeasureOf::Child:
+        add_child(spec, tree);
+        break;
+      case MeasureOf::Node:
+        add_node(spec, tree);
+        break;
+      case MeasureOf::Entry:
+        add_entry(spec, tree);
+        break;
+    }
+    if (!error_.empty()) return;
+  }
+}
+
+void Measuring::add(const MeasureSpec& spec, std::string node, const MeasureTarget& target) {
+  columns_.push_back({&spec, std::move(node)});
+  accumulators_.push_back(spec.measure->make(spec, target));
+}
+
+MeasureTarget Measuring::target_of(NodeIndex parallel) {
+  const auto [place, is_new] = places_.try_emplace(parallel, parallels_.size());
+  if (is_new) parallels_.push_back(parallel);
+  return {.place = place->second, .children = children_[parallel]};
+}
+
+void Measuring::add_parallels(const MeasureSpec& spec, const MeasuredTree& tree) {
+  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
+    if (is_parallel(tree.nodes[node])) add(spec, tree.paths[node], target_of(node));
+  }
+}
+
+void Measuring::add_child(const MeasureSpec& spec, const MeasuredTree& tree) {
+  const auto node = find_path(tree.paths, spec.name, error_);
+  if (!node) return;
+  const NodeIndex parent = tree.nodes[*node].parent;
+  if (parent == *node || tree.nodes[parent].synchronization == Synchronization::None) {
+    error_ =
+        "'" + tree.paths[*node] + "' is not a child of a synchronized node, so nobody holds it";
+    return;
+  }
+  MeasureTarget target = target_of(parent);
+  target.child = number_[*node];
+  add(spec, tree.paths[*node], target);
+}
+
+void Measuring::add_node(const MeasureSpec& spec, const MeasuredTree& tree) {
+  const auto node = find_path(tree.paths, spec.name, error_);
+  if (!node) return;
+  add(spec, tree.paths[*node], {.place = nodes_.size()});
+  nodes_.push_back(static_cast<NodeIndex>(*node));
+}
+
+void Measuring::add_entry(const MeasureSpec& spec, const MeasuredTree& tree) {
+  const auto entry = find_path(tree.entries, spec.name, error_, "entry");
+  if (!entry) return;
+  const std::string& type = tree.entry_types[*entry];
+  if (type == to_string(ValueType::String) || type == to_string(ValueType::DoubleList)) {
+    error_ = "the entry '" + tree.entries[*entry] + "' is a " + type + ", expected a number";
+    return;
+  }
+  add(spec, tree.id, {.place = entries_.size()});
+  entries_.push_back(*entry);
+}
+
+void Measuring::reset() {
+  for (auto& accumulator : accumulators_) accumulator->reset();
+}
+
+void Measuring::after_tick(const TickView& view) {
+  for (auto& accumulator : accumulators_) accumulator->after_tick(view);
+}
+
+double Measuring::value(std::size_t column, const EndView& end) const {
+  return accumulators_[column]->value(end);
+}
+
+}  // namespace lockstep

@@ -1,0 +1,73 @@
+// Measures runs of one tree, one after the other, by the rows of measures that were asked for. Who
+// feeds it, a live run or a recording, makes no difference.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/tree.h"
+#include "measure/measure.h"
+
+namespace lockstep {
+
+// What can be measured.
+struct MeasuredTree {
+  struct Node {
+    NodeIndex parent = 0;  // the root is its own
+    Synchronization synchronization = Synchronization::None;
+    std::string_view kind = {};
+  };
+  std::string id;
+  std::vector<std::string> paths;        // of each node
+  std::vector<Node> nodes;               // in pre-order
+  std::vector<std::string> entries;      // of the blackboard: their keys
+  std::vector<std::string> entry_types;  // as to_string(ValueType) has them
+};
+
+class Measuring {
+ public:
+  // `specs` must outlive this, `tree` need not. What a measure names and the tree does not have is
+  // in error().
+  Measuring(const MeasuredTree& tree, std::span<const MeasureSpec> specs);
+
+  const std::string& error() const { return error_; }
+
+  // One for each measure; of those that are of each parallel, one for each of them.
+  struct Column {
+    const MeasureSpec* spec;
+    std::string node;  // the path; the tree's id for what is of the run
+  };
+  std::span<const Column> columns() const { return columns_; }
+
+  // What a TickView must have, in this order.
+  std::span<const NodeIndex> parallels() const { return parallels_; }
+  std::span<const NodeIndex> nodes() const { return nodes_; }
+  std::span<const std::size_t> entries() const { return entries_; }
+
+  void reset();  // for the next run
+  void after_tick(const TickView& view);
+  // NaN: it was not reached.
+  double value(std::size_t column, const EndView& end) const;
+  double gap(std::size_t column) const { return accumulators_[column]->gap(); }
+
+ private:
+  void add(const MeasureSpec& spec, std::string node, const MeasureTarget& target);
+  void add_parallels(const MeasureSpec& spec, const MeasuredTree& tree);
+  void add_child(const MeasureSpec& spec, const MeasuredTree& tree);
+  void add_node(const MeasureSpec& spec, const MeasuredTree& tree);
+  void add_entry(const MeasureSpec& spec, const MeasuredTree& tree);
+  MeasureTarget target_of(NodeIndex parallel);
+
+  std::vector<Column> columns_;
+  std::vector<std::unique_ptr<Accumulator>> accumulators_;  // of each column
+  std::vector<NodeIndex> parallels_, nodes_;
+  std::vector<std::size_t> entries_;
+  std::map<NodeIndex, std::size_t> places_;     // of the parallels
+  std::vector<std::size_t> children_, number_;  // of each node: how many, and which of its parent
+  std::string error_;
+};
+
+}  // namespace lockstep

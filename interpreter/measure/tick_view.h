@@ -1,0 +1,49 @@
+// What a measure sees of a run: each tick, after it, and the end. A live run (live_ticks.h) and a
+// recording (recording/use/recording_measures.cpp) both give it, so no measure can tell them apart.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "core/clock.h"
+#include "core/status.h"
+
+namespace lockstep {
+
+// Of one parallel, after a tick of the run.
+struct SynchronizedTick {
+  Nanoseconds time{0};           // when the tick of the run began, since the run began
+  bool ticked = false;           // did the tick reach the node? If not, only the time counts.
+  Status status = Status::Idle;  // Success also when an ancestor has ended the node since
+  double limit = 0;              // that counted: engine/synchronized.h
+  std::span<const double> progress = {};  // of each child, as the node used it in this tick
+  // Of each child: it was running and did not get this tick. It may have been halted since.
+  std::span<const bool> held = {};
+};
+
+// Of any node, after a tick of the run.
+struct NodeTick {
+  bool ticked = false;  // did the tick reach it?
+  Status status = Status::Idle;
+  double progress = 0;  // before the tick, as its parent used it
+};
+
+struct TickView {
+  std::uint64_t tick = 0;  // the first is 0
+  Nanoseconds time{0};     // when it began, since the run began
+  // Of those that somebody measures, in the order of MeasureTarget::place.
+  std::span<const SynchronizedTick> parallels = {};
+  std::span<const NodeTick> nodes = {};
+  std::span<const double> entries = {};  // after the tick; NaN: it has no number
+};
+
+struct EndView {
+  std::uint64_t ticks = 0;
+  Nanoseconds last{0};                 // when the last tick began
+  double rate = 0;                     // ticks per second; 0: unknown
+  bool real_time = true;               // false: the clock was virtual, and every tick took 1 / rate
+  std::optional<bool> succeeded = {};  // did the root? None: unknown
+};
+
+}  // namespace lockstep
