@@ -5,6 +5,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <iterator>
 
 namespace lockstep {
 namespace {
@@ -93,18 +94,27 @@ std::optional<Value> parse_value(ValueType type, std::string_view text) {
   return std::nullopt;
 }
 
-std::string to_text(const Value& value) {
+void append_text(const Value& value, std::string& out) {
   struct Writer {
-    std::string operator()(std::monostate) const { return {}; }
-    std::string operator()(bool flag) const { return flag ? "true" : "false"; }
-    std::string operator()(std::int64_t number) const { return fmt::format("{}", number); }
-    std::string operator()(double number) const { return fmt::format("{}", number); }
-    std::string operator()(const std::string& text) const { return text; }
-    std::string operator()(const std::vector<double>& list) const {
-      return fmt::format("{}", fmt::join(list, ";"));
+    std::string& out;
+    void operator()(std::monostate) const {}
+    void operator()(bool flag) const { out += flag ? "true" : "false"; }
+    void operator()(std::int64_t number) const {
+      fmt::format_to(std::back_inserter(out), "{}", number);
+    }
+    void operator()(double number) const { fmt::format_to(std::back_inserter(out), "{}", number); }
+    void operator()(const std::string& text) const { out += text; }
+    void operator()(const std::vector<double>& list) const {
+      fmt::format_to(std::back_inserter(out), "{}", fmt::join(list, ";"));
     }
   };
-  return std::visit(Writer{}, value);
+  std::visit(Writer{out}, value);
+}
+
+std::string to_text(const Value& value) {
+  std::string text;
+  append_text(value, text);
+  return text;
 }
 
 }  // namespace lockstep

@@ -28,6 +28,8 @@ std::string_view expected_text(ValueType type);
 
 // The value as text that parse_value reads back to the same value; "" for no value.
 std::string to_text(const Value& value);
+// The same at the end of `out`; allocates only where that has no room.
+void append_text(const Value& value, std::string& out);
 
 // A finite decimal number that is the whole of `text`, or nothing.
 std::optional<double> parse_double(std::string_view text);

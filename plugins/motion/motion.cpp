@@ -80,12 +80,15 @@ struct ReplanPorts : lockstep::Ports {
 
 class Replan : public lockstep::Action<ReplanPorts> {
  public:
-  void start() override { start_ = now(); }
+  void start() override {
+    start_ = now();
+    barriers.set(first.get());
+  }
 
   Status tick() override {
-    const bool changed = now() - start_ >= after.get();
-    barriers.set(changed ? second.get() : first.get());
-    return changed ? Status::Success : Status::Running;
+    if (now() - start_ < after.get()) return Status::Running;
+    barriers.set(second.get());
+    return Status::Success;
   }
 
  private:

@@ -21,7 +21,9 @@
 #include "engine/compile.h"
 #include "measure/measure_spec.h"
 #include "plugin/plugin_set.h"
+#include "recording/write/entry_changes.h"
 #include "recording/write/recorder.h"
+#include "recording/write/recording_text.h"
 #include "runtime/loop.h"
 #include "runtime/run.h"
 #include "study/run_measures.h"
@@ -64,7 +66,8 @@ namespace {
 constexpr const char* kTree = R"(
 <root lockstep="1" main_tree_to_execute="Main">
   <BehaviorTree ID="Main">
-    <Parallel success_count="7">
+    <Parallel success_count="8">
+      <SubTree ID="Planned" plan="0.3;0.6"/>
       <ParallelAbsolute barriers="0.3;0.6"><Advance step="1e-9"/><Advance step="2e-9"/></ParallelAbsolute>
       <ParallelRelative delta="1e-8"><Advance step="1e-9"/><Advance step="9e-9"/></ParallelRelative>
       <Sequence><Advance step="1"/><Fallback><AlwaysFailure/><Advance step="0"/></Fallback></Sequence>
@@ -73,6 +76,9 @@ constexpr const char* kTree = R"(
       <Repeat times="1000000"><Sequence><Advance step="0.5"/><Delay seconds="0.02"><AlwaysSuccess/></Delay></Sequence></Repeat>
       <KeepRunningUntilFailure><ForceSuccess><Timeout seconds="0.03"><Advance step="0"/></Timeout></ForceSuccess></KeepRunningUntilFailure>
     </Parallel>
+  </BehaviorTree>
+  <BehaviorTree ID="Planned">
+    <ParallelAbsolute barriers="{plan}"><Advance step="1e-9"/><Advance step="2e-9"/></ParallelAbsolute>
   </BehaviorTree>
   <BehaviorTree ID="Part"><RunOnce><AlwaysSuccess/></RunOnce></BehaviorTree>
 </root>)";
@@ -169,6 +175,28 @@ TEST_CASE("recording a tick allocates nothing and locks nothing") {
   t_counting = false;
   CHECK(run.status() == Status::Running);
   CHECK(recorder.lost() == 0);
+  CHECK(g_allocations == 0);
+  CHECK(g_locks == 0);
+}
+
+TEST_CASE("an entry that is another number in each tick is recorded without allocating") {
+  const TickingTree tree;
+  Blackboard board(tree.tree());
+  EntryChanges changes({0});
+  std::string line;
+  line.reserve(most_of_tick_end(0, 1));
+  const auto tick = [&](double value) {
+    board.entries[0].value = value;
+    ++board.entries[0].writes;
+    set_tick_end(line, {.entries = changes.changes(board)});
+    changes.keep();
+  };
+  tick(-1);
+  g_allocations = g_locks = 0;
+  t_counting = true;
+  for (int i = 1; i <= 1000; ++i) tick(-1.0 / (3.0e200 * i));
+  t_counting = false;
+  CHECK(line.starts_with("],\"entries\":[[0,\"-3.33"));
   CHECK(g_allocations == 0);
   CHECK(g_locks == 0);
 }
@@ -273,7 +301,7 @@ off_t size_of(const std::string& path) {
 }  // namespace
 
 TEST_CASE("a recording in an emergency is printed without allocating or locking") {
-  const TickingTree tree;
+  const TickingTree tree(kMeasuredTree);
   char path[] = "/tmp/lockstep-XXXXXX";
   ::close(mkstemp(path));
   {

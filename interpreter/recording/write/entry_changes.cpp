@@ -5,48 +5,55 @@
 namespace lockstep {
 namespace {
 
-std::optional<std::string> short_text(const Value& value) {
+// False: it is too long.
+bool put_short(const Value& value, std::string& text) {
+  text.clear();
   // A number of a list has two bytes at least, with its separator.
   const auto* list = std::get_if<std::vector<double>>(&value);
-  if (list != nullptr && list->size() > EntryChanges::kLongest) return std::nullopt;
+  if (list != nullptr && list->size() > EntryChanges::kLongest) return false;
   const auto* words = std::get_if<std::string>(&value);
-  if (words != nullptr && words->size() > EntryChanges::kLongest) return std::nullopt;
-  std::string text = to_text(value);
-  if (text.size() > EntryChanges::kLongest) return std::nullopt;
-  return text;
+  if (words != nullptr && words->size() > EntryChanges::kLongest) return false;
+  append_text(value, text);
+  return text.size() <= EntryChanges::kLongest;
 }
 
 }  // namespace
 
 EntryChanges::EntryChanges(std::vector<std::uint32_t> slots) {
-  for (const std::uint32_t slot : slots) watched_.push_back({.slot = slot});
+  constexpr std::size_t kNumber = 32;  // letters of the longest
+  for (const std::uint32_t slot : slots) {
+    Watched& watched = watched_.emplace_back(Watched{.slot = slot});
+    watched.text.reserve(kNumber);
+    watched.next.reserve(kNumber);
+  }
+  changes_.reserve(slots.size());
 }
 
-std::span<const RecordedEntry> EntryChanges::changes(const Blackboard& board) {
+std::span<const EntryChange> EntryChanges::changes(const Blackboard& board) {
   changes_.clear();
   for (std::uint32_t number = 0; number < watched_.size(); ++number) {
     Watched& watched = watched_[number];
     const Entry& entry = board.entries[watched.slot];
     if (watched.writes == entry.writes) continue;
     if (std::holds_alternative<std::monostate>(entry.value)) continue;
-    auto text = short_text(entry.value);
-    // A long value may be another one: who writes it again is shown again.
-    if (watched.is_known && text && text == watched.value) {
+    // What is too long may be another value: each time it is written it is shown.
+    const bool is_short = put_short(entry.value, watched.next);
+    if (is_short && watched.has_text && watched.next == watched.text) {
       watched.writes = entry.writes;
-      continue;
+    } else {
+      changes_.push_back({.entry = number, .text = is_short ? &watched.next : nullptr});
     }
-    changes_.push_back({.entry = number, .value = std::move(text)});
   }
   board_ = &board;
   return changes_;
 }
 
 void EntryChanges::keep() {
-  for (RecordedEntry& change : changes_) {
+  for (const EntryChange& change : changes_) {
     Watched& watched = watched_[change.entry];
     watched.writes = board_->entries[watched.slot].writes;
-    watched.value = std::move(change.value);
-    watched.is_known = true;
+    watched.has_text = change.text != nullptr;
+    std::swap(watched.text, watched.next);
   }
   changes_.clear();
 }

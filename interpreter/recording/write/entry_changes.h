@@ -9,9 +9,13 @@
 #include <vector>
 
 #include "engine/blackboard.h"
-#include "recording/recording.h"
 
 namespace lockstep {
+
+struct EntryChange {
+  std::uint32_t entry = 0;            // its number among those that are recorded
+  const std::string* text = nullptr;  // its value; null: it is too long
+};
 
 class EntryChanges {
  public:
@@ -20,20 +24,21 @@ class EntryChanges {
   // Of these slots of the blackboard, which are numbered in this order.
   explicit EntryChanges(std::vector<std::uint32_t> slots);
 
-  // After a tick. Valid until the next call.
-  std::span<const RecordedEntry> changes(const Blackboard& board);
+  // After a tick. Valid until the next call. Allocates only where a text is longer than before.
+  std::span<const EntryChange> changes(const Blackboard& board);
   // What changes() gave last has reached the file.
   void keep();
 
  private:
   struct Watched {
     std::uint32_t slot = 0;
-    std::optional<std::uint32_t> writes = {};  // of the entry, when it was looked at last
-    std::optional<std::string> value = {};     // in the file; none: too long
-    bool is_known = false;                     // it is in the file
+    std::optional<std::uint32_t> writes = {};  // of the entry, when its value was found in the file
+    bool has_text = false;                     // else the file has no value, or that it is too long
+    std::string text = {};                     // in the file
+    std::string next = {};                     // to come there
   };
   std::vector<Watched> watched_;
-  std::vector<RecordedEntry> changes_;
+  std::vector<EntryChange> changes_;
   const Blackboard* board_ = nullptr;  // that they are of
 };
 

@@ -1,8 +1,8 @@
 // Writes a run to a file as JSON Lines, one line per tick with what changed: docs/recording.md. On
 // a virtual clock the same run gives the same bytes. Allocates nothing per tick, leaves the
 // printing to the thread that writes, and on a real clock never waits for the disk: ticks for which
-// there is no room are left out, counted, and told in the recording itself. (Entries that change
-// and lines that leaves log are texts; they are made on the tick thread.)
+// there is no room are left out, counted, and told in the recording itself. Only lines that leaves
+// log, faults, and entries whose text grows make it allocate.
 #pragma once
 
 #include <functional>

@@ -88,11 +88,35 @@ std::string faults_text(std::span<const Fault> faults) {
   });
 }
 
-std::string entries_text(std::span<const RecordedEntry> entries) {
-  return list_text("entries", entries, [](const RecordedEntry& entry) {
-    return nlohmann::json{entry.entry,
-                          entry.value ? nlohmann::json(*entry.value) : nlohmann::json()};
+bool is_plain(std::string_view text) {
+  return std::ranges::all_of(text, [](char letter) {
+    return letter >= ' ' && letter <= '~' && letter != '"' && letter != '\\';
   });
+}
+
+void add_string(std::string& to, std::string_view text) {
+  if (is_plain(text)) {
+    ((to += '"') += text) += '"';
+  } else {
+    to += nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  }
+}
+
+void add_entries(std::string& text, std::span<const EntryChange> entries) {
+  text += ",\"entries\":";
+  char separator = '[';
+  for (const EntryChange& it : entries) {
+    text += separator;
+    separator = ',';
+    fmt::format_to(std::back_inserter(text), FMT_COMPILE("[{},"), it.entry);
+    if (it.text != nullptr) {
+      add_string(text, *it.text);
+    } else {
+      text += "null";
+    }
+    text += ']';
+  }
+  text += ']';
 }
 
 std::string logs_text(std::span<const RecordedLog> logs) {
@@ -130,7 +154,7 @@ void set_tick_end(std::string& text, const TickEnd& end) {
   if (!end.limits.empty()) add_limits(text, end.limits);
   if (!end.succeeded.empty()) add_succeeded(text, end.succeeded);
   if (!end.faults.empty()) text += faults_text(end.faults);
-  if (!end.entries.empty()) text += entries_text(end.entries);
+  if (!end.entries.empty()) add_entries(text, end.entries);
   if (!end.logs.empty()) text += logs_text(end.logs);
   text += "}\n";
 }

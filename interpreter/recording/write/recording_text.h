@@ -9,6 +9,7 @@
 #include "core/clock.h"
 #include "engine/ticker.h"
 #include "recording/recording.h"
+#include "recording/write/entry_changes.h"
 #include "recording/write/recording_packet.h"
 
 namespace lockstep {
@@ -32,17 +33,17 @@ struct TickEnd {
   std::span<const LimitChange> limits = {};
   std::span<const NodeIndex> succeeded = {};
   std::span<const Fault> faults = {};
-  std::span<const RecordedEntry> entries = {};
+  std::span<const EntryChange> entries = {};
   std::span<const RecordedLog> logs = {};
 };
 
 // ]} or ],"limits":[[1,0.5]],"succeeded":[1],"faults":[[3,"threw …"],…],… } and a newline; of a
-// long message only the beginning. Replaces `text`; allocates for faults, entries and logs, and
-// where that has no room.
+// long message only the beginning. Replaces `text`; allocates for faults, logs and texts that JSON
+// has to escape, and where `text` has no room.
 void set_tick_end(std::string& text, const TickEnd& end);
-// The most that this is without those, with so many synchronized nodes.
-constexpr std::size_t most_of_tick_end(std::size_t synchronized_nodes) {
-  return 64 + 64 * synchronized_nodes;
+// The most that this is without those, and with entries that are numbers.
+constexpr std::size_t most_of_tick_end(std::size_t synchronized_nodes, std::size_t entries) {
+  return 64 + 64 * (synchronized_nodes + entries);
 }
 
 }  // namespace lockstep

@@ -21,11 +21,12 @@ struct Board {
   }
 };
 
-// "0=0.5 1=(too long to be recorded)"
-std::string text_of(std::span<const RecordedEntry> changes) {
+// "0=0.5 1=(too long)"
+std::string text_of(std::span<const EntryChange> changes) {
   std::string text;
-  for (const RecordedEntry& it : changes) {
-    text += (text.empty() ? "" : " ") + std::to_string(it.entry) + "=" + shown_value(it);
+  for (const EntryChange& it : changes) {
+    text += (text.empty() ? "" : " ") + std::to_string(it.entry) + "=" +
+            (it.text == nullptr ? "(too long)" : *it.text);
   }
   return text;
 }
@@ -61,17 +62,17 @@ TEST_CASE("entries: a value of more than 256 bytes is only named, each time it i
   Board it;
   EntryChanges changes({0, 1});
   it.set(0, std::string(EntryChanges::kLongest, 'x'));
-  CHECK(changes.changes(it.board)[0].value->size() == EntryChanges::kLongest);
+  CHECK(changes.changes(it.board)[0].text->size() == EntryChanges::kLongest);
   changes.keep();
   it.set(0, std::string(EntryChanges::kLongest + 1, 'x'));
-  CHECK(text_of(changes.changes(it.board)) == "0=(too long to be recorded)");
+  CHECK(text_of(changes.changes(it.board)) == "0=(too long)");
   changes.keep();
   CHECK(changes.changes(it.board).empty());
   it.set(0, std::string(EntryChanges::kLongest + 1, 'y'));
   CHECK(changes.changes(it.board).size() == 1);
   changes.keep();
   it.set(1, std::vector<double>(200, 0.123456));
-  CHECK(text_of(changes.changes(it.board)) == "1=(too long to be recorded)");
+  CHECK(text_of(changes.changes(it.board)) == "1=(too long)");
 }
 
 TEST_CASE("logs: lines wait until a line of the file has them, what has no room is counted") {
