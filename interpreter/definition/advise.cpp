@@ -8,6 +8,8 @@
 namespace lockstep {
 namespace {
 
+constexpr int kMostTold = 10;  // of a node; the first few show what is meant
+
 class Adviser {
  public:
   Adviser(const Definition& definition, const Reporter& report)
@@ -16,7 +18,9 @@ class Adviser {
   void advise() const {
     for (std::uint32_t node = 0; node < definition_.nodes.size(); ++node) {
       const NodeType& type = *at(node).type;
-      if (type.goes_on_after != Status::Idle && !has_memory(node)) restarts(node);
+      if (forgets(node)) {
+        type.goes_on_after != Status::Idle ? restarts(node) : restarts_completed(node);
+      }
       if (type.synchronization != Synchronization::None) child_without_progress(node);
     }
     unwritten_entries();
@@ -34,8 +38,16 @@ class Adviser {
     report_.at(at(node).place, std::move(message), std::move(hint), severity);
   }
 
-  bool has_memory(std::uint32_t node) const {
-    return *definition_.constant(at(node), 0) == Value(true);
+  // A control node with memory="false".
+  bool forgets(std::uint32_t node) const {
+    if (at(node).type->category != NodeCategory::Control) return false;
+    const auto parameters = at(node).type->parameters;
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      if (parameters[i].name == "memory") {
+        return *definition_.constant(at(node), i) == Value(false);
+      }
+    }
+    return false;
   }
 
   // What is known of a node, or of the children of a node together.
@@ -95,7 +107,6 @@ class Adviser {
 
   // Without memory all children up to the one that runs are ticked in every tick.
   void restarts(std::uint32_t node) const {
-    constexpr int kMostTold = 10;  // the first few show what is meant
     int told = 0;
     const Status result = at(node).type->goes_on_after;
     std::uint32_t earlier = 0;
@@ -119,6 +130,24 @@ class Adviser {
                     type.goes_on_after == Status::Success
                         ? "let the action return Success at once where its goal already holds"
                         : "put a condition before the action that says whether to try it"));
+  }
+
+  // Without memory a parallel ticks a child that completed again, as long as another one runs.
+  void restarts_completed(std::uint32_t node) const {
+    int can_run = 0;
+    for_each_child(node, [&](std::uint32_t child) { can_run += conduct_[child].can_run; });
+    int told = 0;
+    for_each_child(node, [&](std::uint32_t child) {
+      const Conduct& it = conduct_[child];
+      if (!it.has_action || !(it.again_after_success || it.again_after_failure)) return;
+      if (can_run == it.can_run || told++ >= kMostTold) return;
+      add(child, Severity::Warning,
+          fmt::format("'{}' is started again after it has completed, as long as '{}' runs",
+                      brief(at(child).name), brief(at(node).name)),
+          fmt::format("without memory a {} also ticks children that completed: leave out "
+                      "memory=\"false\", or put a RunOnce around the action",
+                      at(node).type->id));
+    });
   }
 
   // A decorator or SubTree has its child's progress.

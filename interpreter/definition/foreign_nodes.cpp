@@ -102,7 +102,7 @@ constexpr ForeignNode kNodes[] = {
     {"TreeNodeModel", "", {}, kModel},
     {"RecoveryNode", "Retry", kRecovery, kRecover},
     {"PipelineSequence", "Sequence", {}, "what runs behind a child that runs again is halted"},
-    {"NonblockingSequence", "Parallel", {}, "children that succeeded are not ticked again"},
+    {"NonblockingSequence", "Parallel", {}, "actions that succeeded are not ticked again"},
     {"PersistentSequence", "Sequence memory=\"true\"", {}, "its place is not on the blackboard"},
     {"RoundRobin", "Fallback memory=\"true\"", {}, "it always begins with the first child"},
     {"SingleTrigger", "RunOnce", {}, "afterwards it returns the first result again"},

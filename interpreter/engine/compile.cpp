@@ -48,6 +48,7 @@ class Compiler {
     tree_.id = definition_.id;
     tree_.nodes.reserve(definition_.nodes.size());
     for (const DefinitionNode& node : definition_.nodes) add(node);
+    find_guards();
     for (const BlackboardEntry& entry : definition_.entries) {
       tree_.slots.push_back({entry.name, entry.type, entry.initial});
     }
@@ -69,7 +70,8 @@ class Compiler {
   void add(const DefinitionNode& from) {
     Node node{.kind = kind(*from.type),
               .end = from.end,
-              .children = from.children,
+              .children = from.children & 0x7fffffffu,  // kMaxNodes is far less
+              .is_guard = from.type->category != NodeCategory::Action,
               .params = 0,
               .state = static_cast<std::uint32_t>(tree_.state_size)};
     if (from.type->leaf != nullptr) {
@@ -83,6 +85,15 @@ class Compiler {
         node.kind->state_size + std::size_t{node.kind->state_per_child} * node.children;
     tree_.state_size += (size + 7) / 8 * 8;
     tree_.nodes.push_back(node);
+  }
+
+  // A node is one when all of its children are.
+  void find_guards() {
+    for (std::size_t node = tree_.nodes.size(); node-- > 1;) {
+      if (tree_.nodes[node].is_guard == 0) {
+        tree_.nodes[definition_.nodes[node].parent].is_guard = 0;
+      }
+    }
   }
 
   std::uint32_t add_leaf(const DefinitionNode& from) {

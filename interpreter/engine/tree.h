@@ -17,10 +17,11 @@ namespace lockstep {
 
 struct Node {
   const NodeKind* kind;
-  NodeIndex end;           // one past the last descendant
-  std::uint32_t children;  // how many
-  std::uint32_t params;    // first cell in Tree::cells; of a plugin leaf: its place in Tree::leaves
-  std::uint32_t state;     // first byte in RunState's node states
+  NodeIndex end;                // one past the last descendant
+  std::uint32_t children : 31;  // how many
+  std::uint32_t is_guard : 1;   // no action is in it: a parallel asks it in every tick
+  std::uint32_t params;  // first cell in Tree::cells; of a plugin leaf: its place in Tree::leaves
+  std::uint32_t state;   // first byte in RunState's node states
 };
 
 // A typed parameter, in the order of the kind's parameter table.

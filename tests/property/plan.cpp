@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 namespace lockstep::test {
 namespace {
 
@@ -12,6 +14,7 @@ std::string parameters(const Plan& plan) {
     text += fmt::format("{}{}={}", text.empty() ? "" : " ", name, value);
   };
   if (plan.memory) add("memory", "true");
+  if (plan.forgets) add("memory", "false");
   if (plan.success_count >= 0) add("success_count", plan.success_count);
   if (plan.failure_count >= 0) add("failure_count", plan.failure_count);
   if (plan.has_barriers) add("barriers", fmt::format("{}", fmt::join(plan.barriers, ";")));
@@ -52,6 +55,11 @@ std::string leaves_text(const Plan& plan) {
     text += leaves;
   }
   return text;
+}
+
+bool is_guard(const Plan& plan) {
+  if (plan.children.empty()) return plan.kind == "condition";
+  return std::ranges::all_of(plan.children, is_guard);
 }
 
 std::size_t count_nodes(const Plan& plan) {

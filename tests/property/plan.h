@@ -16,7 +16,8 @@ struct Plan {
   std::string script = {};
 
   // Built-ins; each uses the ones that are its own. Absent: -1.
-  bool memory = false;
+  bool memory = false;   // Sequence, Fallback
+  bool forgets = false;  // the parallels: memory="false"
   int success_count = -1;
   int failure_count = -1;
   bool has_barriers = false;
@@ -31,6 +32,9 @@ struct Plan {
 // As tree_from_text and ScriptedRun read them.
 std::string tree_text(const Plan& plan);
 std::string leaves_text(const Plan& plan);
+
+// No action is in it.
+bool is_guard(const Plan& plan);
 
 std::size_t count_nodes(const Plan& plan);
 

@@ -73,12 +73,32 @@ class Generator : Random {
   Plan control(std::string kind, int depth) {
     Plan plan{.kind = std::move(kind)};
     const int children = between(1, 4);
-    for (int i = 0; i < children; ++i) plan.children.push_back(node(depth + 1));
-    if (plan.kind == "Sequence" || plan.kind == "Fallback") plan.memory = one_in(2);
-    if (plan.kind == "Parallel" && one_in(2)) plan.success_count = between(1, children);
-    if (plan.kind == "Parallel" && one_in(2)) plan.failure_count = between(1, children);
+    const bool is_parallel = plan.kind.starts_with("Parallel");
+    for (int i = 0; i < children; ++i) {
+      plan.children.push_back(is_parallel && one_in(5) ? guard(depth + 1) : node(depth + 1));
+    }
+    if (!is_parallel) plan.memory = one_in(2);
+    if (is_parallel && one_in(6)) plan.forgets = true;
+    if (is_parallel && one_in(2)) plan.success_count = between(1, children);
+    if (is_parallel && one_in(2)) plan.failure_count = between(1, children);
     if (plan.kind == "ParallelRelative") plan.delta = one_in(4) ? between(0, 1) : fraction();
     if (plan.kind == "ParallelAbsolute") barriers(plan);
+    return plan;
+  }
+
+  // A subtree without actions.
+  Plan guard(int depth) {
+    --budget_;
+    if (depth >= kMaxDepth || !one_in(3)) return scripted("condition");
+    Plan plan{.kind = pick(std::array{"Sequence", "Fallback", "Parallel", "Inverter", "Delay",
+                                      "Repeat", "SubTree"})};
+    const bool is_control =
+        plan.kind == "Sequence" || plan.kind == "Fallback" || plan.kind == "Parallel";
+    for (int i = is_control ? between(1, 3) : 1; i > 0; --i) {
+      plan.children.push_back(guard(depth + 1));
+    }
+    if (plan.kind == "Repeat") plan.times = between(1, 3);
+    plan.seconds = .05 * between(0, 10);
     return plan;
   }
 

@@ -213,8 +213,18 @@ class Parallel : public ReferenceNode {
   using ReferenceNode::ReferenceNode;
   Status on_tick(bool) override {
     for (auto& child : children) {
-      if (!is_complete(child->status)) child->tick();
+      if (may_be_ticked(*child)) child->tick();
     }
+    return judge();
+  }
+
+ protected:
+  // A guard is asked in every tick; an action that completed stays so, unless the node forgets.
+  bool may_be_ticked(const ReferenceNode& child) const {
+    return plan.forgets || is_guard(child.plan) || !is_complete(child.status);
+  }
+
+  Status judge() {
     const int succeeded = count(Status::Success), failed = count(Status::Failure);
     if (succeeded >= wanted()) return finish(Status::Success);
     if (failed >= (plan.failure_count < 0 ? 1 : plan.failure_count)) return finish(Status::Failure);
@@ -222,6 +232,7 @@ class Parallel : public ReferenceNode {
     return Status::Running;
   }
 
+ public:
   double on_progress() override {
     std::vector<double> all;
     for (auto& child : children) all.push_back(child->progress());
@@ -255,29 +266,34 @@ class Synchronized : public Parallel {
     snapshot.clear();
     double least = 1;
     for (auto& child : children) {
-      snapshot.push_back(child->progress());
+      snapshot.push_back(reached(*child));
       least = std::min(least, snapshot.back());
     }
     const auto barrier = next_barrier(least);
     for (std::size_t i = 0; i < children.size(); ++i) {
-      if (is_complete(children[i]->status)) continue;
-      if (!is_held(snapshot[i], least, barrier)) {
+      if (!may_be_ticked(*children[i])) continue;
+      if (is_guard(children[i]->plan) || !is_held(snapshot[i], least, barrier)) {
         children[i]->tick();
       } else if (children[i]->status == Status::Running && !children[i]->paused) {
         children[i]->pause();
       }
     }
-    if (count(Status::Success) == static_cast<int>(children.size())) return Status::Success;
-    return count(Status::Failure) > 0 ? finish(Status::Failure) : Status::Running;
+    return judge();
   }
 
   double on_progress() override {
     double least = 1;
-    for (auto& child : children) least = std::min(least, child->progress());
+    for (auto& child : children) least = std::min(least, reached(*child));
     return least;
   }
 
  private:
+  // Nobody waits for a child that has failed and is not ticked again.
+  double reached(ReferenceNode& child) const {
+    if (child.status == Status::Failure && !may_be_ticked(child)) return 1;
+    return child.progress();
+  }
+
   std::optional<double> next_barrier(double least) const {
     std::vector<double> barriers = plan.barriers;
     for (int i = 1; i <= plan.barrier_count; ++i) {

@@ -12,6 +12,7 @@ namespace {
 constexpr unsigned kBarriers = 0;
 constexpr unsigned kBarrierCount = 1;
 constexpr unsigned kAtBarrier = 2;
+constexpr parallel::Places kPlaces{.success_count = 3, .failure_count = 4, .memory = 5};
 
 constexpr std::string_view kAtBarrierChoices[] = {"wait", "tick"};
 constexpr std::int64_t kTickAtBarrier = 1;
@@ -31,6 +32,9 @@ constexpr Parameter kParameters[] = {
             "pseudocode).",
      .default_text = "wait",
      .choices = kAtBarrierChoices},
+    parallel::kSuccessCount,
+    parallel::kFailureCount,
+    parallel::kMemory,
 };
 
 std::optional<RuleBreak> check_order(const std::vector<double>& barriers) {
@@ -46,7 +50,7 @@ std::optional<RuleBreak> check_order(const std::vector<double>& barriers) {
                    sorted.size() > kMostShown ? "" : "write '" + to_text(sorted) + "'"};
 }
 
-std::optional<RuleBreak> rule(const ParameterValues& given) {
+std::optional<RuleBreak> check_barriers(const ParameterValues& given) {
   if (given.is_given(kBarriers) && given.is_given(kBarrierCount)) {
     return RuleBreak{kBarrierCount, "both 'barriers' and 'barrier_count' are given",
                      "give exactly one of the two"};
@@ -67,6 +71,11 @@ std::optional<RuleBreak> rule(const ParameterValues& given) {
   return std::nullopt;
 }
 
+std::optional<RuleBreak> rule(const ParameterValues& given) {
+  if (auto broken = parallel::check_counts(given, kPlaces)) return broken;
+  return check_barriers(given);
+}
+
 // The smallest barrier that not every child has passed; infinity when none is left.
 double current_barrier(std::span<const double> barriers, double least) {
   const auto next = std::upper_bound(barriers.begin(), barriers.end(), least + kProgressEpsilon);
@@ -75,14 +84,21 @@ double current_barrier(std::span<const double> barriers, double least) {
 
 Status tick(Ticker& ticker, NodeIndex self) {
   const auto barriers = ticker.numbers(ticker.parameter(self, kBarriers));
-  const double barrier = current_barrier(barriers, synchronized::take_snapshot(ticker, self));
+  const double least = synchronized::take_snapshot(ticker, self, kPlaces);
+  const double barrier = current_barrier(barriers, least);
   ticker.state<SynchronizedState>(self).limit = barrier;
   if (ticker.parameter(self, kAtBarrier).integer == kTickAtBarrier) {
-    return synchronized::tick_children(
-        ticker, self, [barrier](double reached) { return reached > barrier + kProgressEpsilon; });
+    return synchronized::tick_children(ticker, self, kPlaces, [barrier](double reached) {
+      return reached > barrier + kProgressEpsilon;
+    });
   }
-  return synchronized::tick_children(
-      ticker, self, [barrier](double reached) { return reached >= barrier - kProgressEpsilon; });
+  return synchronized::tick_children(ticker, self, kPlaces, [barrier](double reached) {
+    return reached >= barrier - kProgressEpsilon;
+  });
+}
+
+double progress(Ticker& ticker, NodeIndex self) {
+  return synchronized::least_progress(ticker, self, kPlaces);
 }
 
 }  // namespace
@@ -91,15 +107,15 @@ const NodeKind kParallelAbsolute{
     .type = {.id = "ParallelAbsolute",
              .category = NodeCategory::Control,
              .doc = "Ticks its children in parallel and makes them wait for each other at a list "
-                    "of barriers: who reached the current barrier is held until all have. Success "
-                    "when all succeed, Failure when one fails.",
+                    "of barriers: who reached the current barrier is held until all have. Ends as "
+                    "Parallel does.",
              .arity = {1},
              .parameters = kParameters,
              .rule = rule,
              .sign = "⇉A",
              .synchronization = Synchronization::Absolute},
     .tick = tick,
-    .progress = synchronized::progress,
+    .progress = progress,
     .state_size = sizeof(SynchronizedState),
     .state_per_child = sizeof(double)};
 

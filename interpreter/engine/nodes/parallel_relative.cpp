@@ -5,6 +5,7 @@ namespace lockstep {
 namespace {
 
 constexpr unsigned kDelta = 0;
+constexpr parallel::Places kPlaces{.success_count = 1, .failure_count = 2, .memory = 3};
 
 constexpr Parameter kParameters[] = {
     {.name = "delta",
@@ -13,15 +14,26 @@ constexpr Parameter kParameters[] = {
             "synchronized.",
      .required = true,
      .range = {.min = 0, .max = 1}},
+    parallel::kSuccessCount,
+    parallel::kFailureCount,
+    parallel::kMemory,
 };
 
+std::optional<RuleBreak> rule(const ParameterValues& given) {
+  return parallel::check_counts(given, kPlaces);
+}
+
 Status tick(Ticker& ticker, NodeIndex self) {
-  const double least = synchronized::take_snapshot(ticker, self);
+  const double least = synchronized::take_snapshot(ticker, self, kPlaces);
   const double delta = ticker.parameter(self, kDelta).number;
   ticker.state<SynchronizedState>(self).limit = delta;
   const double most = farthest(Synchronization::Relative, delta, least) + kProgressEpsilon;
-  return synchronized::tick_children(ticker, self,
+  return synchronized::tick_children(ticker, self, kPlaces,
                                      [most](double reached) { return reached > most; });
+}
+
+double progress(Ticker& ticker, NodeIndex self) {
+  return synchronized::least_progress(ticker, self, kPlaces);
 }
 
 }  // namespace
@@ -30,13 +42,14 @@ const NodeKind kParallelRelative{
     .type = {.id = "ParallelRelative",
              .category = NodeCategory::Control,
              .doc = "Ticks its children in parallel and lets none run ahead of the slowest by more "
-                    "than delta. Success when all succeed, Failure when one fails.",
+                    "than delta. Ends as Parallel does.",
              .arity = {1},
              .parameters = kParameters,
+             .rule = rule,
              .sign = "⇉R",
              .synchronization = Synchronization::Relative},
     .tick = tick,
-    .progress = synchronized::progress,
+    .progress = progress,
     .state_size = sizeof(SynchronizedState),
     .state_per_child = sizeof(double)};
 

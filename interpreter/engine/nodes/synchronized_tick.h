@@ -5,62 +5,69 @@
 
 #include <algorithm>
 
+#include "engine/nodes/parallel_rule.h"
 #include "engine/synchronized.h"
-#include "engine/ticker.h"
 
 namespace lockstep::synchronized {
 
-// One snapshot before any child is ticked; returns its minimum. A child that succeeded counts as 1.
-inline double take_snapshot(Ticker& ticker, NodeIndex self) {
+// The progress of a child as the node counts it: 1 also when it has failed for good, for nobody
+// waits for a child that is over.
+inline double reached(Ticker& ticker, NodeIndex child, bool memory) {
+  if (ticker.status(child) == Status::Failure && parallel::is_latched(ticker, child, memory)) {
+    return 1.0;
+  }
+  return ticker.progress(child);
+}
+
+// One snapshot before any child is ticked; returns its minimum.
+inline double take_snapshot(Ticker& ticker, NodeIndex self, const parallel::Places& places) {
+  const bool memory = ticker.parameter(self, places.memory).boolean;
   double least = 1.0;
   NodeIndex child = self + 1;
   for (double& number : ticker.child_numbers(self)) {
-    number = ticker.progress(child);
+    number = reached(ticker, child, memory);
     least = std::min(least, number);
     child = ticker.end_of(child);
   }
   return least;
 }
 
-// `held(progress)` says of a child with that progress whether ticks are withheld from it.
+// `held(progress)` says of a child with that progress whether ticks are withheld from it. Never
+// from a guard.
 template <class Held>
-Status tick_each(Ticker& ticker, NodeIndex self, Held held) {
-  const auto snapshot = ticker.child_numbers(self);
-  std::uint32_t succeeded = 0;
-  bool failed = false;
+Status tick_each(Ticker& ticker, NodeIndex self, const parallel::Places& places, Held held) {
+  const bool memory = ticker.parameter(self, places.memory).boolean;
+  parallel::Tally tally;
   NodeIndex child = self + 1;
-  for (const double reached : snapshot) {
+  for (const double reached : ticker.child_numbers(self)) {
     if (ticker.faulted()) return Status::Running;
     Status status = ticker.status(child);
-    if (!is_complete(status)) {
-      if (!held(reached)) {
+    if (!is_complete(status) || !parallel::is_latched(ticker, child, memory)) {
+      if (!held(reached) || ticker.is_guard(child)) {
         status = ticker.tick(child);
       } else if (ticker.activity(child) == Activity::Running) {
         ticker.pause(child);
       }
     }
-    succeeded += status == Status::Success;
-    failed |= status == Status::Failure;
+    tally.add(status);
     child = ticker.end_of(child);
   }
-  if (succeeded == snapshot.size()) return Status::Success;
-  if (!failed) return Status::Running;
-  ticker.halt_running_children(self);
-  return Status::Failure;
+  return ticker.faulted() ? Status::Running : parallel::judge(ticker, self, places, tally);
 }
 
 template <class Held>
-Status tick_children(Ticker& ticker, NodeIndex self, Held held) {
-  const Status status = tick_each(ticker, self, held);
+Status tick_children(Ticker& ticker, NodeIndex self, const parallel::Places& places, Held held) {
+  const Status status = tick_each(ticker, self, places, held);
   ticker.state<SynchronizedState>(self).succeeded = status == Status::Success;
   return status;
 }
 
 // So that synchronized nodes nest: the least progressed child.
-inline double progress(Ticker& ticker, NodeIndex self) {
+inline double least_progress(Ticker& ticker, NodeIndex self, const parallel::Places& places) {
+  const bool memory = ticker.parameter(self, places.memory).boolean;
   double least = 1.0;
   for (NodeIndex child = self + 1; child != ticker.end_of(self); child = ticker.end_of(child)) {
-    least = std::min(least, ticker.progress(child));
+    least = std::min(least, reached(ticker, child, memory));
   }
   return least;
 }

@@ -1,0 +1,79 @@
+// What the three parallels share: which children are ticked again, and when the node ends.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "engine/ticker.h"
+
+namespace lockstep::parallel {
+
+inline constexpr Parameter kSuccessCount{
+    .name = "success_count",
+    .type = ValueType::Int,
+    .doc = "How many children must succeed for Success; all when absent.",
+    .range = {.min = 1}};
+inline constexpr Parameter kFailureCount{.name = "failure_count",
+                                         .type = ValueType::Int,
+                                         .doc = "How many children must fail for Failure.",
+                                         .default_text = "1",
+                                         .range = {.min = 1}};
+inline constexpr Parameter kMemory{
+    .name = "memory",
+    .type = ValueType::Bool,
+    .doc =
+        "Do not tick again the children with actions that completed in this activation; a child "
+        "without actions is ticked in every tick anyway.",
+    .default_text = "true",
+    .constant = true};
+
+// Where those three stand in the parameters of a kind.
+struct Places {
+  unsigned success_count, failure_count, memory;
+};
+
+inline std::optional<RuleBreak> check_counts(const ParameterValues& given, const Places& places) {
+  const std::int64_t all = given.children;
+  if (all == 0) return std::nullopt;  // that alone is wrong
+  if (!given.is_given(places.success_count)) given.values[places.success_count] = all;
+  for (const auto& [place, parameter] : {std::pair(places.success_count, &kSuccessCount),
+                                         std::pair(places.failure_count, &kFailureCount)}) {
+    const auto* count = std::get_if<std::int64_t>(&given.values[place]);
+    if (count == nullptr || *count <= all) continue;
+    const std::string most = std::to_string(all);
+    return RuleBreak{
+        static_cast<int>(place),
+        "'" + std::string(parameter->name) + "' is more than the " + most + " children of the node",
+        "give at most " + most};
+  }
+  return std::nullopt;
+}
+
+// Of a child that completed: it is not ticked again in this activation of its parallel. A guard is:
+// one that is looked at once guards nothing.
+inline bool is_latched(const Ticker& ticker, NodeIndex child, bool memory) {
+  return memory && !ticker.is_guard(child);
+}
+
+// How many children have which result.
+struct Tally {
+  std::int64_t succeeded = 0, failed = 0;
+
+  void add(Status status) {
+    succeeded += status == Status::Success;
+    failed += status == Status::Failure;
+  }
+};
+
+// Success first. What still runs is halted when the node ends.
+inline Status judge(Ticker& ticker, NodeIndex self, const Places& places, const Tally& tally) {
+  const std::int64_t wanted = ticker.parameter(self, places.success_count).integer;
+  const bool success = tally.succeeded >= wanted;
+  const bool failure = tally.failed >= ticker.parameter(self, places.failure_count).integer ||
+                       ticker.node(self).children - tally.failed < wanted;
+  if (!success && !failure) return Status::Running;
+  ticker.halt_running_children(self);
+  return success ? Status::Success : Status::Failure;
+}
+
+}  // namespace lockstep::parallel
