@@ -27,8 +27,8 @@ struct NodeKind {
   double (*progress)(Ticker& ticker, NodeIndex self);
   std::uint32_t state_size = 0;       // bytes in RunState
   std::uint32_t state_per_child = 0;  // and this many more for each child
-  // Leaves only, may be null: told to a running leaf. A control node has none of these. A leaf that
-  // was paused finds itself Activity::Paused in its next tick.
+  // May be null: called of a running node of a subtree that is halted or held. A node that was held
+  // finds itself Activity::Paused in its next tick.
   void (*halt)(Ticker& ticker, NodeIndex self) = nullptr;
   void (*pause)(Ticker& ticker, NodeIndex self) = nullptr;
   // For people who watch. Null where the child runs once. Asked only while the node is Running.

@@ -25,6 +25,7 @@ std::string parameters(const Plan& plan) {
   if (plan.kind == "Wait" || plan.kind == "Delay" || plan.kind == "Timeout") {
     add("seconds", plan.seconds);
   }
+  if (plan.wall_clock) add("clock", "wall");
   return text.empty() ? text : "[" + text + "]";
 }
 

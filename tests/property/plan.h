@@ -27,6 +27,7 @@ struct Plan {
   double delta = 0;
   int times = -1;  // of Repeat, attempts of Retry
   double seconds = 0;
+  bool wall_clock = false;  // Timeout, Delay
 };
 
 // As tree_from_text and ScriptedRun read them.

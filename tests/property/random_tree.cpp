@@ -121,6 +121,7 @@ class Generator : Random {
     plan.children.push_back(node(depth + 1));
     if (plan.kind == "Retry" || (plan.kind == "Repeat" && !one_in(4))) plan.times = between(1, 4);
     plan.seconds = .05 * between(plan.kind == "Timeout" ? 1 : 0, 20);
+    plan.wall_clock = (plan.kind == "Timeout" || plan.kind == "Delay") && one_in(3);
     return plan;
   }
 

@@ -367,17 +367,27 @@ class Timed : public ReferenceNode {  // Timeout, Delay
  public:
   using ReferenceNode::ReferenceNode;
   Status on_tick(bool first) override {
-    if (first) start_ = world.now;
-    const bool over = world.now - start_ >= from_seconds(plan.seconds);
+    if (first)
+      counted_ = Nanoseconds(0);
+    else if (!paused || plan.wall_clock)
+      counted_ += world.now - counted_until_;
+    counted_until_ = world.now;
+    paused = false;
+    const bool over = counted_ >= from_seconds(plan.seconds);
     if (plan.kind == "Delay") return over ? child().tick() : Status::Running;
     if (!over) return child().tick();
     child().make_idle();
     return Status::Failure;
   }
+  void on_pause() override {
+    if (plan.wall_clock) return;
+    counted_ += world.now - counted_until_;
+    counted_until_ = world.now;
+  }
   double on_progress() override { return child().progress(); }
 
  private:
-  Nanoseconds start_{0};
+  Nanoseconds counted_{0}, counted_until_{0};
 };
 
 class RunOnce : public ReferenceNode {

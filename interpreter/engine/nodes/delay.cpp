@@ -11,10 +11,11 @@ constexpr Parameter kParameters[] = {
      .required = true,
      .unit = "s",
      .range = {.min = 0, .max = 1e9}},
+    timed::kClockParameter,
 };
 
 Status tick(Ticker& ticker, NodeIndex self) {
-  return timed::is_over(ticker, self) ? ticker.tick(self + 1) : Status::Running;
+  return timed::is_over_by_clock(ticker, self) ? ticker.tick(self + 1) : Status::Running;
 }
 
 }  // namespace
@@ -28,6 +29,7 @@ const NodeKind kDelay{
              .can_run = true},
     .tick = tick,
     .progress = decorator::child_progress,
-    .state_size = sizeof(timed::State)};
+    .state_size = sizeof(timed::State),
+    .pause = timed::pause};
 
 }  // namespace lockstep

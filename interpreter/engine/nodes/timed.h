@@ -1,4 +1,5 @@
-// What Delay and Timeout share: the time since the first tick of an activation, against `seconds`.
+// The time that Wait, Timeout and Delay count: since the first tick of an activation, and without
+// the time during which the node was held.
 #pragma once
 
 #include "engine/ticker.h"
@@ -6,16 +7,45 @@
 namespace lockstep::timed {
 
 inline constexpr unsigned kSeconds = 0;
+inline constexpr unsigned kClock = 1;  // not of Wait
+
+inline constexpr std::string_view kClocks[] = {"active", "wall"};
+inline constexpr std::int64_t kWall = 1;
+inline constexpr Parameter kClockParameter{
+    .name = "clock",
+    .type = ValueType::String,
+    .doc =
+        "Which time counts: active stands still while the node is held; wall goes on, and what is "
+        "due happens in the next tick that the node receives.",
+    .default_text = "active",
+    .choices = kClocks};
 
 struct State {
   Nanoseconds start;
+  Nanoseconds paused_at;
 };
 
-// To be asked once in each tick.
-inline bool is_over(Ticker& ticker, NodeIndex self) {
+inline void pause(Ticker& ticker, NodeIndex self) {
+  ticker.state<State>(self).paused_at = ticker.now();
+}
+
+// To be called once in each tick, before anything else.
+inline void count(Ticker& ticker, NodeIndex self) {
   State& state = ticker.state<State>(self);
   if (ticker.first_tick(self)) state.start = ticker.now();
-  return ticker.now() - state.start >= from_seconds(ticker.parameter(self, kSeconds).number);
+  if (ticker.activity(self) == Activity::Paused) state.start += ticker.now() - state.paused_at;
+}
+
+inline bool is_over(Ticker& ticker, NodeIndex self) {
+  const Nanoseconds counted = ticker.now() - ticker.state<State>(self).start;
+  return counted >= from_seconds(ticker.parameter(self, kSeconds).number);
+}
+
+// Of Timeout and Delay.
+inline bool is_over_by_clock(Ticker& ticker, NodeIndex self) {
+  const bool goes_on = ticker.parameter(self, kClock).integer == kWall;
+  if (!goes_on || ticker.first_tick(self)) count(ticker, self);
+  return is_over(ticker, self);
 }
 
 }  // namespace lockstep::timed

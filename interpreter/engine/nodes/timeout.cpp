@@ -11,10 +11,11 @@ constexpr Parameter kParameters[] = {
      .required = true,
      .unit = "s",
      .range = {.min = 0, .max = 1e9, .min_excluded = true}},
+    timed::kClockParameter,
 };
 
 Status tick(Ticker& ticker, NodeIndex self) {
-  if (!timed::is_over(ticker, self)) return ticker.tick(self + 1);
+  if (!timed::is_over_by_clock(ticker, self)) return ticker.tick(self + 1);
   ticker.halt(self + 1);
   return Status::Failure;
 }
@@ -29,6 +30,7 @@ const NodeKind kTimeout{
              .parameters = kParameters},
     .tick = tick,
     .progress = decorator::child_progress,
-    .state_size = sizeof(timed::State)};
+    .state_size = sizeof(timed::State),
+    .pause = timed::pause};
 
 }  // namespace lockstep
