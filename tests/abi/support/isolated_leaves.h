@@ -73,7 +73,12 @@ inline Tree leaves_of(const NodeType& type, const std::vector<std::vector<Value>
   }
   for (const auto& row : rows) {
     const auto node = static_cast<NodeIndex>(tree.nodes.size());
-    tree.nodes.push_back(Node{&kPluginAction, node + 1, 0, node, 0});
+    tree.nodes.push_back({.kind = &kPluginAction,
+                          .end = node + 1,
+                          .children = 0,
+                          .is_guard = 0,
+                          .params = node,
+                          .state = 0});
     static constexpr std::string_view kNames[] = {"leaf0", "leaf1"};
     NodeLabel& label = tree.labels.emplace_back();
     label.name = kNames[node];

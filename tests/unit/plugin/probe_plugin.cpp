@@ -81,7 +81,9 @@ ProbeTree::ProbeTree(std::uint32_t full_leaves, std::uint32_t bare_leaves) {
   const std::vector<const NodeType*> types = plugins_.types();
   for (std::uint32_t leaf = 0; leaf < full_leaves; ++leaf) add_leaf(*types[0]);
   for (std::uint32_t leaf = 0; leaf < bare_leaves; ++leaf) add_leaf(*types[1]);
-  if (tree_.leaves.size() == 1) tree_.nodes.push_back({&kPluginAction, 1, 0, 0, 0});
+  if (tree_.leaves.size() == 1)
+    tree_.nodes.push_back(
+        {.kind = &kPluginAction, .end = 1, .children = 0, .is_guard = 0, .params = 0, .state = 0});
 }
 
 void ProbeTree::add_leaf(const NodeType& type) {
