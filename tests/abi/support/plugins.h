@@ -47,7 +47,12 @@ inline std::vector<std::string> refusal(const std::string& path,
 inline Tree tree_of(const NodeType& leaf, std::int64_t ticks) {
   Tree tree;
   const bool is_action = leaf.category == NodeCategory::Action;
-  tree.nodes = {Node{is_action ? &kPluginAction : &kPluginCondition, 1, 0, 0, 0}};
+  tree.nodes.push_back({.kind = is_action ? &kPluginAction : &kPluginCondition,
+                        .end = 1,
+                        .children = 0,
+                        .is_guard = 0,
+                        .params = 0,
+                        .state = 0});
   tree.leaves = {LeafNode{0, &leaf, 0}};
   tree.ports = {PortBinding{PortBinding::kUnbound, 0}};
   tree.constants = {Value(ticks)};
