@@ -130,6 +130,9 @@ std::string node_with(const NodeType& type, const Parameter& parameter, const st
       text += fmt::format(" {}=\"{}\"", other.name, to_text(Value(other.range.min + 1)));
     }
   }
+  const bool lacks_barriers =
+      type.synchronization == Synchronization::Absolute && !parameter.name.starts_with("barrier");
+  if (lacks_barriers) text += " barrier_count=\"1\"";
   if (type.arity.min == 0) return text + "/>";
   // Counts of children may be as many as there are.
   return text + ">" + repeated(3, "<AlwaysSuccess/>").substr(0, type.arity.max == 1 ? 16 : 48) +

@@ -76,8 +76,8 @@ TimedLeaves::TimedLeaves(std::uint32_t leaves) {
   Diagnostics diagnostics;
   if (!plugins.add(kPlugin, "timed", diagnostics)) throw std::logic_error("plugin refused");
   Definition definition{.id = "Test", .nodes = {}, .values = {}, .ports = {}, .entries = {}};
-  definition.values = {Value(std::int64_t{leaves}), Value(std::int64_t{1})};
-  definition.ports = {{.value = 0}, {.value = 1}};
+  definition.values = {Value(std::int64_t{leaves}), Value(std::int64_t{1}), Value(true)};
+  definition.ports = {{.value = 0}, {.value = 1}, {.value = 2}};
   definition.nodes.push_back({&parallel(), leaves + 1, 0, leaves, 0, "all", 0, 0});
   for (std::uint32_t node = 1; node <= leaves; ++node) {
     definition.nodes.push_back({plugins.types()[0], node + 1, 0, 0, 0, "timed", 0, 0});
