@@ -5,20 +5,13 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 
-#include "core/printable_json.h"
+#include "core/json.h"
 #include "core/utf8.h"
 
 namespace lockstep {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-std::string dump(const Json& json) {
-  return printable_json(json.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n";
-}
 
 // The message and, in a line of its own, the hint. A line end inside of them is made visible.
 std::string whole_text(const Diagnostic& message) {
@@ -128,7 +121,7 @@ std::string as_json(std::span<const Diagnostic> messages) {
                    {"message", it.message},
                    {"hint", it.hint}});
   }
-  return dump(all);
+  return all.printable(2) + "\n";
 }
 
 std::string as_github(std::span<const Diagnostic> messages) {
@@ -151,7 +144,7 @@ std::string as_sarif(std::span<const Diagnostic> messages) {
   for (const Diagnostic& it : messages) run["results"].push_back(sarif_result(it));
   Json log = {{"$schema", "https://json.schemastore.org/sarif-2.1.0.json"}, {"version", "2.1.0"}};
   log["runs"] = Json::array({std::move(run)});
-  return dump(log);
+  return log.printable(2) + "\n";
 }
 
 }  // namespace lockstep

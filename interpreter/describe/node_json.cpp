@@ -1,13 +1,10 @@
 #include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "core/printable_json.h"
+#include "core/json.h"
 #include "describe/node_reference.h"
 
 namespace lockstep {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json range_json(const Range& range) {
   if (!std::isfinite(range.min) && !std::isfinite(range.max)) return nullptr;
@@ -25,7 +22,7 @@ Json parameter_json(const Parameter& parameter) {
             {"required", parameter.required},
             {"unit", parameter.unit},
             {"range", range_json(parameter.range)},
-            {"choices", parameter.choices},
+            {"choices", Json::array({parameter.choices.begin(), parameter.choices.end()})},
             {"blackboard", !parameter.constant},
             {"doc", parameter.doc}};
   if (parameter.default_text) json["default"] = *parameter.default_text;
@@ -59,7 +56,7 @@ std::string nodes_as_json(NodeTypes types) {
                    {"real_time", type->real_time},
                    {"parameters", std::move(parameters)}});
   }
-  return printable_json(all.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n";
+  return all.printable(2) + "\n";
 }
 
 }  // namespace lockstep

@@ -1,23 +1,17 @@
 #include "recording/recording.h"
 
-#include <nlohmann/json.hpp>
+#include "core/json.h"
 
 namespace lockstep {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-std::string one_line(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 Json json_of(const RecordedNode& node, std::size_t index) {
   Json json = {{"index", index}, {"path", node.path}, {"kind", node.kind}, {"name", node.name}};
-  json["parent"] = node.parent ? Json(*node.parent) : Json();
+  json["parent"] = node.parent;
   if (node.synchronization == Synchronization::Absolute) {
-    json["barriers"] = node.barriers ? Json(*node.barriers) : Json();
+    json["barriers"] = node.barriers;
   } else if (node.synchronization == Synchronization::Relative) {
-    json["delta"] = node.delta ? Json(*node.delta) : Json();
+    json["delta"] = node.delta;
   }
   return json;
 }
@@ -27,7 +21,7 @@ Json json_of(const RecordedKey& entry) {
 }
 
 Json json_of(const RecordedLog& log) {
-  return {log.who, log.level, log.text};
+  return Json::array({log.who, log.level, log.text});
 }
 
 template <class Item>
@@ -78,7 +72,7 @@ std::string to_json(const RecordingHeader& header) {
     json["nodes"].push_back(json_of(header.nodes[index], index));
   }
   if (!header.entries.empty()) json["entries"] = list_of(header.entries);
-  return one_line(json);
+  return json.text();
 }
 
 std::string to_json(const RecordedEnd& end) {
@@ -92,7 +86,7 @@ std::string to_json(const RecordedEnd& end) {
   if (end.lost > 0) json["lost"] = end.lost;
   if (!end.notes.empty()) json["notes"] = end.notes;
   if (!end.logs.empty()) json["logs"] = list_of(end.logs);
-  return one_line({{"end", std::move(json)}});
+  return Json{{"end", std::move(json)}}.text();
 }
 
 }  // namespace lockstep

@@ -5,17 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <nlohmann/json.hpp>
 
+#include "core/json.h"
 #include "core/json_reader.h"
 #include "study/plan_check.h"
 
 namespace lockstep {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-constexpr auto kReplace = Json::error_handler_t::replace;  // what is not UTF-8
 constexpr int kFormat = 2;
 constexpr char kGap[] = "gap";
 constexpr char kNotOurs[] = "it is not as lockstep has written it";
@@ -145,7 +142,7 @@ void read(JsonObject json, StudyPlan& plan) {
 
 std::string to_json(const StudyPlan& plan) {
   // A text that is not UTF-8 was refused with the tree; a path need not be.
-  return json_of(plan).dump(2, ' ', false, kReplace) + '\n';
+  return json_of(plan).text(2) + '\n';
 }
 
 std::optional<StudyPlan> plan_from_json(std::string text, std::string& error) {
@@ -163,10 +160,10 @@ std::optional<StudyPlan> plan_from_json(std::string text, std::string& error) {
 
 std::string first_difference(const StudyPlan& one, const StudyPlan& other, bool with_shard) {
   // As they are written: a path that is not UTF-8 is something else there.
-  const auto text_of = [](const Json& json) { return json.dump(-1, ' ', false, kReplace); };
-  const Json a = json_of(one), b = json_of(other);
-  for (const auto& [key, value] : a.items()) {
-    if (key != "shard" && text_of(b.at(key)) != text_of(value)) return key;
+  const Json a = json_of(one);
+  Json b = json_of(other);
+  for (const auto& [key, value] : a.members()) {
+    if (key != "shard" && b[key].text() != value.text()) return key;
   }
   return with_shard && one.shard != other.shard ? "shard" : "";
 }

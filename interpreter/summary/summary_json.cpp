@@ -1,12 +1,9 @@
-#include <nlohmann/json.hpp>
 
-#include "core/printable_json.h"
+#include "core/json.h"
 #include "summary/summary.h"
 
 namespace lockstep {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json json_of(const SynchronizedSummary& node) {
   Json children = Json::array();
@@ -78,7 +75,7 @@ std::string to_json(const Summary& summary) {
   json["skipped"] = summary.skipped;
   json["worst_tick"] = summary.worst ? json_of(*summary.worst) : Json();
   json["faults"] = summary.faults;
-  json["tick_budget_s"] = summary.tick_budget ? Json(*summary.tick_budget) : Json();
+  json["tick_budget_s"] = summary.tick_budget;
   json["over_budget"] = json_of(summary.over_budget);
   json["synchronized_nodes"] = Json::array();
   for (const auto& node : summary.synchronized_nodes) {
@@ -86,7 +83,7 @@ std::string to_json(const Summary& summary) {
   }
   json["never_reached"] = summary.never_reached;
   json["notes"] = summary.notes;
-  return printable_json(json.dump(-1, ' ', false, Json::error_handler_t::replace));
+  return json.printable();
 }
 
 }  // namespace lockstep

@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "core/diagnostics.h"
-#include "core/printable_json.h"
+#include "core/json.h"
 #include "study/column_names.h"
 #include "terminal/text_line.h"
 
@@ -74,7 +73,6 @@ std::string summary_table(const StudyPlan& plan, const std::vector<SummaryRow>& 
 }
 
 std::string summary_json(const StudyPlan& plan, const std::vector<SummaryRow>& rows) {
-  using Json = nlohmann::ordered_json;
   Json array = Json::array();
   for (const SummaryRow& row : rows) {
     Json cell = Json::object();
@@ -88,12 +86,12 @@ std::string summary_json(const StudyPlan& plan, const std::vector<SummaryRow>& r
     json["n"] = it.count;
     json["runs"] = row.results.runs;
     for (std::size_t i = 0; i < kResultNames.size(); ++i) {
-      json[std::string(kResultNames[i])] = row.results.share(i);
+      json[kResultNames[i]] = row.results.share(i);
     }
-    json["gap"] = row.gap ? Json(*row.gap) : Json();
+    json["gap"] = row.gap;
     array.push_back(std::move(json));
   }
-  return printable_json(array.dump(-1, ' ', false, Json::error_handler_t::replace));
+  return array.printable();
 }
 
 std::vector<std::string> summary_warnings(const std::vector<SummaryRow>& rows) {

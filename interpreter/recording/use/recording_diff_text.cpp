@@ -1,18 +1,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "core/diagnostics.h"
-#include "core/printable_json.h"
+#include "core/json.h"
 #include "recording/use/recording_diff.h"
 #include "summary/summary.h"
 #include "terminal/style.h"
 
 namespace lockstep {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 class Text {
  public:
@@ -75,14 +72,10 @@ void add_tick(Text& text, const TickDifference& tick) {
   for (const std::string& entry : tick.entries_b) text.added("entry " + entry);
 }
 
-Json json_of(const std::optional<std::string>& value) {
-  return value ? Json(*value) : Json();
-}
-
 Json json_of(const std::vector<ValueDifference>& values) {
   Json json = Json::array();
   for (const ValueDifference& value : values) {
-    json.push_back({{"what", value.what}, {"a", json_of(value.a)}, {"b", json_of(value.b)}});
+    json.push_back({{"what", value.what}, {"a", value.a}, {"b", value.b}});
   }
   return json;
 }
@@ -144,7 +137,7 @@ std::string to_json(const RecordingDiff& diff) {
                      {"ticks", {{"a", diff.ticks_a}, {"b", diff.ticks_b}}},
                      {"end", json_of(diff.end)},
                      {"notes", diff.notes}};
-  return printable_json(json.dump(-1, ' ', false, Json::error_handler_t::replace));
+  return json.printable();
 }
 
 }  // namespace lockstep

@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "core/diagnostics.h"
-#include "core/printable_json.h"
+#include "core/json.h"
 #include "core/value.h"
 #include "measure/measuring.h"
 #include "recording/use/recorded_probe.h"
@@ -111,14 +110,13 @@ std::vector<MeasuredValue> measure_recording(RecordingReader& reader,
 }
 
 std::string to_json(std::span<const MeasuredValue> values) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  Json json = Json::array();
   for (const MeasuredValue& value : values) {
     json.push_back(
         {{"node", value.node}, {"measure", to_text(*value.measure)}, {"value", value.value}});
     if (value.gap) json.back()["gap"] = *value.gap;
   }
-  return printable_json(
-      json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  return json.printable();
 }
 
 std::string to_table(std::span<const MeasuredValue> values) {

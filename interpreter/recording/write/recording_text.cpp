@@ -8,8 +8,9 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <string_view>
+
+#include "core/json.h"
 
 namespace lockstep {
 namespace {
@@ -43,86 +44,64 @@ char* put_progress(char* to, double progress) {
   return fmt::format_to(to, FMT_COMPILE("{}"), progress);
 }
 
-void add_limits(std::string& text, std::span<const LimitChange> limits) {
-  text += ",\"limits\":";
-  char separator = '[';
-  for (const LimitChange& it : limits) {
-    text += separator;
-    separator = ',';
-    if (std::isinf(it.limit)) {
-      fmt::format_to(std::back_inserter(text), FMT_COMPILE("[{},null]"), it.node);
-    } else {
-      fmt::format_to(std::back_inserter(text), FMT_COMPILE("[{},{}]"), it.node, it.limit);
-    }
-  }
-  text += ']';
+template <class Number>
+void add_number(std::string& text, Number number) {
+  fmt::format_to(std::back_inserter(text), FMT_COMPILE("{}"), number);
 }
 
-void add_succeeded(std::string& text, std::span<const NodeIndex> succeeded) {
-  text += ",\"succeeded\":";
+// ,"name":[…] with what `add_item` adds for each, or nothing when there is none.
+template <class Item, class AddItem>
+void add_list(std::string& text, std::string_view name, std::span<const Item> items,
+              AddItem add_item) {
+  if (items.empty()) return;
+  ((text += ",\"") += name) += "\":";
   char separator = '[';
-  for (const NodeIndex node : succeeded) {
-    text += separator;
-    separator = ',';
-    fmt::format_to(std::back_inserter(text), FMT_COMPILE("{}"), node);
-  }
-  text += ']';
-}
-
-// ,"name":[…] of what `json_of` makes of each item.
-template <class Item, class JsonOf>
-std::string list_text(std::string_view name, std::span<const Item> items, JsonOf json_of) {
-  std::string text = fmt::format(",\"{}\":[", name);
   for (const Item& item : items) {
-    if (&item != items.data()) text += ',';
-    const nlohmann::json json = json_of(item);
-    text += json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  }
-  return text + "]";
-}
-
-std::string faults_text(std::span<const Fault> faults) {
-  constexpr std::size_t kMostOfMessage = 4096;
-  return list_text("faults", faults, [](const Fault& fault) {
-    return nlohmann::json{fault.node, fault.message.substr(0, kMostOfMessage)};
-  });
-}
-
-bool is_plain(std::string_view text) {
-  return std::ranges::all_of(text, [](char letter) {
-    return letter >= ' ' && letter <= '~' && letter != '"' && letter != '\\';
-  });
-}
-
-void add_string(std::string& to, std::string_view text) {
-  if (is_plain(text)) {
-    ((to += '"') += text) += '"';
-  } else {
-    to += nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  }
-}
-
-void add_entries(std::string& text, std::span<const EntryChange> entries) {
-  text += ",\"entries\":";
-  char separator = '[';
-  for (const EntryChange& it : entries) {
     text += separator;
     separator = ',';
-    fmt::format_to(std::back_inserter(text), FMT_COMPILE("[{},"), it.entry);
-    if (it.text != nullptr) {
-      add_string(text, *it.text);
-    } else {
-      text += "null";
-    }
-    text += ']';
+    add_item(text, item);
   }
   text += ']';
 }
 
-std::string logs_text(std::span<const RecordedLog> logs) {
-  return list_text("logs", logs, [](const RecordedLog& log) {
-    return nlohmann::json{log.who, log.level, log.text};
-  });
+void add_limit(std::string& text, const LimitChange& it) {
+  add_number(text += '[', it.node);
+  text += ',';
+  if (std::isinf(it.limit)) {
+    text += "null";
+  } else {
+    add_number(text, it.limit);
+  }
+  text += ']';
+}
+
+void add_fault(std::string& text, const Fault& fault) {
+  constexpr std::size_t kMostOfMessage = 4096;
+  add_number(text += '[', fault.node);
+  text += ',';
+  append_json(text, std::string_view(fault.message).substr(0, kMostOfMessage));
+  text += ']';
+}
+
+void add_entry(std::string& text, const EntryChange& it) {
+  add_number(text += '[', it.entry);
+  text += ',';
+  if (it.text != nullptr) {
+    append_json(text, *it.text);
+  } else {
+    text += "null";
+  }
+  text += ']';
+}
+
+void add_log(std::string& text, const RecordedLog& log) {
+  text += '[';
+  append_json(text, log.who);
+  text += ',';
+  append_json(text, log.level);
+  text += ',';
+  append_json(text, log.text);
+  text += ']';
 }
 
 }  // namespace
@@ -151,11 +130,11 @@ char* put_node(char* to, NodeIndex node, const RecordedState& state) {
 
 void set_tick_end(std::string& text, const TickEnd& end) {
   text = ']';
-  if (!end.limits.empty()) add_limits(text, end.limits);
-  if (!end.succeeded.empty()) add_succeeded(text, end.succeeded);
-  if (!end.faults.empty()) text += faults_text(end.faults);
-  if (!end.entries.empty()) add_entries(text, end.entries);
-  if (!end.logs.empty()) text += logs_text(end.logs);
+  add_list(text, "limits", end.limits, add_limit);
+  add_list(text, "succeeded", end.succeeded, add_number<NodeIndex>);
+  add_list(text, "faults", end.faults, add_fault);
+  add_list(text, "entries", end.entries, add_entry);
+  add_list(text, "logs", end.logs, add_log);
   text += "}\n";
 }
 
