@@ -15,6 +15,8 @@
 #include <variant>
 #include <vector>
 
+#include "core/value.h"
+
 namespace lockstep {
 
 struct JsonMember;
@@ -58,9 +60,8 @@ class Json {
   using List = std::vector<Json>;
   void add_text(std::string& text, std::size_t indent, std::size_t depth) const;
 
-  std::variant<std::nullptr_t, bool, std::int64_t, std::uint64_t, double, std::string, List,
-               Members>
-      value_ = nullptr;
+  std::variant<NoValue, bool, std::int64_t, std::uint64_t, double, std::string, List, Members>
+      value_;
 };
 
 struct JsonMember {

@@ -67,7 +67,7 @@ struct ParameterValues {
   std::uint64_t from_entry = 0;
 
   bool is_given(unsigned index) const {
-    return (from_entry >> index & 1) != 0 || !std::holds_alternative<std::monostate>(values[index]);
+    return (from_entry >> index & 1) != 0 || !std::holds_alternative<NoValue>(values[index]);
   }
 };
 

@@ -97,7 +97,7 @@ std::optional<Value> parse_value(ValueType type, std::string_view text) {
 void append_text(const Value& value, std::string& out) {
   struct Writer {
     std::string& out;
-    void operator()(std::monostate) const {}
+    void operator()(NoValue) const {}
     void operator()(bool flag) const { out += flag ? "true" : "false"; }
     void operator()(std::int64_t number) const {
       fmt::format_to(std::back_inserter(out), "{}", number);

@@ -12,9 +12,18 @@ namespace lockstep {
 
 enum class ValueType : std::uint8_t { Bool, Int, Double, String, DoubleList };
 
-// The alternatives stand in the order of ValueType; monostate is "no value yet".
-using Value =
-    std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<double>>;
+// An entry that nobody has written. Not std::monostate: libstdc++ 12 takes a variant of it,
+// numbers, strings and vectors for one that always has a value, and crashes when copying one
+// throws.
+struct NoValue {
+  NoValue() = default;
+  NoValue(const NoValue&) noexcept {}
+  NoValue& operator=(const NoValue&) noexcept { return *this; }
+  bool operator==(const NoValue&) const = default;
+};
+
+// The alternatives stand in the order of ValueType.
+using Value = std::variant<NoValue, bool, std::int64_t, double, std::string, std::vector<double>>;
 
 // "bool", "int", "double", "string", "list of double".
 std::string_view to_string(ValueType type);

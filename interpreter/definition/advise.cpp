@@ -168,7 +168,7 @@ class Adviser {
   void unwritten_entries() const {
     std::vector<bool> valued(definition_.entries.size());  // has a value at some time
     for (std::size_t i = 0; i < valued.size(); ++i) {
-      valued[i] = !std::holds_alternative<std::monostate>(definition_.entries[i].initial);
+      valued[i] = !std::holds_alternative<NoValue>(definition_.entries[i].initial);
     }
     for_each_port([&](const Parameter& parameter, std::uint32_t entry) {
       if (parameter.direction != Direction::Input) valued[entry] = true;

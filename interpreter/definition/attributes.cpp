@@ -179,7 +179,7 @@ bool check_parameter(const NodeElement& element, const Reporter& report,
     return false;
   }
   value = checker.constant(parameter, attribute);
-  const bool absent = std::holds_alternative<std::monostate>(value);
+  const bool absent = std::holds_alternative<NoValue>(value);
   return !absent || (attribute == nullptr && !parameter.required);
 }
 
@@ -199,7 +199,7 @@ void check_parameters(const NodeElement& element, const Reporter& report,
   }
   if (good && node.type->rule != nullptr) check_rule(element, report, node, ports, values);
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    if (std::holds_alternative<std::monostate>(values[i])) continue;
+    if (std::holds_alternative<NoValue>(values[i])) continue;
     ports[i].value = static_cast<std::uint32_t>(first_value + i);
   }
 }

@@ -51,7 +51,7 @@ std::string BoundParameters::take_values(const BoundNode& node, Values& values) 
   for (unsigned i = 0; i < values.values.size(); ++i) {
     const PortBinding& port = tree_.ports[node.first_port + i];
     const Entry* entry = port.slot == PortBinding::kUnbound ? nullptr : &board_.entries[port.slot];
-    const bool written = entry != nullptr && !std::holds_alternative<std::monostate>(entry->value);
+    const bool written = entry != nullptr && !std::holds_alternative<NoValue>(entry->value);
     if (entry != nullptr) values.seen[i] = entry->writes;
     if (written) {
       if (const auto why = refuse_value(type.parameters[i], entry->value)) {

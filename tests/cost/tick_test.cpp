@@ -32,6 +32,7 @@
 
 namespace {
 thread_local bool t_counting = false;
+thread_local bool t_no_memory = false;
 std::atomic<int> g_allocations{0};
 std::atomic<int> g_locks{0};
 }  // namespace
@@ -41,6 +42,7 @@ std::atomic<int> g_locks{0};
 
 void* operator new(std::size_t size) {
   if (t_counting) ++g_allocations;
+  if (t_no_memory) throw std::bad_alloc();
   if (void* memory = std::malloc(size)) return memory;
   throw std::bad_alloc();
 }
@@ -212,6 +214,19 @@ TEST_CASE("the counters count") {
   pthread_mutex_unlock(&mutex);
   CHECK(g_allocations == 2);
   CHECK(g_locks == 1);
+}
+
+TEST_CASE("a copy of a value for which there is no memory throws, and that is all") {
+  const Value list = std::vector<double>{0.5, 1};
+  bool thrown = false;
+  t_no_memory = true;
+  try {
+    const Value copy = list;
+  } catch (const std::bad_alloc&) {
+    thrown = true;
+  }
+  t_no_memory = false;
+  CHECK(thrown);
 }
 
 TEST_CASE("measuring the runs of a study allocates nothing and locks nothing") {

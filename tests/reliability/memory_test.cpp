@@ -32,20 +32,22 @@ void check_end(const Outcome& outcome) {
 TEST_CASE("out of memory, every command says so and has a code for it") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file(
-      "tree.xml", tree_text("<ParallelAbsolute barriers=\"0.5;1\"><Advance step=\"0.01\"/>"
+      "tree.xml", tree_text("<ParallelAbsolute barriers=\"{plan}\"><Advance step=\"0.01\"/>"
                             "<Wait seconds=\"1\"/></ParallelAbsolute>"));
   const std::string file = directory.path("run.jsonl");
-  REQUIRE(lockstep({"run", tree, "--clock", "virtual", "--record", file}).code == 0);
+  const std::string plan = "plan=0.5;1";
+  REQUIRE(lockstep({"run", tree, "--clock", "virtual", "--record", file, "--set", plan}).code == 0);
   const std::vector<Strings> commands = {
       {"check", tree},
       {"check", tree, "--format", "sarif"},
       {"show", tree},
       {"nodes"},
       {"schema"},
-      {"run", tree, "--clock", "virtual", "--record", directory.path("again.jsonl")},
-      {"run", tree, "--clock", "virtual", "--view", "live"},
-      {"run", tree, "--clock", "virtual", "--json"},
-      {"study", tree, "--runs", "60", "--jobs", "2", "--no-plots", "--out", directory.path("s")},
+      {"run", tree, "--set", plan, "--clock", "virtual", "--record", directory.path("again.jsonl")},
+      {"run", tree, "--set", plan, "--clock", "virtual", "--view", "live"},
+      {"run", tree, "--set", plan, "--clock", "virtual", "--json"},
+      {"study", tree, "--set", plan, "--runs", "60", "--jobs", "2", "--no-plots", "--out",
+       directory.path("s")},
       {"log", "info", file},
       {"log", "csv", file},
       {"log", "measure", file},

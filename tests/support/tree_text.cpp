@@ -164,7 +164,7 @@ class Builder {
     }
     if (all.from_entry == 0) values = std::move(ruled);
     for (std::uint32_t i = 0; i < values.size(); ++i) {
-      if (std::holds_alternative<std::monostate>(values[i])) continue;
+      if (std::holds_alternative<NoValue>(values[i])) continue;
       definition_.ports[first + i].value = first_value + i;
     }
     definition_.values.insert(definition_.values.end(), values.begin(), values.end());

@@ -65,7 +65,7 @@ bool MessageReader::value_into(Value& value) {
   const auto index = get<std::uint8_t>();
   if (!good_) return false;
   if (index == 0) {
-    value.emplace<std::monostate>();
+    value.emplace<NoValue>();
     return true;
   }
   switch (static_cast<ValueType>(index - 1)) {

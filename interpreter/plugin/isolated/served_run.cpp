@@ -168,7 +168,7 @@ std::string ServedRun::call(Object& object, PluginFunction function, std::uint64
 void ServedRun::write_entries(MessageWriter& answer) const {
   for (const Entry* entry : written_) {
     // A set that failed for want of memory may have left nothing there.
-    if (std::holds_alternative<std::monostate>(entry->value)) continue;
+    if (std::holds_alternative<NoValue>(entry->value)) continue;
     answer.put(numbers_.at(entry));
     answer.put_value(entry->value);
   }
