@@ -56,15 +56,17 @@ CartScene& HoldCart::scene() const {
 
 void HoldCart::start() {
   CartScene& now = scene();
+  if (!(hysteresis.get() >= 0 && hysteresis.get() <= boundary.get())) {
+    throw std::runtime_error("port 'hysteresis' must be from 0 to 'boundary'");
+  }
   now.cart = drift_of(drift.get(), drift_length.get(), align_rate.get());
   now.arms_align = true;
-  now.has_arrived = false;
   is_aligning_ = false;
 }
 
-// A wide and a narrow limit: with one, the base would stop and go from tick to tick.
 bool HoldCart::is_off() const {
-  return std::abs(scene().cart.error) > (is_aligning_ ? aligned : boundary).get();
+  const double limit = boundary.get() - (is_aligning_ ? hysteresis.get() : 0);
+  return std::abs(scene().cart.error) > limit;
 }
 
 HoldCart::Status HoldCart::tick() {
@@ -77,9 +79,7 @@ HoldCart::Status HoldCart::tick() {
     return Status::Failure;
   }
   is_aligning_ = is_off();
-  if (!now.has_arrived || is_aligning_) return Status::Running;
-  now.arms_align = false;
-  return Status::Success;
+  return Status::Running;
 }
 
 void HoldCart::halt() {
@@ -109,7 +109,6 @@ void FollowPath::start() {
   now.base = drift_of(drift.get(), drift_length.get(), steer_rate.get());
   now.speed = speed.get();
   now.traveled = 0;
-  now.has_arrived = false;
   now.base_moves = true;
 }
 
@@ -117,7 +116,6 @@ FollowPath::Status FollowPath::tick() {
   CartScene& now = scene();
   traveled.set(now.traveled);
   if (now.traveled < path.get()) return Status::Running;
-  now.has_arrived = true;
   stop();
   return Status::Success;
 }

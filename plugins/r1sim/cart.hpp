@@ -34,7 +34,6 @@ class CartScene {
   double traveled = 0;  // m
   bool arms_align = false;
   bool base_moves = false;
-  bool has_arrived = false;
 
  private:
   lockstep::Run& run_;
@@ -43,7 +42,8 @@ class CartScene {
 
 struct HoldCartPorts : lockstep::Ports {
   Input<double> boundary{this, "boundary", "0.04", "progress is 0 above this error", "m"};
-  Input<double> aligned{this, "aligned", "0.01", "progress is 1 again below this error", "m"};
+  Input<double> hysteresis{this, "hysteresis", "0",
+                           "once it was 0, progress is 1 again this far within the boundary", "m"};
   Input<double> slip{this, "slip", "0.08", "the cart is lost at this error", "m"};
   Input<double> align_rate{this, "align_rate", "0.04", "how fast the arms bring it back", "m/s"};
   Input<double> drift{this, "drift", "0.15", "rms of the cart's slope: m sideways per m", "m/m"};
@@ -64,7 +64,7 @@ class HoldCart : public lockstep::Action<HoldCartPorts> {
   CartScene& scene() const;
   bool is_off() const;
 
-  bool is_aligning_ = false;  // beyond the boundary, and not back yet
+  bool is_aligning_ = false;  // beyond the boundary, and not far enough within it yet
 };
 
 struct FollowPathPorts : lockstep::Ports {

@@ -26,8 +26,8 @@ LOCKSTEP_PLUGIN("r1sim", "1.0", "A simulated humanoid on a wheeled base, scene b
                 lockstep::leaf<r1sim::HoldCart>(
                     "HoldCart",
                     "Holds a cart straight with compliant arms. Perpetual: progress is 1 while the "
-                    "cart is near its place, else 0. Failure when it slips away, Success when "
-                    "FollowPath has arrived and the cart is near its place."),
+                    "cart is near its place, else 0. Failure when it slips away; it never "
+                    "succeeds."),
                 lockstep::leaf<r1sim::FollowPath>(
                     "FollowPath",
                     "Drives the base along a straight path, the cart in front. Perpetual: progress "

@@ -8,8 +8,8 @@ namespace lockstep::test {
 namespace {
 
 std::string push_cart(const std::string& delta, const std::string& cart, const std::string& base) {
-  return "<ParallelRelative delta=\"" + delta + "\"><HoldCart name=\"arms\" " + cart +
-         "/><FollowPath name=\"base\" " + base + "/></ParallelRelative>";
+  return "<ParallelRelative success_count=\"1\" delta=\"" + delta + "\"><HoldCart name=\"arms\" " +
+         cart + "/><FollowPath name=\"base\" " + base + "/></ParallelRelative>";
 }
 
 int successes(const std::string& delta, double rate) {
@@ -69,6 +69,52 @@ TEST_CASE("arms that were held align the cart again", "[plugins][cart]") {
     CHECK(runner.run({.seed = seed, .after_tick = count}).status == Status::Success);
   }
   CHECK(held > 0);
+}
+
+TEST_CASE("the arms' progress is 1 within the boundary, else 0", "[plugins][cart]") {
+  const TreeRunner runner("r1sim", push_cart("0", "error=\"{error}\"", ""));
+  const NodeIndex arms = runner.node("arms");
+  int within = 0, beyond = 0;
+  const auto compare = [&](Ticker& ticker) {
+    if (!ticker.ticked(arms) || ticker.status(arms) != Status::Running) return;
+    const double error = std::get<double>(ticker.blackboard().entries[0].value);
+    const bool is_within = std::abs(error) <= 0.04;
+    ++(is_within ? within : beyond);
+    CHECK(ticker.progress(arms) == (is_within ? 1 : 0));
+  };
+  CHECK(runner.run({.after_tick = compare}).status == Status::Success);
+  CHECK(within > 100);
+  CHECK(beyond > 100);
+}
+
+TEST_CASE("hysteresis makes the base stop less often, and for longer", "[plugins][cart]") {
+  struct Stops {
+    int count = 0, ticks = 0;
+    bool was_held = false;
+  };
+  const auto stops_with = [](const std::string& hysteresis) {
+    const TreeRunner runner("r1sim", push_cart("0", "hysteresis=\"" + hysteresis + "\"", ""));
+    const NodeIndex base = runner.node("base");
+    Stops stops;
+    const auto count = [&](Ticker& ticker) {
+      const bool held = ticker.held(base);
+      stops.count += held && !stops.was_held;
+      stops.ticks += held;
+      stops.was_held = held;
+    };
+    CHECK(runner.run({.after_tick = count}).status == Status::Success);
+    return stops;
+  };
+  const Stops none = stops_with("0"), wide = stops_with("0.03");
+  CHECK(wide.count * 10 < none.count);
+  CHECK(wide.ticks / wide.count > 10 * none.ticks / none.count);
+}
+
+TEST_CASE("hysteresis is refused that no error can reach", "[plugins][cart]") {
+  for (const char* const hysteresis : {"-0.01", "0.05"}) {
+    const TreeRunner runner("r1sim", "<HoldCart hysteresis=\"" + std::string(hysteresis) + "\"/>");
+    CHECK_THAT(runner.run({}).fault, Catch::Contains("'hysteresis' must be from 0 to 'boundary'"));
+  }
 }
 
 TEST_CASE("a second attempt begins at the start of the path", "[plugins][cart]") {
