@@ -62,7 +62,7 @@ const std::vector<Layer> kThirdParty{
     {"tinyxml2", {"interpreter/document/"}},
     {"dlfcn.h", {"interpreter/plugin/"}},
     {"CLI/", {"interpreter/cli/"}},
-    {"simdjson.h", {"interpreter/core/json_reader.h"}},
+    {"simdjson.h", {"interpreter/core/json_reader.h", "plugins/motion/recorded.cpp"}},
     {"nlohmann/", {"interpreter/core/json.cpp"}},
     {"fmt/",
      {"interpreter/core/", "interpreter/document/", "interpreter/definition/",

@@ -2,26 +2,36 @@
 #include <lockstep/leaf.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
+#include <optional>
 #include <stdexcept>
 
-namespace {
+#include "profile.hpp"
+#include "recorded.hpp"
 
-constexpr double kDone = 1 - 1e-9;  // ten steps of 0.1 are one
+namespace motion {
 
 struct AdvancePorts : lockstep::Ports {
   Input<double> step{this, "step", "0.01", "progress per tick; may be negative"};
   Input<double> noise{this, "noise", "0", "each tick adds step + uniform(-noise, noise)"};
+  Input<std::string> noise_per{this, "noise_per", "tick",
+                               "tick, or run: the noise is drawn once, and the pace is constant"};
 };
 
 class Advance : public lockstep::Action<AdvancePorts> {
  public:
-  void start() override { progress_ = 0; }
+  void start() override {
+    progress_ = 0;
+    is_constant_ = noise_per.view() == "run";
+    if (!is_constant_ && noise_per.view() != "tick") {
+      throw std::runtime_error("port 'noise_per' is neither 'tick' nor 'run'");
+    }
+    if (is_constant_ && !of_run_) of_run_ = uniform(-1, 1);
+  }
 
   Status tick() override {
     const double half_width = noise.get();
-    const double change = step.get() + uniform(-half_width, half_width);
+    const double change =
+        step.get() + (is_constant_ ? half_width * *of_run_ : uniform(-half_width, half_width));
     progress_ = std::clamp(progress_ + change, 0.0, 1.0);
     return progress_ >= kDone ? Status::Success : Status::Running;
   }
@@ -30,45 +40,8 @@ class Advance : public lockstep::Action<AdvancePorts> {
 
  private:
   double progress_ = 0;
-};
-
-struct ProfilePorts : lockstep::Ports {
-  Input<std::string> shape{this, "shape", "line", "line, or sigmoid: slow, fast, slow"};
-  Input<double> step{this, "step", "0.001", "1 / the number of ticks from 0 to 1; in (0, 1]"};
-};
-
-// The logistic curve, shifted and scaled so that it goes through (0, 0) and (1, 1).
-double sigmoid(double x) {
-  constexpr double kSteepness = 10;
-  const auto logistic = [](double t) { return 1 / (1 + std::exp(-kSteepness * (t - 0.5))); };
-  return (logistic(x) - logistic(0)) / (logistic(1) - logistic(0));
-}
-
-class Profile : public lockstep::Action<ProfilePorts> {
- public:
-  void start() override {
-    ticks_ = 0;
-    step_ = step.get();
-    if (!(step_ > 0 && step_ <= 1)) throw std::runtime_error("port 'step' is not in (0, 1]");
-    is_sigmoid_ = shape.view() == "sigmoid";
-    if (!is_sigmoid_ && shape.view() != "line") {
-      throw std::runtime_error("port 'shape' is neither 'line' nor 'sigmoid'");
-    }
-  }
-
-  Status tick() override {
-    ++ticks_;
-    return position() >= kDone ? Status::Success : Status::Running;
-  }
-
-  double progress() const override { return is_sigmoid_ ? sigmoid(position()) : position(); }
-
- private:
-  double position() const { return std::min(1.0, static_cast<double>(ticks_) * step_); }
-
-  std::int64_t ticks_ = 0;
-  double step_ = 0;
-  bool is_sigmoid_ = false;
+  bool is_constant_ = false;
+  std::optional<double> of_run_;  // in [-1, 1)
 };
 
 struct ReplanPorts : lockstep::Ports {
@@ -95,19 +68,25 @@ class Replan : public lockstep::Action<ReplanPorts> {
   double start_ = 0;
 };
 
-}  // namespace
+}  // namespace motion
 
 LOCKSTEP_PLUGIN("motion", "1.0", "Actions that do nothing but make progress",
-                lockstep::leaf<Advance>(
+                lockstep::leaf<motion::Advance>(
                     "Advance",
                     "Moves on by a step, give or take a noise, in each tick that it receives; "
                     "Success when its progress reaches 1."),
-                lockstep::leaf<Profile>(
+                lockstep::leaf<motion::Profile>(
                     "Profile",
-                    "A progress to keep pace with, rising from 0 to 1 in 1 / step ticks. At x = "
-                    "ticks * step, line is x, sigmoid is (s(x) - s(0)) / (s(1) - s(0)) with s(x) = "
-                    "1 / (1 + exp(-10 (x - 0.5)))."),
-                lockstep::leaf<Replan>(
+                    "A progress to keep pace with, from 0 to 1. With t = the ticks that it "
+                    "received, or with clock=time the seconds since its start, and x = t * step: "
+                    "line is x, sigmoid is (s(x) - s(0)) / (s(1) - s(0)) with s(x) = 1 / (1 + "
+                    "exp(-10 (x - 0.5))), and points are its own values at times t."),
+                lockstep::leaf<motion::Recorded>(
+                    "Recorded",
+                    "Plays the progress of a node as a recording has it, from the first tick of "
+                    "the node to its end. Success or Failure as the node; it runs on where the "
+                    "node was halted or the recording ends."),
+                lockstep::leaf<motion::Replan>(
                     "Replan",
                     "Stands for a planner that changes its mind: writes a list of barriers, and "
                     "after a time another one; then Success."));

@@ -5,6 +5,8 @@
 #undef LOCKSTEP_PLUGIN
 #define LOCKSTEP_PLUGIN(...) LOCKSTEP_PLUGIN_TABLE(shipped_motion_plugin, __VA_ARGS__)
 #include "../../plugins/motion/motion.cpp"
+#include "../../plugins/motion/profile.cpp"
+#include "../../plugins/motion/recorded.cpp"
 
 namespace lockstep::test {
 

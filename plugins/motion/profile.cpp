@@ -1,0 +1,64 @@
+#include "profile.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace motion {
+namespace {
+
+// The logistic curve, shifted and scaled so that it goes through (0, 0) and (1, 1).
+double sigmoid(double x) {
+  constexpr double kSteepness = 10;
+  const auto logistic = [](double t) { return 1 / (1 + std::exp(-kSteepness * (t - 0.5))); };
+  return (logistic(x) - logistic(0)) / (logistic(1) - logistic(0));
+}
+
+[[noreturn]] void refuse(const char* why) {
+  throw std::runtime_error(std::string("port 'points' ") + why);
+}
+
+Curve curve_of(lockstep::ListView numbers) {
+  if (numbers.size() % 2 != 0) refuse("is not a list of pairs: when, and the progress there");
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < numbers.size(); i += 2) {
+    const Point point{numbers[i], numbers[i + 1]};
+    if (point.at < (points.empty() ? 0 : points.back().at)) refuse("goes back in time");
+    if (!points.empty() && point.at == points.back().at) refuse("has two points at one time");
+    if (!(point.progress >= 0 && point.progress <= 1)) refuse("has a progress outside of [0, 1]");
+    points.push_back(point);
+  }
+  if (!points.empty() && points.back().progress < kDone) refuse("does not end at progress 1");
+  return Curve(std::move(points));
+}
+
+}  // namespace
+
+void Profile::start() {
+  pace_.start(clock.view(), now());
+  curve_ = curve_of(points.view());
+  step_ = step.get();
+  const double most = pace_.is_time() ? std::numeric_limits<double>::max() : 1;
+  if (!(step_ > 0 && step_ <= most)) throw std::runtime_error("port 'step' is not in (0, 1]");
+  is_sigmoid_ = shape.view() == "sigmoid";
+  if (!is_sigmoid_ && shape.view() != "line") {
+    throw std::runtime_error("port 'shape' is neither 'line' nor 'sigmoid'");
+  }
+}
+
+Profile::Status Profile::tick() {
+  pace_.tick();
+  const bool done = curve_.empty() ? position() >= kDone : pace_.has_reached(curve_.end(), now());
+  return done ? Status::Success : Status::Running;
+}
+
+double Profile::progress() const {
+  if (!curve_.empty()) return curve_.progress(pace_.elapsed(now()));
+  return is_sigmoid_ ? sigmoid(position()) : position();
+}
+
+double Profile::position() const {
+  return std::min(1.0, pace_.elapsed(now()) * step_);
+}
+
+}  // namespace motion

@@ -1,0 +1,37 @@
+// A progress that is known beforehand, to keep pace with.
+#pragma once
+
+#include <lockstep/leaf.hpp>
+
+#include "curve.hpp"
+#include "pace.hpp"
+
+namespace motion {
+
+struct ProfilePorts : lockstep::Ports {
+  Input<std::string> shape{this, "shape", "line", "line, or sigmoid: slow, fast, slow"};
+  Input<double> step{this, "step", "0.001",
+                     "1 / the number of ticks, or of seconds, from 0 to 1; of ticks in (0, 1]"};
+  Input<std::vector<double>> points{
+      this, "points", "",
+      "instead of shape and step: when, and the progress there, as 0 0;5 0.2;10 1, with straight "
+      "lines in between; the progress ends at 1"};
+  Input<std::string> clock{this, "clock", "ticks", kClockDoc};
+};
+
+class Profile : public lockstep::Action<ProfilePorts> {
+ public:
+  void start() override;
+  Status tick() override;
+  double progress() const override;
+
+ private:
+  double position() const;
+
+  Pace pace_;
+  Curve curve_;  // of points
+  double step_ = 0;
+  bool is_sigmoid_ = false;
+};
+
+}  // namespace motion

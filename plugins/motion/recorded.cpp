@@ -1,0 +1,180 @@
+#include "recorded.hpp"
+
+#include <simdjson.h>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+namespace motion {
+namespace {
+
+namespace dom = simdjson::dom;
+
+// A line of 64 MiB has more than a million nodes. Memory that is not written to costs nothing.
+constexpr std::size_t kLongestLine = std::size_t{64} << 20;
+
+// The lines of a file as JSON. The last one may be cut, as a kill leaves it.
+class JsonLines {
+ public:
+  explicit JsonLines(const std::string& name) : name_(name), file_(name, std::ios::binary) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(name, ignored) || !file_) fail("cannot be read");
+  }
+
+  // Nothing at the end.
+  std::optional<dom::element> next() {
+    file_.getline(text_.get(), kLongestLine);
+    const auto length = static_cast<std::size_t>(file_.gcount());
+    if (length == 0) return std::nullopt;
+    ++line_;
+    if (file_.fail()) fail("a line that is too long");
+    dom::element element;
+    if (parser_.parse(text_.get(), length - !file_.eof(), false).get(element) == simdjson::SUCCESS)
+      return element;
+    if (!file_.eof()) fail("not JSON");
+    return std::nullopt;
+  }
+
+  [[noreturn]] void fail(const std::string& why) const {
+    const std::string line = line_ == 0 ? "" : ":" + std::to_string(line_);
+    throw std::runtime_error("'" + name_ + "'" + line + ": " + why);
+  }
+
+ private:
+  std::string name_;
+  std::ifstream file_;
+  std::size_t line_ = 0;
+  std::unique_ptr<char[]> text_{new char[kLongestLine + simdjson::SIMDJSON_PADDING]};
+  dom::parser parser_;
+};
+
+// Its place in the header's list of nodes.
+std::size_t place_of(const std::string& node, const dom::element& header, const JsonLines& lines) {
+  std::int64_t version = 0;
+  if (header["lockstep_recording"].get(version) != simdjson::SUCCESS) {
+    lines.fail("not a recording of lockstep");
+  }
+  if (version != 1) lines.fail("a recording of version " + std::to_string(version) + ", not 1");
+  dom::array nodes;
+  if (header["nodes"].get(nodes) != simdjson::SUCCESS) lines.fail("a header without nodes");
+  std::size_t place = 0;
+  for (const dom::element& it : nodes) {
+    std::string_view path;
+    if (it["path"].get(path) == simdjson::SUCCESS && path == node) return place;
+    ++place;
+  }
+  lines.fail("the recording has no node '" + node + "'; lockstep log csv prints their paths");
+}
+
+// What the lines say of one node, put together: a line has only what has changed.
+class Player {
+ public:
+  Player(const JsonLines& lines, std::size_t node) : lines_(lines), node_(node) {}
+
+  // False when the activation has ended.
+  bool take(const dom::element& line) {
+    dom::element ignored;
+    if (line["end"].get(ignored) == simdjson::SUCCESS) return false;
+    if (line["lost"].get(ignored) == simdjson::SUCCESS) return true;
+    double tick = 0, time = 0;
+    dom::array nodes;
+    if (line["tick"].get(tick) != simdjson::SUCCESS ||
+        line["time_s"].get(time) != simdjson::SUCCESS ||
+        line["nodes"].get(nodes) != simdjson::SUCCESS) {
+      lines_.fail("not a line of a recording");
+    }
+    for (const dom::element& change : nodes) take_change(change);
+    if (ticks_.empty() && status_ == "idle") return true;
+    return add(tick, time);
+  }
+
+  RecordedProgress played() { return {Curve(std::move(ticks_)), Curve(std::move(seconds_)), end_}; }
+
+ private:
+  void take_change(const dom::element& change) {
+    std::uint64_t index = 0;
+    std::string_view status;
+    double progress = 0;
+    if (change.at(0).get(index) != simdjson::SUCCESS ||
+        change.at(1).get(status) != simdjson::SUCCESS ||
+        change.at(2).get(progress) != simdjson::SUCCESS || !(progress >= 0 && progress <= 1)) {
+      lines_.fail("not a line of a recording");
+    }
+    if (index != node_) return;
+    status_ = status;
+    progress_ = progress;
+  }
+
+  // The progress is that before the tick; what the tick has led to is a period later.
+  bool add(double tick, double time) {
+    if (ticks_.empty()) {
+      first_tick_ = tick;
+      first_time_ = time;
+    } else if (tick - first_tick_ <= ticks_.back().at || time - first_time_ <= seconds_.back().at) {
+      lines_.fail("a tick that does not come after the one before");
+    }
+    if (status_ == "idle") return false;  // halted
+    ticks_.push_back({tick - first_tick_, progress_});
+    seconds_.push_back({time - first_time_, progress_});
+    if (status_ == "running") return true;
+    end_ = status_ == "success" ? RecordedProgress::End::Success : RecordedProgress::End::Failure;
+    return false;
+  }
+
+  const JsonLines& lines_;
+  std::size_t node_;
+  std::string status_ = "idle";
+  double progress_ = 0;
+  double first_tick_ = 0, first_time_ = 0;
+  std::vector<Point> ticks_, seconds_;
+  RecordedProgress::End end_ = RecordedProgress::End::None;
+};
+
+}  // namespace
+
+RecordedProgress read_recording(const std::string& file, const std::string& node) {
+  JsonLines lines(file);
+  const auto header = lines.next();
+  if (!header) lines.fail("not a recording of lockstep");
+  Player player(lines, place_of(node, *header, lines));
+  for (auto line = lines.next(); line && player.take(*line);) line = lines.next();
+  RecordedProgress played = player.played();
+  if (played.ticks.empty()) lines.fail("the node '" + node + "' never ran");
+  return played;
+}
+
+// At once where the names are constants: a file must not be read while a robot moves.
+Recorded::Recorded() {
+  const auto from = file.try_get(), of = node.try_get();
+  if (from && of) read(*from, *of);
+}
+
+void Recorded::read(const std::string& from, const std::string& of) {
+  if (from == file_ && of == node_) return;
+  recorded_ = read_recording(from, of);
+  file_ = from;
+  node_ = of;
+}
+
+void Recorded::start() {
+  read(file.get(), node.get());
+  pace_.start(clock.view(), now());
+}
+
+// The tick that ended the node then ends it now: the one after as many as came before it.
+Recorded::Status Recorded::tick() {
+  using End = RecordedProgress::End;
+  const bool is_last = pace_.has_reached(curve().end(), now());
+  pace_.tick();
+  if (!is_last || recorded_.end == End::None) return Status::Running;
+  return recorded_.end == End::Success ? Status::Success : Status::Failure;
+}
+
+double Recorded::progress() const {
+  return curve().progress(pace_.elapsed(now()));
+}
+
+}  // namespace motion

@@ -1,0 +1,45 @@
+// The progress of a node as a recording has it.
+#pragma once
+
+#include <lockstep/leaf.hpp>
+
+#include "curve.hpp"
+#include "pace.hpp"
+
+namespace motion {
+
+// The first activation of a node.
+struct RecordedProgress {
+  enum class End { Success, Failure, None };  // None: it was halted, or the recording ends before
+
+  Curve ticks, seconds;  // both from its first tick
+  End end = End::None;
+};
+
+// Throws std::runtime_error with file, line and reason.
+RecordedProgress read_recording(const std::string& file, const std::string& node);
+
+struct RecordedPorts : lockstep::Ports {
+  Input<std::string> file{this, "file", required,
+                          "a recording of lockstep run; from the current directory"};
+  Input<std::string> node{this, "node", required, "the path of the node in it: Door/pull/arm"};
+  Input<std::string> clock{this, "clock", "ticks", kClockDoc};
+};
+
+class Recorded : public lockstep::Action<RecordedPorts> {
+ public:
+  Recorded();
+  void start() override;
+  Status tick() override;
+  double progress() const override;
+
+ private:
+  void read(const std::string& from, const std::string& of);
+  const Curve& curve() const { return pace_.is_time() ? recorded_.seconds : recorded_.ticks; }
+
+  std::string file_, node_;  // that were read
+  RecordedProgress recorded_;
+  Pace pace_;
+};
+
+}  // namespace motion
