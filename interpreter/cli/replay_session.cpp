@@ -11,6 +11,7 @@
 
 #include "cli/console.h"
 #include "cli/exit_code.h"
+#include "core/clock.h"
 #include "runtime/crash_report.h"
 #include "runtime/stop_signals.h"
 #include "terminal/raw_terminal.h"
@@ -21,8 +22,6 @@
 
 namespace lockstep {
 namespace {
-
-using RealTime = std::chrono::steady_clock;
 
 constexpr double kFrame = 0.03;  // seconds; an eye needs no more
 // A signal may arrive just before we wait.
@@ -57,7 +56,7 @@ class Session {
     screen_.leave();
     shown_.clear();
     if (state == RawTerminal::State::Away) std::this_thread::sleep_for(kPatience);
-    last_ = RealTime::now();
+    last_ = monotonic_now();
     return state == RawTerminal::State::Taken;
   }
 
@@ -93,8 +92,8 @@ class Session {
   }
 
   void pass_time() {
-    const auto now = RealTime::now();
-    player_.pass(std::chrono::duration<double>(now - std::exchange(last_, now)).count());
+    const Nanoseconds now = monotonic_now();
+    player_.pass(to_seconds(now - std::exchange(last_, now)));
   }
 
   // False when the terminal is gone.
@@ -128,7 +127,7 @@ class Session {
   Screen screen_{out_};
   KeyDecoder decoder_;
   std::string shown_;
-  RealTime::time_point last_ = RealTime::now();
+  Nanoseconds last_ = monotonic_now();
 };
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 namespace lockstep {
 
-Nanoseconds WallClock::now() {
+Nanoseconds monotonic_now() {
   timespec time{};
   clock_gettime(CLOCK_MONOTONIC, &time);
   return std::chrono::seconds(time.tv_sec) + Nanoseconds(time.tv_nsec);

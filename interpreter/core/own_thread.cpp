@@ -1,13 +1,12 @@
 #include "core/own_thread.h"
 
-#include <signal.h>
-
 #include <atomic>
 #include <exception>
 #include <mutex>
 #include <utility>
 
 #include "core/alternate_stack.h"
+#include "core/signal_mask.h"
 
 namespace lockstep {
 namespace {
@@ -24,24 +23,6 @@ void note_failure(std::exception_ptr failure) {
   g_has_failed = true;
 }
 
-// A thread begins with the signal mask of the one that starts it.
-class MaskForStart {
- public:
-  explicit MaskForStart(std::span<const int> taken) {
-    sigset_t mask;
-    sigfillset(&mask);
-    for (const int crash : {SIGSEGV, SIGBUS, SIGFPE, SIGILL}) sigdelset(&mask, crash);
-    for (const int number : taken) sigdelset(&mask, number);
-    pthread_sigmask(SIG_SETMASK, &mask, &before_);
-  }
-  ~MaskForStart() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  MaskForStart(const MaskForStart&) = delete;
-  MaskForStart& operator=(const MaskForStart&) = delete;
-
- private:
-  sigset_t before_;
-};
-
 }  // namespace
 
 void adopt_thread() {
@@ -54,7 +35,9 @@ bool is_own_thread() {
 }
 
 std::thread own_thread(std::function<void()> body, std::span<const int> taken) {
-  const MaskForStart mask(taken);
+  sigset_t blocked = all_signals_but({SIGSEGV, SIGBUS, SIGFPE, SIGILL});
+  for (const int number : taken) sigdelset(&blocked, number);
+  const SignalMask mask(SIG_SETMASK, blocked);
   return std::thread([body = std::move(body)] {
     adopt_thread();
     try {

@@ -15,6 +15,7 @@
 #include "core/descriptors.h"
 #include "core/fork_guard.h"
 #include "core/own_thread.h"
+#include "core/signal_mask.h"
 #include "runtime/crash_text.h"
 #include "runtime/fuse.h"
 #include "runtime/outlet.h"
@@ -70,10 +71,7 @@ void begin_report() {
     if (reporter == thread) end_at_once(g_exit_code);
     while (true) pause();
   }
-  sigset_t unblocked;
-  sigemptyset(&unblocked);
-  for (const int number : kFatalSignals) sigaddset(&unblocked, number);
-  pthread_sigmask(SIG_UNBLOCK, &unblocked, nullptr);
+  unblock(signal_set(kFatalSignals));
   light_fuse(kLongestReport, g_exit_code);
   messages().flush(kBeforeReport);  // what was said before
 }

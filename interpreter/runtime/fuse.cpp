@@ -1,8 +1,9 @@
 #include "runtime/fuse.h"
 
-#include <signal.h>
 #include <sys/syscall.h>
 #include <unistd.h>
+
+#include "core/signal_mask.h"
 
 namespace lockstep {
 namespace {
@@ -16,10 +17,7 @@ void light_fuse(unsigned seconds, int exit_code) {
   struct sigaction action {};
   action.sa_handler = [](int) { end_at_once(g_fuse_code); };
   sigaction(SIGALRM, &action, nullptr);
-  sigset_t alarm_only;
-  sigemptyset(&alarm_only);
-  sigaddset(&alarm_only, SIGALRM);
-  pthread_sigmask(SIG_UNBLOCK, &alarm_only, nullptr);
+  unblock(signal_set({SIGALRM}));
   alarm(seconds);
 }
 

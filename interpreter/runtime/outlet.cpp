@@ -160,8 +160,8 @@ bool Outlet::show(std::string_view picture) noexcept {
 }
 
 bool Outlet::flush(std::chrono::nanoseconds limit) const noexcept {
-  const auto deadline = WallClock().now() + limit;
-  while (!state_->is_idle() && WallClock().now() < deadline) {
+  const auto deadline = monotonic_now() + limit;
+  while (!state_->is_idle() && monotonic_now() < deadline) {
     const timespec nap{.tv_sec = 0, .tv_nsec = 100'000};
     nanosleep(&nap, nullptr);
   }
@@ -174,10 +174,10 @@ Outlet::Loss Outlet::lost() const noexcept {
 
 Outlet::Loss Outlet::settle() noexcept {
   State& state = *state_;
-  const auto deadline = WallClock().now() + kPatience;
+  const auto deadline = monotonic_now() + kPatience;
   std::unique_lock lock(state.mutex);
   const auto waits = [&] { return state.mode == State::Mode::Queued && !state.is_idle(); };
-  for (auto time = WallClock().now(); waits() && time < deadline; time = WallClock().now()) {
+  for (auto time = monotonic_now(); waits() && time < deadline; time = monotonic_now()) {
     lock.unlock();
     flush(deadline - time);
     lock.lock();

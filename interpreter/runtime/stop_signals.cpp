@@ -39,7 +39,7 @@ void on_signal(int number) {
     return;
   }
   int none = 0;
-  const Nanoseconds now = WallClock().now();
+  const Nanoseconds now = monotonic_now();
   if (g_time.load() == Nanoseconds(0)) g_time = now;
   if (g_received.compare_exchange_strong(none, number)) return;
   const bool is_echo = number == g_received && now - g_time.load() < kEcho;

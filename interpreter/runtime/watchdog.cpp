@@ -25,15 +25,11 @@ Nanoseconds interval_of(const WatchdogOptions& options) {
   return RunningTime::interval_for(shortest);
 }
 
-Nanoseconds now() {
-  return WallClock().now();
-}
-
 }  // namespace
 
 struct Watchdog::Implementation {
   Implementation(WatchdogOptions given, const CallMark& watched)
-      : options(std::move(given)), mark(watched), time(interval_of(options), now()) {}
+      : options(std::move(given)), mark(watched), time(interval_of(options), monotonic_now()) {}
 
   void look();
 
@@ -47,7 +43,7 @@ struct Watchdog::Implementation {
 };
 
 void Watchdog::Implementation::look() {
-  const Nanoseconds elapsed = time.look(now());
+  const Nanoseconds elapsed = time.look(monotonic_now());
   const CallMark::Look call = mark.look();
   if (call != seen) {
     seen = call;

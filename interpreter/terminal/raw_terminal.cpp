@@ -1,6 +1,5 @@
 #include "terminal/raw_terminal.h"
 
-#include <signal.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -8,6 +7,7 @@
 #include <cerrno>
 #include <ctime>
 
+#include "core/signal_mask.h"
 #include "terminal/screen.h"
 
 namespace lockstep {
@@ -31,10 +31,7 @@ void on_stop(int number) {
   standard.sa_handler = SIG_DFL;
   sigaction(number, &standard, &before);
   raise(number);
-  sigset_t its;
-  sigemptyset(&its);
-  sigaddset(&its, number);
-  pthread_sigmask(SIG_UNBLOCK, &its, nullptr);  // here it stops
+  unblock(signal_set({number}));  // here it stops
   sigaction(number, &before, nullptr);
   g_is_stopping = false;
   errno = error;
@@ -79,17 +76,8 @@ void make_raw() {
 // runs in this thread then, which would wait for itself.
 class Taking {
  public:
-  Taking() {
-    sigset_t all;
-    sigfillset(&all);
-    sigdelset(&all, SIGTTOU);  // blocked, it would let the background set the terminal
-    pthread_sigmask(SIG_BLOCK, &all, &before_);
-    g_is_being_taken = true;
-  }
-  ~Taking() {
-    g_is_being_taken = false;
-    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
-  }
+  Taking() { g_is_being_taken = true; }
+  ~Taking() { g_is_being_taken = false; }
   Taking(const Taking&) = delete;
   Taking& operator=(const Taking&) = delete;
 
@@ -100,7 +88,8 @@ class Taking {
   }
 
  private:
-  sigset_t before_;
+  // SIGTTOU, if it were blocked, would let the background set the terminal.
+  const SignalMask mask_{SIG_BLOCK, all_signals_but({SIGTTOU})};
 };
 
 }  // namespace

@@ -7,7 +7,7 @@
 namespace lockstep {
 namespace {
 
-volatile std::sig_atomic_t g_resized = 0;
+volatile sig_atomic_t g_resized = 0;
 
 void on_resize(int) {
   g_resized = 1;
@@ -23,10 +23,6 @@ timespec time_of(double seconds) {
 
 // The signal is let in only while wait() waits.
 TerminalWait::TerminalWait(int keys) : keys_(keys) {
-  sigset_t resize;
-  sigemptyset(&resize);
-  sigaddset(&resize, SIGWINCH);
-  pthread_sigmask(SIG_BLOCK, &resize, &before_);
   struct sigaction action {};
   action.sa_handler = on_resize;
   sigaction(SIGWINCH, &action, &action_before_);
@@ -34,13 +30,12 @@ TerminalWait::TerminalWait(int keys) : keys_(keys) {
 
 TerminalWait::~TerminalWait() {
   sigaction(SIGWINCH, &action_before_, nullptr);
-  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
 
 TerminalEvent TerminalWait::wait(double seconds) const {
   pollfd keys{keys_, POLLIN, 0};
   const timespec limit = time_of(seconds);
-  const int ready = ppoll(&keys, 1, &limit, &before_);
+  const int ready = ppoll(&keys, 1, &limit, &mask_.before());
   if (g_resized != 0) {
     g_resized = 0;
     return TerminalEvent::Resize;

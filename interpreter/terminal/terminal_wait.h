@@ -2,8 +2,9 @@
 // time, in a process with one thread; used by the replay.
 #pragma once
 
-#include <csignal>
 #include <cstdint>
+
+#include "core/signal_mask.h"
 
 namespace lockstep {
 
@@ -21,7 +22,7 @@ class TerminalWait {
 
  private:
   int keys_;
-  sigset_t before_{};
+  const SignalMask mask_{SIG_BLOCK, signal_set({SIGWINCH})};
   struct sigaction action_before_ {};
 };
 

@@ -24,11 +24,11 @@ class ConsolePlain final : public Observer {
   // A child that waits again so soon after its last wait, on the run's clock, is reported only once
   // it has waited for as long: under a small delta it waits in every other tick.
   static constexpr Nanoseconds kShortWait = std::chrono::milliseconds(100);
-  using RealTime = LineBudget::Time (*)();
+  using RealTime = Nanoseconds (*)();
 
   // `real_time` is for tests.
   explicit ConsolePlain(const Tree& tree, Outlet& out = messages(),
-                        RealTime real_time = std::chrono::steady_clock::now);
+                        RealTime real_time = monotonic_now);
 
   void run_started(Ticker& ticker, const RunStart& start) override;
   void before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) override;

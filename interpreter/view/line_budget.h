@@ -3,20 +3,19 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <utility>
+
+#include "core/clock.h"
 
 namespace lockstep {
 
 class LineBudget {
  public:
-  using Time = std::chrono::steady_clock::time_point;
-
   explicit LineBudget(std::int64_t burst) : burst_(burst), left_(burst) {}
 
   // True if a line may be printed at `now`; else it is counted as left out.
-  bool take(Time now) {
+  bool take(Nanoseconds now) {
     const auto seconds = std::chrono::floor<std::chrono::seconds>(now - refilled_);
     if (seconds.count() > 0) {
       left_ =
@@ -36,7 +35,7 @@ class LineBudget {
  private:
   std::int64_t burst_, left_;
   std::uint64_t left_out_ = 0;
-  Time refilled_{};
+  Nanoseconds refilled_{0};
 };
 
 }  // namespace lockstep

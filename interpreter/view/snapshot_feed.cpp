@@ -25,7 +25,7 @@ void SnapshotFeed::after_tick(Ticker& ticker, const TickReport& report) {
   header_.time = report.time;
   *header_.overruns += report.skipped > 0;
   activity_ = ticker.run_state().activity;
-  const auto now = std::chrono::steady_clock::now();
+  const auto now = monotonic_now();
   if (now - published_ < kPeriod) return;
   published_ = now;
   publish(ticker);

@@ -3,9 +3,9 @@
 // the newest.
 #pragma once
 
-#include <chrono>
 #include <vector>
 
+#include "core/clock.h"
 #include "view/snapshot.h"
 #include "view/triple_buffer.h"
 
@@ -34,7 +34,7 @@ class SnapshotFeed final : public Observer {
   std::vector<NodeIndex> synchronized_nodes_, repeating_nodes_;
   Snapshot::Header header_;
   std::vector<Activity> activity_;  // after the last tick
-  std::chrono::steady_clock::time_point published_{};
+  Nanoseconds published_{0};
   TripleBuffer<Snapshot> snapshots_;
 };
 

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "cli/console.h"
+#include "core/clock.h"
 #include "core/diagnostics.h"
 #include "summary/summary.h"
 #include "terminal/terminal.h"
@@ -53,7 +54,7 @@ void View::log(const std::string& line) {
   std::uint64_t left_out = 0;
   {
     const std::lock_guard lock(mutex_);
-    if (!budget_.take(std::chrono::steady_clock::now())) return;
+    if (!budget_.take(monotonic_now())) return;
     left_out = budget_.take_left_out();
   }
   print_left_out(left_out);

@@ -13,8 +13,8 @@
 namespace lockstep {
 namespace {
 
-constexpr std::chrono::milliseconds kBarInterval{200};  // the first comes at once
-constexpr std::chrono::seconds kLineInterval{10};
+constexpr Nanoseconds kBarInterval = std::chrono::milliseconds(200);  // the first comes at once
+constexpr Nanoseconds kLineInterval = std::chrono::seconds(10);
 
 std::string duration_text(double seconds) {
   const auto whole = std::llround(seconds);
@@ -37,10 +37,10 @@ StudyProgress::~StudyProgress() {
 }
 
 void StudyProgress::show() {
-  const auto now = Clock::now();
-  if (now - shown_ < (is_terminal_ ? Clock::duration(kBarInterval) : kLineInterval)) return;
+  const Nanoseconds now = monotonic_now();
+  if (now - shown_ < (is_terminal_ ? kBarInterval : kLineInterval)) return;
   shown_ = now;
-  const double seconds = std::chrono::duration<double>(now - start_).count();
+  const double seconds = to_seconds(now - start_);
   const double rate = static_cast<double>(done_ - before_) / seconds;
   const double left = static_cast<double>(total_ - done_);
   const double part = static_cast<double>(done_) / static_cast<double>(total_);

@@ -1,8 +1,9 @@
 // How far a study is, on stderr: a bar on a terminal, else a line now and then.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
+
+#include "core/clock.h"
 
 namespace lockstep {
 
@@ -20,14 +21,12 @@ class StudyProgress {
   void show();
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   const bool is_terminal_;
   const std::uint64_t before_;
   const std::uint64_t total_;
   std::uint64_t done_;
-  const Clock::time_point start_ = Clock::now();
-  Clock::time_point shown_;
+  const Nanoseconds start_ = monotonic_now();
+  Nanoseconds shown_;
   bool is_visible_ = false;
 };
 

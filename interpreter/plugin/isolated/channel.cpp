@@ -1,18 +1,16 @@
 #include "plugin/isolated/channel.h"
 
 #include <fcntl.h>
-#include <linux/futex.h>
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <bit>
-#include <climits>
 #include <cstring>
 
+#include "core/futex.h"
 #include "core/running_time.h"
 
 namespace lockstep {
@@ -26,16 +24,6 @@ constexpr Nanoseconds kShortestSpin = std::chrono::microseconds(1);
 constexpr unsigned kWaitsPerTry = 64;
 constexpr Nanoseconds kLongestSleep = std::chrono::seconds(1);
 constexpr std::uint32_t kNobody = 2;  // whose turn it is when there is no other side any more
-
-// Not the private kind: the other side is another process.
-void futex_wait(std::atomic<std::uint32_t>& word, std::uint32_t expected, Nanoseconds at_most) {
-  const timespec time{static_cast<time_t>(at_most.count() / 1'000'000'000),
-                      static_cast<long>(at_most.count() % 1'000'000'000)};
-  syscall(SYS_futex, &word, FUTEX_WAIT, expected, &time, nullptr, 0);
-}
-void futex_wake(std::atomic<std::uint32_t>& word) {
-  syscall(SYS_futex, &word, FUTEX_WAKE, INT_MAX, nullptr, nullptr, 0);
-}
 
 void relax() {
 #if defined(__x86_64__) || defined(__i386__)
@@ -53,10 +41,6 @@ Nanoseconds useful_spin_time() {
 }
 
 }  // namespace
-
-Nanoseconds monotonic_now() {
-  return std::chrono::steady_clock::now().time_since_epoch();
-}
 
 std::size_t Channel::message_offset() {
   return (sizeof(Control) + kPage - 1) / kPage * kPage;

@@ -74,7 +74,4 @@ class Channel {
   std::vector<std::byte> copy_;
 };
 
-// CLOCK_MONOTONIC.
-Nanoseconds monotonic_now();
-
 }  // namespace lockstep

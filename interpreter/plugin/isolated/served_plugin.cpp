@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <pthread.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <unistd.h>
@@ -10,6 +9,7 @@
 #include <atomic>
 #include <thread>
 
+#include "core/own_thread.h"
 #include "core/plugin_exception.h"
 #include "plugin/initialize.h"
 #include "plugin/isolated/channel.h"
@@ -50,11 +50,7 @@ void watch_host(int descriptor) {
   pollfd end{descriptor, POLLIN, 0};
   if (poll(&end, 1, 0) != 0) _exit(1);  // it has died before, and our parent is another one
   prctl(PR_SET_PDEATHSIG, SIGCONT);
-  sigset_t all, before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  std::thread(follow_host_into_death, descriptor, host).detach();
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  own_thread([=] { follow_host_into_death(descriptor, host); }).detach();
 }
 
 std::optional<Problem> load(const std::string& path, Descriptors& descriptors) {

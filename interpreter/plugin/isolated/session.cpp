@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 #include <poll.h>
-#include <pthread.h>
-#include <signal.h>
 #include <sys/eventfd.h>
 
 #include <cerrno>
 #include <cstring>
 
+#include "core/own_thread.h"
 #include "core/running_time.h"
 #include "plugin/host.h"
 
@@ -19,17 +18,6 @@ constexpr Nanoseconds kPatience = std::chrono::seconds(2);  // for a killed proc
 // What threads of a plugin may log: so many lines at once, and so many milliseconds in between.
 constexpr std::size_t kMostLines = 100;
 constexpr int kPause = 100;
-
-// A thread that no signal interrupts: they are for the program's own threads.
-template <class Function>
-std::thread quiet_thread(Function function) {
-  sigset_t all, before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  std::thread thread(function);
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  return thread;
-}
 
 }  // namespace
 
@@ -45,7 +33,7 @@ std::string Session::start(const IsolationOptions& options, const std::string& p
   thread_log_.reader.emplace(channel_.thread_log());
   std::string failure = process_.start(options.leafhost, plugin, memory.number(), bell_.number());
   if (!failure.empty()) return failure;
-  watcher_ = quiet_thread([this] { watch(); });
+  watcher_ = own_thread([this]() noexcept { watch(); });
   return {};
 }
 

@@ -11,6 +11,7 @@
 #include <new>
 #include <system_error>
 
+#include "core/clock.h"
 #include "core/own_thread.h"
 #include "recording/write/packet_printer.h"
 
@@ -41,13 +42,6 @@ void leave(AppendFile* file) {
     place.compare_exchange_strong(mine, nullptr);
   }
   while (emergencies.load() != 0) nap();
-}
-
-// As async-signal-safe as clock_gettime.
-std::chrono::nanoseconds now() {
-  timespec time{};
-  clock_gettime(CLOCK_MONOTONIC, &time);
-  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
 }
 
 }  // namespace
@@ -193,7 +187,7 @@ void AppendFile::fail(const char* what) {
 void AppendFile::emergency_flush() {
   const int before = errno;
   ++emergencies;
-  const auto deadline = now() + kLongestEmergency;
+  const auto deadline = monotonic_now() + kLongestEmergency;
   for (auto& place : open_files) {
     if (AppendFile* file = place.load()) file->save(deadline);
   }
@@ -209,7 +203,7 @@ void AppendFile::save(std::chrono::nanoseconds deadline) {
   // When the crash is in the thread that writes, there is nobody to wait for.
   const bool mine = claim_.load() == gettid();
   work_.ring();
-  while (!mine && !is_done() && now() < deadline) nap();
+  while (!mine && !is_done() && monotonic_now() < deadline) nap();
   if (is_done() || !(mine || claim())) return;
   // A pipe that nobody reads must not hold up the end of the process.
   ::fcntl(file_, F_SETFL, O_APPEND | O_NONBLOCK);

@@ -2,9 +2,7 @@
 // system call, so not for each tick. Used by append_file.
 #pragma once
 
-#include <atomic>
-#include <chrono>
-#include <cstdint>
+#include "core/futex.h"
 
 namespace lockstep {
 
@@ -12,9 +10,12 @@ class Bell {
  public:
   // How often it has been rung. Ask before looking at what the bell is about, then wait for more.
   std::uint32_t rung() const { return rung_.load(std::memory_order_acquire); }
-  void ring();
+  void ring() {
+    rung_.fetch_add(1, std::memory_order_release);
+    futex_wake(rung_);
+  }
   // Returns once it has been rung since `seen`, or after `longest`, or for no reason.
-  void wait(std::uint32_t seen, std::chrono::nanoseconds longest);
+  void wait(std::uint32_t seen, Nanoseconds longest) { futex_wait(rung_, seen, longest); }
 
  private:
   std::atomic<std::uint32_t> rung_{0};

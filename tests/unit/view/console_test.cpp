@@ -13,8 +13,8 @@ namespace {
 using test::TextFile;
 using test::WatchedRun;
 
-LineBudget::Time frozen() {
-  return LineBudget::Time(std::chrono::hours(1));
+Nanoseconds frozen() {
+  return Nanoseconds(std::chrono::hours(1));
 }
 
 std::string plain(std::string_view tree, std::string_view leaves, std::uint64_t max_ticks = 1000) {
@@ -146,7 +146,7 @@ TEST_CASE("plain lines of a long run are bounded") {
 
 TEST_CASE("after the burst there is a line for each second") {
   const auto at = [](int milliseconds) {
-    return LineBudget::Time(std::chrono::hours(1) + std::chrono::milliseconds(milliseconds));
+    return Nanoseconds(std::chrono::hours(1) + std::chrono::milliseconds(milliseconds));
   };
   LineBudget budget(2);
   CHECK(budget.take(at(0)));

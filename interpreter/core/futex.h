@@ -1,0 +1,19 @@
+// A thread sleeps until a word changes, and whoever changes it wakes the sleepers. The two may be
+// in different processes that share the memory.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "core/clock.h"
+
+namespace lockstep {
+
+// Returns at once unless `word` is `expected`; else after futex_wake, after `longest`, or for no
+// reason.
+void futex_wait(std::atomic<std::uint32_t>& word, std::uint32_t expected, Nanoseconds longest);
+
+// A system call. Async-signal-safe; never waits.
+void futex_wake(std::atomic<std::uint32_t>& word);
+
+}  // namespace lockstep
