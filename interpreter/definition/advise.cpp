@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/pre_order.h"
 #include "core/suggest.h"
 #include "core/wording.h"
 
@@ -28,11 +29,6 @@ class Adviser {
 
  private:
   const DefinitionNode& at(std::uint32_t node) const { return definition_.nodes[node]; }
-
-  template <class Visit>
-  void for_each_child(std::uint32_t node, Visit visit) const {
-    for (std::uint32_t child = node + 1; child < at(node).end; child = at(child).end) visit(child);
-  }
 
   void add(std::uint32_t node, Severity severity, std::string message, std::string hint) const {
     report_.at(at(node).place, std::move(message), std::move(hint), severity);
@@ -110,13 +106,13 @@ class Adviser {
     int told = 0;
     const Status result = at(node).type->goes_on_after;
     std::uint32_t earlier = 0;
-    for_each_child(node, [&](std::uint32_t child) {
+    for (const std::uint32_t child : children_in(definition_.nodes, node)) {
       if (earlier != 0 && conduct_[child].can_run) {
         if (told++ < kMostTold) add_restart(node, earlier, child);
         earlier = 0;
       }
       if (conduct_[child].again_after(result)) earlier = child;
-    });
+    }
   }
 
   void add_restart(std::uint32_t node, std::uint32_t earlier, std::uint32_t later) const {
@@ -135,34 +131,36 @@ class Adviser {
   // Without memory a parallel ticks a child that completed again, as long as another one runs.
   void restarts_completed(std::uint32_t node) const {
     int can_run = 0;
-    for_each_child(node, [&](std::uint32_t child) { can_run += conduct_[child].can_run; });
+    for (const std::uint32_t child : children_in(definition_.nodes, node)) {
+      can_run += conduct_[child].can_run;
+    }
     int told = 0;
-    for_each_child(node, [&](std::uint32_t child) {
+    for (const std::uint32_t child : children_in(definition_.nodes, node)) {
       const Conduct& it = conduct_[child];
-      if (!it.has_action || !(it.again_after_success || it.again_after_failure)) return;
-      if (can_run == it.can_run || told++ >= kMostTold) return;
+      if (!it.has_action || !(it.again_after_success || it.again_after_failure)) continue;
+      if (can_run == it.can_run || told++ >= kMostTold) continue;
       add(child, Severity::Warning,
           fmt::format("'{}' is started again after it has completed, as long as '{}' runs",
                       brief(at(child).name), brief(at(node).name)),
           fmt::format("without memory a {} also ticks children that completed: leave out "
                       "memory=\"false\", or put a RunOnce around the action",
                       at(node).type->id));
-    });
+    }
   }
 
   // A decorator or SubTree has its child's progress.
   void child_without_progress(std::uint32_t parallel) const {
-    for_each_child(parallel, [&](std::uint32_t child) {
+    for (const std::uint32_t child : children_in(definition_.nodes, parallel)) {
       std::uint32_t source = child;
       while (at(source).children == 1 && at(source).type->category != NodeCategory::Control)
         ++source;
       const NodeType& type = *at(source).type;
-      if (type.category != NodeCategory::Action || type.has_progress) return;
+      if (type.category != NodeCategory::Action || type.has_progress) continue;
       add(source, Severity::Note,
           fmt::format("'{}' reports no progress: for '{}' it is at 0 until it succeeds",
                       brief(at(source).name), brief(at(parallel).name)),
           "the others wait for it at the first barrier, or within delta of 0");
-    });
+    }
   }
 
   void unwritten_entries() const {

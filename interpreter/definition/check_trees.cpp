@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/pre_order.h"
 #include "core/suggest.h"
 #include "core/wording.h"
 #include "definition/attributes.h"
@@ -65,7 +66,7 @@ class TreeChecker {
     if (element(0).tag != "root") return;  // told when it was read
     if (document_ == project_.documents.front().get()) read_main();
     check_root();
-    for (std::uint32_t child = 1; child < element(0).end; child = element(child).end) {
+    for (const std::uint32_t child : children_in(elements_, 0)) {
       const std::string_view tag = element(child).tag;
       if (tag == "BehaviorTree") {
         check_tree(child);
@@ -176,9 +177,7 @@ class TreeChecker {
     node.place = element(index).place;
     const bool is_explicit = lockstep::is_explicit(element(index).tag);
     node.type = is_explicit ? find_explicit_type(index) : find_type(index);
-    for (std::uint32_t child = index + 1; child < element(index).end; child = element(child).end) {
-      ++node.children;
-    }
+    for ([[maybe_unused]] const auto child : children_in(elements_, index)) ++node.children;
     if (node.type != nullptr) {
       check_arity(index, node);
       check_content({node.place, attributes(index), is_explicit}, self, node);
@@ -190,7 +189,7 @@ class TreeChecker {
       trees_.subtrees.back().depth = depth;
       trees_.subtrees.back().path_size = path_size;
     }
-    for (std::uint32_t child = index + 1; child < element(index).end; child = element(child).end) {
+    for (const std::uint32_t child : children_in(elements_, index)) {
       check_node(child, depth + 1, path_size);
     }
     node.end = count(trees_.nodes);

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "core/pre_order.h"
 #include "core/suggest.h"
 #include "core/wording.h"
 #include "definition/scope.h"
@@ -52,7 +53,7 @@ class Expander {
     } else if (!checked.type->parameters.empty()) {
       definition_.nodes[place].first = bind_ports(checked, scope);
     }
-    for (std::uint32_t child = from + 1; child < checked.end; child = trees_.nodes[child].end) {
+    for (const std::uint32_t child : children_in(trees_.nodes, from)) {
       add(child, place, scope);
     }
     definition_.nodes[place].end = static_cast<std::uint32_t>(definition_.nodes.size());

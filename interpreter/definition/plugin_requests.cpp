@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/pre_order.h"
 #include "core/value.h"
 #include "core/wording.h"
 #include "document/reporter.h"
@@ -49,7 +50,7 @@ std::vector<PluginRequest> requested_plugins(const Project& project, Diagnostics
   std::vector<PluginRequest> requests;
   for (const auto& document : project.documents) {
     const auto elements = document->elements();
-    for (std::uint32_t child = 1; child < elements[0].end; child = elements[child].end) {
+    for (const std::uint32_t child : children_in(elements, 0)) {
       if (elements[child].tag != "plugin") continue;
       const auto request = read_plugin(*document, child, report);
       if (!request) continue;

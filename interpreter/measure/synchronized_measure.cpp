@@ -1,5 +1,6 @@
 #include "measure/synchronized_measure.h"
 
+#include "core/pre_order.h"
 #include "engine/synchronized.h"
 
 namespace lockstep {
@@ -14,10 +15,7 @@ std::vector<NodeIndex> synchronized_nodes(const Tree& tree) {
 
 std::vector<NodeIndex> children_of(const Tree& tree, NodeIndex node) {
   std::vector<NodeIndex> children;
-  const NodeIndex end = tree.nodes[node].end;
-  for (NodeIndex child = node + 1; child < end; child = tree.nodes[child].end) {
-    children.push_back(child);
-  }
+  for (const NodeIndex child : children_in(tree.nodes, node)) children.push_back(child);
   return children;
 }
 
