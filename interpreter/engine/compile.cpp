@@ -1,10 +1,13 @@
 #include "engine/compile.h"
 
 #include <algorithm>
-#include <deque>
+#include <array>
+#include <list>
+#include <memory_resource>
+#include <string>
 #include <unordered_map>
 
-#include "engine/name_table.h"
+#include "core/pre_order.h"
 #include "engine/nodes/kinds.h"
 #include "engine/ticker.h"
 
@@ -188,37 +191,35 @@ class Compiler {
     }
   }
 
-  template <class Visit>
-  void for_each_child(NodeIndex parent, Visit visit) const {
-    const NodeIndex end = tree_.nodes[parent].end;
-    for (NodeIndex child = parent + 1; child < end; child = tree_.nodes[child].end) visit(child);
-  }
-
   // The second child called "arm" becomes "arm#2", or the next number that is free.
   void make_segments_unique(NodeIndex parent) {
     bool numbered = false;  // else nobody is called "arm#2" from the start
-    for_each_child(parent, [&](NodeIndex child) {
+    for (const NodeIndex child : children_in(tree_.nodes, parent)) {
       numbered |= tree_.labels[child].name.find('#') != std::string_view::npos;
-    });
-    NameTable taken(std::size_t{tree_.nodes[parent].children} * (numbered ? 2 : 1), names_);
-    std::deque<std::string> segments;
-    for_each_child(parent, [&](NodeIndex child) {
+    }
+    std::array<std::byte, 2048> enough_for_few;
+    std::pmr::monotonic_buffer_resource memory(enough_for_few.data(), enough_for_few.size());
+    std::pmr::unordered_map<std::string_view, std::uint32_t> taken(&memory);  // and the last number
+    taken.reserve(tree_.nodes[parent].children);
+    std::list<std::string> segments;
+    for (const NodeIndex child : children_in(tree_.nodes, parent)) {
       std::uint32_t& repeat = tree_.labels[child].repeat;
-      const auto [last, is_new] = taken.insert(tree_.labels[child].name, 1);
-      if (is_new) return;
-      repeat = *last;
+      const auto [entry, is_new] = taken.try_emplace(tree_.labels[child].name, 1);
+      if (is_new) continue;
+      std::uint32_t& last = entry->second;
+      repeat = last;
       do {
         ++repeat;
-      } while (numbered && !taken.insert(segments.emplace_back(tree_.segment(child)), 1).second);
-      *taken.insert(tree_.labels[child].name, 1).first = repeat;
-    });
+      } while (numbered &&
+               !taken.try_emplace(segments.emplace_back(tree_.segment(child)), 1).second);
+      last = repeat;
+    }
   }
 
   const Definition& definition_;
   Tree tree_;
   std::vector<std::uint32_t> constants_;  // of each value of the definition: its constant
   std::vector<std::uint32_t> cells_;      // of each first port of a node: its first cell
-  std::vector<NameTable::Entry> names_;   // the memory of the tables
   const NodeType* last_type_ = nullptr;
   const NodeKind* last_kind_ = nullptr;
 };
