@@ -93,6 +93,18 @@ SynchronizedSummary Statistics::summary_of(const Measured& measured) const {
                    children);
 }
 
+std::string describe_node(const Tree& tree, NodeIndex node) {
+  const NodeType& type = *tree.labels[node].type;
+  if (type.leaf == nullptr) return fmt::format("the node '{}' ({})", tree.path(node), type.id);
+  return fmt::format("the leaf '{}' ({} of plugin '{}')", tree.path(node), type.id, type.plugin);
+}
+
+std::string failure_text(const Fault& fault, std::uint64_t ticks) {
+  if (fault.in_last_halt) return "could not be halted at the end of the run";
+  if (ticks == 0) return "failed before the first tick";
+  return fmt::format("failed in tick {}", ticks - 1);
+}
+
 std::string fault_text(const Tree& tree, const Fault& fault, std::uint64_t tick) {
   const std::string path = tree.path(fault.node);
   if (fault.in_last_halt) {

@@ -45,6 +45,10 @@ class Statistics final : public Observer {
   RunEnd end_;
 };
 
+// "the leaf 'Main/arm' (Advance of plugin 'motion')" or "the node 'Main/Wait' (Wait)".
+std::string describe_node(const Tree& tree, NodeIndex node);
+// "failed in tick 11", in a run of 12 ticks.
+std::string failure_text(const Fault& fault, std::uint64_t ticks);
 // "the leaf 'Door/pull/arm' failed in tick 12: threw …; counted as Failure"
 std::string fault_text(const Tree& tree, const Fault& fault, std::uint64_t tick);
 // "Door/pull/arm: threw …"

@@ -70,10 +70,9 @@ void ConsolePlain::tell_left_out() {
 
 void ConsolePlain::tell_fault(const Fault& fault) {
   if (!fault_budget_.take(real_time_())) return;
-  const std::string path = tree_.path(fault.node);
-  print(fault.in_last_halt
-            ? fmt::format("{}: could not be halted: {}", path, fault.message)
-            : fmt::format("{}: failed: {}; counted as Failure", path, fault.message));
+  print(fault.in_last_halt ? fault_text(tree_, fault)
+                           : fmt::format("{}: failed: {}; counted as Failure",
+                                         tree_.path(fault.node), fault.message));
 }
 
 void ConsolePlain::tell_leaf(Leaf& leaf, Status now, bool ticked) {

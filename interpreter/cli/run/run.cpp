@@ -46,13 +46,10 @@ int exit_code_of(const RunEnd& end) {
 
 // Whose fault it was, for a person who has to find the culprit.
 std::string describe(const Fault& fault, const Tree& tree, const RunEnd& end) {
-  std::string what = "could not be halted at the end of the run";
-  if (!fault.in_last_halt) {
-    what = end.ticks == 0
-               ? "failed before the first tick"
-               : fmt::format("failed in tick {} at {:.3f} s", end.ticks - 1, to_seconds(end.time));
-  }
-  return fmt::format("{} {}: {}", describe_node(tree, fault.node), what, fault.message);
+  const bool in_tick = !fault.in_last_halt && end.ticks > 0;
+  return fmt::format("{} {}{}: {}", describe_node(tree, fault.node), failure_text(fault, end.ticks),
+                     in_tick ? fmt::format(" at {:.3f} s", to_seconds(end.time)) : "",
+                     fault.message);
 }
 
 // None: all.

@@ -31,12 +31,6 @@ double milliseconds(Nanoseconds time) {
 
 }  // namespace
 
-std::string describe_node(const Tree& tree, NodeIndex node) {
-  const NodeType& type = *tree.labels[node].type;
-  if (type.leaf == nullptr) return fmt::format("the node '{}' ({})", tree.path(node), type.id);
-  return fmt::format("the leaf '{}' ({} of plugin '{}')", tree.path(node), type.id, type.plugin);
-}
-
 RunWatch::RunWatch(const Tree& tree, const RunCommandOptions& options,
                    std::function<void(const std::string& line)> print)
     : tree_(tree),

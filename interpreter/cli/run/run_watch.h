@@ -15,9 +15,6 @@
 
 namespace lockstep {
 
-// "the leaf 'Main/arm' (Advance of plugin 'motion')" or "the node 'Main/Wait' (Wait)".
-std::string describe_node(const Tree& tree, NodeIndex node);
-
 class RunWatch final : public Observer {
  public:
   // `print` shows a line to the person; from any thread.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "summary/statistics.h"
+
 namespace lockstep {
 namespace {
 
@@ -13,12 +15,6 @@ std::string quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return out + "'";
-}
-
-std::string what_failed(const StudyFault& fault) {
-  if (fault.fault.in_last_halt) return "could not be halted at the end of the run";
-  if (fault.ticks == 0) return "failed before the first tick";
-  return fmt::format("failed in tick {}", fault.ticks - 1);
 }
 
 }  // namespace
@@ -48,13 +44,11 @@ std::string run_command(const StudyOptions& options, const StudyPlan& plan,
 
 std::string fault_text(const StudyFault& fault, const LoadedStudy& study) {
   const Tree& tree = study.cells[fault.row.cell].tree;
-  const NodeType& type = *tree.labels[fault.fault.node].type;
   const std::string cell = cell_text(study.plan, fault.row.cell);
-  return fmt::format(
-      "the leaf '{}' ({} of plugin '{}') {}, in run {} of cell {}{}{}{}, seed {}: {}",
-      tree.path(fault.fault.node), type.id, type.plugin, what_failed(fault), fault.row.run,
-      fault.row.cell, cell.empty() ? "" : " (", cell, cell.empty() ? "" : ")", fault.seed,
-      fault.fault.message);
+  return fmt::format("{} {}, in run {} of cell {}{}{}{}, seed {}: {}",
+                     describe_node(tree, fault.fault.node), failure_text(fault.fault, fault.ticks),
+                     fault.row.run, fault.row.cell, cell.empty() ? "" : " (", cell,
+                     cell.empty() ? "" : ")", fault.seed, fault.fault.message);
 }
 
 }  // namespace lockstep
