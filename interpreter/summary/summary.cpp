@@ -9,6 +9,7 @@
 
 #include "core/diagnostics.h"
 #include "measure/measure_spec.h"
+#include "terminal/text_table.h"
 
 namespace lockstep {
 namespace {
@@ -77,14 +78,11 @@ void write_node(const SynchronizedSummary& node, std::string& out, bool color) {
                  "    progress distance {:.6g}, mean {:.6g} a tick; largest spread {:.6g}, ",
                  node.distance_sum, node.distance_mean, node.largest_spread);
   fmt::format_to(std::back_inserter(out), "longest step {:.6g}\n", node.step_length);
-  std::size_t width = 0;
+  std::vector<TableRow> rows;
   for (const ChildSummary& child : node.children) {
-    width = std::max(width, printable(child.name).size());
+    rows.push_back({"    " + printable(child.name), waited(child)});
   }
-  for (const ChildSummary& child : node.children) {
-    fmt::format_to(std::back_inserter(out), "    {:<{}}  {}\n", printable(child.name), width,
-                   waited(child));
-  }
+  out += text_table(rows, 2);
 }
 
 void write_deciding(const DecidingSummary& node, std::size_t indent, std::string& out, bool color) {

@@ -8,16 +8,14 @@
 #include "core/diagnostics.h"
 #include "core/json.h"
 #include "study/column_names.h"
-#include "terminal/text_line.h"
+#include "terminal/text_table.h"
 
 namespace lockstep {
 namespace {
 
-using Line = std::vector<std::string>;
-
 constexpr char kNone[] = "-";
 
-void append_numbers(const SummaryRow& row, Line& line) {
+void append_numbers(const SummaryRow& row, TableRow& line) {
   const SampleSummary& it = row.summary;
   for (const double value : {it.min, it.q1, it.median, it.q3, it.max, it.mean}) {
     line.push_back(it.count == 0 ? kNone : fmt::format("{:.6g}", value));
@@ -28,38 +26,18 @@ void append_numbers(const SummaryRow& row, Line& line) {
   for (const std::uint64_t count : results.of) line.push_back(percent(count, results.runs));
 }
 
-std::string aligned(const std::vector<Line>& lines, std::size_t names) {
-  std::vector<std::size_t> widths(lines.front().size());
-  for (const Line& line : lines) {
-    for (std::size_t i = 0; i < line.size(); ++i) {
-      widths[i] = std::max(widths[i], columns(line[i]));
-    }
-  }
-  std::string text;
-  for (const Line& line : lines) {
-    for (std::size_t i = 0; i < line.size(); ++i) {
-      const std::string blanks(widths[i] - columns(line[i]), ' ');
-      if (i != 0) text += "  ";
-      text += i < names ? line[i] + blanks : blanks + line[i];
-    }
-    text.erase(text.find_last_not_of(' ') + 1);
-    text += '\n';
-  }
-  return text;
-}
-
 }  // namespace
 
 std::string summary_table(const StudyPlan& plan, const std::vector<SummaryRow>& rows) {
-  Line head = grid_columns(plan);
+  TableRow head = grid_columns(plan);
   const std::size_t names = head.size() + 2;
   head.insert(head.end(), kSummaryColumns.begin(), kSummaryColumns.end());
   const bool has_gaps =
       std::ranges::any_of(rows, [](const SummaryRow& row) { return row.gap.has_value(); });
   if (!has_gaps) head.pop_back();
-  std::vector<Line> lines{head};
+  std::vector<TableRow> lines{head};
   for (const SummaryRow& row : rows) {
-    Line line;
+    TableRow line;
     for (const std::string& value : row.grid) line.push_back(printable(value));
     line.push_back(printable(row.node));
     line.push_back(printable(row.measure));
@@ -69,7 +47,7 @@ std::string summary_table(const StudyPlan& plan, const std::vector<SummaryRow>& 
     }
     lines.push_back(std::move(line));
   }
-  return aligned(lines, names);
+  return text_table(lines, names);
 }
 
 std::string summary_json(const StudyPlan& plan, const std::vector<SummaryRow>& rows) {

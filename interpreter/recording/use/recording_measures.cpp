@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/diagnostics.h"
@@ -12,6 +11,7 @@
 #include "measure/measuring.h"
 #include "recording/use/recorded_probe.h"
 #include "summary/summary.h"
+#include "terminal/text_table.h"
 
 namespace lockstep {
 namespace {
@@ -120,25 +120,14 @@ std::string to_json(std::span<const MeasuredValue> values) {
 }
 
 std::string to_table(std::span<const MeasuredValue> values) {
-  using Row = std::array<std::string, 4>;
   const bool has_gaps =
       std::ranges::any_of(values, [](const auto& it) { return it.gap.has_value(); });
-  std::vector<Row> rows = {{"node", "measure", "value", has_gaps ? "gap" : ""}};
+  std::vector<TableRow> rows = {{"node", "measure", "value", has_gaps ? "gap" : ""}};
   for (const MeasuredValue& value : values) {
     rows.push_back({printable(value.node), printable(to_text(*value.measure)), text_of(value.value),
                     value.gap ? text_of(*value.gap) : ""});
   }
-  std::array<std::size_t, 3> widths{};
-  for (const Row& row : rows) {
-    for (std::size_t i = 0; i < widths.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  }
-  std::string text;
-  for (const Row& row : rows) {
-    text += fmt::format("{:<{}}  {:<{}}  ", row[0], widths[0], row[1], widths[1]);
-    text += row[3].empty() ? row[2] : fmt::format("{:<{}}  {}", row[2], widths[2], row[3]);
-    text += '\n';
-  }
-  return text;
+  return text_table(rows, rows.front().size());
 }
 
 }  // namespace lockstep

@@ -1,0 +1,15 @@
+// Rows of text in columns that are aligned, with two blanks between them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace lockstep {
+
+using TableRow = std::vector<std::string>;
+
+// The first `left` columns are aligned to the left, the others to the right. A row may have
+// fewer columns than others. The texts are printable() already.
+std::string text_table(const std::vector<TableRow>& rows, std::size_t left);
+
+}  // namespace lockstep
