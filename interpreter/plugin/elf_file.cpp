@@ -24,30 +24,6 @@ Header own_header() {
   return own;
 }
 
-std::string machine_name(const Header& header) {
-  const bool wide = header.e_ident[EI_CLASS] == ELFCLASS64;
-  switch (header.e_machine) {
-    case EM_X86_64:
-      return wide ? "x86_64" : "x32";
-    case EM_AARCH64:
-      return wide ? "aarch64" : "aarch64 (32 bit)";
-    case EM_386:
-      return "i386";
-    case EM_ARM:
-      return "arm";
-    case EM_RISCV:
-      return wide ? "riscv64" : "riscv32";
-    case EM_PPC64:
-      return "ppc64";
-    case EM_S390:
-      return wide ? "s390x" : "s390";
-    case EM_MIPS:
-      return wide ? "mips64" : "mips";
-    default:
-      return fmt::format("machine number {}", header.e_machine);
-  }
-}
-
 bool same_machine(const Header& a, const Header& b) {
   return a.e_machine == b.e_machine && a.e_ident[EI_CLASS] == b.e_ident[EI_CLASS] &&
          a.e_ident[EI_DATA] == b.e_ident[EI_DATA];
@@ -80,10 +56,10 @@ std::optional<Problem> inspect_header(std::ifstream& file, std::uintmax_t size) 
   if (length < EI_NIDENT + 4 || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0) {
     return not_a_shared_object("it does not begin like an ELF file");
   }
-  if (const Header own = own_header(); !same_machine(header, own)) {
-    return Problem{
-        fmt::format("is for {}, this program is for {}", machine_name(header), machine_name(own)),
-        "build it on, or cross-compile it for, the machine that runs the tree"};
+  if (!same_machine(header, own_header())) {
+    return Problem{"is for another kind of machine than this program",
+                   "'file' shows which; build it on, or cross-compile it for, the machine that "
+                   "runs the tree"};
   }
   if (header.e_type == ET_REL) return not_a_shared_object("it is an object file");
   if (header.e_type != ET_DYN) return not_a_shared_object("it is a program");
