@@ -64,6 +64,7 @@ const std::vector<Layer> kThirdParty{
     {"CLI/", {"interpreter/cli/"}},
     {"simdjson.h", {"interpreter/core/json_reader.h", "plugins/motion/recorded.cpp"}},
     {"nlohmann/", {"interpreter/core/json.cpp"}},
+    {"utf8proc.h", {"interpreter/core/utf8.cpp"}},
     {"fmt/",
      {"interpreter/core/", "interpreter/document/", "interpreter/definition/",
       "interpreter/plugin/", "interpreter/loading/", "interpreter/runtime/",

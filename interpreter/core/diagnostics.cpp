@@ -21,9 +21,8 @@ enum class Tabs : bool { Escaped, Kept };
 
 // Appends the first character of `text` so that a terminal only shows it. Returns its bytes.
 std::size_t append_visible(std::string& out, std::string_view text, Tabs tabs) {
-  const auto length = utf8_length(text);
+  const auto [length, code] = first_character(text);
   const auto character = text.substr(0, std::max<std::size_t>(length, 1));
-  const char32_t code = length > 0 ? code_point(character) : 0;
   const bool plain_tab = tabs == Tabs::Kept && character == "\t";
   if (plain_tab || (length > 0 && !is_obeyed_by_terminals(code))) {
     out += character;
@@ -41,18 +40,12 @@ std::string visible(std::string_view text, Tabs tabs) {
   return out;
 }
 
-// What lies before the caret: a tab for a tab, a blank for every other character that is shown.
+// What lies before the caret: a tab for a tab, and blanks for all else that is shown.
 std::string caret_padding(std::string_view before) {
   std::string padding;
-  std::string shown;
-  while (!before.empty()) {
-    shown.clear();
+  for (std::string shown; !before.empty(); shown.clear()) {
     before.remove_prefix(append_visible(shown, before, Tabs::Kept));
-    if (shown == "\t") {
-      padding += '\t';
-    } else {
-      padding.append(shown[0] == '\\' ? shown.size() : 1, ' ');
-    }
+    padding += shown == "\t" ? shown : std::string(columns(shown), ' ');
   }
   return padding;
 }

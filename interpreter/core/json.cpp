@@ -27,8 +27,8 @@ std::string escaped(std::string_view json) {
   constexpr char32_t kDelete = 0x7F;  // below it all is escaped already; '\n' is our own
   std::string out;
   while (!json.empty()) {
-    const auto character = json.substr(0, std::max<std::size_t>(utf8_length(json), 1));
-    const char32_t code = code_point(character);
+    const auto [length, code] = first_character(json);
+    const auto character = json.substr(0, std::max<std::size_t>(length, 1));
     if (code >= kDelete && is_obeyed_by_terminals(code)) {
       fmt::format_to(std::back_inserter(out), "\\u{:04x}", static_cast<unsigned>(code));
     } else {

@@ -1,5 +1,7 @@
 #include "core/utf8.h"
 
+#include <utf8proc.h>
+
 #include <algorithm>
 #include <iterator>
 
@@ -10,35 +12,19 @@ constexpr bool is_continuation(char c) {
   return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u;
 }
 
-// The second byte of these leads is narrower than 80..BF: overlong forms, surrogates, the end.
-constexpr bool is_second(unsigned char lead, char c) {
-  const auto byte = static_cast<unsigned char>(c);
-  switch (lead) {
-    case 0xE0:
-      return byte >= 0xA0 && byte <= 0xBF;
-    case 0xED:
-      return byte >= 0x80 && byte <= 0x9F;
-    case 0xF0:
-      return byte >= 0x90 && byte <= 0xBF;
-    case 0xF4:
-      return byte >= 0x80 && byte <= 0x8F;
-    default:
-      return is_continuation(c);
-  }
-}
-
 }  // namespace
 
-std::size_t utf8_length(std::string_view text) {
-  if (text.empty()) return 0;
-  const auto lead = static_cast<unsigned char>(text[0]);
-  if (lead < 0x80) return 1;
-  if (lead < 0xC2 || lead > 0xF4) return 0;
-  const std::size_t length = lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
-  if (text.size() < length || !is_second(lead, text[1])) return 0;
-  for (std::size_t i = 2; i < length; ++i)
-    if (!is_continuation(text[i])) return 0;
-  return length;
+Character first_character(std::string_view text) {
+  if (text.empty()) return {};
+  if (const char c = text.front(); static_cast<unsigned char>(c) < 0x80) {
+    return {1, static_cast<char32_t>(c)};
+  }
+  utf8proc_int32_t code = 0;
+  const auto bytes =
+      utf8proc_iterate(reinterpret_cast<const utf8proc_uint8_t*>(text.data()),
+                       static_cast<utf8proc_ssize_t>(std::min<std::size_t>(text.size(), 4)), &code);
+  if (bytes <= 0) return {};
+  return {static_cast<std::size_t>(bytes), static_cast<char32_t>(code)};
 }
 
 std::string_view utf8_front(std::string_view text, std::size_t bytes) {
@@ -48,13 +34,18 @@ std::string_view utf8_front(std::string_view text, std::size_t bytes) {
   return text.substr(0, length);
 }
 
-char32_t code_point(std::string_view character) {
-  const auto first = static_cast<unsigned char>(character[0]);
-  char32_t code = first < 0x80 ? first : first & (0x7Fu >> character.size());
-  for (const char next : character.substr(1)) {
-    code = code << 6u | (static_cast<unsigned char>(next) & 0x3Fu);
+std::size_t columns(char32_t code) {
+  return static_cast<std::size_t>(utf8proc_charwidth(static_cast<utf8proc_int32_t>(code)));
+}
+
+std::size_t columns(std::string_view text) {
+  std::size_t sum = 0;
+  while (!text.empty()) {
+    const auto [bytes, code] = first_character(text);
+    sum += bytes == 0 ? 1 : columns(code);
+    text.remove_prefix(std::max<std::size_t>(bytes, 1));
   }
-  return code;
+  return sum;
 }
 
 bool is_obeyed_by_terminals(char32_t code) {

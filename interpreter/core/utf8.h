@@ -1,5 +1,4 @@
-// Reading UTF-8 byte by byte: just enough to refuse what is not, and to count what a terminal
-// shows, or obeys. Used by the renderer of diagnostics and by the reader of documents.
+// UTF-8, read by utf8proc: what is a character, and how a terminal shows it.
 #pragma once
 
 #include <cstddef>
@@ -7,15 +6,25 @@
 
 namespace lockstep {
 
-// The number of bytes (1 to 4) of the character that `text` begins with; 0 when it does not begin
-// with one: a stray or cut sequence, an overlong form, a surrogate, beyond U+10FFFF, or no text.
-std::size_t utf8_length(std::string_view text);
+struct Character {
+  std::size_t bytes = 0;  // 1 to 4
+  char32_t code = 0;
+};
+
+// The character that `text` begins with. No bytes: it does not begin with one, but with a stray or
+// cut sequence, an overlong form, a surrogate, something beyond U+10FFFF, or it is empty.
+Character first_character(std::string_view text);
+inline std::size_t utf8_length(std::string_view text) {
+  return first_character(text).bytes;
+}
 
 // The longest front part of `text` that has at most `bytes` bytes and does not cut a character.
 std::string_view utf8_front(std::string_view text, std::size_t bytes);
 
-// Of one whole character.
-char32_t code_point(std::string_view character);
+// How many columns a terminal needs: 2 for a wide character, 0 for a mark on the one before it.
+std::size_t columns(char32_t code);
+// Of text that is printable(), all together.
+std::size_t columns(std::string_view text);
 
 // What a terminal obeys instead of showing it: control characters (some obey U+0080 to U+009F too),
 // ends of lines, and the marks that turn the direction of the text behind them around.

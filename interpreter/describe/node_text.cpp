@@ -3,18 +3,13 @@
 #include <algorithm>
 
 #include "core/diagnostics.h"
+#include "core/utf8.h"
 #include "describe/node_reference.h"
 
 namespace lockstep {
 namespace {
 
 constexpr std::size_t kColumns = 100;
-
-// The number of characters; of text that is not UTF-8, about.
-std::size_t width(std::string_view text) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(text, [](char c) { return (c & 0xc0) != 0x80; }));
-}
 
 // The words of `text` in lines that begin with `indent` blanks.
 std::string wrapped(std::string_view text, std::size_t indent) {
@@ -26,7 +21,7 @@ std::string wrapped(std::string_view text, std::size_t indent) {
     text.remove_prefix(first);
     const auto word = text.substr(0, std::min(text.find_first_of(" \n\t"), text.size()));
     text.remove_prefix(word.size());
-    if (column + 1 + width(word) > kColumns) {
+    if (column + 1 + columns(word) > kColumns) {
       if (!lines.empty()) lines += '\n';
       lines.append(indent, ' ');
       column = indent;
@@ -36,7 +31,7 @@ std::string wrapped(std::string_view text, std::size_t indent) {
     }
     const std::string shown = printable(word);
     lines += shown;
-    column += width(shown);
+    column += columns(shown);
   }
 }
 
@@ -58,7 +53,7 @@ std::vector<Row> rows(const NodeType& type) {
 
 std::string table(const std::vector<Row>& rows, std::size_t indent) {
   std::size_t names = 0;
-  for (const Row& row : rows) names = std::max(names, width(row.name));
+  for (const Row& row : rows) names = std::max(names, columns(row.name));
   std::string text;
   for (const Row& row : rows) {
     const std::size_t docs = indent + names + 2;

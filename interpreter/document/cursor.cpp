@@ -32,9 +32,8 @@ bool is_in(const Block (&blocks)[Count], char32_t code) {
 std::size_t xml_name_length(std::string_view text) {
   std::size_t length = 0;
   while (length < text.size()) {
-    const auto bytes = utf8_length(text.substr(length));
+    const auto [bytes, code] = first_character(text.substr(length));
     if (bytes == 0) break;
-    const auto code = code_point(text.substr(length, bytes));
     if (!is_in(kStarts, code) && (length == 0 || !is_in(kParts, code))) break;
     length += bytes;
   }

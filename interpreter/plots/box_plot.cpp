@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "core/diagnostics.h"
+#include "core/utf8.h"
 #include "measure/measure_spec.h"
 #include "plots/gnuplot.h"
 #include "plots/plot_style.h"
-#include "terminal/text_line.h"
 
 namespace lockstep {
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "core/diagnostics.h"
+#include "core/utf8.h"
 #include "plots/gnuplot.h"
-#include "terminal/text_line.h"
 
 namespace lockstep {
 namespace {
@@ -29,21 +29,12 @@ std::string_view row_of(const List& list, std::size_t index) {
   return list[index / kColors.size() % list.size()];
 }
 
-bool continues_character(char byte) {
-  return (static_cast<unsigned char>(byte) & 0xc0u) == 0x80u;
-}
-
 // The longest end of at most `most` columns; it begins with a whole character.
 std::string_view end_of(std::string_view text, std::size_t most) {
-  constexpr std::size_t kLongestCharacter = 4;
-  text.remove_prefix(text.size() - std::min(text.size(), kLongestCharacter * most));
-  const auto drop = [&text] {
-    while (!text.empty() && continues_character(text.front())) text.remove_prefix(1);
-  };
-  drop();
-  while (columns(text) > most) {
-    text.remove_prefix(1);
-    drop();
+  for (std::size_t left = columns(text); left > most;) {
+    const Character first = first_character(text);
+    left -= columns(first.code);
+    text.remove_prefix(first.bytes);
   }
   return text;
 }

@@ -31,6 +31,9 @@ class TextLine {
   std::size_t width_;
   bool color_, unicode_;
   std::size_t column_ = 0;
+  // On one character; more would make a line that is longer than its columns without end.
+  static constexpr std::size_t kMostMarks = 8;
+  std::size_t marks_ = 0;  // at its end
   std::string text_;
   // The longest beginning that leaves room for the ellipsis, and the style that it ends in.
   struct Front {
@@ -39,8 +42,5 @@ class TextLine {
   } front_;
   bool is_cut_ = false;
 };
-
-// How many columns a terminal needs for `text`.
-std::size_t columns(std::string_view text);
 
 }  // namespace lockstep

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "terminal/text_line.h"
+#include "core/utf8.h"
 
 namespace lockstep {
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <map>
 
+#include "core/diagnostics.h"
+#include "core/utf8.h"
 #include "summary/summary.h"
 #include "terminal/text_line.h"
 #include "view/progress_bar.h"
@@ -162,7 +164,7 @@ class View {
     for (const NodeIndex child : tree_.nodes[parent].children) {
       children.progress.push_back(snapshot_.nodes[child].progress);
       children.least = std::min(children.least, children.progress.back());
-      children.columns = std::max(children.columns, columns(tree_.nodes[child].segment));
+      children.columns = std::max(children.columns, columns(printable(tree_.nodes[child].segment)));
     }
     return children;
   }

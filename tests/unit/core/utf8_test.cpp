@@ -32,8 +32,18 @@ TEST_CASE("every code point but the surrogates has its length, and no part of it
 
 TEST_CASE("a character has the code point that it was made from") {
   std::size_t wrong = 0;
-  for (std::uint32_t code = 0; code <= 0x10FFFF; ++code) wrong += code_point(encode(code)) != code;
+  for (std::uint32_t code = 0; code <= 0x10FFFF; ++code) {
+    const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
+    wrong += first_character(encode(code)).code != (surrogate ? 0 : code);
+  }
   CHECK(wrong == 0);
+}
+
+TEST_CASE("a terminal needs two columns for a wide character, and none for a mark") {
+  CHECK(columns("aé…█│ﬀ") == 6);
+  CHECK(columns("抓한カ！😀⌚🫖") == 14);
+  CHECK(columns("e\u0301\u200d\ufe0f") == 1);
+  CHECK(columns("") == 0);
 }
 
 TEST_CASE("terminals obey control characters, line ends and direction marks, nothing else") {

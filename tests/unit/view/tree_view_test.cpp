@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <sstream>
 
+#include "core/utf8.h"
 #include "support/tree_text.h"
 #include "terminal/text_line.h"
 
@@ -170,6 +171,21 @@ TEST_CASE("wide and foreign characters") {
   TextLine ascii(6, false, false);
   ascii.add("Tür");
   CHECK(ascii.text() == "T?r");
+  TextLine marked(3, false, true);
+  marked.add("nai\u0308ve");
+  CHECK(marked.text() == "na…");
+  TextLine fits(5, false, true);
+  fits.add("nai\u0308ve");
+  CHECK(fits.text() == "nai\u0308ve");
+}
+
+TEST_CASE("a line is not much longer than its columns, whatever marks a name has") {
+  std::string name = "a";
+  for (int mark = 0; mark < 100'000; ++mark) name += "\u0301";
+  TextLine line(20, false, true);
+  line.add(name + "b");
+  CHECK(line.column() == 2);
+  CHECK(line.text().size() < 20);
 }
 
 }  // namespace
