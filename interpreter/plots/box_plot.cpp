@@ -1,6 +1,7 @@
 #include "plots/box_plot.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -12,15 +13,12 @@
 #include "measure/measure_spec.h"
 #include "plots/gnuplot.h"
 #include "plots/plot_style.h"
+#include "plots/templates.h"
 
 namespace lockstep {
 namespace {
 
-constexpr double kBoxWidth = 0.525;  // of the distance of two groups
 constexpr std::size_t kLongestLabel = 24;
-// Below the axis are two rows before the labels of the groups.
-constexpr double kRowN = -0.9, kRowSuccess = -1.9, kLabels = -2;  // heights of a letter
-constexpr char kColor[] = "rgb '#0072b2'";
 
 std::string measure_label(const std::string& text) {
   std::string error;
@@ -72,19 +70,6 @@ std::string tic_text(std::string_view label) {
   return gnuplot_string(text);
 }
 
-std::string x_tics(const BoxPlot& plot) {
-  std::string tics;
-  std::size_t letters = 0;
-  for (std::size_t group = 0; group < plot.groups.size(); ++group) {
-    const std::string label = tic_text(plot.groups[group].label);
-    letters += columns(label);
-    tics += fmt::format("{}{} {}", group == 0 ? "" : ", ", label, group);
-  }
-  const bool crowded = letters > 64;
-  return fmt::format("set xtics nomirror scale 0 offset 0,{}{} ({})\n", kLabels,
-                     crowded ? " rotate by -35" : "", tics);
-}
-
 std::string n_of(const BoxGroup& group) {
   return fmt::format("{}", group.box ? group.box->count : 0);
 }
@@ -103,43 +88,6 @@ int row_letters(const BoxPlot& plot, PlotSize size) {
   const double of_group = 0.85 * size.width / static_cast<double>(plot.groups.size());
   return std::clamp(static_cast<int>(of_group / (0.6 * static_cast<double>(longest + 1))), 4,
                     letter_height(size));
-}
-
-// How many values each box is of, and how many of the runs succeeded.
-std::string rows_below(const BoxPlot& plot, PlotSize size) {
-  std::string text;
-  const auto add = [&](std::string_view what, std::string_view place, double row) {
-    text +=
-        fmt::format("set label {} at {}, graph 0 offset 0,{}", gnuplot_string(what), place, row);
-  };
-  const int letters = row_letters(plot, size);
-  for (const auto& [row, name] : {std::pair(kRowN, "n"), std::pair(kRowSuccess, "success")}) {
-    add(name, "screen 0.008", row);
-    text += " left\n";
-  }
-  for (std::size_t group = 0; group < plot.groups.size(); ++group) {
-    const std::string place = fmt::format("first {}", group);
-    add(n_of(plot.groups[group]), place, kRowN);
-    text += fmt::format(" center font ',{}'\n", letters);
-    add(success_of(plot.groups[group]), place, kRowSuccess);
-    text += fmt::format(" center font ',{}'\n", letters);
-  }
-  return text;
-}
-
-// The box, its median, its mean; then what each of them is.
-std::string plot_command() {
-  return fmt::format(
-      "plot \\\n"
-      "  data using 1:3:2:6:5 with candlesticks whiskerbars 0.5 lc {0} lw 1.4 notitle, \\\n"
-      "  data using ($1-width/2):4:(width):(0) with vectors nohead lc {0} lw 3 notitle, \\\n"
-      "  data using 1:7 with points pt 7 ps 0.75 lc rgb 'white' notitle, \\\n"
-      "  data using 1:7 with points pt 6 ps 0.75 lw 1.4 lc {0} notitle, \\\n"
-      "  keyentry with boxes lc {0} lw 1.4 title 'quartiles', \\\n"
-      "  keyentry with lines lc {0} lw 3 title 'median', \\\n"
-      "  keyentry with lines lc {0} lw 1.4 title 'min, max', \\\n"
-      "  keyentry with points pt 6 ps 0.75 lw 1.4 lc {0} title 'mean'\n",
-      kColor);
 }
 
 }  // namespace
@@ -178,28 +126,29 @@ std::string box_plot_data(const BoxPlot& plot) {
 }
 
 std::string box_plot_script(const BoxPlot& plot, PlotSize size) {
+  const std::size_t letters = letters_in(0.7 * size.width, letter_height(size));
+  std::vector<std::string> groups, n, success;
+  std::size_t length = 0;
+  for (const BoxGroup& group : plot.groups) {
+    groups.push_back(tic_text(group.label));
+    length += columns(groups.back());
+    n.push_back(gnuplot_string(n_of(group)));
+    success.push_back(gnuplot_string(success_of(group)));
+  }
   std::string text = "# Made by lockstep. Box: quartiles; line: median; whiskers: minimum and ";
   text += fmt::format("maximum; circle: mean.\n# To draw it again: gnuplot {}.gp\n", plot.stem);
-  text += fmt::format("data = {}\nset encoding utf8\n", gnuplot_file(plot.stem + ".dat"));
-  text += fmt::format("set title {} noenhanced\n", plot_title(plot.title, size));
-  text += fmt::format(
-      "set xlabel {} noenhanced offset 0,{}\n",
-      gnuplot_string(shortened(plot.x_label, letters_in(0.7 * size.width, letter_height(size)))),
-      kLabels);
-  text += fmt::format("set ylabel {} noenhanced\n", gnuplot_string(plot.y_label));
-  text += x_tics(plot) + rows_below(plot, size);
-  text += fmt::format("set xrange [-0.6:{}]\n", static_cast<double>(plot.groups.size()) - 0.4);
-  text += fmt::format("set yrange {}\n", y_range(plot));
+  text += fmt::format("data = {}\n", gnuplot_file(plot.stem + ".dat"));
+  text += gnuplot_terminal(plot.stem + ".svg", size);
   text +=
-      "set ytics nomirror scale 0.5\n"
-      "set grid ytics lt 1 lw 0.6 lc rgb '#dcdcdc'\n"
-      "set border 3 lw 0.8 lc rgb '#404040'\n"
-      "set xzeroaxis lt 1 lw 0.8 lc rgb '#404040'\n"
-      "set key tmargin center horizontal reverse Left samplen 1.5 noenhanced\n"
-      "set style fill solid 0.25 border\n";
-  text += fmt::format("width = {}\nset boxwidth width\n", kBoxWidth);
-  text += gnuplot_terminal(plot.stem + ".svg", size) + plot_command();
-  return text + gnuplot_terminal(plot.stem + ".png", size) + "replot\n";
+      fmt::format("title = {}\nx_label = {}\ny_label = {}\n", plot_title(plot.title, size),
+                  gnuplot_string(shortened(plot.x_label, letters)), gnuplot_string(plot.y_label));
+  text += fmt::format("groups = {}\ncrowded = {:d}\n", groups.size(), length > 64);
+  text += fmt::format("array group[groups] = [{}]\n", fmt::join(groups, ", "));
+  text += fmt::format("array n[groups] = [{}]\n", fmt::join(n, ", "));
+  text += fmt::format("array success[groups] = [{}]\n", fmt::join(success, ", "));
+  text +=
+      fmt::format("row_font = ',{}'\nset yrange {}\n\n", row_letters(plot, size), y_range(plot));
+  return text + kBoxPlotTemplate + gnuplot_terminal(plot.stem + ".png", size) + "replot\n";
 }
 
 PlotResult draw(const BoxPlot& plot, const std::filesystem::path& directory, PlotSize size) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/diagnostics.h"
@@ -15,19 +14,6 @@ namespace {
 
 constexpr int kLargest = 15, kSmallest = 10;  // pixels of a letter
 constexpr double kTitleWidth = 0.85;          // of the picture's
-
-constexpr std::array<std::string_view, 6> kColors{"#0072b2", "#e69f00", "#009e73",
-                                                  "#cc79a7", "#56b4e9", "#d55e00"};
-constexpr std::array<std::string_view, 6> kDashes{"solid",     "(8,3)",  "(2,3)",
-                                                  "(8,3,2,3)", "(16,4)", "(8,3,2,3,2,3)"};
-constexpr std::array<std::string_view, 6> kFills{"solid",     "pattern 4", "pattern 5",
-                                                 "pattern 1", "pattern 2", "pattern 6"};
-static_assert(kColors.size() * kDashes.size() == kPlotStyles);
-
-template <class List>
-std::string_view row_of(const List& list, std::size_t index) {
-  return list[index / kColors.size() % list.size()];
-}
 
 // The longest end of at most `most` columns; it begins with a whole character.
 std::string_view end_of(std::string_view text, std::size_t most) {
@@ -51,18 +37,6 @@ std::size_t second_line(std::string_view text, std::size_t most) {
 }
 
 }  // namespace
-
-std::string plot_color(std::size_t index) {
-  return fmt::format("rgb '{}'", kColors[index % kColors.size()]);
-}
-
-std::string plot_dash(std::size_t index) {
-  return fmt::format("dt {}", row_of(kDashes, index));
-}
-
-std::string plot_fill(std::size_t index) {
-  return fmt::format("fs {}", row_of(kFills, index));
-}
 
 int letter_height(PlotSize size) {
   const PlotSize usual;

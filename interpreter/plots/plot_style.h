@@ -1,5 +1,5 @@
-// What all plots have in common: lines that can be told apart, letters that fit the size of the
-// picture, and text that fits its width.
+// What all plots have in common: letters that fit the size of the picture, and text that fits its
+// width.
 #pragma once
 
 #include <string>
@@ -9,14 +9,9 @@
 
 namespace lockstep {
 
-// So many lines differ: six colors that the color-blind and gray paper keep apart (Okabe and Ito),
-// first solid, then with five patterns of dashes.
+// So many lines differ in progress_plot.gp: six colors, first solid, then with five patterns of
+// dashes.
 constexpr std::size_t kPlotStyles = 36;
-
-// In gnuplot's words, again and again: "rgb '#0072b2'", "dt solid" and "fs solid".
-std::string plot_color(std::size_t index);
-std::string plot_dash(std::size_t index);
-std::string plot_fill(std::size_t index);
 
 // The height of a letter, in pixels: smaller in a small picture, down to what can be read.
 constexpr int kLeastLetter = 8;

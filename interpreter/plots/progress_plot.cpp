@@ -10,21 +10,11 @@
 #include "core/diagnostics.h"
 #include "plots/gnuplot.h"
 #include "plots/plot_style.h"
+#include "plots/templates.h"
 #include "summary/summary.h"
 
 namespace lockstep {
 namespace {
-
-// Below the axis each child has a strip that shows when it was held.
-constexpr double kStripTop = -0.05, kMostStrips = 0.6;  // of the axis
-
-double strip_step(const ProgressPlot& plot) {
-  return std::min(0.055, kMostStrips / static_cast<double>(plot.children.size()));
-}
-
-double strip_middle(const ProgressPlot& plot, std::size_t child) {
-  return kStripTop - strip_step(plot) * (static_cast<double>(child) + 0.5);
-}
 
 bool is_relative(const ProgressPlot& plot) {
   return plot.node.synchronization == Synchronization::Relative;
@@ -64,10 +54,6 @@ std::string held_lines(const ProgressPlot& plot, std::size_t child) {
   return text;
 }
 
-bool is_ever_held(const ProgressPlot& plot, std::size_t child) {
-  return !held_lines(plot, child).empty();
-}
-
 std::string law(const RecordedNode& node) {
   if (node.delta) return fmt::format("delta = {}", *node.delta);
   if (node.synchronization == Synchronization::Relative) return "delta from an entry";
@@ -100,72 +86,11 @@ Legend legend_of(const ProgressPlot& plot, PlotSize size) {
   return legend;
 }
 
-std::string band_command() {
-  return "  data index 0 using 1:2:3 with filledcurves fc rgb '#e4e4e4' fs solid noborder "
-         "title 'delta band', \\\n";
-}
-
-// The first is the entry of the legend.
-std::string barrier_commands(const ProgressPlot& plot) {
-  std::string text;
-  if (!plot.node.barriers) {
-    return "  data index 0 using 1:3 with steps lc rgb '#808080' lw 1 dt 1 title 'barrier', "
-           "\\\n";
-  }
-  const bool many = plot.node.barriers->size() > 12;
-  for (const double barrier : *plot.node.barriers) {
-    text += fmt::format("  {} with lines lc rgb '{}' lw 0.8 {} {}, \\\n", barrier,
-                        many ? "#cccccc" : "#808080", many ? "dt 1" : "dt (6,4)",
-                        text.empty() ? "title 'barrier'" : "notitle");
-  }
-  return text;
-}
-
-std::string child_command(const ProgressPlot& plot, std::size_t child, const Legend& legend) {
-  return fmt::format("  data index 0 using 1:{} with lines lc {} {} lw 2.2 title {}", child + 4,
-                     plot_color(child), plot_dash(child),
-                     gnuplot_string(shortened(plot.children[child], legend.name)));
-}
-
-// `place`: among the held blocks of the data, which only children that were held have.
-std::string held_command(const ProgressPlot& plot, std::size_t child, std::size_t place) {
-  const double middle = strip_middle(plot, child), half = 0.31 * strip_step(plot);
-  return fmt::format(
-      "  data index {} using 1:({:.5g}):1:2:({:.5g}):({:.5g}) with boxxyerror fc {} {} noborder "
-      "notitle",
-      place + 1, middle, middle - half, middle + half, plot_color(child), plot_fill(child));
-}
-
-std::string plot_command(const ProgressPlot& plot, const Legend& legend) {
-  std::string text = "plot \\\n";
-  text += is_relative(plot) ? band_command() : barrier_commands(plot);
-  std::size_t place = 0;
-  for (std::size_t child = 0; child < plot.children.size(); ++child) {
-    text += child_command(plot, child, legend) + (child + 1 < plot.children.size() ? ", \\\n" : "");
-  }
-  for (std::size_t child = 0; child < plot.children.size(); ++child) {
-    if (is_ever_held(plot, child)) text += ", \\\n" + held_command(plot, child, place++);
-  }
-  return text + "\n";
-}
-
-// In the middle of the picture: gnuplot's own is in the middle of the axes, beside the legend.
-std::string title_commands(const std::string& title) {
-  const bool has_two_lines = title.find("\"\\n\"") != std::string::npos;
-  return fmt::format("set label {} at screen 0.5, screen 0.955 center noenhanced\nset tmargin {}\n",
-                     title, has_two_lines ? 3.6 : 2.4);
-}
-
-std::string axes(const ProgressPlot& plot) {
-  const std::size_t children = plot.children.size();
-  const double bottom = strip_middle(plot, children) + strip_step(plot) / 4;
-  const double begin = plot.samples.front().time, end = plot.samples.back().time;
-  std::string text = fmt::format("set xrange [{}:{}]\nset yrange [{:.4g}:1.02]\n", begin,
-                                 end > begin ? end : begin + 1, bottom);
-  text += "set ytics nomirror scale 0.5 0,0.25,1\n";
-  text += fmt::format("set label 'held' at graph -0.02, first {:.4g} right\n",
-                      (strip_middle(plot, 0) + strip_middle(plot, children - 1)) / 2);
-  return text;
+// How the template shows the limit: the band of delta, a line from the data, or barriers of its
+// own.
+std::string_view kind_of(const ProgressPlot& plot) {
+  if (is_relative(plot)) return "band";
+  return plot.node.barriers ? "barriers" : "steps";
 }
 
 }  // namespace
@@ -184,21 +109,26 @@ std::string progress_plot_data(const ProgressPlot& plot) {
 std::string progress_plot_script(const ProgressPlot& plot, const std::filesystem::path& image,
                                  PlotSize size) {
   const std::string stem = image.stem().string();
-  std::string text = "# Made by lockstep: progress of the children of a synchronized node; below, ";
-  text += fmt::format("when each was held.\n# To draw it again: gnuplot {}.gp\n", printable(stem));
-  text += fmt::format("data = {}\nset encoding utf8\n", gnuplot_file(stem + ".dat"));
-  text += title_commands(plot_title(caption(plot), size));
-  text += "set samples 2\n";  // a barrier is a straight line: two points, not a hundred
-  text += "set xlabel 'time (s)'\nset ylabel 'progress'\n" + axes(plot);
-  text +=
-      "set xtics nomirror out scale 0.5\n"
-      "set grid ytics lt 1 lw 0.6 lc rgb '#e6e6e6'\n"
-      "set border 3 lw 0.8 lc rgb '#404040'\n"
-      "set xzeroaxis lt 1 lw 0.8 lc rgb '#404040'\n";
+  const std::string title = plot_title(caption(plot), size);
   const Legend legend = legend_of(plot, size);
-  text += fmt::format("set key outside right top reverse Left samplen 2 noenhanced font ',{}'\n",
-                      legend.letter);
-  return text + gnuplot_terminal(image, size) + plot_command(plot, legend);
+  const double begin = plot.samples.front().time, end = plot.samples.back().time;
+  std::vector<std::string> names, held;
+  for (std::size_t child = 0; child < plot.children.size(); ++child) {
+    names.push_back(gnuplot_string(shortened(plot.children[child], legend.name)));
+    if (!held_lines(plot, child).empty()) held.push_back(fmt::to_string(child + 1));
+  }
+  std::string text = "# Made by lockstep. ";
+  text += fmt::format("To draw it again: gnuplot {}.gp\n", printable(stem));
+  text += fmt::format("data = {}\n", gnuplot_file(stem + ".dat")) + gnuplot_terminal(image, size);
+  text += fmt::format("title = {}\ntitle_lines = {}\n", title,
+                      title.find("\"\\n\"") == std::string::npos ? 1 : 2);
+  text += fmt::format("begin = {}\nend = {}\n", begin, end > begin ? end : begin + 1);
+  text += fmt::format("legend_font = ',{}'\nchildren = {}\n", legend.letter, names.size());
+  text += fmt::format("array name[children] = [{}]\n", fmt::join(names, ", "));
+  text += fmt::format("held = '{}'  # each has a block in the data\n", fmt::join(held, " "));
+  text += fmt::format("kind = '{}'\nbarriers = '{}'\n\n", kind_of(plot),
+                      fmt::join(plot.node.barriers.value_or(std::vector<double>()), " "));
+  return text + kProgressPlotTemplate;
 }
 
 PlotResult draw(const ProgressPlot& plot, const std::filesystem::path& image, PlotSize size) {

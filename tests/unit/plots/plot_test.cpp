@@ -155,14 +155,16 @@ TEST_CASE("box plots: the data are the numbers") {
 
 TEST_CASE("box plots: the script") {
   const std::string script = box_plot_script(small_plot(), {.width = 360, .height = 240});
-  CHECK(contains(script,
-                 "set xlabel 'delta' noenhanced offset 0,-2\nset ylabel 'step length' noenhanced\n"
-                 "set xtics nomirror scale 0 offset 0,-2 ('1' 0, '0.5' 1)\n"));
-  CHECK(contains(script, "set xrange [-0.6:1.6]\nset yrange [0:*]\n"));
   CHECK(contains(script, "set terminal svg noenhanced size 360,240 font 'sans-serif,10' "));
   CHECK(contains(script,
-                 "set output './small.svg'\nplot \\\n  data using 1:3:2:6:5 with "
-                 "candlesticks whiskerbars 0.5 lc rgb '#0072b2' lw 1.4 notitle, \\\n"));
+                 "set output './small.svg'\n"
+                 "title = 't'\nx_label = 'delta'\ny_label = 'step length'\n"
+                 "groups = 2\ncrowded = 0\n"
+                 "array group[groups] = ['1', '0.5']\n"
+                 "array n[groups] = ['5', '5']\n"
+                 "array success[groups] = ['80 %', '80 %']\n"
+                 "row_font = ',10'\nset yrange [0:*]\n"));
+  CHECK(contains(script, "\nplot \\\n  data using 1:3:2:6:5 with candlesticks"));
   CHECK(script.ends_with("set output './small.png'\nreplot\n"));
 }
 
@@ -202,16 +204,31 @@ TEST_CASE("box plots: a legend says what is drawn, rows below what each box is o
 }
 
 TEST_CASE("plots: as many lines as there are styles can be told apart") {
-  std::set<std::string> styles, fills;
-  for (std::size_t line = 0; line < kPlotStyles; ++line) {
-    styles.insert(plot_color(line) + plot_dash(line));
-    fills.insert(plot_color(line) + plot_fill(line));
+  const Directory directory;
+  ProgressPlot plot = small_progress();
+  plot.children.clear();
+  for (std::size_t child = 0; child < kPlotStyles; ++child) {
+    plot.children.push_back("child" + std::to_string(child));
   }
-  CHECK(styles.size() == kPlotStyles);
-  CHECK(fills.size() == kPlotStyles);
-  CHECK(plot_dash(0) == "dt solid");
-  CHECK(plot_dash(6) != plot_dash(0));
-  CHECK(plot_fill(6) != plot_fill(0));
+  for (ProgressSample& sample : plot.samples) {
+    sample.progress.assign(kPlotStyles, sample.least);
+    sample.held_until.assign(kPlotStyles, sample.time + 0.1);
+  }
+  REQUIRE(draw(plot, directory / "x.svg").error == "");
+  const std::string svg = text_of(directory / "x.svg");
+  std::set<std::string> lines;
+  for (const std::string& child : plot.children) {
+    const auto line = svg.find("<path stroke=", svg.find("<title>" + child + "</title>"));
+    REQUIRE(line != std::string::npos);
+    lines.insert(svg.substr(line, svg.find(" d=", line) - line));
+  }
+  CHECK(lines.size() == kPlotStyles);
+  std::set<std::string> patterns;
+  for (auto at = svg.find("<pattern "); at != std::string::npos; at = svg.find("<pattern ", at)) {
+    at = svg.find('>', at);
+    patterns.insert(svg.substr(at, svg.find("</pattern>", at) - at));
+  }
+  CHECK(patterns.size() == kPlotStyles - 6);
 }
 
 TEST_CASE("plots: a long title has two lines, a longer one loses its beginning") {
@@ -363,19 +380,38 @@ TEST_CASE("progress plot: the data are the samples, and when each child was held
 TEST_CASE("progress plot: the script draws barriers or the band of delta") {
   ProgressPlot plot = small_progress();
   const auto script = [&] { return progress_plot_script(plot, "x.svg", {}); };
-  CHECK(contains(script(), "set label 'Main/pull   (2 barriers)' at screen 0.5,"));
+  const Directory directory;
+  const auto picture = [&] {
+    CHECK(draw(plot, directory / "x.svg").error == "");
+    return text_of(directory / "x.svg");
+  };
+  const auto bars = [](const std::string& svg) {
+    std::size_t count = 0;
+    for (auto at = svg.find("<polygon"); at != std::string::npos; at = svg.find("<polygon", at + 1))
+      ++count;
+    return count;
+  };
   CHECK(contains(script(),
-                 "  0.5 with lines lc rgb '#808080' lw 0.8 dt (6,4) title 'barrier', "
-                 "\\\n  1 with lines lc rgb '#808080' lw 0.8 dt (6,4) notitle, \\\n"
-                 "  data index 0 using 1:4 with lines lc rgb '#0072b2' dt solid lw 2.2 title "
-                 "'arm', \\\n"));
-  CHECK(contains(script(), "  data index 1 using 1:(-0.1325):1:2:"));
-  CHECK(!contains(script(), "data index 2"));
+                 "title = 'Main/pull   (2 barriers)'\ntitle_lines = 1\nbegin = 0\nend = 0.2\n"));
+  CHECK(contains(script(), "children = 2\narray name[children] = ['arm', 'base']\nheld = '2' "));
+  CHECK(contains(script(), "kind = 'barriers'\nbarriers = '0.5 1'\n"));
+  std::string svg = picture();
+  CHECK(contains(svg, ">barrier<"));
+  CHECK(!contains(svg, ">delta band<"));
+  CHECK(bars(svg) == 1);  // when the base was held
+  plot.node.barriers.reset();
+  CHECK(contains(picture(), ">barrier<"));
+  plot.node.barriers.emplace();
+  plot.samples[1].held_until = {0.1, 0.1};
+  svg = picture();
+  CHECK(!contains(svg, ">barrier<"));
+  CHECK(bars(svg) == 0);
   plot.node.synchronization = Synchronization::Relative;
   plot.node.delta = 0.1;
-  CHECK(contains(script(), "set label 'Main/pull   (delta = 0.1)' at screen 0.5,"));
-  CHECK(contains(script(), "  data index 0 using 1:2:3 with filledcurves "));
-  CHECK(!contains(script(), "'barrier'"));
+  CHECK(contains(script(), "title = 'Main/pull   (delta = 0.1)'\n"));
+  svg = picture();
+  CHECK(contains(svg, ">delta band<"));
+  CHECK(!contains(svg, ">barrier<"));
 }
 
 TEST_CASE("progress plot: of more children than there are styles the first are drawn") {
