@@ -12,9 +12,8 @@ struct Document::Implementation {
   std::shared_ptr<const Source> source;
   std::vector<Element> elements;
   std::vector<Attribute> attributes;
-  std::vector<std::uint32_t> coded;      // attributes whose values the reader has to read
-  std::vector<std::string_view> unread;  // parts of the text that the reader must not see
-  std::deque<std::string> values;        // those that are not as the text has them; never moved
+  std::vector<std::uint32_t> coded;  // attributes whose values have references or line ends
+  std::deque<std::string> values;    // those that are not as the text has them; never moved
 
   void report(XmlFault fault, Diagnostics& diagnostics) const {
     const auto location = source->locate(source->place_of(fault.offset));
@@ -23,9 +22,7 @@ struct Document::Implementation {
   }
 
   bool check(Diagnostics& diagnostics);
-  bool read(Diagnostics& diagnostics);
-  std::string without_unread() const;
-  void read_values(const tinyxml2::XMLElement* root);
+  bool read_coded(Diagnostics& diagnostics);
 };
 
 bool Document::Implementation::check(Diagnostics& diagnostics) {
@@ -44,56 +41,32 @@ bool Document::Implementation::check(Diagnostics& diagnostics) {
   elements = std::move(written.elements);
   attributes = std::move(written.attributes);
   coded = std::move(written.coded);
-  unread = std::move(written.unread);
   return written.readable;
 }
 
-// Blanks are where it was: they are not part of any value.
-std::string Document::Implementation::without_unread() const {
-  const std::string_view text = source->text();
-  std::string blanked(text);
-  for (const auto part : unread) {
-    const auto offset = static_cast<std::size_t>(part.data() - text.data());
-    blanked.replace(offset, part.size(), part.size(), ' ');
+// All of them at once, as the attributes of a text that is made for it.
+bool Document::Implementation::read_coded(Diagnostics& diagnostics) {
+  if (coded.empty()) return true;
+  std::string text = "<r>";
+  for (const auto index : coded) {
+    const std::string_view value = attributes[index].value;
+    const char quote = value.data()[-1];
+    (((text += "<a v=") += quote) += value) += quote;
+    text += "/>";
   }
-  return blanked;
-}
-
-// The reader's own document takes several times the memory of the elements: it is gone before
-// anything is made from them.
-bool Document::Implementation::read(Diagnostics& diagnostics) {
+  text += "</r>";
   tinyxml2::XMLDocument xml;
-  const std::string blanked = unread.empty() ? std::string() : without_unread();
-  const std::string_view readable = unread.empty() ? source->text() : blanked;
-  if (xml.Parse(readable.data(), readable.size()) == tinyxml2::XML_SUCCESS) {
-    read_values(xml.RootElement());
-    return true;
+  if (xml.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
+    diagnostics.error({source->path()},
+                      fmt::format("values that cannot be read ({})", xml.ErrorName()));
+    return false;
   }
-  const auto line = static_cast<std::uint32_t>(xml.ErrorLineNum());
-  diagnostics.error({source->path(), line},
-                    fmt::format("not XML that can be read ({})", xml.ErrorName()), {},
-                    source->excerpt(line));
-  return false;
-}
-
-const tinyxml2::XMLElement* next_in_pre_order(const tinyxml2::XMLElement* element) {
-  if (const auto* child = element->FirstChildElement()) return child;
-  while (element && !element->NextSiblingElement()) element = element->Parent()->ToElement();
-  return element ? element->NextSiblingElement() : nullptr;
-}
-
-// References and line ends are the reader's; all other values are as they are written.
-void Document::Implementation::read_values(const tinyxml2::XMLElement* root) {
-  const auto* from = root;
-  std::uint32_t element = 0;
-  for (const auto attribute : coded) {
-    for (; attribute >= elements[element].first_attribute + elements[element].attribute_count;
-         ++element)
-      from = next_in_pre_order(from);
-    const auto* read = from->FirstAttribute();
-    for (auto i = elements[element].first_attribute; i < attribute; ++i) read = read->Next();
-    attributes[attribute].value = values.emplace_back(read->Value());
+  const auto* read = xml.RootElement()->FirstChildElement();
+  for (const auto index : coded) {
+    attributes[index].value = values.emplace_back(read->Attribute("v"));
+    read = read->NextSiblingElement();
   }
+  return true;
 }
 
 Document::Document() : it_(std::make_unique<Implementation>()) {}
@@ -104,7 +77,7 @@ std::unique_ptr<Document> Document::parse(std::string path, std::string text,
   std::unique_ptr<Document> document(new Document);
   auto& it = *document->it_;
   it.source = std::make_shared<const Source>(std::move(path), std::move(text), first);
-  if (!it.check(diagnostics) || !it.read(diagnostics)) return nullptr;
+  if (!it.check(diagnostics) || !it.read_coded(diagnostics)) return nullptr;
   return document;
 }
 

@@ -46,7 +46,6 @@ class Checker {
       case TokenKind::Text:
         return text(token);
       case TokenKind::Instruction:
-        if (token.begin > 0) result_.unread.push_back(token.value);
         return;
       case TokenKind::Doctype:
         return doctype(token);
@@ -64,8 +63,7 @@ class Checker {
     if (open_.empty() && has_root()) return stop({token.begin, "a second root element"});
     if (open_.size() == kMaxElementDepth)
       return stop({token.begin,
-                   fmt::format("elements are nested deeper than {} levels", kMaxElementDepth),
-                   "the XML reader's limit is 100, and it needs two of them; use a SubTree"});
+                   fmt::format("elements are nested deeper than {} levels", kMaxElementDepth)});
     open_.push_back(count(result_.elements));
     result_.elements.push_back({token.name, 0, count(result_.attributes), 0, place(token)});
     prolog_ = false;
@@ -138,7 +136,6 @@ class Checker {
   void doctype(const Token& token) {
     if (has_root()) return stop({token.begin, "a DOCTYPE stands before the root element"});
     if (has_doctype_) return stop({token.begin, "a second DOCTYPE"});
-    result_.unread.push_back(token.value);
     has_doctype_ = true;
     prolog_ = false;
   }

@@ -1,6 +1,7 @@
 // Whether a text is XML, with the exact place of what is wrong, and where its elements and
-// attributes are: the reader behind Document says only the line, and takes more than XML allows. It
-// knows nesting and bytes, not what tags and values mean.
+// attributes are. It knows nesting and bytes, not what tags and values mean.
+// docs/decisions/loading.md says why tinyxml2, which has no columns and accepts more than XML, does
+// not do this.
 #pragma once
 
 #include <optional>
@@ -12,10 +13,9 @@
 
 namespace lockstep {
 
-// Elements inside each other. tinyxml2 allows 100 levels, of which it needs two for itself.
-constexpr std::size_t kMaxElementDepth = 98;
-// Of one element: tinyxml2 compares each with all before it.
-constexpr std::size_t kMaxAttributes = 256;
+// Elements inside each other: more than the 1,000 levels that a tree may have.
+constexpr std::size_t kMaxElementDepth = 1'024;
+constexpr std::size_t kMaxAttributes = 256;  // of one element
 
 // The first byte that cannot be part of a text in UTF-8 that XML allows. `text` has no byte order
 // mark of UTF-8.
@@ -23,13 +23,11 @@ std::optional<XmlFault> check_encoding(std::string_view text);
 
 struct WellFormed {
   std::vector<XmlFault> faults;
-  bool readable = true;  // false: a fault is such that the reader refuses the text
+  bool readable = true;  // false: after a fault the elements are not those of the text
   // In the order of the text; the values of attributes as they are written there.
   std::vector<Element> elements;
   std::vector<Attribute> attributes;
-  std::vector<std::uint32_t> coded;  // those whose values the reader reads as others
-  // Processing instructions and the like: XML, but where the reader does not take it.
-  std::vector<std::string_view> unread;
+  std::vector<std::uint32_t> coded;  // those whose values have references or line ends
 };
 
 // `first` is the place of the first byte.

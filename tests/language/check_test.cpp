@@ -286,8 +286,11 @@ std::string tower(int levels, int width, std::string_view ground = "<AlwaysSucce
 }
 
 TEST_CASE("limits are named, and nothing breaks at them") {
-  CHECK(Pipeline(nested(95)).run() == "failure 1");  // with root, BehaviorTree and leaf: 98
-  CHECK(Pipeline(nested(96)).told() == "2:961 error: elements are nested deeper than 98 levels");
+  CHECK(Pipeline(nested(999)).run() == "failure 1");  // with the leaf: 1000
+  CHECK(Pipeline(nested(1000)).told() ==
+        "2:1 error: the tree 'T' is 1001 nodes deep with its subtrees expanded");
+  CHECK(Pipeline(nested(1022)).told() ==
+        "2:10221 error: elements are nested deeper than 1024 levels");
   CHECK(Pipeline(tower(499, 1, "<Inverter><AlwaysFailure/></Inverter>")).run() ==
         "success 1");  // two nodes a level, and two: 1000
   CHECK(Pipeline(tower(500, 1)).told() ==

@@ -87,6 +87,16 @@ TEST_CASE("a tree is at most a thousand nodes deep with its subtrees expanded") 
         "the tree 'T1001' is 1001 nodes deep with its subtrees expanded");
 }
 
+TEST_CASE("a tree in one file may be as deep as a tree of subtrees") {
+  const auto nested = [](std::size_t depth) {
+    return tree("Main", repeated(depth - 1, "<Inverter>") + "<AlwaysSuccess/>" +
+                            repeated(depth - 1, "</Inverter>"));
+  };
+  CHECK(message(nested(kMaxDepth)) == "");
+  CHECK(message(nested(kMaxDepth + 1)) ==
+        "the tree 'Main' is 1001 nodes deep with its subtrees expanded");
+}
+
 TEST_CASE("the paths of a tree are at most 512 MiB together") {
   constexpr std::size_t kLeaves = 511;
   const auto named = [](std::size_t sequence, std::size_t last_leaf) {
