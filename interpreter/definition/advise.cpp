@@ -19,7 +19,7 @@ class Adviser {
   void advise() const {
     for (std::uint32_t node = 0; node < definition_.nodes.size(); ++node) {
       const NodeType& type = *at(node).type;
-      if (forgets(node)) {
+      if (definition_.forgets(at(node))) {
         type.goes_on_after != Status::Idle ? restarts(node) : restarts_completed(node);
       }
       if (type.synchronization != Synchronization::None) child_without_progress(node);
@@ -32,18 +32,6 @@ class Adviser {
 
   void add(std::uint32_t node, Severity severity, std::string message, std::string hint) const {
     report_.at(at(node).place, std::move(message), std::move(hint), severity);
-  }
-
-  // A control node with memory="false".
-  bool forgets(std::uint32_t node) const {
-    if (at(node).type->category != NodeCategory::Control) return false;
-    const auto parameters = at(node).type->parameters;
-    for (std::size_t i = 0; i < parameters.size(); ++i) {
-      if (parameters[i].name == "memory") {
-        return *definition_.constant(at(node), i) == Value(false);
-      }
-    }
-    return false;
   }
 
   // What is known of a node, or of the children of a node together.

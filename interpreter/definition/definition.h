@@ -61,6 +61,15 @@ struct Definition {
     return port.entry == Port::kNone && port.value != Port::kNone ? &values[port.value] : nullptr;
   }
 
+  // A control node with memory="false".
+  bool forgets(const DefinitionNode& node) const {
+    if (node.type->category != NodeCategory::Control) return false;
+    for (std::size_t i = 0; i < node.type->parameters.size(); ++i) {
+      if (node.type->parameters[i].name == "memory") return *constant(node, i) == Value(false);
+    }
+    return false;
+  }
+
   std::span<const WrittenAttribute> attributes(const DefinitionNode& node) const {
     if (node.written >= written.size()) return {};
     auto last = written.begin() + node.written;

@@ -73,8 +73,9 @@ class Compiler {
   void add(const DefinitionNode& from) {
     Node node{.kind = kind(*from.type),
               .end = from.end,
-              .children = from.children & 0x7fffffffu,  // kMaxNodes is far less
+              .children = from.children & 0x3fffffffu,  // kMaxNodes is far less
               .is_guard = from.type->category != NodeCategory::Action,
+              .is_latched = false,
               .params = 0,
               .state = static_cast<std::uint32_t>(tree_.state_size)};
     if (from.type->leaf != nullptr) {
@@ -90,11 +91,16 @@ class Compiler {
     tree_.nodes.push_back(node);
   }
 
-  // A node is one when all of its children are.
+  // A node is a guard when all of its children are.
   void find_guards() {
-    for (std::size_t node = tree_.nodes.size(); node-- > 1;) {
-      if (tree_.nodes[node].is_guard == 0) {
-        tree_.nodes[definition_.nodes[node].parent].is_guard = 0;
+    for (auto node = static_cast<NodeIndex>(tree_.nodes.size()); node-- > 0;) {
+      const DefinitionNode& from = definition_.nodes[node];
+      Node& it = tree_.nodes[node];
+      it.is_latched = it.is_guard == 0;
+      if (it.is_guard == 0) tree_.nodes[from.parent].is_guard = 0;
+      if (!definition_.forgets(from)) continue;
+      for (NodeIndex child = node + 1; child < it.end; child = tree_.nodes[child].end) {
+        tree_.nodes[child].is_latched = 0;
       }
     }
   }

@@ -114,6 +114,7 @@ class Ticker {
   const Node& node(NodeIndex node) const { return tree_.nodes[node]; }
   NodeIndex end_of(NodeIndex node) const { return tree_.nodes[node].end; }
   bool is_guard(NodeIndex node) const { return tree_.nodes[node].is_guard != 0; }
+  bool is_latched(NodeIndex node) const { return tree_.nodes[node].is_latched != 0; }
   Activity activity(NodeIndex node) const { return state_.activity[node]; }
   Status status(NodeIndex node) const { return status_of(state_.activity[node]); }
   Nanoseconds now() const { return now_; }  // of this tick, since the run began

@@ -17,9 +17,10 @@ namespace lockstep {
 
 struct Node {
   const NodeKind* kind;
-  NodeIndex end;                // one past the last descendant
-  std::uint32_t children : 31;  // how many
-  std::uint32_t is_guard : 1;   // no action is in it: a parallel asks it in every tick
+  NodeIndex end;                 // one past the last descendant
+  std::uint32_t children : 30;   // how many
+  std::uint32_t is_guard : 1;    // no action is in it: a parallel asks it in every tick
+  std::uint32_t is_latched : 1;  // a parallel does not tick it again after it has completed
   std::uint32_t params;  // first cell in Tree::cells; of a plugin leaf: its place in Tree::leaves
   std::uint32_t state;   // first byte in RunState's node states
 };

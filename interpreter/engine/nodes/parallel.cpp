@@ -7,7 +7,7 @@
 namespace lockstep {
 namespace {
 
-constexpr parallel::Places kPlaces{.success_count = 0, .failure_count = 1, .memory = 2};
+constexpr parallel::Places kPlaces{.success_count = 0, .failure_count = 1};
 
 constexpr Parameter kParameters[] = {parallel::kSuccessCount, parallel::kFailureCount,
                                      parallel::kMemory};
@@ -18,14 +18,9 @@ std::optional<RuleBreak> rule(const ParameterValues& given) {
 
 Status tick(Ticker& ticker, NodeIndex self) {
   const NodeIndex end = ticker.end_of(self);
-  const bool memory = ticker.parameter(self, kPlaces.memory).boolean;
   parallel::Tally tally;
   for (NodeIndex child = self + 1; child != end; child = ticker.end_of(child)) {
-    Status status = ticker.status(child);
-    if (!is_complete(status) || !parallel::is_latched(ticker, child, memory)) {
-      status = ticker.tick(child);
-    }
-    tally.add(status);
+    tally.add(parallel::is_over(ticker, child) ? ticker.status(child) : ticker.tick(child));
   }
   return parallel::judge(ticker, self, kPlaces, tally);
 }

@@ -12,7 +12,7 @@ namespace {
 constexpr unsigned kBarriers = 0;
 constexpr unsigned kBarrierCount = 1;
 constexpr unsigned kAtBarrier = 2;
-constexpr parallel::Places kPlaces{.success_count = 3, .failure_count = 4, .memory = 5};
+constexpr parallel::Places kPlaces{.success_count = 3, .failure_count = 4};
 
 constexpr std::string_view kAtBarrierChoices[] = {"wait", "tick"};
 constexpr std::int64_t kTickAtBarrier = 1;
@@ -84,7 +84,7 @@ double current_barrier(std::span<const double> barriers, double least) {
 
 Status tick(Ticker& ticker, NodeIndex self) {
   const auto barriers = ticker.numbers(ticker.parameter(self, kBarriers));
-  const double least = synchronized::take_snapshot(ticker, self, kPlaces);
+  const double least = synchronized::take_snapshot(ticker, self);
   const double barrier = current_barrier(barriers, least);
   ticker.state<SynchronizedState>(self).limit = barrier;
   if (ticker.parameter(self, kAtBarrier).integer == kTickAtBarrier) {
@@ -95,10 +95,6 @@ Status tick(Ticker& ticker, NodeIndex self) {
   return synchronized::tick_children(ticker, self, kPlaces, [barrier](double reached) {
     return reached >= barrier - kProgressEpsilon;
   });
-}
-
-double progress(Ticker& ticker, NodeIndex self) {
-  return synchronized::least_progress(ticker, self, kPlaces);
 }
 
 }  // namespace
@@ -115,7 +111,7 @@ const NodeKind kParallelAbsolute{
              .sign = "⇉A",
              .synchronization = Synchronization::Absolute},
     .tick = tick,
-    .progress = progress,
+    .progress = synchronized::least_progress,
     .state_size = sizeof(SynchronizedState),
     .state_per_child = sizeof(double)};
 

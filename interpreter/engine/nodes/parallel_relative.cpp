@@ -5,7 +5,7 @@ namespace lockstep {
 namespace {
 
 constexpr unsigned kDelta = 0;
-constexpr parallel::Places kPlaces{.success_count = 1, .failure_count = 2, .memory = 3};
+constexpr parallel::Places kPlaces{.success_count = 1, .failure_count = 2};
 
 constexpr Parameter kParameters[] = {
     {.name = "delta",
@@ -24,16 +24,12 @@ std::optional<RuleBreak> rule(const ParameterValues& given) {
 }
 
 Status tick(Ticker& ticker, NodeIndex self) {
-  const double least = synchronized::take_snapshot(ticker, self, kPlaces);
+  const double least = synchronized::take_snapshot(ticker, self);
   const double delta = ticker.parameter(self, kDelta).number;
   ticker.state<SynchronizedState>(self).limit = delta;
   const double most = farthest(Synchronization::Relative, delta, least) + kProgressEpsilon;
   return synchronized::tick_children(ticker, self, kPlaces,
                                      [most](double reached) { return reached > most; });
-}
-
-double progress(Ticker& ticker, NodeIndex self) {
-  return synchronized::least_progress(ticker, self, kPlaces);
 }
 
 }  // namespace
@@ -49,7 +45,7 @@ const NodeKind kParallelRelative{
              .sign = "⇉R",
              .synchronization = Synchronization::Relative},
     .tick = tick,
-    .progress = progress,
+    .progress = synchronized::least_progress,
     .state_size = sizeof(SynchronizedState),
     .state_per_child = sizeof(double)};
 

@@ -27,9 +27,9 @@ inline constexpr Parameter kMemory{
     .default_text = "true",
     .constant = true};
 
-// Where those three stand in the parameters of a kind.
+// Where the two counts stand in the parameters of a kind.
 struct Places {
-  unsigned success_count, failure_count, memory;
+  unsigned success_count, failure_count;
 };
 
 inline std::optional<RuleBreak> check_counts(const ParameterValues& given, const Places& places) {
@@ -49,10 +49,9 @@ inline std::optional<RuleBreak> check_counts(const ParameterValues& given, const
   return std::nullopt;
 }
 
-// Of a child that completed: it is not ticked again in this activation of its parallel. A guard is:
-// one that is looked at once guards nothing.
-inline bool is_latched(const Ticker& ticker, NodeIndex child, bool memory) {
-  return memory && !ticker.is_guard(child);
+// A guard is ticked in every tick: one that is looked at once guards nothing.
+inline bool is_over(const Ticker& ticker, NodeIndex child) {
+  return is_complete(ticker.status(child)) && ticker.is_latched(child);
 }
 
 // How many children have which result.

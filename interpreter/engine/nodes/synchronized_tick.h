@@ -12,20 +12,18 @@ namespace lockstep::synchronized {
 
 // The progress of a child as the node counts it: 1 also when it has failed for good, for nobody
 // waits for a child that is over.
-inline double reached(Ticker& ticker, NodeIndex child, bool memory) {
-  if (ticker.status(child) == Status::Failure && parallel::is_latched(ticker, child, memory)) {
-    return 1.0;
-  }
+inline double reached(Ticker& ticker, NodeIndex child) {
+  const Status status = ticker.status(child);
+  if (status == Status::Failure && ticker.is_latched(child)) return 1.0;
   return ticker.progress(child);
 }
 
 // One snapshot before any child is ticked; returns its minimum.
-inline double take_snapshot(Ticker& ticker, NodeIndex self, const parallel::Places& places) {
-  const bool memory = ticker.parameter(self, places.memory).boolean;
+inline double take_snapshot(Ticker& ticker, NodeIndex self) {
   double least = 1.0;
   NodeIndex child = self + 1;
   for (double& number : ticker.child_numbers(self)) {
-    number = reached(ticker, child, memory);
+    number = reached(ticker, child);
     least = std::min(least, number);
     child = ticker.end_of(child);
   }
@@ -36,13 +34,12 @@ inline double take_snapshot(Ticker& ticker, NodeIndex self, const parallel::Plac
 // from a guard.
 template <class Held>
 Status tick_each(Ticker& ticker, NodeIndex self, const parallel::Places& places, Held held) {
-  const bool memory = ticker.parameter(self, places.memory).boolean;
   parallel::Tally tally;
   NodeIndex child = self + 1;
   for (const double reached : ticker.child_numbers(self)) {
     if (ticker.faulted()) return Status::Running;
     Status status = ticker.status(child);
-    if (!is_complete(status) || !parallel::is_latched(ticker, child, memory)) {
+    if (!parallel::is_over(ticker, child)) {
       if (!held(reached) || ticker.is_guard(child)) {
         status = ticker.tick(child);
       } else if (ticker.activity(child) == Activity::Running) {
@@ -63,11 +60,10 @@ Status tick_children(Ticker& ticker, NodeIndex self, const parallel::Places& pla
 }
 
 // So that synchronized nodes nest: the least progressed child.
-inline double least_progress(Ticker& ticker, NodeIndex self, const parallel::Places& places) {
-  const bool memory = ticker.parameter(self, places.memory).boolean;
+inline double least_progress(Ticker& ticker, NodeIndex self) {
   double least = 1.0;
   for (NodeIndex child = self + 1; child != ticker.end_of(self); child = ticker.end_of(child)) {
-    least = std::min(least, reached(ticker, child, memory));
+    least = std::min(least, reached(ticker, child));
   }
   return least;
 }

@@ -77,6 +77,7 @@ inline Tree leaves_of(const NodeType& type, const std::vector<std::vector<Value>
                           .end = node + 1,
                           .children = 0,
                           .is_guard = 0,
+                          .is_latched = 0,
                           .params = node,
                           .state = 0});
     static constexpr std::string_view kNames[] = {"leaf0", "leaf1"};

@@ -51,6 +51,7 @@ inline Tree tree_of(const NodeType& leaf, std::int64_t ticks) {
                         .end = 1,
                         .children = 0,
                         .is_guard = 0,
+                        .is_latched = 0,
                         .params = 0,
                         .state = 0});
   tree.leaves = {LeafNode{0, &leaf, 0}};

@@ -82,8 +82,13 @@ ProbeTree::ProbeTree(std::uint32_t full_leaves, std::uint32_t bare_leaves) {
   for (std::uint32_t leaf = 0; leaf < full_leaves; ++leaf) add_leaf(*types[0]);
   for (std::uint32_t leaf = 0; leaf < bare_leaves; ++leaf) add_leaf(*types[1]);
   if (tree_.leaves.size() == 1)
-    tree_.nodes.push_back(
-        {.kind = &kPluginAction, .end = 1, .children = 0, .is_guard = 0, .params = 0, .state = 0});
+    tree_.nodes.push_back({.kind = &kPluginAction,
+                           .end = 1,
+                           .children = 0,
+                           .is_guard = 0,
+                           .is_latched = 0,
+                           .params = 0,
+                           .state = 0});
 }
 
 void ProbeTree::add_leaf(const NodeType& type) {
