@@ -8,27 +8,14 @@
 #include <cerrno>
 #include <system_error>
 
+#include "core/file_descriptor.h"
+
 namespace lockstep {
 namespace {
 
 tl::unexpected<Problem> failed(int error) {
   return tl::unexpected(Problem{std::generic_category().message(error)});
 }
-
-class OpenFile {
- public:
-  explicit OpenFile(int number) : number_(number) {}
-  ~OpenFile() {
-    if (number_ >= 0) ::close(number_);
-  }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-
-  int number() const { return number_; }
-
- private:
-  int number_;
-};
 
 Result<void> check_kind(const struct stat& status, FileKinds kinds) {
   if (S_ISREG(status.st_mode)) return {};
@@ -65,7 +52,7 @@ Result<std::string> read_file(const std::string& path, std::size_t limit, FileKi
   if (const auto kind = check_kind(status, kinds); !kind) return tl::unexpected(kind.error());
   // What is a regular file may be a named pipe by now: then its writer is not waited for.
   const int blocks = S_ISFIFO(status.st_mode) ? 0 : O_NONBLOCK;
-  const OpenFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | blocks));
+  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | blocks));
   if (file.number() < 0 || ::fstat(file.number(), &status) != 0) return failed(errno);
   if (const auto kind = check_kind(status, kinds); !kind) return tl::unexpected(kind.error());
   return read_all(file.number(), status, limit);

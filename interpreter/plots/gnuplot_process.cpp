@@ -15,6 +15,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "core/file_descriptor.h"
 #include "runtime/stop_signals.h"
 
 namespace lockstep {
@@ -83,21 +84,13 @@ int become_gnuplot(const Plan& plan, pid_t parent, int out) {
 }
 
 struct Pipe {
-  int read = -1, write = -1;
+  FileDescriptor read, write;
   bool open() {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) return false;
-    read = ends[0];
-    write = ends[1];
+    read = FileDescriptor(ends[0]);
+    write = FileDescriptor(ends[1]);
     return true;
-  }
-  void close_write() {
-    if (write >= 0) close(write);
-    write = -1;
-  }
-  ~Pipe() {
-    close_write();
-    if (read >= 0) close(read);
   }
 };
 
@@ -129,17 +122,17 @@ GnuplotEnd run_gnuplot(const std::filesystem::path& directory, const std::string
   const pid_t pid = fork();
   if (pid < 0) return {.reason = errno};
   if (pid == 0) {
-    const int reason = become_gnuplot(plan, parent, words.write);
-    const ssize_t told = write(failure.write, &reason, sizeof reason);
+    const int reason = become_gnuplot(plan, parent, words.write.number());
+    const ssize_t told = write(failure.write.number(), &reason, sizeof reason);
     _exit(told == sizeof reason ? 127 : 126);
   }
-  words.close_write();
-  failure.close_write();
+  words.write = FileDescriptor();
+  failure.write = FileDescriptor();
   GnuplotEnd ended;
   ssize_t count = 0;
-  do count = read(failure.read, &ended.reason, sizeof ended.reason);
+  do count = read(failure.read.number(), &ended.reason, sizeof ended.reason);
   while (count < 0 && errno == EINTR);
-  if (ended.reason == 0) listen(words.read, pid, ended);
+  if (ended.reason == 0) listen(words.read.number(), pid, ended);
   int status = 0;
   while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {
   }

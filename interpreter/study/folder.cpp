@@ -31,10 +31,6 @@ int write_new(const std::string& path, std::string_view text) {
 
 }  // namespace
 
-StudyFolder::~StudyFolder() {
-  if (runs_ >= 0) close(runs_);
-}
-
 std::string StudyFolder::file(std::string_view name) const {
   return path_ + '/' + std::string(name);
 }
@@ -69,13 +65,14 @@ bool StudyFolder::is_free() {
 bool StudyFolder::lock() {
   const std::string path = file("runs.csv");
   constexpr int kNew = O_RDWR | O_CREAT | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
-  runs_ = open(path.c_str(), kNew, 0666);
+  runs_ = FileDescriptor(open(path.c_str(), kNew, 0666));
   struct stat status {};
-  if (runs_ < 0 || fstat(runs_, &status) != 0) return fail_to_write("runs.csv", errno);
+  if (runs_.number() < 0 || fstat(runs_.number(), &status) != 0)
+    return fail_to_write("runs.csv", errno);
   if (!S_ISREG(status.st_mode))
     return fail(fmt::format("cannot write '{}': it is not a regular file", path));
   // A file system without locks is taken as it is.
-  if (flock(runs_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return true;
+  if (flock(runs_.number(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return true;
   return fail(fmt::format("another process is writing the study in '{}'", path_));
 }
 
@@ -122,7 +119,7 @@ std::optional<std::uint64_t> StudyFolder::take_over(const StudyPlan& plan) {
   while (!reader.next().empty()) continue;
   if (!reader.error().empty()) {
     fail(reader.error());
-  } else if (ftruncate(runs_, static_cast<off_t>(reader.bytes())) != 0) {
+  } else if (ftruncate(runs_.number(), static_cast<off_t>(reader.bytes())) != 0) {
     fail_to_write("runs.csv", errno);
   } else if (reader.bytes() != 0 || append(row_header(plan))) {
     return reader.rows();
@@ -157,7 +154,7 @@ void StudyFolder::discard() {
 }
 
 bool StudyFolder::append(std::string_view lines) {
-  if (write_all(runs_, lines)) return true;
+  if (write_all(runs_.number(), lines)) return true;
   return fail_to_write("runs.csv", errno);
 }
 

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/file_descriptor.h"
 #include "study/plan.h"
 #include "study/table.h"
 
@@ -17,9 +18,6 @@ namespace lockstep {
 class StudyFolder {
  public:
   explicit StudyFolder(std::string path) : path_(std::move(path)) {}
-  ~StudyFolder();
-  StudyFolder(const StudyFolder&) = delete;
-  StudyFolder& operator=(const StudyFolder&) = delete;
 
   // Makes the directory, or takes over what is there when `resume` and it is of this plan. The
   // number of rows that are there already; on failure error() tells. From then on the directory is
@@ -49,7 +47,7 @@ class StudyFolder {
 
   std::string path_;
   bool made_directory_ = false;
-  int runs_ = -1;  // runs.csv; it carries the lock
+  FileDescriptor runs_;  // runs.csv; it carries the lock
   std::string error_;
 };
 

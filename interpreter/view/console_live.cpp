@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/eventfd.h>
-#include <unistd.h>
 
 #include <array>
 #include <new>
@@ -29,7 +28,6 @@ ConsoleLive::~ConsoleLive() {
     stop();
   } catch (const std::bad_alloc&) {  // lines that nobody will see; the thread has ended
   }
-  close(wake_);
 }
 
 void ConsoleLive::run_started(Ticker& ticker, const RunStart& start) {
@@ -62,7 +60,7 @@ void ConsoleLive::print(std::string line) {
 void ConsoleLive::stop() {
   if (thread_.joinable()) {
     stopping_ = true;
-    eventfd_write(wake_, 1);
+    eventfd_write(wake_.number(), 1);
     thread_.join();
   }
   terminal_.reset();
@@ -114,8 +112,8 @@ DrawOptions ConsoleLive::draw_options() const {
 
 bool ConsoleLive::wait() {
   const bool listens = options_.keys >= 0 && !is_away_;
-  std::array<pollfd, 2> files{
-      {{wake_, POLLIN, 0}, {listens ? options_.keys : -1, POLLIN, 0}}};  // -1 is passed over
+  std::array<pollfd, 2> files{{{wake_.number(), POLLIN, 0},
+                               {listens ? options_.keys : -1, POLLIN, 0}}};  // -1 is passed over
   const int ready =
       poll(files.data(), files.size(), static_cast<int>(SnapshotFeed::kPeriod.count()));
   if (ready == 0) press(decoder_.idle());

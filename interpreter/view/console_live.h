@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/file_descriptor.h"
 #include "terminal/keys.h"
 #include "terminal/raw_terminal.h"
 #include "terminal/screen.h"
@@ -70,7 +71,7 @@ class ConsoleLive final : public Observer {
   KeyDecoder decoder_;
   TreeBrowser browser_{shape_};
 
-  int wake_ = -1;  // an eventfd: the thread is to stop
+  FileDescriptor wake_;  // an eventfd: the thread is to stop
   std::atomic<bool> stopping_{false};
   std::mutex mutex_;  // for what follows
   std::vector<std::string> printed_;

@@ -11,8 +11,6 @@
 #include <cerrno>
 #include <cstring>
 
-#include "plugin/isolated/file_descriptor.h"
-
 namespace lockstep {
 namespace {
 
@@ -105,8 +103,8 @@ std::string ChildProcess::start(const std::string& program, const std::string& a
   pid_t pid = -1;
   if (const int error = plan.spawn(pid, program, argument); error != 0) return error_text(error);
   pid_ = pid;
-  descriptor_ = open_pidfd(pid);
-  if (descriptor_ >= 0) return {};
+  descriptor_ = FileDescriptor(open_pidfd(pid));
+  if (descriptor_.number() >= 0) return {};
   const std::string reason = error_text(errno);
   kill();
   reap();
@@ -118,7 +116,6 @@ ChildProcess::~ChildProcess() {
     kill();
     reap();
   }
-  if (descriptor_ >= 0) close(descriptor_);
 }
 
 void ChildProcess::kill() {

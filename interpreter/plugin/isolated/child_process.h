@@ -7,6 +7,8 @@
 #include <mutex>
 #include <string>
 
+#include "core/file_descriptor.h"
+
 namespace lockstep {
 
 class ChildProcess {
@@ -26,7 +28,7 @@ class ChildProcess {
   ChildProcess& operator=(const ChildProcess&) = delete;
 
   // Becomes readable when the process has ended.
-  int descriptor() const { return descriptor_; }
+  int descriptor() const { return descriptor_.number(); }
   // SIGKILL to it, wherever it has gone, and to the group that it was given, unless it has been
   // reaped. From any thread.
   void kill();
@@ -37,7 +39,7 @@ class ChildProcess {
  private:
   std::mutex mutex_;
   pid_t pid_ = -1;  // -1: none, or reaped
-  int descriptor_ = -1;
+  FileDescriptor descriptor_;
 };
 
 }  // namespace lockstep

@@ -13,10 +13,10 @@
 #include <thread>
 #include <vector>
 
+#include "core/file_descriptor.h"
 #include "plugin/call_mark.h"
 #include "plugin/isolated/channel.h"
 #include "plugin/isolated/child_process.h"
-#include "plugin/isolated/file_descriptor.h"
 #include "plugin/isolated/message.h"
 #include "plugin/plugin_set.h"
 
