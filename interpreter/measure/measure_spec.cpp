@@ -1,12 +1,17 @@
 #include "measure/measure_spec.h"
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "core/suggest.h"
 
 namespace lockstep {
 namespace {
+
+tl::unexpected<Problem> fail(std::string message) {
+  return tl::unexpected(Problem{std::move(message)});
+}
 
 std::string quoted(std::string_view text) {
   return std::string("'").append(text).append("'");
@@ -48,20 +53,16 @@ std::string suggest_path(std::span<const std::string> paths, std::string_view na
 
 }  // namespace
 
-std::optional<MeasureSpec> parse_measure(std::string_view text, std::string& error) {
+Result<MeasureSpec> parse_measure(std::string_view text) {
   const std::string_view name = text.substr(0, text.find_first_of(":["));
   const auto measures = all_measures();
   const auto found = std::ranges::find(measures, name, &Measure::name);
-  if (found == measures.end()) {
-    error = unknown_measure(name);
-    return std::nullopt;
-  }
+  if (found == measures.end()) return fail(unknown_measure(name));
   MeasureSpec spec{.measure = *found};
   const auto parse = spec.measure->parse != nullptr ? spec.measure->parse : parse_name;
   std::string wrong = parse(text.substr(name.size()), spec);
-  if (wrong.empty()) return spec;
-  error = std::move(wrong);
-  return std::nullopt;
+  if (!wrong.empty()) return fail(std::move(wrong));
+  return spec;
 }
 
 std::string to_text(const MeasureSpec& spec) {
@@ -90,24 +91,24 @@ std::string measure_usages() {
   return text;
 }
 
-std::optional<std::size_t> find_path(std::span<const std::string> paths, std::string_view name,
-                                     std::string& error, std::string_view what) {
+Result<std::size_t> find_path(std::span<const std::string> paths, std::string_view name,
+                              std::string_view what) {
   std::optional<std::size_t> found;
   const std::string tail = std::string("/").append(name);
   for (std::size_t index = 0; index < paths.size(); ++index) {
     if (paths[index] == name) return index;
     if (!paths[index].ends_with(tail)) continue;
     if (found) {
-      error = quoted(name) + " is " + quoted(paths[*found]) + " as well as " + quoted(paths[index]);
-      return std::nullopt;
+      return fail(quoted(name) + " is " + quoted(paths[*found]) + " as well as " +
+                  quoted(paths[index]));
     }
     found = index;
   }
-  if (found) return found;
-  error = "no " + std::string(what) + " " + quoted(name);
+  if (found) return *found;
+  std::string error = "no " + std::string(what) + " " + quoted(name);
   const std::string hint = suggest_path(paths, name);
   if (!hint.empty()) error += ", " + hint;
-  return found;
+  return fail(std::move(error));
 }
 
 std::string last_segment(std::string_view path) {

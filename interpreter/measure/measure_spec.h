@@ -1,17 +1,17 @@
 // Measures as users write them: their names with their arguments, and the nodes that these name.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
+#include "core/problem.h"
 #include "measure/measure.h"
 
 namespace lockstep {
 
-// The measure that `text` names. Else nothing, and what is wrong with it in `error`.
-std::optional<MeasureSpec> parse_measure(std::string_view text, std::string& error);
+// The measure that `text` names.
+Result<MeasureSpec> parse_measure(std::string_view text);
 
 // As parse_measure reads it: "predictability:task@0.6=600".
 std::string to_text(const MeasureSpec& spec);
@@ -22,10 +22,9 @@ std::string_view to_string(MeasureOf of);
 // "progress-distance[[K1:K2]], …, predictability:NODE@P[=T]": all that there are.
 std::string measure_usages();
 
-// The only path that is `name` or ends in "/" + `name`. Else nothing, and why in `error`; `what` is
-// what the paths are of.
-std::optional<std::size_t> find_path(std::span<const std::string> paths, std::string_view name,
-                                     std::string& error, std::string_view what = "node");
+// The only path that is `name` or ends in "/" + `name`; `what` is what the paths are of.
+Result<std::size_t> find_path(std::span<const std::string> paths, std::string_view name,
+                              std::string_view what = "node");
 // "arm" of "Main/pull/arm".
 std::string last_segment(std::string_view path);
 

@@ -56,8 +56,11 @@ void Measuring::add_parallels(const MeasureSpec& spec, const MeasuredTree& tree)
 }
 
 void Measuring::add_child(const MeasureSpec& spec, const MeasuredTree& tree) {
-  const auto node = find_path(tree.paths, spec.name, error_);
-  if (!node) return;
+  const auto node = find_path(tree.paths, spec.name);
+  if (!node) {
+    error_ = node.error().message;
+    return;
+  }
   const NodeIndex parent = tree.nodes[*node].parent;
   if (parent == *node || tree.nodes[parent].synchronization == Synchronization::None) {
     error_ =
@@ -70,15 +73,21 @@ void Measuring::add_child(const MeasureSpec& spec, const MeasuredTree& tree) {
 }
 
 void Measuring::add_node(const MeasureSpec& spec, const MeasuredTree& tree) {
-  const auto node = find_path(tree.paths, spec.name, error_);
-  if (!node) return;
+  const auto node = find_path(tree.paths, spec.name);
+  if (!node) {
+    error_ = node.error().message;
+    return;
+  }
   add(spec, tree.paths[*node], {.place = nodes_.size()});
   nodes_.push_back(static_cast<NodeIndex>(*node));
 }
 
 void Measuring::add_entry(const MeasureSpec& spec, const MeasuredTree& tree) {
-  const auto entry = find_path(tree.entries, spec.name, error_, "entry");
-  if (!entry) return;
+  const auto entry = find_path(tree.entries, spec.name, "entry");
+  if (!entry) {
+    error_ = entry.error().message;
+    return;
+  }
   const std::string& type = tree.entry_types[*entry];
   if (type == to_string(ValueType::String) || type == to_string(ValueType::DoubleList)) {
     error_ = "the entry '" + tree.entries[*entry] + "' is a " + type + ", expected a number";

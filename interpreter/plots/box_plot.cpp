@@ -21,8 +21,7 @@ namespace {
 constexpr std::size_t kLongestLabel = 24;
 
 std::string measure_label(const std::string& text) {
-  std::string error;
-  const auto measure = parse_measure(text, error);
+  const auto measure = parse_measure(text);
   return measure ? axis_label(*measure) : text;
 }
 

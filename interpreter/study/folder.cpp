@@ -98,10 +98,10 @@ std::optional<StudyPlan> StudyFolder::read_plan() {
     fail(fmt::format("'{}' is not a study: it has no study.json that can be read", path_));
     return std::nullopt;
   }
-  std::string reason;
-  auto plan = plan_from_json(text.str(), reason);
-  if (!plan) fail(fmt::format("'{}' is not a study's: {}", path, reason));
-  return plan;
+  auto plan = plan_from_json(text.str());
+  if (plan) return std::move(*plan);
+  fail(fmt::format("'{}' is not a study's: {}", path, plan.error().message));
+  return std::nullopt;
 }
 
 bool StudyFolder::make(const StudyPlan& plan) {
@@ -159,9 +159,13 @@ bool StudyFolder::append(std::string_view lines) {
 }
 
 std::optional<std::vector<SummaryRow>> StudyFolder::finish(const StudyPlan& plan) {
-  auto rows = summarize_runs(file("runs.csv"), plan, error_);
-  if (!error_.empty() || !write_whole("summary.csv", summary_csv(plan, rows))) return std::nullopt;
-  return rows;
+  auto rows = summarize_runs(file("runs.csv"), plan);
+  if (!rows) {
+    fail(rows.error().message);
+    return std::nullopt;
+  }
+  if (!write_whole("summary.csv", summary_csv(plan, *rows))) return std::nullopt;
+  return std::move(*rows);
 }
 
 }  // namespace lockstep

@@ -98,28 +98,22 @@ std::string Merger::copy_rows(StudyFolder& out, int (*stop_signal)()) {
 
 }  // namespace
 
-std::optional<std::vector<SummaryRow>> merge_studies(std::span<const std::string> parts,
-                                                     const std::string& out, int (*stop_signal)(),
-                                                     StudyPlan& plan, std::string& error) {
+Result<MergedStudy> merge_studies(std::span<const std::string> parts, const std::string& out,
+                                  int (*stop_signal)()) {
+  const auto fail = [](std::string message) { return tl::unexpected(Problem{std::move(message)}); };
   Merger merger;
   for (const std::string& part : parts) {
-    error = merger.add(part);
-    if (!error.empty()) return std::nullopt;
+    if (auto error = merger.add(part); !error.empty()) return fail(std::move(error));
   }
-  error = merger.missing();
-  if (!error.empty()) return std::nullopt;
-  plan = merger.whole();
+  if (auto missing = merger.missing(); !missing.empty()) return fail(std::move(missing));
   StudyFolder folder(out);
-  if (!folder.begin(plan, false)) {
-    error = folder.error();
-    return std::nullopt;
-  }
-  error = merger.copy_rows(folder, stop_signal);
-  auto rows = error.empty() ? folder.finish(plan) : std::nullopt;
-  if (rows) return rows;
+  if (!folder.begin(merger.whole(), false)) return fail(folder.error());
+  std::string error = merger.copy_rows(folder, stop_signal);
+  auto rows = error.empty() ? folder.finish(merger.whole()) : std::nullopt;
+  if (rows) return MergedStudy{merger.whole(), std::move(*rows)};
   if (error.empty()) error = folder.error();
   folder.discard();
-  return std::nullopt;
+  return fail(std::move(error));
 }
 
 }  // namespace lockstep

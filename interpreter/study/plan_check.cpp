@@ -53,9 +53,8 @@ std::string check_grid(const std::vector<GridAxis>& grid) {
 
 std::string check_measures(const std::vector<std::string>& measures) {
   for (const std::string& text : measures) {
-    std::string reason;
-    const auto measure = parse_measure(text, reason);
-    if (!measure) return reason;
+    const auto measure = parse_measure(text);
+    if (!measure) return measure.error().message;
     if (to_text(*measure) != text) return fmt::format("'{}' is not how a measure is written", text);
   }
   return {};
@@ -67,8 +66,7 @@ bool is_rising(const std::vector<std::uint64_t>& numbers, std::uint64_t end) {
 }
 
 bool has_gap(const StudyColumn& column) {
-  std::string unheard;
-  const auto spec = parse_measure(column.measure, unheard);
+  const auto spec = parse_measure(column.measure);
   return spec && spec->measure->has_gap && !column.is_gap;
 }
 

@@ -145,8 +145,9 @@ std::string to_json(const StudyPlan& plan) {
   return json_of(plan).text(2) + '\n';
 }
 
-std::optional<StudyPlan> plan_from_json(std::string text, std::string& error) {
+Result<StudyPlan> plan_from_json(std::string text) {
   StudyPlan plan;
+  std::string error;
   try {
     JsonReader().read(text, [&](JsonObject json) { read(json, plan); });
     error = check_plan(plan);
@@ -155,7 +156,8 @@ std::optional<StudyPlan> plan_from_json(std::string text, std::string& error) {
   }
   // Keys that are not known, or are in another order.
   if (error.empty() && to_json(plan) != text) error = kNotOurs;
-  return error.empty() ? std::optional(plan) : std::nullopt;
+  if (!error.empty()) return tl::unexpected(Problem{std::move(error)});
+  return plan;
 }
 
 std::string first_difference(const StudyPlan& one, const StudyPlan& other, bool with_shard) {

@@ -2,9 +2,9 @@
 // to the next.
 #pragma once
 
-#include <optional>
 #include <string>
 
+#include "core/problem.h"
 #include "study/plan.h"
 
 namespace lockstep {
@@ -12,9 +12,8 @@ namespace lockstep {
 // Ends with a newline. The same plan gives the same bytes.
 std::string to_json(const StudyPlan& plan);
 
-// Only of what to_json() gives of a plan that check_plan() accepts, byte for byte. On failure
-// `error` says why.
-std::optional<StudyPlan> plan_from_json(std::string text, std::string& error);
+// Only of what to_json() gives of a plan that check_plan() accepts, byte for byte.
+Result<StudyPlan> plan_from_json(std::string text);
 
 // The first thing in which two plans differ, as study.json calls it; "" when they are of one study
 // (`with_shard` false: perhaps parts of it).

@@ -4,9 +4,9 @@
 
 namespace lockstep {
 RowRules::RowRules(const StudyPlan& plan) : plan_(plan), there_(plan.columns.size()) {
-  std::string unheard;  // a plan that was checked has no other measures
+  // A plan that was checked has no measures that cannot be read.
   for (const StudyColumn& column : plan.columns) {
-    measures_.push_back(parse_measure(column.measure, unheard).value());
+    measures_.push_back(parse_measure(column.measure).value());
   }
 }
 

@@ -47,8 +47,7 @@ class CellValues {
 
 }  // namespace
 
-std::vector<SummaryRow> summarize_runs(const std::string& path, const StudyPlan& plan,
-                                       std::string& error) {
+Result<std::vector<SummaryRow>> summarize_runs(const std::string& path, const StudyPlan& plan) {
   RowReader reader(path, plan);
   CellValues values(plan);
   std::vector<SummaryRow> rows;
@@ -60,10 +59,11 @@ std::vector<SummaryRow> summarize_runs(const std::string& path, const StudyPlan&
     values.add(reader.row());
   }
   values.finish(cell, rows);
-  error = reader.error();
+  std::string error = reader.error();
   if (error.empty() && reader.rows() != row_count(plan)) {
     error = fmt::format("'{}' has {} of {} runs", path, reader.rows(), row_count(plan));
   }
+  if (!error.empty()) return tl::unexpected(Problem{std::move(error)});
   return rows;
 }
 

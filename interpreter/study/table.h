@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/problem.h"
 #include "study/plan.h"
 #include "study/results.h"
 #include "study/sample_summary.h"
@@ -26,10 +27,8 @@ struct SummaryRow {
   static constexpr double kFarGap = 0.1;
 };
 
-// From a complete runs.csv. A column that a cell does not have gives no row. On failure `error`
-// tells why.
-std::vector<SummaryRow> summarize_runs(const std::string& path, const StudyPlan& plan,
-                                       std::string& error);
+// From a complete runs.csv. A column that a cell does not have gives no row.
+Result<std::vector<SummaryRow>> summarize_runs(const std::string& path, const StudyPlan& plan);
 
 // "<grid>,node,measure,…" (column_names.h), and a line for each row. What there is not is empty.
 std::string summary_csv(const StudyPlan& plan, const std::vector<SummaryRow>& rows);

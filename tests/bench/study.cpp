@@ -40,11 +40,10 @@ class Example5 {
 
  private:
   PluginSet plugins_;
-  std::string unheard_;
 
  public:
   StudyCell cell;
-  std::vector<MeasureSpec> measures{parse_measure("progress-distance", unheard_).value()};
+  std::vector<MeasureSpec> measures{parse_measure("progress-distance").value()};
 };
 
 // Time per tick of the tree.

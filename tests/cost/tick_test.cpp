@@ -232,12 +232,11 @@ TEST_CASE("a copy of a value for which there is no memory throws, and that is al
 TEST_CASE("measuring the runs of a study allocates nothing and locks nothing") {
   const TickingTree tree(kMeasuredTree);
   std::vector<MeasureSpec> measures;
-  std::string error;
   for (const char* text :
        {"progress-distance[2:5]", "progress-distance-mean", "progress-distance-seconds", "spread",
         "step-length", "held:b", "pauses:b", "duration", "ticks", "success", "predictability:b@0.5",
         "entry:seconds"}) {
-    measures.push_back(parse_measure(text, error).value());
+    measures.push_back(parse_measure(text).value());
   }
   REQUIRE(measures.size() == all_measures().size());
   RunMeasures measured(tree.tree(), measures, 100);

@@ -37,13 +37,11 @@ std::string print(const std::string& text) {
 }
 
 void measure(const std::string& text) {
-  std::string error;
   std::vector<MeasureSpec> measures;
   for (const char* name : {"progress-distance", "step-length", "duration"})
-    measures.push_back(*parse_measure(name, error));
+    measures.push_back(*parse_measure(name));
   Recording recording(text);
-  to_json(measure_recording(recording.reader, measures, error));
-  check(error.empty());
+  to_json(measure_recording(recording.reader, measures).value());
 }
 
 void compare_with_itself(const std::string& text) {

@@ -38,9 +38,7 @@ TEST_CASE("studies: the summary's quartiles are the medians of the halves") {
   const StudyPlan plan = plan_of(5);
   const auto file =
       directory.file("runs.csv", runs_csv(plan, {10, 1, 4, 5, 2, std::nan(""), 8, 2, 1, 3}));
-  std::string error;
-  const auto rows = summarize_runs(file, plan, error);
-  CHECK(error.empty());
+  const auto rows = summarize_runs(file, plan).value();
   CHECK(summary_csv(plan, rows) ==
         "grid_n,node,measure,min,q1,median,q3,max,mean,n,runs,success,failure,limit,gap\n"
         "few,Main/sync,progress-distance,1,1.5,4,7.5,10,4.4,5,5,1,0,0,\n"
@@ -68,9 +66,7 @@ TEST_CASE("studies: what no run reached has no numbers, and every run is counted
   for (std::uint64_t row = 4; row < 8; ++row) add(row, StudyResult::Failure, {none, 0.6, none});
   const auto file =
       directory.file("runs.csv", row_header(plan) + std::string(lines.data(), lines.size()));
-  std::string error;
-  const auto rows = summarize_runs(file, plan, error);
-  CHECK(error.empty());
+  const auto rows = summarize_runs(file, plan).value();
   CHECK(summary_csv(plan, rows) ==
         "grid_n,node,measure,min,q1,median,q3,max,mean,n,runs,success,failure,limit,gap\n"
         "few,Main/task,predictability:task@0.6,3,3,4,5,5,4,2,4,0.25,0.5,0.25,0.02\n"
@@ -95,9 +91,7 @@ TEST_CASE("studies: a summary of too few rows is none") {
   const TemporaryDirectory directory;
   const StudyPlan plan = plan_of(5);
   const auto file = directory.file("runs.csv", runs_csv(plan, {10, 1, 4}));
-  std::string error;
-  summarize_runs(file, plan, error);
-  CHECK(contains(error, "has 3 of 10 runs"));
+  CHECK(contains(summarize_runs(file, plan).error().message, "has 3 of 10 runs"));
 }
 
 TEST_CASE("studies: parts make each run once, with a seed of its own") {

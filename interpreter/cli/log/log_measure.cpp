@@ -21,20 +21,20 @@ struct LogMeasureOptions {
 
 int print_measures(const LogMeasureOptions& options, std::span<const MeasureSpec> measures,
                    RecordingReader& reader) {
-  std::string error;
-  const auto values = measure_recording(reader, measures, error);
-  if (!error.empty()) return usage_error(printable(error));
+  const auto values = measure_recording(reader, measures);
+  if (!values) return usage_error(printable(values.error().message));
   if (!reader.error().empty()) return report_end(reader);
-  const std::string text = options.json ? to_json(values) + "\n" : to_table(values);
+  const std::string text = options.json ? to_json(*values) + "\n" : to_table(*values);
   return write_results_of(reader, text);
 }
 
 int measure(const LogMeasureOptions& options) {
   std::vector<MeasureSpec> measures;
   for (const std::string& text : options.measures) {
-    std::string error;
-    const auto spec = parse_measure(text, error);
-    if (!spec) return usage_error(fmt::format("--measure {}: {}", printable(text), error));
+    const auto spec = parse_measure(text);
+    if (!spec) {
+      return usage_error(fmt::format("--measure {}: {}", printable(text), spec.error().message));
+    }
     measures.push_back(*spec);
   }
   return with_recording(options.file, [&](RecordingReader& reader) {

@@ -38,10 +38,10 @@ std::vector<NodeIndex> chosen_nodes(const LogPlotOptions& options, const Recordi
   if (options.node.empty()) return nodes;
   std::vector<std::string> paths;
   for (const NodeIndex node : nodes) paths.push_back(header.nodes[node].path);
-  std::string error;
-  const auto place = find_path(paths, options.node, error);
+  const auto place = find_path(paths, options.node);
   if (place) return {nodes[*place]};
-  print_error(fmt::format("--node: among the synchronized nodes: {}", printable(error)));
+  print_error(
+      fmt::format("--node: among the synchronized nodes: {}", printable(place.error().message)));
   return {};
 }
 

@@ -167,12 +167,10 @@ int run(const StudyCommandOptions& options) {
 int merge(const StudyCommandOptions& options) {
   StopSignals::install();
   const Outlet::Thread messages_thread(messages());
-  StudyPlan plan;
-  std::string error;
-  const auto rows = merge_studies(options.parts, options.out, StopSignals::received, plan, error);
-  if (rows) return finish(options, StudyFolder(options.out), plan, *rows);
+  const auto merged = merge_studies(options.parts, options.out, StopSignals::received);
+  if (merged) return finish(options, StudyFolder(options.out), merged->plan, merged->rows);
   const int signal = StopSignals::received();
-  return fail(error, signal == 0 ? kExitUsage : kExitSignal + signal);
+  return fail(merged.error().message, signal == 0 ? kExitUsage : kExitSignal + signal);
 }
 
 void define_merge(CLI::App& app, const std::shared_ptr<StudyCommandOptions>& options) {

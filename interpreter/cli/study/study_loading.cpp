@@ -63,10 +63,9 @@ void StudyLoader::read_measures() {
   std::vector<std::string> texts = options_.measures;
   if (texts.empty()) texts.emplace_back("progress-distance");
   for (const std::string& text : texts) {
-    std::string reason;
-    const auto measure = parse_measure(text, reason);
+    const auto measure = parse_measure(text);
     if (!measure) {
-      error(fmt::format("--measure {}: {}", text, reason));
+      error(fmt::format("--measure {}: {}", text, measure.error().message));
     } else if (std::ranges::find(study_.measures, *measure) == study_.measures.end()) {
       study_.measures.push_back(*measure);
       study_.plan.measures.push_back(to_text(*measure));

@@ -83,13 +83,11 @@ class RecordedTicks {
 
 }  // namespace
 
-std::vector<MeasuredValue> measure_recording(RecordingReader& reader,
-                                             std::span<const MeasureSpec> measures,
-                                             std::string& error) {
+Result<std::vector<MeasuredValue>> measure_recording(RecordingReader& reader,
+                                                     std::span<const MeasureSpec> measures) {
   const RecordingHeader& header = reader.header();
   Measuring measuring(measured_tree(header), measures);
-  error = measuring.error();
-  if (!error.empty()) return {};
+  if (!measuring.error().empty()) return tl::unexpected(Problem{measuring.error()});
   RecordedTicks ticks(header, measuring);
   EndView end{.rate = header.rate_hz, .real_time = header.clock != "virtual"};
   while (const auto tick = reader.next()) {

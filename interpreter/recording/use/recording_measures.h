@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/problem.h"
 #include "measure/measure_spec.h"
 #include "recording/read/recording_reader.h"
 
@@ -20,11 +21,10 @@ struct MeasuredValue {
 };
 
 // One value for each measure, of which it keeps the address; of those that are of each parallel,
-// one for each of them. Reads to the end; then look at reader.error(). `error`: a node that a
+// one for each of them. Reads to the end; then look at reader.error(). Fails when a node that a
 // measure names is not there.
-std::vector<MeasuredValue> measure_recording(RecordingReader& reader,
-                                             std::span<const MeasureSpec> measures,
-                                             std::string& error);
+Result<std::vector<MeasuredValue>> measure_recording(RecordingReader& reader,
+                                                     std::span<const MeasureSpec> measures);
 
 // One line: [{"node":…,"measure":…,"value":…},…]. A table with the same columns. A predictability
 // has "gap" besides; what was not reached is null, or '-'.

@@ -15,9 +15,7 @@ namespace {
 
 // One measure of a run at 10 Hz, until the root completes; of the first node that it is of.
 double measured(const char* text, std::string_view tree, std::string_view leaves) {
-  std::string error;
-  const auto spec = parse_measure(text, error);
-  INFO(error);
+  const auto spec = parse_measure(text);
   REQUIRE(spec);
   test::ScriptedRun run(tree, leaves);
   Measuring measuring(measured_tree(run.tree()), {&*spec, 1});
@@ -87,28 +85,23 @@ TEST_CASE("the progress distance of a plain Parallel") {
 TEST_CASE("a measure is written as it is read") {
   for (const char* text : {"progress-distance", "progress-distance[0:99]", "held:pull/arm",
                            "entry:lap:2", "predictability:a@b@0.5", "predictability:a=1@0.5=10"}) {
-    std::string error;
-    const auto spec = parse_measure(text, error);
-    INFO(text << ": " << error);
+    const auto spec = parse_measure(text);
+    INFO(text);
     REQUIRE(spec);
     CHECK(to_text(*spec) == text);
   }
-  std::string error;
-  CHECK(to_text(*parse_measure("predictability:a@0.50=1e1", error)) == "predictability:a@0.5=10");
-  CHECK(to_text(*parse_measure("progress-distance[00:9]", error)) == "progress-distance[0:9]");
+  CHECK(to_text(*parse_measure("predictability:a@0.50=1e1")) == "predictability:a@0.5=10");
+  CHECK(to_text(*parse_measure("progress-distance[00:9]")) == "progress-distance[0:9]");
   for (const char* text : {"progress-distance[", "progress-distance[]", "progress-distance[1]",
                            "progress-distance[-1:2]", "progress-distance[0:1]x", "held:", "held",
                            "spread[0:1]", "ticks:a", "", ":", "[0:1]"}) {
     INFO(text);
-    CHECK_FALSE(parse_measure(text, error));
+    CHECK_FALSE(parse_measure(text));
   }
 }
 
 TEST_CASE("axes of plots name the measure and its unit") {
-  const auto label = [](const char* text) {
-    std::string error;
-    return axis_label(parse_measure(text, error).value());
-  };
+  const auto label = [](const char* text) { return axis_label(parse_measure(text).value()); };
   CHECK(label("duration") == "duration (s)");
   CHECK(label("spread") == "largest spread");
   CHECK(label("held:arm") == "held (ticks)");
@@ -124,8 +117,7 @@ TEST_CASE("an entry is measured when it is a number") {
                     .entries = {"lap", "part/lap", "name"},
                     .entry_types = {"int", "double", "string"}};
   const auto measure = [&](const char* text) {
-    std::string error;
-    const MeasureSpec spec = parse_measure(text, error).value();
+    const MeasureSpec spec = parse_measure(text).value();
     Measuring measuring(tree, {&spec, 1});
     if (!measuring.error().empty()) return measuring.error();
     CHECK(measuring.columns()[0].node == "Main");

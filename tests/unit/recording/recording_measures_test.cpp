@@ -21,8 +21,7 @@ using test::WatchedRun;
 std::vector<MeasureSpec> measures_of(std::initializer_list<const char*> texts) {
   std::vector<MeasureSpec> measures;
   for (const char* text : texts) {
-    std::string error;
-    measures.push_back(parse_measure(text, error).value());
+    measures.push_back(parse_measure(text).value());
   }
   return measures;
 }
@@ -65,9 +64,7 @@ TEST_CASE("a recording has the measures of its run") {
 
     std::istringstream text(file.text());
     RecordingReader reader(text, "run.jsonl");
-    std::string error;
-    const auto of_recording = measure_recording(reader, measures, error);
-    CHECK(error == "");
+    const auto of_recording = measure_recording(reader, measures).value();
     CHECK(reader.error() == "");
     std::size_t at = 0;
     for (std::size_t i = 0; i < of_run.columns().size(); ++i) {
@@ -108,8 +105,7 @@ TEST_CASE("a plain Parallel is measured by the progress before each of its ticks
   CHECK(of_run.values()[2] == Approx(.5));
   std::istringstream text(file.text());
   RecordingReader reader(text, "run.jsonl");
-  std::string error;
-  const auto of_recording = measure_recording(reader, measures, error);
+  const auto of_recording = measure_recording(reader, measures).value();
   REQUIRE(of_recording.size() == 3);
   for (std::size_t i = 0; i < 3; ++i) CHECK(of_recording[i].value == of_run.values()[i]);
 }
@@ -126,14 +122,13 @@ TEST_CASE("a recording has the number of an entry after the last tick") {
   CHECK(of_run.values()[0] == 0.25);
   std::istringstream text(file.text());
   RecordingReader reader(text, "run.jsonl");
-  std::string error;
-  const auto of_recording = measure_recording(reader, measures, error);
+  const auto of_recording = measure_recording(reader, measures).value();
   REQUIRE(of_recording.size() == 1);
   CHECK(of_recording[0].value == 0.25);
   std::istringstream again(file.text());
   RecordingReader other(again, "run.jsonl");
-  measure_recording(other, measures_of({"entry:plan"}), error);
-  CHECK(error == "the entry 'plan' is a list of double, expected a number");
+  CHECK(measure_recording(other, measures_of({"entry:plan"})).error().message ==
+        "the entry 'plan' is a list of double, expected a number");
 }
 
 TEST_CASE("a recording that is cut does not say whether the run succeeded") {
@@ -144,9 +139,8 @@ TEST_CASE("a recording that is cut does not say whether the run succeeded") {
   const std::string whole = file.text();
   std::istringstream text(whole.substr(0, whole.find("{\"end\"")));
   RecordingReader reader(text, "run.jsonl");
-  std::string error;
   const auto measures = measures_of({"success", "ticks"});
-  const auto values = measure_recording(reader, measures, error);
+  const auto values = measure_recording(reader, measures).value();
   REQUIRE(values.size() == 2);
   CHECK(std::isnan(values[0].value));
   CHECK(values[1].value == 2);
