@@ -1,10 +1,11 @@
-// Finds who keeps the others waiting: a child of a synchronized node that is unfinished and ticked,
-// and whose progress stands still for longer than a limit while at least one other child is held
-// for it. The node itself cannot deadlock; a child that never advances makes it look so.
+// Finds who keeps the others waiting: the least progressed child of a synchronized node whose least
+// progress has not risen above its best so far for longer than a limit, while others are held. So
+// also a child that moves and gets nowhere is found: one that starts again for ever, or one that
+// loses while it is held what it gains while it is ticked.
 #pragma once
 
 #include <functional>
-#include <span>
+#include <optional>
 #include <vector>
 
 #include "core/clock.h"
@@ -14,35 +15,31 @@ namespace lockstep {
 
 struct Standstill {
   NodeIndex node = 0;   // the synchronized node
-  NodeIndex child = 0;  // who stands still
+  NodeIndex child = 0;  // who has the least progress
   Nanoseconds since{0};
   Nanoseconds time{0};  // now
   double progress = 0;
+  double best = 0;  // that the least progress was at in this activation
 };
 
-// One node. Each standstill is reported once: its end is a change of progress by more than 1e-9,
-// or that nobody is held any more.
+// One node. A standstill is reported once: its end is a new best, or that all are at 1, where
+// perpetual actions have nowhere to rise to.
 class StallDetector {
  public:
-  StallDetector(std::size_t children, Nanoseconds limit) : limit_(limit), children_(children) {}
+  explicit StallDetector(Nanoseconds limit) : limit_(limit) {}
 
-  // Returns the children (their number among the children) that have now stood still for too long;
-  // valid until the next call. No allocation.
-  std::span<const std::size_t> after_tick(const SynchronizedTick& tick);
-  Nanoseconds since(std::size_t child) const { return children_[child].since; }
+  // The child that has now held the others for too long. No allocation.
+  std::optional<std::size_t> after_tick(const SynchronizedTick& tick);
+  Nanoseconds since() const { return since_; }  // somebody waits without a new best
+  double best() const { return best_; }
 
  private:
-  struct Child {
-    bool watched = false;
-    bool reported = false;
-    double progress = 0;
-    Nanoseconds since{0};
-  };
-  bool stalls(Child& child, Nanoseconds time, double progress, bool suspect) const;
-
   Nanoseconds limit_;
-  std::vector<Child> children_;
-  std::vector<std::size_t> found_ = std::vector<std::size_t>(children_.size());
+  bool runs_ = false;
+  bool somebody_waits_ = false;
+  bool reported_ = false;
+  double best_ = 0;
+  Nanoseconds since_{0};
 };
 
 // All synchronized nodes of a tree.

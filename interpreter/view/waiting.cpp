@@ -37,6 +37,14 @@ std::string waiting_text(const WaitedAt& node, std::size_t child) {
 }
 
 std::string standstill_text(const Tree& tree, const Standstill& standstill) {
+  constexpr double kNoChange = 1e-9;
+  if (standstill.progress < standstill.best - kNoChange) {
+    return fmt::format(
+        "{} moves, but is at {:.6g} and has not come beyond {:.6g} since {:.3f} s, and holds the "
+        "other children of '{}' back",
+        tree.path(standstill.child), standstill.progress, standstill.best,
+        to_seconds(standstill.since), tree.segment(standstill.node));
+  }
   return fmt::format(
       "{} stands still at {:.6g} since {:.3f} s and holds the other children of '{}' back",
       tree.path(standstill.child), standstill.progress, to_seconds(standstill.since),

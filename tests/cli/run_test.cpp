@@ -212,6 +212,21 @@ TEST_CASE("who stood still is in the notes of the summary") {
                  "note: Main/pair/arm stands still at 0 "));
 }
 
+TEST_CASE(
+    "run --stall names a child that moves and gets nowhere, and notes that its progress fell") {
+  const Simulation it(
+      "<ParallelAbsolute name=\"pull\" barriers=\"0.8\"><Sequence name=\"again\">"
+      "<Advance step=\"0.5\"/><Advance step=\"0.01\"/></Sequence>"
+      "<Advance name=\"base\" step=\"0.1\"/></ParallelAbsolute>");
+  const Outcome outcome = it.run({"--stall", "2", "--max-ticks", "500", "--view", "none"});
+  CHECK(contains(outcome.err,
+                 "warning: Main/pull/again moves, but is at 0.25 and has not come "
+                 "beyond 0.505 since 0.080 s, and holds the other children"));
+  CHECK(contains(outcome.out,
+                 "note: the progress of 'Main/pull/again' fell, first at 0.030 s: the "
+                 "distance of the children has no bound then\n"));
+}
+
 TEST_CASE("what leaves log, by --log-level, limited in every view") {
   const Simulation it("<Probe/>");
   const auto logged = [&](const std::string& view, std::vector<std::string> more) {

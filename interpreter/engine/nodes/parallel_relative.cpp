@@ -10,8 +10,8 @@ constexpr parallel::Places kPlaces{.success_count = 1, .failure_count = 2};
 constexpr Parameter kParameters[] = {
     {.name = "delta",
      .type = ValueType::Double,
-     .doc = "How far a child may run ahead of the slowest: 0 = strict lockstep, 1 = not "
-            "synchronized.",
+     .doc = "How far a child may be ahead of the slowest and still be ticked: 0 = strict lockstep, "
+            "1 = not synchronized.",
      .required = true,
      .range = {.min = 0, .max = 1}},
     parallel::kSuccessCount,
@@ -37,8 +37,8 @@ Status tick(Ticker& ticker, NodeIndex self) {
 const NodeKind kParallelRelative{
     .type = {.id = "ParallelRelative",
              .category = NodeCategory::Control,
-             .doc = "Ticks its children in parallel and lets none run ahead of the slowest by more "
-                    "than delta. Ends as Parallel does.",
+             .doc = "Ticks its children in parallel and holds those that are ahead of the slowest "
+                    "by more than delta. Ends as Parallel does.",
              .arity = {1},
              .parameters = kParameters,
              .rule = rule,

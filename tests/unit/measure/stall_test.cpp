@@ -47,6 +47,31 @@ TEST_CASE("a standstill that goes on after progress is a new one") {
   CHECK(watch(kTree, "a=R.2RRRRRRRRR.3R b+.25", 30, 0.35) == "a@6 since 2;a@14 since 10;");
 }
 
+TEST_CASE(
+    "a child that starts again for ever is a standstill: its progress moves, its best does not") {
+  // Without memory x is started again whenever y runs: 0.25, 0.6, 0.25, 0.6 …
+  CHECK(watch("ParallelAbsolute[barriers=.8](Sequence(x y) b)", "x=R.5S... y=R.2 b=R.9", 30,
+              0.55) == "Sequence@8 since 2;");
+}
+
+TEST_CASE("a child that loses while it is held what it gains is a standstill") {
+  CHECK(watch("ParallelRelative[delta=0](a b)",
+              "a=R~0,.3,0,.3,0,.3,0,.3,0,.3,0,.3,0,.3 b=R~0,.2,.4,.1,.3,0,.2,.1,.1,.1,.1,.1,.1,.1",
+              14, 0.55) == "b@7 since 1;");
+}
+
+TEST_CASE("perpetual actions that are at 1 again and again are no standstill") {
+  CHECK(watch("ParallelRelative[delta=0](a b)", "a=R~0,1,0,0,0,1,0,0,0,1,0,0,0,1,0,0,0,1 b=R~0,1",
+              18, 0.35) == "");
+  CHECK(watch("ParallelRelative[delta=0](a b)", "a=R~0,1,0,0,0,0,0,0,0,0,0 b=R~0,1", 18, 0.35) ==
+        "a@6 since 2;");
+}
+
+TEST_CASE("a new activation has no best yet") {
+  CHECK(watch("Repeat[times=9](ParallelAbsolute[barriers=.5](a b))",
+              "a=R.1R.1R.6SR.1R.1R.6SR.1R.1R.6S b=R.6RSR.6RSR.6RS", 24, 0.35) == "");
+}
+
 TEST_CASE("who is held is not to blame") {
   CHECK(watch(kTree, "a=R.2R b+.25", 20, 0.35).find("b@") == std::string::npos);
 }

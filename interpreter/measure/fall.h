@@ -1,0 +1,35 @@
+// Notes that the progress of a child of a synchronized node fell, and whether it did while it was
+// held. What delta and barriers promise holds only where no progress falls: then the distance of
+// the children is bounded, and where none falls while held and all rise, the node ends.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/clock.h"
+#include "measure/tick_view.h"
+
+namespace lockstep {
+
+class FallWatch {
+ public:
+  struct Fall {
+    std::size_t child = 0;
+    Nanoseconds time{0};  // of the tick that found it
+  };
+
+  explicit FallWatch(std::size_t children) : last_(children), was_held_(children) {}
+
+  void after_tick(const SynchronizedTick& tick);
+  // The first of each kind.
+  const std::optional<Fall>& while_ticked() const { return while_ticked_; }
+  const std::optional<Fall>& while_held() const { return while_held_; }
+
+ private:
+  std::vector<double> last_;
+  std::vector<bool> was_held_;
+  bool runs_ = false;
+  std::optional<Fall> while_ticked_, while_held_;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,46 @@
+#include "measure/fall.h"
+
+#include <catch2/catch.hpp>
+
+#include "measure/synchronized_measure.h"
+#include "support/scripted_run.h"
+
+namespace lockstep {
+namespace {
+
+std::string text(const std::optional<FallWatch::Fall>& fall) {
+  if (!fall) return "-";
+  return std::string(1, static_cast<char>('a' + fall->child)) + "@" +
+         std::to_string(fall->time.count() / 100'000'000);
+}
+
+// Who fell first while ticked, and who while held, and in which tick, at 10 Hz.
+std::string falls(std::string_view tree, std::string_view leaves, NodeIndex node = 0) {
+  test::ScriptedRun run(tree, leaves);
+  SynchronizedProbe probe(run.tree(), node);
+  FallWatch watch(run.tree().nodes[node].children);
+  for (int tick = 0; tick < 12; ++tick) {
+    const auto now = std::chrono::milliseconds(100) * tick;
+    run.tick(now);
+    watch.after_tick(probe.read(run.ticker(), now));
+  }
+  return text(watch.while_ticked()) + " " + text(watch.while_held());
+}
+
+TEST_CASE("progress that rises is no fall") {
+  CHECK(falls("ParallelRelative[delta=.1](a b)", "a+.05 b+.2") == "- -");
+}
+
+TEST_CASE("a fall while it is ticked is not one while it is held") {
+  CHECK(falls("ParallelRelative[delta=1](a b)", "a+.1 b=R.4R.3R") == "b@2 -");
+  CHECK(falls("ParallelRelative[delta=0](a b)", "a=R.1 b=R~0,.5,.5,.3") == "- b@3");
+  CHECK(falls("ParallelRelative[delta=0](a b)", "a=R~0,.1,.05 b=R~0,.5,.5,.3") == "a@2 b@3");
+}
+
+TEST_CASE("the beginning of another activation is no fall") {
+  CHECK(falls("Repeat(ParallelRelative[delta=1](a b))", "a+.4 b+.5", 1) == "- -");
+  CHECK(falls("Sequence(c? ParallelRelative[delta=1](a b))", "c=SSSFSS a+.05 b+.1", 2) == "- -");
+}
+
+}  // namespace
+}  // namespace lockstep
