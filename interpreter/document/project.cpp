@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <set>
 
+#include "core/pre_order.h"
 #include "core/wording.h"
 #include "document/arguments.h"
 #include "document/file.h"
@@ -73,8 +74,8 @@ class Loader {
 template <class Visit>
 void Loader::for_each_child(Document& document, std::string_view tag, Visit visit) {
   const auto elements = document.elements();
-  for (std::uint32_t i = 1; i < elements.size(); i = elements[i].end)
-    if (elements[i].tag == tag) visit(i);
+  for (const std::uint32_t child : children_in(elements, 0))
+    if (elements[child].tag == tag) visit(child);
 }
 
 bool Loader::add(const Reading& file, std::string text) {
@@ -147,7 +148,7 @@ void Loader::substitute(Document& document) {
     return is_root(document) && (elements[i].tag == "arg" || elements[i].tag == "include");
   };
   arguments_.substitute(document, 0);
-  for (std::uint32_t child = 1; child < elements.size(); child = elements[child].end) {
+  for (const std::uint32_t child : children_in(elements, 0)) {
     // Substituted when it was read; the text of an argument is not looked into again.
     if (is_read(child)) continue;
     for (auto i = child; i < elements[child].end; ++i) arguments_.substitute(document, i);

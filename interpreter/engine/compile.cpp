@@ -99,7 +99,7 @@ class Compiler {
       it.is_latched = it.is_guard == 0;
       if (it.is_guard == 0) tree_.nodes[from.parent].is_guard = 0;
       if (!definition_.forgets(from)) continue;
-      for (NodeIndex child = node + 1; child < it.end; child = tree_.nodes[child].end) {
+      for (const NodeIndex child : children_in(tree_.nodes, node)) {
         tree_.nodes[child].is_latched = 0;
       }
     }
