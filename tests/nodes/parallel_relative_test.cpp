@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "support/scripted_run.h"
 #include "support/synchronized_trace.h"
 #include "support/tick_table.h"
 
@@ -66,10 +67,25 @@ constexpr TickRow kRows[] = {
 };
 // clang-format on
 
+// Two actions that lose while they are held what they gain: the ticks to Success; 0: never.
+int ticks_to_end(const std::string& delta) {
+  ScriptedRun run("ParallelRelative[delta=" + delta + "](a b)", "a+.3/.3 b+.2/.3");
+  for (int tick = 1; tick <= 1000; ++tick) {
+    if (run.tick(tick * std::chrono::milliseconds(100)) == Status::Success) return tick;
+  }
+  return 0;
+}
+
 }  // namespace
 
 TEST_CASE("ParallelRelative: worked traces") {
   check_traces(kTraces);
+}
+
+TEST_CASE("ParallelRelative: progress that falls while it is held can keep it from ending") {
+  CHECK(ticks_to_end("1") == 5);
+  CHECK(ticks_to_end("0.1") == 10);
+  CHECK(ticks_to_end("0") == 0);
 }
 
 TEST_CASE("ParallelRelative") {

@@ -61,6 +61,7 @@ LeafScript parse_leaf_script(std::string_view text) {
   LeafScript script;
   if (take(text, "+")) {
     script.growth = take_numbers(text);
+    if (take(text, "/")) script.loss = take_number(text);
   } else {
     do {
       script.steps.push_back(take_step(text));

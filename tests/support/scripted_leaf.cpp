@@ -51,9 +51,21 @@ void ScriptedLeaf::start() {
   told(Call::Start);
   activation_ticks_ = 0;
   progress_ = 0;
+  paused_at_.reset();
   if (!script_.growth.empty()) return;
   if (next_step().letter == 'x') *error_ = "error of the script";
   if (next_step().letter == 't') throw std::runtime_error("thrown by the script");
+}
+
+void ScriptedLeaf::pause() {
+  told(Call::Pause);
+  paused_at_ = *tree_tick_;
+}
+
+void ScriptedLeaf::resume() {
+  told(Call::Resume);
+  progress_ = progress();
+  paused_at_.reset();
 }
 
 std::int32_t ScriptedLeaf::grow() {
@@ -90,6 +102,9 @@ std::int32_t ScriptedLeaf::tick() {
 }
 
 double ScriptedLeaf::progress() const {
+  if (script_.loss > 0 && paused_at_) {
+    return std::max(0.0, progress_ - script_.loss * (*tree_tick_ - *paused_at_));
+  }
   if (script_.live.empty()) return progress_;
   const std::size_t tick = *tree_tick_ == 0 ? 0 : *tree_tick_ - 1;
   return script_.live[std::min(tick, script_.live.size() - 1)];

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "lockstep/leaf.h"
 #include "support/leaf_script.h"
@@ -24,11 +25,12 @@ class ScriptedLeaf {
   void start();
   std::int32_t tick();
   void halt() { told(Call::Halt); }
-  void pause() { told(Call::Pause); }
-  void resume() { told(Call::Resume); }
+  void pause();
+  void resume();
   double progress() const;
   // As new.
   void rewind() {
+    paused_at_.reset();
     ticks_ = 0;
     activation_ticks_ = 0;
     progress_ = 0;
@@ -47,6 +49,7 @@ class ScriptedLeaf {
   std::size_t ticks_ = 0;  // in all activations
   std::size_t activation_ticks_ = 0;
   double progress_ = 0;
+  std::optional<std::uint32_t> paused_at_;  // the first tick withheld
 };
 
 // What the engine calls; `self` is a ScriptedLeaf.
