@@ -13,11 +13,11 @@ namespace {
 constexpr int kExitUsage = 2;
 
 constexpr const char* kHelp =
-    "lockstep-leafhost: the process in which lockstep keeps a plugin that it isolates\n"
+    "lockstep-leafhost: the process in which lockstep runs an isolated plugin\n"
     "\n"
     "It is started by lockstep ('lockstep run --isolate', or <plugin name=\"...\" "
     "isolate=\"true\"/>\n"
-    "in a tree), one for each plugin and run, and ends with it. There is nothing to do by hand.\n";
+    "in a tree), one for each plugin and run, and ends with it. Do not start it yourself.\n";
 
 }  // namespace
 
@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
         "lockstep-leafhost: is started by lockstep only; 'lockstep run --isolate' does it\n");
     return kExitUsage;
   }
-  // The host tells that its process died; who was called, and where, is known only here.
+  // The host reports that the process died; only this process knows which function was called.
   lockstep::CrashReport::install(lockstep::CrashReport::kAsWithoutReport);
   lockstep::end_process(lockstep::ServedPlugin::serve(argv[1]));
 }

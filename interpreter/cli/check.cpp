@@ -76,7 +76,7 @@ std::function<int()> define_check(CLI::App& app) {
   app.add_option("tree", options->trees, "Tree files; - is stdin")
       ->type_name("TREE.xml")
       ->required();
-  app.add_flag("--strict", options->strict, "Warnings are errors: exit code 3");
+  app.add_flag("--strict", options->strict, "Treat warnings as errors: exit code 3");
   app.add_option("--format", options->format,
                  "text, or on stdout: json (an array of messages), github (annotations of a "
                  "workflow) or sarif (2.1.0)")
@@ -89,7 +89,7 @@ std::function<int()> define_check(CLI::App& app) {
 }  // namespace
 
 const Command kCheckCommand{
-    "check", "Tell all that is wrong with tree files, and what is doubtful, without running them",
+    "check", "Check tree files and report errors and warnings, without running them",
     "Messages go to stderr as file:line:column; in another format they go to stdout.\n"
     "Exit code: 0 no errors, 3 invalid tree, or a warning with --strict, 4 plugin refused,\n"
     "2 usage, 6 a plugin crashed or hung.\n"

@@ -13,7 +13,7 @@
 namespace lockstep {
 namespace {
 
-// The message and, in a line of its own, the hint. A line end inside of them is made visible.
+// The message and, in a separate line, the hint. A line end inside of them is made visible.
 std::string whole_text(const Diagnostic& message) {
   const std::string text = printable(message.message);
   return message.hint.empty() ? text : fmt::format("{}\nhint: {}", text, printable(message.hint));
@@ -82,10 +82,9 @@ struct Rule {
 };
 
 // Of each severity.
-constexpr Rule kRules[] = {
-    {"error", "error", "The tree does not run."},
-    {"warning", "warning", "The tree runs, but probably not as it is meant."},
-    {"note", "note", "The tree runs; this is good to know."}};
+constexpr Rule kRules[] = {{"error", "error", "The tree does not run."},
+                           {"warning", "warning", "The tree runs, but probably not as intended."},
+                           {"note", "note", "The tree runs; this is good to know."}};
 
 Json sarif_location(const Diagnostic& message) {
   Json physical = {{"artifactLocation", {{"uri", uri_of(message.location.file)}}}};

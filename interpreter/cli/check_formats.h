@@ -1,4 +1,4 @@
-// What `lockstep check` has to say, for other programs: editors, scripts, GitHub.
+// The messages of `lockstep check` for other programs: editors, scripts, GitHub.
 #pragma once
 
 #include <span>

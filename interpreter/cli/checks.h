@@ -1,5 +1,5 @@
-// What the values of options may be, in words of ours. CLI11 reads -1, and what is larger than 64
-// bits hold, as the largest number there is, 010 as 8, and takes nan for a number of any range.
+// Checks the values of options, with our own messages. CLI11 reads -1 and numbers of more than 64
+// bits as the largest number, 010 as 8, and accepts nan for any range.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ class Validator;
 
 namespace lockstep {
 
-// "", or what is wrong with it as a whole number of 64 bits.
+// "", or the error in it as a whole number of 64 bits.
 std::string check_count(const std::string& text);
 
 // For ->transform().

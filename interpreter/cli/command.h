@@ -23,10 +23,10 @@ struct Command {
 extern const Command kRunCommand, kCheckCommand, kShowCommand, kNodesCommand, kSchemaCommand,
     kLogCommand, kReplayCommand, kStudyCommand;
 
-// All of them, in the order of --help.
+// All commands, in the order of --help.
 std::span<const Command* const> commands();
 
-// Parses the command line and runs what it says. Returns the exit code.
+// Parses the command line and runs the command. Returns the exit code.
 int run_program(int argc, char** argv);
 
 }  // namespace lockstep

@@ -120,7 +120,7 @@ int run_program(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
-      print_error(error.what(), "this is a bug of lockstep; please report it");
+      print_error(error.what(), "this is a bug in lockstep; please report it");
     }
   } catch (const std::bad_alloc&) {
     say_out_of_memory();

@@ -1,5 +1,5 @@
-// How the commands talk: messages go to stderr, in color where that is a terminal, and results to
-// stdout. Nothing here throws because something cannot be written.
+// The output of the commands: messages go to stderr, in color on a terminal, and results to stdout.
+// Nothing here throws when output cannot be written.
 #pragma once
 
 #include <string>
@@ -18,17 +18,17 @@ void print_error(std::string_view message, std::string_view hint = {});
 // Those of at least this severity, sorted, and how many errors there are when more than one.
 void print_diagnostics(Diagnostics& diagnostics, Severity least);
 
-// "", or "12 lines of stderr are lost: nobody read them", after waiting a while for the reader.
+// "", or "12 lines of stderr are lost: nobody read them", after a short wait for the reader.
 std::string lost_messages();
 
-// Stdout is for results alone from here on: what plugins print goes to stderr. For each command
+// From now on stdout is for results only: output of plugins goes to stderr. Called by each command
 // that opens plugins.
 void keep_stdout_for_results();
 // The descriptor of stdout, also after that.
 int results_file();
-// Writes what a command was asked for to stdout. The exit code: kExitSuccess, or what to end with
-// because not all of it has arrived. It says why, unless nobody wants to read on.
-// A signal ends the wait for a reader, but not the one that has stopped the command before.
+// Writes the results of a command to stdout. Returns kExitSuccess, or the exit code for an
+// incomplete write. Reports the reason, unless the reader has gone. A signal ends the wait for a
+// reader, but not the one that has stopped the command before.
 int write_results(std::string_view text);
 int write_results(std::string_view text, int stopped_by);
 

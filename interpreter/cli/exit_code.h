@@ -13,12 +13,12 @@ enum ExitCode : int {
   kExitLeafCrash = 6,  // a plugin crashed or hung in this process
   kExitOverrun = 7,    // --overrun fail
   kExitRecording = 8,  // --on-record-error stop
-  kExitInternal = 9,   // lockstep itself failed: no memory, an exception that nobody expected
+  kExitInternal = 9,   // lockstep itself failed: out of memory, an unexpected exception
   kExitLimit = 124,    // --timeout or --max-ticks
   kExitSignal = 128,   // + the signal
 };
 
-// Of two exit codes the first, unless that is a success.
+// The first of two exit codes, unless it is a success.
 constexpr int first_failure(int first, int second) {
   return first == kExitSuccess ? second : first;
 }

@@ -1,4 +1,5 @@
-// What a command writes must not be what it reads, whatever the names: a link, another path.
+// Ensures that a command does not overwrite a file that it reads, even under another name: a link,
+// another path.
 #pragma once
 
 #include <span>
@@ -15,14 +16,14 @@ struct NamedFile {
   std::string path;
 };
 
-// What the command line names so; - is stdin.
+// A file that the command line names; - is stdin.
 NamedFile named_file(const std::string& path);
 // What was read to load a tree: its documents and its plugins.
 std::vector<NamedFile> inputs_of(std::span<const std::string> documents, const PluginSet& plugins);
 // The two that a command writes to anyway.
 std::vector<NamedFile> standard_outputs();
 
-// True, after saying so, when `output`, which is the value of `option`, is one of `used`. A device
+// Returns true, and reports it, if `output`, the value of `option`, is one of `used`. A device
 // cannot be overwritten.
 bool would_overwrite(std::string_view option, const std::string& output,
                      std::span<const NamedFile> used);

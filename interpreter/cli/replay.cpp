@@ -28,7 +28,7 @@ int no_such_tick(std::uint64_t tick, std::uint64_t first, std::uint64_t last) {
 }
 
 int no_ticks() {
-  print_error("the recording has no tick that could be shown");
+  print_error("the recording has no tick to show");
   return kExitUsage;
 }
 
@@ -116,7 +116,7 @@ std::function<int()> define_replay(CLI::App& app) {
       ->type_name("X")
       ->check(number_between(ReplayPlayer::kSlowest, ReplayPlayer::kFastest))
       ->capture_default_str();
-  app.add_flag("--print", options->print, "Print one tick and end, also on a terminal");
+  app.add_flag("--print", options->print, "Print one tick and exit, even on a terminal");
   return [options] { return replay(*options); };
 }
 
@@ -125,7 +125,7 @@ std::function<int()> define_replay(CLI::App& app) {
 const Command kReplayCommand{
     "replay", "Watch a run again, from its recording",
     "On a terminal the recording plays as the live view of the run did. Keys:\n"
-    "  space           pause, go on\n"
+    "  space           pause, continue\n"
     "  right, n        one tick forward\n"
     "  left, p         one tick back\n"
     "  g TICK enter    go to that tick\n"
@@ -133,7 +133,7 @@ const Command kReplayCommand{
     "  + -             twice, half the speed\n"
     "  up, down        scroll; also page up, page down\n"
     "  f, F            fold the node at the cursor or unfold it; unfold all\n"
-    "  escape          follow what runs again\n"
+    "  escape          follow the running nodes again\n"
     "  q, Ctrl-C       quit\n"
     "Otherwise, and with --print, the tree as of one tick is printed to stdout: that of --at, "
     "else\n"

@@ -85,7 +85,7 @@ class Session {
     return wait_.wait(std::min(longest, std::max(kFrame, player_.wait().value_or(longest))));
   }
 
-  // From the top: nobody knows how the terminal has laid out anew what was there.
+  // From the top: it is unknown how the terminal has wrapped the old lines.
   void redraw() {
     screen_.clear();
     shown_.clear();

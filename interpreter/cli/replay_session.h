@@ -1,5 +1,4 @@
-// A replay on a terminal: hands keys and the time that passes to a ReplayPlayer and draws what
-// comes of it.
+// A replay on a terminal: passes keys and time to a ReplayPlayer and draws the result.
 #pragma once
 
 #include "view/replay_view.h"

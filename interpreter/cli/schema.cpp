@@ -27,7 +27,7 @@ int schema(const SchemaOptions& options) {
 std::function<int()> define_schema(CLI::App& app) {
   const auto options = std::make_shared<SchemaOptions>();
   app.add_flag("--strict", options->strict,
-               "Refuse nodes that are not known; give every plugin of the trees with --plugin");
+               "Reject unknown nodes; name every plugin of the trees with --plugin");
   add_plugin_options(app, options->plugins);
   return [options] { return schema(*options); };
 }
@@ -36,8 +36,8 @@ std::function<int()> define_schema(CLI::App& app) {
 
 const Command kSchemaCommand{
     "schema", "Print the XML schema (XSD 1.0) of the tree language, for editors and xmllint",
-    "Leaves of plugins that are not loaded may stand in trees with any attributes, so that a\n"
-    "mistyped tag is taken for one of them; not with --strict.\n"
+    "Leaves of plugins that are not loaded may have any attributes, so a mistyped tag is\n"
+    "accepted as one of them, except with --strict.\n"
     "Exit code: 0 printed, 2 usage, 4 plugin refused, 6 a plugin crashed or hung.\n"
     "\n"
     "Examples:\n"

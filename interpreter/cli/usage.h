@@ -1,6 +1,5 @@
-// What is wrong with a command line: the word that nobody knows, what was probably meant, and where
-// the help of that command is. CLI11 parses; it names the words that are left over, which may be
-// others.
+// The error in a command line: the unknown word, a suggestion, and the help of that command. CLI11
+// parses, but it names the words that are left over, which may be different ones.
 #pragma once
 
 #include <optional>
@@ -19,7 +18,7 @@ struct UsageError {
   std::string hint;
 };
 
-// A word in the place of a command that is none. `words` are without the program's name.
+// An unknown word in the place of a command. `words` are without the program's name.
 std::optional<UsageError> find_unknown_command(const CLI::App& program,
                                                std::span<const std::string> words);
 

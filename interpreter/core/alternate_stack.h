@@ -1,4 +1,4 @@
-// A stack for the signal handlers of one thread, who must not need the thread's own: it may have
+// A separate stack for the signal handlers of one thread, because the thread's own stack may have
 // overflowed. Used by own_thread.cpp.
 #pragma once
 
@@ -11,7 +11,8 @@ namespace lockstep {
 
 class AlternateStack {
  public:
-  // For the thread that constructs it, which must destroy it too. Without memory there is none.
+  // For the thread that constructs it, which must also destroy it. If there is no memory, the
+  // thread has no such stack.
   AlternateStack() {
     void* const memory = mmap(nullptr, kSize, PROT_READ | PROT_WRITE,
                               MAP_PRIVATE | MAP_ANONYMOUS | MAP_STACK, -1, 0);

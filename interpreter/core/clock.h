@@ -1,5 +1,5 @@
-// Time of a run. Everything in lockstep that has to do with time takes it from a Clock: the wall
-// clock on a robot, the virtual clock in tests, studies and `--clock virtual`.
+// The time of a run. All of lockstep takes time from a Clock: the wall clock on a robot, the
+// virtual clock in tests, studies and `--clock virtual`.
 #pragma once
 
 #include <chrono>
@@ -28,7 +28,8 @@ class Clock {
   // Returns at `deadline` (a value of now()), or earlier when a signal arrives; at once when it
   // has passed.
   virtual void sleep_until(Nanoseconds deadline) = 0;
-  // False for a clock whose time does not pass by itself: periods and lateness mean nothing there.
+  // False for a clock whose time does not pass by itself, so that periods and lateness have no
+  // meaning.
   virtual bool is_real() const = 0;
 };
 

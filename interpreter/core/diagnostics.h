@@ -1,5 +1,5 @@
-// What is wrong with a document or with the world, and where. Nothing here prints or throws: the
-// command line renders the list.
+// Errors, warnings and notes, each with its place. Nothing here prints or throws: the command line
+// renders the list.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ struct SourceLocation {
 
 enum class Severity : std::uint8_t { Error, Warning, Note };
 
-// A source line, or of a long one the part around the place that is meant.
+// A source line; for a long line, the part around the reported place.
 struct Excerpt {
   std::string text = {};
   std::uint32_t column = 1;  // of its first byte
@@ -39,7 +39,7 @@ struct Diagnostic {
 
 class Diagnostics {
  public:
-  // Of each severity that are kept; the others are only counted. Who reads the thousandth?
+  // How many are kept for each severity; the others are only counted.
   static constexpr std::size_t kMaxKept = 1000;
 
   void add(Diagnostic diagnostic);
@@ -47,7 +47,7 @@ class Diagnostics {
              Excerpt excerpt = {});
 
   bool has_errors() const;
-  // No further one of that severity is kept, so that it need not be worded: count_one() is enough.
+  // True if no more of this severity are kept. Then a message is not needed: count_one() is enough.
   bool is_full(Severity severity) const { return added_[index(severity)] >= kMaxKept; }
   void count_one(Severity severity);
   std::size_t count(Severity severity) const;  // also those that were not kept
@@ -71,7 +71,7 @@ std::string_view to_string(Severity severity);
 // ending in a newline. Control characters are made visible. `color` adds ANSI colors.
 std::string render(const Diagnostic& diagnostic, bool color);
 
-// `text` so that a terminal only shows it: what it would obey, or is not UTF-8, as \xNN or \uNNNN.
+// `text` without effect on a terminal: control characters and invalid UTF-8 become \xNN or \uNNNN.
 std::string printable(std::string_view text);
 
 }  // namespace lockstep

@@ -1,4 +1,4 @@
-// Owns a file descriptor for the time of its scope.
+// Owns a file descriptor and closes it.
 #pragma once
 
 #include <unistd.h>

@@ -1,13 +1,13 @@
-// What becomes of memory that has been freed. Loading a tree makes and frees several times what it
-// keeps, and to get a page anew from the system costs more than to fill it: by default malloc hands
-// back and asks again all the time. For who loads; the numbers are in docs/performance.md.
+// Controls what malloc does with freed memory. Loading a tree allocates several times what it
+// keeps, and getting a page from the system costs more than filling it. By default malloc returns
+// pages and asks for them again all the time. docs/decisions/loading.md has the numbers.
 #pragma once
 
 namespace lockstep {
 
-// From now on freed memory stays with the process, for what is allocated next.
+// From now on freed memory stays in the process for later allocations.
 void keep_freed_memory();
-// No longer; and what is free now goes back to the system.
+// Restores the default, and returns free memory to the system.
 void return_freed_memory();
 
 }  // namespace lockstep

@@ -1,5 +1,5 @@
-// A thread sleeps until a word changes, and whoever changes it wakes the sleepers. The two may be
-// in different processes that share the memory.
+// Lets a thread sleep until a word changes; the thread that changes it wakes the sleepers. They may
+// be in different processes that share the memory.
 #pragma once
 
 #include <atomic>
@@ -9,8 +9,8 @@
 
 namespace lockstep {
 
-// Returns at once unless `word` is `expected`; else after futex_wake, after `longest`, or for no
-// reason.
+// Returns at once unless `word` is `expected`; else after futex_wake, after `longest`, or
+// spuriously.
 void futex_wait(std::atomic<std::uint32_t>& word, std::uint32_t expected, Nanoseconds longest);
 
 // A system call. Async-signal-safe; never waits.

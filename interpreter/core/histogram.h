@@ -1,5 +1,5 @@
-// Counts durations in buckets whose width grows with their value (as HdrHistogram does), so that
-// the quantiles of millions of them cost a fixed amount of memory. Recording allocates nothing.
+// Counts durations in buckets whose width grows with their value (as HdrHistogram does), so the
+// quantiles of millions of durations need a fixed amount of memory. Recording allocates nothing.
 #pragma once
 
 #include <cstdint>

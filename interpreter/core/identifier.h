@@ -1,4 +1,4 @@
-// What arguments, keys, ports and leaves are called.
+// The names of arguments, keys, ports and leaves.
 #pragma once
 
 #include <algorithm>

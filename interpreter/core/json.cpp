@@ -39,7 +39,7 @@ std::string escaped(std::string_view json) {
   return out;
 }
 
-// Items between brackets, on lines of their own if there is an indent.
+// Items between brackets, on separate lines if there is an indent.
 template <class Items, class Add>
 void add_items(std::string& text, std::string_view brackets, const Items& items, std::size_t indent,
                std::size_t depth, Add add) {

@@ -1,5 +1,5 @@
-// JSON to be written: a value is built, then its text is taken. Members keep their order. The only
-// place that sees nlohmann's library, whose headers take seconds to compile.
+// Builds JSON values and prints them. Members keep their order. The only file that uses nlohmann's
+// library, whose headers take seconds to compile.
 #pragma once
 
 #include <concepts>
@@ -51,9 +51,9 @@ class Json {
   using Members = std::vector<std::pair<std::string, Json>>;
   const Members& members() const { return std::get<Members>(value_); }  // of an object
 
-  // What is not UTF-8 is replaced. With an indent of spaces per level: on several lines.
+  // Invalid UTF-8 is replaced. With an indent of spaces per level: on several lines.
   std::string text(std::size_t indent = 0) const;
-  // The same for terminals: what one would obey is written as an escape, so values stay the same.
+  // The same for terminals: characters that control one are escaped, so values do not change.
   std::string printable(std::size_t indent = 0) const;
 
  private:

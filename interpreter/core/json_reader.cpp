@@ -143,7 +143,7 @@ void JsonObject::read(std::initializer_list<JsonField> fields) {
   each_field([&](std::string_view name, JsonValue value) {
     const auto* const field = std::ranges::find(fields, name, &JsonField::name);
     if (field == fields.end()) return value.skip();
-    if ((seen & bit(field)) != 0) throw JsonError(fmt::format("'{}' is there twice", name));
+    if ((seen & bit(field)) != 0) throw JsonError(fmt::format("'{}' is given twice", name));
     seen |= bit(field);
     field->read(value);
   });

@@ -1,6 +1,6 @@
-// Reads JSON that strangers wrote: once, from its beginning to its end, without building a tree of
-// it. Each value is checked, also those that nobody asks for. A text takes six times its size in
-// memory at most, whatever is in it. The only place that sees simdjson.
+// Reads untrusted JSON in one pass, without building a tree. Every value is checked, even if no one
+// reads it. A text needs at most six times its size in memory, whatever its content. The only file
+// that uses simdjson.
 #pragma once
 
 #include <simdjson.h>
@@ -15,29 +15,29 @@
 
 namespace lockstep {
 
-// The text is not what it must be: "'seed' is missing".
+// The text does not have the expected content: "'seed' is missing".
 struct JsonError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-// It is not even JSON, or the end of it is missing.
+// It is not JSON, or its end is missing.
 struct NotJson : JsonError {
   NotJson() : JsonError("not JSON") {}
 };
 
 class JsonObject;
 
-// To be read once, before the next value of its object or list.
+// Must be read once, before the next value of its object or list.
 class JsonValue {
  public:
-  static constexpr unsigned kDeepest = 64;  // lists and objects inside each other that are skipped
+  static constexpr unsigned kDeepest = 64;  // levels of nested lists and objects that are skipped
 
   enum class Of : bool { Field, List };
   // `name` is that of the field, or of the list.
   JsonValue(simdjson::ondemand::value value, std::string_view name, Of of)
       : value_(value), name_(name), of_(of) {}
 
-  // False when it is something else, which can be asked for then. Text is valid until the whole
-  // text has been read.
+  // False if the value has another type; then the caller may ask for that type. Strings are valid
+  // until the whole text has been read.
   bool get(std::string_view& text);
   bool get(double& number);
   bool get(std::uint64_t& number);
@@ -70,7 +70,7 @@ class JsonValue {
 
 constexpr bool kMayLack = true;
 
-// What is done with one field of an object.
+// How one field of an object is read.
 struct JsonField {
   std::string_view name;
   std::function<void(JsonValue)> read;

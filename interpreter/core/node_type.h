@@ -1,6 +1,6 @@
-// What a node kind declares of itself: id, arity, parameters, and the rules that tie them together.
-// Built-ins and the leaves of plugins are described in the same words. The checker, `lockstep
-// nodes`, the XSD and docs/nodes.md are all made from these rows: one fact, one place.
+// What a node kind declares: id, arity, parameters, and the rules between them. Built-in nodes and
+// leaves of plugins use the same description. The checker, `lockstep nodes`, the XSD and
+// docs/nodes.md are all made from these rows.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ enum class NodeCategory : std::uint8_t { Control, Decorator, Action, Condition, 
 
 enum class Direction : std::uint8_t { Input, Output, InOut };
 
-// What keeps the children of a control node in step.
+// How a control node synchronizes its children.
 enum class Synchronization : std::uint8_t { None, Absolute, Relative };
 
 // Numbers that a parameter may take. The ends belong to it unless said otherwise.
@@ -77,8 +77,8 @@ struct NodeType {
   std::string_view doc;
   Arity arity = {};
   std::span<const Parameter> parameters = {};
-  // Checks what no single parameter can say, and fills in values that follow from others. May be
-  // null. Asked when the tree is loaded, and during a run after an entry was written.
+  // Checks rules between parameters, and fills in values that follow from others. May be null.
+  // Called when the tree is loaded, and during a run after an entry was written.
   std::optional<RuleBreak> (*rule)(const ParameterValues& parameters) = nullptr;
   // What advice and drawings need to know.
   std::string_view sign = {};  // as papers draw it, "→"; "": by its id
@@ -87,7 +87,7 @@ struct NodeType {
   bool inverts = false;                 // a decorator that swaps Success and Failure
   bool can_run = false;                 // Running is its own result, not only a child's
   bool acts_again = true;               // false: after it completed once, a tick of it does nothing
-  bool real_time = false;               // an action that works on while no tick comes
+  bool real_time = false;               // an action that continues to work between ticks
   bool has_progress = true;             // false: an action that reports none, so 0 until Success
   std::string_view plugin = {};         // the plugin it comes from; "" = built in
   // Of a leaf of a plugin; both are null for built-ins.

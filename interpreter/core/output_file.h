@@ -1,7 +1,7 @@
-// A file that a user names to be written anew. What has that name stays as it is until the new file
-// is worth it: until then the new one has a temporary name beside it. A symbolic link to a file, or
-// to nothing, is refused, so that nobody leads us to another file than the one that is named.
-// A named pipe or a device, as /dev/null, is written to as it is.
+// Writes a file that a user names. An existing file with that name is kept until the new one is
+// ready; until then the new file has a temporary name in the same directory. A symbolic link to a
+// file, or to nothing, is refused, so that output never goes to a different file. A named pipe or a
+// device, such as /dev/null, is written directly.
 #pragma once
 
 #include <string>
@@ -10,21 +10,21 @@ namespace lockstep {
 
 class OutputFile {
  public:
-  // Opens it for appending; error() tells when that is not possible. Waits for the reader of a
-  // pipe.
+  // Opens it for appending; on failure error() has the reason. Waits for the reader of a pipe.
   explicit OutputFile(std::string path);
-  // Closes it, and removes it if it has not got its name.
+  // Closes it, and removes it if it still has its temporary name.
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
   int descriptor() const { return file_; }
-  // "" while all is well, else "cannot open 'run.jsonl': Permission denied".
+  // "" if there is no error, else "cannot open 'run.jsonl': Permission denied".
   const std::string& error() const { return error_; }
 
-  // Gives it its name, in place of what had it. False, with errno, when that is not possible.
+  // Renames it to its final name, replacing an existing file. Returns false, with errno, on
+  // failure.
   bool take_name();
-  // Leaves nothing behind, if it has no name yet.
+  // Removes it if it still has its temporary name.
   void remove() const;
   // These two are async-signal-safe.
 
@@ -39,8 +39,8 @@ class OutputFile {
   std::string error_;
 };
 
-// Whether two names are of the same file, through links of all kinds. Names that are not there are
-// not.
+// Whether two names refer to the same file, through links of all kinds. False if a name does not
+// exist.
 bool is_same_file(const std::string& a, const std::string& b);
 
 }  // namespace lockstep

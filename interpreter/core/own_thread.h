@@ -1,6 +1,6 @@
-// Threads that are lockstep's own. They take no signals: those are for the tick thread, whose sleep
-// they must end. A crash in one is not taken for a plugin's, and an exception that nobody expected
-// in one ends the run, not the process.
+// Threads that lockstep starts. They block signals, because a signal must end the sleep of the tick
+// thread. A crash in one is not attributed to a plugin. An unexpected exception in one ends the
+// run, not the process.
 #pragma once
 
 #include <functional>
@@ -9,16 +9,17 @@
 
 namespace lockstep {
 
-// Makes the calling thread one of ours, until it ends, with a stack on which the report of a stack
-// overflow can be written.
+// Marks the calling thread as one of lockstep's until it ends, and gives it a stack for reporting a
+// stack overflow.
 void adopt_thread();
 // Async-signal-safe.
 bool is_own_thread();
 
-// Starts one. It still takes the signals of a crash, and those of `taken`.
+// Starts a thread. It still receives the signals of a crash, and those in `taken`.
 std::thread own_thread(std::function<void()> body, std::span<const int> taken = {});
 
-// Throws what has ended one of these threads. One atomic load when nothing has.
+// Rethrows the exception that ended one of these threads. If there is none, this is one atomic
+// load.
 void rethrow_thread_failure();
 
 }  // namespace lockstep

@@ -1,4 +1,4 @@
-// Whether a value is one that a parameter takes: the loader asks it of constants, a run of entries.
+// Checks whether a parameter accepts a value: the loader checks constants, a run checks entries.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,8 @@
 
 namespace lockstep {
 
-// What is wrong with `value`, which has the parameter's type: its range or its choices. The message
-// does not say where the value comes from.
+// The error in `value`, which has the parameter's type: outside of its range, or not among its
+// choices. The message does not mention where the value comes from.
 std::optional<RuleBreak> refuse_value(const Parameter& parameter, const Value& value);
 
 // "from 0 to 1", "more than 0, at most 1", …; "" when every number is allowed.

@@ -1,5 +1,5 @@
-// Where something stands in the texts that a definition is made from. As small as an index: a byte
-// of all texts, one after the other. Sources (document/sources.h) knows its file, line and column.
+// A place in the texts that a definition is made from, stored as an index: a byte in the
+// concatenation of all texts. Sources (document/sources.h) maps it to file, line and column.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// What a plugin has thrown, in words for a fault. To ask an exception what it is, and to destroy
-// it, is to call its plugin once more: that belongs inside the marked call.
+// Describes an exception from a plugin for the message of a fault. Calling what() of an exception
+// and destroying it are calls of the plugin, so both happen inside the marked call.
 #pragma once
 
 #include <exception>
@@ -13,7 +13,7 @@ namespace lockstep {
 // Within a catch block: "threw an exception: out of reach". Its words are shortened.
 std::string describe_exception();
 
-// An exception that has been described; describe_exception() says the same of it.
+// An exception that was already described; describe_exception() returns that description.
 class PluginException : public std::exception {
  public:
   explicit PluginException(std::string_view description)
@@ -24,7 +24,7 @@ class PluginException : public std::exception {
   Shortened description_;
 };
 
-// Calls a plugin. Returns what it threw, "" when it came back.
+// Calls a plugin. Returns the description of what it threw, or "" if it returned.
 template <class Call>
 std::string thrown_by(Call call) {
   try {
@@ -35,7 +35,7 @@ std::string thrown_by(Call call) {
   }
 }
 
-// Calls a plugin, and throws nothing but a PluginException.
+// Calls a plugin, and throws only PluginException.
 template <class Call>
 auto rethrowing(Call call) {
   try {

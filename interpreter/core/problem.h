@@ -1,6 +1,5 @@
-// What is wrong and what to do about it, for the caller to say of what, and where. How a function
-// fails that cannot go on: it returns a Result. (Diagnostics are for all that is wrong with a
-// tree.)
+// An error and a hint, to which the caller adds the object and the place. A function that can fail
+// returns a Result. (Diagnostics collect all errors in a tree.)
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
-// How long something has lasted, counted only while this process itself ran: who waits looks at the
-// clock in short intervals, and a look that comes late counts as two of them. Between the two the
-// process was stopped (SIGSTOP, docker pause, a debugger), which is nobody's fault.
+// Measures how long something lasts, counting only time in which this process ran. The waiting
+// thread checks the clock in short intervals. A late check counts as two intervals: between them
+// the process was stopped (SIGSTOP, docker pause, a debugger).
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ class RunningTime {
   RunningTime(Nanoseconds interval, Nanoseconds now) : interval_(interval), last_(now) {}
 
   Nanoseconds interval() const { return interval_; }
-  // Since the last look or, the first time, since the beginning.
+  // Since the last check or, for the first one, since the beginning.
   Nanoseconds look(Nanoseconds now) {
     const Nanoseconds passed = std::min(now - last_, 2 * interval_);
     last_ = now;

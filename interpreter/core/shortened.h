@@ -1,5 +1,5 @@
-// A text of a stranger for a message: its first 500 bytes, and how many more there were. Needs no
-// memory beyond itself.
+// An untrusted text for a message: its first 500 bytes, and how many more there are. Does not
+// allocate.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ class Shortened {
 
   Shortened() = default;
   explicit Shortened(std::string_view text);
-  // A text that another process has shortened.
+  // A text that another process has already shortened.
   static Shortened as_it_is(std::string_view text);
 
   std::string_view text() const { return {text_.data(), size_}; }

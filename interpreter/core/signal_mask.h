@@ -1,4 +1,4 @@
-// Which signals a thread blocks. All of it is async-signal-safe.
+// The signals that a thread blocks. Everything here is async-signal-safe.
 #pragma once
 
 #include <signal.h>
@@ -26,8 +26,8 @@ inline void unblock(const sigset_t& signals) {
   pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
 }
 
-// Another mask for the calling thread, until this object ends. A thread that it starts meanwhile
-// begins with this mask.
+// Sets a mask for the calling thread during the life of this object. Threads that it starts
+// meanwhile inherit the mask.
 class SignalMask {
  public:
   // `how`: SIG_BLOCK or SIG_SETMASK.

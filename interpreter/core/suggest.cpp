@@ -22,7 +22,7 @@ constexpr char lower(char c) {
 }
 
 // Optimal string alignment: like Levenshtein's distance, and a swap of neighbors costs one. Only
-// the cells near the diagonal can be within a limit, and only these are looked at.
+// the cells near the diagonal can be within a limit, and only these are computed.
 class EditDistance {
  public:
   explicit EditDistance(std::string_view word) : word_(word) {}

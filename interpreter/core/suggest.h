@@ -1,5 +1,5 @@
-// "did you mean": the known word nearest to a mistyped one. What it costs is bounded, however many
-// words there are and however long: a document may have a million.
+// "did you mean": the known word nearest to a mistyped one. The cost is bounded, whatever the
+// number and length of the words: a document may have a million.
 #pragma once
 
 #include <span>
@@ -10,8 +10,8 @@ namespace lockstep {
 
 // Of a word of two letters or more: the candidate with the smallest edit distance (insert, delete,
 // replace, swap of neighbors; case does not count) if that is at most a third of the word's length,
-// rounded up, and at most eight; else "". Of several, the first. A word of more than 256 bytes is
-// near nothing. Of very many candidates only the first are looked at.
+// rounded up, and at most eight; else "". Of several, the first. A word of more than 256 bytes has
+// no nearest word. If there are very many candidates, only the first ones are compared.
 std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates);
 
 // "did you mean 'x'?" or, when nothing is near, "".

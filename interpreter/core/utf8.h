@@ -26,8 +26,8 @@ std::size_t columns(char32_t code);
 // Of text that is printable(), all together.
 std::size_t columns(std::string_view text);
 
-// What a terminal obeys instead of showing it: control characters (some obey U+0080 to U+009F too),
-// ends of lines, and the marks that turn the direction of the text behind them around.
+// Characters that control a terminal: control characters (some terminals also obey U+0080 to
+// U+009F), line ends, and marks that reverse the direction of the following text.
 bool is_obeyed_by_terminals(char32_t code);
 
 }  // namespace lockstep

@@ -1,4 +1,4 @@
-// Names, lists and numbers as messages show them: short, whatever a document or a plugin has.
+// Names, lists and numbers for messages: short, even if those of a document or a plugin are long.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ std::string brief(std::string_view name);
 // "'a', 'b' and 3 more": at most ten names, and no more of them than fit a line or two.
 std::string listed(std::span<const std::string_view> names);
 
-// "a -> b -> … (7 more) … -> y -> z": of a long chain the beginning and the end.
+// "a -> b -> … (7 more) … -> y -> z": the beginning and the end of a long chain.
 std::string chained(std::span<const std::string_view> names);
 
 // "1 tick", "2 ticks".

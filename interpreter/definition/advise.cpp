@@ -112,8 +112,8 @@ class Adviser {
                     "memory=\"true\", or {}",
                     type.id,
                     type.goes_on_after == Status::Success
-                        ? "let the action return Success at once where its goal already holds"
-                        : "put a condition before the action that says whether to try it"));
+                        ? "let the action return Success at once if its goal is already reached"
+                        : "put a condition before the action that decides whether to try it"));
   }
 
   // Without memory a parallel ticks a child that completed again, as long as another one runs.

@@ -1,4 +1,4 @@
-// Warnings and notes about a definition that is legal but probably not what was meant.
+// Warnings and notes about a definition that is valid but probably not intended.
 #pragma once
 
 #include "definition/definition.h"

@@ -19,7 +19,7 @@ std::string join_hints(const std::string& first, const std::string& second) {
 }
 
 constexpr auto kOwnAttributes =
-    "attributes that begin with '_' belong to the language: _autoremap, _description; such a key "
+    "attributes that begin with '_' are reserved (_autoremap, _description), so such a key "
     "cannot be remapped";
 
 // What every node may have.
@@ -55,7 +55,7 @@ class AttributeChecker {
   Value constant(const Parameter& parameter, const Attribute* attribute) const {
     if (attribute == nullptr) return absent(parameter);
     auto value = parse_value(parameter.type, attribute->value);
-    // An argument that is wrong or missing is told already; $${ is a literal, and wrong here.
+    // A wrong or missing argument was already reported; $${ is a literal, and wrong here.
     const bool unknown = attribute->value.find("${") != std::string_view::npos;
     if (!value && unknown && report_.has_errors()) return {};
     if (!value) {

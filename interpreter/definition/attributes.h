@@ -9,7 +9,7 @@
 
 namespace lockstep {
 
-// What the check of a node reads of its element.
+// The parts of an element that the check of a node reads.
 struct NodeElement {
   Place place;
   std::span<const Attribute> attributes;
@@ -25,7 +25,7 @@ void check_attributes(const NodeElement& element, const Reporter& report, Checke
 void check_subtree_attributes(const NodeElement& element, const Reporter& report,
                               CheckedSubTree& subtree, CheckedTrees& trees);
 
-// Appends to `trees` what is shown of them as it is written.
+// Appends the attributes as written to `trees`, for drawings.
 void keep_written(const NodeElement& element, CheckedNode& node, CheckedTrees& trees);
 
 // "parameters of 'X': 'a', 'b', 'c'" for a hint.

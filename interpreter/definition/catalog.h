@@ -1,4 +1,4 @@
-// What nodes exist: the built-ins and the leaves of the plugins, by id.
+// All node types, by id: the built-in ones and the leaves of plugins.
 #pragma once
 
 #include <span>

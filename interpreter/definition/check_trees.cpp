@@ -63,7 +63,7 @@ class TreeChecker {
   }
 
   void check_document() {
-    if (element(0).tag != "root") return;  // told when it was read
+    if (element(0).tag != "root") return;  // already reported when it was read
     if (document_ == project_.documents.front().get()) read_main();
     check_root();
     for (const std::uint32_t child : children_in(elements_, 0)) {
@@ -133,7 +133,7 @@ class TreeChecker {
     const std::uint32_t root = tree + 1;
     if (root == element(tree).end) {
       report_.at(place, fmt::format("the tree '{}' is empty", brief(id)), "put one node into it");
-      enter_tree(named, place);  // so that whoever names it is not blamed
+      enter_tree(named, place);  // so that references to it are not reported
       CheckedNode nothing;
       nothing.end = count(trees_.nodes) + 1;
       trees_.nodes.push_back(nothing);
@@ -153,7 +153,7 @@ class TreeChecker {
     if (entered != nullptr) *entered = tree_;
   }
 
-  // Where what is found in the tree at `place` belongs; null when nobody can name it.
+  // Where the content of the tree at `place` is stored; null if the tree cannot be referenced.
   CheckedTree* enter_tree(const Attribute* named, Place place) {
     if (named == nullptr || named->value.empty()) return nullptr;  // reported already
     const std::string_view id = named->value;
@@ -274,7 +274,7 @@ class TreeChecker {
     const NodeType& type = *node.type;
     if (type.category == NodeCategory::SubTree) {
       if (node.children == 0) return;
-      report_.at(element(index + 1).place, "'SubTree' has no children of its own",
+      report_.at(element(index + 1).place, "'SubTree' cannot have children",
                  "its tree is the BehaviorTree that its ID names");
     } else if (node.children < type.arity.min) {
       report_.at(node.place,

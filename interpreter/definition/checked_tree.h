@@ -1,6 +1,6 @@
-// What a project says before subtrees are expanded: each node of each BehaviorTree with its type,
-// its parameters as values, and the places that messages may have to name. All that later stages
-// know: they do not see the documents.
+// A project before subtrees are expanded: each node of each BehaviorTree with its type, its
+// parameters as values, and the places that messages may name. Later stages read only this, not the
+// documents.
 #pragma once
 
 #include <map>
@@ -31,7 +31,7 @@ struct CheckedNode {
   std::uint32_t written = Port::kNone;  // its first in CheckedTrees::written
 };
 
-// What a SubTree says of a key of its tree: that it is an entry outside, or its start value.
+// What a SubTree gives to a key of its tree: an outer entry, or a start value.
 struct Remapping {
   std::string_view key;
   std::string_view value;  // the key outside, or the text
@@ -39,7 +39,7 @@ struct Remapping {
   Place place;
 };
 
-// A SubTree: the tree that it names, what it gives to that, and where in its own tree it stands.
+// A SubTree: the tree that it names, its remappings, and its place in the tree that contains it.
 struct CheckedSubTree {
   std::uint32_t node;
   std::string_view id = {};  // "" after an error

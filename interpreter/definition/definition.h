@@ -1,6 +1,6 @@
 // The checked meaning of a project: one tree in pre-order, subtrees expanded, parameters typed,
-// keys resolved to blackboard entries. What the engine compiles, and all that is known of a tree
-// when its documents are no longer asked. Views point into the project.
+// keys resolved to blackboard entries. The engine compiles it. It has everything that is needed
+// after the documents are gone. Views point into the project.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,8 @@ struct DefinitionNode {
   std::uint32_t written = 0xffffffff;  // its first in Definition::written; or none
 };
 
-// An attribute as it is written, with arguments substituted. Not what only names the node.
+// An attribute as written, with arguments substituted. Attributes that only name the node are left
+// out.
 struct WrittenAttribute {
   std::string_view name;
   std::string_view value;
@@ -78,10 +79,10 @@ struct Definition {
   }
 };
 
-// What a tree may not exceed; each is named in the message that refuses one.
+// The limits of a tree. The message that refuses a tree names the limit.
 inline constexpr std::uint32_t kMaxNodes = 4'000'000;
 inline constexpr std::uint32_t kMaxDepth = 1'000;
-// All paths together: they are in recordings, in messages, and in what a leaf knows of itself.
+// All paths together: recordings, messages and leaves contain them.
 inline constexpr std::uint64_t kMaxPathBytes = std::uint64_t{512} << 20u;
 
 }  // namespace lockstep

@@ -13,8 +13,8 @@ namespace lockstep {
 // `--set key=value`.
 using StartValues = std::map<std::string, std::string, std::less<>>;
 
-// `main` is an ID in `trees`, which can be expanded (check_references). What had an error is left
-// out, so that the rest is checked too. Takes from `trees` what the definition keeps.
+// `main` is an ID in `trees`, which can be expanded (check_references). Parts with errors are left
+// out, so that the rest is still checked. Moves out of `trees` what the definition keeps.
 Definition expand(CheckedTrees& trees, std::string_view main, const StartValues& values,
                   const Reporter& report);
 

@@ -51,7 +51,8 @@ constexpr std::string_view kNoScripts = "there are no scripts: let a leaf comput
 constexpr std::string_view kNoQueues = "there are no queues: let a leaf take the next item";
 constexpr std::string_view kStart =
     "give the entry a start value with --set, or as an attribute of the SubTree";
-constexpr std::string_view kWriter = "let the leaf that writes the entry say so in another one";
+constexpr std::string_view kWriter =
+    "let the leaf that writes the entry set a flag in another entry";
 constexpr std::string_view kModel =
     "delete it: ports come from the plugin, and `lockstep nodes` lists them";
 
@@ -64,7 +65,7 @@ constexpr ForeignNode kNodes[] = {
     {"SequenceWithMemory", "Sequence memory=\"true\"", {}, kAgain},
     {"SequenceStar", "Sequence memory=\"true\"", {}, kAgain},
     {"Parallel", "Parallel", kParallel, "counts are 1 or more"},
-    {"ParallelAll", "Parallel", kParallelAll, "it ends with the failure that decides"},
+    {"ParallelAll", "Parallel", kParallelAll, "it ends with the decisive failure"},
     {"IfThenElse", "", {}, kBranches},
     {"WhileDoElse", "", {}, kBranches},
     {"Switch2", "", {}, kCases},
@@ -79,7 +80,7 @@ constexpr ForeignNode kNodes[] = {
     {"Timeout", "Timeout", kMsec},
     {"Delay", "Delay", kDelay},
     {"Sleep", "Wait", kMsec},
-    {"RunOnce", "RunOnce", kRunOnce, "afterwards it returns the first result again"},
+    {"RunOnce", "RunOnce", kRunOnce, "after that it returns the first result"},
     {"SubTree", "SubTree", kSubTree},
     {"SubTreePlus", "SubTree", kSubTree},
     {"Precondition", "", {}, kAsk},
@@ -101,11 +102,11 @@ constexpr ForeignNode kNodes[] = {
     {"TreeNodesModel", "", {}, kModel},
     {"TreeNodeModel", "", {}, kModel},
     {"RecoveryNode", "Retry", kRecovery, kRecover},
-    {"PipelineSequence", "Sequence", {}, "what runs behind a child that runs again is halted"},
+    {"PipelineSequence", "Sequence", {}, "the children behind a child that runs again are halted"},
     {"NonblockingSequence", "Parallel", {}, "actions that succeeded are not ticked again"},
     {"PersistentSequence", "Sequence memory=\"true\"", {}, "its place is not on the blackboard"},
     {"RoundRobin", "Fallback memory=\"true\"", {}, "it always begins with the first child"},
-    {"SingleTrigger", "RunOnce", {}, "afterwards it returns the first result again"},
+    {"SingleTrigger", "RunOnce", {}, "after that it returns the first result"},
     {"RateController", "", {}, kOften},
     {"SpeedController", "", {}, kOften},
     {"DistanceController", "", {}, kOften},
@@ -121,7 +122,7 @@ const ForeignAttribute* find(std::span<const ForeignAttribute> attributes, std::
   return found == attributes.end() ? nullptr : &*found;
 }
 
-// "…" when it cannot be said.
+// "…" if it is unknown.
 std::string translated(ForeignValue kind, std::string_view text) {
   if (kind == Same) return brief(text);
   const auto number = parse_double(text);

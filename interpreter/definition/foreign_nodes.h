@@ -1,5 +1,5 @@
-// Nodes and attributes of BehaviorTree.CPP and Nav2, and what to write instead. Data for hints; the
-// table in docs/language.md says the same, and a test compares the two.
+// Nodes and attributes of BehaviorTree.CPP and Nav2, and their lockstep equivalents, as data for
+// hints. A test compares it with the table in docs/language.md.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace lockstep {
 
-// What becomes of the value of an attribute.
+// How the value of an attribute is converted.
 enum class ForeignValue : unsigned char {
   Same,
   FromOne,       // less than 1 has a meaning there, and none here
@@ -34,10 +34,10 @@ struct ForeignNode {
 
 std::span<const ForeignNode> foreign_nodes();
 
-// What to do about an unknown element: "write <Retry attempts="5">"; "" when we know it neither.
+// The hint for an unknown element: "write <Retry attempts="5">"; "" if this table does not have it.
 std::string foreign_node_hint(std::string_view tag, std::span<const Attribute> attributes);
 
-// What to do about an unknown attribute of a node, known or not.
+// The hint for an unknown attribute of a node, whether the node is known or not.
 std::string foreign_attribute_hint(std::string_view tag, const Attribute& attribute);
 
 }  // namespace lockstep

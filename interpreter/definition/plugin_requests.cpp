@@ -17,7 +17,7 @@ std::optional<PluginRequest> read_plugin(const Document& document, std::uint32_t
                                          const Reporter& report) {
   const Element& element = document.elements()[index];
   if (element.end > index + 1) {
-    report.at(document.elements()[index + 1].place, "'plugin' takes no elements inside");
+    report.at(document.elements()[index + 1].place, "'plugin' cannot contain elements");
   }
   std::optional<PluginRequest> request;
   bool isolated = false;

@@ -1,5 +1,5 @@
-// The plugins that a project asks for by <plugin name="…" isolate="…"/>. Who loads them, and where
-// they are found, is decided elsewhere.
+// The plugins that a project requests with <plugin name="…" isolate="…"/>. Finding and loading them
+// is done elsewhere.
 #pragma once
 
 #include <string>
@@ -15,10 +15,10 @@ inline constexpr std::size_t kMaxPlugins = 256;  // each may be a process
 struct PluginRequest {
   std::string name;
   Place place;           // of the attribute that names it
-  bool isolate = false;  // in a process of its own
+  bool isolate = false;  // in a separate process
 };
 
-// Each name once, in the order of the documents; isolated when one of its elements says so.
+// Each name once, in the order of the documents; isolated if one of its elements requests it.
 std::vector<PluginRequest> requested_plugins(const Project& project, Diagnostics& diagnostics);
 
 }  // namespace lockstep

@@ -10,7 +10,7 @@
 namespace lockstep {
 namespace {
 
-// Depth-first over the graph of trees, with a stack of its own: a chain of subtrees may be long.
+// Depth-first over the graph of trees, with an explicit stack: a chain of subtrees may be long.
 class ReferenceChecker {
  public:
   ReferenceChecker(const CheckedTrees& trees, const Reporter& report)

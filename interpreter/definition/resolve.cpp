@@ -40,8 +40,8 @@ std::optional<std::string_view> choose_main(const CheckedTrees& trees, std::stri
   }
   if (trees.ids.size() == 1) return trees.ids.front();
   report.at(
-      main->place, "it is not said which tree to run",
-      fmt::format("add main_tree_to_execute=\"…\" or give --tree; trees: {}", listed(trees.ids)));
+      main->place, "several trees, and none is chosen",
+      fmt::format("add main_tree_to_execute=\"…\" or use --tree; trees: {}", listed(trees.ids)));
   return std::nullopt;
 }
 

@@ -1,4 +1,4 @@
-// Project + Catalog -> Definition: every rule about trees. Reports all it finds in one pass.
+// Project + Catalog -> Definition: checks every rule about trees. Reports all errors in one pass.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ struct ResolveOptions {
   StartValues values;
 };
 
-// Nothing when there are errors. Warnings and notes are reported as well.
+// Returns nothing if there are errors. Also reports warnings and notes.
 std::optional<Definition> resolve(const Project& project, const Catalog& catalog,
                                   const ResolveOptions& options, Diagnostics& diagnostics);
 

@@ -17,7 +17,7 @@ class Scope {
 
   // The scope of the main tree.
   explicit Scope(std::vector<BlackboardEntry>& entries) : entries_(entries) {}
-  // A SubTree's own scope inside `outer`; `prefix` names it in messages ("grasp/").
+  // The scope of a SubTree inside `outer`; `prefix` names it in messages ("grasp/").
   Scope(Scope& outer, const std::string& prefix, bool autoremap)
       : entries_(outer.entries_),
         outer_(&outer),
@@ -31,14 +31,14 @@ class Scope {
 
   struct Found {
     std::uint32_t entry;
-    bool is_new;            // nobody has used it before: it has no type yet
+    bool is_new;            // not used before, so it has no type yet
     std::string_view text;  // its start value as written, or ""
     bool has_text;
   };
-  // The entry that `key` means here; made when it does not exist.
+  // The entry that `key` means here; created if it does not exist.
   Found find(std::string_view key);
   bool used(std::string_view key) const { return known_.contains(key); }
-  // Those that are used but not given by an attribute of the SubTree.
+  // The keys that are used but that no attribute of the SubTree sets.
   std::vector<std::string_view> open_keys() const;
 
  private:

@@ -18,7 +18,7 @@ std::span<const NodeGroup> node_groups() {
 std::span<const CommonAttribute> common_attributes() {
   static constexpr CommonAttribute kCommon[] = {
       {"name",
-       "What the node is called in messages, views and recordings; its id when absent. Without "
+       "The name of the node in messages, views and recordings; default: its id. Without "
        "'/'."},
       {"_description", "A remark for readers of the file."}};
   return kCommon;
@@ -26,13 +26,13 @@ std::span<const CommonAttribute> common_attributes() {
 
 std::span<const CommonAttribute> subtree_attributes() {
   static constexpr CommonAttribute kSubTree[] = {
-      {"ID", "The BehaviorTree that stands here; required."},
+      {"ID", "The BehaviorTree to insert here; required."},
       {"_autoremap",
-       "true: a key that no attribute names is the key of the same name outside; false by "
+       "true: a key without an attribute is the key of the same name outside; false by "
        "default."},
       {"KEY",
-       "Any other attribute: its entry {KEY} inside is the entry {key} outside, or starts with "
-       "the text that is given."}};
+       "Any other attribute KEY: the entry {KEY} inside is the entry {key} outside, or starts "
+       "with the given text."}};
   return kSubTree;
 }
 

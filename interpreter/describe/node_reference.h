@@ -1,5 +1,5 @@
-// What nodes there are, written down: for a terminal, for a program, for docs/nodes.md. Made from
-// the rows that the checker uses; prints nothing.
+// The list of node types as text, as JSON, and as Markdown for docs/nodes.md, made from the rows
+// that the checker uses. Prints nothing.
 #pragma once
 
 #include <span>
@@ -19,7 +19,7 @@ std::string node_as_text(const NodeType& type);
 std::string nodes_as_json(NodeTypes types);
 std::string nodes_as_markdown(NodeTypes types);
 
-// What is shared by the above: the categories in the order of the pages, with their headings.
+// Shared by the functions above: the categories in the order of the pages, with their headings.
 struct NodeGroup {
   NodeCategory category;
   std::string_view heading;
@@ -28,9 +28,9 @@ std::span<const NodeGroup> node_groups();
 
 // "no children", "exactly one child", "one or more children".
 std::string_view children_text(const NodeType& type);
-// "number in s, required, from 0 to 1": all but the name and the doc.
+// "number in s, required, from 0 to 1": everything except the name and the doc.
 std::string facts_text(const Parameter& parameter);
-// A line that shows how it is written in a tree.
+// A line that shows how the node is written in a tree.
 std::string usage_text(const NodeType& type);
 // The attributes that are not parameters of one node, one sentence each.
 struct CommonAttribute {

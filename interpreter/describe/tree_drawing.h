@@ -14,7 +14,7 @@ std::string tree_as_text(const Definition& definition, bool ascii);
 std::string tree_as_dot(const Definition& definition);
 std::string tree_as_mermaid(const Definition& definition);
 
-// What is shared by the above.
+// Shared by the functions above.
 
 // name="value" as the node is written, with arguments substituted; without what names the node.
 std::vector<std::string> shown_attributes(const Definition& definition, const DefinitionNode& node);

@@ -1,9 +1,10 @@
 // The XML schema (XSD 1.0) of the tree language, made from the same rows that the checker uses. It
-// accepts all that the checker accepts, and refuses what XSD can say. Pure: text out, no files.
+// accepts everything that the checker accepts, and rejects what XSD can express. Pure: returns
+// text, uses no files.
 //
 // All nodes are global elements, and what a node contains is a lax wildcard: nodes that the schema
-// knows are checked wherever they stand, leaves of plugins that it does not know are let pass,
-// unless unknown nodes are refused: then the wildcard is strict.
+// knows are checked everywhere, and unknown leaves of plugins are accepted, unless unknown nodes
+// are refused: then the wildcard is strict.
 #pragma once
 
 #include <span>

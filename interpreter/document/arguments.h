@@ -1,5 +1,6 @@
-// Load-time arguments: what <arg> elements declare, what --arg gives, and ${name} in attributes
-// replaced by it. It sees one element at a time; which elements, in which order, is project.cpp's.
+// Load-time arguments: <arg> elements declare them, --arg sets them, and they replace ${name} in
+// attributes. This class handles one element at a time; project.cpp decides which elements, and in
+// which order.
 #pragma once
 
 #include <map>
@@ -22,12 +23,12 @@ class ArgumentTable {
   // `report` is for the texts that elements are in.
   ArgumentTable(const Arguments& given, const Reporter& report) : given_(given), report_(report) {}
 
-  // `element` is an <arg>. Its own attributes may use what is declared before it.
+  // `element` is an <arg>. Its attributes may use arguments that are declared before it.
   void declare(Document& document, std::uint32_t element);
-  // Replaces ${name} in every attribute of `element`. A value with an error stays as it is written;
-  // false when there is one.
+  // Replaces ${name} in every attribute of `element`. A value with an error is left as written;
+  // then this returns false.
   bool substitute(Document& document, std::uint32_t element);
-  // Reports what was given and is not declared.
+  // Reports arguments that were given but are not declared.
   void check_given() const;
   std::vector<DeclaredArgument> take() { return std::move(declared_); }
 

@@ -1,5 +1,5 @@
-// A place in an XML text that moves on over blanks, names and quoted texts: what the scanner of
-// tags and the grammar of what stands around them (prolog.h) have in common.
+// A position in an XML text that moves over blanks, names and quoted texts. Shared by the scanner
+// of tags and the grammar of what is outside of them (prolog.h).
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace lockstep {
 
-// What is wrong at a byte of a text. (Fault is that of a leaf: engine/ticker.h.)
+// An error at a byte of a text. (Fault is the error of a leaf: engine/ticker.h.)
 struct XmlFault {
   std::size_t offset = 0;
   std::string message;
@@ -58,12 +58,13 @@ class Cursor {
     return text_.substr(begin, position_ - begin);
   }
 
-  // What stands between the quotes that begin here; nothing when none do or they are not closed.
+  // The text between the quotes that begin here; nothing if there are no quotes or they are not
+  // closed.
   std::optional<std::string_view> take_quoted();
 
  private:
-  // A look at this table for each byte of a name is what the check of a correct file costs. Which
-  // of the bytes beyond ASCII belong to a name is looked at only where there are some.
+  // Looking up each byte of a name in this table is the main cost of checking a correct file. Bytes
+  // beyond ASCII are classified only where there are any.
   enum : std::uint8_t { kOther = 0, kStart = 1, kPart = 2, kWide = 4 };
   static constexpr std::uint8_t class_of(char c) { return kClasses[static_cast<unsigned char>(c)]; }
   static constexpr auto kClasses = [] {

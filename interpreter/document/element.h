@@ -1,5 +1,5 @@
 // The elements of an XML file and their attributes, flat and in pre-order. Views into the text of
-// their document; their places stay where they are written, whatever their values become.
+// their document; their places stay the same when their values are replaced.
 #pragma once
 
 #include <cstdint>

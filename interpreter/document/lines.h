@@ -1,5 +1,5 @@
-// The lines of a text: on which one a byte is, and what it says. For a document's messages, so it
-// is made when a place is first asked for.
+// The lines of a text: maps bytes to lines, and returns the text of a line. Only messages need it,
+// so it is made when the first place is looked up.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@ struct LineColumn {
   std::uint32_t column;
 };
 
-// Knows how many lines begin in each block of the text, and counts out the rest: a text of nothing
-// but line ends takes no more memory than another.
+// Stores how many lines begin in each block of the text, and counts the rest on demand. So a text
+// of line ends only needs no more memory than any other.
 class LineIndex {
  public:
   explicit LineIndex(std::string_view text);

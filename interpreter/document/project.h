@@ -30,15 +30,15 @@ struct Project {
   std::vector<DeclaredArgument> arguments;
 };
 
-// A pipe can be read once only, and its writer is waited for: for a file that the user has named.
-// Then "-" is stdin, called 'stdin', whose includes are relative to the working directory.
+// Accepts a pipe, which can be read only once and may block; for a file that the user has named.
+// "-" is stdin, called 'stdin', with includes relative to the working directory.
 enum class MainFile : bool { IsRegular, MayBePipe };
 
 // Reads `path`, its <include>s (relative to the including file, each file once, a cycle is an error
 // that shows the chain) and its <arg>s, and replaces ${name} in every attribute ($${ is a literal
-// ${). A value that has an error in it stays as it is written. Reports everything it finds wrong;
-// null only when the main file could not be parsed.
-// Unknown names in `arguments` are errors without a place, with a hint that lists the declared.
+// ${). A value with an error is left as written. Reports all errors; returns null only if the main
+// file could not be parsed. Unknown names in `arguments` are errors without a place, with a hint
+// that lists the declared.
 std::unique_ptr<Project> load_project(const std::string& path, const Arguments& arguments,
                                       Diagnostics& diagnostics,
                                       MainFile main = MainFile::IsRegular);

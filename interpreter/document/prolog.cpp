@@ -123,7 +123,7 @@ std::optional<XmlFault> skip_instruction(Cursor& at) {
   if (target.empty()) return XmlFault{begin, "'<?' needs the name of the processing instruction"};
   if (target == "xml" && begin == 0) return Declaration(at).skip();
   if (target == "xml")
-    return XmlFault{begin, "the XML declaration stands at the very beginning of the file, once",
+    return XmlFault{begin, "the XML declaration must be at the very beginning of the file",
                     "move it there, or delete it"};
   if (is_same_word(target, "xml"))
     return XmlFault{begin, fmt::format("a processing instruction cannot be named '{}'", target)};

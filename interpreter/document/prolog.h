@@ -1,5 +1,5 @@
-// The grammar of <?…?> and <!DOCTYPE …>. Nothing in them counts, but a file is XML only when they
-// are right, and other programs refuse it when they are not.
+// The grammar of <?…?> and <!DOCTYPE …>. Their content has no meaning here, but a file with errors
+// in them is not XML, and other programs refuse it.
 #pragma once
 
 #include <optional>
@@ -9,10 +9,10 @@
 namespace lockstep {
 
 // Moves `at`, which is at "<?", behind the processing instruction or the XML declaration. Returns
-// what is wrong with it.
+// the error in it, if any.
 std::optional<XmlFault> skip_instruction(Cursor& at);
 
-// The same for "<!DOCTYPE". One that defines something is refused.
+// The same for "<!DOCTYPE". A DOCTYPE with definitions is refused.
 std::optional<XmlFault> skip_doctype(Cursor& at);
 
 }  // namespace lockstep

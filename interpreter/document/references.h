@@ -1,5 +1,5 @@
-// '&' in XML values: which references are known, and how bytes of a value as it is read correspond
-// to bytes as they are written.
+// '&' in XML values: the known references, and how bytes of a parsed value map to bytes of the
+// file.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace lockstep {
 
-// What stands at the front of a raw value, and how many bytes it becomes.
+// The item at the front of a raw value, and how many bytes it becomes.
 struct RawUnit {
   std::size_t raw;   // bytes in the file
   std::size_t read;  // bytes in the value that the reader gives

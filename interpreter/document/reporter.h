@@ -1,4 +1,4 @@
-// Reports errors at places in the texts, with the source line. For all who check what they say.
+// Reports errors at places in the texts, with the source line. Used by all checks.
 #pragma once
 
 #include <string>
@@ -16,8 +16,8 @@ class Reporter {
   const Sources& sources() const { return sources_; }
   bool has_errors() const { return diagnostics_.has_errors(); }
 
-  // What is not kept needs neither words nor a place: a document may have a million errors. True
-  // when it is counted and done with.
+  // An error that is not kept needs neither a message nor a place: a document may have a million
+  // errors. Returns true if the error was only counted.
   bool counted_only(Severity severity) const {
     if (!diagnostics_.is_full(severity)) return false;
     diagnostics_.count_one(severity);
@@ -44,7 +44,7 @@ class Reporter {
     add(source, source.locate_value(attribute, byte), std::move(message), std::move(hint),
         Severity::Error);
   }
-  // What is wrong with what was given beside the texts.
+  // Reports an error without a place in the texts, such as one in an option.
   void nowhere(std::string message, std::string hint = {}) const {
     diagnostics_.error({}, std::move(message), std::move(hint));
   }

@@ -1,6 +1,6 @@
-// Cuts the bytes of an XML text into tokens, each with its exact place. It knows the shape of tags
-// and nothing of their meaning or nesting. The checker of well-formedness and the places of a
-// Document are made from it; tinyxml2, which keeps no columns, is not.
+// Cuts the bytes of an XML text into tokens, each with its exact place. It knows the syntax of
+// tags, but not their meaning or nesting. The check of well-formedness and the places in a Document
+// use it, because tinyxml2 keeps no columns.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// The texts that a definition is made from, and what a message says of a place in them: file, line,
-// column and the line itself.
+// The texts that a definition is made from. Maps a place in them to file, line, column and the
+// source line.
 #pragma once
 
 #include <memory>

@@ -21,7 +21,7 @@ bool check_vocabulary(const Document& document, std::uint32_t element,
   }
   if (it.end > element + 1)
     report.at(document.elements()[element + 1].place,
-              fmt::format("'{}' takes no elements inside", tag));
+              fmt::format("'{}' cannot contain elements", tag));
   bool complete = true;
   for (const auto name : known.first(required)) {
     if (document.find_attribute(element, name)) continue;

@@ -1,4 +1,4 @@
-// The two elements that are for loading only, <arg> and <include>: their attributes.
+// Checks the attributes of the two elements that only affect loading, <arg> and <include>.
 #pragma once
 
 #include <span>

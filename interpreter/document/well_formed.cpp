@@ -84,7 +84,7 @@ class Checker {
     for (auto at = token.value.find('&'); at != std::string_view::npos;
          at = token.value.find('&', at + 1)) {
       if (!read_reference(token.value.substr(at)))
-        add({scanner_.offset_of(token.value) + at, "'&' begins no reference that is known",
+        add({scanner_.offset_of(token.value) + at, "'&' does not begin a known reference",
              "write '&amp;' for the character itself"});
     }
   }
@@ -134,7 +134,7 @@ class Checker {
   }
 
   void doctype(const Token& token) {
-    if (has_root()) return stop({token.begin, "a DOCTYPE stands before the root element"});
+    if (has_root()) return stop({token.begin, "a DOCTYPE must be before the root element"});
     if (has_doctype_) return stop({token.begin, "a second DOCTYPE"});
     has_doctype_ = true;
     prolog_ = false;

@@ -9,7 +9,7 @@
 namespace lockstep {
 
 struct Entry {
-  Value value;               // monostate: nobody has written it yet
+  Value value;               // monostate: not written yet
   std::uint32_t writes = 0;  // how often it was written since the run began; it may wrap
 };
 

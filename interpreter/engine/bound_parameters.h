@@ -1,6 +1,6 @@
-// The parameters of built-in nodes in one run. Constants are the tree's own cells. Where a tree has
-// parameters from entries, the run has cells of its own: an entry that was written since the node's
-// last tick is checked as the loader checks constants, and becomes a cell.
+// The parameters of built-in nodes in one run. Constants are cells of the tree. If a tree has
+// parameters from entries, the run has its own copy of the cells. An entry that was written since
+// the node's last tick is checked like a constant and then stored in its cell.
 #pragma once
 
 #include <string>
@@ -22,9 +22,9 @@ class BoundParameters {
   const Cell* cells() const { return cells_; }
   const double* numbers() const { return numbers_; }
 
-  // Takes over the entries that were written. What is wrong with a value, else "": then the node's
-  // cells are as before. Allocates only for texts and lists that are longer than before, or where
-  // the kind's rule does.
+  // Stores the entries that were written. Returns "" or the error in a value; after an error the
+  // node's cells are unchanged. Allocates only for longer texts and lists, or if the kind's rule
+  // does.
   std::string read(std::uint32_t bound);
   // As new, for the next run.
   void reset();

@@ -1,4 +1,4 @@
-// Definition -> Tree: the last arrow before a run. Nothing can go wrong here any more.
+// Definition -> Tree: the last step before a run. It cannot fail.
 #pragma once
 
 #include "definition/definition.h"

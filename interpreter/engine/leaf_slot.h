@@ -1,4 +1,4 @@
-// A leaf object of a plugin as the engine sees it. Who creates and destroys it is plugin/'s matter.
+// A leaf object of a plugin, as the engine uses it. plugin/ creates and destroys it.
 #pragma once
 
 struct lockstep_leaf_type;

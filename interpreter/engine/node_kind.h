@@ -1,5 +1,5 @@
-// The row of a built-in node kind: what it declares of itself and what it does. Each file in nodes/
-// defines one or a few rows; nodes/all.cpp lists them.
+// The row of a built-in node kind: its declaration and its functions. Each file in nodes/ defines
+// one or a few rows; nodes/all.cpp lists them.
 #pragma once
 
 #include <cstdint>
@@ -13,32 +13,32 @@ namespace lockstep {
 class Ticker;
 using NodeIndex = std::uint32_t;
 
-// Which time it is that a node runs its child, from 1, and of how many times; 0: without end.
+// The current round of a node that repeats its child, from 1, and the number of rounds; 0: endless.
 struct Round {
   std::int64_t number = 0, of = 0;
 };
 
 struct NodeKind {
   NodeType type;
-  // One tick. Returns Running, Success or Failure. Allocates nothing, throws nothing of its own.
+  // One tick. Returns Running, Success or Failure. Does not allocate; does not throw itself.
   Status (*tick)(Ticker& ticker, NodeIndex self);
-  // Asked only while the node is Running; idle and failed nodes have 0, successful ones 1. In
+  // Called only while the node is Running; idle and failed nodes have 0, successful ones 1. In
   // [0,1].
   double (*progress)(Ticker& ticker, NodeIndex self);
   std::uint32_t state_size = 0;       // bytes in RunState
   std::uint32_t state_per_child = 0;  // and this many more for each child
-  // May be null: called of a running node of a subtree that is halted or held. A node that was held
-  // finds itself Activity::Paused in its next tick.
+  // May be null. Called for a running node in a subtree that is halted or held. A node that was
+  // held is Activity::Paused in its next tick.
   void (*halt)(Ticker& ticker, NodeIndex self) = nullptr;
   void (*pause)(Ticker& ticker, NodeIndex self) = nullptr;
-  // For people who watch. Null where the child runs once. Asked only while the node is Running.
+  // For views. Null if the child runs once. Called only while the node is Running.
   Round (*round)(Ticker& ticker, NodeIndex self) = nullptr;
 };
 
 // All built-in kinds, in the order in which they are documented.
 std::span<const NodeKind* const> built_in_kinds();
 
-// What a leaf of a plugin is in the tree.
+// The kind of all leaves of plugins.
 extern const NodeKind kPluginAction;
 extern const NodeKind kPluginCondition;
 

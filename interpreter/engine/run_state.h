@@ -1,5 +1,5 @@
-// All that the nodes of one run remember: bytes that a fill resets and a copy preserves. The leaves
-// of plugins and the blackboard are apart.
+// The state of all nodes in one run, as plain bytes: a fill resets it and a copy preserves it. The
+// leaves of plugins and the blackboard are separate.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +30,7 @@ struct RunState {
         last_tick(tree.nodes.size(), 0),
         bytes((tree.state_size + 7) / 8, 0) {}
 
-  // As new, without allocating.
+  // Resets everything, without allocating.
   void reset() {
     std::ranges::fill(activity, Activity::Idle);
     std::ranges::fill(last_tick, 0);

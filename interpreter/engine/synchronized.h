@@ -1,5 +1,5 @@
-// What a synchronized parallel says of itself: the one source for measures, views and recordings.
-// Nobody else works out who waits for what.
+// The state of a synchronized parallel, for measures, views and recordings. No other code computes
+// which child waits for what.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace lockstep {
 
-// Progress is equal within this: 0.8 <= 0.7 + 0.1 is false in doubles.
+// Tolerance for comparing progress: 0.8 <= 0.7 + 0.1 is false in doubles.
 inline constexpr double kProgressEpsilon = 1e-9;
 
 // The state of a synchronized node, with the progress of each child behind it (child_numbers).
@@ -22,13 +22,14 @@ inline Synchronization synchronization(const Node& node) {
   return node.kind->type.synchronization;
 }
 
-// The limit that counted in the node's last tick. ParallelAbsolute: the current barrier, infinity
-// when none is left. ParallelRelative: delta.
+// The limit in the node's last tick. ParallelAbsolute: the current barrier, infinity if none is
+// left. ParallelRelative: delta.
 inline double limit(Ticker& ticker, NodeIndex node) {
   return ticker.state<SynchronizedState>(node).limit;
 }
 
-// How far a child may be without being held, given that limit and the least progress.
+// The most progress that a child may have without being held, given that limit and the least
+// progress.
 inline double farthest(Synchronization synchronization, double limit, double least) {
   return synchronization == Synchronization::Relative ? least + limit : limit;
 }
@@ -39,7 +40,7 @@ inline std::span<const double> child_progress(Ticker& ticker, NodeIndex node) {
   return ticker.child_numbers(node);
 }
 
-// Of a synchronized node that the last tick reached: whether it has succeeded in it, also when an
+// For a synchronized node that the last tick reached: whether it succeeded in that tick, even if an
 // ancestor that ended in the same tick has made it idle again.
 inline bool succeeded(Ticker& ticker, NodeIndex node) {
   return ticker.state<SynchronizedState>(node).succeeded;

@@ -89,7 +89,7 @@ void Ticker::halt_running_children(NodeIndex node) {
 void Ticker::pause(NodeIndex node) {
   for (NodeIndex at = node; at < tree_.nodes[node].end && !faulted_;) {
     const Node& it = tree_.nodes[at];
-    if (state_.activity[at] != Activity::Running) {  // so nothing below it has to be told either
+    if (state_.activity[at] != Activity::Running) {  // so nothing below it needs a call either
       at = it.end;
       continue;
     }

@@ -31,7 +31,7 @@ struct OutOfRange {
   double reported = 0;
 };
 
-// What a fault means to the run.
+// What a fault does to the run.
 enum class FaultPolicy : std::uint8_t {
   Stop,  // the run ends
   Fail,  // the leaf's activation ends with Failure; the tree goes on
@@ -46,7 +46,8 @@ class Ticker {
   // --- for node kinds, inside a tick -------------------------------------------------------------
 
   // Ticks a node and keeps its status. At most once per node and tick. After a fault it does
-  // nothing, and the control nodes that are in their tick judge nothing: all of them stay Running.
+  // nothing, and the control nodes that are in their tick do not complete: all of them stay
+  // Running.
   Status tick(NodeIndex node) {
     if (faulted_) return Status::Running;
     Activity& activity = state_.activity[node];
@@ -67,7 +68,7 @@ class Ticker {
   // Of a node's children, those that run; the others keep their status.
   void halt_running_children(NodeIndex node);
 
-  // Withholds ticks from a subtree: each running leaf is told once, until it is ticked again.
+  // Withholds ticks from a subtree: each running leaf gets one `pause`, until it is ticked again.
   void pause(NodeIndex node);
 
   // In [0, 1]: 1 on Success, 0 when idle or failed.
@@ -95,8 +96,8 @@ class Ticker {
   std::span<const double> numbers(const Cell& cell) const {
     return {parameters_.numbers() + cell.list.first, cell.list.count};
   }
-  // Ticks a node of Tree::bound as what it is, with the parameters that its entries now give. A
-  // value that it cannot take is a fault.
+  // Ticks a node of Tree::bound with the current values of its entries. A value that the node does
+  // not accept is a fault.
   Status tick_bound(NodeIndex node);
   LeafSlot& leaf(NodeIndex node) { return leaves_[tree_.nodes[node].params]; }
 
@@ -121,22 +122,24 @@ class Ticker {
 
   // --- for the owner of the run ------------------------------------------------------------------
 
-  // The time of the next tick. It must not fall. Progress asked for from now on is as of then.
+  // The time of the next tick, which must not decrease. From now on, progress is computed for that
+  // time.
   void set_now(Nanoseconds now) { now_ = now; }
 
   // Ticks the root once. The result is Running while the tree runs, and after a fault.
   Status tick_root(Nanoseconds now);
 
-  // Halts every running leaf. A leaf that does wrong then may not have stopped: whatever the
-  // policy, it becomes the fault of the run; if there is one already, it is in tolerated().
+  // Halts every running leaf. A leaf with a fault in this halt may not have stopped, so the fault
+  // becomes that of the run, whatever the policy. If the run already has a fault, tolerated() has
+  // the new one.
   void halt_all();
 
-  // As new. Leaves are not told: halt_all first.
+  // Resets everything without a call to the leaves: call halt_all first.
   void reset();
 
   const Fault* fault() const { return faulted_ ? &fault_ : nullptr; }
-  // The faults that the run goes on after, in order, since they were last taken: those of a tick,
-  // those of progress that was asked for before it, and those of halt_all.
+  // The faults after which the run goes on, in order, since they were last taken: those of a tick,
+  // of progress that was read before it, and of halt_all.
   std::span<const Fault> tolerated() const { return tolerated_; }
   std::vector<Fault> take_tolerated() { return std::exchange(tolerated_, {}); }
   // In this run, one of each leaf.

@@ -1,6 +1,6 @@
 // The compiled tree: flat, in pre-order, immutable, shareable between threads. A subtree is the
 // range [i, nodes[i].end); its first child is i + 1 and the sibling after child c is nodes[c].end.
-// All that changes during a run is in RunState and in the leaves.
+// Everything that changes during a run is in RunState and in the leaves.
 #pragma once
 
 #include <cstdint>
@@ -49,7 +49,7 @@ struct LeafNode {
 };
 
 // A built-in node with a parameter from an entry. Its kind in Tree::nodes reads the entries and
-// then ticks as this one. The cell before its first is its place in Tree::bound.
+// then ticks like this kind. The cell before its first one has its index in Tree::bound.
 struct BoundNode {
   NodeIndex node;
   const NodeKind* kind;

@@ -1,5 +1,5 @@
-// From a file name to a tree that can run: the arrows of docs/architecture.md, one after the other.
-// For any program that carries lockstep: nothing here prints or knows an exit code.
+// From a file name to a tree that can run: the steps of docs/architecture.md in order. For any
+// program that embeds lockstep: nothing here prints or knows exit codes.
 #pragma once
 
 #include <memory>
@@ -22,14 +22,14 @@ struct LoadOptions {
   MainFile main_file = MainFile::MayBePipe;
 };
 
-// A definition without errors, and what it refers to.
+// A definition without errors, and the objects that it refers to.
 struct Loaded {
   std::shared_ptr<PluginSet> plugins;
   std::unique_ptr<Project> project;
   Definition definition;
 };
 
-// Why there is none; the errors say more.
+// Why loading failed; the errors have the details.
 enum class LoadFailure : unsigned char {
   Options,        // the file is not to blame: an option names what it does not have
   Unreadable,     // the main file is not there, or not XML
@@ -37,8 +37,8 @@ enum class LoadFailure : unsigned char {
   PluginRefused,  // a plugin cannot be loaded
 };
 
-// Reports all it finds, warnings and notes as well; errors that are in `diagnostics` count too.
-// Several trees may share `plugins`, which keep what was loaded, also after a failure.
+// Reports all errors, warnings and notes. Fails also if `diagnostics` already has errors. Several
+// trees may share `plugins`, which keep what was loaded, even after a failure.
 [[nodiscard]] tl::expected<Loaded, LoadFailure> load(
     const std::string& path, const LoadOptions& options, Diagnostics& diagnostics,
     std::shared_ptr<PluginSet> plugins = std::make_shared<PluginSet>());

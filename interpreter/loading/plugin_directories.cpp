@@ -20,10 +20,10 @@ bool is_privileged() {
 bool check_absolute(const std::string& path, std::string_view option, Diagnostics& diagnostics) {
   if (fs::path(path).is_absolute()) return true;
   diagnostics.error({},
-                    fmt::format("{} {}: relative, which a program with more rights than its user "
-                                "does not take",
+                    fmt::format("{} {}: a program with more rights than its user refuses a "
+                                "relative path",
                                 option, path),
-                    "give the whole path, from '/'");
+                    "give the absolute path");
   return false;
 }
 

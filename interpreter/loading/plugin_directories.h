@@ -1,5 +1,5 @@
-// Where plugins are searched, and which of that is refused to a program that runs with more rights
-// than its user: setuid, setgid, or with file capabilities (docs/security.md).
+// Where plugins are searched, and which paths are refused if the program has more rights than its
+// user: setuid, setgid, or file capabilities (docs/security.md).
 #pragma once
 
 #include <filesystem>
@@ -17,9 +17,9 @@ std::filesystem::path program_directory();
 // Relative ones are left out when the program is privileged.
 std::vector<std::string> plugin_directories(const PluginOptions& options);
 
-// Warns of directories that are not there. False, with errors, when the program is privileged and a
-// directory or file that is given for plugins is relative: who chooses the working directory would
-// choose what is loaded. Warns of LOCKSTEP_PLUGIN_PATH, which is not read then.
+// Warns about missing directories. Returns false, with errors, if the program is privileged and a
+// plugin directory or file is relative: otherwise the user who chooses the working directory would
+// choose the code. Then it also warns that LOCKSTEP_PLUGIN_PATH is not read.
 bool check_plugin_options(const PluginOptions& options, Diagnostics& diagnostics);
 
 }  // namespace lockstep

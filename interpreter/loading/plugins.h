@@ -1,5 +1,4 @@
-// The plugins that a program is given or a tree asks for: where they are searched, how they are
-// loaded, and which nodes there are then.
+// Finds and loads the plugins that the options or a tree name, and makes the catalog of nodes.
 #pragma once
 
 #include <string>
@@ -22,7 +21,7 @@ struct PluginOptions {
 // Whether a plugin is given as a file, and not as a name to search for.
 bool is_plugin_file(const std::string& plugin);
 
-// Loads what `options` names. On false, errors tell why.
+// Loads what `options` names. Returns false, with errors, on failure.
 [[nodiscard]] bool load_given_plugins(const PluginOptions& options, PluginSet& plugins,
                                       Diagnostics& diagnostics);
 // The same for what the trees of `project` ask for.

@@ -1,6 +1,6 @@
-// Why the root completed as it did: the path from it to the node that decided. A leaf decides for
-// itself, a Timeout whose time is over does too; any other node takes the result of a child, or
-// turns it around.
+// Why the root completed with its result: the path from the root to the node that decided. A leaf
+// decides itself, and so does a Timeout whose time is over. Any other node takes the result of a
+// child, or inverts it.
 #pragma once
 
 #include <functional>
@@ -27,7 +27,7 @@ struct TickedTree {
   std::function<bool(NodeIndex node)> ticked;  // by that tick
 };
 
-// From the root down. Asks each node on the path for its children, no other.
+// From the root down. Looks only at nodes on the path and their children.
 std::vector<DecidingNode> deciding_path(const TickedTree& tree);
 std::vector<DecidingNode> deciding_path(const Ticker& ticker);
 

@@ -25,7 +25,7 @@ extern const Measure kEntry{
     .argument = ":KEY",
     .of = MeasureOf::Entry,
     .axis = "entry",
-    .doc = "the number in the blackboard entry KEY after the last tick; of a bool 1 or 0",
+    .doc = "the number in the blackboard entry KEY after the last tick; 1 or 0 for a bool",
     .make = make_accumulator<EntryAtEnd>,
     .is_possible = [](double value, const MeasureSpec&,
                       const MeasuredRun&) { return std::isfinite(value); },

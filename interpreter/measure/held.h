@@ -1,5 +1,5 @@
-// How often, and for how long, a synchronized node withheld ticks from one of its children. Only
-// what this node withheld: while it is held itself, its children are not counted.
+// How often, and for how long, a synchronized node withheld ticks from one of its children. Counts
+// only what this node withheld: while the node itself is held, its children are not counted.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@ class HeldChild : public Accumulator {
 
   // Also the tick in which the node ended.
   std::uint64_t ticks() const { return ticks_; }
-  // How often it was paused: ticks in a row of the node are once, also with a time between them in
-  // which the node itself was held.
+  // How often it was paused. Consecutive ticks of the node count once, even if the node itself was
+  // held in between.
   std::uint64_t pauses() const { return pauses_; }
   // From a tick in which it is held to the next, or to the end of the run.
   Nanoseconds time() const { return time_; }

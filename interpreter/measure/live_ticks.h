@@ -1,4 +1,4 @@
-// What measures see of a run that a Ticker makes. No allocation after it is made.
+// The tick views of a run that a Ticker makes. Does not allocate after construction.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ MeasuredTree measured_tree(const Tree& tree);
 
 class LiveTicks {
  public:
-  // Of what `measuring` measures in this tree.
+  // Views what `measuring` measures in this tree.
   LiveTicks(const Tree& tree, const Measuring& measuring);
 
   void before_tick(Ticker& ticker);

@@ -1,6 +1,6 @@
-// A measure is a row: its name, unit and axis, what it is of, and the accumulator that makes one
-// number of a run. Each file of this folder defines the rows of one idea; measures.cpp lists them.
-// A study, `lockstep log measure` and all that is said about measures follow from the rows.
+// A measure is a row: its name, unit and axis, what it measures, and the accumulator that computes
+// one number for a run. Each file of this folder defines the rows of one idea; measures.cpp lists
+// them. A study, `lockstep log measure` and the texts about measures follow from the rows.
 #pragma once
 
 #include <cmath>
@@ -14,10 +14,10 @@
 
 namespace lockstep {
 
-// What was not reached has no value.
+// NaN: nothing was measured.
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
-// Measures one run after the other. Allocates nothing after it is made.
+// Measures one run after the other. Does not allocate after construction.
 class Accumulator {
  public:
   virtual ~Accumulator() = default;
@@ -35,7 +35,7 @@ enum class MeasureOf : std::uint8_t {
   Entry,     // the blackboard entry that the argument names
 };
 
-// Where an accumulator finds what it is of.
+// Where an accumulator finds its input.
 struct MeasureTarget {
   // In TickView::parallels (Parallel, Child), TickView::nodes (Node) or TickView::entries (Entry).
   std::size_t place = 0;
@@ -50,12 +50,12 @@ struct MeasureSpec {
   const Measure* measure = nullptr;
   std::string argument = {};         // as to_text() writes it: ":arm@0.6=600"
   std::string name = {};             // of the node or the entry
-  std::vector<double> numbers = {};  // what else the argument says; the row knows what they mean
+  std::vector<double> numbers = {};  // the rest of the argument; the row knows their meaning
 
   friend bool operator==(const MeasureSpec&, const MeasureSpec&) = default;
 };
 
-// What else is known of a run that gave a value.
+// Other facts about a run that gave a value.
 struct MeasuredRun {
   std::uint64_t ticks = 0;
   double rate = 0;
@@ -69,15 +69,15 @@ struct Measure {
   std::string_view axis;
   std::string_view unit = {};
   std::string_view doc;
-  // A second number beside the value: how far the run stayed from what was asked for.
+  // Whether there is a second number: the distance of the run from what was requested.
   bool has_gap = false;
   std::unique_ptr<Accumulator> (*make)(const MeasureSpec& spec, const MeasureTarget& target);
-  // Can a run have this value? Another one in a file is damage.
+  // Whether a run can have this value. If not, a file with it is damaged.
   bool (*is_possible)(double value, const MeasureSpec& spec, const MeasuredRun& run);
-  // Reads what follows the name and the colon, and returns what is wrong with it or "". Null: it is
-  // the name of what `of` says, or there is none.
+  // Parses what follows the name and the colon, and returns an error or "". Null: it is the name of
+  // a node or an entry, as `of` says, or there is no argument.
   std::string (*parse)(std::string_view argument, MeasureSpec& spec) = nullptr;
-  // The text for an axis, where it depends on the argument. Null: axis and unit.
+  // The text for an axis, if it depends on the argument. Null: axis and unit.
   std::string (*label)(const MeasureSpec& spec) = nullptr;
 };
 

@@ -17,12 +17,12 @@ Result<MeasureSpec> parse_measure(std::string_view text);
 std::string to_text(const MeasureSpec& spec);
 // For the axis of a plot: "duration (s)".
 std::string axis_label(const MeasureSpec& spec);
-// What a measure is of, for people: "each parallel".
+// What a measure measures, for people: "each parallel".
 std::string_view to_string(MeasureOf of);
-// "progress-distance[[K1:K2]], …, predictability:NODE@P[=T]": all that there are.
+// "progress-distance[[K1:K2]], …, predictability:NODE@P[=T]": all measures.
 std::string measure_usages();
 
-// The only path that is `name` or ends in "/" + `name`; `what` is what the paths are of.
+// The only path that is `name` or ends in "/" + `name`; `what` is what the paths belong to.
 Result<std::size_t> find_path(std::span<const std::string> paths, std::string_view name,
                               std::string_view what = "node");
 // "arm" of "Main/pull/arm".

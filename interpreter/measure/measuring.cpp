@@ -64,7 +64,7 @@ void Measuring::add_child(const MeasureSpec& spec, const MeasuredTree& tree) {
   const NodeIndex parent = tree.nodes[*node].parent;
   if (parent == *node || tree.nodes[parent].synchronization == Synchronization::None) {
     error_ =
-        "'" + tree.paths[*node] + "' is not a child of a synchronized node, so nobody holds it";
+        "'" + tree.paths[*node] + "' is not a child of a synchronized node, so it is never held";
     return;
   }
   MeasureTarget target = target_of(parent);

@@ -1,5 +1,5 @@
-// Measures runs of one tree, one after the other, by the rows of measures that were asked for. Who
-// feeds it, a live run or a recording, makes no difference.
+// Measures runs of one tree, one after the other, with the requested measures. The ticks may come
+// from a live run or from a recording.
 #pragma once
 
 #include <map>
@@ -29,20 +29,20 @@ struct MeasuredTree {
 
 class Measuring {
  public:
-  // `specs` must outlive this, `tree` need not. What a measure names and the tree does not have is
-  // in error().
+  // `specs` must outlive this, `tree` need not. If a measure names something that the tree does not
+  // have, error() reports it.
   Measuring(const MeasuredTree& tree, std::span<const MeasureSpec> specs);
 
   const std::string& error() const { return error_; }
 
-  // One for each measure; of those that are of each parallel, one for each of them.
+  // One column for each measure; for a measure of each parallel, one for each parallel.
   struct Column {
     const MeasureSpec* spec;
     std::string node;  // the path; the tree's id for what is of the run
   };
   std::span<const Column> columns() const { return columns_; }
 
-  // What a TickView must have, in this order.
+  // What a TickView must contain, in this order.
   std::span<const NodeIndex> parallels() const { return parallels_; }
   std::span<const NodeIndex> nodes() const { return nodes_; }
   std::span<const std::size_t> entries() const { return entries_; }

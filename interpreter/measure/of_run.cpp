@@ -36,7 +36,7 @@ extern const Measure kDuration{
     .unit = "s",
     .doc =
         "seconds: ticks / rate; on a real clock from the start to one period after the start of "
-        "the last tick; of a run that `--max-ticks` cut, until then",
+        "the last tick; for a run that `--max-ticks` cut, until then",
     .make = make_accumulator<AtEnd<duration_of>>,
     .is_possible = [](double value, const MeasureSpec&, const MeasuredRun& run) {
       return value == static_cast<double>(run.ticks) / run.rate;

@@ -20,7 +20,7 @@ class NearestInstant {
   bool empty() const { return gap_ == std::numeric_limits<double>::infinity(); }
   double time() const { return time_; }  // in the unit of the samples; 0 when empty
   double gap() const { return gap_; }    // |progress - target| at that time
-  // Was the progress ever at the target, or on both sides of it?
+  // Whether the progress was ever at the target, or on both sides of it.
   bool reached() const;
 
  private:
@@ -40,8 +40,8 @@ class Predictability final : public Accumulator {
   void reset() override { *this = Predictability(place_, target_, expected_); }
   void after_tick(const TickView& view) override;
 
-  // The instant minus the expected one; negative is early. What the node reached in the last tick
-  // counts as if there were one more. NaN: its progress did not reach the target.
+  // The instant minus the expected one; negative is early. The progress after the last tick counts
+  // as one more sample. NaN: the progress did not reach the target.
   double value(const EndView&) const override;
   // How far from the target the progress was at that instant. NaN: no tick reached the node.
   double gap() const override;

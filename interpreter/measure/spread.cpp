@@ -15,7 +15,7 @@ extern const Measure kSpread{
     .name = "spread",
     .of = MeasureOf::Parallel,
     .axis = "largest spread",
-    .doc = "the largest distance, in one tick, of the most and the least advanced child",
+    .doc = "the largest distance, in one tick, between the most and the least advanced child",
     .make = make_accumulator<Spread>,
     .is_possible = is_share};
 

@@ -1,7 +1,7 @@
-// Finds who keeps the others waiting: the least progressed child of a synchronized node whose least
-// progress has not risen above its best so far for longer than a limit, while others are held. So
-// also a child that moves and gets nowhere is found: one that starts again for ever, or one that
-// loses while it is held what it gains while it is ticked.
+// Finds a child that keeps the others waiting: the child with the least progress of a synchronized
+// node whose least progress has not risen above its best so far for longer than a limit, while
+// others are held. This also finds a child that moves without getting anywhere: one that starts
+// again for ever, or one that loses while it is held what it gains while it is ticked.
 #pragma once
 
 #include <functional>
@@ -15,22 +15,22 @@ namespace lockstep {
 
 struct Standstill {
   NodeIndex node = 0;   // the synchronized node
-  NodeIndex child = 0;  // who has the least progress
+  NodeIndex child = 0;  // the child with the least progress
   Nanoseconds since{0};
   Nanoseconds time{0};  // now
   double progress = 0;
   double best = 0;  // that the least progress was at in this activation
 };
 
-// One node. A standstill is reported once: its end is a new best, or that all are at 1, where
-// perpetual actions have nowhere to rise to.
+// One node. Each standstill is reported once. It ends with a new best, or when all children are at
+// 1, where perpetual actions cannot rise.
 class StallDetector {
  public:
   explicit StallDetector(Nanoseconds limit) : limit_(limit) {}
 
   // The child that has now held the others for too long. No allocation.
   std::optional<std::size_t> after_tick(const SynchronizedTick& tick);
-  Nanoseconds since() const { return since_; }  // somebody waits without a new best
+  Nanoseconds since() const { return since_; }  // a child waits without a new best
   double best() const { return best_; }
 
  private:

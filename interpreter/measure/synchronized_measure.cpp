@@ -45,7 +45,7 @@ SynchronizedProbe::SynchronizedProbe(const Tree& tree, NodeIndex node)
   }
 }
 
-// A node that does not run begins anew: none of its children has progress then.
+// A node that does not run will start again: none of its children has progress then.
 void SynchronizedProbe::before_tick(Ticker& ticker) {
   const bool runs = ticker.status(node_) == Status::Running;
   for (std::size_t child = 0; child < progress_.size(); ++child) {

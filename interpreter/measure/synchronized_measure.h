@@ -21,7 +21,7 @@ class Ticker;
 std::vector<NodeIndex> synchronized_nodes(const Tree& tree);
 std::vector<NodeIndex> children_of(const Tree& tree, NodeIndex node);
 
-// Tells from the states after each tick which children their node held in it.
+// Finds from the states after each tick which children their node held in that tick.
 class HeldChildren {
  public:
   explicit HeldChildren(std::size_t children)
@@ -62,7 +62,7 @@ class SynchronizedMeasure {
 class SynchronizedProbe {
  public:
   SynchronizedProbe(const Tree& tree, NodeIndex node);
-  // A parallel that does not synchronize keeps no progress of its children: it is asked for here.
+  // A plain parallel does not store the progress of its children, so this reads it.
   void before_tick(Ticker& ticker);
   // Valid until the next call.
   SynchronizedTick read(Ticker& ticker, Nanoseconds time);

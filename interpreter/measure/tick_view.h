@@ -1,5 +1,6 @@
 // What a measure sees of a run: each tick, after it, and the end. A live run (live_ticks.h) and a
-// recording (recording/use/recording_measures.cpp) both give it, so no measure can tell them apart.
+// recording (recording/use/recording_measures.cpp) both provide it, so measures work the same for
+// both.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +33,7 @@ struct NodeTick {
 struct TickView {
   std::uint64_t tick = 0;  // the first is 0
   Nanoseconds time{0};     // when it began, since the run began
-  // Of those that somebody measures, in the order of MeasureTarget::place.
+  // Only what is measured, in the order of MeasureTarget::place.
   std::span<const SynchronizedTick> parallels = {};
   std::span<const NodeTick> nodes = {};
   std::span<const double> entries = {};  // after the tick; NaN: it has no number

@@ -114,7 +114,7 @@ std::vector<BoxPlot> box_plots(std::span<const std::string> grid_names,
 }
 
 std::string box_plot_data(const BoxPlot& plot) {
-  std::string text = "# x min q1 median q3 max mean n, and what stands at x\n";
+  std::string text = "# x min q1 median q3 max mean n, and the label at x\n";
   for (std::size_t group = 0; group < plot.groups.size(); ++group) {
     if (!plot.groups[group].box) continue;
     const SampleSummary& box = *plot.groups[group].box;

@@ -1,5 +1,5 @@
 // The box plots of a study: minimum, quartiles, maximum and mean of a measure for each value of a
-// grid name. Which plots a summary gives, and how one is drawn, as SVG and PNG.
+// grid name. Makes the plots of a summary and draws them as SVG and PNG.
 #pragma once
 
 #include <filesystem>
@@ -27,7 +27,7 @@ struct BoxPlot {
 };
 
 // One plot for each node, measure and combination of values of the other grid names; the values of
-// the last grid name stand along x, in the order of the rows. Stems are unique.
+// the last grid name are along x, in the order of the rows. Stems are unique.
 std::vector<BoxPlot> box_plots(std::span<const std::string> grid_names,
                                std::span<const SummaryRow> rows);
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kPointsPerPixel = 11.0 / 15;
 constexpr char kMissing[] =
-    "there is no gnuplot, so no image was made: install the package 'gnuplot-nox'";
+    "gnuplot is missing, so no image was made: install the package 'gnuplot-nox'";
 
 // In another directory, so that what is finished can be moved there; removed with what is left.
 class WorkDirectory {
@@ -75,7 +75,7 @@ std::string failure(const GnuplotEnd& ended) {
   if (ended.stopped) return "interrupted while gnuplot drew";
   if (ended.reason == ENOENT) return kMissing;
   if (ended.reason != 0) return fmt::format("cannot start gnuplot: {}", strerror(ended.reason));
-  return ended.ok ? "" : "gnuplot has failed:" + readable(ended.said);
+  return ended.ok ? "" : "gnuplot failed:" + readable(ended.said);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Runs gnuplot as a child process, without a shell, and writes text so that gnuplot takes it as
-// text. Used by the plots of this folder.
+// Runs gnuplot as a child process, without a shell, and quotes text for it. Used by the plots of
+// this folder.
 #pragma once
 
 #include <filesystem>
@@ -12,19 +12,19 @@
 
 namespace lockstep {
 
-// A string literal of gnuplot that stands for exactly this text; control characters are made
-// visible as printable() does.
+// A string literal of gnuplot for exactly this text; control characters are made visible as
+// printable() does.
 std::string gnuplot_string(std::string_view text);
 
-// The same for a file in the script's directory, whatever its name: a name of gnuplot's that begins
-// with '<' or '|' would be a command.
+// The same for a file in the script's directory, whatever its name: gnuplot would execute a name
+// that begins with '<' or '|'.
 std::string gnuplot_file(std::string_view name);
 
-// The lines that choose what is drawn on, by the extension of `image`: .svg or .png.
+// The lines that choose the output format by the extension of `image`: .svg or .png.
 std::string gnuplot_terminal(const std::filesystem::path& image, PlotSize size);
 bool is_plot_image(const std::filesystem::path& image);
 
-// Letters, digits, '_', '-' and '.' of `text`; what lies between as one '_'.
+// The letters, digits, '_', '-' and '.' of `text`; other characters in a row become one '_'.
 std::string file_stem(std::string_view text);
 
 struct PlotFiles {
@@ -34,8 +34,8 @@ struct PlotFiles {
   std::vector<std::string> images;  // file names that the script draws
 };
 
-// Writes the data and the script and has gnuplot run the script, all in a temporary directory
-// beside. What is finished is moved from there; of what is not, nothing stays.
+// Writes the data and the script and runs gnuplot, all in a temporary directory beside the output.
+// Finished files are moved from there; the rest is removed.
 PlotResult draw(const PlotFiles& files);
 
 }  // namespace lockstep

@@ -76,7 +76,7 @@ int become_gnuplot(const Plan& plan, pid_t parent, int out) {
   const int nothing = open("/dev/null", O_RDONLY);
   if (nothing < 0 || dup2(nothing, 0) < 0 || dup2(out, 1) < 0 || dup2(out, 2) < 0) return errno;
   if (chdir(plan.directory.c_str()) != 0) return errno;
-  syscall(SYS_close_range, 3u, ~0u, 4u);  // CLOSE_RANGE_CLOEXEC: nothing of ours is handed down
+  syscall(SYS_close_range, 3u, ~0u, 4u);       // CLOSE_RANGE_CLOEXEC: none is inherited
   char name[] = "gnuplot", defaults[] = "-d";  // -d: not what the user's ~/.gnuplot says
   char* const arguments[] = {name, defaults, const_cast<char*>(plan.script.c_str()), nullptr};
   execve(plan.program.c_str(), arguments, plan.environment);

@@ -1,6 +1,5 @@
-// What a plot leaves on disk: <stem>.dat with the numbers, <stem>.gp that draws them, so that a
-// researcher can change either and run gnuplot again, and the images. Without gnuplot the first two
-// are there all the same.
+// The files of a plot: <stem>.dat with the numbers, <stem>.gp that draws them, and the images. A
+// researcher can change the first two and run gnuplot again. They are written even without gnuplot.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +18,7 @@ struct PlotResult {
 
 struct PlotSize {
   int width = 720, height = 432;  // pixels of the SVG; a PNG has twice as many each way
-  static constexpr int kLeastWidth = 360, kLeastHeight = 240;  // below, nobody can read it
+  static constexpr int kLeastWidth = 360, kLeastHeight = 240;  // smaller is unreadable
   static constexpr int kMost = 8000;
 };
 

@@ -16,13 +16,13 @@ constexpr std::size_t kPlotStyles = 36;
 // The height of a letter, in pixels: smaller in a small picture, down to what can be read.
 constexpr int kLeastLetter = 8;
 int letter_height(PlotSize size);
-// How many letters of a height fit into a width, more or less.
+// About how many letters of a height fit into a width.
 std::size_t letters_in(double pixels, int height);
 
 // Without its beginning when it is longer than `most` columns: "…/left/arm".
 std::string shortened(std::string_view text, std::size_t most);
 
-// An expression of gnuplot: the title in one line or two. What is longer loses its beginning.
+// A gnuplot expression: the title in one or two lines. A longer title loses its beginning.
 std::string plot_title(std::string_view text, PlotSize size);
 
 }  // namespace lockstep

@@ -1,5 +1,5 @@
-// What a plot of progress shows of a synchronized node at one time, and how many of these samples a
-// picture needs: a recording has millions, a picture a few hundred columns.
+// One sample of a plot of progress of a synchronized node, and the thinning of samples: a recording
+// has millions, a picture a few hundred columns.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
-// Which function of which plugin this thread is in, for whoever has to name the culprit of a crash
-// or a hang: two plain stores per call. Written by the thread that calls; read by its own signal
-// handlers and by the watchdog. Knows nothing of time.
+// Records which function of which plugin a thread is in, to name the cause of a crash or a hang.
+// Costs two plain stores per call. The calling thread writes it; its signal handlers and the
+// watchdog read it. Knows nothing about time.
 #pragma once
 
 #include <atomic>
@@ -58,7 +58,7 @@ class CallMark {
     ForkGuard::check();
     call_.store(serial_, std::memory_order_release);
   }
-  // Somebody else sees to it that this call returns in time.
+  // Other code ensures that this call returns in time.
   void set_bounded() {
     call_.store(call_.load(std::memory_order_relaxed) | kBounded, std::memory_order_release);
   }
@@ -78,7 +78,7 @@ class CallMark {
   }
   RunOfStudy run() const { return {cell_.load(), run_number_.load(), seed_.load()}; }
 
-  // A call as another thread sees it: two looks that are equal have seen the same call.
+  // A call as another thread sees it: equal looks have seen the same call.
   struct Look {
     const CallSite* site = nullptr;  // outside of a call: of the last one
     std::uint32_t call = 0;          // a number of the call; the low byte is its function

@@ -1,5 +1,5 @@
 // The descriptors of a plugin: checked against the rules of lockstep/leaf.h, copied to the full
-// size that this host knows, and told as node types. Calls nothing of the plugin.
+// size that this host knows, and translated to node types. Calls no function of the plugin.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ struct HostedPlugin : lockstep_plugin {
 };
 
 struct Descriptors {
-  // Full size: what the plugin's own, perhaps shorter, structs do not cover is zero.
+  // Full size: fields that the plugin's structs do not have are zero.
   HostedPlugin plugin{};
   struct Leaf {
     lockstep_leaf_type type{};

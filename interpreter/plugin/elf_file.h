@@ -1,4 +1,4 @@
-// Looks at the header of a file before the dynamic linker does. Only for shared_object.cpp.
+// Checks the header of a file before the dynamic linker does. Only for shared_object.cpp.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace lockstep {
 
-// Nothing when the file is a complete shared object for this machine.
+// Returns nothing if the file is a complete shared object for this machine.
 std::optional<Problem> inspect_elf_file(const std::string& path);
 
 }  // namespace lockstep

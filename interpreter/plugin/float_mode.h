@@ -1,6 +1,6 @@
 // How this thread computes with floating-point numbers: the rounding mode, whether tiny numbers are
-// flushed to zero, which exceptions trap. All results depend on it, so a plugin that changes it (a
-// shared object built with -ffast-math does so when it is loaded) must not keep it changed.
+// flushed to zero, which exceptions trap. All results depend on it, so the mode is restored after a
+// plugin changes it (a shared object built with -ffast-math does so when it is loaded).
 #pragma once
 
 #include <cstdint>

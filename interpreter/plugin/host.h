@@ -1,4 +1,4 @@
-// The host's side of the functions in lockstep_host: who calls, and what the call may touch. Only
+// The host's side of the functions in lockstep_host: the caller, and what the call may access. Only
 // within plugin/. Getters and setters neither lock nor look up a name.
 #pragma once
 
@@ -23,7 +23,7 @@ struct BoundPort {
   const Value* read = nullptr;      // null: no value
   Entry* write = nullptr;           // null: an input, or not bound to an entry
   const Value* fallback = nullptr;  // the default, while the entry that it is bound to has no value
-  std::string_view name = {};       // in a process that only mirrors the entries: not known
+  std::string_view name = {};       // unknown in a process that only mirrors the entries
   std::string_view entry = {};
 };
 
@@ -38,14 +38,14 @@ struct lockstep_caller {
   const lockstep::LeafLog* log;
   lockstep::LeafSlot* slot;                 // its `error` tells of set_error
   const lockstep_plugin* plugin = nullptr;  // of a run: whose run context it is
-  // Collects the entries that are set, for a process that only mirrors them; null: nobody asks.
+  // Collects the entries that are set, for a process that only mirrors them; null: not collected.
   std::vector<lockstep::Entry*>* written = nullptr;
   lockstep::Shortened error = {};
 };
 
 namespace lockstep {
 
-// What set_error does once the message is short; the first one of a call counts.
+// What set_error does after shortening the message; the first error of a call is kept.
 void take_error(const lockstep_caller& caller, const Shortened& message);
 
 }  // namespace lockstep

@@ -7,7 +7,7 @@
 
 namespace lockstep {
 
-// "" or why it did not work: "refuses to work: …". A plugin without init works.
+// Returns "" or the reason of a failure: "refuses to work: …". A plugin without init succeeds.
 std::string initialize_plugin(const lockstep_plugin& plugin);
 
 }  // namespace lockstep

@@ -161,7 +161,7 @@ std::string LeafSet::Implementation::call(const lockstep_caller& caller, const C
   if (FloatMode::current() != mode) {
     mode.restore();
     warn(caller, fmt::format("its {} has changed the rounding mode or the floating-point "
-                             "exceptions; they were set back",
+                             "exceptions; they were restored",
                              name_of(function)));
   }
   return reason;

@@ -13,13 +13,13 @@
 
 namespace lockstep {
 
-// Tells threads apart, for less than a system call.
+// Identifies a thread, without a system call.
 inline const void* this_thread_id() {
   static constinit thread_local char id = 0;
   return &id;
 }
 
-// The time of a run as its leaves see it; the owner of the run keeps it up to date.
+// The time of a run as its leaves see it; the owner of the run updates it.
 struct LeafTime {
   Nanoseconds now{0};
   Nanoseconds period{0};
@@ -36,15 +36,15 @@ class LeafWatch;
 class LeafSet {
  public:
   // Creates the run context of every plugin in the tree, then every leaf in pre-order. All
-  // references must outlive the set. When a leaf cannot be created, fault() says so and the set
-  // must not be ticked. `seed` and a leaf's place in the tree give its stream of random numbers.
-  // With a `watch`, the slots hold watched leaves.
+  // references must outlive the set. If a leaf cannot be created, fault() has the reason and the
+  // set must not be ticked. `seed` and a leaf's place in the tree determine its stream of random
+  // numbers. With a `watch`, the slots hold watched leaves.
   LeafSet(const Tree& tree, Blackboard& blackboard, const LeafTime& time, std::uint64_t seed,
           LeafLog log = {}, LeafWatch* watch = nullptr);
   // Destroys the leaves in reverse order, then the run contexts. No leaf may be running.
   ~LeafSet();
-  // The two halves of beginning anew, as if the set was made again: in between, the owner resets
-  // what the leaves see. Nothing of the host's is allocated again.
+  // The two halves of a restart, as if the set were made again. In between, the owner resets what
+  // the leaves see. The host allocates nothing again.
   void destroy_all();
   void create_all(std::uint64_t seed);
 

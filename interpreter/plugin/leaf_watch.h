@@ -1,6 +1,6 @@
-// Watches the calls into the leaves of one run: marks them (call_mark.h), times them, and sets back
-// the rounding mode when a leaf changes it. A run without a watch pays nothing: the watch puts
-// itself between the engine and a leaf's functions, as a leaf type of its own.
+// Watches the calls of the leaves of one run: marks them (call_mark.h), times them, and restores
+// the rounding mode if a leaf changes it. The watch is a separate leaf type between the engine and
+// a leaf's functions, so a run without a watch has no cost.
 #pragma once
 
 #include <cstdint>
@@ -18,13 +18,14 @@
 namespace lockstep {
 
 struct LeafWatchOptions {
-  // A call that takes longer is told to on_slow, at most once a second for all leaves. None: calls
-  // are not timed.
+  // A longer call is reported to on_slow, at most once a second for all leaves. None: calls are not
+  // timed.
   std::optional<Nanoseconds> budget;
   Clock* clock = nullptr;  // that times the calls; null: the wall clock
   // Both on the tick thread, after the call.
   std::function<void(NodeIndex leaf, PluginFunction function, Nanoseconds took)> on_slow = {};
-  // The leaf has changed the rounding mode or the floating-point exceptions; told once per leaf.
+  // The leaf has changed the rounding mode or the floating-point exceptions; reported once per
+  // leaf.
   std::function<void(NodeIndex leaf, PluginFunction function)> on_float_mode = {};
 };
 
@@ -52,7 +53,7 @@ class LeafWatch {
   // The longest call since begin_tick; its function is None when none was timed.
   Slowest slowest() const;
 
-  // What is known of a leaf that was over its budget at least once, in all runs of this watch.
+  // The statistics of a leaf that exceeded its budget at least once, in all runs of this watch.
   struct Timing {
     NodeIndex leaf = 0;
     std::uint64_t ticks = 0;        // calls of tick

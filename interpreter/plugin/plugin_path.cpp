@@ -31,8 +31,7 @@ std::vector<std::string> available(std::span<const std::string> directories) {
   return names;
 }
 
-// What build systems make of a library's name unless they are told otherwise; "" when it is not
-// there.
+// The default file name that build systems give to a library; "" when it is not there.
 std::string with_prefix(std::string_view name, std::span<const std::string> directories) {
   for (const std::string& directory : directories) {
     auto file = fs::path(directory) / fmt::format("lib{}.so", name);
@@ -57,9 +56,10 @@ Result<std::string> find_plugin_file(std::string_view name,
   const std::string message =
       fmt::format("is not found: '{}.so' is not in {}", brief(name), fmt::join(directories, ", "));
   if (const std::string file = with_prefix(name, directories); !file.empty()) {
-    return tl::unexpected(Problem{message, fmt::format("'{0}' is: rename it to '{1}.so' (in CMake: "
-                                                       "lockstep_add_plugin, or PREFIX \"\")",
-                                                       file, name)});
+    return tl::unexpected(
+        Problem{message, fmt::format("'{0}' exists: rename it to '{1}.so' (in CMake: "
+                                     "lockstep_add_plugin, or PREFIX \"\")",
+                                     file, name)});
   }
   const std::vector<std::string> names = available(directories);
   const std::vector<std::string_view> candidates(names.begin(), names.end());

@@ -1,4 +1,4 @@
-// Where a plugin that a tree names lies. Looks at directories, opens nothing.
+// Finds the file of a plugin that a tree names. Searches directories, opens nothing.
 #pragma once
 
 #include <span>

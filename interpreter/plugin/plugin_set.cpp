@@ -83,7 +83,7 @@ PluginSet::~PluginSet() {
     if (!(*plugin)->initialized || deinit == nullptr) continue;
     const MarkedCall mark(CallSite::of("", (*plugin)->descriptors.plugin.name),
                           PluginFunction::Deinit);
-    thrown_by(deinit);  // the work is done, nobody is left to tell
+    thrown_by(deinit);  // the work is done; there is no one to report to
   }
 }
 
@@ -172,8 +172,9 @@ bool PluginSet::initialize(Diagnostics& diagnostics) {
   for (const auto& plugin : plugins_) {
     if (plugin->initialized) continue;
     if (std::string failure = plugin->initialize(); !failure.empty()) {
-      return refuse(plugin->origin, {std::move(failure), "its author knows what it waits for"},
-                    diagnostics, {});
+      return refuse(plugin->origin,
+                    {std::move(failure), "ask the author of the plugin what it needs"}, diagnostics,
+                    {});
     }
     plugin->initialized = true;
   }

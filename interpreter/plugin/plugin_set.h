@@ -15,7 +15,7 @@
 
 namespace lockstep {
 
-// Isolated: the plugin lives in a process of its own. See isolated/isolated_plugin.h.
+// Isolated: the plugin runs in a separate process. See isolated/isolated_plugin.h.
 enum class Isolation : bool { InProcess, Isolated };
 
 struct IsolationOptions {
@@ -38,9 +38,9 @@ class PluginSet {
   // killed.
   void set_isolation(IsolationOptions options);
 
-  // Opens a shared object. On false, one error tells why; the set is as before. Opening the same
-  // file again does nothing, isolated or not: the first one decides. `where` is the place in a tree
-  // that asked for it, if any.
+  // Opens a shared object. On failure, returns false with one error, and the set is unchanged.
+  // Opening the same file again does nothing, isolated or not: the first call decides. `where` is
+  // the place in a tree that asked for it, if any.
   bool load_file(const std::string& path, Diagnostics& diagnostics, SourceLocation where = {},
                  Isolation isolation = Isolation::InProcess);
 
@@ -55,9 +55,9 @@ class PluginSet {
   bool add(const lockstep_plugin& plugin, std::string origin, Diagnostics& diagnostics,
            SourceLocation where = {});
 
-  // Calls the init of each plugin that it has not been called for. On false, one error tells which
-  // refused. A plugin has one state per process: of two sets that live at the same time, only one
-  // may initialize it.
+  // Calls the init of each plugin that is not initialized yet. On failure, returns false with one
+  // error that names the plugin. A plugin has one state per process: if two sets exist at the same
+  // time, only one may initialize it.
   bool initialize(Diagnostics& diagnostics);
 
   // The leaves of all plugins; `origin` and `leaf` are in full size whatever the plugin's age.

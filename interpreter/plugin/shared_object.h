@@ -14,8 +14,8 @@ struct SharedObject {
   void* handle = nullptr;
 };
 
-// What the linker would refuse in words that help nobody (or would crash on) is found beforehand:
-// a file that is missing, not a shared object, for another machine, or cut off.
+// Checks first what the linker reports unclearly (or crashes on): a file that is missing, not a
+// shared object, for another machine, or cut off.
 [[nodiscard]] Result<SharedObject> open_shared_object(const std::string& path);
 
 // Those that this process has opened so far, in one name, as the culprit of what they do at the end
@@ -24,7 +24,7 @@ const CallSite* opened_shared_objects();
 
 struct ExportedConstant {
   const void* address = nullptr;
-  std::size_t size = 0;  // as the symbol table says; 0 = it does not say
+  std::size_t size = 0;  // from the symbol table; 0 = unknown
 };
 
 [[nodiscard]] Result<ExportedConstant> find_constant(const SharedObject& object,

@@ -1,5 +1,5 @@
-// Whether everyone on this machine could change what is about to be loaded. It warns; what is right
-// on a robot with one user is its owner's matter (docs/security.md).
+// Warns if every user of this machine could change what is about to be loaded. It only warns,
+// because this may be intended on a robot with one user (docs/security.md).
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@ namespace lockstep {
 // Of the file and the directory it lies in; of a symbolic link, of all that it leads to as well.
 void warn_of_writable_plugin(const std::string& path, const SourceLocation& where,
                              Diagnostics& diagnostics);
-// Of directories that are searched: who may add a file to one that comes first decides what is
+// For directories that are searched: anyone who may add a file to an earlier one decides what is
 // found.
 void warn_of_writable_directories(std::span<const std::string> directories,
                                   const SourceLocation& where, Diagnostics& diagnostics);

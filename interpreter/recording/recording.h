@@ -1,5 +1,5 @@
-// What a recording says, as data: docs/recording.md is the format that users read. The recorder
-// writes it, the reader reads it.
+// The content of a recording, as data. docs/recording.md describes the format. The recorder writes
+// it, the reader reads it.
 #pragma once
 
 #include <cstdint>
@@ -41,7 +41,7 @@ struct RecordingHeader {
   std::vector<RecordedKey> entries = {};  // those that the recording shows
 };
 
-// Of one node in one tick. Before the first tick all are as constructed here.
+// The state of one node in one tick. Before the first tick all nodes are as constructed here.
 struct RecordedState {
   Status status = Status::Idle;  // after the tick
   double progress = 0;           // at the start of the tick, as its parent used it
@@ -60,7 +60,7 @@ struct RecordedFault {
   friend bool operator==(const RecordedFault&, const RecordedFault&) = default;
 };
 
-// A blackboard entry that has another value than in the line before.
+// A blackboard entry whose value differs from the line before.
 struct RecordedEntry {
   std::uint32_t entry = 0;           // in RecordingHeader::entries
   std::optional<std::string> value;  // as text; none: too long to be shown

@@ -40,7 +40,7 @@ std::atomic<int> g_our_status{kOurExit - 1};
 
 std::atomic<pid_t> g_reporter{0};  // the thread that writes the report
 
-// What hang() tells the thread that hangs. Written before the flag.
+// What hang() passes to the hanging thread. Written before the flag.
 pthread_t g_hung_thread;
 Crash g_hang;
 std::atomic<bool> g_is_hung{false};
@@ -73,7 +73,7 @@ void begin_report() {
   }
   unblock(signal_set(kFatalSignals));
   light_fuse(kLongestReport, g_exit_code);
-  messages().flush(kBeforeReport);  // what was said before
+  messages().flush(kBeforeReport);  // earlier messages
 }
 
 // From the instruction that crashed, when it is among them: what was called before is the handler.
@@ -84,7 +84,7 @@ void write_backtrace(const void* instruction) {
   while (first < count && frames[static_cast<std::size_t>(first)] != instruction) ++first;
   if (first == count) first = 0;
   write_now(STDERR_FILENO, "lockstep: backtrace:\n");
-  // By way of memory: whoever should read it may not.
+  // Through memory, because its reader may not read.
   const int memory = memfd_create("backtrace", MFD_CLOEXEC);
   backtrace_symbols_fd(frames.data() + first, count - first, memory);
   lseek(memory, 0, SEEK_SET);
@@ -212,7 +212,7 @@ void CrashReport::exit(int exit_code) {
 }
 
 void CrashReport::foreign_exit() {
-  // The number also tells a child that shares our memory, as vfork makes one.
+  // The number also identifies a child that shares our memory, as after vfork.
   if (getpid() != g_process || g_exit_code == CrashReport::kAsWithoutReport) return;
   begin_report();
   report(crash_here(CrashKind::Exit), Backtrace::Yes);

@@ -1,7 +1,7 @@
-// The last words of a process that a plugin brings down: a fatal signal, an exit() that is not
-// ours, or a hang that the watchdog has found. Names the leaf, its plugin and the tick, writes what
-// the recording still holds, then a backtrace, and ends the process with an exit code of its own.
-// All of it is async-signal-safe. Process-wide.
+// Reports that a plugin ends the process: by a fatal signal, by an exit() that is not ours, or by a
+// hang that the watchdog has found. Names the leaf, its plugin and the tick, writes the rest of the
+// recording and a backtrace, and ends the process with its own exit code. Everything is
+// async-signal-safe. Process-wide.
 #pragma once
 
 #include <pthread.h>
@@ -13,24 +13,24 @@ namespace lockstep {
 class CrashReport {
  public:
   // From now on SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT and any exit() but exit() below end this
-  // process with a report and `exit_code`. What is not caught: SIGKILL, and a stack overflow in a
-  // thread that is not ours. A process that a plugin forks off ends as it would
-  // without us, unless it comes back from the call: then it ends there, and is told of.
+  // process with a report and `exit_code`. Not caught are SIGKILL, and a stack overflow in a thread
+  // that is not ours. A process that a plugin forks ends as it would without us, unless it returns
+  // from the call: then it ends there, and is reported.
   static void install(int exit_code);
   // Called once, after the culprit is named and before the backtrace. Must be async-signal-safe.
   static void set_last_words(void (*last_words)());
-  // An exit code that is none: after its report the process ends by the signal that ended it, and
-  // exit() is left alone, for a parent that wants to know.
+  // Instead of an exit code: after the report the process ends by the original signal, and exit()
+  // is not caught, so that the parent learns the cause.
   static constexpr int kAsWithoutReport = -1;
 
-  // The end of the process in order. An exit() of a plugin, also one in a destructor or in what it
-  // gave to atexit, is a crash; results that were written stand.
+  // Ends the process in order. An exit() of a plugin, also in a destructor or an atexit handler, is
+  // a crash; results that were already written stay valid.
   [[noreturn]] static void exit(int exit_code);
-  // What every other end is to call: reports it. Returns in a process that was forked off.
+  // Every other end must call this: it reports the end. Returns in a forked process.
   static void foreign_exit();
 
-  // Reports that `thread`, whose mark is given, has been in a call for too long, with its backtrace
-  // when it still takes a signal, and ends the process. Called by the watchdog's thread.
+  // Reports that `thread`, with this mark, has been in a call for too long, with its backtrace if
+  // it still handles a signal, and ends the process. Called by the watchdog's thread.
   [[noreturn]] static void hang(pthread_t thread, const CallMark& mark, double seconds);
 };
 

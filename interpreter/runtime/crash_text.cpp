@@ -18,7 +18,7 @@ void put_site(const CallSite& site, SignalText& text) {
 }
 
 void put_culprit(const Crash& crash, SignalText& text) {
-  // A call that hung may have returned while that is being told.
+  // A call that hung may have returned while this is being reported.
   if (is_inside_call(crash) || (crash.kind == CrashKind::Hang && crash.call.site != nullptr)) {
     return put_site(*crash.call.site, text);
   }
@@ -83,7 +83,7 @@ const char* meaning_of(const Crash& crash) {
     case SIGSEGV:
       return crash.is_stack_overflow ? "the stack has overflowed" : "invalid memory reference";
     case SIGBUS:
-      return "memory that is not there";
+      return "nonexistent memory";
     case SIGFPE:
       return crash.code == FPE_INTDIV ? "division of an integer by zero" : "erroneous arithmetic";
     case SIGILL:
@@ -150,11 +150,11 @@ void put_hints(const Crash& crash, SignalText& text) {
     return;
   }
   if (is_inside_call(crash) || crash.is_foreign_thread || crash.kind == CrashKind::Hang) {
-    text << "  hint: run it with --isolate, and the run outlives this plugin\n" << kForAuthor;
+    text << "  hint: with --isolate, the run survives a crash of this plugin\n" << kForAuthor;
     return;
   }
-  text << "  hint: a plugin may have overwritten memory: with --isolate none can\n"
-          "  hint: otherwise it is a defect of lockstep: please report it, with the backtrace\n";
+  text << "  hint: a plugin may have overwritten memory: with --isolate it cannot\n"
+          "  hint: otherwise it is a bug in lockstep: please report it, with the backtrace\n";
   if (crash.call.site == nullptr) return;
   text << "  hint: the last call was to ";
   put_site(*crash.call.site, text);

@@ -1,5 +1,4 @@
-// What a crash report says of the crash: a text of what is known, and nothing else. Everything here
-// is async-signal-safe. Used by crash_report.cpp.
+// The text of a crash report. Everything here is async-signal-safe. Used by crash_report.cpp.
 #pragma once
 
 #include <sys/types.h>
@@ -25,10 +24,10 @@ struct Crash {
   bool is_stack_overflow = false;  // whether that is just beyond the stack,
   pid_t sender = 0;                // and the other process that sent it, if any
   double seconds = 0;              // of a hang
-  bool is_isolated = false;        // in a process that holds nothing but the plugin
+  bool is_isolated = false;        // in a process that runs only the plugin
 };
 
-// Lines for a person: what happened, and hints what to do.
+// Lines for a person: what happened, and hints about what to do.
 void describe(const Crash& crash, SignalText& text);
 
 }  // namespace lockstep

@@ -1,5 +1,5 @@
 // When the ticks of a run are due: multiples of the period from its start, so there is no drift.
-// All times count from the start. For the loop, and for who needs the period of a rate.
+// All times count from the start. Used by the loop and by code that needs the period of a rate.
 #pragma once
 
 #include <cstdint>

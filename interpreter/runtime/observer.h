@@ -1,5 +1,5 @@
-// Who watches a run: called by the loop, on the tick thread, around each tick. An observer reads;
-// it never changes the run. What takes long it hands to a thread of its own.
+// Observes a run: the loop calls it, on the tick thread, around each tick. An observer only reads
+// and never changes the run. It does long work in a separate thread.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,14 @@ namespace lockstep {
 
 struct RunStart {
   Nanoseconds period{0};
-  bool real_time = true;  // false on a virtual clock: periods and lateness mean nothing
+  bool real_time = true;  // false on a virtual clock: periods and lateness have no meaning
 };
 
 struct TickReport {
   std::uint64_t tick = 0;              // counts from 0
   Nanoseconds time{0};                 // when it began, since the run began
   Status status = Status::Running;     // of the root
-  std::uint64_t skipped = 0;           // deadlines that this tick came too late for, beyond its own
+  std::uint64_t skipped = 0;           // deadlines that were skipped because this tick was late
   std::span<const Fault> faults = {};  // of leaves, since the last report; the run goes on
 };
 
@@ -35,7 +35,7 @@ enum class StopReason : std::uint8_t {
   Recording
 };
 
-// The tick that took longest, from its begin until the root had its status; real time only.
+// The longest tick, from its beginning until the root had its status; real time only.
 struct WorstTick {
   std::uint64_t tick = 0;
   Nanoseconds took{0};            // 0: there is none
@@ -58,7 +58,7 @@ struct RunEnd {
   std::uint64_t ticks = 0;
   Nanoseconds time{0};         // from the start of the first tick to the end of the last
   std::uint64_t overruns = 0;  // ticks that ended after the next deadline
-  std::uint64_t skipped = 0;   // deadlines passed over because of them
+  std::uint64_t skipped = 0;   // deadlines skipped because of them
   WorstTick worst;
 
   RunResult result() const {

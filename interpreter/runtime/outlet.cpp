@@ -36,7 +36,7 @@ std::uint64_t lines_of(std::string_view text) {
 
 struct Outlet::State {
   enum class Mode : std::uint8_t { Direct, Queued, Closed };
-  // What was said and not passed on yet. No room: the lines that came after it, while it was full.
+  // Messages that are not written yet. No room: lines that came while it was full.
   struct Batch {
     std::string picture;  // before the text
     std::string text;
@@ -67,7 +67,7 @@ struct Outlet::State {
   std::thread thread;
   std::atomic<std::uint64_t> said{0}, done{0};  // how often; done: with or without success
 
-  Loss gap;  // what the reader has not been told yet; of the thread that writes
+  Loss gap;  // not reported to the reader yet; used by the writing thread
   std::atomic<std::uint64_t> lost{0};
   std::atomic<int> reason{0};
 };

@@ -1,10 +1,10 @@
-// Where lockstep speaks to a person: stderr, or the terminal of a replay. One place writes, in
-// order, whatever thread speaks. Nothing here throws, and what cannot be written is counted, never
-// an error of who said it.
+// Messages for a person, on stderr or the terminal of a replay. One place writes messages from all
+// threads in order. Nothing here throws. Messages that cannot be written are counted; this is not
+// an error of the caller.
 //
-// A command that halts nothing writes and waits for its reader, as any program does. While an
-// Outlet::Thread lives, as during a run, nobody waits: what is said is queued, a thread writes it,
-// and a reader that does not read costs lines, never time.
+// A command without a run writes and waits for its reader, like any program. While an
+// Outlet::Thread exists, as during a run, callers do not wait: messages are queued and a thread
+// writes them. If the reader does not read, lines are lost but no time.
 #pragma once
 
 #include <chrono>
@@ -26,25 +26,26 @@ class Outlet {
   Outlet& operator=(const Outlet&) = delete;
 
   int file() const;
-  // Whole lines, shown as they are: printable() is the caller's. From any thread. Those for which
-  // there is no room are lost; the reader is told how many, where they are missing.
+  // Prints whole lines unchanged: the caller applies printable(). May be called from any thread.
+  // Lines for which there is no room are lost; a message in their place reports how many.
   void say(std::string_view lines) noexcept;
-  // A picture, as a whole or not at all: false while something earlier still waits for the reader.
+  // Prints a picture, completely or not at all: returns false while earlier output still waits for
+  // the reader.
   bool show(std::string_view picture) noexcept;
-  // Returns when the reader has all that was said, or after this time. Async-signal-safe.
+  // Returns when the reader has all messages, or after this time. Async-signal-safe.
   bool flush(std::chrono::nanoseconds limit) const noexcept;
 
-  // Lines that no reader has got.
+  // Lines that were lost.
   struct Loss {
     std::uint64_t lines = 0;
     int reason = 0;  // errno of the last write that failed; 0: the reader did not read
   };
   Loss lost() const noexcept;
-  // What is lost by now, after the reader has had kPatience for what still waits. If that was not
-  // enough, the rest is lost, and so is all that is said later.
+  // The lost lines, after waiting for the reader for up to kPatience. Then the rest is lost, and so
+  // are all later messages.
   Loss settle() noexcept;
 
-  // A thread writes while it lives. In the end it settles.
+  // Messages are written by a thread while this object exists. The destructor settles.
   class Thread {
    public:
     explicit Thread(Outlet& outlet);
@@ -60,11 +61,11 @@ class Outlet {
   struct State;
   explicit Outlet(std::shared_ptr<State> state) : state_(std::move(state)) {}
   friend Outlet& messages();
-  // Shared with the thread, which outlives us in a write that does not return.
+  // Shared with the thread, which may outlive this object in a write that does not return.
   std::shared_ptr<State> state_;
 };
 
-// Of stderr. Needs no memory, and stays until the very end of the process.
+// The outlet of stderr. Needs no memory, and exists until the very end of the process.
 Outlet& messages();
 
 }  // namespace lockstep

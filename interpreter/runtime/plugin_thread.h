@@ -1,5 +1,5 @@
-// The threads of ours that call plugins, and their ends, which are the plugins' as well: there run
-// the destructors of their thread_local and static objects and what they gave to atexit.
+// The threads of lockstep that call plugins. Their ends run code of plugins too: destructors of
+// thread_local and static objects, and atexit handlers.
 #pragma once
 
 #include "core/clock.h"
@@ -10,7 +10,7 @@ namespace lockstep {
 // 0 = never. Until the end of the thread; for the main thread, of the process. Once is enough.
 void watch_this_thread(Nanoseconds hang_limit);
 
-// The last statement of such a thread. What plugins do from here on is a call into them.
+// The last statement of such a thread. From now on, code of plugins counts as a call.
 void leave_thread_to_plugins();
 
 // The same for the main thread: ends the process with this exit code, or with that of a crash when

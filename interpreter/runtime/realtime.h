@@ -1,5 +1,5 @@
-// What the operating system can do for the thread that ticks: a real-time priority, memory that is
-// never paged out, exact timers, a processor. Used by the command line, which tells the problems.
+// Operating system settings for the tick thread: a real-time priority, locked memory, exact timers,
+// a processor. Used by the command line, which reports the problems.
 #pragma once
 
 #include <optional>
@@ -18,9 +18,9 @@ struct RealtimeOptions {
 };
 
 // Applies to the calling thread; locked memory is the process's. The priority does not pass to
-// threads and processes that the thread starts later, the processor does. Does all that is possible
-// and returns what is not, with the privilege that is missing and who gives it, or what to choose
-// instead.
+// threads and processes that the thread starts later, the processor does. Applies what is possible
+// and returns a problem for the rest, with the missing privilege and how to get it, or with the
+// alternatives.
 [[nodiscard]] std::vector<Problem> apply_realtime(const RealtimeOptions& options);
 
 }  // namespace lockstep

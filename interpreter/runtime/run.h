@@ -23,7 +23,7 @@ class Run {
  public:
   // `tree` must outlive the run. Several runs may share one tree, each on a thread of its own.
   Run(const Tree& tree, const RunOptions& options);
-  // Halts what still runs, then destroys the leaves.
+  // Halts the running leaves, then destroys all leaves.
   ~Run();
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
@@ -44,7 +44,7 @@ class Run {
   const Fault* fault() const;
   Ticker& ticker() { return ticker_; }
   Nanoseconds period() const { return time_.period; }
-  LeafWatch* watch() const { return watch_; }  // null: nobody watches
+  LeafWatch* watch() const { return watch_; }  // null: not watched
 
  private:
   void adopt_thread();

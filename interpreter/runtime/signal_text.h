@@ -1,5 +1,5 @@
-// Text put together where only async-signal-safe functions may be called: in place, cut at the end
-// of its memory.
+// Builds text where only async-signal-safe functions may be called: in fixed memory, cut at its
+// end.
 #pragma once
 
 #include <algorithm>

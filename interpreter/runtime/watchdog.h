@@ -1,6 +1,6 @@
-// One thread for all that looks at the calls of other threads and speaks up when one does not
-// return. It costs those threads nothing. It also takes the stop signals, so that a leaf which
-// blocks them in the tick thread cannot keep a run from being stopped.
+// One thread that watches the calls of all other threads and reports a call that does not return.
+// It costs those threads nothing. It also handles the stop signals, so a leaf that blocks them in
+// the tick thread cannot prevent a stop.
 #pragma once
 
 #include <functional>
@@ -13,8 +13,8 @@ namespace lockstep {
 
 struct WatchdogOptions {
   Nanoseconds hang_limit{0};  // a call that lasts longer, unless it is bounded; 0 = never
-  Nanoseconds halt_limit{0};  // a halt that lasts longer is told once; 0 = never
-  // On the thread that looks, which must not construct or destroy a watchdog then.
+  Nanoseconds halt_limit{0};  // a halt that lasts longer is reported once; 0 = never
+  // Called on the watching thread, which must not construct or destroy a watchdog then.
   std::function<void(const CallMark::Look& call, Nanoseconds lasts)> on_long_halt = {};
   std::function<void(const CallMark::Look& call, Nanoseconds lasts)> on_hang =
       {};  // may not return

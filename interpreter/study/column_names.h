@@ -17,8 +17,8 @@ constexpr std::array<std::string_view, 14> kSummaryColumns{
     "node", "measure", "min",  "q1",      "median",  "q3",    "max",
     "mean", "n",       "runs", "success", "failure", "limit", "gap"};
 
-// The column of each grid name, in both files: the name itself, or grid_<name> where a column of
-// ours is called so, as of `--grid seed=1,2`.
+// The column of each grid name, in both files: the name itself, or grid_<name> if lockstep has a
+// column of that name, as for `--grid seed=1,2`.
 std::vector<std::string> grid_columns(const StudyPlan& plan);
 // "duration Main"; of a gap "gap predictability:arm@0.6 Main/pull/arm".
 std::string column_name(const StudyColumn& column);

@@ -131,7 +131,7 @@ std::optional<std::uint64_t> StudyFolder::begin(const StudyPlan& plan, bool resu
   std::error_code error;
   made_directory_ = fs::create_directories(path_, error);
   if (error) {
-    fail(fmt::format("cannot make the directory '{}': {}", path_, error.message()));
+    fail(fmt::format("cannot create the directory '{}': {}", path_, error.message()));
     return std::nullopt;
   }
   // Not even an empty file is left in a directory of something else.
@@ -142,7 +142,7 @@ std::optional<std::uint64_t> StudyFolder::begin(const StudyPlan& plan, bool resu
     if (resume) return take_over(plan);
   }
   fail(fmt::format(
-      "there is a study in '{}' already; go on with it by --resume, or choose another directory "
+      "there is a study in '{}' already; continue it with --resume, or choose another directory "
       "by --out",
       path_));
   return std::nullopt;

@@ -1,6 +1,6 @@
-// The directory of a study: study.json first, then runs.csv row by row, at last summary.csv. What a
-// kill at any moment leaves is a beginning that the study can go on from. One process at a time
-// writes to it, and none writes through a symbolic link.
+// The directory of a study: first study.json, then runs.csv row by row, finally summary.csv. After
+// a kill at any moment, the study can continue. Only one process at a time writes to it, and never
+// through a symbolic link.
 #pragma once
 
 #include <cstdint>
@@ -19,14 +19,13 @@ class StudyFolder {
  public:
   explicit StudyFolder(std::string path) : path_(std::move(path)) {}
 
-  // Makes the directory, or takes over what is there when `resume` and it is of this plan. The
-  // number of rows that are there already; on failure error() tells. From then on the directory is
-  // locked.
+  // Makes the directory or, with `resume`, continues in one with this plan. Returns the number of
+  // existing rows; on failure error() has the reason. Then the directory is locked.
   std::optional<std::uint64_t> begin(const StudyPlan& plan, bool resume);
   bool append(std::string_view lines);
-  // All rows are there: writes the summary and returns it.
+  // Writes the summary, once all rows are there, and returns it.
   std::optional<std::vector<SummaryRow>> finish(const StudyPlan& plan);
-  // Removes what begin() has made where nothing was, and append() has added.
+  // Removes what begin() has created and append() has added.
   void discard();
 
   // The plan of a study that is there.

@@ -77,7 +77,7 @@ std::string Merger::next_row(Part& part, std::string& lines) {
   lines += line;
   if (!line.empty()) return {};
   if (!part.reader->error().empty()) return part.reader->error();
-  return fmt::format("'{}' is not finished: it has {} of {} runs; go on with it by --resume",
+  return fmt::format("'{}' is not finished: it has {} of {} runs; continue it with --resume",
                      part.directory, part.reader->rows(), row_count(part.plan));
 }
 

@@ -1,4 +1,4 @@
-// Puts the parts of a study together.
+// Merges the parts of a study.
 #pragma once
 
 #include <span>
@@ -15,8 +15,8 @@ struct MergedStudy {
   std::vector<SummaryRow> rows;
 };
 
-// Writes to `out` what one machine would have written. On failure, or when `stop_signal` gives a
-// number, nothing is left there; the problem names the parts that do not fit together.
+// Writes to `out` what one machine would have written. On failure, or when `stop_signal` returns a
+// signal, nothing is left there; the problem has the reason and the parts.
 Result<MergedStudy> merge_studies(std::span<const std::string> parts, const std::string& out,
                                   int (*stop_signal)());
 

@@ -1,6 +1,6 @@
-// What a study is: the tree with its grid of arguments, how often each cell is run, and what is
-// measured. Names and numbers only, as study.json keeps them: no tree is loaded here, so parts of a
-// study can be put together on a machine that has neither the tree nor its plugins.
+// The plan of a study: the tree with its grid of arguments, how often each cell is run, and what is
+// measured. Names and numbers only, as in study.json: no tree is loaded here, so a machine that has
+// neither the tree nor its plugins can merge parts.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 namespace lockstep {
 
 struct GridAxis {
-  // An <arg> of the tree comes before the study's own names.
+  // An <arg> of the tree takes precedence over the study's own names.
   enum class Kind : std::uint8_t { Argument, Seed, Rate };
   Kind kind = Kind::Argument;
   std::string name;
@@ -25,7 +25,7 @@ struct GridAxis {
 struct StudyColumn {
   std::string measure;  // as --measure spells it
   std::string node;     // the path of the node, or the tree's id for what is of the whole run
-  // Of the column before: how far from what was asked for the run stayed.
+  // For the column before: the distance of the run from what was requested.
   bool is_gap = false;
   std::vector<std::uint64_t> cells = {};  // in which the tree has the node; empty: in all
 
@@ -57,7 +57,7 @@ struct StudyPlan {
   StudyShard shard;
 };
 
-// The cells are counted with the first axis as the slowest. Without an axis there is one.
+// The number of a cell; the first axis varies slowest. Without an axis there is one cell.
 std::uint64_t cell_count(const StudyPlan& plan);
 // The value of each axis in a cell.
 std::vector<std::string> cell_values(const StudyPlan& plan, std::uint64_t cell);
@@ -76,9 +76,9 @@ struct StudyRow {
 std::uint64_t row_count(const StudyPlan& plan);
 StudyRow row_at(const StudyPlan& plan, std::uint64_t row);
 
-// The seed of one run, which `lockstep run --seed` takes. It depends on nothing but these, so
-// neither threads nor parts change a run: first(first(seed, cell), run), where first(a, b) is the
-// first number of stream b of seed a (core/random.h).
+// The seed of one run, which `lockstep run --seed` takes. It depends only on these, so neither
+// threads nor parts change a run: first(first(seed, cell), run), where first(a, b) is the first
+// number of stream b of seed a (core/random.h).
 std::uint64_t run_seed(std::uint64_t seed, std::uint64_t cell, std::uint64_t run);
 inline std::uint64_t run_seed(const StudyPlan& plan, StudyRow row) {
   return run_seed(cell_seed(plan, row.cell), row.cell, row.run);

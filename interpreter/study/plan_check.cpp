@@ -90,7 +90,7 @@ std::string check_columns(const StudyPlan& plan) {
     if (!is_rising(column.cells, cells))
       return fmt::format("the 'cells' of '{}' are not cells in their order", name);
     if (!may_follow(before, column))
-      return fmt::format("'{}' stands at the wrong place in 'columns'", name);
+      return fmt::format("'{}' is at the wrong place in 'columns'", name);
     before = column;
   }
   return has_gap(before) ? fmt::format("'columns' has no gap of '{}'", before.measure) : "";

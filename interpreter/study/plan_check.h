@@ -1,5 +1,4 @@
-// What must hold between the numbers and names of a plan, whoever has written it: the command line
-// or a study.json.
+// Checks the numbers and names of a plan, from the command line or from a study.json.
 #pragma once
 
 #include <optional>
@@ -11,13 +10,13 @@ namespace lockstep {
 
 constexpr double kLeastRate = 0.001, kMostRate = 100000;
 
-// A whole number, and the value of a grid over the rate, if the whole text is one.
+// Parses a whole number, and a rate, from the whole text.
 std::optional<std::uint64_t> count_from(std::string_view text);
 std::optional<double> rate_from(std::string_view text);
 
-// "", or what is wrong with the plan.
+// The error in the plan, or "".
 std::string check_plan(const StudyPlan& plan);
-// Only that it does not have too many cells and runs.
+// Checks only that it does not have too many cells and runs.
 std::string check_size(const StudyPlan& plan);
 
 }  // namespace lockstep

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kFormat = 2;
 constexpr char kGap[] = "gap";
-constexpr char kNotOurs[] = "it is not as lockstep has written it";
+constexpr char kNotOurs[] = "it is not as lockstep wrote it";
 constexpr std::array<const char*, 3> kKinds{"argument", "seed", "rate"};
 
 Json pairs(const std::vector<std::pair<std::string, std::string>>& list, const char* first,
@@ -107,7 +107,7 @@ StudyColumn column_from(JsonObject json) {
 }
 
 void check_format(JsonValue value) {
-  if (value.whole() != kFormat) throw JsonError("it is of another version of lockstep");
+  if (value.whole() != kFormat) throw JsonError("it is from another version of lockstep");
 }
 
 void read(JsonObject json, StudyPlan& plan) {

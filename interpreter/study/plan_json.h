@@ -1,5 +1,5 @@
-// study.json: all that is needed to make a study again, and nothing that differs from one machine
-// to the next.
+// study.json: everything that is needed to repeat a study, and nothing that differs between
+// machines.
 #pragma once
 
 #include <string>
@@ -12,11 +12,11 @@ namespace lockstep {
 // Ends with a newline. The same plan gives the same bytes.
 std::string to_json(const StudyPlan& plan);
 
-// Only of what to_json() gives of a plan that check_plan() accepts, byte for byte.
+// Accepts only the exact bytes that to_json() gives for a plan that check_plan() accepts.
 Result<StudyPlan> plan_from_json(std::string text);
 
-// The first thing in which two plans differ, as study.json calls it; "" when they are of one study
-// (`with_shard` false: perhaps parts of it).
+// The first key of study.json in which two plans differ; "" if they are the same study (with
+// `with_shard` false: perhaps different parts of it).
 std::string first_difference(const StudyPlan& one, const StudyPlan& other, bool with_shard);
 
 }  // namespace lockstep

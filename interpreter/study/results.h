@@ -1,4 +1,4 @@
-// How the runs of a study end, and how many of a cell end so.
+// How the runs of a study end, and how many runs of a cell have each result.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace lockstep {
 
-// The column 'result' of runs.csv. A leaf at fault has no row: it ends the study.
+// The column 'result' of runs.csv. A fault of a leaf has no row: it ends the study.
 enum class StudyResult : std::uint8_t { Success, Failure, Limit };
 constexpr std::array<std::string_view, 3> kResultNames{"success", "failure", "limit"};
 
@@ -31,7 +31,7 @@ struct ResultCounts {
 
 ResultCounts operator+(ResultCounts one, const ResultCounts& other);
 
-// "20.9 %". Only none are "0 %" and only all are "100 %".
+// "20.9 %". "0 %" is exactly none and "100 %" exactly all.
 std::string percent(std::uint64_t count, std::uint64_t of);
 // "success 79.1 %, failure 20.9 %": those that there are.
 std::string to_text(const ResultCounts& results);

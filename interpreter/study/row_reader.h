@@ -1,5 +1,5 @@
-// Reads a runs.csv and holds it against its plan, line by line: for a study that goes on, for parts
-// that are put together, for the summary.
+// Reads a runs.csv and compares it with its plan, line by line: to resume a study, to merge parts,
+// and for the summary.
 #pragma once
 
 #include <fstream>
@@ -16,8 +16,8 @@ class RowReader {
   // `plan` must outlive the reader.
   RowReader(const std::string& path, const StudyPlan& plan);
 
-  // The next line, with its end. "" at the end of the file, or before what is cut at the end, or
-  // before a line that the plan does not have there: then error() tells.
+  // The next line, with its line end. "" at the end of the file, before a cut last line, or before
+  // a line that does not match the plan: then error() has the reason.
   std::string_view next();
   // Of the line that next() gave.
   const RowResult& row() const { return row_; }

@@ -1,4 +1,5 @@
-// What a row of a plan can say: numbers that no run of it can have given are damage.
+// The possible values of a row of a plan: numbers that no run can have mean that the file is
+// damaged.
 #pragma once
 
 #include <optional>
@@ -15,7 +16,7 @@ class RowRules {
   // `plan` must outlive the rules.
   explicit RowRules(const StudyPlan& plan);
 
-  // The rows that follow are of this cell.
+  // The following rows belong to this cell.
   void enter(std::uint64_t cell);
   bool allow(const RowResult& row) const;
 

@@ -14,7 +14,8 @@ namespace lockstep {
 
 class RunMeasures final : public Observer {
  public:
-  // `measures` must outlive this. What a measure names and the tree does not have is in error().
+  // `measures` must outlive this. If a measure names something that the tree does not have, error()
+  // reports it.
   RunMeasures(const Tree& tree, std::span<const MeasureSpec> measures, double rate);
 
   const std::string& error() const { return measuring_.error(); }

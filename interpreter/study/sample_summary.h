@@ -1,4 +1,4 @@
-// The numbers that a box plot is drawn from.
+// The numbers of a box plot.
 #pragma once
 
 #include <cstddef>

@@ -20,7 +20,7 @@ struct StudyCell {
 
 class StudyRun {
  public:
-  // `stop_signal` may be null; nonzero ends a run, which then counts for nothing.
+  // `stop_signal` may be null; nonzero ends a run, which is then discarded.
   StudyRun(const StudyCell& cell, std::span<const MeasureSpec> measures, std::uint64_t max_ticks,
            int (*stop_signal)());
 
@@ -34,7 +34,7 @@ class StudyRun {
  private:
   const StudyCell& cell_;
   LoopOptions options_;
-  LeafWatch watch_{LeafWatchOptions{}};  // names the culprit of a crash, times nothing
+  LeafWatch watch_{LeafWatchOptions{}};  // names the leaf that crashed; times nothing
   RunMeasures measures_;
   Observer* observers_[1] = {&measures_};
   std::optional<Run> run_;

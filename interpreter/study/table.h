@@ -1,4 +1,4 @@
-// The summary of a study: of each cell, node and measure the numbers that a box plot is drawn from.
+// The summary of a study: the numbers of a box plot for each cell, node and measure.
 #pragma once
 
 #include <optional>
@@ -22,7 +22,7 @@ struct SummaryRow {
   // Of a measure that has one, as a predictability: the median over the runs.
   std::optional<double> gap;
 
-  // Whatever the instants say, they are not those of the target.
+  // True if the gap is so large that the instants mean little.
   bool is_far() const { return gap.value_or(0) > kFarGap; }
   static constexpr double kFarGap = 0.1;
 };

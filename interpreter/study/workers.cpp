@@ -25,7 +25,7 @@ struct Chunk {
   std::uint64_t rows = 0;
   bool complete = true;  // false: nothing after it counts
   std::optional<StudyFault> fault;
-  std::exception_ptr failure;  // nobody expected it
+  std::exception_ptr failure;  // unexpected
   std::vector<StudyOutOfRange> out_of_range;
   std::atomic<std::uint64_t> ready{0};  // 1 + the number of the chunk that is in it
 };

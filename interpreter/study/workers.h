@@ -1,5 +1,5 @@
-// The threads of a study. They take the rows in chunks, in order, by counting up one number, and
-// share no lock; what they have made comes out in the order of the rows, whatever their number.
+// The threads of a study. They take chunks of rows, in order, by incrementing one atomic number,
+// without a lock. The results come out in the order of the rows, whatever the number of threads.
 #pragma once
 
 #include <fmt/format.h>
@@ -36,17 +36,18 @@ struct StudyWork {
   unsigned jobs = 1;
   Nanoseconds hang_limit{0};  // a call of a leaf that lasts longer ends the process; 0 = never
   int (*stop_signal)() = nullptr;
-  // Called on the caller's thread. Lines of runs.csv, in order, and how many; false ends the study.
+  // Called on the caller's thread with lines of runs.csv, in order, and their number; false ends
+  // the study.
   std::function<bool(std::string_view lines, std::uint64_t rows)> write;
   // As write, after it: of those rows.
   std::function<void(const StudyOutOfRange&)> out_of_range;
-  // Now and then, after writing.
+  // Called now and then, after writing.
   std::function<void()> idle;
 };
 
-// Runs until all rows are made, a leaf fails or a signal comes. The fault is the first in the order
-// of the rows; all rows before it were written. So they are when this throws what a thread has
-// thrown.
+// Runs until all rows are made, a leaf has a fault or a signal comes. The fault is the first in the
+// order of the rows; all rows before it are written. They are also written if this rethrows an
+// exception of a thread.
 std::optional<StudyFault> do_work(const StudyWork& work);
 
 }  // namespace lockstep

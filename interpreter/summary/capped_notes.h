@@ -1,4 +1,4 @@
-// The first few of what may be many notes for a summary; the others are only counted.
+// Keeps the first few notes for a summary and counts the others.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ class CappedNotes {
  public:
   static constexpr std::size_t kMost = 5;
 
-  // `noun` is what is noted: "fault".
+  // `noun` is what the notes are about: "fault".
   explicit CappedNotes(std::string_view noun) : noun_(noun) {}
 
   // `text` makes the note; it is only called for those that are kept.

@@ -1,4 +1,4 @@
-// Watches a run for standstills (measure/stall.h) and tells whoever wants to know.
+// Watches a run for standstills (measure/stall.h) and reports them to a callback.
 #pragma once
 
 #include <utility>

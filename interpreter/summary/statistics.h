@@ -1,6 +1,5 @@
-// Measures a run for its summary: tick periods, and every synchronized node. Allocates nothing
-// while the run ticks (only a leaf's fault is noted as text, and why the root failed). Prints
-// nothing itself.
+// Measures a run for its summary: tick periods, and every synchronized node. Does not allocate
+// while the run ticks, except to note a leaf's fault and why the root failed. Prints nothing.
 #pragma once
 
 #include <vector>
@@ -43,7 +42,7 @@ class Statistics final : public Observer {
   bool real_time_ = false;
   Nanoseconds last_start_{0};
   std::vector<DecidingNode> why_failed_;
-  CappedNotes faults_{"fault"};  // that the run went on after
+  CappedNotes faults_{"fault"};  // after which the run went on
   std::vector<std::string> out_of_range_notes_;
   RunEnd end_;
 };

@@ -1,5 +1,5 @@
-// What a run was like, in numbers, and how that is told: as text for people and as JSON for
-// programs. Plain data; statistics.h fills it in.
+// The summary of a run: plain data, which statistics.h fills in, and its output as text and as
+// JSON.
 #pragma once
 
 #include <cstdint>
@@ -80,16 +80,16 @@ struct Summary {
   std::optional<PeriodSummary> period;  // real time only, and from two ticks on
   std::uint64_t overruns = 0, skipped = 0;
   std::optional<WorstTickSummary> worst;  // real time only
-  std::uint64_t faults = 0;               // of leaves that the run went on after
+  std::uint64_t faults = 0;               // of leaves after which the run went on
   std::optional<double> tick_budget;      // seconds
   std::vector<LeafTimingSummary> over_budget;
   std::vector<SynchronizedSummary> synchronized_nodes;  // that a tick reached
   std::size_t never_reached = 0;                        // of the synchronized nodes
-  std::vector<std::string> notes;  // what else the user must know: a recording that is cut, …
+  std::vector<std::string> notes;  // other facts for the user: a recording that is cut, …
 };
 
 void write_text(const Summary& summary, std::string& out, bool color);
-// Parts of it, which a recording tells in the same words.
+// Parts of it, which `lockstep log info` prints too.
 void write_text(std::span<const DecidingSummary> why_failed, std::string& out, bool color);
 void write_text(std::span<const SynchronizedSummary> nodes, std::size_t never_reached,
                 std::string& out, bool color);

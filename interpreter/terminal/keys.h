@@ -1,4 +1,4 @@
-// What a terminal sends while somebody presses keys, one byte at a time, as keys.
+// Parses the bytes that a terminal sends, one at a time, into keys.
 #pragma once
 
 #include <cstdint>
@@ -31,9 +31,9 @@ struct Key {
 
 class KeyDecoder {
  public:
-  // The key that ends with this byte, if one does. Keys that nobody here needs are skipped.
+  // The key that ends with this byte, if any. Unknown keys are skipped.
   std::optional<Key> take(char byte);
-  // Nothing has come for a while: an escape that waits for more was the key of that name.
+  // No byte has come for a while, so a pending escape was the escape key.
   std::optional<Key> idle();
 
  private:

@@ -1,6 +1,6 @@
-// The terminal of a program that draws on it and reads each key at once. However the program ends,
-// except by SIGKILL, the terminal is left as it was, with its cursor; so it is while the program is
-// stopped (Ctrl-Z) or in the background. One at a time.
+// The terminal of a program that draws on it and reads each key at once. The terminal and its
+// cursor are restored however the program ends, except by SIGKILL, and while the program is stopped
+// (Ctrl-Z) or in the background. Only one object at a time.
 #pragma once
 
 #include <cstdint>
@@ -22,10 +22,10 @@ class RawTerminal {
     Taken,  // just now, at first or again: draw everything again; the cursor is hidden
     Kept
   };
-  // To be asked before drawing or reading, from one thread.
+  // Call before drawing or reading, from one thread.
   State take();
 
-  // As it was before. Async-signal-safe.
+  // Restores the terminal. Async-signal-safe.
   static void restore();
 };
 

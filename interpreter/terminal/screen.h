@@ -15,8 +15,8 @@ class Screen {
   void clear();
   // The next frame begins where the cursor is, below what is there.
   void leave() { lines_ = 0; }
-  // In place of the last frame; `above` are whole lines that scroll by above it. False: nothing was
-  // drawn, since the terminal has not taken yet what was drawn before.
+  // Replaces the last frame; `above` are whole lines that scroll by above it. Returns false if
+  // nothing was drawn, because the terminal has not accepted the previous output yet.
   bool show(std::string_view above, std::string_view frame);
 
  private:

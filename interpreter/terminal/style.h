@@ -1,4 +1,4 @@
-// The few colors that the observers use, so that one meaning has one color everywhere.
+// The colors that the observers use, so that one meaning has the same color everywhere.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What the terminal can do, asked of the system: size and characters.
+// Queries the terminal: its size and its character set.
 #pragma once
 
 namespace lockstep {
@@ -11,7 +11,7 @@ struct TerminalSize {
 
 // 80 x 24 when it is not known.
 TerminalSize terminal_size(int file);
-// False with TERM=dumb: the cursor cannot be moved, nothing be drawn in place.
+// False with TERM=dumb: the cursor cannot move, so nothing can be drawn in place.
 bool can_draw();
 // LC_ALL, LC_CTYPE or LANG, the first that is set, names UTF-8.
 bool has_unicode();

@@ -1,5 +1,5 @@
-// Waits for what a terminal has to tell: a key, or that its window has another size now. One at a
-// time, in a process with one thread; used by the replay.
+// Waits for a key or a change of the window size. Only one object at a time, in a process with one
+// thread; used by the replay.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ class TerminalWait {
   TerminalWait(const TerminalWait&) = delete;
   TerminalWait& operator=(const TerminalWait&) = delete;
 
-  // A new size that came between two calls is not missed. None also after other signals.
+  // A change of size between two calls is not missed. Returns None also after other signals.
   TerminalEvent wait(double seconds) const;
 
  private:

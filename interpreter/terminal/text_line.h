@@ -1,5 +1,5 @@
-// One line of a terminal, put together from styled pieces. Where it is too long for a width it is
-// cut and ends in "…". Counts columns, not bytes; knows nothing of cursors.
+// One line of a terminal, built from styled pieces. If it is too long for a width, it is cut and
+// ends in "…". Counts columns, not bytes; knows nothing about cursors.
 #pragma once
 
 #include <string>

@@ -26,7 +26,7 @@ ConsoleLive::ConsoleLive(const Tree& tree, const LiveOptions& options, Outlet& o
 ConsoleLive::~ConsoleLive() {
   try {
     stop();
-  } catch (const std::bad_alloc&) {  // lines that nobody will see; the thread has ended
+  } catch (const std::bad_alloc&) {  // lines that will not be shown; the thread has ended
   }
 }
 

@@ -41,8 +41,9 @@ class ConsoleLive final : public Observer {
   void after_tick(Ticker& ticker, const TickReport& report) override;
   void run_ended(Ticker& ticker, const RunEnd& end) override;
 
-  // A line that scrolls by above the view. From any thread; shown with the next frame, or at once
-  // after the last one. Of more than kMostLines for a frame, the rest is counted.
+  // A line that scrolls by above the view. May be called from any thread; the line appears with the
+  // next frame, or at once after the last one. If a frame has more than kMostLines, the rest is
+  // counted.
   void print(std::string line);
 
  private:
@@ -66,8 +67,9 @@ class ConsoleLive final : public Observer {
   Screen screen_;
   TerminalSize size_;
   bool is_away_ = false;
-  std::string above_;    // lines that the next frame takes with it
-  bool is_due_ = false;  // a frame: for a key, for the terminal, or since it did not take the last
+  std::string above_;  // lines that the next frame takes with it
+  bool is_due_ =
+      false;  // a frame: after a key, for the terminal, or because it did not accept the last one
   KeyDecoder decoder_;
   TreeBrowser browser_{shape_};
 

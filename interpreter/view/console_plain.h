@@ -1,7 +1,7 @@
-// Reports a run as plain lines, for logs and for whatever is not a terminal: who starts, completes,
-// is halted, who waits for whom, which leaf's fault was counted as Failure. Prints at most 200
-// lines at once and one a second after that. A leaf that completes in the same way in tick after
-// tick has one line for the first time and one for all others.
+// Reports a run as plain lines, for logs and for output that is not a terminal: which leaf starts,
+// completes or is halted, which child waits for which, which fault was counted as Failure. Prints
+// at most 200 lines at once and one a second after that. A leaf that completes in the same way in
+// tick after tick has one line for the first time and one for all others.
 #pragma once
 
 #include <atomic>
@@ -19,7 +19,7 @@ namespace lockstep {
 class ConsolePlain final : public Observer {
  public:
   static constexpr std::int64_t kBurst = 200;
-  // Apart: a fault must not be left out because of who started and completed before it.
+  // Separate: a fault must not be left out because of earlier lines about starts and completions.
   static constexpr std::int64_t kBurstOfFaults = 20;
   // A child that waits again so soon after its last wait, on the run's clock, is reported only once
   // it has waited for as long: under a small delta it waits in every other tick.

@@ -1,5 +1,5 @@
 // How many lines may be printed: a burst at once, then one for each second of real time, so that a
-// fast run cannot flood whoever reads. Used by console_plain.
+// fast run cannot flood the reader. Used by console_plain.
 #pragma once
 
 #include <algorithm>

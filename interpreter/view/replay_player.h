@@ -1,5 +1,5 @@
-// What keys and passing time do to a replay. Knows no terminal and no clock: the command line hands
-// both in, and draws what replay_view.h makes of it.
+// Applies keys and passing time to a replay. Knows no terminal and no clock: the command line
+// passes both in, and draws the result with replay_view.h.
 #pragma once
 
 #include <optional>
@@ -14,11 +14,11 @@ class ReplayPlayer {
  public:
   static constexpr double kSlowest = 1e-3, kFastest = 1e6;
 
-  // Begins at the tick at which the timeline is, playing. `speed` 1 is as recorded.
+  // Begins at the current tick of the timeline, playing. `speed` 1 is as recorded.
   ReplayPlayer(RecordingTimeline& timeline, double speed);
 
   void press(Key key);
-  // So much real time has passed.
+  // Advances the replay by this much real time.
   void pass(double seconds);
   // Real seconds until the next tick is due; nothing while no tick is.
   std::optional<double> wait() const;
@@ -29,7 +29,7 @@ class ReplayPlayer {
   bool has_quit() const { return has_quit_; }
   // The number of a tick while it is typed.
   const std::optional<std::string>& typed() const { return typed_; }
-  // What the last key could not do, or "".
+  // Why the last key had no effect, or "".
   const std::string& notice() const { return notice_; }
 
  private:

@@ -1,5 +1,5 @@
-// Draws a tick of a recording: the tree as the live view of a run does, and below it where the
-// replay is. Pure functions.
+// Draws a tick of a recording: the tree as in the live view of a run, and below it the position of
+// the replay. Pure functions.
 #pragma once
 
 #include "view/replay_player.h"

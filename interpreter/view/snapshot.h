@@ -1,5 +1,4 @@
-// The state of a tree at one moment, for whoever shows it: a terminal, a replay, a page. Plain
-// data.
+// The state of a tree at one moment, for a terminal, a replay or a web page. Plain data.
 #pragma once
 
 #include <cstdint>

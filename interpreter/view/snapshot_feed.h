@@ -1,6 +1,6 @@
 // Publishes the state of a run as snapshots, ten times a second at most. The tick thread only
-// copies the state of the nodes, as often, into a buffer that nobody locks; another thread takes
-// the newest.
+// copies the state of the nodes, equally often, into a lock-free buffer; another thread takes the
+// newest.
 #pragma once
 
 #include <vector>
@@ -19,7 +19,7 @@ class SnapshotFeed final : public Observer {
 
   void run_started(Ticker& ticker, const RunStart& start) override;
   void after_tick(Ticker& ticker, const TickReport& report) override;
-  // By now everything has been halted; the last snapshot is of the last tick.
+  // Everything has been halted by then; the last snapshot is that of the last tick.
   void run_ended(Ticker& ticker, const RunEnd& end) override;
 
   // For one thread. True if there is a newer snapshot, which newest() is from then on.

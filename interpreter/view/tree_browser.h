@@ -1,5 +1,5 @@
-// What keys do to a view of a tree: scroll, fold, follow what runs again. Used by the live view and
-// by replays; knows no terminal.
+// Applies keys to a view of a tree: scroll, fold, follow the running nodes again. Used by the live
+// view and by replays; knows no terminal.
 #pragma once
 
 #include "terminal/keys.h"
@@ -12,7 +12,7 @@ class TreeBrowser {
   // `tree` must outlive it.
   explicit TreeBrowser(const TreeShape& tree) : tree_(tree) {}
 
-  // False: the key means nothing here. `now` is what is shown, in so many rows.
+  // Returns false if the key has no meaning here. `now` is the current view, with this many rows.
   bool press(Key key, const Snapshot& now, std::size_t rows);
   const Browsing& browsing() const { return browsing_; }
 

@@ -1,5 +1,5 @@
-// Which nodes of a tree are shown when there are fewer rows than nodes. Pure: knows no terminal and
-// draws nothing.
+// Chooses the nodes of a tree to show when there are fewer rows than nodes. Pure: knows no terminal
+// and draws nothing.
 #pragma once
 
 #include <optional>
@@ -12,13 +12,13 @@
 
 namespace lockstep {
 
-// What a person has asked for.
+// What the user has chosen.
 struct Browsing {
   std::set<NodeIndex> folded = {};       // the nodes below these are not shown
   std::optional<NodeIndex> cursor = {};  // its surroundings are shown; none: what runs is
 };
 
-// How many nodes of some are in which state.
+// How many nodes are in each state.
 struct Tally {
   std::size_t running = 0, waiting = 0, succeeded = 0, failed = 0, idle = 0;
 
@@ -36,8 +36,8 @@ struct Layout {
 };
 
 // At most `room` rows, at least 1; one of them is left free for a note when there are more nodes.
-// Without a cursor: what runs, then what waits, then what has completed or is idle, the nearest to
-// what runs first.
+// Without a cursor: running nodes first, then waiting ones, then completed and idle ones, the
+// nearest to the running nodes first.
 Layout lay_out(const TreeShape& tree, const Snapshot& snapshot, const Browsing& browsing,
                std::size_t room);
 

@@ -1,5 +1,5 @@
-// What a view draws of a tree besides the state of its nodes. Plain data, made from a tree that
-// runs or from the header of a recording, so that a run and its replay look the same.
+// The parts of a tree that a view draws, without the state of its nodes. Plain data, made from a
+// running tree or from the header of a recording, so that a run and its replay look the same.
 #pragma once
 
 #include <optional>

@@ -14,11 +14,11 @@ struct DrawOptions {
   unsigned width = 80, height = 24;
   bool color = false;
   bool unicode = false;
-  bool keys = false;                   // there are some: tell of them
-  const Browsing* browsing = nullptr;  // null: all is as at first
+  bool keys = false;                   // keys work: mention them
+  const Browsing* browsing = nullptr;  // null: nothing was chosen
 };
 
-// The rows that there are for nodes.
+// The number of rows for nodes.
 std::size_t rows_for_nodes(const DrawOptions& options);
 
 // At most height - 1 lines of at most `width` columns, each ending in a newline. tree_layout.h says

@@ -1,5 +1,5 @@
-// Hands the newest of a series of values from one thread to another: neither ever waits, values
-// that nobody looked at are lost. One writer, one reader.
+// Passes the newest of a series of values from one thread to another: neither ever waits, and
+// values that were not read are lost. One writer, one reader.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ class TripleBuffer {
  public:
   explicit TripleBuffer(const T& value) : slots_{value, value, value} {}
 
-  // The writer fills this in, then publishes it; what is in it before is an old value.
+  // The writer fills this in, then publishes it; before that, it has an old value.
   T& back() { return slots_[back_]; }
   void publish() { back_ = middle_.exchange(back_ | kFresh, std::memory_order_acq_rel) & kSlot; }
 

@@ -1,5 +1,5 @@
-// In words: why a child of a synchronized node is held, and who stands still. The console views and
-// the command line say it the same way.
+// Texts for why a child of a synchronized node is held, and which child stands still, for the
+// console views and the command line.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
-// What time is to an action that plays a progress: the ticks that it receives, or the seconds since
-// its start, which also pass while it is held.
+// The time of an action that plays a progress: the ticks that it receives, or the seconds since its
+// start, which also pass while it is held.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// A progress that is known beforehand, to keep pace with.
+// A progress that is known in advance, which other actions can follow.
 #pragma once
 
 #include <lockstep/leaf.hpp>

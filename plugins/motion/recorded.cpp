@@ -13,7 +13,7 @@ namespace {
 
 namespace dom = simdjson::dom;
 
-// A line of 64 MiB has more than a million nodes. Memory that is not written to costs nothing.
+// A line of 64 MiB has more than a million nodes. Unused memory costs nothing.
 constexpr std::size_t kLongestLine = std::size_t{64} << 20;
 
 // The lines of a file as JSON. The last one may be cut, as a kill leaves it.
@@ -69,7 +69,7 @@ std::size_t place_of(const std::string& node, const dom::element& header, const 
   lines.fail("the recording has no node '" + node + "'; lockstep log csv prints their paths");
 }
 
-// What the lines say of one node, put together: a line has only what has changed.
+// Collects the state of one node from the lines: a line has only changes.
 class Player {
  public:
   Player(const JsonLines& lines, std::size_t node) : lines_(lines), node_(node) {}
@@ -108,7 +108,7 @@ class Player {
     progress_ = progress;
   }
 
-  // The progress is that before the tick; what the tick has led to is a period later.
+  // The progress is that before the tick; the result of the tick is one period later.
   bool add(double tick, double time) {
     if (ticks_.empty()) {
       first_tick_ = tick;

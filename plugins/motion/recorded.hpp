@@ -1,4 +1,4 @@
-// The progress of a node as a recording has it.
+// The progress of a node, from a recording.
 #pragma once
 
 #include <lockstep/leaf.hpp>

@@ -1,5 +1,5 @@
-// The manipulation scene: a task that takes its own time, now fast, now slow, and nobody knows
-// when. After the experiment on predictability in the paper.
+// The manipulation scene: a task of changing pace, now fast, now slow, and nobody knows when. After
+// the experiment on predictability in the paper.
 #pragma once
 
 #include <lockstep/leaf.hpp>

@@ -83,8 +83,9 @@ TEST_CASE("a plugin whose file is named as build systems name libraries: what to
   const std::string file = made + "/libgreeter.so";
   std::ofstream(file).put('x');
   CHECK(refusal_of_name("greeter", {made}) ==
-        Strings{"plugin 'greeter' is not found: 'greeter.so' is not in " + made + " | '" + file +
-                "' is: rename it to 'greeter.so' (in CMake: lockstep_add_plugin, or PREFIX \"\")"});
+        Strings{
+            "plugin 'greeter' is not found: 'greeter.so' is not in " + made + " | '" + file +
+            "' exists: rename it to 'greeter.so' (in CMake: lockstep_add_plugin, or PREFIX \"\")"});
   std::filesystem::remove_all(made);
 }
 

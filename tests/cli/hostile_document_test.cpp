@@ -210,7 +210,7 @@ TEST_CASE("bytes that are no text, and entities, are refused where they stand") 
             "</root>"),
        3, "$:1:13: error: definitions in a DOCTYPE are not supported"},
       {"an entity that is not declared", text(in_tree("<AlwaysSuccess name=\"&c;\"/>")), 3,
-       "$:2:43: error: '&' begins no reference that is known"},
+       "$:2:43: error: '&' does not begin a known reference"},
       {"a NUL", text(kHead + "<!--\0-->"s + kTree + "</root>"), 3, "$:2:5: error: NUL byte"},
       {"only NULs", text(std::string(1000, '\0')), 3, "$:1:1: error: NUL byte"},
       {"a NUL as a reference", text(in_tree("<AlwaysSuccess name=\"&#0;\"/>")), 3,

@@ -122,7 +122,7 @@ TEST_CASE("log measure tells which name it does not know") {
       {"progress-distance:x", "expected 'progress-distance[K1:K2]', with whole numbers"},
       {"progress-distance[3:2]", "expected 'progress-distance[K1:K2]', with whole numbers"},
       {"held", "expected 'held:NODE'"},
-      {"held:pull", "'Main/pull' is not a child of a synchronized node, so nobody holds it"},
+      {"held:pull", "'Main/pull' is not a child of a synchronized node, so it is never held"},
       {"pauses:arn", "no node 'arn', did you mean 'arm'?"},
       {"entry:lap", "no entry 'lap'"},
       {"duration:x", "expected nothing after 'duration'"},
@@ -295,7 +295,7 @@ TEST_CASE("gnuplot is not looked for in relative directories of PATH") {
       run({.arguments = {"log", "plot", recording, "--out", directory.path("x.svg")},
            .environment = {{"PATH", ".::/nowhere"}}});
   CHECK(outcome.code == 2);
-  CHECK(contains(outcome.err, "there is no gnuplot"));
+  CHECK(contains(outcome.err, "gnuplot is missing"));
   CHECK_FALSE(std::filesystem::exists(mark));
 }
 

@@ -17,7 +17,7 @@ struct Tree {
                             "<Probe name=\"grasp\"/></Sequence>"));
   const std::string warning =
       file +
-      ": warning: on the virtual clock no tick waits for what works in real time: "
+      ": warning: on the virtual clock no tick waits for leaves that work in real time: "
       "'Main/Sequence/plan' (Probe of plugin 'real_time'), "
       "'Main/Sequence/grasp' (Probe of plugin 'real_time')\n  hint: ";
 

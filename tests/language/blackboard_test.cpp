@@ -175,7 +175,7 @@ TEST_CASE("what is wrong with a SubTree") {
       {"the ID is a tree's", R"(<SubTree ID="Grasp"/>)", "2:14 error: unknown tree 'Grasp'"},
       {"it has no children", R"(<SubTree ID="T"><AlwaysSuccess/></SubTree>)",
        "2:14 error: the tree 'T' contains itself: T -> T\n"
-       "2:17 error: 'SubTree' has no children of its own"},
+       "2:17 error: 'SubTree' cannot have children"},
       {"its keys are identifiers", R"(<SubTree ID="T" the.door="x" door="{the.door}"/>)",
        "2:14 error: the tree 'T' contains itself: T -> T\n"
        "2:17 error: 'the.door' is not a key\n2:36 error: 'the.door' is not a key"},

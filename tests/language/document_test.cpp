@@ -57,7 +57,7 @@ TEST_CASE("the tree to run is the option's, else the attribute's, else the only 
       {"the only tree", R"(<Say text="hello"/>)", "success 1: hello"},
       {"main_tree_to_execute", kNamed, "success 1: b"},
       {"--tree goes first", kNamed, "success 1: a", "tree=A"},
-      {"of several one must be named", kTwoTrees, "1:1 error: it is not said which tree to run"},
+      {"of several one must be named", kTwoTrees, "1:1 error: several trees, and none is chosen"},
       {"--tree may do it", kTwoTrees, "success 1: b", "tree=B"},
       {"--tree names a tree", kTwoTrees, "error: --tree C: unknown tree", "tree=C"},
       {"main_tree_to_execute names a tree",
@@ -125,7 +125,7 @@ TEST_CASE("plugin, BehaviorTree and their attributes") {
        "<root lockstep=\"1\">\n<BehaviorTree ID=\"A\"/>\n<BehaviorTree ID=\"B\"><AlwaysSuccess/>"
        "<AlwaysSuccess/></BehaviorTree>\n<BehaviorTree><AlwaysSuccess/></BehaviorTree>\n"
        "<BehaviorTree ID=\"C/D\"><AlwaysSuccess/></BehaviorTree></root>",
-       "1:1 error: it is not said which tree to run\n"
+       "1:1 error: several trees, and none is chosen\n"
        "2:1 error: the tree 'A' is empty\n"
        "3:38 error: the tree 'B' has more than one root node\n"
        "4:1 error: 'BehaviorTree' needs the attribute 'ID'\n"

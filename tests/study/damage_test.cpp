@@ -91,7 +91,7 @@ const std::vector<Damage> kPlanDamages{
     {"an unknown measure", "\"step-length\",", "\"step-height\","},
     {"a column that is not measured", "\"measure\": \"duration\"", "\"measure\": \"spread\""},
     {"a key that is not known", "\"runs\": 4", "\"runs\": 4, \"walks\": 4"},
-    {"a key that is there twice", "\"runs\": 4", "\"runs\": 3, \"runs\": 4"},
+    {"a key that is given twice", "\"runs\": 4", "\"runs\": 3, \"runs\": 4"},
     {"a key that is missing", "\"runs\": 4,", ""},
     {"another format", "\"lockstep_study\": ", "\"lockstep_study\": 9"},
     {"a column that is not its gap", "\"is\": \"gap\"", "\"is\": \"gaps\""},

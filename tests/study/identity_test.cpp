@@ -185,7 +185,7 @@ TEST_CASE("a directory with something else in it is left alone") {
     CHECK(outcome.code == 2);
     CHECK(contains(outcome.err, why));
   };
-  refused(kStudy, "out", "go on with it by --resume");
+  refused(kStudy, "out", "continue it with --resume");
   refused(with(kStudy, {"--resume", "--seed", "8"}), "out", "its 'seed' differs");
   refused(with(kStudy, {"--resume", "--shard", "1/2"}), "out", "its 'shard' differs");
   CHECK(it.bytes("out") == before);
@@ -213,7 +213,8 @@ TEST_CASE("a study that a signal ends goes on to the same bytes") {
     process.signal(number);
     const Outcome outcome = process.finish();
     CHECK(outcome.code == 128 + number);
-    if (number != SIGKILL) CHECK(contains(outcome.out, "--resume goes on"));
+    if (number != SIGKILL)
+      CHECK(contains(outcome.out, "continue with the same command and --resume"));
     CHECK_FALSE(fs::exists(it.path("cut/summary.csv")));
     CHECK(it.read("cut", "runs.csv").size() < it.read("whole", "runs.csv").size());
     it.make(with(study, {"--resume"}), "cut");

@@ -20,7 +20,7 @@ const std::vector<Refusal> kRefusals{
     {2, {"--runs", "1", "--grid", "barier_count=1"}, "unknown name 'barier_count' in --grid"},
     {2, {"--runs", "1", "--grid", "barier_count=1"}, "did you mean 'barrier_count'?"},
     {2, {"--runs", "1", "--grid", "noise"}, "expected name=value"},
-    {2, {"--runs", "1", "--grid", "noise=1,1"}, "the value '1' is there twice"},
+    {2, {"--runs", "1", "--grid", "noise=1,1"}, "the value '1' is given twice"},
     {2, {"--runs", "1", "--grid", "noise=0", "--grid", "noise=1"}, "given twice"},
     {2, {"--runs", "1", "--grid", "noise=0", "--arg", "noise=1"}, "both by --grid and by --arg"},
     {2, {"--runs", "1", "--grid", "seed=1,x"}, "'x' is not a whole number"},

@@ -31,7 +31,7 @@ Arguments parse_pairs(const std::vector<std::string>& pairs, std::string_view op
 
 void add_plugin_options(CLI::App& app, PluginOptions& options) {
   app.add_option("--plugin", options.plugins,
-                 "Load this plugin: a file (.so), or a name that is searched for; may be repeated")
+                 "Load this plugin: a file (.so), or a name to search for; may be repeated")
       ->type_name("FILE|NAME")
       ->allow_extra_args(false);
   app.add_option("--plugin-path", options.directories,
@@ -39,11 +39,11 @@ void add_plugin_options(CLI::App& app, PluginOptions& options) {
       ->type_name("DIR")
       ->allow_extra_args(false);
   app.add_flag("--isolate", options.isolate,
-               "Keep every plugin in a process of its own, which may crash or hang without harm; "
+               "Run every plugin in a separate process, so that a crash or a hang does no harm; "
                "for one plugin: <plugin name=\"…\" isolate=\"true\"/>");
   app.add_option("--hang-limit", options.hang_limit,
-                 "A call into a plugin that lasts longer than S seconds is a hang: it ends the "
-                 "program, or, isolated, the plugin's process; 0 = never")
+                 "A call into a plugin that takes longer than S seconds is a hang: it ends the "
+                 "program or, for an isolated plugin, its process; 0 = never")
       ->type_name("S")
       ->check(number_between(0.0, 1e6))
       ->capture_default_str();

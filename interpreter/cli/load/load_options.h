@@ -1,4 +1,4 @@
-// What the command line says of loading a tree, and loading it so.
+// The command line options for loading a tree, and loading with them.
 #pragma once
 
 #include <string>
@@ -25,7 +25,7 @@ void add_plugin_options(CLI::App& app, PluginOptions& options);
 // The plugin options, --arg, --set and --tree.
 void add_load_options(CLI::App& app, LoadCommandOptions& options);
 
-// load() with them. From here on this thread is watched.
+// Calls load() with them. From now on this thread is watched.
 [[nodiscard]] tl::expected<Loaded, LoadFailure> load_given(
     const std::string& path, const LoadCommandOptions& options, Diagnostics& diagnostics,
     std::shared_ptr<PluginSet> plugins = std::make_shared<PluginSet>());

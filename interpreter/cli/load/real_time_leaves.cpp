@@ -19,7 +19,7 @@ bool warn_of_real_time_leaves(const Tree& tree, const std::string& file, const s
   diagnostics.add(
       {.severity = Severity::Warning,
        .location = {file},
-       .message = "on the virtual clock no tick waits for what works in real time: " + names,
+       .message = "on the virtual clock no tick waits for leaves that work in real time: " + names,
        .hint = hint,
        .excerpt = {}});
   return true;

@@ -65,7 +65,7 @@ std::function<int()> define_log(CLI::App& app) {
   CLI::App* table = app.add_subcommand(
       "csv", "One row per tick and active node: tick,time_s,node,path,status,progress,ticked,held");
   CLI::App* summary =
-      app.add_subcommand("info", "What the recording is of, how it ended, and its measures");
+      app.add_subcommand("info", "Print the tree, how the run ended, and the measures");
   for (CLI::App* command : {table, summary}) add_recording_file(*command, options->file);
   table->add_option("--out", options->out, "Write the table to this file instead of stdout")
       ->type_name("FILE");
@@ -82,7 +82,7 @@ std::function<int()> define_log(CLI::App& app) {
 
 }  // namespace
 
-const Command kLogCommand{"log", "Read recordings that `lockstep run --record` has made",
+const Command kLogCommand{"log", "Read recordings of `lockstep run --record`",
                           "A recording that ends early, as after a kill, is read up to its last "
                           "whole line; a message on\n"
                           "stderr says so.\n"

@@ -1,5 +1,5 @@
-// What the subcommands of `lockstep log` share: a recording is opened, read to its end and its end
-// told in one way. One file for each of the larger subcommands.
+// Shared by the subcommands of `lockstep log`: they open a recording, read it to its end and report
+// its end in the same way. Each of the larger subcommands has a file.
 #pragma once
 
 #include <functional>
@@ -17,17 +17,17 @@ namespace lockstep {
 // Adds the argument that names the recording.
 void add_recording_file(CLI::App& app, std::string& file);
 
-// Opens the recording, "-" being stdin, and returns what `use` does, or the exit code for a file
-// that is none.
+// Opens the recording ("-" is stdin) and returns the result of `use`, or the exit code for a file
+// that is not a recording.
 int with_recording(const std::string& path, const std::function<int(RecordingReader&)>& use);
-// Says what was wrong with the recording, or that it is cut. Returns the exit code.
+// Reports an error in the recording, or that it is cut. Returns the exit code.
 int report_end(const RecordingOutcome& outcome);
 int report_end(const RecordingReader& reader);
-// Reports what the user got wrong. Returns the exit code.
+// Reports a mistake of the user. Returns the exit code.
 int usage_error(const std::string& message);
-// Says that `path` cannot be read or written. Returns the exit code.
+// Reports that `path` cannot be read or written. Returns the exit code.
 int cannot_use(std::string_view verb, std::string_view path, int reason);
-// Writes `text` to stdout and then says how the recording ended. Returns the exit code.
+// Writes `text` to stdout and then reports how the recording ended. Returns the exit code.
 int write_results_of(const RecordingReader& reader, std::string_view text);
 
 struct LogSubcommand {

@@ -54,7 +54,7 @@ LogSubcommand define_log_diff(CLI::App& log) {
   app->add_option("a", options->a, "A recording; - is stdin")->type_name("A.jsonl")->required();
   app->add_option("b", options->b, "Another one")->type_name("B.jsonl")->required();
   app->add_option("--tolerance", options->diff.tolerance,
-                  "Progress that differs by no more than this is the same")
+                  "Treat progress values that differ by at most this as equal")
       ->type_name("X")
       ->check(number_between(0, 1))
       ->capture_default_str();
@@ -62,10 +62,9 @@ LogSubcommand define_log_diff(CLI::App& log) {
                 "Do not compare times and overruns: on the wall clock no two runs have the same");
   app->add_flag("--json", options->json, "Print one line of JSON");
   app->footer(
-      "Compared are the headers, the ticks up to the first that differs, the lengths and the "
-      "ends;\n"
-      "not the name of the tree file, nor the version of lockstep, which is only noted. Nodes are\n"
-      "compared by path.\n"
+      "Compares the headers, the ticks up to the first that differs, the lengths and the ends,\n"
+      "but not the name of the tree file. Different versions of lockstep are only noted. Nodes\n"
+      "are compared by path.\n"
       "Exit code: 0 the same, 1 they differ, 2 usage or a file that cannot be read, 3 not a\n"
       "recording or a damaged one.\n"
       "\n"

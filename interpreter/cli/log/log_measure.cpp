@@ -47,7 +47,7 @@ int measure(const LogMeasureOptions& options) {
 LogSubcommand define_log_measure(CLI::App& log) {
   const auto options = std::make_shared<LogMeasureOptions>();
   CLI::App* app =
-      log.add_subcommand("measure", "The measures of the run, by the names that a study uses");
+      log.add_subcommand("measure", "Print measures of the run, with the names that a study uses");
   add_recording_file(*app, options->file);
   app->add_option(
          "--measure", options->measures,

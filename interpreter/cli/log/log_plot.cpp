@@ -116,19 +116,18 @@ LogSubcommand define_log_plot(CLI::App& log) {
       "plot", "Draw the progress of the children of each synchronized node over time (gnuplot)");
   add_recording_file(*app, options->file);
   app->add_option("--out", options->out,
-                  "The image: its name ends in .svg or .png; its data and its gnuplot script are "
+                  "The image, .svg or .png; its data and its gnuplot script are "
                   "written beside it. With several nodes, -NAME is added to it")
       ->type_name("FILE")
       ->required();
   app->add_option("--node", options->node, "Only this node: its path, or the end of it")
       ->type_name("NODE");
-  app->add_option(
-         "--width", options->size.width,
-         "In pixels, 360 at least, for a smaller picture cannot be read; a PNG has twice as many")
+  app->add_option("--width", options->size.width,
+                  "In pixels, at least 360; a PNG has twice as many")
       ->transform(whole_number(PlotSize::kLeastWidth, PlotSize::kMost))
       ->capture_default_str();
   app->add_option("--height", options->size.height,
-                  "In pixels, 240 at least; a PNG has twice as many")
+                  "In pixels, at least 240; a PNG has twice as many")
       ->transform(whole_number(PlotSize::kLeastHeight, PlotSize::kMost))
       ->capture_default_str();
   return {app, [options] { return plot(*options); }};

@@ -95,11 +95,11 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     }
   }
 
-  // Runs the tree to its end; `plugins` are told to begin and, when all is over, to finish.
+  // Runs the tree to its end; initializes `plugins` before and deinitializes them after.
   int run(std::shared_ptr<PluginSet>& plugins) {
     if (recorder_ && !recorder_->error().empty()) {
       print_error(recorder_->error());
-      const int signal = StopSignals::received();  // while nobody has opened a pipe to read it
+      const int signal = StopSignals::received();  // while no reader has opened a pipe
       return signal == 0 ? kExitUsage : kExitSignal + signal;
     }
     Diagnostics refused;

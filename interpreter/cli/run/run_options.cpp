@@ -36,11 +36,11 @@ void define_loop_options(CLI::App& app, RunCommandOptions& options) {
       ->check(number_between(0.001, 100000.0))
       ->capture_default_str();
   app.add_option("--clock", options.clock,
-                 "wall, or virtual: the same run, as fast as the machine allows")
+                 "wall: real time; virtual: as fast as the machine allows")
       ->check(one_of({"wall", "virtual"}))
       ->capture_default_str();
   app.add_option("--seed", options.seed,
-                 "Of the leaves' random numbers: the same seed gives the same numbers")
+                 "The seed of the leaves' random numbers: the same seed gives the same numbers")
       ->type_name("N")
       ->transform(whole_number())
       ->capture_default_str();
@@ -66,8 +66,8 @@ void define_time_options(CLI::App& app, RunCommandOptions& options) {
                             {{"skip", OverrunPolicy::Skip},
                              {"catch-up", OverrunPolicy::CatchUp},
                              {"fail", OverrunPolicy::Fail}},
-                            "When a tick ends after the next deadline: skip the deadlines it "
-                            "missed, tick for each of them at once, or end the run");
+                            "When a tick ends after the next deadline: skip the missed "
+                            "deadlines, run the missed ticks at once, or end the run");
   app.add_option("--tick-budget", options.tick_budget_ms,
                  "Report a leaf that takes longer than MS milliseconds; 0 = do not time leaves "
                  "(default: the period)")
@@ -82,12 +82,13 @@ void define_time_options(CLI::App& app, RunCommandOptions& options) {
 }
 
 void define_fault_options(CLI::App& app, RunCommandOptions& options) {
-  add_choice<FaultPolicy>(app, "--on-fault", options.on_fault,
-                          {{"stop", FaultPolicy::Stop}, {"fail", FaultPolicy::Fail}},
-                          "When a leaf fails as a program (it throws, crashes in its own process, "
-                          "returns nonsense): stop the run, or count it as Failure and go on");
+  add_choice<FaultPolicy>(
+      app, "--on-fault", options.on_fault,
+      {{"stop", FaultPolicy::Stop}, {"fail", FaultPolicy::Fail}},
+      "When a leaf fails as a program (it throws, crashes in a separate process, "
+      "returns an invalid status): stop the run, or count it as Failure");
   app.add_option("--halt-limit", options.halt_limit,
-                 "Name a leaf that does not return from halt for S seconds; 0 = never")
+                 "Report a leaf that does not return from halt within S seconds; 0 = never")
       ->type_name("S")
       ->check(number_between(0.0, 1e6))
       ->capture_default_str();
@@ -122,9 +123,10 @@ void define_run_options(CLI::App& app, RunCommandOptions& options) {
   app.add_option("--record", options.record,
                  "Write a recording (JSON Lines; see docs/recording.md)")
       ->type_name("FILE.jsonl");
-  app.add_option("--record-entries", options.record_entries,
-                 "Blackboard entries in the recording: all, none, or KEY,KEY,… (of a value that is "
-                 "longer than 256 bytes only that it changed)")
+  app.add_option(
+         "--record-entries", options.record_entries,
+         "Blackboard entries in the recording: all, none, or KEY,KEY,… (for a value that is "
+         "longer than 256 bytes, only that it changed)")
       ->type_name("KEYS")
       ->capture_default_str();
   add_choice<bool>(app, "--on-record-error", options.stop_on_record_error,

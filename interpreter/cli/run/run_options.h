@@ -1,4 +1,4 @@
-// What `lockstep run` is told on the command line.
+// The command line options of `lockstep run`.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,7 @@ struct RunCommandOptions {
   bool json = false;
 
   bool is_wall() const { return clock == "wall"; }
-  // None when nobody asked: on the virtual clock, or with --tick-budget 0.
+  // None on the virtual clock and with --tick-budget 0.
   std::optional<Nanoseconds> tick_budget() const;
   LoopOptions loop() const;
 };

@@ -50,7 +50,7 @@ LeafWatchOptions RunWatch::leaf_watch_options() {
                        milliseconds(*options_.tick_budget())));
   };
   watch.on_float_mode = [this](NodeIndex leaf, PluginFunction function) {
-    print_(fmt::format("{} changed the floating-point mode in {}; it was set back",
+    print_(fmt::format("{} changed the floating-point mode in {}; it was restored",
                        describe_node(tree_, leaf), name_of(function)));
   };
   return watch;
@@ -94,7 +94,7 @@ void RunWatch::run_ended(Ticker&, const RunEnd&) {
   if (memory > memory_at_start_ + kMuchMemory) {
     notes_.push_back(
         fmt::format("memory grew by {} MiB during the run: a plugin may leak; "
-                    "--isolate tells which",
+                    "--isolate shows which",
                     (memory - memory_at_start_) >> 20));
   }
 }

@@ -1,5 +1,5 @@
-// What keeps an eye on the plugins of `lockstep run`, and how it tells what it sees: slow leaves,
-// halts that do not return, changed modes, memory that grows.
+// Watches the plugins of `lockstep run` and reports problems: slow leaves, halts that do not
+// return, changed modes, growing memory.
 #pragma once
 
 #include <signal.h>
@@ -22,7 +22,7 @@ class RunWatch final : public Observer {
            std::function<void(const std::string& line)> print);
 
   LeafWatch& leaves() { return leaves_; }
-  // The last of the observers: what the others take to begin with is no leak.
+  // Must be the last of the observers, because the initial memory of the others is not a leak.
   void run_started(Ticker& ticker, const RunStart& start) override;
   void after_tick(Ticker& ticker, const TickReport& report) override;
   void run_ended(Ticker& ticker, const RunEnd& end) override;
@@ -39,7 +39,7 @@ class RunWatch final : public Observer {
   Watchdog watchdog_;
   sigset_t signal_mask_;             // of the tick thread, as it was
   std::size_t memory_at_start_ = 0;  // bytes
-  std::size_t out_of_range_ = 0;     // leaves that were told of
+  std::size_t out_of_range_ = 0;     // leaves that were reported
   std::vector<std::string> notes_;   // for the summary
 };
 

@@ -1,4 +1,4 @@
-// What a person sees of a run while it goes on: the live view, plain lines or nothing.
+// What the user sees during a run: the live view, plain lines or nothing.
 #pragma once
 
 #include <mutex>
@@ -17,11 +17,11 @@ std::string_view name_of(lockstep_log_level level);
 
 class View {
  public:
-  // What leaves may log at most, in any view, is as much as the plain lines: a burst of lines, then
-  // one a second.
+  // Logs of leaves have the same limit as plain lines, in any view: a burst of lines, then one a
+  // second.
   static constexpr std::int64_t kBurst = ConsolePlain::kBurst;
 
-  // `mode` is auto, live, plain or none. Leaves log what is at least as urgent as `least`.
+  // `mode` is auto, live, plain or none. Logs of leaves below the level `least` are not shown.
   View(const std::string& mode, const Tree& tree, lockstep_log_level least);
 
   // Null when there is nothing to show.
@@ -30,7 +30,7 @@ class View {
   void print(const std::string& line);
   // Prints what leaves log.
   LeafLog leaf_log();
-  // The last frame stays; from here on stderr can be written to directly.
+  // The last frame stays; from now on stderr can be written directly.
   void close();
 
   // Leaves the terminal usable. Async-signal-safe.

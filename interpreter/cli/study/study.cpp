@@ -138,11 +138,11 @@ int make_study(const StudyCommandOptions& options, const LoadedStudy& study) {
   if (!folder.error().empty()) return fail(folder.error());
   if (fault) {
     print_error(fault_text(*fault, study),
-                "see it again: " + run_command(options.study, study.plan, *fault));
+                "to repeat it: " + run_command(options.study, study.plan, *fault));
     return kExitLeafFault;
   }
   if (const int signal = StopSignals::received(); signal != 0) {
-    return fail("interrupted; the same command with --resume goes on", kExitSignal + signal);
+    return fail("interrupted; continue with the same command and --resume", kExitSignal + signal);
   }
   const auto rows = folder.finish(plan);
   return rows ? finish(options, folder, plan, *rows) : fail(folder.error());
@@ -186,7 +186,7 @@ void define_runs(CLI::App& app, StudyOptions& options) {
   app.add_option("-n,--runs", options.runs, "How often each cell of the grid is run")
       ->type_name("N")
       ->transform(whole_number(1));
-  app.add_option("--seed", options.seed, "All seeds of the runs are made from this one")
+  app.add_option("--seed", options.seed, "The seeds of all runs are derived from this one")
       ->type_name("S")
       ->transform(whole_number())
       ->capture_default_str();
@@ -204,7 +204,7 @@ void define_runs(CLI::App& app, StudyOptions& options) {
       ->check(number_between(kLeastRate, kMostRate))
       ->capture_default_str();
   app.add_option("--max-ticks", options.max_ticks,
-                 "A run that comes so far ends there, with the result 'limit'")
+                 "End a run after this many ticks, with the result 'limit'")
       ->type_name("N")
       ->transform(whole_number(1))
       ->capture_default_str();
@@ -223,12 +223,11 @@ std::function<int()> define_study(CLI::App& app) {
       ->capture_default_str();
   app.add_option("--out", options->out, "Directory to write (default: study-<tree>)")
       ->type_name("DIR");
-  app.add_flag("--resume", options->resume,
-               "Go on with the study that is in the directory, if there is one");
+  app.add_flag("--resume", options->resume, "Continue the study in the directory, if there is one");
   app.add_flag("--json", options->json, "Print the summary as JSON");
   app.add_flag("--no-plots", options->no_plots, "Draw no box plots");
   add_load_options(app, options->study.load);
-  CLI::App* parts = app.add_subcommand("merge", "Put the parts of a study together");
+  CLI::App* parts = app.add_subcommand("merge", "Merge the parts of a study");
   define_merge(*parts, options);
   return [options, parts] {
     if (parts->parsed()) return merge(*options);
@@ -247,7 +246,7 @@ const Command kStudyCommand{
     "and, with gnuplot, plots/; the summary goes to stdout. See docs/studies.md.\n"
     "Exit code: 0 made, 2 usage or a directory that cannot be used, 3 invalid tree, 4 plugin\n"
     "refused, 5 leaf fault, 6 a plugin crashed or hung, 128 + N signal N, as 130 for SIGINT\n"
-    "(what was finished is on disk: --resume).\n"
+    "(finished runs are on disk: --resume).\n"
     "\n"
     "Examples:\n"
     "  lockstep study trees/predictability.xml --runs 1000 --grid barriers=0,5,50 \\\n"

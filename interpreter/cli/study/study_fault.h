@@ -1,4 +1,4 @@
-// What is told of a leaf that failed in a study.
+// The message about a leaf that failed in a study.
 #pragma once
 
 #include <string>

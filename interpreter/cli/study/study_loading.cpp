@@ -108,10 +108,10 @@ void StudyLoader::check_values(const GridAxis& axis) {
   std::set<std::string> seen;
   for (const std::string& value : axis.values) {
     if (!seen.insert(value).second) {
-      error(fmt::format("--grid {}: the value '{}' is there twice", axis.name, value));
+      error(fmt::format("--grid {}: the value '{}' is given twice", axis.name, value));
     }
     if (value.find_first_of("\r\n") != std::string::npos) {
-      error(fmt::format("--grid {}: a value is of several lines", axis.name));
+      error(fmt::format("--grid {}: a value has several lines", axis.name));
     }
     if (axis.kind == GridAxis::Kind::Seed) {
       if (const auto wrong = check_count(value); !wrong.empty()) error("--grid seed: " + wrong);
@@ -154,7 +154,7 @@ void StudyLoader::read_grid(const std::vector<DeclaredArgument>& declared) {
   for (const std::string& text : options_.grid) read_axis(text, declared);
   for (const GridAxis& axis : study_.plan.grid) cells *= static_cast<double>(axis.values.size());
   if (cells > static_cast<double>(kMostCells)) {
-    error(fmt::format("the grid has {} cells, {} is the most", cells, kMostCells));
+    error(fmt::format("the grid has {} cells, at most {} are allowed", cells, kMostCells));
   } else if (auto wrong = check_size(study_.plan); !wrong.empty()) {
     error(std::move(wrong));
   }

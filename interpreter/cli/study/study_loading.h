@@ -1,5 +1,5 @@
-// The command line of a study -> its plan and the tree of each cell. All that is wrong in any cell
-// is found before the first run.
+// The command line of a study -> its plan and the tree of each cell. Errors in any cell are
+// reported before the first run.
 #pragma once
 
 #include <string>

@@ -12,7 +12,7 @@ Status tick(Ticker& ticker, NodeIndex self) {
 const NodeKind kKeepRunningUntilFailure{
     .type = {.id = "KeepRunningUntilFailure",
              .category = NodeCategory::Decorator,
-             .doc = "Running until its child fails; a child that succeeds is ticked anew.",
+             .doc = "Running until its child fails; a child that succeeds is started again.",
              .arity = {1, 1},
              .can_run = true},
     .tick = tick,

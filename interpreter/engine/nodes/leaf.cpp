@@ -108,7 +108,7 @@ double corrected(Ticker& ticker, NodeIndex self, LeafSlot& leaf, double reported
     ticker.set_fault(self, "reported a progress that is not a number");
     return 0.0;
   }
-  constexpr double kRounding = 1e-9;  // of a sum of shares; nobody need know
+  constexpr double kRounding = 1e-9;  // of a sum of shares; not reported
   if (reported < -kRounding || reported > 1 + kRounding) ticker.note_out_of_range(self, reported);
   return std::clamp(reported, 0.0, 1.0);
 }

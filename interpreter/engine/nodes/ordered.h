@@ -1,5 +1,5 @@
-// The tick of Sequence and Fallback, which are one law: tick children from the left and stop at the
-// first that does not return `kGoOn`. Included by those two files only.
+// The common tick of Sequence and Fallback: tick children from the left and stop at the first that
+// does not return `kGoOn`. Included by those two files only.
 #pragma once
 
 #include "engine/ticker.h"
@@ -8,7 +8,7 @@ namespace lockstep::ordered {
 
 struct State {
   NodeIndex current;   // the child at which the last tick stopped
-  std::uint32_t done;  // how many children stand before it
+  std::uint32_t done;  // how many children are before it
 };
 
 inline constexpr Parameter kParameters[] = {

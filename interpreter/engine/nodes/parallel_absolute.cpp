@@ -103,7 +103,8 @@ const NodeKind kParallelAbsolute{
     .type = {.id = "ParallelAbsolute",
              .category = NodeCategory::Control,
              .doc = "Ticks its children in parallel and makes them wait for each other at a list "
-                    "of barriers: who reached the current barrier is held until all have. Ends as "
+                    "of barriers: a child that has reached the current barrier is held until all "
+                    "have. Ends as "
                     "Parallel does.",
              .arity = {1},
              .parameters = kParameters,

@@ -64,7 +64,7 @@ struct Tally {
   }
 };
 
-// Success first. What still runs is halted when the node ends.
+// Success is checked first. Children that still run are halted when the node ends.
 inline Status judge(Ticker& ticker, NodeIndex self, const Places& places, const Tally& tally) {
   const std::int64_t wanted = ticker.parameter(self, places.success_count).integer;
   const bool success = tally.succeeded >= wanted;

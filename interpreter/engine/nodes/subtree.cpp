@@ -10,11 +10,10 @@ Status tick(Ticker& ticker, NodeIndex self) {
 }  // namespace
 
 // Its attributes (ID, remapping, _autoremap) are resolved before the tree is compiled.
-const NodeKind kSubTree{
-    .type = {.id = "SubTree",
-             .category = NodeCategory::SubTree,
-             .doc = "The tree with this ID, with a blackboard scope of its own."},
-    .tick = tick,
-    .progress = decorator::child_progress};
+const NodeKind kSubTree{.type = {.id = "SubTree",
+                                 .category = NodeCategory::SubTree,
+                                 .doc = "The tree with this ID, with a separate blackboard scope."},
+                        .tick = tick,
+                        .progress = decorator::child_progress};
 
 }  // namespace lockstep

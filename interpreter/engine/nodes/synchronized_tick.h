@@ -1,6 +1,6 @@
 // The tick that ParallelAbsolute and ParallelRelative share (Colledanchise and Natale, "Analysis
 // and Exploitation of Synchronized Parallel Executions in Behavior Trees", algorithms 1 and 2).
-// They differ only in who is held: which children may not advance in this tick.
+// They differ only in which children are held in a tick.
 #pragma once
 
 #include <algorithm>
@@ -30,8 +30,7 @@ inline double take_snapshot(Ticker& ticker, NodeIndex self) {
   return least;
 }
 
-// `held(progress)` says of a child with that progress whether ticks are withheld from it. Never
-// from a guard.
+// `held(progress)` returns whether a child with that progress is held. A guard is never held.
 template <class Held>
 Status tick_each(Ticker& ticker, NodeIndex self, const parallel::Places& places, Held held) {
   parallel::Tally tally;

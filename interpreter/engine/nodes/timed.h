@@ -29,7 +29,7 @@ inline void pause(Ticker& ticker, NodeIndex self) {
   ticker.state<State>(self).paused_at = ticker.now();
 }
 
-// To be called once in each tick, before anything else.
+// Call once in each tick, before anything else.
 inline void count(Ticker& ticker, NodeIndex self) {
   State& state = ticker.state<State>(self);
   if (ticker.first_tick(self)) state.start = ticker.now();

@@ -25,7 +25,7 @@ Status tick(Ticker& ticker, NodeIndex self) {
 const NodeKind kTimeout{
     .type = {.id = "Timeout",
              .category = NodeCategory::Decorator,
-             .doc = "Failure, and its child is halted, when the child still runs after a time.",
+             .doc = "Halts its child and returns Failure if the child still runs after a time.",
              .arity = {1, 1},
              .parameters = kParameters},
     .tick = tick,

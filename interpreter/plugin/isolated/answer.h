@@ -1,4 +1,5 @@
-// What a leafhost says of a call: how it ended, its result, and the error that the leaf has set.
+// A leafhost's answer to a call: how the call ended, its result, and the error that the leaf has
+// set.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +25,7 @@ inline void write_answer(const Answer& answer, MessageWriter& message) {
   message.put_text(answer.thrown);
 }
 
-// False: the message makes no sense.
+// Returns false if the message is invalid.
 inline bool read_answer(MessageReader& message, Answer& answer) {
   answer.outcome = message.get<Outcome>();
   answer.result = message.get<std::uint64_t>();

@@ -33,7 +33,7 @@ void relax() {
 #endif
 }
 
-// With one processor, who spins keeps the other from answering.
+// With one processor, spinning keeps the other side from answering.
 Nanoseconds useful_spin_time() {
   cpu_set_t set;
   const bool known = sched_getaffinity(0, sizeof set, &set) == 0;
@@ -93,7 +93,7 @@ bool Channel::reserve(std::size_t size) {
 }
 
 void Channel::send(std::span<const std::byte> message) {
-  // An empty message is none: without memory the other side is told nonsense, which ends it.
+  // An empty message is invalid: without memory we send one, and the other side ends.
   const bool fits = message.size() <= kLargest && reserve(message.size());
   if (fits && !message.empty()) std::memcpy(message_, message.data(), message.size());
   control_->length.store(fits ? message.size() : 0, std::memory_order_relaxed);

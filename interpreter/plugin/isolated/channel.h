@@ -1,6 +1,6 @@
 // The memory that a host and its leafhost share: one message at a time, in turns, and the rings of
-// log lines. Whoever waits for its turn spins for a moment, then sleeps on a futex. Knows nothing
-// of what the messages say.
+// log lines. The side that waits for its turn spins for a moment, then sleeps on a futex. Does not
+// know the content of the messages.
 #pragma once
 
 #include <atomic>
@@ -18,12 +18,12 @@ namespace lockstep {
 
 class Channel {
  public:
-  // The largest message. What is not used costs no memory.
+  // The largest message. Unused space needs no memory.
   static constexpr std::size_t kLargest = std::size_t{64} << 20;
 
   enum class Side : std::uint32_t { Host, Leafhost };
 
-  // Memory of its own, sealed so that the other side cannot shrink it under us; -1: errno tells.
+  // New memory, sealed so that the other side cannot shrink it; -1 on failure, with errno.
   static int create_memory();
   // False when `memory` is not what create_memory made; `side` is who we are.
   bool open(int memory, Side side);
@@ -33,17 +33,17 @@ class Channel {
   Channel(const Channel&) = delete;
   Channel& operator=(const Channel&) = delete;
 
-  // Hands the turn to the other side. The message must not be larger than kLargest.
+  // Gives the turn to the other side. The message must not be larger than kLargest.
   void send(std::span<const std::byte> message);
 
   enum class Wait : std::uint8_t { Received, Late, Given_up };
-  // Until it is our turn, this process has run for `limit`, or wake() was called after `gone`
+  // Waits until it is our turn, this process has run for `limit`, or wake() was called after `gone`
   // became true.
   Wait wait(std::optional<Nanoseconds> limit, const std::atomic<bool>& gone);
-  // Lets wait() look at `gone`. From any thread.
+  // Makes wait() check `gone`. May be called from any thread.
   void wake();
 
-  // A copy of what the other side sent; nothing when it cannot be a message.
+  // A copy of what the other side sent; nothing if it is not a message.
   std::optional<std::span<const std::byte>> received();
   // What is logged by the thread that answers calls, and by all others.
   LogRing& call_log() { return control_->call_log; }

@@ -28,7 +28,7 @@ class SpawnPlan {
   SpawnPlan(const SpawnPlan&) = delete;
   SpawnPlan& operator=(const SpawnPlan&) = delete;
 
-  // A leaf that prints must not mix into our data; nothing else of ours is handed down.
+  // The output of a leaf must not mix with our data; nothing else is inherited.
   void set_descriptors(int memory, int bell, int parent) {
     const bool has_errors = fcntl(STDERR_FILENO, F_GETFD) >= 0;
     posix_spawn_file_actions_addopen(&actions_, 0, "/dev/null", O_RDONLY, 0);
@@ -40,7 +40,8 @@ class SpawnPlan {
     posix_spawn_file_actions_addclosefrom_np(&actions_, ChildProcess::kParent + 1);
   }
 
-  // Ctrl-C of a terminal is for us, who then halt the leaves in order: hence a group of its own.
+  // Ctrl-C of a terminal is for the host, which then halts the leaves in order: hence a separate
+  // group.
   void set_attributes() {
     sigset_t signals;
     sigemptyset(&signals);

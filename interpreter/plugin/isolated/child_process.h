@@ -1,5 +1,5 @@
-// A child process in a process group of its own: started with two descriptors, killed with its
-// group, reaped once. It can see the death of its parent. Knows nothing of plugins.
+// A child process in a separate process group: started with two descriptors, killed with its group,
+// reaped once. It notices the death of its parent. Knows nothing about plugins.
 #pragma once
 
 #include <sys/types.h>
@@ -18,21 +18,22 @@ class ChildProcess {
   static constexpr int kBell = 4;
   static constexpr int kParent = 5;  // a pidfd of ours: readable when we have ended
 
-  // Runs `program argument`. "" or why not. The descriptors stay the caller's.
+  // Runs `program argument`. Returns "" or the reason of a failure. The caller keeps the
+  // descriptors.
   std::string start(const std::string& program, const std::string& argument, int memory, int bell);
 
   ChildProcess() = default;
-  // Kills and reaps it, unless that is done.
+  // Kills and reaps it, unless that was already done.
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
   // Becomes readable when the process has ended.
   int descriptor() const { return descriptor_.number(); }
-  // SIGKILL to it, wherever it has gone, and to the group that it was given, unless it has been
-  // reaped. From any thread.
+  // Sends SIGKILL to it, even if it has left its group, and to that group, unless it has been
+  // reaped. May be called from any thread.
   void kill();
-  // Waits for its end, kills what is left of its group, and says how it ended: "was killed by
+  // Waits for its end, kills the rest of its group, and returns how it ended: "was killed by
   // SIGSEGV (Segmentation fault)", "ended with exit code 3".
   std::string reap();
 

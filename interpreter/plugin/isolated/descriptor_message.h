@@ -1,5 +1,5 @@
-// The descriptors of a plugin as a message: written by the leafhost that has it loaded, read by the
-// host, which gets descriptors of its own that are checked once more.
+// The descriptors of a plugin as a message. The leafhost that loaded the plugin writes it. The host
+// reads it and checks its copy of the descriptors again.
 #pragma once
 
 #include <deque>
@@ -14,12 +14,12 @@ namespace lockstep {
 
 void write_descriptors(const Descriptors& descriptors, MessageWriter& message);
 
-// A plugin's tables with all that they point to. Functions that the plugin has are those of
-// `functions`; the others are NULL.
+// A plugin's tables with everything that they point to. Functions that the plugin has are taken
+// from `functions`; the others are NULL.
 struct OwnedDescriptors {
   lockstep_plugin plugin{};
 
-  // False: the message makes no sense.
+  // Returns false if the message is invalid.
   bool read(MessageReader& message, const lockstep_plugin& plugin_functions,
             const lockstep_leaf_type& leaf_functions);
 
@@ -28,7 +28,7 @@ struct OwnedDescriptors {
   void read_port(MessageReader& message);
   bool read_leaf(MessageReader& message, const lockstep_leaf_type& functions);
 
-  std::deque<std::string> texts_;  // none of these moves when another comes
+  std::deque<std::string> texts_;  // elements do not move when one is added
   std::deque<lockstep_port> ports_;
   std::deque<std::vector<const lockstep_port*>> port_lists_;
   std::deque<lockstep_leaf_type> leaves_;

@@ -1,5 +1,5 @@
-// Carries the log lines of a leafhost's leaves to the host, from any thread: through a ring, and by
-// ringing the bell when the host would not look by itself.
+// Carries the log lines of a leafhost's leaves to the host, from any thread, through a ring. Rings
+// the bell when the host would not check the ring by itself.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace lockstep {
 
 class HostLog {
  public:
-  // The thread that makes it is the one that answers calls: the host looks after each of these.
+  // The thread that constructs it answers the calls: the host checks the ring after each call.
   // `bell` is an eventfd.
   HostLog(Channel& channel, int bell)
       : calls_(channel.call_log()), threads_(channel.thread_log()), bell_(bell) {}

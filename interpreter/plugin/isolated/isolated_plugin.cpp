@@ -53,7 +53,7 @@ std::optional<Problem> IsolatedPlugin::start(Session& session) {
   session.begin_request(PluginFunction::Load);
   if (!session.call({})) {
     return Problem{"cannot be loaded: " + words(session),
-                   "what a shared object does while it is loaded, it does in its constructors"};
+                   "the constructors of a shared object run while it is loaded"};
   }
   MessageReader answer = session.answer();
   if (answer.has_text()) {
@@ -68,11 +68,11 @@ std::optional<Problem> IsolatedPlugin::describe(MessageReader description) {
   const auto bytes = description.rest();
   if (!description_.empty()) {
     if (std::ranges::equal(bytes, description_)) return std::nullopt;
-    return Problem{"has changed since it was loaded", "start anew"};
+    return Problem{"has changed since it was loaded", "start lockstep again"};
   }
   description_.assign(bytes.begin(), bytes.end());
   if (descriptors_.read(description, remote_plugin(), remote_leaf_type())) return std::nullopt;
-  return Problem{"cannot be loaded: its process answered with bytes that make no sense",
+  return Problem{"cannot be loaded: its process sent an invalid answer",
                  "is lockstep-leafhost of the same build as lockstep?"};
 }
 

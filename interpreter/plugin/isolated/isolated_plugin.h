@@ -1,5 +1,5 @@
-// A plugin that lives in processes of its own, one for each run that goes on at the same time. To
-// the rest of the program it is an ordinary plugin, whose functions are proxies (remote_run.h).
+// A plugin in separate processes, one for each concurrent run. To the rest of the program it is an
+// ordinary plugin, whose functions are proxies (remote_run.h).
 #pragma once
 
 #include <memory>
@@ -20,21 +20,22 @@ class IsolatedPlugin {
   // Starts the first process, which opens the file, checks it and describes the plugin.
   [[nodiscard]] static Result<std::unique_ptr<IsolatedPlugin>> open(
       const std::string& path, const IsolationOptions& options);
-  // Deinitializes the plugin in each of its processes and ends them. No run may go on.
+  // Deinitializes the plugin in each of its processes and ends them. No run may be in progress.
   ~IsolatedPlugin();
   IsolatedPlugin(const IsolatedPlugin&) = delete;
   IsolatedPlugin& operator=(const IsolatedPlugin&) = delete;
 
-  // As long as this lives.
+  // Valid as long as this object.
   const lockstep_plugin& entry() const { return descriptors_.plugin; }
   // The place of a leaf type among those of the plugin, by its id, which is the very pointer that
   // entry() has.
   std::optional<std::uint32_t> index_of(const lockstep_leaf_type& type) const;
 
-  // Calls init in the first process. "" or why it did not work.
+  // Calls init in the first process. Returns "" or the reason of a failure.
   std::string initialize();
 
-  // A process for one run, initialized; null: `failure` says why. From any thread.
+  // An initialized process for one run; null on failure, with the reason in `failure`. May be
+  // called from any thread.
   std::unique_ptr<Session> acquire(std::string& failure);
   void release(std::unique_ptr<Session> session);
 

@@ -1,6 +1,5 @@
-// Lines that the leaves of a leafhost log, on their way to the host: bytes in shared memory,
-// written by any thread of the one process and read by any thread of the other. What does not fit
-// is counted.
+// A queue of the lines that the leaves of a leafhost log: bytes in shared memory, written by any
+// thread of one process and read by any thread of the other. Lines that do not fit are counted.
 #pragma once
 
 #include <array>
@@ -36,14 +35,14 @@ class LogRingWriter {
   LogRing& ring_;
 };
 
-// Not safe by itself: its owner lets one thread in at a time. Trusts nothing that it reads.
+// Not thread-safe: its owner allows one thread at a time. Checks everything that it reads.
 class LogRingReader {
  public:
   explicit LogRingReader(LogRing& ring) : ring_(ring) {}
   using Line = std::function<void(std::uint32_t caller, lockstep_log_level, const char* text)>;
-  // At most so many lines, and at least one.
+  // Reads at least one line and at most `lines`.
   void drain(const Line& line, std::size_t most = ~std::size_t{0});
-  // Lines that did not fit since the last question.
+  // Lines that did not fit since the last call.
   std::uint32_t take_lost() { return ring_.lost.exchange(0); }
   bool empty() const { return ring_.written.load(std::memory_order_acquire) == read_; }
 

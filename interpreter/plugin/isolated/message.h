@@ -1,5 +1,6 @@
-// What a host and a leafhost say to each other, as bytes: both are of one build on one machine, so
-// numbers are copied as they lie. A reader trusts nothing: a plugin may have written anything.
+// Messages between a host and a leafhost, as bytes. Both are from one build on one machine, so
+// numbers are copied as they are in memory. A reader checks everything: a plugin may have written
+// anything.
 #pragma once
 
 #include <cstddef>
@@ -33,7 +34,7 @@ class MessageWriter {
   std::vector<std::byte> bytes_;  // keeps its capacity
 };
 
-// Once something is missing or impossible, everything read is empty and good() is false.
+// After an error, everything that is read is empty and good() is false.
 class MessageReader {
  public:
   explicit MessageReader(std::span<const std::byte> bytes) : rest_(bytes) {}
@@ -46,7 +47,7 @@ class MessageReader {
   }
   std::string_view text();
   bool has_text();  // what put_text_or_null wrote before the text
-  // Into `value`, whose memory is used again. False: not a value of any type.
+  // Reads into `value` and reuses its memory. Returns false if it is not a value of any type.
   bool value_into(Value& value);
   std::span<const std::byte> rest() const { return rest_; }
   bool good() const { return good_; }

@@ -1,5 +1,5 @@
-// The blackboard entries and constants that the leaves of one run in another process are bound to,
-// by number, with what that process knows of each: only what has changed is sent.
+// The blackboard entries and constants that the leaves of a run in another process are bound to, by
+// number, with the value that the process has: only changes are sent.
 #pragma once
 
 #include <cstdint>
@@ -19,17 +19,17 @@ class RemoteEntries {
 
   // Ports of one entry have one number. The port must be bound.
   std::uint32_t number_of(const BoundPort& port);
-  // The entries of these ports (kNone is passed over), as far as the other side does not know them.
+  // The entries of these ports (kNone is skipped) whose values the other side does not have.
   void write(std::span<const std::uint32_t> ports, MessageWriter& message);
-  // Takes what was set on the other side. False: the message makes no sense.
+  // Stores what the other side has set. Returns false if the message is invalid.
   bool read(MessageReader& message);
-  // The other side knows nothing any more.
+  // Forgets which values the other side has.
   void forget();
 
  private:
   struct Entry {
     const Value* read;
-    lockstep::Entry* write;  // null: nobody there may set it
+    lockstep::Entry* write;  // null: the other side may not set it
     ValueType type;
     bool known = false;
     Value last = {};  // what the other side knows

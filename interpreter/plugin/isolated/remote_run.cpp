@@ -121,7 +121,7 @@ std::uint64_t call(void* leaf, PluginFunction function) {
   return finish(it.run, it.caller, it.ports);
 }
 
-// The end of a leaf or a run: nobody will ask for its error, so it becomes a line of the log.
+// The end of a leaf or a run: its error will not be read, so it is logged.
 void finish_end(RemoteRun& run, const lockstep_caller& caller,
                 std::span<const std::uint32_t> ports) {
   finish(run, caller, ports);

@@ -1,5 +1,5 @@
-// The functions of an isolated plugin as the engine and LeafSet call them: each sends its call to
-// the process of the run, with what the leaf may read, and brings back what the leaf has set.
+// The functions of an isolated plugin that the engine and LeafSet call. Each sends its call to the
+// process of the run, with what the leaf may read, and returns what the leaf has set.
 #pragma once
 
 #include "lockstep/leaf.h"

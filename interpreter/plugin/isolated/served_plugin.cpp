@@ -21,7 +21,7 @@
 namespace lockstep {
 namespace {
 
-// Where the plugin will not put a file of its own when it has closed all that it does not know.
+// A number that the plugin will not reuse for a file after it has closed all unknown descriptors.
 int moved_up(int descriptor) {
   const int high = fcntl(descriptor, F_DUPFD_CLOEXEC, 500);
   if (high >= 0) {
@@ -32,8 +32,8 @@ int moved_up(int descriptor) {
   return descriptor;
 }
 
-// Nothing of ours outlives the host. What is killed is the group that we were given, which is not
-// that of the host, whatever group the plugin has put us into.
+// Nothing here outlives the host. The group that we were given is killed, which is not that of the
+// host, whatever group the plugin has put us into.
 [[noreturn]] void follow_host_into_death(int descriptor, pid_t host) {
   pollfd end{descriptor, POLLIN, 0};
   poll(&end, 1, -1);
@@ -119,7 +119,7 @@ class Server {
     const auto deinit = descriptors_.plugin.deinit;
     if (!initialized_ || deinit == nullptr) return;
     const MarkedCall mark(CallSite::of("", descriptors_.plugin.name), PluginFunction::Deinit);
-    thrown_by(deinit);  // the work is done, nobody is left to tell
+    thrown_by(deinit);  // the work is done; there is no one to report to
   }
 
   std::string path_;

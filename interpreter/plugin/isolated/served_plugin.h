@@ -1,5 +1,5 @@
-// The other end of an isolated plugin, in the process that has it loaded: answers the calls of the
-// host one after the other. To the plugin it is the host.
+// The server of an isolated plugin, in the process that loaded it: answers the calls of the host
+// one after the other. To the plugin it is the host.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // The leaves of one run and their run context in a leafhost, with the values that their ports are
-// bound to. Each call is told by a message and told of by a message.
+// bound to. A message requests each call, and another message answers it.
 #pragma once
 
 #include <deque>
@@ -20,7 +20,7 @@ class ServedRun {
  public:
   ServedRun(const Descriptors& descriptors, HostLog& log) : descriptors_(descriptors), log_(log) {}
 
-  // Does what the request says, once its function has been read. False: it makes no sense.
+  // Executes the request, whose function has already been read. Returns false if it is invalid.
   bool answer(PluginFunction function, MessageReader& request, MessageWriter& answer);
 
  private:
@@ -39,7 +39,7 @@ class ServedRun {
   bool read_ports(MessageReader& request, std::vector<BoundPort>& ports);
   bool read_entries(MessageReader& request);
   Entry* entry(std::uint32_t number);
-  // Returns what it threw, "" when it came back.
+  // Returns the description of what it threw, or "" if it returned.
   std::string call(Object& object, PluginFunction function, std::uint64_t& result);
   std::uint64_t create(Object& object);
   std::uint64_t call_run(Object& object, PluginFunction function);

@@ -158,8 +158,8 @@ void Session::fail_call(std::string_view who, Ending ending) {
     blame_ =
         fmt::format("was killed because {}{} did not return for {:g} s", function, where, limit);
   } else if (ending == Ending::Nonsense) {
-    last_words_ = "its process answered with bytes that make no sense; it was killed";
-    blame_ = fmt::format("was killed because its answer to {}{} made no sense", function, where);
+    last_words_ = "its process sent an invalid answer; it was killed";
+    blame_ = fmt::format("was killed because its answer to {}{} was invalid", function, where);
   } else {
     last_words_ = "its process " + death_;
     blame_ = fmt::format("{} in {}{}", death_, function, where);

@@ -1,6 +1,6 @@
-// One leafhost as its host sees it: a process that has a plugin loaded and answers one call at a
-// time. Whatever becomes of the process, a call returns, and what is left of it is reaped. Knows
-// which function is called, not what the messages say.
+// One leafhost as its host sees it: a process that has loaded a plugin and answers one call at a
+// time. Whatever happens to the process, a call returns and the process is reaped. Knows which
+// function is called, but not the content of the messages.
 #pragma once
 
 #include <atomic>
@@ -24,23 +24,23 @@ namespace lockstep {
 
 class Session {
  public:
-  // "" or why the process could not be started.
+  // "", or the reason why the process could not be started.
   std::string start(const IsolationOptions& options, const std::string& plugin);
   Session() = default;
-  // Kills the process if it still lives.
+  // Kills the process if it still runs.
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  // The message of the next call; begin_request clears it and says which function is meant.
+  // The message of the next call; begin_request clears it and sets the function.
   MessageWriter& begin_request(PluginFunction function);
   MessageWriter& request() { return request_; }
   bool request_fits() const { return request_.bytes().size() <= Channel::kLargest; }
-  // False: there is no answer and never will be; last_words() tells the caller, epitaph() the
-  // others. `who` is the leaf that is called, "" for the plugin itself.
+  // Returns false if there will be no answer. Then last_words() is the error of this call and
+  // epitaph() that of later calls. `who` is the leaf that is called, "" for the plugin itself.
   bool call(std::string_view who);
   MessageReader answer();
-  // The answer made no sense: ends the process.
+  // The answer was invalid: ends the process.
   void reject_answer();
 
   bool is_gone() const { return given_up_ || gone_.load(); }
@@ -53,8 +53,8 @@ class Session {
   // The last call of all, after which the process ends by itself.
   void end();
 
-  // Whose lines a number in the log means, until all are forgotten; then lines of before have been
-  // told, and those to come are nobody's.
+  // Sets which leaf a number in the log means. After all are forgotten, earlier lines have been
+  // reported, and later lines belong to no leaf.
   void add_listener(std::uint32_t number, const lockstep_caller& caller);
   void forget_listeners();
 

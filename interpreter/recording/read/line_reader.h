@@ -1,5 +1,4 @@
-// The lines of a stream, one after the other, of at most so many bytes each. Used by
-// recording_reader.
+// Reads the lines of a stream, each with a limited number of bytes. Used by recording_reader.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +12,8 @@ class LineReader {
   // `in` must outlive the reader.
   LineReader(std::istream& in, std::size_t longest) : in_(in), longest_(longest) {}
 
-  // Reads the next line; false at the end, and when the line is too long. That one is counted, but
-  // not kept.
+  // Reads the next line. Returns false at the end, and if the line is too long; such a line is
+  // counted but not kept.
   bool next();
   // Without its end. May be changed: it is not read again.
   std::string& text() { return text_; }
@@ -28,7 +27,7 @@ class LineReader {
     std::uint64_t lines = 0, bytes = 0;
   };
   const Place& place() const { return place_; }
-  // Reads on where this reader once stood. False when the stream cannot seek.
+  // Continues at an earlier position of this reader. Returns false if the stream cannot seek.
   bool go_to(const Place& place);
 
  private:

@@ -99,11 +99,11 @@ void read_arguments(JsonValue value, RecordingHeader& header) {
     if (!argument.get(text))
       throw JsonError(fmt::format("argument '{}' is not a string", brief(name)));
     if (!header.arguments.emplace(name, text).second)
-      throw JsonError(fmt::format("argument '{}' is there twice", brief(name)));
+      throw JsonError(fmt::format("argument '{}' is given twice", brief(name)));
   });
 }
 
-// The nodes stand in pre-order: a node's parent is the one before it, or one of that one's parents.
+// The nodes are in pre-order: the parent of a node is the node before it, or one of its ancestors.
 void check_order(std::span<const RecordedNode> nodes) {
   std::vector<NodeIndex> open;
   for (NodeIndex node = 0; node < nodes.size(); ++node) {

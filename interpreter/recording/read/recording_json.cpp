@@ -176,7 +176,7 @@ RecordedGap gap_from(JsonObject object) {
   object.read({{"ticks", into(gap.ticks)}, {"from", into(gap.from)}});
   constexpr std::uint64_t kMost = std::uint64_t{1} << 63u;  // ticks of a run
   if (gap.ticks > 0 && gap.ticks <= kMost && gap.from <= kMost - gap.ticks) return gap;
-  throw JsonError(fmt::format("no {} ticks can be lost from tick {} on", gap.ticks, gap.from));
+  throw JsonError(fmt::format("{} ticks cannot be lost from tick {} on", gap.ticks, gap.from));
 }
 
 // More than a summary shows: of many short ones each would take far more than its length.
@@ -243,7 +243,7 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
   };
   const auto read_entries = [&](JsonValue value) {
     value.each_item([&](JsonValue it) {
-      if (entries_.size() == keys_) throw JsonError("an entry is there twice");
+      if (entries_.size() == keys_) throw JsonError("an entry is given twice");
       entries_.push_back(entry_from(it, keys_));
     });
   };

@@ -1,5 +1,5 @@
-// The lines of a recording: JSON, taken apart and checked. What is wrong with a line is thrown as a
-// JsonError, which the reader turns into an error with a line number; nobody else uses this.
+// Parses and checks the JSON of the lines of a recording. An error in a line is thrown as a
+// JsonError, which recording_reader, the only user, turns into an error with a line number.
 #pragma once
 
 #include <string>
@@ -15,8 +15,8 @@ class RecordingJson {
  public:
   RecordingHeader header(std::string& line);
 
-  // Of any other line. The changes of a tick are taken over into `states`; what it points to is
-  // valid until the next call.
+  // Parses any other line. The changes of a tick are stored in `states`; what it points to is valid
+  // until the next call.
   using Line = std::variant<RecordedTick, RecordedGap, RecordedEnd>;
   Line line(std::string& line, std::vector<RecordedState>& states);
 

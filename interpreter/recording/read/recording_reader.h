@@ -1,6 +1,6 @@
-// Reads a recording line by line and keeps the state of every node as of the line read last. A file
-// that ends early, as after a kill, is read up to its last whole line; anything else that is wrong
-// is an error with its line.
+// Reads a recording line by line and keeps the state of every node after the last read line. A file
+// that ends early, as after a kill, is read up to its last whole line; any other damage is an error
+// with its line.
 #pragma once
 
 #include <istream>
@@ -16,7 +16,7 @@ namespace lockstep {
 
 class RecordingJson;
 
-// What is known of a recording once it has been read; each "" when there is nothing to tell.
+// The findings after a recording has been read; "" if there is nothing to report.
 struct RecordingOutcome {
   std::string error, gaps, cut;    // as RecordingReader tells them
   std::optional<RecordedEnd> end;  // the closing line
@@ -24,12 +24,12 @@ struct RecordingOutcome {
 
 class RecordingReader {
  public:
-  // A line that is longer is refused, before it takes more memory.
+  // A longer line is refused, before it needs more memory.
   struct Limits {
     std::size_t line = std::size_t{1} << 30u;  // bytes; the header of the largest tree has fewer
   };
 
-  // `in` must outlive the reader; `name` is how errors call it. Reads the header: check error().
+  // `in` must outlive the reader; errors call it `name`. Reads the header: check error().
   RecordingReader(std::istream& in, std::string name) : RecordingReader(in, std::move(name), {}) {}
   RecordingReader(std::istream& in, std::string name, Limits limits);
   ~RecordingReader();
@@ -45,12 +45,12 @@ class RecordingReader {
     double time = 0;
   };
   Place place() const { return {lines_.place(), next_tick_, last_time_}; }
-  // To where this reader once stood; `states` are those of then. The next tick is the one after it.
-  // The file must not have been changed before that place, and be one that can seek. False when it
-  // is not.
+  // Goes back to an earlier position of this reader; `states` are those of that position. The next
+  // tick is the one after it. The file must be seekable and unchanged before that position. Returns
+  // false otherwise.
   bool go_to(const Place& place, std::span<const RecordedState> states);
 
-  // "" while all is well, else "run.jsonl:12: no node 99, expected 0 to 4".
+  // "" if there is no error, else "run.jsonl:12: no node 99, expected 0 to 4".
   const std::string& error() const { return error_; }
   const RecordingHeader& header() const { return header_; }
   // The closing line, once it has been read.
@@ -58,7 +58,7 @@ class RecordingReader {
   // Of the lines read so far: "" when no tick is lost, else "2 ticks are missing, the first is 7:
   // the disk was too slow".
   std::string gaps() const;
-  // After the last tick: "" when the recording is whole, else how it ends.
+  // After the last tick: "" if the recording is complete, else how it ends.
   std::string cut() const;
   RecordingOutcome outcome() const { return {error_, gaps(), cut(), end_}; }
 

@@ -1,11 +1,11 @@
 // The ticks of a recording in any order: forward, back, at a number. Used by replays.
 //
-// A line of a recording tells only what has changed, so going back means to read on from an earlier
-// place whose whole state is known: a keyframe. Keyframes lie a number of bytes of the file apart,
-// not of ticks, since bytes are what reading costs: a step back takes a millisecond or so. When
-// they take more than kMostMemory, every second one is dropped and the distance doubles. So memory
-// is bounded however long the recording is, and a step back gets slower only for huge trees in huge
-// files.
+// A line of a recording contains only changes, so going back means reading from an earlier place
+// whose whole state is known: a keyframe. The distance between keyframes is a number of bytes in
+// the file, because the cost of reading depends on bytes; a step back takes about a millisecond.
+// When keyframes need more than most_memory, every second one is dropped and the distance doubles.
+// So the memory is bounded for recordings of any length, and a step back gets slower only for huge
+// trees in huge files.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ struct Moment {
   friend bool operator==(const Moment&, const Moment&) = default;
 };
 
-// Takes the tick that a reader is at over into `moment`.
+// Copies the current tick of a reader to `moment`.
 void take(const RecordedTick& tick, std::uint64_t lost, Moment& moment);
 
 struct TimelineOptions {
@@ -39,12 +39,12 @@ struct TimelineOptions {
 
 class RecordingTimeline {
  public:
-  // Reads the recording to its end, or to where it is damaged, and goes to its first tick. Its file
-  // must be one that can seek; from here on the reader is the timeline's.
+  // Reads the recording to its end, or up to damage, and goes to its first tick. Its file must be
+  // seekable. From now on only the timeline may use the reader.
   explicit RecordingTimeline(RecordingReader& reader, const TimelineOptions& options = {});
 
   const RecordingOutcome& outcome() const { return outcome_; }
-  // How many ticks it has. With none, nothing of what follows may be called.
+  // The number of ticks. If it is 0, none of the following functions may be called.
   std::uint64_t size() const { return size_; }
   std::uint64_t first_tick() const { return keyframes_.front().moment.tick; }
   std::uint64_t last_tick() const { return last_tick_; }
@@ -52,10 +52,10 @@ class RecordingTimeline {
 
   const Moment& now() const { return now_; }
   bool at_end() const { return now_.number + 1 == size_; }
-  // When the tick after this one began; not at the end.
+  // When the next tick began; not at the end.
   double next_time() const { return next_->time; }
 
-  // At the end, and at the begin, there is nowhere to go.
+  // They do nothing at the end and at the beginning.
   void step_forward();
   void step_back();
   // The tick with this number, else the last before it, else the first.
@@ -63,7 +63,7 @@ class RecordingTimeline {
   void go_to_begin() { go_to_number(0); }
   void go_to_end() { go_to_number(size_ - 1); }
 
-  // The file is no longer what it was, and nothing can be read any more.
+  // The file was changed, so nothing can be read any more.
   bool failed() const { return failed_; }
 
   std::size_t keyframes() const { return keyframes_.size(); }

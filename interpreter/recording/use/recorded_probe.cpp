@@ -37,7 +37,7 @@ SynchronizedTick RecordedProbe::read(const RecordedTick& tick) {
   for (std::size_t child = 0; child < children_.size(); ++child) {
     const RecordedState& state = tick.nodes[children_[child]];
     // A parallel that does not synchronize is judged by what was there before its tick, and none of
-    // its children has progress when it begins anew.
+    // its children has progress when it starts again.
     progress_[child] = synchronizes_ || runs_ ? state.progress : 0;
     held_.set(child, state.status, state.ticked, state.held);
   }

@@ -1,5 +1,5 @@
 // Reads the ticks of parallels from a recording, as SynchronizedProbe does from a Ticker. Used by
-// all that measures or draws recordings.
+// everything that measures or draws recordings.
 #pragma once
 
 #include <string>
@@ -35,7 +35,7 @@ class RecordedProbe {
   bool runs_ = false;  // after the last tick
 };
 
-// A synchronized node and what is measured of it.
+// A synchronized node and its measures.
 struct RecordedMeasure {
   RecordedProbe probe;
   SynchronizedMeasure measure;

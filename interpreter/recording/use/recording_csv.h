@@ -9,14 +9,14 @@
 
 namespace lockstep {
 
-// As they are, or for a terminal: as printable() makes them.
+// Names unchanged, or, for a terminal, as printable() makes them.
 enum class CsvNames : bool { Exact, Printable };
 
-// Takes whole rows; false: no more of them.
+// Receives whole rows; returns false to stop.
 using CsvSink = std::function<bool(std::string_view rows)>;
 
-// Writes all ticks that can be read; then look at reader.error() and reader.cut(). False when the
-// sink took no more.
+// Writes all readable ticks; then check reader.error() and reader.cut(). Returns false if the sink
+// stopped it.
 bool write_csv(RecordingReader& reader, const CsvSink& write, CsvNames names = CsvNames::Exact);
 
 }  // namespace lockstep

@@ -1,5 +1,6 @@
-// Compares two recordings: in what their headers, their first tick that differs, and their ends are
-// not the same. Not compared: the names of the files, and the version that has recorded (a note).
+// Compares two recordings: the differences in their headers, in the first tick that differs, and in
+// their ends. The names of the files are not compared. Different versions of lockstep are only
+// noted.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@ struct DiffOptions {
   bool ignore_time = false;  // on the wall clock no two runs have the same times
 };
 
-// Something that is text in both; none: not there.
+// A difference between two texts; none: missing.
 struct ValueDifference {
   std::string what;
   std::optional<std::string> a, b;
@@ -29,7 +30,7 @@ struct NodeDifference {
 
 struct TickDifference {
   std::uint64_t tick = 0;
-  // When not None, nothing more is told.
+  // If not None, the rest is not set.
   enum class Missing : std::uint8_t { None, InA, InB } missing = Missing::None;
   bool lost = false;              // it is missing, but later ones are there
   double time_a = 0, time_b = 0;  // seconds; the same when they are not compared
@@ -46,7 +47,7 @@ struct RecordingDiff {
   std::optional<TickDifference> tick;
   std::uint64_t ticks_a = 0, ticks_b = 0;  // that are in them
   std::vector<ValueDifference> end;
-  std::vector<std::string> notes;  // what is no difference, but may explain one
+  std::vector<std::string> notes;  // not differences, but facts that may explain one
 
   bool same() const { return header.empty() && !tick && ticks_a == ticks_b && end.empty(); }
 };

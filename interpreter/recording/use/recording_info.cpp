@@ -69,7 +69,7 @@ void write_warnings(const RecordingReader& reader, std::uint64_t faults, std::st
   }
   if (faults > 0) {
     fmt::format_to(std::back_inserter(out), "  {}\n",
-                   styled(counted(faults, "fault") + " of leaves that the run went on after",
+                   styled(counted(faults, "fault") + " of leaves after which the run went on",
                           Style::Warning, color));
   }
 }

@@ -1,5 +1,5 @@
-// What a recording is of, how it ended, and the measures of its synchronized nodes, computed from
-// its lines alone.
+// The tree of a recording, how the run ended, and the measures of its synchronized nodes, computed
+// from its lines alone.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace lockstep {
 
-// Reads to the end; then look at reader.error(). A cut recording is told in the text.
+// Reads to the end; then check reader.error(). The text reports a cut recording.
 std::string info_text(RecordingReader& reader, bool color = false);
 
 }  // namespace lockstep

@@ -167,8 +167,8 @@ void AppendFile::give_up(const char* what, Failure failure) {
   failed_.store(true, std::memory_order_release);
 }
 
-// A disk that fills up takes a part of a line. Counted from the end: somebody may have emptied the
-// file meanwhile.
+// A disk that fills up accepts a part of a line. Counted from the end: somebody may have emptied
+// the file meanwhile.
 void AppendFile::cut_back() {
   const off_t end = ::lseek(file_, 0, SEEK_END);
   const auto unfinished = static_cast<off_t>(unfinished_);
@@ -200,7 +200,7 @@ void AppendFile::save(std::chrono::nanoseconds deadline) {
   // Later packets, of a tick thread that still runs, are not waited for: it might never end.
   const std::uint64_t until = ring_.pushed();
   const auto is_done = [&] { return failed() || ring_.taken() >= until; };
-  // When the crash is in the thread that writes, there is nobody to wait for.
+  // If the crash is in the writing thread, there is nothing to wait for.
   const bool mine = claim_.load() == gettid();
   work_.ring();
   while (!mine && !is_done() && monotonic_now() < deadline) nap();

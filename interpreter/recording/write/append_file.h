@@ -1,7 +1,7 @@
-// A file that only grows, written by a thread of its own: whoever has something to write never
-// waits for the disk, nor for numbers to become text. Between the two is a queue of packets, of
-// fixed size; what does not fit is refused. Whole lines are written, so that a file cut by a kill
-// can be read up to its last whole line. The first error ends the writing.
+// A file that only grows, written by a separate thread: callers wait neither for the disk nor for
+// printing. Between the threads is a queue of packets of fixed size; a packet that does not fit is
+// refused. Only whole lines are written, so a file cut by a kill can be read up to its last whole
+// line. The first error ends the writing.
 #pragma once
 
 #include <sys/types.h>
@@ -22,37 +22,40 @@ namespace lockstep {
 class AppendFile {
  public:
   static constexpr std::size_t kQueue = 8u << 20;  // bytes
-  // A packet is written at the latest so long after push(), or when so much is collected, or half
-  // of what the queue takes.
+  // A packet is written at most this long after push(), or as soon as this many bytes, or half of
+  // the queue, are collected.
   static constexpr std::chrono::milliseconds kLongestDelay{100};
   static constexpr std::size_t kFull = 64u << 10;  // bytes
   static constexpr std::size_t kText = 64u << 10;  // bytes that are written at once
   static constexpr std::chrono::milliseconds kLongestEmergency{500};
 
-  // Creates the file; error() tells when that is not possible. It takes its name, and the place of
-  // what has it, when the first line is in it: core/output_file.h.
+  // Creates the file; on failure error() has the reason. The file gets its name, and replaces an
+  // existing file, when its first line is written: core/output_file.h.
   explicit AppendFile(const std::string& path, std::size_t queue = kQueue);
   // Flushes.
   ~AppendFile();
   AppendFile(const AppendFile&) = delete;
   AppendFile& operator=(const AppendFile&) = delete;
 
-  // One thread at a time calls these three. A packet is of whole lines: its text ends in '\n'.
+  // Only one thread at a time may call these three. A packet consists of whole lines: its text ends
+  // in '\n'.
 
-  // Never waits. False: the queue is full, or writing has failed; nothing was taken.
+  // Never waits. Returns false if the queue is full or writing has failed; then the packet is not
+  // stored.
   bool push(const Packet& packet);
-  // Returns when it is written, or writing has failed. It may be longer than the queue.
+  // Returns when the packet is written, or writing has failed. The packet may be longer than the
+  // queue.
   void write(const Packet& packet);
-  // Returns when all is written, or writing has failed.
+  // Returns when everything is written, or writing has failed.
   void flush();
 
   bool failed() const { return failed_.load(std::memory_order_acquire); }
-  // "" while all is well, else "cannot write 'x': No space left on device".
+  // "" if there is no error, else "cannot write 'x': No space left on device".
   const std::string& error() const;
 
-  // For a crash handler, on any thread: async-signal-safe. Has what was pushed to any file of this
-  // process written out, by its thread or, when that does not answer, right here. Gives up after
-  // kLongestEmergency on a disk that does not take it.
+  // For a crash handler, on any thread; async-signal-safe. Writes everything that was pushed to any
+  // file of this process: its thread writes it or, if that thread does not answer, the caller.
+  // Gives up after kLongestEmergency.
   static void emergency_flush();
 
  private:
@@ -73,7 +76,7 @@ class AppendFile {
   const std::string path_;
   OutputFile out_;
   const int file_;
-  std::string error_;  // not touched any more once failed_
+  std::string error_;  // constant once failed_ is set
   std::atomic<bool> failed_{false};
 
   std::uint64_t called_for_ = 0;  // bytes that had been pushed when the thread was last woken
@@ -81,7 +84,8 @@ class AppendFile {
   Bell done_;                     // of the thread
   std::atomic<bool> stopping_{false};
 
-  // The thread that takes packets out and writes them; 0: none. So no byte is written twice.
+  // The thread that takes packets out and writes them; 0: none. It prevents that a byte is written
+  // twice.
   std::atomic<pid_t> claim_{0};
   std::vector<char> text_;     // what it prints to
   std::uint64_t written_ = 0;  // bytes of the text of the packets in the ring, in the file already

@@ -8,13 +8,13 @@ namespace lockstep {
 
 class Bell {
  public:
-  // How often it has been rung. Ask before looking at what the bell is about, then wait for more.
+  // How often it has been rung. Read this before checking for work, then wait for more.
   std::uint32_t rung() const { return rung_.load(std::memory_order_acquire); }
   void ring() {
     rung_.fetch_add(1, std::memory_order_release);
     futex_wake(rung_);
   }
-  // Returns once it has been rung since `seen`, or after `longest`, or for no reason.
+  // Returns once it has been rung since `seen`, or after `longest`, or spuriously.
   void wait(std::uint32_t seen, Nanoseconds longest) { futex_wait(rung_, seen, longest); }
 
  private:

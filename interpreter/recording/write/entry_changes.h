@@ -1,6 +1,6 @@
-// Which blackboard entries have another value than in the last line of a recording. A line that the
-// file did not take is as if it had not been. An entry that nobody writes costs a comparison per
-// tick. Used by recorder.
+// Finds blackboard entries whose value differs from the last line of a recording. Lines that the
+// file did not accept are ignored. An entry that nobody writes costs one comparison per tick. Used
+// by recorder.
 #pragma once
 
 #include <optional>
@@ -21,12 +21,13 @@ class EntryChanges {
  public:
   static constexpr std::size_t kLongest = 256;  // bytes of a value as text
 
-  // Of these slots of the blackboard, which are numbered in this order.
+  // For these slots of the blackboard, numbered in this order.
   explicit EntryChanges(std::vector<std::uint32_t> slots);
 
-  // After a tick. Valid until the next call. Allocates only where a text is longer than before.
+  // Call after a tick. The result is valid until the next call. Allocates only if a text is longer
+  // than before.
   std::span<const EntryChange> changes(const Blackboard& board);
-  // What changes() gave last has reached the file.
+  // Call when the file has accepted the last result of changes().
   void keep();
 
  private:

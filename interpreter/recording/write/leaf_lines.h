@@ -1,5 +1,5 @@
-// The lines that leaves log, on their way into a recording: from any thread to the tick thread. A
-// line that the file did not take waits for the next. Used by recorder.
+// Carries the lines that leaves log from any thread to the tick thread, for a recording. A line
+// that the file did not accept waits for the next tick. Used by recorder.
 #pragma once
 
 #include <atomic>
@@ -19,9 +19,10 @@ class LeafLines {
   // From any thread.
   void add(std::string_view who, std::string_view level, std::string_view text);
 
-  // On the tick thread. Those that wait; valid until the next call. No lock while there are none.
+  // The waiting lines; on the tick thread. Valid until the next call. Takes no lock if there are
+  // none.
   std::span<const RecordedLog> lines();
-  // What lines() gave last has reached the file.
+  // Call when the file has accepted the last result of lines().
   void keep();
   std::uint64_t left_out() const { return left_out_; }
 

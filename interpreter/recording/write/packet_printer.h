@@ -1,6 +1,6 @@
 // Turns the packets in a ring into the lines of a recording, a piece of text at a time.
-// Async-signal-safe: allocates nothing, and writes to nothing but itself and the text, so that
-// another printer may begin anew where the ring begins. Used by append_file.
+// Async-signal-safe: does not allocate, and writes only to itself and the text, so that another
+// printer may start again at the beginning of the ring. Used by append_file.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,14 @@ class PacketPrinter {
  public:
   static constexpr std::size_t kLeastRoom = 512;  // bytes of text for print()
 
-  // Stands before the first packet in the ring.
+  // Starts before the first packet in the ring.
   explicit PacketPrinter(const PacketRing& ring) : ring_(ring), at_(ring.taken()), finished_(at_) {}
 
-  // The next of the text, as much as there is and `room` takes; "" when everything is printed.
+  // The next part of the text that fits into `room`; "" when everything is printed.
   std::string_view print(std::span<char> room);
 
-  // Where in the ring the first packet begins that is not printed as a whole, and how many bytes of
-  // its text are.
+  // Where in the ring the first packet begins that is not completely printed, and how many bytes of
+  // its text are printed.
   std::uint64_t finished() const { return finished_; }
   std::uint64_t unfinished_text() const { return unfinished_text_; }
 
@@ -39,7 +39,7 @@ class PacketPrinter {
   std::uint64_t finished_;
   std::uint64_t unfinished_text_ = 0;
 
-  // Of the packet that is being printed, what is left.
+  // The rest of the packet that is being printed.
   bool in_packet_ = false;
   bool opening_left_ = false;
   std::uint64_t nodes_left_ = 0, text_left_ = 0;

@@ -1,6 +1,6 @@
 // A queue of whole packets from one thread to another: bytes in a ring of fixed size, without
-// locks, waiting or system calls. A packet is in it as a whole or not at all, whenever anybody
-// looks: so a crash handler may take over as the reader. Used by append_file and packet_printer.
+// locks, waiting or system calls. At any moment a packet is in it completely or not at all, so a
+// crash handler may take over as the reader. Used by append_file and packet_printer.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace lockstep {
 
 class PacketRing {
  public:
-  // The bytes are written to at once, so that no tick is the first to touch a page.
+  // Touches every page at once, so that no tick has to.
   explicit PacketRing(std::size_t size) : bytes_(in_cells(size)) {}
 
   static std::size_t in_cells(std::size_t size) {
@@ -26,7 +26,7 @@ class PacketRing {
 
   // --- for the thread that puts packets in -------------------------------------------------------
 
-  // False: there is no room, nothing was put in.
+  // Returns false if there is no room; then nothing is stored.
   bool push(Packet packet) {
     packet.head.nodes = static_cast<std::uint32_t>(packet.nodes.size());
     packet.head.text = packet.text.size();
@@ -82,7 +82,7 @@ class PacketRing {
     return position + count;
   }
 
-  // Apart, so that the two threads do not share a cache line.
+  // Aligned so that the two threads do not share a cache line.
   alignas(64) std::atomic<std::uint64_t> end_{0};
   alignas(64) std::atomic<std::uint64_t> begin_{0};
   std::vector<char> bytes_;

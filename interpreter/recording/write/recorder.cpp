@@ -71,7 +71,7 @@ void Recorder::log(std::string_view who, std::string_view level, std::string_vie
   lines_.add(who, level, text);
 }
 
-// Also when the file has failed: what leaves are asked must not depend on a disk.
+// Also after a failure of the file: the calls of leaves must not depend on a disk.
 void Recorder::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds) {
   delta_.before_tick(ticker);
 }
@@ -92,7 +92,7 @@ void Recorder::after_tick(Ticker& ticker, const TickReport& report) {
   tell_error();
 }
 
-// A gap is told together with what comes after it: either both are in the file or none.
+// A gap is written together with the next line: either both are in the file or neither.
 PacketHead Recorder::head() const {
   return {.lost = gap_, .lost_from = gap_from_};
 }

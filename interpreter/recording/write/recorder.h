@@ -1,8 +1,8 @@
 // Writes a run to a file as JSON Lines, one line per tick with what changed: docs/recording.md. On
-// a virtual clock the same run gives the same bytes. Allocates nothing per tick, leaves the
-// printing to the thread that writes, and on a real clock never waits for the disk: ticks for which
-// there is no room are left out, counted, and told in the recording itself. Only lines that leaves
-// log, faults, and entries whose text grows make it allocate.
+// a virtual clock the same run gives the same bytes. Does not allocate per tick, leaves printing to
+// the writing thread, and on a real clock never waits for the disk: ticks for which there is no
+// room are left out and counted, and the recording reports them. It allocates only for lines that
+// leaves log, for faults, and for entries whose text grows.
 #pragma once
 
 #include <functional>
@@ -42,11 +42,11 @@ class Recorder final : public Observer {
   // What a leaf logs: the recording has it in the line of its tick. From any thread.
   void log(std::string_view who, std::string_view level, std::string_view text);
 
-  // Cheap enough to be asked in each tick.
+  // Cheap enough for every tick.
   bool failed() const { return file_.failed(); }
-  // "" while all is well. Known from construction on when the file cannot be created.
+  // "" if there is no error. Set in the constructor if the file cannot be created.
   const std::string& error() const { return file_.error(); }
-  // Ticks that the recording does not have because the disk was too slow.
+  // Ticks that are not in the recording because the disk was too slow.
   std::uint64_t lost() const { return lost_; }
 
  private:
@@ -66,7 +66,7 @@ class Recorder final : public Observer {
   std::string line_end_;   // of the tick, for its room
   bool may_wait_ = false;  // time stands still, so waiting for the disk delays nothing
   std::uint64_t lost_ = 0;
-  std::uint64_t gap_ = 0, gap_from_ = 0;  // of these, the last ones, which no line tells yet
+  std::uint64_t gap_ = 0, gap_from_ = 0;  // the last of these, which no line reports yet
   bool error_told_ = false;
 };
 

@@ -63,8 +63,8 @@ RecordingDelta::RecordingDelta(const Tree& tree)
   for (const NodeIndex node : synchronized_nodes_) kept_limits_.push_back({.node = node});
 }
 
-// Only running nodes are asked. Of all others the progress follows from their Activity, so it is
-// looked at when that has become another one.
+// Only running nodes are asked. The progress of all others follows from their Activity, so it is
+// computed again only after a change of Activity.
 void RecordingDelta::before_tick(Ticker& ticker) {
   const std::span<const Activity> activity = ticker.run_state().activity;
   for_each_difference(activity, source_.data(), [&](NodeIndex node) {

@@ -1,6 +1,6 @@
-// What has changed in each node since the last line of a recording. A line that the file did not
-// take is as if it had not been: the next holds its changes too. What does not change costs next to
-// nothing: nodes are compared eight at a time. Used by recorder.
+// Finds what has changed in each node since the last line of a recording. If the file did not
+// accept a line, the next one has its changes too. Unchanged nodes cost almost nothing: they are
+// compared eight at a time. Used by recorder.
 #pragma once
 
 #include <vector>
@@ -18,7 +18,7 @@ class RecordingDelta {
 
   // Asks every running node for its progress.
   void before_tick(Ticker& ticker);
-  // After the tick: the nodes that differ from what was kept last. Valid until the next call.
+  // After the tick: the nodes that differ from the last accepted line. Valid until the next call.
   std::span<const NodeChange> changes(Ticker& ticker);
   // Of the tick: the synchronized nodes that have succeeded in it and are idle again, because an
   // ancestor has ended them. Valid until the next call.
@@ -26,7 +26,7 @@ class RecordingDelta {
   // The synchronized nodes that the tick reached whose limit is not what was kept. Valid until the
   // next call.
   std::span<const LimitChange> limits(Ticker& ticker);
-  // What changes() and limits() gave last has reached the file.
+  // Call when the file has accepted the last results of changes() and limits().
   void keep();
 
  private:

@@ -1,5 +1,5 @@
-// What the tick thread hands to the thread that writes a recording: numbers, whose text comes about
-// there. In memory of one process only, never in a file. Used by recorder, recording_delta,
+// What the tick thread passes to the thread that writes a recording: numbers, which that thread
+// prints. Only in the memory of one process, never in a file. Used by recorder, recording_delta,
 // append_file and packet_printer.
 #pragma once
 
@@ -34,20 +34,20 @@ struct PacketHead {
   std::uint64_t lost = 0, lost_from = 0;  // a line before all else, if there are lost ticks
   std::uint64_t tick = 0;
   std::int64_t time = 0;    // ns
-  std::uint64_t text = 0;   // bytes; what is pushed counts, not what is said here
+  std::uint64_t text = 0;   // bytes; push() sets it
   std::uint32_t nodes = 0;  // how many, likewise
   std::uint32_t is_tick = 0;
 };
 
-// After its head come the changes of nodes, then text as it is in the file: of a tick what follows
-// its nodes, of anything else whole lines.
+// After the head come the changes of nodes, then text as it is in the file: for a tick what follows
+// its nodes, otherwise whole lines.
 struct Packet {
   PacketHead head = {};
   std::span<const NodeChange> nodes = {};
   std::string_view text = {};
 };
 
-// The ring keeps packets apart by so many bytes, so a change never goes over its end.
+// Packets in the ring begin at multiples of this size, so a change is never split at its end.
 constexpr std::size_t kPacketCell = 16;
 static_assert(sizeof(NodeChange) == kPacketCell && sizeof(PacketHead) % kPacketCell == 0);
 static_assert(std::is_trivially_copyable_v<NodeChange> && std::is_trivially_copyable_v<PacketHead>);

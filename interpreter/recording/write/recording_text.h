@@ -1,6 +1,6 @@
-// The pieces of a recording's lines that are written in every tick. Those that put something are
-// async-signal-safe: into room that the caller has, at most so much of it; they return its end.
-// Used by packet_printer and recorder.
+// The pieces of a recording's lines that are written in every tick. The put functions are
+// async-signal-safe: they write into the caller's memory and return the end. Used by packet_printer
+// and recorder.
 #pragma once
 
 #include <span>

@@ -94,7 +94,7 @@ TEST_CASE("fields may come in any order, once each, and others are checked and s
   CHECK(b == 2);
   CHECK(error_of(R"({"b":2})", {{"a", into(a)}, {"b", into(b)}}) == "'a' is missing");
   CHECK(error_of(R"({"b":2})", {{"a", into(a), true}, {"b", into(b)}}) == "");
-  CHECK(error_of(R"({"b":2,"b":3})", {{"b", into(b)}}) == "'b' is there twice");
+  CHECK(error_of(R"({"b":2,"b":3})", {{"b", into(b)}}) == "'b' is given twice");
   CHECK(error_of(R"({"\u0062":4})", {{"b", into(b)}}) == "");
   CHECK(b == 4);
 }

@@ -149,7 +149,7 @@ TEST_CASE("an <arg> is what it may be") {
        "did you mean 'default'?"},
       {"<arg name='a' type='' default=''/>", "f:1:21: unknown attribute 'type' of 'arg'",
        "attributes of 'arg': 'name', 'default', 'doc'"},
-      {"<arg name='a' default=''><b/></arg>", "f:1:32: 'arg' takes no elements inside", ""},
+      {"<arg name='a' default=''><b/></arg>", "f:1:32: 'arg' cannot contain elements", ""},
       {"<arg name='a' default=''/><arg name='a'/>", "f:1:44: argument 'a' is declared twice",
        "the first is at f:1:18"},
   };

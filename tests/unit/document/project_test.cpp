@@ -182,7 +182,7 @@ TEST_CASE("an <include> is what it may be") {
       {"<include/>", "f:1:7: 'include' needs the attribute 'path'"},
       {"<include file='a.xml'/>", "f:1:7: 'include' needs the attribute 'path'"},
       {"<include path='/dev/null' x=''/>", "f:1:33: unknown attribute 'x' of 'include'"},
-      {"<include path='/dev/null'><a/></include>", "f:1:33: 'include' takes no elements inside"},
+      {"<include path='/dev/null'><a/></include>", "f:1:33: 'include' cannot contain elements"},
       {"<include path='${x}'/>", "f:1:22: unknown argument 'x'"},
   };
   for (const auto& [element, expected] : rows) {

@@ -144,12 +144,12 @@ TEST_CASE("box plots: without a grid there is one box, files never share a name"
 TEST_CASE("box plots: the data are the numbers") {
   BoxPlot plot = small_plot();
   CHECK(box_plot_data(plot) ==
-        "# x min q1 median q3 max mean n, and what stands at x\n"
+        "# x min q1 median q3 max mean n, and the label at x\n"
         "0 1 2 3 4 5 3.5 5 # 1\n"
         "1 0 1 2 3 4 2.5 5 # 0.5\n");
   plot.groups[0].box.reset();
   CHECK(box_plot_data(plot) ==
-        "# x min q1 median q3 max mean n, and what stands at x\n"
+        "# x min q1 median q3 max mean n, and the label at x\n"
         "1 0 1 2 3 4 2.5 5 # 0.5\n");
 }
 
@@ -307,7 +307,7 @@ TEST_CASE("plots: what gnuplot says of an error is told, and no half image stays
                                                      "plot sin(x)\nplot sin(x) bogus\n",
                                            .images = {"bad.svg"}});
   CHECK(!result.gnuplot_missing);
-  CHECK(contains(result.error, "gnuplot has failed:\n"));
+  CHECK(contains(result.error, "gnuplot failed:\n"));
   CHECK(contains(result.error, "\"./bad.gp\" line 4: unexpected or unrecognized token"));
   CHECK(!fs::exists(directory / "bad.svg"));
 }

@@ -214,7 +214,7 @@ TEST_CASE("a leaf whose create changes the rounding mode has it set back, and a 
   fixture.set->create_all(1);
   CHECK(std::fegetround() == FE_TONEAREST);
   CHECK(fixture.log == Strings{"Main/leaf0: its create has changed the rounding mode or the "
-                               "floating-point exceptions; they were set back"});
+                               "floating-point exceptions; they were restored"});
 }
 
 TEST_CASE("a call over the budget counts, and is told of with what it took") {

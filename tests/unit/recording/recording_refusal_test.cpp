@@ -74,11 +74,11 @@ TEST_CASE("the recording that the rows below change is right") {
 
 TEST_CASE("a gap ends where ticks can be counted") {
   CHECK(error_of(kHeader + "{\"lost\":{\"ticks\":9223372036854775809,\"from\":0}}\n") ==
-        "r:2: no 9223372036854775809 ticks can be lost from tick 0 on");
+        "r:2: 9223372036854775809 ticks cannot be lost from tick 0 on");
   CHECK(error_of(kHeader + "{\"lost\":{\"ticks\":9223372036854775807,\"from\":2}}\n") ==
-        "r:2: no 9223372036854775807 ticks can be lost from tick 2 on");
+        "r:2: 9223372036854775807 ticks cannot be lost from tick 2 on");
   CHECK(error_of(kHeader + "{\"lost\":{\"ticks\":0,\"from\":7}}\n") ==
-        "r:2: no 0 ticks can be lost from tick 7 on");
+        "r:2: 0 ticks cannot be lost from tick 7 on");
 }
 
 TEST_CASE("a header is refused for each value that is not what it must be") {
@@ -97,7 +97,7 @@ TEST_CASE("a header is refused for each value that is not what it must be") {
              {"\"seed\":1", "\"seed\":1.5", "'seed'" + kNoWholeNumber},
              {"\"seed\":1", "\"seed\":18446744073709551616", "'seed'" + kNoWholeNumber},
              {"{\"x\":\"1\"}", "{\"x\":1}", "argument 'x' is not a string"},
-             {"{\"x\":\"1\"}", "{\"x\":\"1\",\"x\":\"2\"}", "argument 'x' is there twice"},
+             {"{\"x\":\"1\"}", "{\"x\":\"1\",\"x\":\"2\"}", "argument 'x' is given twice"},
              {"{\"x\":\"1\"}", "1", "'arguments' is not a JSON object"},
              {"{\"x\":\"1\"}", "[\"1\"]", "'arguments' is not a JSON object"},
              {"[" + kNodes + "]", "[]", "'nodes' is empty"},
@@ -132,7 +132,7 @@ TEST_CASE("a tick is refused for each value that is not what it must be") {
     check_all({{"\"tick\":0", "\"limits\":[" + wrong + "],\"tick\":0", limit}}, 2);
   }
   const std::string log = "a log line is not [who, level, text]";
-  check_all({{"\"tick\":0", "\"entries\":[7],\"tick\":0", "an entry is there twice"},
+  check_all({{"\"tick\":0", "\"entries\":[7],\"tick\":0", "an entry is given twice"},
              {"\"tick\":0", "\"logs\":[7],\"tick\":0", log},
              {"\"tick\":0", "\"logs\":[[\"a\",\"info\"]],\"tick\":0", log},
              {"\"tick\":0", "\"logs\":[[\"a\",\"info\",\"b\",\"c\"]],\"tick\":0", log},
@@ -142,7 +142,7 @@ TEST_CASE("a tick is refused for each value that is not what it must be") {
              {"\"tick\":0", "\"tick\":\"0\"", "'tick'" + kNoWholeNumber},
              {"\"tick\":0", "\"tick\":18446744073709551616", "'tick'" + kNoWholeNumber},
              {"\"tick\":0", "\"tick\":1", "the first tick is 1, expected 0"},
-             {"\"tick\":0", "\"tick\":0,\"tick\":0", "'tick' is there twice"},
+             {"\"tick\":0", "\"tick\":0,\"tick\":0", "'tick' is given twice"},
              {"\"tick\":0,", "", "'tick' is missing"},
              {"\"tick\":0", "\"tick\":0,\"lost\":{\"ticks\":1,\"from\":0}", "a line of two kinds"},
              {"\"tick\":0", "\"tick\":0,\"x\":[nul]", "not JSON"},

@@ -192,7 +192,7 @@ TEST_CASE("faults that the run went on after are in their tick, and counted") {
   std::istringstream in(text);
   RecordingReader reader(in, "run.jsonl");
   const std::string info = info_text(reader);
-  CHECK(info.find("\n  2 faults of leaves that the run went on after\n") != std::string::npos);
+  CHECK(info.find("\n  2 faults of leaves after which the run went on\n") != std::string::npos);
   CHECK(csv_of(text).find("broke") == std::string::npos);
 }
 
@@ -298,10 +298,10 @@ TEST_CASE("what is wrong with a recording is told with its line") {
       {replaced(kRecording, "{\"tick\":1", "{\"lost\":{\"ticks\":2,\"from\":0}}\n{\"tick\":1"),
        "run.jsonl:3: tick 0 comes after tick 0"},
       {replaced(kRecording, "{\"tick\":1", "{\"lost\":{\"ticks\":0,\"from\":1}}\n{\"tick\":1"),
-       "run.jsonl:3: no 0 ticks can be lost from tick 1 on"},
+       "run.jsonl:3: 0 ticks cannot be lost from tick 1 on"},
       {replaced(kRecording, "{\"tick\":1",
                 "{\"lost\":{\"ticks\":2,\"from\":18446744073709551615}}\n{\"tick\":1"),
-       "run.jsonl:3: no 2 ticks can be lost from tick 18446744073709551615 on"},
+       "run.jsonl:3: 2 ticks cannot be lost from tick 18446744073709551615 on"},
       {replaced(kRecording, "0.5,0,1]]", "0.5,0,1]],\"faults\":[[3,\"x\"]]"),
        "run.jsonl:3: no node 3, expected 0 to 2"},
       {replaced(kRecording, "0.5,0,1]]", "0.5,0,1]],\"faults\":[[1]]"),

@@ -103,7 +103,7 @@ TEST_CASE("a crash is told with leaf, tick and signal, then come the last words 
   check_report(in_tick([] { raise(SIGILL); }),
                kLeaf + "crashed in tick 12: SIGILL, illegal instruction");
   check_report(in_tick([] { raise(SIGBUS); }),
-               kLeaf + "crashed in tick 12: SIGBUS, memory that is not there");
+               kLeaf + "crashed in tick 12: SIGBUS, nonexistent memory");
 }
 
 TEST_CASE("a stack overflow is told on a stack of its own") {
@@ -198,7 +198,7 @@ TEST_CASE("a crash of our own is told as such") {
   check_report(ended,
                "lockstep: error: lockstep crashed: SIGSEGV, invalid memory reference "
                "(address 0x10)");
-  CHECK(has(ended, "a defect of lockstep"));
+  CHECK(has(ended, "a bug in lockstep"));
 }
 
 TEST_CASE("a crash of the report itself ends the process at once") {

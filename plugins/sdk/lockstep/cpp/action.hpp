@@ -22,8 +22,8 @@ struct LeafAccess;
 class Leaf : protected Services {
  public:
   using Status = sdk1::Status;
-  // To be declared anew, as true, by a leaf that works on while no tick comes: in threads, with
-  // devices. On the virtual clock, where ticks do not wait for it, lockstep warns of it.
+  // Redeclare this as true in a leaf that works between ticks: in threads, with devices. On the
+  // virtual clock, where ticks do not wait for it, lockstep warns of it.
   static constexpr bool kRealTime = false;
   virtual ~Leaf() = default;
 
@@ -60,7 +60,7 @@ class ActionFunctions : public Leaf {
   virtual void pause() {}
   // Ticks come again.
   virtual void resume() {}
-  // How much of the activation is done, in [0, 1]; asked only while running, also while paused. It
+  // How much of the activation is done, in [0, 1]; called only while running, also while paused. It
   // may fall.
   virtual double progress() const { return 0; }
 

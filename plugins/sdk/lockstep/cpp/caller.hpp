@@ -43,7 +43,7 @@ struct Caller {
   }
 };
 
-// Runs `work`; no exception leaves. What it throws is told to `report`.
+// Runs `work`; no exception leaves. `report` gets what it throws.
 template <class Work, class Report>
 void catching(Work&& work, Report&& report) noexcept {
   const auto tell = [&](const char* text) {

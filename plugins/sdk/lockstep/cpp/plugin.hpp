@@ -217,7 +217,7 @@ constexpr detail::DeinitPart deinit() {
   return {[]() noexcept {
     try {
       End();
-    } catch (...) {  // there is nobody left to tell
+    } catch (...) {  // there is no one to report to
     }
   }};
 }

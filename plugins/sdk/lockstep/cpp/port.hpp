@@ -126,7 +126,7 @@ class ReadablePort : public Port {
   // The value, the default until the entry is written; a std::runtime_error when there is none.
   T get() const { return from_view<T>(view()); }
 
-  // Nothing when there is none: no default, and bound to an entry that nobody has written yet.
+  // Nothing if there is no value: no default, and bound to an entry that nobody has written yet.
   std::optional<T> try_get() const {
     View value{};
     if (!PortTraits<T>::get(caller(), index(), value)) return std::nullopt;
@@ -175,7 +175,8 @@ class Output : public detail::Port {
 template <class T>
 class InOut : public detail::ReadablePort<T> {
  public:
-  // The default stands until the entry is written; without one it can be read but not set.
+  // The default is used until the entry is written; without an entry the port can be read but not
+  // set.
   constexpr InOut(Ports* owner, const char* name, const char* default_value, const char* doc,
                   const char* unit = "")
       : detail::ReadablePort<T>(

@@ -1,4 +1,4 @@
-// An action whose work blocks: it runs in a thread of its own, while the tree goes on ticking.
+// An action whose work blocks: it runs in a separate thread, while the tree continues to tick.
 // Included by lockstep/leaf.hpp.
 #pragma once
 
@@ -18,7 +18,7 @@ namespace detail {
 class Worker;
 }
 
-// How the work hears of halt and pause, and tells its progress. For the thread that run() is in.
+// Informs the work about halt and pause, and receives its progress. For the thread of run().
 class Token {
  public:
   // The activation has been halted: return soon.
@@ -140,7 +140,7 @@ class ThreadedAction : public Action<PortsOfLeaf> {
 
   // In the tree's thread, before run: read the ports here.
   virtual void begin() {}
-  // The work, in a thread of its own, which ends with it. Returns Success or Failure; after a halt
+  // The work, in a separate thread, which ends with it. Returns Success or Failure; after a halt
   // the result does not count. Must return soon after token.stop_requested(): halt waits for it,
   // and the whole tree with halt. May not use ports, time or random numbers.
   virtual Status run(Token& token) = 0;
