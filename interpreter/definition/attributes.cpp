@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "core/identifier.h"
@@ -74,21 +75,31 @@ class AttributeChecker {
 
  private:
   // A leaf of a plugin only shares its name with a node of another library.
+  std::string_view foreign_tag() const { return node_.type->leaf == nullptr ? node_.type->id : ""; }
+
   std::string unknown_hint(const Attribute& attribute) const {
-    const bool built_in = node_.type->leaf == nullptr;
-    std::string hint = foreign_attribute_hint(built_in ? node_.type->id : "", attribute);
+    std::string hint = foreign_attribute_hint(foreign_tag(), attribute);
     if (!hint.empty()) return hint;
     return join_hints(did_you_mean(attribute.name, names()), parameters_hint(*node_.type));
   }
 
   Value absent(const Parameter& parameter) const {
     if (parameter.default_text) return *parse_value(parameter.type, *parameter.default_text);
-    if (parameter.required) {
+    if (parameter.required && !is_misspelled(parameter)) {
       report_.at(element_.place,
                  fmt::format("'{}' needs the parameter '{}'", node_.type->id, parameter.name),
                  parameters_hint(*node_.type));
     }
     return {};
+  }
+
+  // An unknown attribute means this parameter: one error is enough.
+  bool is_misspelled(const Parameter& missing) const {
+    return std::ranges::any_of(element_.attributes, [&](const Attribute& attribute) {
+      if (is_common_attribute(attribute.name) || parameter(attribute.name)) return false;
+      return foreign_attribute_name(foreign_tag(), attribute.name) == missing.name ||
+             nearest(attribute.name, names()) == missing.name;
+    });
   }
 
   const Parameter* parameter(std::string_view name) const {

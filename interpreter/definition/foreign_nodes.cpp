@@ -122,6 +122,12 @@ const ForeignAttribute* find(std::span<const ForeignAttribute> attributes, std::
   return found == attributes.end() ? nullptr : &*found;
 }
 
+// If the row is that of `tag`, or of any node.
+const ForeignAttribute* find_of(const ForeignNode& node, std::string_view tag,
+                                std::string_view attribute) {
+  return node.tag.empty() || node.tag == tag ? find(node.attributes, attribute) : nullptr;
+}
+
 // "…" if it is unknown.
 std::string translated(ForeignValue kind, std::string_view text) {
   if (kind == Same) return brief(text);
@@ -163,10 +169,17 @@ std::string foreign_node_hint(std::string_view tag, std::span<const Attribute> a
 
 std::string foreign_attribute_hint(std::string_view tag, const Attribute& attribute) {
   for (const ForeignNode& node : kNodes) {
-    const auto* const from = find(node.attributes, attribute.name);
-    if (from == nullptr || (!node.tag.empty() && node.tag != tag)) continue;
+    const auto* const from = find_of(node, tag, attribute.name);
+    if (from == nullptr) continue;
     const std::string ours = translated(*from, attribute.value);
     return join(ours.empty() ? std::string("leave it out") : "write" + ours, node.remark);
+  }
+  return {};
+}
+
+std::string_view foreign_attribute_name(std::string_view tag, std::string_view attribute) {
+  for (const ForeignNode& node : kNodes) {
+    if (const auto* from = find_of(node, tag, attribute)) return from->ours;
   }
   return {};
 }

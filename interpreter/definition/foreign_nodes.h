@@ -39,5 +39,7 @@ std::string foreign_node_hint(std::string_view tag, std::span<const Attribute> a
 
 // The hint for an unknown attribute of a node, whether the node is known or not.
 std::string foreign_attribute_hint(std::string_view tag, const Attribute& attribute);
+// The parameter of ours that it stands for; "" if there is none.
+std::string_view foreign_attribute_name(std::string_view tag, std::string_view attribute);
 
 }  // namespace lockstep

@@ -50,7 +50,11 @@ TEST_CASE("ports: given, left out, bound") {
       {"an inout needs a key", R"(<Count total="3"/>)",
        "2:15 error: the inout 'total' needs a blackboard entry"},
       {"an attribute that is no port", R"(<Say txt="a"/>)",
-       "2:1 error: 'Say' needs the parameter 'text'\n2:6 error: 'Say' has no parameter 'txt'"},
+       "2:6 error: 'Say' has no parameter 'txt'"},
+      {"a required parameter that is misspelled is one error",
+       R"(<Timeout msec="3"><Wait secons="1"/></Timeout>)",
+       "2:10 error: 'Timeout' has no parameter 'msec'\n2:25 error: 'Wait' has no parameter "
+       "'secons'"},
       {"a key is an identifier", R"(<Say text="{the door}"/>)",
        "2:12 error: 'the door' is not a key"},
       {"a parameter of a built-in node may be a key", R"(<Wait seconds="{pause}"/>)",
