@@ -10,6 +10,7 @@
 #include <exception>
 #include <limits>
 #include <memory>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -52,6 +53,13 @@ void trap_afterwards() {
   volatile long double result = 1 / zero;
   static_cast<void>(result);
   feenableexcept(FE_DIVBYZERO);
+}
+
+void throw_no_memory() {
+  throw std::bad_alloc();
+}
+void take_all_memory() noexcept {
+  throw_no_memory();
 }
 
 void throw_foreign() {
@@ -141,6 +149,8 @@ void Leaf::misbehave(const std::string& how) {
   if (how == "exit") std::exit(3);
   if (how == "_exit") _exit(3);
   if (how == "abort") std::abort();
+  if (how == "terminate") std::terminate();
+  if (how == "terminate without memory") take_all_memory();
   if (how == "segv") *reinterpret_cast<volatile int*>(8) = 1;  // NOLINT
   if (how == "segv in a thread") std::thread([] { std::raise(SIGSEGV); }).join();
   if (how == "fpe") divide_by_zero();

@@ -181,6 +181,9 @@ TEST_CASE("a leaf that crashes brings down its own process only") {
   }
   check_crash({"fpe"}, "SIGFPE", "killed by SIGFPE");
   check_crash({"abort"}, "SIGABRT", "killed by SIGABRT");
+  check_crash({"terminate"}, "SIGABRT", "killed by SIGABRT");
+  // Not lockstep's own lack of memory, which has another exit code.
+  check_crash({"terminate without memory"}, "SIGABRT", "killed by SIGABRT");
   check_crash({"overflow"}, "SIGSEGV", "killed by SIGSEGV");
   check_crash({"exit"}, "called exit", "ended with exit code 3");
   check_crash({"_exit"}, "called exit", "ended with exit code 3");
