@@ -1,5 +1,5 @@
 // The row of a built-in node kind: its declaration and its functions. Each file in nodes/ defines
-// one or a few rows; nodes/all.cpp lists them.
+// one or a few rows; nodes/kinds.h lists them.
 #pragma once
 
 #include <cstdint>

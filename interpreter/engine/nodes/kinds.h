@@ -1,4 +1,4 @@
-// The rows of the built-in table, one for each node kind; all.cpp puts them in order.
+// The one table of built-in nodes. A row is defined in the file of its kind.
 #pragma once
 
 #include "engine/node_kind.h"
@@ -9,5 +9,15 @@ extern const NodeKind kSequence, kFallback, kParallel, kParallelAbsolute, kParal
 extern const NodeKind kInverter, kForceSuccess, kForceFailure, kRepeat, kRetry, kTimeout, kDelay,
     kRunOnce, kKeepRunningUntilFailure, kSubTree;
 extern const NodeKind kAlwaysSuccess, kAlwaysFailure, kAlwaysRunning, kWait;
+
+// In the order in which they are documented.
+inline constexpr const NodeKind* kBuiltInKinds[] = {
+    // Control nodes
+    &kSequence, &kFallback, &kParallel, &kParallelAbsolute, &kParallelRelative,
+    // Decorators
+    &kInverter, &kForceSuccess, &kForceFailure, &kRepeat, &kRetry, &kTimeout, &kDelay, &kRunOnce,
+    &kKeepRunningUntilFailure, &kSubTree,
+    // Leaves
+    &kAlwaysSuccess, &kAlwaysFailure, &kAlwaysRunning, &kWait};
 
 }  // namespace lockstep
