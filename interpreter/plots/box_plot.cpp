@@ -26,16 +26,20 @@ std::string measure_label(const std::string& text) {
 }
 
 // What the plot is of, beside the grid name along x.
-BoxPlot empty_plot(std::span<const std::string> names, const SummaryRow& row) {
+BoxPlot empty_plot(const std::vector<GridAxis>& grid, const SummaryRow& row) {
   BoxPlot plot;
   plot.stem = last_segment(row.node) + "-" + row.measure;
   plot.title = row.node;
-  for (std::size_t name = 0; name + 1 < names.size(); ++name) {
-    plot.stem += "-" + names[name] + "_" + row.grid[name];
-    plot.title += fmt::format("{}{} = {}", name == 0 ? ":  " : ", ", names[name], row.grid[name]);
+  const std::size_t last = grid.size() - last_axes(grid);
+  for (std::size_t axis = 0; axis < last; ++axis) {
+    const std::string& name = grid[axis].name;
+    plot.stem += "-" + name + "_" + row.grid[axis];
+    plot.title += fmt::format("{}{} = {}", axis == 0 ? ":  " : ", ", name, row.grid[axis]);
   }
   plot.stem = file_stem(plot.stem);
-  if (!names.empty()) plot.x_label = names.back();
+  for (std::size_t axis = last; axis < grid.size(); ++axis) {
+    plot.x_label += (axis == last ? "" : ":") + grid[axis].name;
+  }
   plot.y_label = measure_label(row.measure);
   return plot;
 }
@@ -91,17 +95,19 @@ int row_letters(const BoxPlot& plot, PlotSize size) {
 
 }  // namespace
 
-std::vector<BoxPlot> box_plots(std::span<const std::string> grid_names,
+std::vector<BoxPlot> box_plots(const std::vector<GridAxis>& grid,
                                std::span<const SummaryRow> rows) {
+  const auto along_x = static_cast<std::ptrdiff_t>(last_axes(grid));
   std::vector<BoxPlot> plots;
   using Key = std::vector<std::string>;
   std::map<Key, std::size_t> places;
   for (const SummaryRow& row : rows) {
-    Key key(row.grid.begin(), row.grid.end() - (row.grid.empty() ? 0 : 1));
+    const auto last = row.grid.end() - along_x;
+    Key key(row.grid.begin(), last);
     key.insert(key.end(), {row.node, row.measure});
     const auto [place, is_new] = places.emplace(std::move(key), plots.size());
-    if (is_new) plots.push_back(empty_plot(grid_names, row));
-    const std::string label = row.grid.empty() ? "" : row.grid.back();
+    if (is_new) plots.push_back(empty_plot(grid, row));
+    const std::string label = fmt::format("{}", fmt::join(last, row.grid.end(), ":"));
     const bool is_there = row.summary.count > 0;
     BoxPlot& plot = plots[place->second];
     plot.groups.push_back(

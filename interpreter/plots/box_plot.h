@@ -26,10 +26,10 @@ struct BoxPlot {
   ResultCounts results;          // of all runs behind it
 };
 
-// One plot for each node, measure and combination of values of the other grid names; the values of
-// the last grid name are along x, in the order of the rows. Stems are unique.
-std::vector<BoxPlot> box_plots(std::span<const std::string> grid_names,
-                               std::span<const SummaryRow> rows);
+// One plot for each node, measure and combination of values of the other axes; the values of the
+// last axis, with those that vary together with it, are along x, in the order of the rows. Stems
+// are unique.
+std::vector<BoxPlot> box_plots(const std::vector<GridAxis>& grid, std::span<const SummaryRow> rows);
 
 // Writes <stem>.dat, .gp, .svg and .png to `directory`, which must exist.
 PlotResult draw(const BoxPlot& plot, const std::filesystem::path& directory, PlotSize size = {});

@@ -27,8 +27,14 @@ Number value_of(const StudyPlan& plan, GridAxis::Kind kind, std::uint64_t cell, 
 
 std::uint64_t cell_count(const StudyPlan& plan) {
   std::uint64_t cells = 1;
-  for (const GridAxis& axis : plan.grid) cells *= axis.values.size();
+  for (const GridAxis& axis : plan.grid) cells *= axis.follows ? 1 : axis.values.size();
   return cells;
+}
+
+std::size_t last_axes(const std::vector<GridAxis>& grid) {
+  std::size_t count = 0;
+  while (count < grid.size() && grid[grid.size() - ++count].follows) continue;
+  return count;
 }
 
 std::vector<std::string> cell_values(const StudyPlan& plan, std::uint64_t cell) {
@@ -36,7 +42,7 @@ std::vector<std::string> cell_values(const StudyPlan& plan, std::uint64_t cell) 
   for (std::size_t axis = plan.grid.size(); axis-- > 0;) {
     const auto& all = plan.grid[axis].values;
     values[axis] = all[cell % all.size()];
-    cell /= all.size();
+    if (!plan.grid[axis].follows) cell /= all.size();
   }
   return values;
 }

@@ -16,7 +16,9 @@ struct GridAxis {
   enum class Kind : std::uint8_t { Argument, Seed, Rate };
   Kind kind = Kind::Argument;
   std::string name;
-  std::vector<std::string> values;
+  std::vector<std::string> values = {};
+  // It varies together with the axis before it: a cell has the value at the same place of both.
+  bool follows = false;
 
   friend bool operator==(const GridAxis&, const GridAxis&) = default;
 };
@@ -57,8 +59,10 @@ struct StudyPlan {
   StudyShard shard;
 };
 
-// The number of a cell; the first axis varies slowest. Without an axis there is one cell.
+// The number of cells; the first axis varies slowest. Without an axis there is one cell.
 std::uint64_t cell_count(const StudyPlan& plan);
+// How many of the last axes vary together; 0 without a grid.
+std::size_t last_axes(const std::vector<GridAxis>& grid);
 // The value of each axis in a cell.
 std::vector<std::string> cell_values(const StudyPlan& plan, std::uint64_t cell);
 // "barriers=5, noise=0.01"; "" without a grid.

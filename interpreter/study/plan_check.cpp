@@ -1,6 +1,6 @@
 #include "study/plan_check.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -36,19 +36,38 @@ bool is_value(const GridAxis& axis, const std::string& value) {
   return value.find_first_of("\r\n") == std::string::npos;
 }
 
+// Axes that vary together have as many values, and all of them together none twice.
+std::string check_together(std::span<const GridAxis> grid) {
+  while (!grid.empty()) {
+    const auto rest = grid.subspan(1);
+    const auto end = std::ranges::find(rest, false, &GridAxis::follows);
+    const auto together = grid.first(1 + static_cast<std::size_t>(end - rest.begin()));
+    const GridAxis& first = together.front();
+    if (first.follows) return fmt::format("'{}' in 'grid' follows nothing", first.name);
+    for (const GridAxis& axis : together) {
+      if (axis.values.size() == first.values.size()) continue;
+      return fmt::format("'{}' and '{}' in 'grid' do not have as many values", first.name,
+                         axis.name);
+    }
+    if (const auto twice = value_twice(together); !twice.empty())
+      return fmt::format("'{}' in 'grid' has the value '{}' twice", first.name, twice);
+    grid = grid.subspan(together.size());
+  }
+  return {};
+}
+
 std::string check_grid(const std::vector<GridAxis>& grid) {
   std::set<std::string> names;
   for (const GridAxis& axis : grid) {
     if (!is_name(axis.name)) return fmt::format("'{}' is not a name for 'grid'", axis.name);
     if (!names.insert(axis.name).second) return fmt::format("'{}' is twice in 'grid'", axis.name);
     if (axis.values.empty()) return fmt::format("'{}' in 'grid' has no values", axis.name);
-    std::set<std::string> values;
     for (const std::string& value : axis.values) {
-      if (is_value(axis, value) && values.insert(value).second) continue;
+      if (is_value(axis, value)) continue;
       return fmt::format("'{}' in 'grid' cannot have the value '{}'", axis.name, value);
     }
   }
-  return {};
+  return check_together(grid);
 }
 
 std::string check_measures(const std::vector<std::string>& measures) {
@@ -107,10 +126,21 @@ std::optional<double> rate_from(std::string_view text) {
   return rate && *rate >= kLeastRate && *rate <= kMostRate ? rate : std::nullopt;
 }
 
+std::string value_twice(std::span<const GridAxis> together) {
+  std::set<std::vector<std::string>> seen;
+  for (std::size_t i = 0; i < together.front().values.size(); ++i) {
+    std::vector<std::string> values;
+    for (const GridAxis& axis : together) values.push_back(axis.values[i]);
+    if (!seen.insert(values).second) return fmt::format("{}", fmt::join(values, ":"));
+  }
+  return {};
+}
+
 std::string check_size(const StudyPlan& plan) {
   std::uint64_t rows = plan.runs;
   if (rows == 0) return "a study has at least one run";
   for (const GridAxis& axis : plan.grid) {
+    if (axis.follows) continue;
     if (rows > kMostRows / std::max<std::size_t>(axis.values.size(), 1))
       rows = kMostRows + 1;
     else

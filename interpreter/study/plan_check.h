@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "study/plan.h"
@@ -13,6 +14,10 @@ constexpr double kLeastRate = 0.001, kMostRate = 100000;
 // Parses a whole number, and a rate, from the whole text.
 std::optional<std::uint64_t> count_from(std::string_view text);
 std::optional<double> rate_from(std::string_view text);
+
+// Of axes with as many values each, which vary together: what is twice among them, with ':' between
+// the values, or "".
+std::string value_twice(std::span<const GridAxis> together);
 
 // The error in the plan, or "".
 std::string check_plan(const StudyPlan& plan);

@@ -27,10 +27,14 @@ Json pairs(const std::vector<std::pair<std::string, std::string>>& list, const c
 
 Json grid_json(const StudyPlan& plan) {
   Json grid = Json::array();
+  const GridAxis* before = nullptr;
   for (const GridAxis& axis : plan.grid) {
-    grid.push_back({{"name", axis.name},
-                    {"is", kKinds[static_cast<std::size_t>(axis.kind)]},
-                    {"values", axis.values}});
+    Json json{{"name", axis.name},
+              {"is", kKinds[static_cast<std::size_t>(axis.kind)]},
+              {"values", axis.values}};
+    if (axis.follows && before != nullptr) json["together_with"] = before->name;
+    grid.push_back(std::move(json));
+    before = &axis;
   }
   return grid;
 }
@@ -87,7 +91,10 @@ auto into_map(std::map<std::string, std::string>& map) {
 GridAxis axis_from(JsonObject json) {
   GridAxis axis;
   std::string kind;
-  json.read({{"name", into(axis.name)}, {"is", into(kind)}, {"values", into(axis.values)}});
+  json.read({{"name", into(axis.name)},
+             {"is", into(kind)},
+             {"values", into(axis.values)},
+             {"together_with", [&](JsonValue) { axis.follows = true; }, kMayLack}});
   const auto found = std::ranges::find(kKinds, kind);
   if (found == kKinds.end()) throw JsonError("'is' of a grid is not known");
   axis.kind = static_cast<GridAxis::Kind>(found - kKinds.begin());

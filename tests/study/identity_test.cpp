@@ -102,6 +102,62 @@ TEST_CASE("parts put together are the study that one machine makes") {
   CHECK(it.bytes("merged") == it.bytes("whole"));
 }
 
+TEST_CASE("a grid of ranges and of names with values together can be cut and parted") {
+  const StudyCase it;
+  const Strings study{kPaper + "example5.xml",
+                      "--runs",
+                      "5",
+                      "--grid",
+                      "seed=1:3:2",
+                      "--grid",
+                      "noise,barrier_count=0.01:0,0.05:0,0.05:20"};
+  it.make(study, "whole");
+  const auto rows = lines(it.read("whole", "runs.csv"));
+  REQUIRE(rows.size() == 1 + 2 * 3 * 5);
+  CHECK(rows[0].starts_with("cell,grid_seed,noise,barrier_count,run,seed,"));
+  CHECK(rows[1].starts_with("0,1,0.01,0,0,"));
+  CHECK(rows[11].starts_with("2,1,0.05,20,0,"));
+  CHECK(rows[30].starts_with("5,3,0.05,20,4,"));
+  for (const std::string part : {"1", "2"}) it.make(with(study, {"--shard", part + "/2"}), part);
+  const Outcome merged = it.merge({"2", "1"}, "merged");
+  INFO(merged.err);
+  CHECK(merged.code == 0);
+  CHECK(it.bytes("merged") == it.bytes("whole"));
+  fs::create_directory(it.path("cut"));
+  write(it.path("cut/study.json"), it.read("whole", "study.json"));
+  write(it.path("cut/runs.csv"), it.read("whole", "runs.csv").substr(0, 400));
+  it.make(with(study, {"--resume"}), "cut");
+  CHECK(it.bytes("cut") == it.bytes("whole"));
+  // All combinations are another study than pairs of the same values.
+  CHECK(it.study({kPaper + "example5.xml", "--runs", "5", "--grid", "seed=1,3", "--grid",
+                  "noise=0.01,0.05", "--grid", "barrier_count=0,20", "--resume"},
+                 "whole")
+            .code == 2);
+}
+
+TEST_CASE("a study.json whose names do not go together is refused") {
+  const StudyCase it;
+  const Strings study{kPaper + "example5.xml", "--runs", "1", "--grid",
+                      "noise,barrier_count=0.01:0,0.05:20"};
+  it.make(study, "out");
+  const std::string good = it.read("out", "study.json");
+  const auto refused = [&](const std::string& from, const std::string& to, const std::string& why) {
+    std::string text = good;
+    REQUIRE(text.find(from) != std::string::npos);
+    text.replace(text.find(from), from.size(), to);
+    write(it.path("out/study.json"), text);
+    const Outcome outcome = it.study(with(study, {"--resume"}), "out");
+    INFO(outcome.err);
+    CHECK(outcome.code == 2);
+    CHECK(contains(outcome.err, why));
+  };
+  const std::string together = ",\n      \"together_with\": \"noise\"";
+  refused(together, "", "its 'grid' differs");
+  refused(together, ",\n      \"together_with\": \"rate\"", "not as lockstep wrote it");
+  refused("\"0.01\",", "\"0.01\", \"0.02\",", "do not have as many values");
+  refused("\"0.05\"\n      ]", "\"0.05\"\n      ]" + together, "'noise' in 'grid' follows nothing");
+}
+
 TEST_CASE("parts that do not fit together are refused, and why is said") {
   const StudyCase it;
   it.make(with(kStudy, {"--shard", "1/2"}), "a");

@@ -136,4 +136,20 @@ TEST_CASE("studies: a grid name seed or rate is in force in its cells") {
   CHECK(cell_seed(plan_of(1), 0) == 0);
 }
 
+TEST_CASE("studies: names whose values belong together vary together") {
+  StudyPlan plan = plan_of(1);
+  plan.grid.push_back({GridAxis::Kind::Argument, "speed", {"1", "2", "2"}});
+  plan.grid.push_back({GridAxis::Kind::Argument, "delta", {"x", "y", "z"}, true});
+  plan.grid.push_back({GridAxis::Kind::Rate, "rate", {"50", "100"}});
+  REQUIRE(cell_count(plan) == 2 * 3 * 2);
+  CHECK(cell_text(plan, 0) == "n=few, speed=1, delta=x, rate=50");
+  CHECK(cell_text(plan, 3) == "n=few, speed=2, delta=y, rate=100");
+  CHECK(cell_text(plan, 4) == "n=few, speed=2, delta=z, rate=50");
+  CHECK(cell_text(plan, 11) == "n=many, speed=2, delta=z, rate=100");
+  CHECK(last_axes(plan.grid) == 1);
+  plan.grid.pop_back();
+  CHECK(last_axes(plan.grid) == 2);
+  CHECK(last_axes({}) == 0);
+}
+
 }  // namespace lockstep::test

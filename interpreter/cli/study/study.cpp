@@ -61,12 +61,10 @@ int print_summary(const StudyCommandOptions& options, const StudyPlan& plan,
 int draw_plots(const StudyCommandOptions& options, const std::string& directory,
                const StudyPlan& plan, const std::vector<SummaryRow>& rows) {
   if (options.no_plots || plan.shard != StudyShard{}) return kExitSuccess;
-  std::vector<std::string> names;
-  for (const GridAxis& axis : plan.grid) names.push_back(axis.name);
   std::error_code error;
   std::filesystem::create_directories(directory, error);
   if (error) return fail(fmt::format("cannot make '{}': {}", directory, error.message()));
-  for (const BoxPlot& plot : box_plots(names, rows)) {
+  for (const BoxPlot& plot : box_plots(plan.grid, rows)) {
     const PlotResult drawn = draw(plot, directory);
     if (drawn.ok()) continue;
     print_error(drawn.error);
@@ -191,8 +189,9 @@ void define_runs(CLI::App& app, StudyOptions& options) {
       ->transform(whole_number())
       ->capture_default_str();
   app.add_option("--grid", options.grid,
-                 "An <arg> of the tree, or seed, or rate, and its values; may be repeated: a cell "
-                 "for each combination")
+                 "An <arg> of the tree, or seed, or rate, and its values; or a range, "
+                 "NAME=FIRST:LAST:STEP; or names whose values belong together, "
+                 "A,B=A1:B1,A2:B2; may be repeated: a cell for each combination")
       ->type_name("NAME=V1,V2,...")
       ->allow_extra_args(false);
   app.add_option("--measure", options.measures,
@@ -251,6 +250,9 @@ const Command kStudyCommand{
     "Examples:\n"
     "  lockstep study trees/predictability.xml --runs 1000 --grid barriers=0,5,50 \\\n"
     "      --measure progress-distance --measure predictability:task@0.6\n"
+    "  lockstep study trees/paper/example6.xml --runs 1000 --grid delta=0:0.1:0.01\n"
+    "  lockstep study trees/paper/example6.xml --runs 1000 \\\n"
+    "      --grid noise,delta=0.01:0.02,0.02:0.05,0.05:0.1\n"
     "  lockstep study trees/predictability.xml --runs 1000 --shard 1/4 --out part-1\n"
     "  lockstep study merge part-* --out study",
     define_study};

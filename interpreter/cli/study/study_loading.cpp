@@ -12,12 +12,11 @@
 #include "cli/load/real_time_leaves.h"
 #include "core/suggest.h"
 #include "study/column_names.h"
+#include "study/grid_text.h"
 #include "study/plan_check.h"
 
 namespace lockstep {
 namespace {
-
-constexpr std::uint64_t kMostCells = 100'000;
 
 // Of what is "name=value".
 std::map<std::string, std::string> pairs(const std::vector<std::string>& texts) {
@@ -42,8 +41,9 @@ class StudyLoader {
   }
   void read_measures();
   void read_shard();
+  void parse_grids();
   void read_grid(const std::vector<DeclaredArgument>& declared);
-  void read_axis(const std::string& text, const std::vector<DeclaredArgument>& declared);
+  void read_axis(GridAxis& axis, const std::vector<DeclaredArgument>& declared);
   void name_axis(GridAxis& axis, const std::vector<DeclaredArgument>& declared);
   void check_values(const GridAxis& axis);
   int load_cell(std::uint64_t number);
@@ -54,6 +54,7 @@ class StudyLoader {
   const StudyOptions& options_;
   LoadedStudy& study_;
   Diagnostics& diagnostics_;
+  std::vector<std::vector<GridAxis>> grids_;  // of each --grid
   std::set<std::string> files_;
   std::map<std::string, std::size_t> columns_;  // of the plan, by name
   bool warned_of_real_time_ = false;
@@ -105,11 +106,7 @@ void StudyLoader::name_axis(GridAxis& axis, const std::vector<DeclaredArgument>&
 }
 
 void StudyLoader::check_values(const GridAxis& axis) {
-  std::set<std::string> seen;
   for (const std::string& value : axis.values) {
-    if (!seen.insert(value).second) {
-      error(fmt::format("--grid {}: the value '{}' is given twice", axis.name, value));
-    }
     if (value.find_first_of("\r\n") != std::string::npos) {
       error(fmt::format("--grid {}: a value has several lines", axis.name));
     }
@@ -123,40 +120,42 @@ void StudyLoader::check_values(const GridAxis& axis) {
   }
 }
 
-void StudyLoader::read_axis(const std::string& text,
-                            const std::vector<DeclaredArgument>& declared) {
-  GridAxis axis;
-  const auto equals = text.find('=');
-  axis.name = text.substr(0, equals);
-  if (equals == 0 || equals == std::string::npos || equals + 1 == text.size()) {
-    return error(fmt::format("--grid {}: expected name=value,value,…", text));
-  }
-  for (std::size_t at = equals; at != std::string::npos;) {
-    const auto comma = text.find(',', at + 1);
-    axis.values.push_back(text.substr(at + 1, comma == std::string::npos ? comma : comma - at - 1));
-    at = comma;
-  }
+void StudyLoader::read_axis(GridAxis& axis, const std::vector<DeclaredArgument>& declared) {
   const auto is_same = [&](const GridAxis& other) { return other.name == axis.name; };
-  if (std::ranges::any_of(study_.plan.grid, is_same)) {
-    return error(fmt::format("--grid {}: given twice", axis.name));
-  }
+  if (std::ranges::any_of(study_.plan.grid, is_same))
+    error(fmt::format("--grid {}: given twice", axis.name));
   for (const std::string& pair : options_.load.arguments) {
-    if (!pair.starts_with(axis.name + '=')) continue;
-    return error(fmt::format("'{}' is given both by --grid and by --arg", axis.name));
+    if (pair.starts_with(axis.name + '='))
+      error(fmt::format("'{}' is given both by --grid and by --arg", axis.name));
   }
   name_axis(axis, declared);
   check_values(axis);
-  study_.plan.grid.push_back(std::move(axis));
+}
+
+void StudyLoader::parse_grids() {
+  for (const std::string& text : options_.grid) {
+    auto axes = parse_grid(text);
+    if (axes) {
+      if (const auto twice = value_twice(*axes); !twice.empty())
+        error(fmt::format("--grid {}: the value '{}' is given twice", axes->front().name, twice));
+      grids_.push_back(std::move(*axes));
+    } else {
+      error(axes.error().message, axes.error().hint);
+    }
+  }
 }
 
 void StudyLoader::read_grid(const std::vector<DeclaredArgument>& declared) {
-  double cells = 1;
-  for (const std::string& text : options_.grid) read_axis(text, declared);
-  for (const GridAxis& axis : study_.plan.grid) cells *= static_cast<double>(axis.values.size());
-  if (cells > static_cast<double>(kMostCells)) {
-    error(fmt::format("the grid has {} cells, at most {} are allowed", cells, kMostCells));
-  } else if (auto wrong = check_size(study_.plan); !wrong.empty()) {
+  StudyPlan& plan = study_.plan;
+  for (auto& axes : grids_) {
+    for (GridAxis& axis : axes) read_axis(axis, declared);
+    plan.grid.insert(plan.grid.end(), axes.begin(), axes.end());
+  }
+  if (auto wrong = check_size(plan); !wrong.empty()) {
     error(std::move(wrong));
+  } else if (cell_count(plan) > kMostCells) {
+    error(
+        fmt::format("the grid has {} cells, at most {} are allowed", cell_count(plan), kMostCells));
   }
 }
 
@@ -212,8 +211,8 @@ int StudyLoader::load_cell(std::uint64_t number) {
 Arguments StudyLoader::first_arguments() const {
   Arguments arguments;
   for (const auto& [name, value] : pairs(options_.load.arguments)) arguments[name] = value;
-  for (const auto& [name, values] : pairs(options_.grid)) {
-    arguments[name] = values.substr(0, values.find(','));
+  for (const auto& axes : grids_) {
+    for (const GridAxis& axis : axes) arguments[axis.name] = axis.values.front();
   }
   return arguments;
 }
@@ -228,6 +227,7 @@ int StudyLoader::load() {
   plan.max_ticks = options_.max_ticks;
   read_measures();
   read_shard();
+  parse_grids();
   plan.arguments = pairs(options_.load.arguments);
   plan.values = pairs(options_.load.values);
   Diagnostics unheard;  // the cells will tell

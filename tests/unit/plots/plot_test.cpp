@@ -102,7 +102,7 @@ ProgressPlot small_progress() {
 }  // namespace
 
 TEST_CASE("box plots: the last grid name runs along x, the others make plots") {
-  const std::vector<std::string> names = {"noise", "barrier_count"};
+  std::vector<GridAxis> grid = {{.name = "noise"}, {.name = "barrier_count"}};
   std::vector<SummaryRow> rows;
   for (const std::string noise : {"0", "0.02"}) {
     for (const std::string count : {"0", "5"}) {
@@ -116,7 +116,7 @@ TEST_CASE("box plots: the last grid name runs along x, the others make plots") {
       rows.push_back({{noise, count}, "Main/sync", "step-length", summary(3), kResults, {}});
     }
   }
-  const auto plots = box_plots(names, rows);
+  const auto plots = box_plots(grid, rows);
   REQUIRE(plots.size() == 6);
   CHECK(plots[0].stem == "sync-progress-distance-noise_0");
   CHECK(plots[0].title == "Main/sync:  noise = 0  (success 80 %, failure 20 %)");
@@ -129,6 +129,13 @@ TEST_CASE("box plots: the last grid name runs along x, the others make plots") {
   CHECK(plots[1].groups[1].box->median == 2);
   CHECK(plots[2].y_label == "step length");
   CHECK(plots[4].title == "Main/sync/task:  noise = 0.02  (success 80 %, failure 20 %)");
+  grid[1].follows = true;
+  const auto together = box_plots(grid, rows);
+  REQUIRE(together.size() == 3);
+  CHECK(together[0].stem == "sync-progress-distance");
+  CHECK(together[0].x_label == "noise:barrier_count");
+  REQUIRE(together[0].groups.size() == 4);
+  CHECK(together[0].groups[1].label == "0:5");
 }
 
 TEST_CASE("box plots: without a grid there is one box, files never share a name") {
