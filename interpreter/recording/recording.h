@@ -111,8 +111,4 @@ std::vector<RecordedNode> describe(const Tree& tree);
 // From one tick to the next; 0 when the rate is not known.
 Nanoseconds period_of(const RecordingHeader& header);
 
-// One line each, without the newline.
-std::string to_json(const RecordingHeader& header);
-std::string to_json(const RecordedEnd& end);
-
 }  // namespace lockstep

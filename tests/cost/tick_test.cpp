@@ -22,8 +22,8 @@
 #include "measure/measure_spec.h"
 #include "plugin/plugin_set.h"
 #include "recording/write/entry_changes.h"
+#include "recording/write/json_lines.h"
 #include "recording/write/recorder.h"
-#include "recording/write/recording_text.h"
 #include "runtime/loop.h"
 #include "runtime/run.h"
 #include "study/run_measures.h"
@@ -186,11 +186,11 @@ TEST_CASE("an entry that is another number in each tick is recorded without allo
   Blackboard board(tree.tree());
   EntryChanges changes({0});
   std::string line;
-  line.reserve(most_of_tick_end(0, 1));
+  line.reserve(json_lines().most_of_tick_end(0, 1));
   const auto tick = [&](double value) {
     board.entries[0].value = value;
     ++board.entries[0].writes;
-    set_tick_end(line, {.entries = changes.changes(board)});
+    json_lines().set_tick_end(line, {.entries = changes.changes(board)});
     changes.keep();
   };
   tick(-1);

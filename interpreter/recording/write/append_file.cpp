@@ -46,8 +46,13 @@ void leave(AppendFile* file) {
 
 }  // namespace
 
-AppendFile::AppendFile(const std::string& path, std::size_t queue)
-    : ring_(queue), path_(path), out_(path), file_(out_.descriptor()), text_(kText) {
+AppendFile::AppendFile(const std::string& path, std::size_t queue, const RecordingFormat& format)
+    : ring_(queue),
+      format_(format),
+      path_(path),
+      out_(path),
+      file_(out_.descriptor()),
+      text_(kText) {
   if (file_ < 0) {
     error_ = out_.error();
     failed_.store(true, std::memory_order_release);
@@ -125,7 +130,7 @@ void AppendFile::write_until_stopped() {
 // crash in the middle of this costs nothing: the handler begins it anew, and leaves out what is
 // written.
 void AppendFile::write_out(Failure failure) {
-  PacketPrinter printer(ring_);
+  PacketPrinter printer(ring_, format_);
   std::uint64_t known = written_;
   while (!failed() && !ring_.empty()) {
     std::string_view text = printer.print(text_);

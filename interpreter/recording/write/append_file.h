@@ -15,6 +15,7 @@
 
 #include "core/output_file.h"
 #include "recording/write/bell.h"
+#include "recording/write/json_lines.h"
 #include "recording/write/packet_ring.h"
 
 namespace lockstep {
@@ -31,7 +32,8 @@ class AppendFile {
 
   // Creates the file; on failure error() has the reason. The file gets its name, and replaces an
   // existing file, when its first line is written: core/output_file.h.
-  explicit AppendFile(const std::string& path, std::size_t queue = kQueue);
+  explicit AppendFile(const std::string& path, std::size_t queue = kQueue,
+                      const RecordingFormat& format = json_lines());
   // Flushes.
   ~AppendFile();
   AppendFile(const AppendFile&) = delete;
@@ -73,6 +75,7 @@ class AppendFile {
   void release();
 
   PacketRing ring_;
+  const RecordingFormat& format_;
   const std::string path_;
   OutputFile out_;
   const int file_;

@@ -1,21 +1,8 @@
 #include "recording/write/packet_printer.h"
 
 #include <algorithm>
-#include <cstring>
-
-#include "recording/write/recording_text.h"
 
 namespace lockstep {
-namespace {
-
-RecordedState state_of(const NodeChange& change) {
-  return {.status = status_of(change.activity()),
-          .progress = change.progress,
-          .ticked = change.ticked(),
-          .held = change.activity() == Activity::Paused};
-}
-
-}  // namespace
 
 std::string_view PacketPrinter::print(std::span<char> room) {
   char* const end = room.data() + room.size();
@@ -59,23 +46,18 @@ char* PacketPrinter::put_piece(char* to, const char* end) {
 
 char* PacketPrinter::put_opening(char* to) {
   opening_left_ = false;
-  if (head_.lost > 0) to = put_lost(to, head_.lost, head_.lost_from);
-  if (head_.is_tick != 0) to = put_tick(to, head_.tick, Nanoseconds(head_.time));
+  if (head_.lost > 0) to = format_.put_lost(to, head_.lost, head_.lost_from);
+  if (head_.is_tick != 0) to = format_.put_tick(to, head_.tick, Nanoseconds(head_.time));
   return to;
 }
 
 char* PacketPrinter::put_nodes(char* to, const char* end) {
-  const std::string_view piece = ring_.bytes(at_, nodes_left_ * sizeof(NodeChange));
-  const std::uint64_t fit = static_cast<std::uint64_t>(end - to) / kMostOfNode;
-  const std::uint64_t count = std::min<std::uint64_t>(piece.size() / sizeof(NodeChange), fit);
-  for (std::uint64_t i = 0; i < count; ++i) {
-    NodeChange change;
-    std::memcpy(&change, piece.data() + i * sizeof change, sizeof change);
-    if (nodes_left_-- != head_.nodes) *to++ = ',';
-    to = put_node(to, change.node, state_of(change));
-  }
-  at_ += count * sizeof(NodeChange);
-  return to;
+  const auto room = static_cast<std::size_t>(end - to);
+  const bool first = nodes_left_ == head_.nodes;
+  const auto put = format_.put_nodes({to, room}, ring_.nodes(at_, nodes_left_), first);
+  nodes_left_ -= put.count;
+  at_ += put.count * sizeof(NodeChange);
+  return put.end;
 }
 
 char* PacketPrinter::put_text(char* to, const char* end) {

@@ -1,4 +1,4 @@
-// Turns the packets in a ring into the lines of a recording, a piece of text at a time.
+// Turns the packets in a ring into the text of a recording, a piece at a time; the format says how.
 // Async-signal-safe: does not allocate, and writes only to itself and the text, so that another
 // printer may start again at the beginning of the ring. Used by append_file.
 #pragma once
@@ -8,15 +8,17 @@
 #include <string_view>
 
 #include "recording/write/packet_ring.h"
+#include "recording/write/recording_format.h"
 
 namespace lockstep {
 
 class PacketPrinter {
  public:
-  static constexpr std::size_t kLeastRoom = 512;  // bytes of text for print()
+  static constexpr std::size_t kLeastRoom = RecordingFormat::kMostAtOnce;  // bytes, for print()
 
   // Starts before the first packet in the ring.
-  explicit PacketPrinter(const PacketRing& ring) : ring_(ring), at_(ring.taken()), finished_(at_) {}
+  PacketPrinter(const PacketRing& ring, const RecordingFormat& format)
+      : ring_(ring), format_(format), at_(ring.taken()), finished_(at_) {}
 
   // The next part of the text that fits into `room`; "" when everything is printed.
   std::string_view print(std::span<char> room);
@@ -35,6 +37,7 @@ class PacketPrinter {
   char* put_text(char* to, const char* end);
 
   const PacketRing& ring_;
+  const RecordingFormat& format_;
   std::uint64_t at_;
   std::uint64_t finished_;
   std::uint64_t unfinished_text_ = 0;

@@ -7,7 +7,7 @@
 #include <atomic>
 #include <cstdint>
 #include <cstring>
-#include <initializer_list>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -60,6 +60,11 @@ class PacketRing {
   std::string_view bytes(std::uint64_t position, std::uint64_t count) const {
     const std::size_t at = position % bytes_.size();
     return {bytes_.data() + at, std::min<std::size_t>(count, bytes_.size() - at)};
+  }
+  // Likewise the changes of nodes. push() has copied whole ones, each to a cell.
+  std::span<const NodeChange> nodes(std::uint64_t position, std::uint64_t count) const {
+    const std::string_view all = bytes(position, count * sizeof(NodeChange));
+    return {reinterpret_cast<const NodeChange*>(all.data()), all.size() / sizeof(NodeChange)};
   }
   void take_until(std::uint64_t position) { begin_.store(position, std::memory_order_release); }
 

@@ -8,7 +8,6 @@
 
 #include "core/wording.h"
 #include "measure/synchronized_measure.h"
-#include "recording/write/recording_text.h"
 #include "summary/statistics.h"
 
 namespace lockstep {
@@ -38,16 +37,17 @@ std::vector<std::uint32_t> slots_of(const Tree& tree,
 Recorder::Recorder(const Tree& tree, RecorderOptions options)
     : tree_(tree),
       options_(std::move(options)),
-      file_(options_.path, queue_of(tree, options_.queue)),
+      file_(options_.path, queue_of(tree, options_.queue), options_.format),
       delta_(tree),
       slots_(slots_of(tree, options_.entries)),
       entries_(slots_) {
-  line_end_.reserve(most_of_tick_end(synchronized_nodes(tree).size(), slots_.size()));
+  line_end_.reserve(
+      options_.format.most_of_tick_end(synchronized_nodes(tree).size(), slots_.size()));
 }
 
 void Recorder::run_started(Ticker&, const RunStart& start) {
   may_wait_ = !start.real_time;
-  write(to_json(RecordingHeader{.tree = tree_.id,
+  write(options_.format.header({.tree = tree_.id,
                                 .file = options_.tree_file,
                                 .version = LOCKSTEP_VERSION,
                                 .rate_hz = options_.rate_hz,
@@ -98,11 +98,11 @@ PacketHead Recorder::head() const {
 }
 
 bool Recorder::push_tick(Ticker& ticker, const TickReport& report) {
-  set_tick_end(line_end_, {.limits = delta_.limits(ticker),
-                           .succeeded = delta_.succeeded(ticker),
-                           .faults = report.faults,
-                           .entries = entries_.changes(ticker.blackboard()),
-                           .logs = lines_.lines()});
+  options_.format.set_tick_end(line_end_, {.limits = delta_.limits(ticker),
+                                           .succeeded = delta_.succeeded(ticker),
+                                           .faults = report.faults,
+                                           .entries = entries_.changes(ticker.blackboard()),
+                                           .logs = lines_.lines()});
   Packet packet{.head = head(), .nodes = delta_.changes(ticker), .text = line_end_};
   packet.head.is_tick = 1;
   packet.head.tick = report.tick;
@@ -136,12 +136,11 @@ void Recorder::run_ended(Ticker& ticker, const RunEnd& end) {
     closing.notes.push_back(
         fmt::format("{} that leaves logged are not recorded", counted(lines_.left_out(), "line")));
   }
-  write(to_json(closing));
+  write(options_.format.end(closing));
 }
 
 // The first and the last line are not lost, even if the run has to wait for them.
-void Recorder::write(const std::string& line) {
-  const std::string text = line + '\n';
+void Recorder::write(const std::string& text) {
   file_.write({.head = head(), .text = text});
   tell_error();
 }

@@ -1,8 +1,8 @@
-// Writes a run to a file as JSON Lines, one line per tick with what changed: docs/recording.md. On
-// a virtual clock the same run gives the same bytes. Does not allocate per tick, leaves printing to
-// the writing thread, and on a real clock never waits for the disk: ticks for which there is no
-// room are left out and counted, and the recording reports them. It allocates only for lines that
-// leaves log, for faults, and for entries whose text grows.
+// Writes a run to a file, of each tick what changed: docs/recording.md. On a virtual clock the same
+// run gives the same bytes. Does not allocate per tick, leaves printing to the writing thread, and
+// on a real clock never waits for the disk: ticks for which there is no room are left out and
+// counted, and the recording reports them. It allocates only for lines that leaves log, for faults,
+// and for entries whose text grows.
 #pragma once
 
 #include <functional>
@@ -28,6 +28,7 @@ struct RecorderOptions {
   // it; whether the run goes on is the caller's choice.
   std::function<void(const std::string& error)> on_error = {};
   std::size_t queue = AppendFile::kQueue;  // bytes that may wait for the disk, at least
+  const RecordingFormat& format = json_lines();
 };
 
 class Recorder final : public Observer {
@@ -53,7 +54,7 @@ class Recorder final : public Observer {
   PacketHead head() const;
   std::vector<RecordedKey> keys() const;
   bool push_tick(Ticker& ticker, const TickReport& report);
-  void write(const std::string& line);
+  void write(const std::string& text);
   void tell_error();
 
   const Tree& tree_;

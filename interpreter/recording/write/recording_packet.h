@@ -39,8 +39,8 @@ struct PacketHead {
   std::uint32_t is_tick = 0;
 };
 
-// After the head come the changes of nodes, then text as it is in the file: for a tick what follows
-// its nodes, otherwise whole lines.
+// After the head come the changes of nodes, then text as it is in the file: for a tick what
+// RecordingFormat::set_tick_end made, otherwise whole lines.
 struct Packet {
   PacketHead head = {};
   std::span<const NodeChange> nodes = {};
@@ -50,6 +50,8 @@ struct Packet {
 // Packets in the ring begin at multiples of this size, so a change is never split at its end.
 constexpr std::size_t kPacketCell = 16;
 static_assert(sizeof(NodeChange) == kPacketCell && sizeof(PacketHead) % kPacketCell == 0);
+static_assert(alignof(NodeChange) <= kPacketCell &&
+              kPacketCell <= __STDCPP_DEFAULT_NEW_ALIGNMENT__);  // the ring's
 static_assert(std::is_trivially_copyable_v<NodeChange> && std::is_trivially_copyable_v<PacketHead>);
 
 // Without the cells' padding.

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "recording/write/recording_text.h"
+#include "recording/write/json_lines.h"
 
 namespace lockstep::test {
 namespace {
@@ -13,11 +13,9 @@ std::size_t below(std::mt19937& random, std::size_t limit) {
   return std::uniform_int_distribution<std::size_t>(0, limit - 1)(random);
 }
 
-// The pieces of text that the recorder is made of, put together in another way.
-template <class Put>
-std::string text_of(Put put) {
-  char text[kMostOfLost + kMostOfTick + kMostOfNode];
-  return {text, put(text)};
+std::string text_of(NodeIndex node, const RecordedState& state) {
+  return fmt::format("[{},\"{}\",{},{:d},{:d}]", node, to_string(state.status), state.progress,
+                     state.ticked, state.held);
 }
 
 RecordedState random_state(std::mt19937& random) {
@@ -31,7 +29,8 @@ RecordedState random_state(std::mt19937& random) {
 
 void append_line(const Moment& moment, const std::vector<RecordedState>& before, std::string& out) {
   if (moment.lost > 0) {
-    out += text_of([&](char* to) { return put_lost(to, moment.lost, moment.tick - moment.lost); });
+    out += fmt::format("{{\"lost\":{{\"ticks\":{},\"from\":{}}}}}\n", moment.lost,
+                       moment.tick - moment.lost);
   }
   out += fmt::format("{{\"tick\":{},\"time_s\":{},\"nodes\":[", moment.tick, moment.time);
   bool first = true;
@@ -39,8 +38,7 @@ void append_line(const Moment& moment, const std::vector<RecordedState>& before,
     if (moment.nodes[node] == before[node]) continue;
     if (!first) out += ',';
     first = false;
-    out += text_of(
-        [&](char* to) { return put_node(to, static_cast<NodeIndex>(node), moment.nodes[node]); });
+    out += text_of(static_cast<NodeIndex>(node), moment.nodes[node]);
   }
   std::vector<LimitChange> limits;
   for (NodeIndex node = 0; node < before.size(); ++node) {
@@ -50,14 +48,14 @@ void append_line(const Moment& moment, const std::vector<RecordedState>& before,
   std::vector<Fault> faults;
   for (const RecordedFault& fault : moment.faults) faults.push_back({fault.node, fault.message});
   std::string end;
-  set_tick_end(end, {.limits = limits, .faults = faults});
+  json_lines().set_tick_end(end, {.limits = limits, .faults = faults});
   out += end;
 }
 
 }  // namespace
 
 std::string RandomRecording::text() const {
-  std::string out = to_json(header) + "\n";
+  std::string out = json_lines().header(header);
   std::vector<RecordedState> before(header.nodes.size());
   RecordedEnd closing = end;
   for (const Moment& moment : ticks) {
@@ -66,7 +64,7 @@ std::string RandomRecording::text() const {
     closing.ticks = moment.tick + 1;
     closing.lost += moment.lost;
   }
-  return out + to_json(closing) + "\n";
+  return out + json_lines().end(closing);
 }
 
 RandomRecording random_recording(std::mt19937& random, const RandomRecordingOptions& options) {

@@ -7,8 +7,8 @@
 #include "recording/read/recording_reader.h"
 #include "recording/use/recording_csv.h"
 #include "recording/use/recording_info.h"
+#include "recording/write/json_lines.h"
 #include "recording/write/recorder.h"
-#include "recording/write/recording_text.h"
 #include "unit/recording/watched_run.h"
 
 namespace lockstep {
@@ -71,14 +71,21 @@ TEST_CASE("a node that has completed is in the line of the tick after it, then i
 
 TEST_CASE("numbers are written with as many digits as are needed, and no more") {
   const auto text_of = [](double progress) {
-    char text[100];
-    const RecordedState state{.status = Status::Success, .progress = progress, .held = true};
-    const std::string put(text, put_node(text, 4294967295, state));
-    CHECK(put.size() < kMostOfNode);
-    return put;
+    char room[128];  // for two
+    const NodeChange node{.progress = progress,
+                          .node = 4294967295,
+                          .state = static_cast<std::uint8_t>(Activity::Success)};
+    const NodeChange nodes[] = {node, node, node};
+    const auto put = json_lines().put_nodes(room, nodes, true);
+    CHECK(put.count == 2);
+    const std::string text(room, put.end);
+    CHECK(text.size() < sizeof room);
+    const std::string one = text.substr(0, text.size() / 2);
+    CHECK(text == one + "," + one);
+    return one;
   };
   const auto expected = [](const std::string& progress) {
-    return "[4294967295,\"success\"," + progress + ",0,1]";
+    return "[4294967295,\"success\"," + progress + ",0,0]";
   };
   CHECK(text_of(0) == expected("0"));
   CHECK(text_of(-0.0) == expected("-0"));
@@ -92,7 +99,7 @@ TEST_CASE("numbers are written with as many digits as are needed, and no more") 
 
 std::string tick_end(std::span<const LimitChange> limits, std::span<const Fault> faults) {
   std::string text = "of the tick before";
-  set_tick_end(text, {.limits = limits, .faults = faults});
+  json_lines().set_tick_end(text, {.limits = limits, .faults = faults});
   return text;
 }
 

@@ -1,0 +1,242 @@
+#include "recording/write/json_lines.h"
+
+#include <fmt/compile.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "core/json.h"
+
+namespace lockstep {
+namespace {
+
+// --- header and closing line
+// -----------------------------------------------------------------------
+
+Json json_of(const RecordedNode& node, std::size_t index) {
+  Json json = {{"index", index}, {"path", node.path}, {"kind", node.kind}, {"name", node.name}};
+  json["parent"] = node.parent;
+  if (node.synchronization == Synchronization::Absolute) {
+    json["barriers"] = node.barriers;
+  } else if (node.synchronization == Synchronization::Relative) {
+    json["delta"] = node.delta;
+  }
+  return json;
+}
+
+Json json_of(const RecordedKey& entry) {
+  return {{"key", entry.key}, {"type", entry.type}};
+}
+
+Json json_of(const RecordedLog& log) {
+  return Json::array({log.who, log.level, log.text});
+}
+
+template <class Item>
+Json list_of(const std::vector<Item>& items) {
+  Json list = Json::array();
+  for (const Item& item : items) list.push_back(json_of(item));
+  return list;
+}
+
+// --- pieces of a tick
+// ------------------------------------------------------------------------------
+
+char* put(char* to, std::string_view text) {
+  return std::copy(text.begin(), text.end(), to);
+}
+
+template <class Integer>
+char* put_integer(char* to, Integer number) {
+  return std::to_chars(to, to + std::numeric_limits<Integer>::digits10 + 1, number).ptr;
+}
+
+char* put_seconds(char* to, Nanoseconds time) {
+  constexpr std::uint64_t kSecond = 1'000'000'000;
+  const auto total = static_cast<std::uint64_t>(time.count());
+  to = put_integer(to, total / kSecond);
+  // A digit more, so that none of the fraction's zeros is left out.
+  char digits[24];
+  const char* end = put_integer(digits, kSecond + total % kSecond);
+  while (end[-1] == '0' && end > digits + 2) --end;
+  digits[0] = '.';
+  return std::copy<const char*>(digits, end, to);
+}
+
+// Of nodes that change, most have not begun, have ended, or stand where their parent does: writing
+// a number takes longer than all the rest.
+char* put_progress(char* to, double progress) {
+  if (progress == 1.0) return put(to, "1");
+  if (progress == 0.0 && !std::signbit(progress)) return put(to, "0");
+  return fmt::format_to(to, FMT_COMPILE("{}"), progress);
+}
+
+template <class Number>
+void add_number(std::string& text, Number number) {
+  fmt::format_to(std::back_inserter(text), FMT_COMPILE("{}"), number);
+}
+
+// ,"name":[…] with what `add_item` adds for each, or nothing when there is none.
+template <class Item, class AddItem>
+void add_list(std::string& text, std::string_view name, std::span<const Item> items,
+              AddItem add_item) {
+  if (items.empty()) return;
+  ((text += ",\"") += name) += "\":";
+  char separator = '[';
+  for (const Item& item : items) {
+    text += separator;
+    separator = ',';
+    add_item(text, item);
+  }
+  text += ']';
+}
+
+void add_limit(std::string& text, const LimitChange& it) {
+  add_number(text += '[', it.node);
+  text += ',';
+  if (std::isinf(it.limit)) {
+    text += "null";
+  } else {
+    add_number(text, it.limit);
+  }
+  text += ']';
+}
+
+void add_fault(std::string& text, const Fault& fault) {
+  constexpr std::size_t kMostOfMessage = 4096;
+  add_number(text += '[', fault.node);
+  text += ',';
+  append_json(text, std::string_view(fault.message).substr(0, kMostOfMessage));
+  text += ']';
+}
+
+void add_entry(std::string& text, const EntryChange& it) {
+  add_number(text += '[', it.entry);
+  text += ',';
+  if (it.text != nullptr) {
+    append_json(text, *it.text);
+  } else {
+    text += "null";
+  }
+  text += ']';
+}
+
+void add_log(std::string& text, const RecordedLog& log) {
+  text += '[';
+  append_json(text, log.who);
+  text += ',';
+  append_json(text, log.level);
+  text += ',';
+  append_json(text, log.text);
+  text += ']';
+}
+
+// Longer than [4294967295,"success",0.00012345678901234567,1,0] and a comma.
+constexpr std::size_t kMostOfNode = 64;
+static_assert(kMostOfNode <= RecordingFormat::kMostAtOnce);
+
+char* put_node(char* to, const NodeChange& change) {
+  constexpr std::string_view kStatus[] = {",\"idle\",", ",\"running\",", ",\"success\",",
+                                          ",\"failure\","};
+  constexpr std::string_view kFlags[] = {",0,0]", ",0,1]", ",1,0]", ",1,1]"};
+  const Activity activity = change.activity();
+  to = put_integer(put(to, "["), change.node);
+  to = put(to, kStatus[static_cast<unsigned>(status_of(activity))]);
+  to = put_progress(to, change.progress);
+  return put(to, kFlags[2 * change.ticked() + (activity == Activity::Paused)]);
+}
+
+class JsonLines final : public RecordingFormat {
+ public:
+  std::string header(const RecordingHeader& header) const override {
+    Json json = {{"lockstep_recording", kRecordingVersion},
+                 {"tree", header.tree},
+                 {"file", header.file},
+                 {"version", header.version},
+                 {"rate_hz", header.rate_hz},
+                 {"clock", header.clock},
+                 {"seed", header.seed}};
+    json["arguments"] = Json::object();
+    for (const auto& [name, value] : header.arguments) json["arguments"][name] = value;
+    json["nodes"] = Json::array();
+    for (std::size_t index = 0; index < header.nodes.size(); ++index) {
+      json["nodes"].push_back(json_of(header.nodes[index], index));
+    }
+    if (!header.entries.empty()) json["entries"] = list_of(header.entries);
+    return json.text() + '\n';
+  }
+
+  std::string end(const RecordedEnd& end) const override {
+    Json json = {{"result", end.result}, {"reason", end.reason}};
+    if (!end.fault.empty()) json["fault"] = end.fault;
+    if (end.signal) json["signal"] = *end.signal;
+    json["ticks"] = end.ticks;
+    json["time_s"] = end.time;
+    json["overruns"] = end.overruns;
+    json["skipped"] = end.skipped;
+    if (end.lost > 0) json["lost"] = end.lost;
+    if (!end.notes.empty()) json["notes"] = end.notes;
+    if (!end.logs.empty()) json["logs"] = list_of(end.logs);
+    return Json{{"end", std::move(json)}}.text() + '\n';
+  }
+
+  // ]} or ],"limits":[[1,0.5]],"succeeded":[1],"faults":[[3,"threw …"],…],… } and a newline; of a
+  // long message only the beginning.
+  void set_tick_end(std::string& text, const TickEnd& end) const override {
+    text = ']';
+    add_list(text, "limits", end.limits, add_limit);
+    add_list(text, "succeeded", end.succeeded, add_number<NodeIndex>);
+    add_list(text, "faults", end.faults, add_fault);
+    add_list(text, "entries", end.entries, add_entry);
+    add_list(text, "logs", end.logs, add_log);
+    text += "}\n";
+  }
+
+  std::size_t most_of_tick_end(std::size_t synchronized_nodes, std::size_t entries) const override {
+    return 64 + 64 * (synchronized_nodes + entries);
+  }
+
+  // {"lost":{"ticks":2,"from":7}} and the end of the line.
+  char* put_lost(char* to, std::uint64_t ticks, std::uint64_t from) const override {
+    to = put_integer(put(to, "{\"lost\":{\"ticks\":"), ticks);
+    to = put_integer(put(to, ",\"from\":"), from);
+    return put(to, "}}\n");
+  }
+
+  // {"tick":3,"time_s":0.03,"nodes":[ with the exact time, where a double would say
+  // 0.030000000000000002.
+  char* put_tick(char* to, std::uint64_t tick, Nanoseconds time) const override {
+    to = put_integer(put(to, "{\"tick\":"), tick);
+    to = put_seconds(put(to, ",\"time_s\":"), time);
+    return put(to, ",\"nodes\":[");
+  }
+
+  // [3,"running",0.25,1,0],[4,…
+  Put put_nodes(std::span<char> room, std::span<const NodeChange> nodes,
+                bool first) const override {
+    const std::size_t count = std::min(nodes.size(), room.size() / kMostOfNode);
+    char* to = room.data();
+    for (const NodeChange& change : nodes.first(count)) {
+      if (!first) *to++ = ',';
+      first = false;
+      to = put_node(to, change);
+    }
+    return {to, count};
+  }
+};
+
+constexpr JsonLines kJsonLines{};  // needs no code at the start: a crash handler uses it
+
+}  // namespace
+
+const RecordingFormat& json_lines() {
+  return kJsonLines;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,64 @@
+// How a recording is written: what comes between the packets of the tick thread and the bytes of
+// the file. A format is a file that implements this; json_lines.h is the one that exists. A format
+// has no state: an object of it is shared by threads and used again after a crash.
+//
+// A recording consists of lines. Each function below except the last two gives whole lines, and the
+// last two together give one: where a disk is full, the file ends after a '\n'.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "core/clock.h"
+#include "engine/ticker.h"
+#include "recording/recording.h"
+#include "recording/write/entry_changes.h"
+#include "recording/write/recording_packet.h"
+
+namespace lockstep {
+
+// What a tick has besides its nodes.
+struct TickEnd {
+  std::span<const LimitChange> limits = {};
+  std::span<const NodeIndex> succeeded = {};
+  std::span<const Fault> faults = {};
+  std::span<const EntryChange> entries = {};
+  std::span<const RecordedLog> logs = {};
+};
+
+class RecordingFormat {
+ public:
+  // What the put functions may write at once: put_lost and put_tick together, one node.
+  static constexpr std::size_t kMostAtOnce = 512;
+
+  // --- on the tick thread; what they return waits in the ring as it is
+  // ----------------------------
+
+  virtual std::string header(const RecordingHeader& header) const = 0;
+  virtual std::string end(const RecordedEnd& end) const = 0;
+  // Replaces `text`. Allocates only for faults, logs and texts of entries, and where `text` has
+  // less room than most_of_tick_end.
+  virtual void set_tick_end(std::string& text, const TickEnd& end) const = 0;
+  virtual std::size_t most_of_tick_end(std::size_t synchronized_nodes,
+                                       std::size_t entries) const = 0;
+
+  // --- on the writing thread or in a crash handler: async-signal-safe
+  // ----------------------------- They write to the caller's memory and return the end. The same
+  // call gives the same bytes.
+
+  virtual char* put_lost(char* to, std::uint64_t ticks, std::uint64_t from) const = 0;
+  // Of each tick: its beginning, its nodes in any number of calls, then what set_tick_end made.
+  virtual char* put_tick(char* to, std::uint64_t tick, Nanoseconds time) const = 0;
+  struct Put {
+    char* end;
+    std::size_t count;  // of the nodes: those that fit, at least one if there is kMostAtOnce
+  };
+  virtual Put put_nodes(std::span<char> room, std::span<const NodeChange> nodes,
+                        bool first) const = 0;
+
+ protected:
+  ~RecordingFormat() = default;
+};
+
+}  // namespace lockstep
