@@ -1,5 +1,7 @@
 #include "measure/synchronized_measure.h"
 
+#include <algorithm>
+
 #include "core/pre_order.h"
 #include "engine/synchronized.h"
 
@@ -19,8 +21,12 @@ std::vector<NodeIndex> children_of(const Tree& tree, NodeIndex node) {
   return children;
 }
 
-SynchronizedMeasure::SynchronizedMeasure(std::size_t children)
-    : distance_({.children = children}), spread_({}), step_length_({.children = children}) {
+SynchronizedMeasure::SynchronizedMeasure(std::size_t children, Synchronization synchronization)
+    : distance_({.children = children}),
+      spread_({}),
+      step_length_({.children = children}),
+      synchronization_(synchronization),
+      falls_(children) {
   for (std::size_t child = 0; child < children; ++child) {
     held_.emplace_back(MeasureTarget{.child = child});
   }
@@ -31,7 +37,17 @@ void SynchronizedMeasure::after_tick(const SynchronizedTick& tick) {
   distance_.after_tick(view);
   spread_.after_tick(view);
   step_length_.after_tick(view);
+  falls_.after_tick(tick);
   for (HeldChild& child : held_) child.after_tick(view);
+  if (!tick.ticked) return;
+  const double least = std::ranges::min(tick.progress);
+  const double most = std::min(1.0, farthest(synchronization_, tick.limit, least));
+  widest_ = std::max(widest_, most - least);
+}
+
+std::optional<double> SynchronizedMeasure::bound() const {
+  if (falls_.while_ticked() || falls_.while_held()) return std::nullopt;
+  return std::min(1.0, widest_ + step_length());
 }
 
 void SynchronizedMeasure::run_ended(Nanoseconds time) {

@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "engine/tree.h"
+#include "measure/fall.h"
 #include "measure/held.h"
 #include "measure/progress_distance.h"
 #include "measure/spread.h"
@@ -41,7 +43,7 @@ class HeldChildren {
 
 class SynchronizedMeasure {
  public:
-  explicit SynchronizedMeasure(std::size_t children);
+  SynchronizedMeasure(std::size_t children, Synchronization synchronization);
 
   void after_tick(const SynchronizedTick& tick);
   void run_ended(Nanoseconds time);
@@ -49,12 +51,19 @@ class SynchronizedMeasure {
   const ProgressDistance& distance() const { return distance_; }
   double largest_spread() const { return spread_.value({}); }
   double step_length() const { return step_length_.value({}); }
+  // The spread cannot be larger: what the limits allowed, and the longest step. Nothing if progress
+  // fell.
+  std::optional<double> bound() const;
+  const FallWatch& falls() const { return falls_; }
   std::span<const HeldChild> held() const { return held_; }
 
  private:
   ProgressDistance distance_;
   Spread spread_;
   StepLength step_length_;
+  Synchronization synchronization_;
+  double widest_ = 0;  // between the least progress and the farthest that was allowed
+  FallWatch falls_;
   std::vector<HeldChild> held_;
 };
 

@@ -4,13 +4,15 @@
 
 #include <algorithm>
 
+#include "engine/synchronized.h"
+
 namespace lockstep {
 
 Statistics::Statistics(const Tree& tree) : tree_(tree) {
   for (const NodeIndex node : synchronized_nodes(tree)) {
-    const std::size_t children = tree.nodes[node].children;
+    const Node& it = tree.nodes[node];
     nodes_.push_back(
-        {SynchronizedProbe(tree, node), SynchronizedMeasure(children), FallWatch(children)});
+        {SynchronizedProbe(tree, node), SynchronizedMeasure(it.children, synchronization(it))});
   }
 }
 
@@ -22,9 +24,7 @@ void Statistics::after_tick(Ticker& ticker, const TickReport& report) {
   if (report.tick > 0) periods_.record(report.time - last_start_);
   last_start_ = report.time;
   for (Measured& node : nodes_) {
-    const SynchronizedTick tick = node.probe.read(ticker, report.time);
-    node.measure.after_tick(tick);
-    node.falls.after_tick(tick);
+    node.measure.after_tick(node.probe.read(ticker, report.time));
   }
   for (const Fault& fault : report.faults) note(fault, report.tick);
   if (report.status == Status::Failure) why_failed_ = deciding_path(ticker);
@@ -61,7 +61,11 @@ Summary Statistics::summary() const {
                   .notes = {}};
   faults_.append_to(summary.notes);
   summary.notes.insert(summary.notes.end(), out_of_range_notes_.begin(), out_of_range_notes_.end());
-  for (const Measured& node : nodes_) note_falls(node, summary.notes);
+  for (const Measured& node : nodes_) {
+    std::vector<std::string> paths;
+    for (const NodeIndex child : node.probe.children()) paths.push_back(tree_.path(child));
+    append_fall_notes(node.measure.falls(), paths, summary.notes);
+  }
   if (real_time_ && periods_.count() > 0) {
     summary.period = PeriodSummary{.p50 = to_seconds(periods_.quantile(0.5)),
                                    .p99 = to_seconds(periods_.quantile(0.99)),
@@ -78,18 +82,6 @@ Summary Statistics::summary() const {
   }
   summary.never_reached = nodes_.size() - summary.synchronized_nodes.size();
   return summary;
-}
-
-void Statistics::note_falls(const Measured& node, std::vector<std::string>& notes) const {
-  const auto note = [&](const std::optional<FallWatch::Fall>& fall, std::string_view when,
-                        std::string_view so) {
-    if (!fall) return;
-    notes.push_back(fmt::format("the progress of '{}' fell{}, first at {:.3f} s: {}",
-                                tree_.path(node.probe.children()[fall->child]), when,
-                                to_seconds(fall->time), so));
-  };
-  note(node.falls.while_ticked(), "", "the distance of the children has no bound then");
-  note(node.falls.while_held(), " while it was held", "the others may wait for ever then");
 }
 
 std::optional<WorstTickSummary> Statistics::worst_tick() const {

@@ -6,7 +6,6 @@
 
 #include "core/histogram.h"
 #include "measure/decision.h"
-#include "measure/fall.h"
 #include "measure/synchronized_measure.h"
 #include "runtime/observer.h"
 #include "summary/capped_notes.h"
@@ -29,9 +28,7 @@ class Statistics final : public Observer {
   struct Measured {
     SynchronizedProbe probe;
     SynchronizedMeasure measure;
-    FallWatch falls;
   };
-  void note_falls(const Measured& node, std::vector<std::string>& notes) const;
   void note(const Fault& fault, std::uint64_t tick);
   std::optional<WorstTickSummary> worst_tick() const;
   SynchronizedSummary summary_of(const Measured& measured) const;

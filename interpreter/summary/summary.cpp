@@ -75,8 +75,9 @@ void write_node(const SynchronizedSummary& node, std::string& out, bool color) {
   fmt::format_to(std::back_inserter(out), "  {} ({}, {})\n", name, printable(node.kind),
                  counted(node.samples, "tick"));
   fmt::format_to(std::back_inserter(out),
-                 "    progress distance {:.6g}, mean {:.6g} a tick; largest spread {:.6g}, ",
-                 node.distance_sum, node.distance_mean, node.largest_spread);
+                 "    progress distance {:.6g}, mean {:.6g} a tick; largest spread {:.6g}{}, ",
+                 node.distance_sum, node.distance_mean, node.largest_spread,
+                 node.spread_bound ? fmt::format(" (bound {:.6g})", *node.spread_bound) : "");
   fmt::format_to(std::back_inserter(out), "longest step {:.6g}\n", node.step_length);
   std::vector<TableRow> rows;
   for (const ChildSummary& child : node.children) {
@@ -131,6 +132,7 @@ SynchronizedSummary summarize(const SynchronizedMeasure& measure, std::string pa
                               .distance_sum = distance.sum(),
                               .distance_mean = distance.mean(),
                               .largest_spread = measure.largest_spread(),
+                              .spread_bound = measure.bound(),
                               .step_length = measure.step_length(),
                               .children = {}};
   for (std::size_t child = 0; child < children.size(); ++child) {
@@ -139,6 +141,18 @@ SynchronizedSummary summarize(const SynchronizedMeasure& measure, std::string pa
         {children[child], to_seconds(held.time()), held.ticks(), held.pauses()});
   }
   return summary;
+}
+
+void append_fall_notes(const FallWatch& falls, std::span<const std::string> paths,
+                       std::vector<std::string>& notes) {
+  const auto add = [&](const std::optional<FallWatch::Fall>& fall, std::string_view when,
+                       std::string_view consequence) {
+    if (!fall) return;
+    notes.push_back(fmt::format("the progress of '{}' fell{}, first at {:.3f} s: {}",
+                                paths[fall->child], when, to_seconds(fall->time), consequence));
+  };
+  add(falls.while_ticked(), "", "the spread has no bound then");
+  add(falls.while_held(), " while it was held", "the others may wait for ever then");
 }
 
 void write_text(std::span<const SynchronizedSummary> nodes, std::size_t never_reached,

@@ -35,6 +35,7 @@ struct SynchronizedSummary {
   std::uint64_t samples = 0;  // ticks of the node
   double distance_sum = 0, distance_mean = 0;
   double largest_spread = 0;
+  std::optional<double> spread_bound;  // none: progress fell
   double step_length = 0;
   std::vector<ChildSummary> children;
 };
@@ -49,6 +50,9 @@ struct DecidingSummary {
 DecidingSummary summarize(const DecidingNode& node, std::string path, std::string kind);
 SynchronizedSummary summarize(const SynchronizedMeasure& measure, std::string path,
                               std::string kind, const std::vector<std::string>& children);
+// What the bound and the end of a synchronized node do not hold for; `paths` are its children's.
+void append_fall_notes(const FallWatch& falls, std::span<const std::string> paths,
+                       std::vector<std::string>& notes);
 
 struct PeriodSummary {
   double p50 = 0, p99 = 0, max = 0;  // seconds from the start of a tick to the start of the next

@@ -19,6 +19,7 @@ Json json_of(const SynchronizedSummary& node) {
           {"progress_distance", node.distance_sum},
           {"progress_distance_mean", node.distance_mean},
           {"largest_spread", node.largest_spread},
+          {"spread_bound", node.spread_bound},
           {"step_length", node.step_length},
           {"children", std::move(children)}};
 }

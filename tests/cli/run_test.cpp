@@ -224,7 +224,8 @@ TEST_CASE(
                  "beyond 0.505 since 0.080 s, and holds the other children"));
   CHECK(contains(outcome.out,
                  "note: the progress of 'Main/pull/again' fell, first at 0.030 s: the "
-                 "distance of the children has no bound then\n"));
+                 "spread has no bound then\n"));
+  CHECK_FALSE(contains(outcome.out, "(bound"));
 }
 
 TEST_CASE("what leaves log, by --log-level, limited in every view") {

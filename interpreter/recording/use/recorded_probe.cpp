@@ -56,8 +56,8 @@ std::vector<RecordedMeasure> measures_of(const RecordingHeader& header) {
   std::vector<RecordedMeasure> measures;
   for (const NodeIndex node : synchronized_nodes(header)) {
     const std::size_t count = children[node].size();
-    measures.push_back(
-        {RecordedProbe(header, node, std::move(children[node])), SynchronizedMeasure(count)});
+    measures.push_back({RecordedProbe(header, node, std::move(children[node])),
+                        SynchronizedMeasure(count, header.nodes[node].synchronization)});
   }
   return measures;
 }

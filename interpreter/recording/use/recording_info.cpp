@@ -95,11 +95,18 @@ std::string info_text(RecordingReader& reader, bool color) {
   if (ticks > 0) write_text(why_failed(reader, last), out, color);
   write_warnings(reader, faults, out, color);
   std::vector<SynchronizedSummary> reached;
+  std::vector<std::string> notes;
   for (auto& [probe, measure] : nodes) {
     if (measure.distance().samples() == 0) continue;
+    std::vector<std::string> paths;
+    for (const NodeIndex child : probe.children()) paths.push_back(header.nodes[child].path);
+    append_fall_notes(measure.falls(), paths, notes);
     measure.run_ended(from_seconds(time));
     const RecordedNode& node = header.nodes[probe.node()];
     reached.push_back(summarize(measure, node.path, node.kind, probe.names()));
+  }
+  for (const std::string& note : notes) {
+    fmt::format_to(std::back_inserter(out), "  note: {}\n", printable(note));
   }
   write_text(reached, nodes.size() - reached.size(), out, color);
   return out;

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "engine/synchronized.h"
 #include "support/scripted_run.h"
 
 namespace lockstep {
@@ -16,7 +17,7 @@ struct Measured {
   Measured(std::string_view tree, std::string_view leaves, std::size_t place = 0)
       : run(tree, leaves),
         probe(run.tree(), synchronized_nodes(run.tree()).at(place)),
-        measure(probe.children().size()) {
+        measure(probe.children().size(), synchronization(run.tree().nodes[probe.node()])) {
     Nanoseconds now{0};
     for (Status status = Status::Running; status == Status::Running && ticks < 100; ++ticks) {
       status = run.tick(now);

@@ -335,7 +335,8 @@ TEST_CASE("info measures a recording as the run was measured") {
         "  argument barriers = 0.5;1\n"
         "  success (completed) after 4 ticks, 0.300 s; 0 overruns, 0 deadlines skipped\n"
         "  Test/ParallelAbsolute (ParallelAbsolute, 4 ticks)\n"
-        "    progress distance 0.5, mean 0.125 a tick; largest spread 0.25, longest step 0.5\n"
+        "    progress distance 0.5, mean 0.125 a tick; largest spread 0.25 (bound 1), "
+        "longest step 0.5\n"
         "    a  did not wait\n"
         "    b  waited 1 time, 0.100 s in 1 tick\n");
 }

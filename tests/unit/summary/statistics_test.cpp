@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <csignal>
 
+#include "engine/synchronized.h"
 #include "unit/recording/watched_run.h"
 
 namespace lockstep {
@@ -37,6 +38,32 @@ TEST_CASE("the summary of a run") {
   CHECK(node.children.at(1).name == "b");
   CHECK(node.children.at(1).held_seconds == Approx(0.3));
   CHECK(node.children.at(1).held_ticks == 3);
+}
+
+TEST_CASE("a spread is within its bound where no progress falls") {
+  std::size_t tight = 0;
+  for (unsigned number = 0; number < 400; ++number) {
+    const auto tenths = [&](unsigned divisor) { return std::to_string(1 + number / divisor % 5); };
+    const std::string tree = number % 2 == 0
+                                 ? "ParallelRelative[delta=." + tenths(2) + "](a b c)"
+                                 : "ParallelAbsolute[barriers=." + tenths(2) + ";.9](a b c)";
+    WatchedRun run(tree, "a+.0" + tenths(10) + " b+." + tenths(50) + " c+.0" + tenths(3));
+    const Summary summary = summary_of(run);
+    INFO(tree << ' ' << number);
+    const SynchronizedSummary& node = summary.synchronized_nodes.at(0);
+    REQUIRE(node.spread_bound);
+    CHECK(node.largest_spread <= *node.spread_bound + kProgressEpsilon);
+    tight += node.largest_spread > *node.spread_bound - 0.05;
+  }
+  CHECK(tight > 40);
+}
+
+TEST_CASE("a progress that falls takes the bound away") {
+  WatchedRun run("ParallelRelative[delta=.1](a b)", "a=R.5R.2R.3S b+.25");
+  const Summary summary = summary_of(run);
+  CHECK_FALSE(summary.synchronized_nodes.at(0).spread_bound);
+  REQUIRE(summary.notes.size() == 1);
+  CHECK(summary.notes[0].starts_with("the progress of 'Test/ParallelRelative/a' fell, first at"));
 }
 
 TEST_CASE("tick periods are measured on a real clock only") {
@@ -83,7 +110,8 @@ TEST_CASE("the summary as text") {
         "  period     p50 100.000 ms, p99 100.000 ms, max 100.000 ms\n"
         "  overruns   2 (deadlines skipped: 3)\n"
         "  Test/ParallelAbsolute (ParallelAbsolute, 10 ticks)\n"
-        "    progress distance 2.1, mean 0.21 a tick; largest spread 0.4, longest step 0.3\n"
+        "    progress distance 2.1, mean 0.21 a tick; largest spread 0.4 (bound 0.8), "
+        "longest step 0.3\n"
         "    a  did not wait\n"
         "    b  waited 1 time, 0.300 s in 3 ticks\n"
         "note: the recording is cut\n");
@@ -224,7 +252,8 @@ TEST_CASE("the summary as JSON") {
       R"("overruns":0,"skipped":0,"worst_tick":null,"faults":0,"tick_budget_s":null,)"
       R"("over_budget":[],"synchronized_nodes":[{"path":"Test/ParallelRelative",)"
       R"("kind":"ParallelRelative","samples":4,"progress_distance":1.0,)"
-      R"("progress_distance_mean":0.25,"largest_spread":0.5,"step_length":0.5,"children":[)"
+      R"("progress_distance_mean":0.25,"largest_spread":0.5,"spread_bound":1.0,)"
+      R"("step_length":0.5,"children":[)"
       R"({"name":"a","held_s":0.0,"held_ticks":0,"waits":0},)"
       R"({"name":"b","held_s":0.0,"held_ticks":0,"waits":0}]}],)"
       R"("never_reached":0,"notes":[]})");
