@@ -65,6 +65,7 @@ const std::vector<Layer> kThirdParty{
     {"simdjson.h", {"interpreter/core/json_reader.h", "plugins/motion/recorded.cpp"}},
     {"nlohmann/", {"interpreter/core/json.cpp"}},
     {"utf8proc.h", {"interpreter/core/utf8.cpp"}},
+    {"boost/", {"interpreter/study/distributions.cpp"}},
     {"fmt/",
      {"interpreter/core/", "interpreter/document/", "interpreter/definition/",
       "interpreter/plugin/", "interpreter/loading/", "interpreter/runtime/",

@@ -120,12 +120,16 @@ std::vector<BoxPlot> box_plots(const std::vector<GridAxis>& grid,
 }
 
 std::string box_plot_data(const BoxPlot& plot) {
-  std::string text = "# x min q1 median q3 max mean n, and the label at x\n";
+  std::string text = "# x min q1 median q3 max mean n median-low median-high, and the label at x\n";
   for (std::size_t group = 0; group < plot.groups.size(); ++group) {
     if (!plot.groups[group].box) continue;
     const SampleSummary& box = *plot.groups[group].box;
-    text += fmt::format("{} {} {} {} {} {} {} {} # {}\n", group, box.min, box.q1, box.median,
-                        box.q3, box.max, box.mean, box.count, printable(plot.groups[group].label));
+    text += fmt::format("{} {} {} {} {} {} {} {}", group, box.min, box.q1, box.median, box.q3,
+                        box.max, box.mean, box.count);
+    text += box.median_interval
+                ? fmt::format(" {} {}", box.median_interval->low, box.median_interval->high)
+                : " NaN NaN";
+    text += fmt::format(" # {}\n", printable(plot.groups[group].label));
   }
   return text;
 }
@@ -141,7 +145,9 @@ std::string box_plot_script(const BoxPlot& plot, PlotSize size) {
     success.push_back(gnuplot_string(success_of(group)));
   }
   std::string text = "# Made by lockstep. Box: quartiles; line: median; whiskers: minimum and ";
-  text += fmt::format("maximum; circle: mean.\n# To draw it again: gnuplot {}.gp\n", plot.stem);
+  text += fmt::format(
+      "maximum; circle: mean; bar: median, 95 % interval.\n# To draw it again: gnuplot {}.gp\n",
+      plot.stem);
   text += fmt::format("data = {}\n", gnuplot_file(plot.stem + ".dat"));
   text += gnuplot_terminal(plot.stem + ".svg", size);
   text +=

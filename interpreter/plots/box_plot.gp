@@ -1,6 +1,7 @@
 # A box for each group of the runs of a study. What this plot is of stands above.
 
 blue = '#0072b2'
+red = '#d55e00'
 set encoding utf8
 set title title noenhanced
 # Between the axis and the labels of the groups are two rows: how many values each box is of, and
@@ -26,13 +27,15 @@ set style fill solid 0.25 border
 width = 0.525
 set boxwidth width
 
-# The box, its median, its mean; then the legend.
+# The box, its median with the interval of it, its mean; then the legend.
 plot \
   data using 1:3:2:6:5 with candlesticks whiskerbars 0.5 lc rgb blue lw 1.4 notitle, \
   data using ($1-width/2):4:(width):(0) with vectors nohead lc rgb blue lw 3 notitle, \
+  data using ($1+width/3):9:(0):($10-$9) with vectors heads size screen 0.006,90 lc rgb red lw 2 notitle, \
   data using 1:7 with points pt 7 ps 0.75 lc rgb 'white' notitle, \
   data using 1:7 with points pt 6 ps 0.75 lw 1.4 lc rgb blue notitle, \
   keyentry with boxes lc rgb blue lw 1.4 title 'quartiles', \
   keyentry with lines lc rgb blue lw 3 title 'median', \
+  keyentry with lines lc rgb red lw 2 title '95 % of median', \
   keyentry with lines lc rgb blue lw 1.4 title 'min, max', \
   keyentry with points pt 6 ps 0.75 lw 1.4 lc rgb blue title 'mean'

@@ -16,6 +16,10 @@ constexpr std::array<std::string_view, 5> kRowColumns{"cell", "run", "seed", "ti
 constexpr std::array<std::string_view, 14> kSummaryColumns{
     "node", "measure", "min",  "q1",      "median",  "q3",    "max",
     "mean", "n",       "runs", "success", "failure", "limit", "gap"};
+// After these; no grid name has a hyphen.
+constexpr std::array<std::string_view, 8> kIntervalColumns{
+    "median-low",  "median-high",  "success-low", "success-high",
+    "failure-low", "failure-high", "limit-low",   "limit-high"};
 
 // The column of each grid name, in both files: the name itself, or grid_<name> if lockstep has a
 // column of that name, as for `--grid seed=1,2`.

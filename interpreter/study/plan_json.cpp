@@ -94,7 +94,12 @@ GridAxis axis_from(JsonObject json) {
   json.read({{"name", into(axis.name)},
              {"is", into(kind)},
              {"values", into(axis.values)},
-             {"together_with", [&](JsonValue) { axis.follows = true; }, kMayLack}});
+             {"together_with",
+              [&](JsonValue value) {
+                value.skip();
+                axis.follows = true;
+              },
+              kMayLack}});
   const auto found = std::ranges::find(kKinds, kind);
   if (found == kKinds.end()) throw JsonError("'is' of a grid is not known");
   axis.kind = static_cast<GridAxis::Kind>(found - kKinds.begin());

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "runtime/observer.h"
+#include "study/intervals.h"
 
 namespace lockstep {
 
@@ -27,6 +28,7 @@ struct ResultCounts {
   double share(std::size_t result) const {
     return static_cast<double>(of[result]) / static_cast<double>(runs);
   }
+  Interval interval(std::size_t result) const { return share_interval(of[result], runs); }
 };
 
 ResultCounts operator+(ResultCounts one, const ResultCounts& other);

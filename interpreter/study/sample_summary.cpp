@@ -30,7 +30,8 @@ SampleSummary summarize(std::vector<double> values) {
           .median = median_of(sorted),
           .q3 = median_of(sorted.last(half)),
           .max = sorted.back(),
-          .mean = mean_of(sorted)};
+          .mean = mean_of(sorted),
+          .median_interval = lockstep::median_interval(sorted)};
 }
 
 }  // namespace lockstep

@@ -45,7 +45,25 @@ class CellValues {
   ResultCounts results_;
 };
 
+std::string optional_field(const std::optional<double>& value) {
+  return value ? fmt::format(",{}", *value) : ",";
+}
+
 }  // namespace
+
+std::array<std::optional<double>, kIntervalColumns.size()> SummaryRow::intervals() const {
+  std::array<std::optional<double>, kIntervalColumns.size()> ends;
+  if (summary.median_interval) {
+    ends[0] = summary.median_interval->low;
+    ends[1] = summary.median_interval->high;
+  }
+  for (std::size_t i = 0; i < kResultNames.size(); ++i) {
+    const Interval interval = results.interval(i);
+    ends[2 * i + 2] = interval.low;
+    ends[2 * i + 3] = interval.high;
+  }
+  return ends;
+}
 
 Result<std::vector<SummaryRow>> summarize_runs(const std::string& path, const StudyPlan& plan) {
   RowReader reader(path, plan);
@@ -70,7 +88,7 @@ Result<std::vector<SummaryRow>> summarize_runs(const std::string& path, const St
 std::string summary_csv(const StudyPlan& plan, const std::vector<SummaryRow>& rows) {
   std::string text;
   for (const std::string& name : grid_columns(plan)) text += name + ',';
-  text += fmt::format("{}\n", fmt::join(kSummaryColumns, ","));
+  text += fmt::format("{},{}\n", fmt::join(kSummaryColumns, ","), fmt::join(kIntervalColumns, ","));
   for (const SummaryRow& row : rows) {
     for (const std::string& value : row.grid) text += csv_field(value) + ',';
     const SampleSummary& it = row.summary;
@@ -82,7 +100,9 @@ std::string summary_csv(const StudyPlan& plan, const std::vector<SummaryRow>& ro
     for (std::size_t i = 0; i < kResultNames.size(); ++i) {
       text += fmt::format(",{}", row.results.share(i));
     }
-    text += row.gap ? fmt::format(",{}\n", *row.gap) : ",\n";
+    text += optional_field(row.gap);
+    for (const auto& end : row.intervals()) text += optional_field(end);
+    text += '\n';
   }
   return text;
 }

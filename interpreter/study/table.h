@@ -1,11 +1,13 @@
 // The summary of a study: the numbers of a box plot for each cell, node and measure.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/problem.h"
+#include "study/column_names.h"
 #include "study/plan.h"
 #include "study/results.h"
 #include "study/sample_summary.h"
@@ -21,6 +23,10 @@ struct SummaryRow {
   ResultCounts results;   // of all runs of the cell
   // Of a measure that has one, as a predictability: the median over the runs.
   std::optional<double> gap;
+
+  // In the order of kIntervalColumns: the ends of the 95 % confidence intervals, of the median and
+  // of the share of each result. Of the median there may be none.
+  std::array<std::optional<double>, kIntervalColumns.size()> intervals() const;
 
   // True if the gap is so large that the instants mean little.
   bool is_far() const { return gap.value_or(0) > kFarGap; }

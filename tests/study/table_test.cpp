@@ -11,6 +11,15 @@
 namespace lockstep::test {
 namespace {
 
+#define INTERVALS \
+  "median-low,median-high,success-low,success-high,failure-low,failure-high,limit-low,limit-high"
+
+// Wilson's intervals: of 5, 0 and 0 of 5 runs, of 1, 2 and 1 of 4.
+#define ALL_OF_5 "0.5655175352168251,1,0,0.43448246478317476,0,0.43448246478317476"
+#define OF_4                                                                       \
+  "0.04558726080970055,0.6993581574175981,0.15003898915214953,0.8499610108478505," \
+  "0.04558726080970055,0.6993581574175981"
+
 StudyPlan plan_of(std::uint64_t runs) {
   StudyPlan plan;
   plan.runs = runs;
@@ -40,9 +49,26 @@ TEST_CASE("studies: the summary's quartiles are the medians of the halves") {
       directory.file("runs.csv", runs_csv(plan, {10, 1, 4, 5, 2, std::nan(""), 8, 2, 1, 3}));
   const auto rows = summarize_runs(file, plan).value();
   CHECK(summary_csv(plan, rows) ==
-        "grid_n,node,measure,min,q1,median,q3,max,mean,n,runs,success,failure,limit,gap\n"
-        "few,Main/sync,progress-distance,1,1.5,4,7.5,10,4.4,5,5,1,0,0,\n"
-        "many,Main/sync,progress-distance,1,1.5,2.5,5.5,8,3.5,4,5,1,0,0,\n");
+        "grid_n,node,measure,min,q1,median,q3,max,mean,n,runs,success,failure,limit,gap," INTERVALS
+        "\n"
+        "few,Main/sync,progress-distance,1,1.5,4,7.5,10,4.4,5,5,1,0,0,,,," ALL_OF_5
+        "\n"
+        "many,Main/sync,progress-distance,1,1.5,2.5,5.5,8,3.5,4,5,1,0,0,,,," ALL_OF_5 "\n");
+}
+
+TEST_CASE("studies: of six runs and more the median has an interval") {
+  const TemporaryDirectory directory;
+  const StudyPlan plan = plan_of(6);
+  const auto file =
+      directory.file("runs.csv", runs_csv(plan, {10, 1, 4, 5, 2, 7, 8, 2, 1, std::nan(""), 3, 9}));
+  const auto rows = summarize_runs(file, plan).value();
+  REQUIRE(rows.size() == 2);
+  CHECK(rows[0].intervals()[0] == 1);
+  CHECK(rows[0].intervals()[1] == 10);
+  CHECK(rows[0].intervals()[2] == Approx(6 / (6 + 1.96 * 1.96)).margin(1e-4));
+  CHECK(rows[0].intervals()[3] == 1);
+  CHECK(contains(summary_csv(plan, rows), ",6,6,1,0,0,,1,10,0.6"));
+  CHECK_FALSE(rows[1].intervals()[0].has_value());  // five values
 }
 
 TEST_CASE("studies: what no run reached has no numbers, and every run is counted") {
@@ -68,10 +94,15 @@ TEST_CASE("studies: what no run reached has no numbers, and every run is counted
       directory.file("runs.csv", row_header(plan) + std::string(lines.data(), lines.size()));
   const auto rows = summarize_runs(file, plan).value();
   CHECK(summary_csv(plan, rows) ==
-        "grid_n,node,measure,min,q1,median,q3,max,mean,n,runs,success,failure,limit,gap\n"
-        "few,Main/task,predictability:task@0.6,3,3,4,5,5,4,2,4,0.25,0.5,0.25,0.02\n"
-        "few,Main/sync,progress-distance,1,1,2,3,3,2,3,4,0.25,0.5,0.25,\n"
-        "many,Main/task,predictability:task@0.6,,,,,,,0,4,0,1,0,0.6\n");
+        "grid_n,node,measure,min,q1,median,q3,max,mean,n,runs,success,failure,limit,gap," INTERVALS
+        "\n"
+        "few,Main/task,predictability:task@0.6,3,3,4,5,5,4,2,4,0.25,0.5,0.25,0.02,,," OF_4
+        "\n"
+        "few,Main/sync,progress-distance,1,1,2,3,3,2,3,4,0.25,0.5,0.25,,,," OF_4
+        "\n"
+        "many,Main/"
+        "task,predictability:task@0.6,,,,,,,0,4,0,1,0,0.6,,,0,0.4898908364545973,0."
+        "5101091635454027,1,0,0.4898908364545973\n");
   CHECK_FALSE(rows.at(0).is_far());
   CHECK(rows.at(2).is_far());
 }
@@ -120,7 +151,7 @@ TEST_CASE("studies: no two columns have the same name") {
         "Main/sync\n");
   CHECK(summary_csv(plan, {}) ==
         "grid_n,grid_grid_seed,grid_seed,noise,node,measure,min,q1,median,q3,max,mean,n,runs,"
-        "success,failure,limit,gap\n");
+        "success,failure,limit,gap," INTERVALS "\n");
 }
 
 TEST_CASE("studies: a grid name seed or rate is in force in its cells") {

@@ -15,23 +15,45 @@ namespace {
 
 constexpr char kNone[] = "-";
 
+constexpr char kInterval[] = "95 %";  // of the column before it
+
+std::string interval_text(const Interval& it, double unit, int digits) {
+  return fmt::format("[{:.{}g}, {:.{}g}]", it.low * unit, digits, it.high * unit, digits);
+}
+
+// The columns of summary.csv, and the intervals behind what they are of.
+TableRow head_of(const StudyPlan& plan) {
+  TableRow head = grid_columns(plan);
+  for (const std::string_view name : kSummaryColumns) {
+    head.emplace_back(name);
+    if (name == "median" || std::ranges::find(kResultNames, name) != kResultNames.end())
+      head.emplace_back(kInterval);
+  }
+  return head;
+}
+
 void append_numbers(const SummaryRow& row, TableRow& line) {
   const SampleSummary& it = row.summary;
-  for (const double value : {it.min, it.q1, it.median, it.q3, it.max, it.mean}) {
+  const auto append = [&](double value) {
     line.push_back(it.count == 0 ? kNone : fmt::format("{:.6g}", value));
-  }
+  };
+  for (const double value : {it.min, it.q1, it.median}) append(value);
+  line.push_back(it.median_interval ? interval_text(*it.median_interval, 1, 6) : kNone);
+  for (const double value : {it.q3, it.max, it.mean}) append(value);
   const ResultCounts& results = row.results;
   line.push_back(fmt::format("{}", it.count));
   line.push_back(fmt::format("{}", results.runs));
-  for (const std::uint64_t count : results.of) line.push_back(percent(count, results.runs));
+  for (std::size_t i = 0; i < kResultNames.size(); ++i) {
+    line.push_back(percent(results.of[i], results.runs));
+    line.push_back(interval_text(results.interval(i), 100, 3));
+  }
 }
 
 }  // namespace
 
 std::string summary_table(const StudyPlan& plan, const std::vector<SummaryRow>& rows) {
-  TableRow head = grid_columns(plan);
-  const std::size_t names = head.size() + 2;
-  head.insert(head.end(), kSummaryColumns.begin(), kSummaryColumns.end());
+  TableRow head = head_of(plan);
+  const std::size_t names = plan.grid.size() + 2;
   const bool has_gaps =
       std::ranges::any_of(rows, [](const SummaryRow& row) { return row.gap.has_value(); });
   if (!has_gaps) head.pop_back();
@@ -67,6 +89,8 @@ std::string summary_json(const StudyPlan& plan, const std::vector<SummaryRow>& r
       json[kResultNames[i]] = row.results.share(i);
     }
     json["gap"] = row.gap;
+    const auto ends = row.intervals();
+    for (std::size_t i = 0; i < ends.size(); ++i) json[kIntervalColumns[i]] = ends[i];
     array.push_back(std::move(json));
   }
   return array.printable();

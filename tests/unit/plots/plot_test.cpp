@@ -70,7 +70,8 @@ SampleSummary summary(double middle) {
           .median = middle,
           .q3 = middle + 1,
           .max = middle + 2,
-          .mean = middle + 0.5};
+          .mean = middle + 0.5,
+          .median_interval = Interval{middle - 1.5, middle + 0.5}};
 }
 
 const ResultCounts kResults{.runs = 5, .of = {4, 1, 0}};
@@ -151,13 +152,14 @@ TEST_CASE("box plots: without a grid there is one box, files never share a name"
 TEST_CASE("box plots: the data are the numbers") {
   BoxPlot plot = small_plot();
   CHECK(box_plot_data(plot) ==
-        "# x min q1 median q3 max mean n, and the label at x\n"
-        "0 1 2 3 4 5 3.5 5 # 1\n"
-        "1 0 1 2 3 4 2.5 5 # 0.5\n");
+        "# x min q1 median q3 max mean n median-low median-high, and the label at x\n"
+        "0 1 2 3 4 5 3.5 5 1.5 3.5 # 1\n"
+        "1 0 1 2 3 4 2.5 5 0.5 2.5 # 0.5\n");
   plot.groups[0].box.reset();
+  plot.groups[1].box->median_interval.reset();
   CHECK(box_plot_data(plot) ==
-        "# x min q1 median q3 max mean n, and the label at x\n"
-        "1 0 1 2 3 4 2.5 5 # 0.5\n");
+        "# x min q1 median q3 max mean n median-low median-high, and the label at x\n"
+        "1 0 1 2 3 4 2.5 5 NaN NaN # 0.5\n");
 }
 
 TEST_CASE("box plots: the script") {
@@ -185,6 +187,9 @@ TEST_CASE("box plots: gnuplot draws them, also when all is 0, below 0 or missing
   SECTION("below 0") {
     plot.groups = {{"1", summary(-570), kResults}};
   }
+  SECTION("no intervals") {
+    for (BoxGroup& group : plot.groups) group.box->median_interval.reset();
+  }
   SECTION("no box here") {
     plot.groups[0].box.reset();
   }
@@ -203,8 +208,8 @@ TEST_CASE("box plots: a legend says what is drawn, rows below what each box is o
   plot.groups.push_back({"0.1", std::nullopt, {.runs = 7, .of = {0, 0, 7}}});
   REQUIRE(draw(plot, directory.path()).error == "");
   const std::string svg = text_of(directory / "small.svg");
-  for (const char* text : {">quartiles<", ">median<", ">min, max<", ">mean<", ">n<", ">success<",
-                           ">80 %<", ">75 %<", ">5<", ">0 %<"}) {
+  for (const char* text : {">quartiles<", ">median<", ">95 % of median<", ">min, max<", ">mean<",
+                           ">n<", ">success<", ">80 %<", ">75 %<", ">5<", ">0 %<"}) {
     CAPTURE(text);
     CHECK(contains(svg, text));
   }

@@ -1,0 +1,17 @@
+// What intervals and tests ask of distributions. Its .cpp is the only file that uses Boost.Math.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace lockstep {
+
+// The z below which a standard normal number is with this probability.
+double normal_quantile(double probability);
+// The probability that a standard normal number is z or farther from 0.
+double normal_two_sided(double z);
+// The largest k so that `throws` of a fair coin show at most k heads with at most this probability;
+// nothing if even 0 heads are likelier.
+std::optional<std::uint64_t> fair_coin_quantile(std::uint64_t throws, double probability);
+
+}  // namespace lockstep

@@ -1,0 +1,24 @@
+// 95 % confidence intervals of what a cell of a study estimates.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace lockstep {
+
+struct Interval {
+  double low = 0, high = 0;
+};
+
+constexpr double kConfidence = 0.95;
+
+// Of the median, between two values of the sample, whatever the distribution: a value is below the
+// median as often as a coin shows heads, so how many are is binomial. With at least 95 %; five
+// values and fewer have none.
+std::optional<Interval> median_interval(std::span<const double> sorted);
+
+// Of the probability of what `count` of `all` runs were: Wilson's. All of them at least 1.
+Interval share_interval(std::uint64_t count, std::uint64_t all);
+
+}  // namespace lockstep
