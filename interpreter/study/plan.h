@@ -52,6 +52,7 @@ struct StudyPlan {
   std::vector<GridAxis> grid;
   std::uint64_t runs = 0;  // of each cell, all parts together
   std::uint64_t seed = 0;
+  bool paired = false;  // the runs of a number have the same seed in all cells
   double rate = 100;
   std::uint64_t max_ticks = 0;
   std::vector<std::string> measures;
@@ -82,10 +83,13 @@ StudyRow row_at(const StudyPlan& plan, std::uint64_t row);
 
 // The seed of one run, which `lockstep run --seed` takes. It depends only on these, so neither
 // threads nor parts change a run: first(first(seed, cell), run), where first(a, b) is the first
-// number of stream b of seed a (core/random.h).
+// number of stream b of seed a (core/random.h). Of a paired study, `cell` is 0 for all cells.
 std::uint64_t run_seed(std::uint64_t seed, std::uint64_t cell, std::uint64_t run);
+inline std::uint64_t seeding_cell(const StudyPlan& plan, std::uint64_t cell) {
+  return plan.paired ? 0 : cell;
+}
 inline std::uint64_t run_seed(const StudyPlan& plan, StudyRow row) {
-  return run_seed(cell_seed(plan, row.cell), row.cell, row.run);
+  return run_seed(cell_seed(plan, row.cell), seeding_cell(plan, row.cell), row.run);
 }
 
 }  // namespace lockstep

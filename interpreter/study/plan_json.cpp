@@ -64,6 +64,7 @@ Json json_of(const StudyPlan& plan) {
             {"columns", columns},
             {"plugins", pairs(plan.plugins, "name", "version")},
             {"files", pairs(plan.files, "path", "text")}};
+  if (plan.paired) json["paired"] = true;
   if (plan.shard != StudyShard{}) {
     json["shard"] = {{"part", plan.shard.part}, {"of", plan.shard.of}};
   }
@@ -132,6 +133,10 @@ void read(JsonObject json, StudyPlan& plan) {
   const auto read_shard = [&](JsonValue value) {
     value.object().read({{"part", into(plan.shard.part)}, {"of", into(plan.shard.of)}});
   };
+  const auto read_paired = [&](JsonValue value) {
+    value.skip();  // there is no other value
+    plan.paired = true;
+  };
   json.read({{"lockstep_study", check_format},
              {"version", into(plan.version)},
              {"tree", into(plan.tree_file)},
@@ -147,6 +152,7 @@ void read(JsonObject json, StudyPlan& plan) {
              {"columns", read_columns},
              {"plugins", into_pairs(plan.plugins, "name", "version")},
              {"files", into_pairs(plan.files, "path", "text")},
+             {"paired", read_paired, kMayLack},
              {"shard", read_shard, kMayLack}});
 }
 
@@ -179,6 +185,7 @@ std::string first_difference(const StudyPlan& one, const StudyPlan& other, bool 
   for (const auto& [key, value] : a.members()) {
     if (key != "shard" && b[key].text() != value.text()) return key;
   }
+  if (one.paired != other.paired) return "paired";
   return with_shard && one.shard != other.shard ? "shard" : "";
 }
 

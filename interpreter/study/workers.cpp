@@ -123,7 +123,7 @@ void Workshop::make(std::uint64_t number, Chunk& chunk, std::optional<StudyRun>&
       cell = row.cell;
     }
     if (index == first || row.run < work_.plan.shard.of) cell_text = row_cell(work_.plan, cell);
-    const std::uint64_t seed = run_seed(at.seed, row.cell, row.run);
+    const std::uint64_t seed = run_seed(at.seed, seeding_cell(work_.plan, row.cell), row.run);
     CallMark::this_thread().set_run({row.cell, row.run, seed});
     const RunEnd end = run->run(seed);
     if (end.reason == StopReason::Fault) {

@@ -99,6 +99,7 @@ const std::vector<Damage> kPlanDamages{
      "\"node\": \"Example5\",\n      \"cells\": [\n        1\n      ]"},
     {"not JSON", "{", "["},
     {"more than JSON", "\n}\n", "\n}\nx\n"},
+    {"paired that is off", "\n}\n", ",\n  \"paired\": false\n}\n"},
     {"a part of no parts", "\n}\n", ",\n  \"shard\": {\n    \"part\": 1,\n    \"of\": 0\n  }\n}\n"},
     {"a part of more parts than runs", "\n}\n",
      ",\n  \"shard\": {\n    \"part\": 1,\n    \"of\": 9\n  }\n}\n"},

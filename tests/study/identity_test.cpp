@@ -159,6 +159,59 @@ TEST_CASE("a study.json whose names do not go together is refused") {
   refused("\"0.05\"\n      ]", "\"0.05\"\n      ]" + together, "'noise' in 'grid' follows nothing");
 }
 
+TEST_CASE("a paired study has the same seed for a run in all cells, and in parts and after a cut") {
+  const StudyCase it;
+  const Strings paired = with(kStudy, {"--paired"});
+  it.make(kStudy, "plain");
+  it.make(paired, "whole");
+  const auto plain = lines(it.read("plain", "runs.csv"));
+  const auto rows = lines(it.read("whole", "runs.csv"));
+  REQUIRE(rows.size() == 1 + 4 * 23);
+  const auto seed_of = [](const std::vector<std::string>& all, std::size_t row) {
+    return fields(all[row]).at(4);
+  };
+  for (std::size_t run = 1; run <= 23; ++run) {
+    CHECK(rows[run] == plain[run]);
+    CHECK(seed_of(plain, run) != seed_of(plain, 23 + run));
+    if (run > 1) CHECK(seed_of(rows, run) != seed_of(rows, run - 1));
+    for (std::size_t cell = 1; cell < 4; ++cell)
+      CHECK(seed_of(rows, 23 * cell + run) == seed_of(rows, run));
+  }
+  CHECK(contains(it.read("whole", "study.json"), "\n  \"paired\": true\n}\n"));
+  for (const std::string part : {"1", "2"}) it.make(with(paired, {"--shard", part + "/2"}), part);
+  CHECK(it.merge({"1", "2"}, "merged").code == 0);
+  CHECK(it.bytes("merged") == it.bytes("whole"));
+  fs::create_directory(it.path("cut"));
+  write(it.path("cut/study.json"), it.read("whole", "study.json"));
+  write(it.path("cut/runs.csv"), it.read("whole", "runs.csv").substr(0, 2000));
+  for (const Outcome& other : {it.study(with(kStudy, {"--resume"}), "cut"),
+                               it.study(with(paired, {"--resume"}), "plain")}) {
+    CHECK(other.code == 2);
+    CHECK(contains(other.err, "its 'paired' differs"));
+  }
+  it.make(with(paired, {"--resume"}), "cut");
+  CHECK(it.bytes("cut") == it.bytes("whole"));
+  it.make(with(kStudy, {"--shard", "2/2"}), "unpaired part");
+  CHECK(contains(it.merge({"1", "unpaired part"}, "no").err, "its 'paired' differs"));
+}
+
+TEST_CASE("a paired study over seeds pairs the cells of each seed") {
+  const StudyCase it;
+  it.make({kPaper + "example5.xml", "--runs", "3", "--paired", "--grid", "seed=1,2", "--grid",
+           "barrier_count=0,5"},
+          "out");
+  const auto seeds = [&](std::size_t cell) {
+    std::vector<std::string> of_cell;
+    const auto rows = lines(it.read("out", "runs.csv"));
+    for (std::size_t run = 0; run < 3; ++run)
+      of_cell.push_back(fields(rows.at(1 + 3 * cell + run)).at(5));
+    return of_cell;
+  };
+  CHECK(seeds(0) == seeds(1));
+  CHECK(seeds(2) == seeds(3));
+  CHECK(seeds(0) != seeds(2));
+}
+
 TEST_CASE("parts that do not fit together are refused, and why is said") {
   const StudyCase it;
   it.make(with(kStudy, {"--shard", "1/2"}), "a");

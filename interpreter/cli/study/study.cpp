@@ -188,6 +188,8 @@ void define_runs(CLI::App& app, StudyOptions& options) {
       ->type_name("S")
       ->transform(whole_number())
       ->capture_default_str();
+  app.add_flag("--paired", options.paired,
+               "Give run R the same seed in all cells, to compare the cells with less chance");
   app.add_option("--grid", options.grid,
                  "An <arg> of the tree, or seed, or rate, and its values; or a range, "
                  "NAME=FIRST:LAST:STEP; or names whose values belong together, "
@@ -253,6 +255,7 @@ const Command kStudyCommand{
     "  lockstep study trees/paper/example6.xml --runs 1000 --grid delta=0:0.1:0.01\n"
     "  lockstep study trees/paper/example6.xml --runs 1000 \\\n"
     "      --grid noise,delta=0.01:0.02,0.02:0.05,0.05:0.1\n"
+    "  lockstep study trees/paper/example5.xml --runs 100 --paired --grid barrier_count=5,10\n"
     "  lockstep study trees/predictability.xml --runs 1000 --shard 1/4 --out part-1\n"
     "  lockstep study merge part-* --out study",
     define_study};

@@ -223,6 +223,7 @@ int StudyLoader::load() {
   plan.tree_file = options_.tree;
   plan.runs = options_.runs;
   plan.seed = options_.seed;
+  plan.paired = options_.paired;
   plan.rate = options_.rate;
   plan.max_ticks = options_.max_ticks;
   read_measures();

@@ -17,6 +17,7 @@ struct StudyOptions {
   std::string tree;
   std::uint64_t runs = 0;
   std::uint64_t seed = 0;
+  bool paired = false;
   std::vector<std::string> grid;      // as parse_grid() reads it
   std::vector<std::string> measures;  // none: progress-distance
   std::string shard;                  // I/N
