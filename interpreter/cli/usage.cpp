@@ -43,8 +43,8 @@ const CLI::Option* find_option(const CLI::App& command, const std::string& name)
   return found == all.end() ? nullptr : *found;
 }
 
-// `--name`, `--name=value`, `-n` or `-nvalue`. Returns whether the next word is its value.
-bool follow_option(Walk& walk, const std::string& word) {
+// `--name`, `--name=value`, `-n` or `-nvalue`. Returns how many of the next words are its values.
+std::size_t follow_option(Walk& walk, const std::string& word) {
   const std::string name = word.substr(0, word.find('='));
   const CLI::Option* option = find_option(*walk.command, name);
   const bool is_short = !word.starts_with("--");
@@ -53,7 +53,7 @@ bool follow_option(Walk& walk, const std::string& word) {
   if (option == nullptr && walk.unknown_option.empty()) walk.unknown_option = name;
   const bool needs_value = option != nullptr && takes_value(*option);
   if (needs_value && word.ends_with('=') && walk.empty_option.empty()) walk.empty_option = name;
-  return needs_value && !has_value;
+  return needs_value && !has_value ? static_cast<std::size_t>(option->get_items_expected_min()) : 0;
 }
 
 Walk follow(const CLI::App& program, std::span<const std::string> words) {
@@ -63,8 +63,9 @@ Walk follow(const CLI::App& program, std::span<const std::string> words) {
     const std::string& word = words[i];
     if (!options_end && word.size() > 1 && word[0] == '-') {
       options_end = word == "--";
-      if (options_end || !follow_option(walk, word)) continue;
-      if (++i == words.size()) walk.empty_option = word;
+      if (options_end) continue;
+      i += follow_option(walk, word);
+      if (i >= words.size()) walk.empty_option = word;
     } else if (const CLI::App* command = find_subcommand(*walk.command, word)) {
       walk.command = command;
     } else {

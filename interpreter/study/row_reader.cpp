@@ -28,6 +28,11 @@ RowReader::RowReader(const std::string& path, const StudyPlan& plan)
   error_ = fmt::format("cannot read '{}': {}", path, reason);
 }
 
+std::string RowReader::incomplete() const {
+  if (!error_.empty() || rows_ == row_count(plan_)) return error_;
+  return fmt::format("'{}' has {} of {} runs", path_, rows_, row_count(plan_));
+}
+
 // Only a line that has its end. A longer one is read no further.
 bool RowReader::read_line(std::size_t longest) {
   line_.resize(longest + 1);

@@ -23,6 +23,8 @@ class RowReader {
   const RowResult& row() const { return row_; }
 
   const std::string& error() const { return error_; }
+  // After the last line: the error, or that there are not all rows of the plan; else "".
+  std::string incomplete() const;
   std::uint64_t rows() const { return rows_; }    // so far
   std::uint64_t bytes() const { return bytes_; }  // of them and the header
 

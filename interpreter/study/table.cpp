@@ -77,11 +77,8 @@ Result<std::vector<SummaryRow>> summarize_runs(const std::string& path, const St
     values.add(reader.row());
   }
   values.finish(cell, rows);
-  std::string error = reader.error();
-  if (error.empty() && reader.rows() != row_count(plan)) {
-    error = fmt::format("'{}' has {} of {} runs", path, reader.rows(), row_count(plan));
-  }
-  if (!error.empty()) return tl::unexpected(Problem{std::move(error)});
+  if (auto error = reader.incomplete(); !error.empty())
+    return tl::unexpected(Problem{std::move(error)});
   return rows;
 }
 

@@ -10,6 +10,7 @@
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/outputs.h"
+#include "cli/study/study_compare.h"
 #include "cli/study/study_fault.h"
 #include "cli/study/study_loading.h"
 #include "cli/study/study_out_of_range.h"
@@ -230,8 +231,11 @@ std::function<int()> define_study(CLI::App& app) {
   add_load_options(app, options->study.load);
   CLI::App* parts = app.add_subcommand("merge", "Merge the parts of a study");
   define_merge(*parts, options);
-  return [options, parts] {
+  CLI::App* cells = app.add_subcommand("compare", "Compare two cells of a study");
+  const auto compare = define_compare(*cells);
+  return [options, parts, cells, compare] {
     if (parts->parsed()) return merge(*options);
+    if (cells->parsed()) return compare();
     if (options->study.tree.empty()) return fail("study: TREE.xml is required");
     if (options->study.runs == 0) return fail("study: --runs is required");
     return run(*options);
@@ -257,7 +261,8 @@ const Command kStudyCommand{
     "      --grid noise,delta=0.01:0.02,0.02:0.05,0.05:0.1\n"
     "  lockstep study trees/paper/example5.xml --runs 100 --paired --grid barrier_count=5,10\n"
     "  lockstep study trees/predictability.xml --runs 1000 --shard 1/4 --out part-1\n"
-    "  lockstep study merge part-* --out study",
+    "  lockstep study merge part-* --out study\n"
+    "  lockstep study compare study-example5 --cells 0 1",
     define_study};
 
 }  // namespace lockstep

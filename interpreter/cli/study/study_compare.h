@@ -1,0 +1,15 @@
+// `lockstep study compare`: two cells of a study, on stdout.
+#pragma once
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace lockstep {
+
+// Returns what the command does, and its exit code.
+std::function<int()> define_compare(CLI::App& app);
+
+}  // namespace lockstep

@@ -1,0 +1,27 @@
+// Two samples: does one tend to be larger? By ranks, so without an assumption about distributions.
+// p is two-sided, from the normal distribution, with corrections for ties and continuity.
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace lockstep {
+
+struct RankTest {
+  // Of all pairs of a value of either: the share in which the second is larger, less the share in
+  // which it is smaller. From -1 to 1; Cliff's delta.
+  double effect = 0;
+  double p = 1;
+};
+
+// Mann-Whitney, of samples that have nothing to do with each other. Neither is empty.
+RankTest mann_whitney(std::span<const double> first, std::span<const double> second);
+
+// Wilcoxon's signed ranks, of the differences within pairs, second less first; at least one. Pairs
+// without a difference count in the effect only.
+RankTest signed_rank(std::span<const double> differences);
+
+// Holm: what each p is when all are looked at.
+std::vector<double> holm(std::span<const double> p);
+
+}  // namespace lockstep

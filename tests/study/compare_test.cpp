@@ -1,0 +1,168 @@
+// `lockstep study compare`, from outside.
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "study/study_case.h"
+
+namespace lockstep::test {
+namespace {
+
+using Strings = std::vector<std::string>;
+
+Strings study(const Strings& more) {
+  Strings arguments{kPaper + "example5.xml",
+                    "--runs",
+                    "40",
+                    "--grid",
+                    "noise=0.05",
+                    "--grid",
+                    "barrier_count=0,10,20",
+                    "--measure",
+                    "progress-distance",
+                    "--measure",
+                    "success",
+                    "--measure",
+                    "predictability:a1@0.6"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+Outcome compare(const StudyCase& it, const std::string& out, const Strings& more) {
+  Strings arguments{"study", "compare", it.path(out)};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return lockstep(std::move(arguments));
+}
+
+nlohmann::json compared(const StudyCase& it, const std::string& out, const std::string& first,
+                        const std::string& second) {
+  const Outcome outcome = compare(it, out, {"--json", "--cells", first, second});
+  INFO(outcome.err);
+  REQUIRE(outcome.code == 0);
+  return nlohmann::json::parse(outcome.out);
+}
+
+}  // namespace
+
+TEST_CASE("two cells that differ are told apart, and the other way round") {
+  const StudyCase it;
+  it.make(study({}), "out");
+  const auto json = compared(it, "out", "0", "1");
+  CHECK(json["paired"] == false);
+  CHECK(json["test"] == "Mann-Whitney");
+  CHECK(json["a"]["number"] == 0);
+  CHECK(json["b"]["grid"]["barrier_count"] == "10");
+  REQUIRE(json["measures"].size() == 3);  // a gap is not one
+  const auto& distance = json["measures"][0];
+  const auto medians = column(it.read("out", "summary.csv"), "median");
+  CHECK(distance["measure"] == "progress-distance");
+  CHECK(distance["median_a"] == medians.at(0));
+  CHECK(distance["median_b"] == medians.at(3));
+  CHECK(distance["difference"] == medians.at(3) - medians.at(0));
+  CHECK(distance["difference_low"].is_null());
+  CHECK(distance["effect"] < -0.9);
+  CHECK(distance["p"] < 1e-6);
+  CHECK(distance["p_holm"] == 3 * distance["p"].get<double>());
+  const auto& success = json["measures"][1];
+  CHECK(success["effect"] == 0);
+  CHECK(success["p"] == 1);
+  const auto turned = compared(it, "out", "1", "0")["measures"][0];
+  CHECK(turned["effect"] == -distance["effect"].get<double>());
+  CHECK(turned["p"] == distance["p"]);
+}
+
+TEST_CASE("the cells of a paired study are compared run by run") {
+  const StudyCase it;
+  it.make(study({"--paired"}), "out");
+  const auto json = compared(it, "out", "1", "2");
+  CHECK(json["test"] == "Wilcoxon signed-rank");
+  const auto& distance = json["measures"][0];
+  const auto values = column(it.read("out", "runs.csv"), "progress-distance Example5/parallel");
+  REQUIRE(values.size() == 120);
+  int larger = 0;
+  std::vector<double> differences;
+  for (std::size_t run = 0; run < 40; ++run) {
+    differences.push_back(values[80 + run] - values[40 + run]);
+    larger += differences.back() > 0 ? 1 : -1;
+  }
+  std::sort(differences.begin(), differences.end());
+  CHECK(distance["n_a"] == 40);
+  CHECK(distance["effect"].get<double>() == Approx(larger / 40.0));
+  CHECK(distance["difference"].get<double>() == Approx((differences[19] + differences[20]) / 2));
+  CHECK(distance["difference_low"] == differences[13]);  // ranks 14 and 27 of 40
+  CHECK(distance["difference_high"] == differences[26]);
+  CHECK(distance["p"] < 1e-4);
+}
+
+TEST_CASE("the differences of paired cells vary less") {
+  const StudyCase it;
+  const auto variance = [&](const Strings& more, const std::string& out) {
+    it.make(study(more), out);
+    const auto values = column(it.read(out, "runs.csv"), "progress-distance Example5/parallel");
+    double sum = 0, squares = 0;
+    for (std::size_t run = 0; run < 40; ++run) {
+      const double difference = values.at(80 + run) - values.at(40 + run);
+      sum += difference;
+      squares += difference * difference;
+    }
+    return squares / 40 - sum * sum / 1600;
+  };
+  CHECK(variance({"--paired"}, "paired") < 0.5 * variance({}, "independent"));
+}
+
+TEST_CASE("a comparison is a table") {
+  const StudyCase it;
+  it.make(study({"--paired"}), "out");
+  const Outcome outcome = compare(it, "out", {"--cells", "0", "2"});
+  const auto all = lines(outcome.out);
+  REQUIRE(all.size() == 8);
+  CHECK(all[0] == "A: cell 0, noise=0.05, barrier_count=0");
+  CHECK(all[1] == "B: cell 2, noise=0.05, barrier_count=20");
+  CHECK(all[2] == "paired runs, Wilcoxon signed-rank test");
+  CHECK(all[4].starts_with("node "));
+  CHECK(all[4].ends_with("p (Holm)"));
+  CHECK(all[5].starts_with("Example5/parallel "));
+}
+
+TEST_CASE("what has no value in a cell is compared with nothing") {
+  const StudyCase it;
+  const auto tree =
+      it.file("tree.xml",
+              "<root lockstep=\"1\" main_tree_to_execute=\"Main\"><arg name=\"seconds\"/>"
+              "<BehaviorTree ID=\"Main\"><Wait seconds=\"${seconds}\"/></BehaviorTree></root>");
+  it.make({tree, "--runs", "7", "--grid", "seconds=0.05,0.5", "--max-ticks", "20", "--measure",
+           "predictability:Wait@0.9", "--measure", "ticks"},
+          "out");
+  const auto json = compared(it, "out", "0", "1");
+  const auto& missing = json["measures"][0];
+  CHECK(missing["n_b"] == 0);
+  for (const char* key : {"median_a", "median_b", "difference", "effect", "p", "p_holm"})
+    CHECK(missing[key].is_null());
+  CHECK(json["measures"][1]["p_holm"] == json["measures"][1]["p"]);  // one test was made
+  CHECK(compare(it, "out", {"--cells", "0", "1"}).code == 0);
+}
+
+TEST_CASE("a comparison that cannot be made is refused") {
+  const StudyCase it;
+  it.make(study({}), "out");
+  const auto refused = [&](const Strings& more, const std::string& why) {
+    const Outcome outcome = compare(it, "out", more);
+    INFO(outcome.err);
+    CHECK(outcome.code == 2);
+    CHECK(outcome.out.empty());
+    CHECK(contains(outcome.err, why));
+  };
+  refused({}, "--cells");
+  refused({"--cells", "1"}, "--cells");
+  refused({"--cells", "1", "1"}, "expected two different cells");
+  refused({"--cells", "0", "3"}, "has no cell 3");
+  refused({"--cells", "0", "x"}, "'x' is not a whole number");
+  refused({"--cells", "0", "-1"}, "--cells");
+  refused({"--cells", "0", "1", "2"}, "unexpected argument '2'");
+  std::filesystem::resize_file(it.path("out/runs.csv"), 3000);
+  refused({"--cells", "0", "1"}, "of 120 runs");
+  std::filesystem::remove(it.path("out/study.json"));
+  refused({"--cells", "0", "1"}, "is not a study");
+}
+
+}  // namespace lockstep::test

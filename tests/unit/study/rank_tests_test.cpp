@@ -1,0 +1,114 @@
+// The tests of ranks, against published values, against all permutations, and how often they find
+// what is not there.
+#include "study/rank_tests.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <vector>
+
+#include "core/random.h"
+
+namespace lockstep {
+namespace {
+
+using Values = std::vector<double>;
+
+// Of differences without ties, over all choices of signs: how many give a sum of ranks as far from
+// the middle.
+double exact_p(const Values& differences) {
+  const std::size_t count = differences.size();
+  const auto sum_of = [&](auto is_positive) {
+    double sum = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      double rank = 0;
+      for (const double other : differences)
+        rank += std::abs(other) <= std::abs(differences[i]) ? 1 : 0;
+      sum += is_positive(i) ? rank : -rank;
+    }
+    return std::abs(sum);
+  };
+  const double found = sum_of([&](std::size_t i) { return differences[i] > 0; });
+  int as_far = 0;
+  for (unsigned signs = 0; signs < 1u << count; ++signs) {
+    as_far += sum_of([&](std::size_t i) { return (signs >> i & 1u) != 0; }) >= found ? 1 : 0;
+  }
+  return as_far / std::pow(2.0, static_cast<double>(count));
+}
+
+}  // namespace
+
+TEST_CASE("rank tests: Mann-Whitney as published, with ties") {
+  // Ozone in New York in May and in August 1973 (R, airquality): W = 127.5, p = 0.0001208.
+  const Values may{41, 36, 12, 18, 28, 23, 19, 8, 7,  16, 11, 14,  18,
+                   14, 34, 6,  30, 11, 1,  11, 4, 32, 23, 45, 115, 37};
+  const Values august{39, 9,  16, 78, 35, 66, 122, 89,  110, 44, 28,  65, 22,
+                      59, 23, 31, 44, 21, 9,  45,  168, 73,  76, 118, 84, 85};
+  const RankTest test = mann_whitney(may, august);
+  CHECK(test.p == Approx(0.0001208).epsilon(1e-3));
+  CHECK(test.effect == Approx(1 - 2 * 127.5 / (26 * 26)));
+  const RankTest turned = mann_whitney(august, may);
+  CHECK(turned.p == Approx(test.p));
+  CHECK(turned.effect == Approx(-test.effect));
+}
+
+TEST_CASE("rank tests: signed ranks as published") {
+  // Depression before and after a first visit (Hollander, Wolfe 1973): V = 40 of nine patients.
+  const Values before{1.83, 0.50, 1.62, 2.48, 1.68, 1.88, 1.55, 3.06, 1.30};
+  const Values after{0.878, 0.647, 0.598, 2.05, 1.06, 1.29, 1.06, 3.14, 1.29};
+  Values differences;
+  for (std::size_t i = 0; i < before.size(); ++i) differences.push_back(after[i] - before[i]);
+  const RankTest test = signed_rank(differences);
+  CHECK(test.p == Approx(0.0440).margin(5e-5));  // exactly 0.0391
+  CHECK(exact_p(differences) == Approx(0.0391).margin(5e-5));
+  CHECK(test.effect == Approx((2.0 - 7.0) / 9));
+}
+
+TEST_CASE("rank tests: signed ranks are near to what all signs give") {
+  RandomStream random(2019, 0);
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    Values differences(11);
+    for (double& value : differences) value = random.next_double() - 0.3;
+    CHECK(signed_rank(differences).p == Approx(exact_p(differences)).margin(0.015));
+  }
+}
+
+TEST_CASE("rank tests: equal values say nothing") {
+  CHECK(mann_whitney(Values{2, 2, 2}, Values{2, 2}).p == 1);
+  CHECK(mann_whitney(Values{2, 2, 2}, Values{2, 2}).effect == 0);
+  CHECK(mann_whitney(Values{1}, Values{2}).effect == 1);
+  CHECK(signed_rank(Values{0, 0, 0}).p == 1);
+  CHECK(signed_rank(Values{0, 0, 0}).effect == 0);
+  CHECK(signed_rank(Values{0, 0, 0, 1}).effect == 0.25);
+  CHECK(signed_rank(Values{1, -1, 1, -1}).p == 1);
+}
+
+TEST_CASE("rank tests: of what is the same, 5 of 100 comparisons are below 5 %") {
+  constexpr int kRepeats = 1000;
+  RandomStream random(2019, 0);
+  int paired = 0, independent = 0;
+  for (int repeat = 0; repeat < kRepeats; ++repeat) {
+    Values first(30), second(40), differences(30);
+    for (Values* values : {&first, &second}) {
+      for (double& value : *values) value = -std::log1p(-random.next_double());
+    }
+    for (std::size_t i = 0; i < differences.size(); ++i) differences[i] = second[i] - first[i];
+    paired += signed_rank(differences).p <= 0.05 ? 1 : 0;
+    independent += mann_whitney(first, second).p <= 0.05 ? 1 : 0;
+  }
+  CHECK(paired == Approx(50).margin(21));  // three standard deviations
+  CHECK(independent == Approx(50).margin(21));
+}
+
+TEST_CASE("rank tests: Holm multiplies by how many are left, and keeps the order") {
+  CHECK(holm({}).empty());
+  CHECK(holm(Values{0.04}) == Values{0.04});
+  const Values adjusted = holm(Values{0.03, 0.01, 0.04, 0.005, 0.9});
+  CHECK(adjusted[3] == Approx(0.025));
+  CHECK(adjusted[1] == Approx(0.04));
+  CHECK(adjusted[0] == Approx(0.09));
+  CHECK(adjusted[2] == Approx(0.09));  // not 0.08: it is no smaller than one before it
+  CHECK(adjusted[4] == Approx(0.9));
+  CHECK(holm(Values{0.6, 0.7})[0] == 1);
+}
+
+}  // namespace lockstep
