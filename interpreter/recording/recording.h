@@ -12,6 +12,7 @@
 #include "core/clock.h"
 #include "core/status.h"
 #include "engine/synchronized.h"
+#include "runtime/leaf_lines.h"
 
 namespace lockstep {
 
@@ -71,13 +72,6 @@ struct RecordedEntry {
 // Its value, or that it is too long.
 std::string shown_value(const RecordedEntry& entry);
 
-// What a leaf logged in the tick, or since the one before.
-struct RecordedLog {
-  std::string who, level, text;  // the path of a leaf, or the name of a plugin; "info"; the line
-
-  friend bool operator==(const RecordedLog&, const RecordedLog&) = default;
-};
-
 struct RecordedTick {
   std::uint64_t tick = 0;
   double time = 0;  // seconds
@@ -85,7 +79,7 @@ struct RecordedTick {
   std::span<const NodeIndex> succeeded = {};  // synchronized, that an ancestor has ended since
   std::span<const RecordedFault> faults = {};
   std::span<const RecordedEntry> entries = {};
-  std::span<const RecordedLog> logs = {};
+  std::span<const LeafLine> logs = {};
 };
 
 // Ticks in a row that have no line: the disk was too slow for them.
@@ -103,7 +97,7 @@ struct RecordedEnd {
   std::uint64_t overruns = 0, skipped = 0;
   std::uint64_t lost = 0;  // ticks that have no line
   std::vector<std::string> notes = {};
-  std::vector<RecordedLog> logs = {};  // after the last tick, as in halts
+  std::vector<LeafLine> logs = {};  // after the last tick, as in halts
 };
 
 // The header's part about the nodes.

@@ -6,11 +6,13 @@
 
 #include "summary/summary.h"
 #include "terminal/text_line.h"
+#include "view/lines_below.h"
 
 namespace lockstep {
 namespace {
 
 constexpr unsigned kStatusLines = 2;
+constexpr std::size_t kLogLines = 3;  // the live view prints them above the tree
 
 TextLine new_line(const DrawOptions& options) {
   return {options.width, options.color, options.unicode};
@@ -76,8 +78,14 @@ Snapshot snapshot_of(const RecordingHeader& header, const TreeShape& shape, cons
                                .time = from_seconds(moment.time),
                                .overruns = {},
                                .result = {}},
-                    .nodes = std::vector<NodeView>(moment.nodes.size())};
-  if (end != nullptr) snapshot.header.result = result_of(*end);
+                    .nodes = std::vector<NodeView>(moment.nodes.size()),
+                    .entries = moment.past.entries,
+                    .logs = moment.past.logs};
+  snapshot.entries.resize(header.entries.size());
+  if (end != nullptr) {
+    snapshot.header.result = result_of(*end);
+    for (const LeafLine& line : end->logs) snapshot.logs.add(line);
+  }
   for (NodeIndex node = 0; node < snapshot.nodes.size(); ++node) {
     const RecordedState& state = moment.nodes[node];
     NodeView& view = snapshot.nodes[node];
@@ -94,7 +102,9 @@ Snapshot snapshot_of(const RecordingHeader& header, const TreeShape& shape, cons
 std::string draw_moment(const RecordingHeader& header, const TreeShape& shape,
                         const Snapshot& snapshot, const Moment& moment,
                         const DrawOptions& options) {
-  std::string text = draw(shape, snapshot, options);
+  DrawOptions tree = options;
+  tree.entries = 0;  // those of this tick follow
+  std::string text = draw(shape, snapshot, tree);
   for (const RecordedFault& fault : moment.faults) {
     TextLine line = new_line(options);
     line.add(fault_text(shape, fault), Style::Bad);
@@ -105,11 +115,7 @@ std::string draw_moment(const RecordingHeader& header, const TreeShape& shape,
     line.add(header.entries[entry.entry].key + " = " + shown_value(entry));
     text += line.text() + "\n";
   }
-  for (const RecordedLog& log : moment.logs) {
-    TextLine line = new_line(options);
-    line.add(log.who + ": " + log.level + ": " + log.text, Style::Dim);
-    text += line.text() + "\n";
-  }
+  for (const LeafLine& log : moment.logs) text += log_line(log, options);
   return text;
 }
 
@@ -117,6 +123,7 @@ std::string draw_replay(const TreeShape& shape, const Snapshot& snapshot,
                         const ReplayPlayer& player, const DrawOptions& options) {
   DrawOptions above = options;
   above.height -= std::min(above.height, kStatusLines);
+  above.logs = kLogLines;
   TextLine status = new_line(options);
   status.add(player.paused() ? (player.timeline().at_end() ? "end" : "paused") : "plays",
              player.paused() ? Style::Warning : Style::Active);

@@ -1,4 +1,5 @@
-// The state of a tree at one moment, for a terminal, a replay or a web page. Plain data.
+// A run at one moment, for a terminal, a replay or a web page: the state of its nodes, the entries
+// of its blackboard, what its leaves logged last. Plain data. What does not change is in TreeShape.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +9,8 @@
 #include "core/clock.h"
 #include "engine/node_kind.h"
 #include "engine/run_state.h"
+#include "measure/entry_changes.h"
+#include "runtime/leaf_lines.h"
 #include "runtime/observer.h"
 
 namespace lockstep {
@@ -35,7 +38,9 @@ struct Snapshot {
     std::optional<std::uint64_t> overruns = 0;
     std::optional<RunResult> result = {};  // once the run has ended
   } header;
-  std::vector<NodeView> nodes;  // by index
+  std::vector<NodeView> nodes;           // by index
+  std::vector<EntryState> entries = {};  // in the order of TreeShape::entries
+  RecentLines logs = {};
 };
 
 }  // namespace lockstep

@@ -1,14 +1,34 @@
 #include "view/snapshot_feed.h"
 
+#include <numeric>
+
 #include "engine/synchronized.h"
 #include "measure/synchronized_measure.h"
 
 namespace lockstep {
+namespace {
 
-SnapshotFeed::SnapshotFeed(const Tree& tree)
-    : synchronized_nodes_(synchronized_nodes(tree)),
+std::vector<std::uint32_t> all_slots(const Tree& tree) {
+  std::vector<std::uint32_t> slots(tree.slots.size());
+  std::iota(slots.begin(), slots.end(), 0u);
+  return slots;
+}
+
+}  // namespace
+
+SnapshotFeed::SnapshotFeed(const Tree& tree, RealTime real_time)
+    : real_time_(real_time),
+      synchronized_nodes_(synchronized_nodes(tree)),
       activity_(tree.nodes.size()),
-      snapshots_(Snapshot{.header = {}, .nodes = std::vector<NodeView>(tree.nodes.size())}) {
+      changes_(all_slots(tree)),
+      entries_(tree.slots.size()),
+      snapshots_(Snapshot{
+          .header = {}, .nodes = std::vector<NodeView>(tree.nodes.size()), .entries = entries_}) {
+  const auto make_room = [](std::vector<EntryState>& entries) {
+    for (EntryState& entry : entries) entry.text.reserve(EntryChanges::kNumber);
+  };
+  make_room(entries_);
+  snapshots_.for_each([&](Snapshot& snapshot) { make_room(snapshot.entries); });
   for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
     if (tree.nodes[node].kind->round != nullptr) repeating_nodes_.push_back(node);
   }
@@ -20,12 +40,18 @@ void SnapshotFeed::run_started(Ticker& ticker, const RunStart& start) {
   publish(ticker);
 }
 
+void SnapshotFeed::log(std::string_view who, std::string_view level, std::string_view text) {
+  lines_.add(who, level, text);
+}
+
 void SnapshotFeed::after_tick(Ticker& ticker, const TickReport& report) {
   header_.tick = report.tick;
   header_.time = report.time;
   *header_.overruns += report.skipped > 0;
   activity_ = ticker.run_state().activity;
-  const auto now = monotonic_now();
+  take_entries(ticker, report.tick);
+  take_logs();
+  const auto now = real_time_();
   if (now - published_ < kPeriod) return;
   published_ = now;
   publish(ticker);
@@ -33,6 +59,7 @@ void SnapshotFeed::after_tick(Ticker& ticker, const TickReport& report) {
 
 void SnapshotFeed::run_ended(Ticker& ticker, const RunEnd& end) {
   header_.result = end.result();
+  take_logs();  // of halts
   publish(ticker);
 }
 
@@ -44,7 +71,27 @@ void SnapshotFeed::publish(Ticker& ticker) {
   }
   for (const NodeIndex node : synchronized_nodes_) take_progress(ticker, node, back.nodes);
   for (const NodeIndex node : repeating_nodes_) take_round(ticker, node, back.nodes[node]);
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    if (back.entries[i].changed != entries_[i].changed) back.entries[i] = entries_[i];
+  }
+  const std::uint64_t left_out = lines_.left_out();
+  if (back.logs.count() != logs_.count() + left_out) {
+    back.logs = logs_;
+    back.logs.earlier += left_out;
+  }
   snapshots_.publish();
+}
+
+void SnapshotFeed::take_entries(Ticker& ticker, std::uint64_t tick) {
+  for (const EntryChange& change : changes_.changes(ticker.blackboard())) {
+    entries_[change.entry].set(change.text, tick);
+  }
+  changes_.keep();
+}
+
+void SnapshotFeed::take_logs() {
+  for (const LeafLine& line : lines_.lines()) logs_.add(line);
+  lines_.keep();
 }
 
 void SnapshotFeed::take_round(Ticker& ticker, NodeIndex node, NodeView& view) {

@@ -1,11 +1,14 @@
 // Publishes the state of a run as snapshots, ten times a second at most. The tick thread only
-// copies the state of the nodes, equally often, into a lock-free buffer; another thread takes the
-// newest.
+// copies the state of the nodes and what has changed of the blackboard, equally often, into a
+// lock-free buffer; another thread takes the newest. After the first snapshots, a tick allocates
+// only for lines that leaves log and for entries whose text grows.
 #pragma once
 
 #include <vector>
 
 #include "core/clock.h"
+#include "measure/entry_changes.h"
+#include "runtime/leaf_lines.h"
 #include "view/snapshot.h"
 #include "view/triple_buffer.h"
 
@@ -15,7 +18,13 @@ class SnapshotFeed final : public Observer {
  public:
   static constexpr std::chrono::milliseconds kPeriod{100};
 
-  explicit SnapshotFeed(const Tree& tree);
+  using RealTime = Nanoseconds (*)();
+
+  // Watches all entries of the tree. `real_time` is for tests.
+  explicit SnapshotFeed(const Tree& tree, RealTime real_time = monotonic_now);
+
+  // What a leaf logs, for a consumer that shows it from snapshots. From any thread.
+  void log(std::string_view who, std::string_view level, std::string_view text);
 
   void run_started(Ticker& ticker, const RunStart& start) override;
   void after_tick(Ticker& ticker, const TickReport& report) override;
@@ -27,13 +36,20 @@ class SnapshotFeed final : public Observer {
   const Snapshot& newest() const { return snapshots_.front(); }
 
  private:
+  void take_entries(Ticker& ticker, std::uint64_t tick);
+  void take_logs();
   void publish(Ticker& ticker);
   void take_progress(Ticker& ticker, NodeIndex node, std::vector<NodeView>& views) const;
   static void take_round(Ticker& ticker, NodeIndex node, NodeView& view);
 
+  RealTime real_time_;
   std::vector<NodeIndex> synchronized_nodes_, repeating_nodes_;
   Snapshot::Header header_;
   std::vector<Activity> activity_;  // after the last tick
+  EntryChanges changes_;
+  std::vector<EntryState> entries_;  // likewise
+  LeafLines lines_;
+  RecentLines logs_;
   Nanoseconds published_{0};
   TripleBuffer<Snapshot> snapshots_;
 };

@@ -31,6 +31,7 @@ TreeShape shape_of(const Tree& tree) {
     if (const auto list = barriers(tree, index)) node.barriers.assign(list->begin(), list->end());
     add(shape, std::move(node));
   }
+  for (const Slot& slot : tree.slots) shape.entries.push_back(slot.name);
   return shape;
 }
 
@@ -43,6 +44,7 @@ TreeShape shape_of(const RecordingHeader& header) {
                 .synchronization = node.synchronization,
                 .barriers = node.barriers.value_or(std::vector<double>())});
   }
+  for (const RecordedKey& entry : header.entries) shape.entries.push_back(entry.key);
   return shape;
 }
 

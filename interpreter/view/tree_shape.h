@@ -22,7 +22,8 @@ struct ShapeNode {
 
 struct TreeShape {
   std::string id;
-  std::vector<ShapeNode> nodes = {};  // by index: pre-order
+  std::vector<ShapeNode> nodes = {};      // by index: pre-order
+  std::vector<std::string> entries = {};  // the keys of those that a snapshot has
 };
 
 TreeShape shape_of(const Tree& tree);

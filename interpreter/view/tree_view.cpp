@@ -9,6 +9,7 @@
 #include "core/utf8.h"
 #include "summary/summary.h"
 #include "terminal/text_line.h"
+#include "view/lines_below.h"
 #include "view/progress_bar.h"
 #include "view/waiting.h"
 
@@ -56,7 +57,7 @@ class View {
     for (const NodeIndex node : layout.rows) text += row(node);
     if (browsing_.cursor && layout.rows.size() < layout.all) return text + place(layout);
     if (layout.left_out.sum() > 0) return text + left_out(layout.left_out);
-    return text;
+    return text + below(rows_for_nodes(options_) - layout.rows.size());
   }
 
  private:
@@ -107,6 +108,12 @@ class View {
       line.add(fmt::format("  {} scroll  f fold  F unfold all  esc follow", up_down()), Style::Dim);
     }
     return line.text() + "\n";
+  }
+
+  std::string below(std::size_t room) const {
+    const std::string entries = entry_lines(tree_, snapshot_, options_, room);
+    room -= static_cast<std::size_t>(std::ranges::count(entries, '\n'));
+    return entries + log_lines(snapshot_, options_, room);
   }
 
   std::string_view up_down() const { return options_.unicode ? "↑ ↓" : "up down"; }

@@ -13,6 +13,12 @@ class TripleBuffer {
  public:
   explicit TripleBuffer(const T& value) : slots_{value, value, value} {}
 
+  // Before the threads begin: each of the three values.
+  template <class Visit>
+  void for_each(Visit visit) {
+    for (T& slot : slots_) visit(slot);
+  }
+
   // The writer fills this in, then publishes it; before that, it has an old value.
   T& back() { return slots_[back_]; }
   void publish() { back_ = middle_.exchange(back_ | kFresh, std::memory_order_acq_rel) & kSlot; }

@@ -19,9 +19,9 @@
 
 #include "definition/resolve.h"
 #include "engine/compile.h"
+#include "measure/entry_changes.h"
 #include "measure/measure_spec.h"
 #include "plugin/plugin_set.h"
-#include "recording/write/entry_changes.h"
 #include "recording/write/json_lines.h"
 #include "recording/write/recorder.h"
 #include "runtime/loop.h"
@@ -29,6 +29,7 @@
 #include "study/run_measures.h"
 #include "summary/statistics.h"
 #include "support/paths.h"
+#include "view/snapshot_feed.h"
 
 namespace {
 thread_local bool t_counting = false;
@@ -199,6 +200,39 @@ TEST_CASE("an entry that is another number in each tick is recorded without allo
   for (int i = 1; i <= 1000; ++i) tick(-1.0 / (3.0e200 * i));
   t_counting = false;
   CHECK(line.starts_with("],\"entries\":[[0,\"-3.33"));
+  CHECK(g_allocations == 0);
+  CHECK(g_locks == 0);
+}
+
+// Each look at it is a second later, so that each tick is published.
+Nanoseconds hurried() {
+  static Nanoseconds now{0};
+  return now += std::chrono::seconds(1);
+}
+
+TEST_CASE("a feed takes snapshots and entries that change without allocating or locking") {
+  const TickingTree tree;
+  LeafWatch watch({.budget = std::chrono::seconds(1)});
+  Run run(tree.tree(), {.watch = &watch});
+  SnapshotFeed feed(tree.tree(), hurried);
+  feed.run_started(run.ticker(), {.period = std::chrono::milliseconds(10)});
+  auto& board = const_cast<Blackboard&>(run.ticker().blackboard());
+  const auto tick = [&](std::uint64_t number) {
+    const Nanoseconds now = deadline_of(number, 100);
+    run.set_now(now);
+    std::get<std::vector<double>>(board.entries[0].value)[0] = 0.3 / static_cast<double>(number);
+    ++board.entries[0].writes;
+    feed.after_tick(run.ticker(), {number, now, run.tick(now)});
+  };
+  for (std::uint64_t number = 1; number <= 10; ++number) tick(number);
+  g_allocations = g_locks = 0;
+  t_counting = true;
+  for (std::uint64_t number = 11; number <= 1000; ++number) tick(number);
+  t_counting = false;
+  CHECK(run.fault() == nullptr);
+  REQUIRE(feed.take());
+  CHECK(feed.newest().entries[0].changed == 1000);
+  CHECK(feed.newest().entries[0].text == "0.0003;0.6");
   CHECK(g_allocations == 0);
   CHECK(g_locks == 0);
 }

@@ -146,10 +146,10 @@ RecordedEntry entry_from(JsonValue value, std::size_t keys) {
   return entry;
 }
 
-RecordedLog log_from(JsonValue value) {
+LeafLine log_from(JsonValue value) {
   constexpr char kNone[] = "a log line is not [who, level, text]";
   if (!value.is_list()) throw JsonError(kNone);
-  RecordedLog log;
+  LeafLine log;
   std::string* const fields[] = {&log.who, &log.level, &log.text};
   std::size_t field = 0;
   value.each_item([&](JsonValue item) {
@@ -161,7 +161,7 @@ RecordedLog log_from(JsonValue value) {
   return log;
 }
 
-auto into_logs(std::vector<RecordedLog>& logs) {
+auto into_logs(std::vector<LeafLine>& logs) {
   return [&logs](JsonValue value) {
     constexpr std::size_t kMost = 1000;  // a recorder leaves out more
     value.each_item([&](JsonValue it) {

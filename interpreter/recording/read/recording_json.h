@@ -25,7 +25,7 @@ class RecordingJson {
   std::vector<NodeIndex> succeeded_;
   std::vector<RecordedFault> faults_;
   std::vector<RecordedEntry> entries_;
-  std::vector<RecordedLog> logs_;
+  std::vector<LeafLine> logs_;
   std::size_t keys_ = 0;  // how many entries the header names
 };
 

@@ -5,6 +5,29 @@
 #include <utility>
 
 namespace lockstep {
+namespace {
+
+std::size_t memory_of(const std::vector<LeafLine>& lines) {
+  std::size_t size = 0;
+  for (const LeafLine& it : lines) size += sizeof it + it.who.size() + it.text.size();
+  return size;
+}
+
+}  // namespace
+
+void Past::add(const RecordedTick& tick) {
+  for (const RecordedEntry& it : tick.entries) {
+    if (it.entry >= entries.size()) entries.resize(it.entry + 1);
+    entries[it.entry].set(it.value ? &*it.value : nullptr, tick.tick);
+  }
+  for (const LeafLine& line : tick.logs) logs.add(line);
+}
+
+std::size_t Past::memory() const {
+  std::size_t size = memory_of(logs.lines);
+  for (const EntryState& it : entries) size += sizeof it + it.text.size();
+  return size;
+}
 
 void take(const RecordedTick& tick, std::uint64_t lost, Moment& moment) {
   moment.tick = tick.tick;
@@ -14,13 +37,16 @@ void take(const RecordedTick& tick, std::uint64_t lost, Moment& moment) {
   moment.entries.assign(tick.entries.begin(), tick.entries.end());
   moment.logs.assign(tick.logs.begin(), tick.logs.end());
   moment.lost = lost;
+  moment.past.add(tick);
 }
 
 RecordingTimeline::RecordingTimeline(RecordingReader& reader, const TimelineOptions& options)
     : reader_(reader), options_(options) {
   std::uint64_t expected = 0;
+  Past past;
   while (const auto tick = reader_.next()) {
-    keep(*tick, tick->tick - expected);
+    keep(*tick, tick->tick - expected, past);
+    past.add(*tick);
     ++size_;
     last_tick_ = tick->tick;
     last_time_ = tick->time;
@@ -34,18 +60,18 @@ std::size_t RecordingTimeline::Keyframe::memory() const {
   std::size_t size = sizeof(Keyframe) + moment.nodes.size() * sizeof(RecordedState);
   for (const RecordedFault& fault : moment.faults) size += sizeof fault + fault.message.size();
   for (const RecordedEntry& it : moment.entries) size += sizeof it + it.value.value_or("").size();
-  for (const RecordedLog& it : moment.logs) size += sizeof it + it.who.size() + it.text.size();
-  return size;
+  return size + memory_of(moment.logs) + moment.past.memory();
 }
 
 // A keyframe of the tick that was just read, when it is time for one.
-void RecordingTimeline::keep(const RecordedTick& tick, std::uint64_t lost) {
+void RecordingTimeline::keep(const RecordedTick& tick, std::uint64_t lost, const Past& before) {
   const RecordingReader::Place place = reader_.place();
   const auto distance = [&] { return place.lines.bytes - keyframes_.back().place.lines.bytes; };
   if (!keyframes_.empty() && distance() < options_.distance) return;
   Keyframe& keyframe = keyframes_.emplace_back();
   keyframe.place = place;
   keyframe.moment.number = size_;
+  keyframe.moment.past = before;
   take(tick, lost, keyframe.moment);
   memory_ += keyframe.memory();
   while (keyframes_.size() > 2 && memory_ > options_.most_memory) thin_out();

@@ -11,9 +11,20 @@
 #include <cstdint>
 #include <vector>
 
+#include "measure/entry_changes.h"
 #include "recording/read/recording_reader.h"
 
 namespace lockstep {
+
+// What the ticks up to one leave behind.
+struct Past {
+  std::vector<EntryState> entries = {};  // by number; shorter where none of the last has a value
+  RecentLines logs = {};
+
+  void add(const RecordedTick& tick);
+  std::size_t memory() const;
+  friend bool operator==(const Past&, const Past&) = default;
+};
 
 // One tick with the state of all nodes after it.
 struct Moment {
@@ -23,13 +34,14 @@ struct Moment {
   std::vector<RecordedState> nodes;
   std::vector<RecordedFault> faults;
   std::vector<RecordedEntry> entries = {};  // that have changed in this tick
-  std::vector<RecordedLog> logs = {};
+  std::vector<LeafLine> logs = {};
   std::uint64_t lost = 0;  // ticks just before it that are not in the recording
+  Past past = {};          // with this tick
 
   friend bool operator==(const Moment&, const Moment&) = default;
 };
 
-// Copies the current tick of a reader to `moment`.
+// Copies the current tick of a reader to `moment`, which is at the tick before.
 void take(const RecordedTick& tick, std::uint64_t lost, Moment& moment);
 
 struct TimelineOptions {
@@ -74,7 +86,7 @@ class RecordingTimeline {
     RecordingReader::Place place;
     std::size_t memory() const;
   };
-  void keep(const RecordedTick& tick, std::uint64_t lost);
+  void keep(const RecordedTick& tick, std::uint64_t lost, const Past& before);
   void thin_out();
   void restore(const Keyframe& keyframe);
   void go_to_number(std::uint64_t number);

@@ -34,7 +34,7 @@ Json json_of(const RecordedKey& entry) {
   return {{"key", entry.key}, {"type", entry.type}};
 }
 
-Json json_of(const RecordedLog& log) {
+Json json_of(const LeafLine& log) {
   return Json::array({log.who, log.level, log.text});
 }
 
@@ -127,7 +127,7 @@ void add_entry(std::string& text, const EntryChange& it) {
   text += ']';
 }
 
-void add_log(std::string& text, const RecordedLog& log) {
+void add_log(std::string& text, const LeafLine& log) {
   text += '[';
   append_json(text, log.who);
   text += ',';

@@ -8,11 +8,11 @@
 #include <functional>
 #include <string>
 
+#include "measure/entry_changes.h"
 #include "recording/recording.h"
 #include "recording/write/append_file.h"
-#include "recording/write/entry_changes.h"
-#include "recording/write/leaf_lines.h"
 #include "recording/write/recording_delta.h"
+#include "runtime/leaf_lines.h"
 #include "runtime/observer.h"
 
 namespace lockstep {

@@ -12,8 +12,8 @@
 
 #include "core/clock.h"
 #include "engine/ticker.h"
+#include "measure/entry_changes.h"
 #include "recording/recording.h"
-#include "recording/write/entry_changes.h"
 #include "recording/write/recording_packet.h"
 
 namespace lockstep {
@@ -24,7 +24,7 @@ struct TickEnd {
   std::span<const NodeIndex> succeeded = {};
   std::span<const Fault> faults = {};
   std::span<const EntryChange> entries = {};
-  std::span<const RecordedLog> logs = {};
+  std::span<const LeafLine> logs = {};
 };
 
 class RecordingFormat {

@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <string>
 
-#include "recording/write/entry_changes.h"
-#include "recording/write/leaf_lines.h"
+#include "measure/entry_changes.h"
+#include "runtime/leaf_lines.h"
 #include "support/tree_text.h"
 
 namespace lockstep::test {
@@ -82,7 +82,7 @@ TEST_CASE("logs: lines wait until a line of the file has them, what has no room 
   CHECK(lines.lines().size() == 1);
   lines.add("Main/base", "warning", "slips");
   REQUIRE(lines.lines().size() == 2);
-  CHECK(lines.lines()[1] == RecordedLog{"Main/base", "warning", "slips"});
+  CHECK(lines.lines()[1] == LeafLine{"Main/base", "warning", "slips"});
   lines.keep();
   CHECK(lines.lines().empty());
   const std::string long_line(LeafLines::kRoom / 2, 'x');

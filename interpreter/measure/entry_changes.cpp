@@ -1,4 +1,4 @@
-#include "recording/write/entry_changes.h"
+#include "measure/entry_changes.h"
 
 #include <utility>
 
@@ -19,8 +19,17 @@ bool put_short(const Value& value, std::string& text) {
 
 }  // namespace
 
+void EntryState::set(const std::string* value, std::uint64_t tick) {
+  is_long = value == nullptr;
+  if (is_long) {
+    text.clear();
+  } else {
+    text = *value;
+  }
+  changed = tick;
+}
+
 EntryChanges::EntryChanges(std::vector<std::uint32_t> slots) {
-  constexpr std::size_t kNumber = 32;  // letters of the longest
   for (const std::uint32_t slot : slots) {
     Watched& watched = watched_.emplace_back(Watched{.slot = slot});
     watched.text.reserve(kNumber);

@@ -1,14 +1,13 @@
-#include "recording/write/leaf_lines.h"
+#include "runtime/leaf_lines.h"
 
 #include <algorithm>
 #include <iterator>
-#include <string>
 
 namespace lockstep {
 
 void LeafLines::add(std::string_view who, std::string_view level, std::string_view text) {
   const std::lock_guard lock(mutex_);
-  const std::size_t size = sizeof(RecordedLog) + who.size() + text.size();
+  const std::size_t size = sizeof(LeafLine) + who.size() + text.size();
   if (size_ + size > kRoom) {
     ++left_out_;
     return;
@@ -18,7 +17,7 @@ void LeafLines::add(std::string_view who, std::string_view level, std::string_vi
   has_new_ = true;
 }
 
-std::span<const RecordedLog> LeafLines::lines() {
+std::span<const LeafLine> LeafLines::lines() {
   if (has_new_.exchange(false)) {
     const std::lock_guard lock(mutex_);
     std::ranges::move(new_, std::back_inserter(waiting_));
@@ -32,9 +31,19 @@ void LeafLines::keep() {
   waiting_.clear();
   const std::lock_guard lock(mutex_);
   size_ = 0;
-  for (const RecordedLog& line : new_) {
-    size_ += sizeof(RecordedLog) + line.who.size() + line.text.size();
+  for (const LeafLine& line : new_) {
+    size_ += sizeof(LeafLine) + line.who.size() + line.text.size();
   }
+}
+
+void RecentLines::add(const LeafLine& line) {
+  if (lines.size() < kMost) {
+    lines.push_back(line);
+    return;
+  }
+  std::ranges::rotate(lines, lines.begin() + 1);
+  lines.back() = line;
+  ++earlier;
 }
 
 }  // namespace lockstep

@@ -1,0 +1,57 @@
+// Finds blackboard entries whose value differs from what was kept last: for a recording what its
+// file has accepted, for a view what it has taken. An entry that nobody writes costs one comparison
+// per tick. Used by recorder and snapshot_feed.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/blackboard.h"
+
+namespace lockstep {
+
+struct EntryChange {
+  std::uint32_t entry = 0;            // its number among those that are watched
+  const std::string* text = nullptr;  // its value; null: it is too long
+};
+
+// What is known of an entry after a tick.
+struct EntryState {
+  std::string text = {};                      // its value; "" if it is too long
+  bool is_long = false;                       // it is
+  std::optional<std::uint64_t> changed = {};  // the tick of the last change; none: no value yet
+
+  void set(const std::string* value, std::uint64_t tick);  // null: it is too long
+  friend bool operator==(const EntryState&, const EntryState&) = default;
+};
+
+class EntryChanges {
+ public:
+  static constexpr std::size_t kLongest = 256;  // bytes of a value as text
+  static constexpr std::size_t kNumber = 32;    // and of the longest number, at least
+
+  // For these slots of the blackboard, numbered in this order.
+  explicit EntryChanges(std::vector<std::uint32_t> slots);
+
+  // Call after a tick. The result is valid until the next call. Allocates only if a text is longer
+  // than before.
+  std::span<const EntryChange> changes(const Blackboard& board);
+  // Call when the last result of changes() was accepted.
+  void keep();
+
+ private:
+  struct Watched {
+    std::uint32_t slot = 0;
+    std::optional<std::uint32_t> writes = {};  // of the entry, when its value was kept
+    bool has_text = false;                     // else nothing was kept, or that it is too long
+    std::string text = {};                     // that was kept
+    std::string next = {};                     // to be kept
+  };
+  std::vector<Watched> watched_;
+  std::vector<EntryChange> changes_;
+  const Blackboard* board_ = nullptr;  // that they are of
+};
+
+}  // namespace lockstep
