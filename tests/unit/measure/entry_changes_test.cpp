@@ -1,9 +1,9 @@
-// What a recording has of the blackboard and of what leaves log, before it is text.
+// Which entries a recording and a view show as changed.
+#include "measure/entry_changes.h"
+
 #include <catch2/catch.hpp>
 #include <string>
 
-#include "measure/entry_changes.h"
-#include "runtime/leaf_lines.h"
 #include "support/tree_text.h"
 
 namespace lockstep::test {
@@ -73,25 +73,6 @@ TEST_CASE("entries: a value of more than 256 bytes is only named, each time it i
   changes.keep();
   it.set(1, std::vector<double>(200, 0.123456));
   CHECK(text_of(changes.changes(it.board)) == "1=(too long)");
-}
-
-TEST_CASE("logs: lines wait until a line of the file has them, what has no room is counted") {
-  LeafLines lines;
-  CHECK(lines.lines().empty());
-  lines.add("Main/arm", "info", "begins");
-  CHECK(lines.lines().size() == 1);
-  lines.add("Main/base", "warning", "slips");
-  REQUIRE(lines.lines().size() == 2);
-  CHECK(lines.lines()[1] == LeafLine{"Main/base", "warning", "slips"});
-  lines.keep();
-  CHECK(lines.lines().empty());
-  const std::string long_line(LeafLines::kRoom / 2, 'x');
-  for (int i = 0; i < 4; ++i) lines.add("Main/arm", "debug", long_line);
-  CHECK(lines.lines().size() == 1);
-  CHECK(lines.left_out() == 3);
-  lines.keep();
-  lines.add("Main/arm", "debug", long_line);  // there is room again
-  CHECK(lines.lines().size() == 1);
 }
 
 }  // namespace lockstep::test
