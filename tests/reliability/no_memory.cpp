@@ -30,9 +30,14 @@ extern "C" int __libc_start_main(  // NOLINT
   return start(main_without_memory, count, arguments, init, fini, loader_fini, stack_end);
 }
 
+// The sanitizers have one too, whose memory is not malloc's.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  if (g_left <= 1 || g_left.fetch_sub(1) <= 1) return nullptr;
+  return std::malloc(size == 0 ? 1 : size);  // NOLINT: that is what it is for
+}
+
 void* operator new(std::size_t size) {
-  if (g_left <= 1 || g_left.fetch_sub(1) <= 1) throw std::bad_alloc();
-  void* const memory = std::malloc(size == 0 ? 1 : size);  // NOLINT: that is what it is for
+  void* const memory = operator new(size, std::nothrow);
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
 }
