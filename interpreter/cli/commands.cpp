@@ -100,7 +100,7 @@ bool is_in_plugin() {
       std::rethrow_exception(reason);
     }
   } catch (const std::bad_alloc&) {
-    RawTerminal::restore();
+    RawTerminal::restore_for_good();
     say_out_of_memory();
     messages().flush(Outlet::kPatience);
     end_at_once(kExitInternal);

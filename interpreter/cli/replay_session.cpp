@@ -133,8 +133,8 @@ class Session {
 }  // namespace
 
 int play_on_terminal(const RecordingHeader& header, RecordingTimeline& timeline, double speed) {
-  StopSignals::install(&RawTerminal::restore);
-  CrashReport::set_last_words(&RawTerminal::restore);
+  StopSignals::install(&RawTerminal::restore_for_good);
+  CrashReport::set_last_words(&RawTerminal::restore_for_good);
   const int code = Session(header, timeline, speed).play();
   if (!timeline.failed()) return code;
   print_error("the recording was changed while it was read");

@@ -19,13 +19,16 @@ int g_keys = -1, g_screen = -1;
 std::atomic<bool> g_is_taken{false};
 std::atomic<bool> g_is_being_taken{false};
 std::atomic<bool> g_is_stopping{false};  // by Ctrl-Z
+std::atomic<bool> g_is_ending{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
+
+void restore();
 
 // Stops the process as it would be stopped without us; returns when it goes on.
 void on_stop(int number) {
   const int error = errno;
   g_is_stopping = true;
-  RawTerminal::restore();
+  restore();
   struct sigaction standard {};
   struct sigaction before {};
   standard.sa_handler = SIG_DFL;
@@ -92,6 +95,17 @@ class Taking {
   const SignalMask mask_{SIG_BLOCK, all_signals_but({SIGTTOU})};
 };
 
+void restore() {
+  Taking::wait_for_end();
+  if (!g_is_taken.exchange(false)) return;
+  if (g_keys >= 0) tcsetattr(g_keys, TCSANOW, &g_before);
+  show_cursor(g_screen);
+}
+
+bool is_away() {
+  return g_is_stopping || g_is_ending || !is_in_foreground();
+}
+
 }  // namespace
 
 RawTerminal::RawTerminal(int keys, int screen) {
@@ -109,21 +123,19 @@ RawTerminal::~RawTerminal() {
 }
 
 RawTerminal::State RawTerminal::take() {
-  if (g_is_stopping || !is_in_foreground()) return State::Away;
+  if (is_away()) return State::Away;
   if (g_is_taken) return State::Kept;
   const Taking taking;
-  if (g_is_stopping || !is_in_foreground()) return State::Away;
+  if (is_away()) return State::Away;
   g_is_taken = true;  // before it is, so that whatever happens from here on restores it
   if (g_keys >= 0) make_raw();
   hide_cursor(g_screen);
   return State::Taken;
 }
 
-void RawTerminal::restore() {
-  Taking::wait_for_end();
-  if (!g_is_taken.exchange(false)) return;
-  if (g_keys >= 0) tcsetattr(g_keys, TCSANOW, &g_before);
-  show_cursor(g_screen);
+void RawTerminal::restore_for_good() {
+  g_is_ending = true;
+  restore();
 }
 
 }  // namespace lockstep

@@ -11,7 +11,7 @@ class RawTerminal {
  public:
   // `keys` and `screen` are file descriptors of the terminal; without keys (-1) it is only drawn
   // on. Ctrl-C stays SIGINT, Ctrl-Z stays SIGTSTP. Signals that others handle are left to them:
-  // they call restore().
+  // they call restore_for_good().
   RawTerminal(int keys, int screen);
   ~RawTerminal();
   RawTerminal(const RawTerminal&) = delete;
@@ -25,8 +25,9 @@ class RawTerminal {
   // Call before drawing or reading, from one thread.
   State take();
 
-  // Restores the terminal. Async-signal-safe.
-  static void restore();
+  // Restores the terminal for an end of the process: take() returns Away from now on.
+  // Async-signal-safe.
+  static void restore_for_good();
 };
 
 }  // namespace lockstep

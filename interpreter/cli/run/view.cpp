@@ -72,7 +72,7 @@ void View::close() {
 }
 
 void View::last_words() {
-  RawTerminal::restore();
+  RawTerminal::restore_for_good();
 }
 
 }  // namespace lockstep

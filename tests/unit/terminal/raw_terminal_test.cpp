@@ -14,8 +14,15 @@
 namespace lockstep {
 namespace {
 
-// Takes the terminal whenever it may, and is stopped by Ctrl-Z.
+void end_with_last_words(int) {
+  RawTerminal::restore_for_good();
+  usleep(2000);  // what else there is to do before the end
+  _exit(0);
+}
+
+// Takes the terminal whenever it may, is stopped by Ctrl-Z, and ends by SIGTERM.
 [[noreturn]] void draw_for_ever(int terminal) {
+  signal(SIGTERM, end_with_last_words);
   static_cast<void>(setpgid(0, 0));  // as a shell does: who has no parent elsewhere is not stopped
   alarm(60);
   RawTerminal raw(terminal, terminal);
@@ -52,6 +59,24 @@ TEST_CASE("raw terminal: whoever stops the program has the terminal as it was") 
   CHECK(raw == 0);
   kill(program, SIGKILL);
   waitpid(program, nullptr, 0);
+  close(terminal);
+  close(master);
+}
+
+TEST_CASE("raw terminal: a program that ends leaves the terminal as it was, whoever draws still") {
+  int master = -1, terminal = -1;
+  REQUIRE(openpty(&master, &terminal, nullptr, nullptr, nullptr) == 0);
+  for (int end = 0; end < 20; ++end) {
+    const pid_t program = fork();
+    if (program == 0) draw_for_ever(terminal);
+    while (!is_raw(terminal)) continue;
+    kill(program, SIGTERM);
+    int status = 0;
+    waitpid(program, &status, 0);
+    CHECK(WIFEXITED(status));
+    CHECK_FALSE(is_raw(terminal));
+    tcflush(master, TCIFLUSH);
+  }
   close(terminal);
   close(master);
 }
