@@ -131,7 +131,11 @@ bool Process::has_more(int milliseconds) const {
 bool Process::read_more() {
   pollfd files[] = {{out_, POLLIN, 0}, {err_, POLLIN, 0}};  // poll ignores a negative file
   if (out_ < 0 && err_ < 0) return false;
+#if defined(__SANITIZE_THREAD__)
+  constexpr int kPatience = 240'000;  // it takes ten times as long
+#else
   constexpr int kPatience = 60'000;
+#endif
   REQUIRE(poll(files, 2, kPatience) > 0);
   if (files[0].revents != 0 && !append(out_, outcome_.out)) {
     outcome_.terminal_is_raw = is_raw(out_);
