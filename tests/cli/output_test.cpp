@@ -133,7 +133,9 @@ TEST_CASE("a table replaces the file of its name when it is whole") {
   const TemporaryDirectory directory;
   fill(directory);
   directory.file("old.csv", "old");
+#if !defined(__SANITIZE_THREAD__)  // whose programs all die of this limit, an empty one too
   CHECK(shell("ulimit -f 0; lockstep log csv run.jsonl --out old.csv", directory).code == 2);
+#endif
   CHECK(read_file(directory.path("old.csv")) == "old");
   CHECK(shell("lockstep log csv run.jsonl --out old.csv", directory).code == 0);
   CHECK(read_file(directory.path("old.csv")) ==
