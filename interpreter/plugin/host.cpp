@@ -162,8 +162,7 @@ const void* get_extension(const char* /*id*/) {
 // made complete.
 Shortened with_entry(const lockstep_caller& caller, const Shortened& message) {
   for (const BoundPort& port : caller.ports) {
-    const bool is_unwritten =
-        !port.entry.empty() && std::holds_alternative<NoValue>(*port.read);
+    const bool is_unwritten = !port.entry.empty() && std::holds_alternative<NoValue>(*port.read);
     if (!is_unwritten || message.text() != fmt::format("port '{}' has no value", port.name)) {
       continue;
     }

@@ -44,7 +44,7 @@ nlohmann::json compared(const StudyCase& it, const std::string& out, const std::
 
 }  // namespace
 
-TEST_CASE("two cells that differ are told apart, and the other way round") {
+TEST_CASE("two cells that differ are found to differ, in either order") {
   const StudyCase it;
   it.make(study({}), "out");
   const auto json = compared(it, "out", "0", "1");

@@ -180,8 +180,7 @@ TEST_CASE("a line without an end is read no further than a row can be long") {
   const Outcome outcome = it.study(arguments, "whole");
   CHECK(outcome.code == 2);
   CHECK(contains(outcome.err, "line 6: not a row"));
-#if !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)  // which have memory of their own
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // whose own memory counts too
   CHECK(outcome.peak_megabytes < 60);
 #endif
 }
