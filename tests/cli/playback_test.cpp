@@ -62,3 +62,16 @@ TEST_CASE("a recording that cannot be played ends the run before it begins, with
   CHECK(outcome.code == 5);
   CHECK_THAT(outcome.err, Catch::Contains("'/nowhere.jsonl': cannot be read"));
 }
+
+TEST_CASE("a run does not record over the file that its tree plays") {
+  const TemporaryDirectory directory;
+  REQUIRE(record(directory, "<Advance name=\"a\" step=\"0.1\"/>", "real.jsonl").code == 0);
+  const std::string real = directory.path("real.jsonl"), before = read_file(real);
+  const std::string tree =
+      directory.file("play.xml", tree_text("<Recorded file=\"" + real + "\" node=\"Main/a\"/>"));
+  const Outcome outcome = lockstep::test::lockstep(
+      {"run", tree, "--clock", "virtual", "--view", "none", "--record", real});
+  CHECK(outcome.code == 2);
+  CHECK(contains(outcome.err, "it is the same file as"));
+  CHECK(read_file(real) == before);
+}

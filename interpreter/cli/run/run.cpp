@@ -224,7 +224,13 @@ void last_words() {
 std::vector<NamedFile> inputs_of_run(const RunCommandOptions& options, const Loaded& loaded) {
   std::vector<std::string> documents{options.tree};
   for (const auto& source : loaded.project->sources.all()) documents.push_back(source->path());
-  return inputs_of(documents, *loaded.plugins);
+  std::vector<NamedFile> inputs = inputs_of(documents, *loaded.plugins);
+  // A text of the tree may name a file that a leaf reads.
+  for (const Value& value : loaded.definition.values) {
+    const auto* text = std::get_if<std::string>(&value);
+    if (text != nullptr && !text->empty()) inputs.push_back({*text, *text});
+  }
+  return inputs;
 }
 
 int run(const RunCommandOptions& options) {
