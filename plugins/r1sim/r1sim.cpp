@@ -1,13 +1,23 @@
 // A simulated humanoid on a wheeled base, without graphics: one world per run, scene by scene; the
-// hallway is apart from the leaves that act in it, in seek.hpp. The scenes are those of the
-// experiments in M. Colledanchise, L. Natale, Analysis and Exploitation of Synchronized Parallel
-// Executions in Behavior Trees.
+// hallway is apart from the leaves that act in it, in seek.hpp. The scenes are those of examples
+// and experiments in M. Colledanchise, L. Natale, Analysis and Exploitation of Synchronized
+// Parallel Executions in Behavior Trees.
 #include "manipulation.hpp"
 #include "seek.hpp"
 #include "world.hpp"
 
 LOCKSTEP_PLUGIN("r1sim", "1.0", "A simulated humanoid on a wheeled base, scene by scene",
                 lockstep::run_context<r1sim::World>(),
+                lockstep::leaf<r1sim::PullDoor>(
+                    "PullDoor",
+                    "Pulls a door open with the arm. Progress is the part of its way that the hand "
+                    "has moved; Success at its end. Failure when the door jams: hand and base have "
+                    "moved too far apart. A paused hand stands still."),
+                lockstep::leaf<r1sim::BackAway>(
+                    "BackAway",
+                    "Moves the base away from the door that PullDoor opens. Progress is the part "
+                    "of its way that is done; Success at its end, Failure when the door jams. A "
+                    "paused base stands still."),
                 lockstep::leaf<r1sim::EnterHallway>(
                     "EnterHallway",
                     "Puts the robot into a hallway with objects on the floor; Success at once. "

@@ -2,14 +2,16 @@
 #pragma once
 
 #include "cart.hpp"
+#include "door.hpp"
 #include "hallway.hpp"
 
 namespace r1sim {
 
 struct World {
-  explicit World(lockstep::Run& run) : cart(run), hallway(run) {}
+  explicit World(lockstep::Run& run) : cart(run), door(run), hallway(run) {}
 
   CartScene cart;
+  DoorScene door;
   HallwayScene hallway;
 };
 

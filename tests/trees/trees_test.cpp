@@ -141,3 +141,28 @@ TEST_CASE("the trees that ship are checked without a warning and run to the resu
     CHECK(result_of(file).rfind(expected[0], 0) == 0);
   }
 }
+
+TEST_CASE("the door of the demo jams without barriers, and only then") {
+  const auto open_door = [](const std::string& barriers) {
+    return lockstep::test::lockstep({"run", LOCKSTEP_SOURCE_DIR "/trees/door_pulling.xml",
+                                     "--clock", "virtual", "--arg", "barriers=" + barriers});
+  };
+  for (const char* barriers : {"0.25;0.5;0.75", "0.5"}) CHECK(open_door(barriers).code == 0);
+  const Outcome jammed = open_door("");
+  CHECK(jammed.code == 1);
+  CHECK(contains(jammed.err, "OpenDoor/open/pull/arm: warning: the door jams: the hand has moved"));
+}
+
+TEST_CASE("./dev demo builds the plugins of its tree") {
+  const std::string dev = read_file(LOCKSTEP_SOURCE_DIR "/dev");
+  const auto demo = dev.substr(dev.find("\n  demo)"));
+  const std::string build = demo.substr(0, demo.find(";;"));
+  REQUIRE(contains(build, "run trees/door_pulling.xml"));
+  const std::string tree = read_file(LOCKSTEP_SOURCE_DIR "/trees/door_pulling.xml");
+  const std::string open = "<plugin name=\"";
+  for (auto at = tree.find(open); at != std::string::npos; at = tree.find(open, at)) {
+    at += open.size();
+    CHECK(contains(build.substr(0, build.find("exec")),
+                   " " + tree.substr(at, tree.find('"', at) - at)));
+  }
+}
