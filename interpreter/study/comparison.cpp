@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "study/row_reader.h"
@@ -19,7 +20,7 @@ Result<std::pair<Columns, Columns>> read_cells(const std::string& path, const St
   const Columns empty(plan.columns.size());
   std::pair<Columns, Columns> columns{empty, empty};
   while (!reader.next().empty()) {
-    const std::uint64_t cell = row_at(plan, reader.rows() - 1).cell;
+    const std::uint64_t cell = reader.cell();
     if (cell != cells.first && cell != cells.second) continue;
     Columns& side = cell == cells.first ? columns.first : columns.second;
     for (std::size_t i = 0; i < side.size(); ++i) side[i].push_back(reader.row().values[i]);
@@ -49,7 +50,8 @@ void compare(const Values& first, const Values& second, Comparison& comparison) 
 
 void compare_pairs(const Values& first, const Values& second, Comparison& comparison) {
   Values both_first, both_second, differences;
-  for (std::size_t run = 0; run < first.size(); ++run) {
+  const std::size_t runs = std::min(first.size(), second.size());
+  for (std::size_t run = 0; run < runs; ++run) {
     const double difference = second[run] - first[run];
     if (std::isnan(difference)) continue;
     both_first.push_back(first[run]);

@@ -108,7 +108,7 @@ bool StudyFolder::make(const StudyPlan& plan) {
   return is_free() && write_whole("study.json", to_json(plan)) && append(row_header(plan));
 }
 
-std::optional<std::uint64_t> StudyFolder::take_over(const StudyPlan& plan) {
+std::optional<RowSequence> StudyFolder::take_over(const StudyPlan& plan) {
   const auto there = read_plan();
   if (!there) return std::nullopt;
   if (const auto key = first_difference(plan, *there, true); !key.empty()) {
@@ -127,7 +127,7 @@ std::optional<std::uint64_t> StudyFolder::take_over(const StudyPlan& plan) {
   return std::nullopt;
 }
 
-std::optional<std::uint64_t> StudyFolder::begin(const StudyPlan& plan, bool resume) {
+std::optional<RowSequence> StudyFolder::begin(const StudyPlan& plan, bool resume) {
   std::error_code error;
   made_directory_ = fs::create_directories(path_, error);
   if (error) {
@@ -138,7 +138,7 @@ std::optional<std::uint64_t> StudyFolder::begin(const StudyPlan& plan, bool resu
   if (!is_there() && !is_free()) return std::nullopt;
   if (resume || !is_there()) {
     if (!lock()) return std::nullopt;
-    if (!is_there()) return make(plan) ? std::optional<std::uint64_t>(0) : std::nullopt;
+    if (!is_there()) return make(plan) ? std::optional<RowSequence>(plan) : std::nullopt;
     if (resume) return take_over(plan);
   }
   fail(fmt::format(

@@ -3,7 +3,6 @@
 // through a symbolic link.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +10,7 @@
 
 #include "core/file_descriptor.h"
 #include "study/plan.h"
+#include "study/row_sequence.h"
 #include "study/table.h"
 
 namespace lockstep {
@@ -19,9 +19,10 @@ class StudyFolder {
  public:
   explicit StudyFolder(std::string path) : path_(std::move(path)) {}
 
-  // Makes the directory or, with `resume`, continues in one with this plan. Returns the number of
-  // existing rows; on failure error() has the reason. Then the directory is locked.
-  std::optional<std::uint64_t> begin(const StudyPlan& plan, bool resume);
+  // Makes the directory or, with `resume`, continues in one with this plan, which must outlive what
+  // this returns: the rows that are there. On failure error() has the reason. Then the directory is
+  // locked.
+  std::optional<RowSequence> begin(const StudyPlan& plan, bool resume);
   bool append(std::string_view lines);
   // Writes the summary, once all rows are there, and returns it.
   std::optional<std::vector<SummaryRow>> finish(const StudyPlan& plan);
@@ -41,7 +42,7 @@ class StudyFolder {
   bool is_free();
   bool lock();
   bool make(const StudyPlan& plan);
-  std::optional<std::uint64_t> take_over(const StudyPlan& plan);
+  std::optional<RowSequence> take_over(const StudyPlan& plan);
   bool write_whole(const std::string& name, std::string_view text);
 
   std::string path_;

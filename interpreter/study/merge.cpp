@@ -77,18 +77,19 @@ std::string Merger::next_row(Part& part, std::string& lines) {
   lines += line;
   if (!line.empty()) return {};
   if (!part.reader->error().empty()) return part.reader->error();
-  return fmt::format("'{}' is not finished: it has {} of {} runs; continue it with --resume",
-                     part.directory, part.reader->rows(), row_count(part.plan));
+  return fmt::format("'{}' is not finished: it has {}; continue it with --resume", part.directory,
+                     part.reader->count_text());
 }
 
 std::string Merger::copy_rows(StudyFolder& out, int (*stop_signal)()) {
   constexpr std::size_t kFull = 1u << 16u;
   std::string lines;
-  const std::uint64_t rows = row_count(whole_);
-  for (std::uint64_t row = 0; row < rows; ++row) {
-    const std::uint64_t run = row_at(whole_, row).run;
-    if (auto error = next_row(parts_.at(run % of_ + 1), lines); !error.empty()) return error;
-    if (lines.size() < kFull && row + 1 < rows) continue;
+  RowSequence rows(whole_);
+  while (const auto row = rows.next()) {
+    Part& part = parts_.at(row->run % of_ + 1);
+    if (auto error = next_row(part, lines); !error.empty()) return error;
+    rows.add(part.reader->row());
+    if (lines.size() < kFull && rows.next()) continue;
     if (!out.append(lines)) return out.error();
     if (stop_signal() != 0) return "interrupted";
     lines.clear();

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,6 +42,14 @@ struct StudyShard {
   friend bool operator==(const StudyShard&, const StudyShard&) = default;
 };
 
+// Of a cell with --until-ci: how far the ends of an interval may be from the value in it.
+struct Precision {
+  double width = 0;
+  bool is_percent = false;  // of the value; else in the unit of the measure
+
+  friend bool operator==(const Precision&, const Precision&) = default;
+};
+
 struct StudyPlan {
   std::string version;  // of lockstep
   std::string tree_file;
@@ -50,9 +59,10 @@ struct StudyPlan {
   std::map<std::string, std::string> arguments;              // of the tree, but those of the grid
   std::map<std::string, std::string> values;                 // --set
   std::vector<GridAxis> grid;
-  std::uint64_t runs = 0;  // of each cell, all parts together
+  std::uint64_t runs = 0;  // of each cell, all parts together; with a precision, at most
   std::uint64_t seed = 0;
-  bool paired = false;  // the runs of a number have the same seed in all cells
+  bool paired = false;                      // the runs of a number have the same seed in all cells
+  std::optional<Precision> precision = {};  // at which a cell has enough runs
   double rate = 100;
   std::uint64_t max_ticks = 0;
   std::vector<std::string> measures;
@@ -77,7 +87,8 @@ struct StudyRow {
   std::uint64_t cell = 0, run = 0;
 };
 
-// A part's rows, in their order: cell after cell, and its runs in each.
+// A part's rows, in their order: cell after cell, and its runs in each. Of a study with a
+// precision, those that there may be (row_sequence.h).
 std::uint64_t row_count(const StudyPlan& plan);
 StudyRow row_at(const StudyPlan& plan, std::uint64_t row);
 

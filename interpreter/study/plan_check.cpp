@@ -155,6 +155,7 @@ std::string check_plan(const StudyPlan& plan) {
   const auto [part, of] = plan.shard;
   if (part < 1 || part > of || of > plan.runs)
     return fmt::format("{} runs have no part {} of {}", plan.runs, part, of);
+  if (plan.precision && of != 1) return "a study with 'until_ci' has no parts";
   if (!(plan.rate >= kLeastRate && plan.rate <= kMostRate))
     return fmt::format("'rate' is {}, expected {} to {}", plan.rate, kLeastRate, kMostRate);
   if (plan.max_ticks == 0) return "'max_ticks' is 0, expected 1 or more";

@@ -9,12 +9,14 @@
 #include "core/json.h"
 #include "core/json_reader.h"
 #include "study/plan_check.h"
+#include "study/precision.h"
 
 namespace lockstep {
 namespace {
 
 constexpr int kFormat = 2;
 constexpr char kGap[] = "gap";
+constexpr char kUntilCi[] = "until_ci";
 constexpr char kNotOurs[] = "it is not as lockstep wrote it";
 constexpr std::array<const char*, 3> kKinds{"argument", "seed", "rate"};
 
@@ -65,6 +67,7 @@ Json json_of(const StudyPlan& plan) {
             {"plugins", pairs(plan.plugins, "name", "version")},
             {"files", pairs(plan.files, "path", "text")}};
   if (plan.paired) json["paired"] = true;
+  if (plan.precision) json[kUntilCi] = to_text(*plan.precision);
   if (plan.shard != StudyShard{}) {
     json["shard"] = {{"part", plan.shard.part}, {"of", plan.shard.of}};
   }
@@ -137,6 +140,9 @@ void read(JsonObject json, StudyPlan& plan) {
     value.skip();  // there is no other value
     plan.paired = true;
   };
+  const auto read_precision = [&](JsonValue value) {
+    plan.precision = precision_from(value.text());
+  };
   json.read({{"lockstep_study", check_format},
              {"version", into(plan.version)},
              {"tree", into(plan.tree_file)},
@@ -153,6 +159,7 @@ void read(JsonObject json, StudyPlan& plan) {
              {"plugins", into_pairs(plan.plugins, "name", "version")},
              {"files", into_pairs(plan.files, "path", "text")},
              {"paired", read_paired, kMayLack},
+             {kUntilCi, read_precision, kMayLack},
              {"shard", read_shard, kMayLack}});
 }
 
@@ -186,6 +193,7 @@ std::string first_difference(const StudyPlan& one, const StudyPlan& other, bool 
     if (key != "shard" && b[key].text() != value.text()) return key;
   }
   if (one.paired != other.paired) return "paired";
+  if (one.precision != other.precision) return kUntilCi;
   return with_shard && one.shard != other.shard ? "shard" : "";
 }
 

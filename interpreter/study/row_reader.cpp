@@ -15,7 +15,8 @@ RowReader::RowReader(const std::string& path, const StudyPlan& plan)
     : plan_(plan),
       rules_(plan),
       path_(path),
-      row_{.values = std::vector<double>(plan.columns.size())} {
+      row_{.values = std::vector<double>(plan.columns.size())},
+      rows_(plan) {
   std::error_code unknown;
   const auto kind = std::filesystem::status(path, unknown).type();
   if (kind == std::filesystem::file_type::not_found) return;  // no rows yet
@@ -29,8 +30,13 @@ RowReader::RowReader(const std::string& path, const StudyPlan& plan)
 }
 
 std::string RowReader::incomplete() const {
-  if (!error_.empty() || rows_ == row_count(plan_)) return error_;
-  return fmt::format("'{}' has {} of {} runs", path_, rows_, row_count(plan_));
+  if (!error_.empty() || !rows_.next()) return error_;
+  return fmt::format("'{}' has {}", path_, count_text());
+}
+
+std::string RowReader::count_text() const {
+  return fmt::format("{} of {}{} runs", rows_.count(), rows_.is_open() ? "at most " : "",
+                     rows_.most());
 }
 
 // Only a line that has its end. A longer one is read no further.
@@ -57,13 +63,13 @@ bool RowReader::read_header() {
 
 void RowReader::expect_row() {
   beginning_.clear();
-  if (rows_ == row_count(plan_)) return;
-  const StudyRow row = row_at(plan_, rows_);
-  if (row.cell != cell_) {
-    cell_text_ = row_cell(plan_, cell_ = row.cell);
+  const auto row = rows_.next();
+  if (!row) return;
+  if (row->cell != cell_) {
+    cell_text_ = row_cell(plan_, cell_ = row->cell);
     rules_.enter(cell_);
   }
-  append_row_beginning(plan_, row, cell_text_, beginning_);
+  append_row_beginning(plan_, *row, cell_text_, beginning_);
 }
 
 bool RowReader::is_expected() {
@@ -78,11 +84,11 @@ std::string_view RowReader::next() {
   const std::size_t longest = beginning_.size() + kLongestField * (2 + row_.values.size());
   if (!read_line(longest)) return {};
   if (!is_expected()) {
-    error_ =
-        fmt::format("'{}', line {}: not a row that its study.json has there", path_, rows_ + 2);
+    error_ = fmt::format("'{}', line {}: not a row that its study.json has there", path_,
+                         rows_.count() + 2);
     return {};
   }
-  ++rows_;
+  rows_.add(row_);
   bytes_ += line_.size();
   return line_;
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "study/row_rules.h"
+#include "study/row_sequence.h"
 #include "study/row_text.h"
 
 namespace lockstep {
@@ -21,12 +22,14 @@ class RowReader {
   std::string_view next();
   // Of the line that next() gave.
   const RowResult& row() const { return row_; }
+  std::uint64_t cell() const { return cell_; }
 
   const std::string& error() const { return error_; }
   // After the last line: the error, or that there are not all rows of the plan; else "".
   std::string incomplete() const;
-  std::uint64_t rows() const { return rows_; }    // so far
-  std::uint64_t bytes() const { return bytes_; }  // of them and the header
+  const RowSequence& rows() const { return rows_; }  // so far
+  std::string count_text() const;                    // of them: "3 of 10 runs"
+  std::uint64_t bytes() const { return bytes_; }     // of them and the header
 
  private:
   bool read_line(std::size_t longest);
@@ -44,7 +47,8 @@ class RowReader {
   fmt::memory_buffer beginning_;  // of the line that comes next
   RowResult row_;
   std::string error_;
-  std::uint64_t rows_ = 0, bytes_ = 0;
+  RowSequence rows_;
+  std::uint64_t bytes_ = 0;
 };
 
 }  // namespace lockstep

@@ -2,48 +2,29 @@
 
 #include <fmt/ranges.h>
 
-#include <cmath>
 #include <iterator>
 
 #include "core/csv_field.h"
+#include "study/cell_values.h"
 #include "study/column_names.h"
 #include "study/row_reader.h"
 
 namespace lockstep {
 namespace {
 
-// The rows of one cell, taken apart by column.
-class CellValues {
- public:
-  explicit CellValues(const StudyPlan& plan) : plan_(plan), values_(plan.columns.size()) {}
-
-  void add(const RowResult& row) {
-    results_.add(row.result);
-    for (std::size_t column = 0; column < values_.size(); ++column) {
-      if (!std::isnan(row.values[column])) values_[column].push_back(row.values[column]);
+void append_rows(const StudyPlan& plan, std::uint64_t cell, const CellValues& values,
+                 std::vector<SummaryRow>& rows) {
+  for (std::size_t column = 0; column < plan.columns.size(); ++column) {
+    const StudyColumn& it = plan.columns[column];
+    if (!has_column(it, cell)) continue;
+    const SampleSummary summary = values.summary(column);
+    if (!it.is_gap) {
+      rows.push_back({cell_values(plan, cell), it.node, it.measure, summary, values.results(), {}});
+    } else if (summary.count > 0) {
+      rows.back().gap = summary.median;
     }
   }
-
-  void finish(std::uint64_t cell, std::vector<SummaryRow>& rows) {
-    for (std::size_t column = 0; column < values_.size(); ++column) {
-      const StudyColumn& it = plan_.columns[column];
-      if (!has_column(it, cell)) continue;
-      const SampleSummary summary = summarize(std::move(values_[column]));
-      values_[column].clear();
-      if (!it.is_gap) {
-        rows.push_back({cell_values(plan_, cell), it.node, it.measure, summary, results_, {}});
-      } else if (summary.count > 0) {
-        rows.back().gap = summary.median;
-      }
-    }
-    results_ = {};
-  }
-
- private:
-  const StudyPlan& plan_;
-  std::vector<std::vector<double>> values_;
-  ResultCounts results_;
-};
+}
 
 std::string optional_field(const std::optional<double>& value) {
   return value ? fmt::format(",{}", *value) : ",";
@@ -71,12 +52,14 @@ Result<std::vector<SummaryRow>> summarize_runs(const std::string& path, const St
   std::vector<SummaryRow> rows;
   std::uint64_t cell = 0;
   while (!reader.next().empty()) {
-    const std::uint64_t current = row_at(plan, reader.rows() - 1).cell;
-    if (current != cell) values.finish(cell, rows);
-    cell = current;
+    if (reader.cell() != cell) {
+      append_rows(plan, cell, values, rows);
+      values.clear();
+    }
+    cell = reader.cell();
     values.add(reader.row());
   }
-  values.finish(cell, rows);
+  append_rows(plan, cell, values, rows);
   if (auto error = reader.incomplete(); !error.empty())
     return tl::unexpected(Problem{std::move(error)});
   return rows;

@@ -16,13 +16,14 @@
 namespace lockstep {
 namespace {
 
-constexpr std::uint64_t kRowsPerChunk = 16;
+constexpr std::uint64_t kRowsPerChunk = 16;       // fewer if there are few rows for each thread
 constexpr std::uint64_t kChunksPerThread = 1024;  // that may wait for an earlier one
 constexpr std::chrono::milliseconds kWriteInterval{50};
 
 struct Chunk {
   fmt::memory_buffer lines;
-  std::uint64_t rows = 0;
+  std::vector<RowResult> made;  // of which the first `rows` count
+  std::size_t rows = 0;
   bool complete = true;  // false: nothing after it counts
   std::optional<StudyFault> fault;
   std::exception_ptr failure;  // unexpected
@@ -35,9 +36,10 @@ class Workshop {
  public:
   explicit Workshop(const StudyWork& work)
       : work_(work),
-        rows_(row_count(work.plan)),
-        chunks_((rows_ - work.first_row + kRowsPerChunk - 1) / kRowsPerChunk),
-        ring_(kChunksPerThread * work.jobs) {}
+        per_chunk_(std::clamp<std::uint64_t>((work.last_row - work.first_row) / (4 * work.jobs), 1,
+                                             kRowsPerChunk)),
+        chunks_((work.last_row - work.first_row + per_chunk_ - 1) / per_chunk_),
+        ring_(std::clamp<std::uint64_t>(chunks_, 1, kChunksPerThread * work.jobs)) {}
 
   std::optional<StudyFault> run();
 
@@ -60,7 +62,7 @@ class Workshop {
   Chunk& slot(std::uint64_t number) { return ring_[number % ring_.size()]; }
 
   const StudyWork& work_;
-  const std::uint64_t rows_;
+  const std::uint64_t per_chunk_;  // rows
   const std::uint64_t chunks_;
   std::vector<Chunk> ring_;
   std::atomic<std::uint64_t> next_{0};
@@ -111,10 +113,10 @@ void Workshop::make_chunks() {
 
 void Workshop::make(std::uint64_t number, Chunk& chunk, std::optional<StudyRun>& run,
                     std::uint64_t& cell) {
-  const std::uint64_t first = work_.first_row + number * kRowsPerChunk;
-  const std::uint64_t last = std::min(rows_, first + kRowsPerChunk);
+  const std::uint64_t first = work_.first_row + number * per_chunk_;
+  const std::uint64_t last = std::min(work_.last_row, first + per_chunk_);
   std::string cell_text;
-  RowResult made{.values = std::vector<double>(work_.plan.columns.size())};
+  chunk.made.resize(per_chunk_);
   for (std::uint64_t index = first; index < last; ++index) {
     const StudyRow row = row_at(work_.plan, index);
     const StudyCell& at = work_.cells[row.cell];
@@ -134,20 +136,21 @@ void Workshop::make(std::uint64_t number, Chunk& chunk, std::optional<StudyRun>&
       return;
     }
     for (const OutOfRange& it : run->out_of_range()) chunk.out_of_range.push_back({row, it});
+    RowResult& made = chunk.made[chunk.rows++];
     made.ticks = end.ticks;
     made.result = result_of(end);
-    std::ranges::fill(made.values, std::numeric_limits<double>::quiet_NaN());
+    made.values.assign(work_.plan.columns.size(), std::numeric_limits<double>::quiet_NaN());
     for (std::size_t i = 0; i < at.columns.size(); ++i)
       made.values[at.columns[i]] = run->values()[i];
     append_row_beginning(work_.plan, row, cell_text, chunk.lines);
     append_row_end(made, chunk.lines);
-    ++chunk.rows;
   }
 }
 
 void Workshop::write(Chunk& chunk) {
   if (closed_) return;
-  if (!work_.write({chunk.lines.data(), chunk.lines.size()}, chunk.rows)) {
+  if (!work_.write({chunk.lines.data(), chunk.lines.size()},
+                   std::span(chunk.made).first(chunk.rows))) {
     closed_ = true;
     limit_ = 0;
   }

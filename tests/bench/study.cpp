@@ -84,10 +84,10 @@ void whole_study(benchmark::State& state) {
     do_work({.plan = plan,
              .cells = std::span(&example.cell, 1),
              .measures = example.measures,
-             .first_row = 0,
+             .last_row = plan.runs,
              .jobs = static_cast<unsigned>(state.range(0)),
              .stop_signal = nullptr,
-             .write = [](std::string_view, std::uint64_t) { return true; },
+             .write = [](std::string_view, std::span<const RowResult>) { return true; },
              .idle = {}});
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(plan.runs));

@@ -47,7 +47,7 @@ int print_summary(const StudyCommandOptions& options, const StudyPlan& plan,
   const int written =
       write_results(options.json ? summary_json(plan, rows) + "\n" : summary_table(plan, rows));
   Diagnostics notes;
-  for (std::string& warning : summary_warnings(rows)) {
+  for (std::string& warning : summary_warnings(plan, rows)) {
     notes.add({.severity = Severity::Warning,
                .location = {},
                .message = std::move(warning),
@@ -105,32 +105,41 @@ bool would_overwrite_input(const std::string& directory, const LoadedStudy& stud
   });
 }
 
-int make_study(const StudyCommandOptions& options, const LoadedStudy& study) {
-  const StudyPlan& plan = study.plan;
-  StudyFolder folder(out_directory(options));
-  const auto there = folder.begin(plan, options.resume);
-  if (!there) return fail(folder.error());
-  StopSignals::install();
-  const Outlet::Thread messages_thread(messages());
+// Until all rows are there, a leaf has a fault, the folder an error or a signal comes.
+std::optional<StudyFault> make_rows(const StudyCommandOptions& options, const LoadedStudy& study,
+                                    StudyFolder& folder, RowSequence& rows,
+                                    StudyOutOfRangeCount& out_of_range) {
+  StudyProgress progress(rows);
   std::optional<StudyFault> fault;
-  StudyOutOfRangeCount out_of_range(study);
-  {
-    StudyProgress progress(*there, row_count(plan));
-    fault = do_work({.plan = plan,
+  while (rows.next() && !fault && folder.error().empty() && StopSignals::received() == 0) {
+    fault = do_work({.plan = study.plan,
                      .cells = study.cells,
                      .measures = study.measures,
-                     .first_row = *there,
+                     .first_row = rows.first(),
+                     .last_row = rows.last(),
                      .jobs = options.jobs,
                      .hang_limit = from_seconds(options.study.load.plugins.hang_limit),
                      .stop_signal = StopSignals::received,
                      .write =
-                         [&](std::string_view lines, std::uint64_t rows) {
-                           progress.add(rows);
+                         [&](std::string_view lines, std::span<const RowResult> made) {
+                           for (const RowResult& row : made) rows.add(row);
                            return folder.append(lines);
                          },
                      .out_of_range = [&](const StudyOutOfRange& it) { out_of_range.add(it); },
                      .idle = [&] { progress.show(); }});
   }
+  return fault;
+}
+
+int make_study(const StudyCommandOptions& options, const LoadedStudy& study) {
+  const StudyPlan& plan = study.plan;
+  StudyFolder folder(out_directory(options));
+  auto made = folder.begin(plan, options.resume);
+  if (!made) return fail(folder.error());
+  StopSignals::install();
+  const Outlet::Thread messages_thread(messages());
+  StudyOutOfRangeCount out_of_range(study);
+  const auto fault = make_rows(options, study, folder, *made, out_of_range);
   Diagnostics warnings;
   out_of_range.add_to(warnings);
   print_diagnostics(warnings, Severity::Warning);
@@ -185,6 +194,11 @@ void define_runs(CLI::App& app, StudyOptions& options) {
   app.add_option("-n,--runs", options.runs, "How often each cell of the grid is run")
       ->type_name("N")
       ->transform(whole_number(1));
+  app.add_option("--until-ci", options.until_ci,
+                 "Run a cell only until the 95 % interval of each measure is this narrow: to "
+                 "either end 5% of the median, or 0.5 in the unit of the measure; at least 100 "
+                 "runs, at most --runs")
+      ->type_name("WIDTH");
   app.add_option("--seed", options.seed, "The seeds of all runs are derived from this one")
       ->type_name("S")
       ->transform(whole_number())
@@ -260,6 +274,7 @@ const Command kStudyCommand{
     "  lockstep study trees/paper/example6.xml --runs 1000 \\\n"
     "      --grid noise,delta=0.01:0.02,0.02:0.05,0.05:0.1\n"
     "  lockstep study trees/paper/example5.xml --runs 100 --paired --grid barrier_count=5,10\n"
+    "  lockstep study trees/paper/example5.xml --runs 100000 --until-ci 2% --grid noise=0,0.05\n"
     "  lockstep study trees/predictability.xml --runs 1000 --shard 1/4 --out part-1\n"
     "  lockstep study merge part-* --out study\n"
     "  lockstep study compare study-example5 --cells 0 1",

@@ -14,6 +14,7 @@
 #include "study/column_names.h"
 #include "study/grid_text.h"
 #include "study/plan_check.h"
+#include "study/precision.h"
 
 namespace lockstep {
 namespace {
@@ -41,6 +42,7 @@ class StudyLoader {
   }
   void read_measures();
   void read_shard();
+  void read_precision();
   void parse_grids();
   void read_grid(const std::vector<DeclaredArgument>& declared);
   void read_axis(GridAxis& axis, const std::vector<DeclaredArgument>& declared);
@@ -86,6 +88,18 @@ void StudyLoader::read_shard() {
                       options_.runs, *of));
   } else {
     study_.plan.shard = {*part, *of};
+  }
+}
+
+void StudyLoader::read_precision() {
+  if (!options_.until_ci) return;
+  study_.plan.precision = precision_from(*options_.until_ci);
+  if (!study_.plan.precision) {
+    error(fmt::format("--until-ci {}: expected a width above 0", *options_.until_ci),
+          "such as 5%, of the median, or 0.5, in the unit of the measure");
+  } else if (study_.plan.shard.of != 1) {
+    error("--until-ci: such a study has no parts, since all runs of a cell decide when it ends",
+          "leave out --shard");
   }
 }
 
@@ -228,6 +242,7 @@ int StudyLoader::load() {
   plan.max_ticks = options_.max_ticks;
   read_measures();
   read_shard();
+  read_precision();
   parse_grids();
   plan.arguments = pairs(options_.load.arguments);
   plan.values = pairs(options_.load.values);

@@ -2,6 +2,7 @@
 // reported before the first run.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,9 +19,10 @@ struct StudyOptions {
   std::uint64_t runs = 0;
   std::uint64_t seed = 0;
   bool paired = false;
-  std::vector<std::string> grid;      // as parse_grid() reads it
-  std::vector<std::string> measures;  // none: progress-distance
-  std::string shard;                  // I/N
+  std::optional<std::string> until_ci = {};  // as precision_from() reads it
+  std::vector<std::string> grid;             // as parse_grid() reads it
+  std::vector<std::string> measures;         // none: progress-distance
+  std::string shard;                         // I/N
   double rate = 100;
   std::uint64_t max_ticks = kMostVirtualTicks;
 };

@@ -25,11 +25,10 @@ std::string duration_text(double seconds) {
 
 }  // namespace
 
-StudyProgress::StudyProgress(std::uint64_t done, std::uint64_t total)
+StudyProgress::StudyProgress(const RowSequence& rows)
     : is_terminal_(is_terminal(STDERR_FILENO)),
-      before_(done),
-      total_(total),
-      done_(done),
+      rows_(rows),
+      before_(rows.count()),
       shown_(is_terminal_ ? start_ - kBarInterval : start_) {}
 
 StudyProgress::~StudyProgress() {
@@ -41,12 +40,16 @@ void StudyProgress::show() {
   if (now - shown_ < (is_terminal_ ? kBarInterval : kLineInterval)) return;
   shown_ = now;
   const double seconds = to_seconds(now - start_);
-  const double rate = static_cast<double>(done_ - before_) / seconds;
-  const double left = static_cast<double>(total_ - done_);
-  const double part = static_cast<double>(done_) / static_cast<double>(total_);
-  std::string text =
-      fmt::format("{} of {} runs, {:.0f} %, {:.0f} runs/s", done_, total_, part * 100, rate);
-  if (rate > 0) text += fmt::format(", {} left", duration_text(left / rate));
+  const std::uint64_t done = rows_.count(), total = rows_.most();
+  const double rate = static_cast<double>(done - before_) / seconds;
+  const double part = static_cast<double>(done) / static_cast<double>(total);
+  const char* const at_most = rows_.is_open() ? "at most " : "";
+  std::string text = fmt::format("{} of {}{} runs, {:.0f} %, {:.0f} runs/s", done, at_most, total,
+                                 part * 100, rate);
+  if (rate > 0) {
+    text += fmt::format(", {}{} left", at_most,
+                        duration_text(static_cast<double>(total - done) / rate));
+  }
   if (!is_terminal_) return messages().say(text + "\n");
   const std::string bar = to_text({.progress = part}, has_unicode());
   is_visible_ |= messages().show(fmt::format("\r{} {}\x1b[K", bar, text));

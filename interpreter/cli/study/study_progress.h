@@ -4,27 +4,25 @@
 #include <cstdint>
 
 #include "core/clock.h"
+#include "study/row_sequence.h"
 
 namespace lockstep {
 
 class StudyProgress {
  public:
-  // Of `total` runs, `done` were there before.
-  StudyProgress(std::uint64_t done, std::uint64_t total);
+  explicit StudyProgress(const RowSequence& rows);
   // Removes the bar.
   ~StudyProgress();
   StudyProgress(const StudyProgress&) = delete;
   StudyProgress& operator=(const StudyProgress&) = delete;
 
-  void add(std::uint64_t runs) { done_ += runs; }
   // Prints when it is time to.
   void show();
 
  private:
   const bool is_terminal_;
+  const RowSequence& rows_;
   const std::uint64_t before_;
-  const std::uint64_t total_;
-  std::uint64_t done_;
   const Nanoseconds start_ = monotonic_now();
   Nanoseconds shown_;
   bool is_visible_ = false;

@@ -8,6 +8,7 @@
 #include "core/diagnostics.h"
 #include "core/json.h"
 #include "study/column_names.h"
+#include "study/precision.h"
 #include "terminal/text_table.h"
 
 namespace lockstep {
@@ -96,22 +97,31 @@ std::string summary_json(const StudyPlan& plan, const std::vector<SummaryRow>& r
   return array.printable();
 }
 
-std::vector<std::string> summary_warnings(const std::vector<SummaryRow>& rows) {
+std::vector<std::string> summary_warnings(const StudyPlan& plan,
+                                          const std::vector<SummaryRow>& rows) {
   struct Cells {
-    std::size_t far = 0, all = 0;
+    std::size_t far = 0, wide = 0, all = 0;
   };
   std::map<std::pair<std::string, std::string>, Cells> targets;  // by measure and node
   for (const SummaryRow& row : rows) {
     Cells& cells = targets[{row.measure, row.node}];
     ++cells.all;
     cells.far += row.is_far() ? 1 : 0;
+    const auto& precision = plan.precision;
+    cells.wide += precision && !is_narrow(*precision, row.measure, row.summary, row.results);
   }
   std::vector<std::string> warnings;
   for (const auto& [target, cells] : targets) {
-    if (cells.far == 0) continue;
-    warnings.push_back(fmt::format(
-        "'{}' of '{}': in {} of {} cells the progress did not come near its target (see gap)",
-        target.first, target.second, cells.far, cells.all));
+    if (cells.far != 0) {
+      warnings.push_back(fmt::format(
+          "'{}' of '{}': in {} of {} cells the progress did not come near its target (see gap)",
+          target.first, target.second, cells.far, cells.all));
+    }
+    if (cells.wide != 0) {
+      warnings.push_back(fmt::format(
+          "'{}' of '{}': in {} of {} cells the interval is not as narrow as {}, after all {} runs",
+          target.first, target.second, cells.wide, cells.all, to_text(*plan.precision), plan.runs));
+    }
   }
   return warnings;
 }

@@ -12,7 +12,9 @@ namespace lockstep {
 std::string summary_table(const StudyPlan& plan, const std::vector<SummaryRow>& rows);
 // One line: an array of the rows of summary.csv, the values of the grid under "cell".
 std::string summary_json(const StudyPlan& plan, const std::vector<SummaryRow>& rows);
-// Warnings about them: a line for each node and measure whose target is far.
-std::vector<std::string> summary_warnings(const std::vector<SummaryRow>& rows);
+// Warnings about them: a line for each node and measure whose target is far, or whose interval is
+// not as narrow as the plan wants.
+std::vector<std::string> summary_warnings(const StudyPlan& plan,
+                                          const std::vector<SummaryRow>& rows);
 
 }  // namespace lockstep
