@@ -11,4 +11,8 @@ TEST_CASE("the numbers of docs/paper.md are those of its studies") {
   check_page(LOCKSTEP_SOURCE_DIR "/docs/paper.md", 7, 708);
 }
 
+TEST_CASE("the numbers of docs/sequel.md are those of its studies") {
+  check_page(LOCKSTEP_SOURCE_DIR "/docs/sequel.md", 3, 236);
+}
+
 }  // namespace lockstep::test
