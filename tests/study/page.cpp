@@ -111,9 +111,10 @@ Choice choice_of(const Words& words, const Summary& summary) {
 std::vector<Words> alternatives(const Words& words) {
   std::vector<Words> all{{}};
   for (const std::string& word : words) {
-    const std::string name = word.substr(0, word.find('=') + 1);
+    const bool has_path = word.starts_with("node=") || contains(word, ":");
+    const std::string name = has_path ? word : word.substr(0, word.find('=') + 1);
     std::vector<Words> longer;
-    for (const std::string& value : split(word.substr(name.size()), '/')) {
+    for (const std::string& value : has_path ? Words{""} : split(word.substr(name.size()), '/')) {
       for (Words one : all) {
         one.push_back(name + value);
         longer.push_back(one);
