@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "core/utf8.h"
 
 namespace lockstep {
@@ -43,6 +45,15 @@ std::string chained(std::span<const std::string_view> names) {
     chain += brief(names[i]);
   }
   return chain;
+}
+
+std::string arity_text(std::uint32_t least, std::uint32_t most) {
+  if (most == 1) return "exactly one child";
+  if (least == most) return fmt::format("exactly {} children", most);
+  if (most != std::numeric_limits<std::uint32_t>::max()) {
+    return fmt::format("{} to {} children", least, most);
+  }
+  return least <= 1 ? "one or more children" : fmt::format("{} or more children", least);
 }
 
 std::string counted(std::uint64_t count, std::string_view noun) {

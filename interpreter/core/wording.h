@@ -17,6 +17,9 @@ std::string listed(std::span<const std::string_view> names);
 // "a -> b -> … (7 more) … -> y -> z": the beginning and the end of a long chain.
 std::string chained(std::span<const std::string_view> names);
 
+// "exactly one child", "one or more children", "2 to 4 children"; `most` of 2^32 - 1 is no limit.
+std::string arity_text(std::uint32_t least, std::uint32_t most);
+
 // "1 tick", "2 ticks".
 std::string counted(std::uint64_t count, std::string_view noun);
 

@@ -277,17 +277,21 @@ class TreeChecker {
       report_.at(element(index + 1).place, "'SubTree' cannot have children",
                  "its tree is the BehaviorTree that its ID names");
     } else if (node.children < type.arity.min) {
+      const bool any_number = type.arity.min == 1 && type.arity.max > 1;
       report_.at(node.place,
                  fmt::format("'{}' needs {}", type.id,
-                             type.arity.max == 1 ? "exactly one child" : "a child"),
-                 fmt::format("it is a {}: put a node into it", to_string(type.category)));
+                             any_number ? "a child" : arity_text(type.arity.min, type.arity.max)),
+                 fmt::format("it is a {}: put {} into it", to_string(type.category),
+                             node.children + 1 == type.arity.min ? "a node" : "nodes"));
     } else if (node.children > type.arity.max) {
       // The first child that is one too many.
       std::uint32_t extra = index + 1;
       for (std::uint32_t i = 0; i < type.arity.max; ++i) extra = element(extra).end;
       report_.at(element(extra).place,
                  type.arity.max == 0 ? fmt::format("'{}' cannot have children", type.id)
-                                     : fmt::format("'{}' has more than one child", type.id),
+                 : type.arity.max == 1
+                     ? fmt::format("'{}' has more than one child", type.id)
+                     : fmt::format("'{}' has more than {} children", type.id, type.arity.max),
                  type.arity.max == 0 ? fmt::format("it is a leaf ({})", to_string(type.category))
                                      : "put the children into a Sequence, a Fallback or a "
                                        "parallel node");

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include "core/parameter_value.h"
+#include "core/wording.h"
 #include "describe/node_reference.h"
 
 namespace lockstep {
@@ -36,9 +37,9 @@ std::span<const CommonAttribute> subtree_attributes() {
   return kSubTree;
 }
 
-std::string_view children_text(const NodeType& type) {
+std::string children_text(const NodeType& type) {
   if (type.arity.max == 0 || type.category == NodeCategory::SubTree) return "no children";
-  return type.arity.max == 1 ? "exactly one child" : "one or more children";
+  return arity_text(type.arity.min, type.arity.max);
 }
 
 std::string facts_text(const Parameter& parameter) {
@@ -68,7 +69,7 @@ std::string usage_text(const NodeType& type) {
     const bool is_key = parameter.direction != Direction::Input;
     text += fmt::format(" {}=\"{}\"", parameter.name, is_key ? "{…}" : "…");
   }
-  if (children_text(type) == "no children") return text + "/>";
+  if (type.arity.max == 0 || type.category == NodeCategory::SubTree) return text + "/>";
   return text + fmt::format("> … </{}>", type.id);
 }
 

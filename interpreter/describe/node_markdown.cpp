@@ -30,7 +30,7 @@ std::string table_rows(const NodeType& type) {
 
 std::string section(const NodeType& type) {
   std::string text = fmt::format("### {}\n\n{}\n\n", type.id, escaped(type.doc));
-  std::string children(children_text(type));
+  std::string children = children_text(type);
   text += fmt::format("`{}`: {}", usage_text(type), children);
   if (!type.plugin.empty()) text += fmt::format("; from the plugin `{}`", type.plugin);
   if (type.category == NodeCategory::Action && !type.has_progress) {

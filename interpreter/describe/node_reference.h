@@ -27,7 +27,7 @@ struct NodeGroup {
 std::span<const NodeGroup> node_groups();
 
 // "no children", "exactly one child", "one or more children".
-std::string_view children_text(const NodeType& type);
+std::string children_text(const NodeType& type);
 // "number in s, required, from 0 to 1": everything except the name and the doc.
 std::string facts_text(const Parameter& parameter);
 // A line that shows how the node is written in a tree.

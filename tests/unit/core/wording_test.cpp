@@ -1,6 +1,7 @@
 #include "core/wording.h"
 
 #include <catch2/catch.hpp>
+#include <limits>
 #include <vector>
 
 using namespace lockstep;
@@ -39,4 +40,13 @@ TEST_CASE("one tick, two ticks") {
   CHECK(counted(0, "tick") == "0 ticks");
   CHECK(counted(1, "tick") == "1 tick");
   CHECK(counted(2, "tick") == "2 ticks");
+}
+
+TEST_CASE("how many children a node has") {
+  constexpr auto kAny = std::numeric_limits<std::uint32_t>::max();
+  CHECK(arity_text(1, 1) == "exactly one child");
+  CHECK(arity_text(1, kAny) == "one or more children");
+  CHECK(arity_text(2, 2) == "exactly 2 children");
+  CHECK(arity_text(2, kAny) == "2 or more children");
+  CHECK(arity_text(1, 4) == "1 to 4 children");
 }
