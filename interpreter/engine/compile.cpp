@@ -16,6 +16,7 @@ namespace {
 
 const NodeKind* kind_of(const NodeType& type) {
   if (type.leaf != nullptr) {
+    if (type.arity.max != 0) return &kPluginControl;
     return type.category == NodeCategory::Condition ? &kPluginCondition : &kPluginAction;
   }
   static const auto by_type = [] {
@@ -52,6 +53,7 @@ class Compiler {
     tree_.nodes.reserve(definition_.nodes.size());
     for (const DefinitionNode& node : definition_.nodes) add(node);
     find_guards();
+    list_children();
     for (const BlackboardEntry& entry : definition_.entries) {
       tree_.slots.push_back({entry.name, entry.type, entry.initial});
     }
@@ -101,6 +103,18 @@ class Compiler {
       if (!definition_.forgets(from)) continue;
       for (const NodeIndex child : children_in(tree_.nodes, node)) {
         tree_.nodes[child].is_latched = 0;
+      }
+    }
+  }
+
+  // Control nodes of plugins name their children by index.
+  void list_children() {
+    for (LeafNode& leaf : tree_.leaves) {
+      leaf.first_child = static_cast<std::uint32_t>(tree_.children.size());
+      leaf.children = tree_.nodes[leaf.node].children;
+      if (leaf.children == 0) continue;
+      for (const NodeIndex child : children_in(tree_.nodes, leaf.node)) {
+        tree_.children.push_back(child);
       }
     }
   }

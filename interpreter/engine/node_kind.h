@@ -38,8 +38,9 @@ struct NodeKind {
 // All built-in kinds, in the order in which they are documented.
 std::span<const NodeKind* const> built_in_kinds();
 
-// The kind of all leaves of plugins.
+// The kinds of all nodes of plugins.
 extern const NodeKind kPluginAction;
 extern const NodeKind kPluginCondition;
+extern const NodeKind kPluginControl;  // also decorators
 
 }  // namespace lockstep

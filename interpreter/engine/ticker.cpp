@@ -67,6 +67,10 @@ NodeIndex Ticker::end_activation(NodeIndex node) {
 }
 
 void Ticker::halt_range(NodeIndex first, NodeIndex last) {
+  if (in_last_halt_) {
+    for (NodeIndex node = first; node < last;) node = end_activation(node);
+    return;
+  }
   // After a fault all halts are halt_all's, so that they come in one order.
   for (NodeIndex node = first; node < last && !faulted_;) node = end_activation(node);
   // A fault of a leaf's halt: its siblings may still run, so the nodes around them do too.
@@ -76,7 +80,7 @@ void Ticker::halt_range(NodeIndex first, NodeIndex last) {
 
 void Ticker::halt_all() {
   in_last_halt_ = true;
-  for (NodeIndex node = 0; node < tree_.nodes.size();) node = end_activation(node);
+  halt_range(0, static_cast<NodeIndex>(tree_.nodes.size()));
   in_last_halt_ = false;
 }
 

@@ -68,6 +68,9 @@ class Ticker {
   // Of a node's children, those that run; the others keep their status.
   void halt_running_children(NodeIndex node);
 
+  // True in halt_all: every running leaf is halted, whatever has failed.
+  bool in_last_halt() const { return in_last_halt_; }
+
   // Withholds ticks from a subtree: each running leaf gets one `pause`, until it is ticked again.
   void pause(NodeIndex node);
 

@@ -42,10 +42,13 @@ struct PortBinding {
   std::uint32_t constant = kUnbound;  // in Tree::constants; with a slot: until that is written
 };
 
+// A node of a plugin: a leaf, control node or decorator.
 struct LeafNode {
   NodeIndex node;
   const NodeType* type;
-  std::uint32_t first_port;  // in Tree::ports
+  std::uint32_t first_port;       // in Tree::ports
+  std::uint32_t first_child = 0;  // in Tree::children
+  std::uint32_t children = 0;     // how many
 };
 
 // A built-in node with a parameter from an entry. Its kind in Tree::nodes reads the entries and
@@ -74,6 +77,7 @@ struct Tree {
   std::vector<Cell> cells;
   std::vector<double> numbers;
   std::vector<LeafNode> leaves;
+  std::vector<NodeIndex> children;  // of the control nodes of plugins
   std::vector<BoundNode> bound;
   std::vector<PortBinding> ports;  // of leaves and bound nodes, each type's parameters in order
   std::vector<Value> constants;

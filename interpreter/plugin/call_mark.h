@@ -49,6 +49,16 @@ class CallMark {
 
   static CallMark& this_thread();
 
+  // A call as another thread sees it: equal looks have seen the same call.
+  struct Look {
+    const CallSite* site = nullptr;  // outside of a call: of the last one
+    std::uint32_t call = 0;          // a number of the call; the low byte is its function
+
+    PluginFunction function() const { return static_cast<PluginFunction>(call & 0x7f); }
+    bool is_bounded() const { return (call & kBounded) != 0; }
+    friend bool operator==(const Look&, const Look&) = default;
+  };
+
   void enter(const CallSite& site, PluginFunction function) {
     site_.store(&site, std::memory_order_release);
     serial_ += 1u << 8;
@@ -57,6 +67,13 @@ class CallMark {
   void leave() {
     ForkGuard::check();
     call_.store(serial_, std::memory_order_release);
+  }
+  // The end of a call that may be within another one: a control node's child. `around` is what
+  // `look` gave before.
+  void leave(const Look& around) {
+    leave();
+    if (around.function() != PluginFunction::None) [[unlikely]]
+      enter(*around.site, around.function());
   }
   // Other code ensures that this call returns in time.
   void set_bounded() {
@@ -78,15 +95,6 @@ class CallMark {
   }
   RunOfStudy run() const { return {cell_.load(), run_number_.load(), seed_.load()}; }
 
-  // A call as another thread sees it: equal looks have seen the same call.
-  struct Look {
-    const CallSite* site = nullptr;  // outside of a call: of the last one
-    std::uint32_t call = 0;          // a number of the call; the low byte is its function
-
-    PluginFunction function() const { return static_cast<PluginFunction>(call & 0x7f); }
-    bool is_bounded() const { return (call & kBounded) != 0; }
-    friend bool operator==(const Look&, const Look&) = default;
-  };
   Look look() const;
   std::uint64_t tick() const { return tick_.load(std::memory_order_relaxed); }
   static constexpr std::uint64_t kNoTick = ~std::uint64_t{0};  // before the first

@@ -61,14 +61,28 @@ std::optional<Problem> check_plugin(const lockstep_plugin& plugin) {
   return std::nullopt;
 }
 
+NodeCategory category_of(lockstep_leaf_kind kind) {
+  constexpr NodeCategory kCategories[] = {NodeCategory::Action, NodeCategory::Condition,
+                                          NodeCategory::Control, NodeCategory::Decorator};
+  return kCategories[kind - LOCKSTEP_ACTION];
+}
+
+Arity arity_of(const lockstep_leaf_type& leaf) {
+  if (leaf.kind == LOCKSTEP_DECORATOR) return {1, 1};
+  if (leaf.kind != LOCKSTEP_CONTROL) return {0, 0};
+  Arity arity{.min = std::max(leaf.min_children, 1u)};
+  if (leaf.max_children != 0) arity.max = leaf.max_children;
+  return arity;
+}
+
 NodeType node_type(const lockstep_plugin& plugin, const Descriptors::Leaf& leaf) {
   const bool is_action = leaf.type.kind == LOCKSTEP_ACTION;
   return NodeType{.id = leaf.type.id,
-                  .category = is_action ? NodeCategory::Action : NodeCategory::Condition,
+                  .category = category_of(leaf.type.kind),
                   .doc = leaf.type.doc == nullptr ? "" : leaf.type.doc,
-                  .arity = {0, 0},
+                  .arity = arity_of(leaf.type),
                   .parameters = leaf.parameters,
-                  .can_run = is_action,
+                  .can_run = leaf.type.kind != LOCKSTEP_CONDITION,
                   .real_time = (leaf.type.flags & LOCKSTEP_REAL_TIME) != 0,
                   .has_progress = !is_action || leaf.type.progress != nullptr,
                   .plugin = plugin.name,

@@ -39,9 +39,15 @@ std::optional<Problem> check_id(const char* id) {
 
 std::optional<Problem> check_leaf(const lockstep_leaf_type& leaf) {
   if (auto refusal = check_id(leaf.id)) return refusal;
-  if (leaf.kind != LOCKSTEP_ACTION && leaf.kind != LOCKSTEP_CONDITION) {
+  if (leaf.kind < LOCKSTEP_ACTION || leaf.kind > LOCKSTEP_DECORATOR) {
     return Problem{fmt::format("('{}') has kind {}", leaf.id, leaf.kind),
-                   "use LOCKSTEP_ACTION or LOCKSTEP_CONDITION, 1 or 2"};
+                   "use LOCKSTEP_ACTION, LOCKSTEP_CONDITION, LOCKSTEP_CONTROL or "
+                   "LOCKSTEP_DECORATOR, 1 to 4"};
+  }
+  if (leaf.max_children != 0 && leaf.max_children < leaf.min_children) {
+    return Problem{fmt::format("('{}') has at least {} and at most {} children", leaf.id,
+                               leaf.min_children, leaf.max_children),
+                   "set lockstep_leaf_type::max_children to 0 for any number"};
   }
   const char* missing = leaf.create == nullptr    ? "create"
                         : leaf.destroy == nullptr ? "destroy"

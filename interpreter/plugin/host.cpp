@@ -20,16 +20,10 @@ lockstep_caller& mine(const lockstep_caller* caller) {
   return const_cast<lockstep_caller&>(*caller);  // NOLINT: every caller is made non-constant
 }
 
-// Another thread than the run's, from which only log may be called: it must find nothing to read
-// or to change while a tick goes on.
-bool is_foreign(const lockstep_caller* caller) {
-  return caller->time->thread != nullptr && caller->time->thread != this_thread_id();
-}
-
 // The port's value when it has one of this type.
 template <class T>
 const T* readable(const lockstep_caller* caller, std::uint32_t port) {
-  if (is_foreign(caller) || port >= caller->ports.size()) return nullptr;
+  if (caller->is_foreign() || port >= caller->ports.size()) return nullptr;
   const BoundPort& it = caller->ports[port];
   if (it.read == nullptr) return nullptr;
   const T* const found = std::get_if<T>(it.read);
@@ -67,7 +61,7 @@ void note_written(std::vector<Entry*>& written, Entry* entry) {
 
 // What the caller is about to write; counted as written.
 Value* writable(const lockstep_caller* caller, std::uint32_t port, ValueType type) {
-  if (is_foreign(caller) || port >= caller->ports.size()) return nullptr;
+  if (caller->is_foreign() || port >= caller->ports.size()) return nullptr;
   if (caller->ports[port].type != type) return nullptr;
   Entry* const entry = caller->ports[port].write;
   if (entry == nullptr) return nullptr;
@@ -124,23 +118,23 @@ bool set_double_list(const lockstep_caller* caller, std::uint32_t port, const do
 }
 
 void set_error(const lockstep_caller* caller, const char* message) {
-  if (is_foreign(caller)) return;
+  if (caller->is_foreign()) return;
   if (message == nullptr || *message == '\0') message = "unknown error";
   take_error(*caller, Shortened(message));
 }
 
 double now(const lockstep_caller* caller) {
-  return is_foreign(caller) ? 0 : to_seconds(caller->time->now);
+  return caller->is_foreign() ? 0 : to_seconds(caller->time->now);
 }
 double tick_period(const lockstep_caller* caller) {
   return to_seconds(caller->time->period);
 }
 
 std::uint64_t random_bits(const lockstep_caller* caller) {
-  return is_foreign(caller) ? 0 : mine(caller).random.next();
+  return caller->is_foreign() ? 0 : mine(caller).random.next();
 }
 double random_double(const lockstep_caller* caller) {
-  return is_foreign(caller) ? 0 : mine(caller).random.next_double();
+  return caller->is_foreign() ? 0 : mine(caller).random.next_double();
 }
 
 void log(const lockstep_caller* caller, lockstep_log_level level, const char* message) {
@@ -154,8 +148,9 @@ void log(const lockstep_caller* caller, lockstep_log_level level, const char* me
   }
 }
 
-const void* get_extension(const char* /*id*/) {
-  return nullptr;
+const void* get_extension(const char* id) {
+  const bool children = id != nullptr && std::string_view(id) == LOCKSTEP_CHILDREN;
+  return children ? &children_table() : nullptr;
 }
 
 // A leaf knows its ports, only we know the entries: what leaf.hpp says of a port without a value is

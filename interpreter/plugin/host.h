@@ -41,11 +41,25 @@ struct lockstep_caller {
   // Collects the entries that are set, for a process that only mirrors them; null: not collected.
   std::vector<lockstep::Entry*>* written = nullptr;
   lockstep::Shortened error = {};
+
+  // The calling thread is not the run's: it may only call log, so that it finds nothing to read or
+  // to change while a tick goes on.
+  bool is_foreign() const {
+    return time->thread != nullptr && time->thread != lockstep::this_thread_id();
+  }
 };
 
 namespace lockstep {
 
 // What set_error does after shortening the message; the first error of a call is kept.
 void take_error(const lockstep_caller& caller, const Shortened& message);
+
+// Where the node's ports read and write.
+std::vector<BoundPort> bind_ports(const Tree& tree, const LeafNode& node, Blackboard& blackboard);
+// Its children in the tree, in order.
+std::span<const NodeIndex> children_of(const Tree& tree, const LeafNode& node);
+
+// For control nodes of plugins.
+const lockstep_children& children_table();
 
 }  // namespace lockstep

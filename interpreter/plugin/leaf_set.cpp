@@ -31,8 +31,9 @@ const CallSite& site_of(const Tree& tree, const LeafNode& leaf) {
                       std::string(leaf.type->plugin));
 }
 
-std::vector<BoundPort> resolve_ports(const Tree& tree, const LeafNode& leaf,
-                                     Blackboard& blackboard) {
+}  // namespace
+
+std::vector<BoundPort> bind_ports(const Tree& tree, const LeafNode& leaf, Blackboard& blackboard) {
   std::vector<BoundPort> ports;
   ports.reserve(leaf.type->parameters.size());
   for (std::size_t index = 0; index < leaf.type->parameters.size(); ++index) {
@@ -55,7 +56,9 @@ std::vector<BoundPort> resolve_ports(const Tree& tree, const LeafNode& leaf,
   return ports;
 }
 
-}  // namespace
+std::span<const NodeIndex> children_of(const Tree& tree, const LeafNode& node) {
+  return std::span(tree.children).subspan(node.first_child, node.children);
+}
 
 struct LeafSet::Implementation {
   // What a run shares per plugin; seen by the plugin as its run context.
@@ -114,9 +117,10 @@ LeafSet::Implementation::Implementation(const Tree& tree, Blackboard& blackboard
     }
     LeafSlot& slot = slots_[callers_.size()];
     slot.type = leaf.type->leaf;
+    slot.children = children_of(tree, leaf);
     callers_.push_back(make_caller(tree.path(leaf.node), slot));
     sites_.push_back(&site_of(tree, leaf));
-    callers_.back()->ports = resolve_ports(tree, leaf, blackboard);
+    callers_.back()->ports = bind_ports(tree, leaf, blackboard);
   }
 }
 
@@ -126,7 +130,7 @@ void LeafSet::Implementation::destroy_all() {
   for (std::size_t index = slots_.size(); index-- > 0;) {
     LeafSlot& slot = slots_[index];
     if (slot.self != nullptr) destroy_leaf(index);
-    slot = LeafSlot{.type = slot.type};
+    slot = LeafSlot{.type = slot.type, .children = slot.children};
   }
   for (std::size_t index = contexts_.size(); index-- > 0;) {
     Context& context = *contexts_[index];

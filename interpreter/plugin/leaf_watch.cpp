@@ -21,6 +21,7 @@ struct Watch {
   FloatMode mode;
   LeafWatch::Slowest slowest;
   std::optional<Nanoseconds> told;  // when on_slow was
+  Nanoseconds inner{0};             // calls within the current one, of a control node's children
 
   explicit Watch(LeafWatchOptions given)
       : options(std::move(given)), clock(options.clock ? *options.clock : wall_clock) {}
@@ -43,13 +44,15 @@ struct WatchedLeaf {
 class WatchedCall {
  public:
   WatchedCall(WatchedLeaf& leaf, PluginFunction function)
-      : leaf_(leaf), mark_(CallMark::this_thread()), function_(function) {
+      : leaf_(leaf), mark_(CallMark::this_thread()), around_(mark_.look()), function_(function) {
     mark_.enter(*leaf.site, function);
-    if (leaf.ticks) start_ = leaf.watch->clock.now();
+    if (!leaf.ticks) return;
+    outer_ = std::exchange(leaf.watch->inner, Nanoseconds(0));
+    start_ = leaf.watch->clock.now();
   }
 
   ~WatchedCall() {
-    mark_.leave();
+    mark_.leave(around_);
     Watch& watch = *leaf_.watch;
     if (FloatMode::current() != watch.mode) [[unlikely]] {
       restore_mode(watch);
@@ -68,7 +71,9 @@ class WatchedCall {
   }
 
   void note_time(Watch& watch, Nanoseconds end) {
-    const Nanoseconds took = end - start_;
+    const Nanoseconds whole = end - start_;
+    const Nanoseconds took = whole - watch.inner;
+    watch.inner = outer_ + whole;
     if (function_ == PluginFunction::Tick) leaf_.ticks->record(took);
     leaf_.max = std::max(leaf_.max, took);
     if (watch.slowest.function == PluginFunction::None || took > watch.slowest.took) {
@@ -88,8 +93,10 @@ class WatchedCall {
 
   WatchedLeaf& leaf_;
   CallMark& mark_;
+  const CallMark::Look around_;
   const PluginFunction function_;
   Nanoseconds start_{0};
+  Nanoseconds outer_{0};  // of the call around this one
 };
 
 // A function of the leaf type that stands in the slot: calls the same one of the leaf.

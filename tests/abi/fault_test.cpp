@@ -67,8 +67,14 @@ TEST_CASE("a leaf that keeps the contract runs, whatever the minor it was built 
   CHECK(run("newer_minor") == expected);
 }
 
+TEST_CASE("a leaf that was compiled with the header of 1.0 runs") {
+  CHECK(run("probe_1_0", 2) == Outcome{{}, "", true});
+  CHECK(run("probe_1_0", 1) == Outcome{{"halt"}, "", false});
+}
+
 TEST_CASE("a leaf that breaks the contract in a tick is a fault, and is halted") {
   const Strings halted = {"create", "start", "halt", "destroy"};
+  CHECK(run("needs_children") == Outcome{halted, "ticks a child, but has none"});
   CHECK(run("status_out_of_range") ==
         Outcome{halted, "returned status 7, expected running (1), success (2) or failure (3)"});
   CHECK(run("error_in_tick") == Outcome{halted, "lost the arm"});

@@ -31,6 +31,15 @@ TEST_CASE("isolated: the node types are those of the plugin in this process") {
   }
 }
 
+TEST_CASE("isolated: a plugin with control nodes is refused") {
+  const std::string path = LOCKSTEP_BINARY_DIR "/plugins/nav.so";
+  const Strings refused = refusal(path, Isolation::Isolated);
+  REQUIRE(refused.size() == 1);
+  CHECK(refused[0] == "plugin '" + path +
+                          "' cannot be isolated: 'RecoveryNode' is a control node | load it "
+                          "without isolation, or move its leaves into another plugin");
+}
+
 TEST_CASE("isolated: values of every type go in and out, also large ones") {
   const NothingRemains nothing_remains;
   Leaves leaves("echo", {{}});

@@ -49,7 +49,7 @@ MEMBER_AT(lockstep_host, random, 144);
 MEMBER_AT(lockstep_host, log, 152);
 MEMBER_AT(lockstep_host, get_extension, 160);
 
-SIZE_IS(lockstep_leaf_type, 120);
+SIZE_IS(lockstep_leaf_type, 128);
 MEMBER_AT(lockstep_leaf_type, struct_size, 0);
 MEMBER_AT(lockstep_leaf_type, kind, 4);
 MEMBER_AT(lockstep_leaf_type, id, 8);
@@ -66,6 +66,17 @@ MEMBER_AT(lockstep_leaf_type, resume, 88);
 MEMBER_AT(lockstep_leaf_type, progress, 96);
 MEMBER_AT(lockstep_leaf_type, get_extension, 104);
 MEMBER_AT(lockstep_leaf_type, flags, 112);
+MEMBER_AT(lockstep_leaf_type, min_children, 120);
+MEMBER_AT(lockstep_leaf_type, max_children, 124);
+
+SIZE_IS(lockstep_children, 56);
+MEMBER_AT(lockstep_children, struct_size, 0);
+MEMBER_AT(lockstep_children, count, 8);
+MEMBER_AT(lockstep_children, tick, 16);
+MEMBER_AT(lockstep_children, halt, 24);
+MEMBER_AT(lockstep_children, pause, 32);
+MEMBER_AT(lockstep_children, status, 40);
+MEMBER_AT(lockstep_children, progress, 48);
 
 SIZE_IS(lockstep_plugin, 96);
 MEMBER_AT(lockstep_plugin, abi_major, 0);
@@ -86,7 +97,9 @@ MEMBER_AT(lockstep_plugin, get_extension, 88);
 
 // What plugins have compiled into them as numbers.
 static_assert(LOCKSTEP_RUNNING == 1 && LOCKSTEP_SUCCESS == 2 && LOCKSTEP_FAILURE == 3);
+static_assert(LOCKSTEP_IDLE == 0);
 static_assert(LOCKSTEP_ACTION == 1 && LOCKSTEP_CONDITION == 2);
+static_assert(LOCKSTEP_CONTROL == 3 && LOCKSTEP_DECORATOR == 4);
 static_assert(LOCKSTEP_REAL_TIME == 1);
 static_assert(LOCKSTEP_BOOL == 1 && LOCKSTEP_INT == 2 && LOCKSTEP_DOUBLE == 3);
 static_assert(LOCKSTEP_STRING == 4 && LOCKSTEP_DOUBLE_LIST == 5);

@@ -79,6 +79,8 @@ static const lockstep_leaf_type kAdvance = {sizeof(lockstep_leaf_type),
                                             NULL,
                                             progress,
                                             NULL,
+                                            0,
+                                            0,
                                             0};
 
 /* One that reads the first `reads` of its four inputs in each tick. */
@@ -133,6 +135,8 @@ static const lockstep_leaf_type kRead = {sizeof(lockstep_leaf_type),
                                          NULL,
                                          NULL,
                                          NULL,
+                                         0,
+                                         0,
                                          0};
 
 static const lockstep_leaf_type* const kLeaves[] = {&kSucceed, &kFail, &kRun, &kAdvance, &kRead};

@@ -322,6 +322,8 @@ constexpr lockstep_leaf_type kMisbehave = {sizeof(lockstep_leaf_type),
                                            resume,
                                            progress,
                                            nullptr,
+                                           0,
+                                           0,
                                            0};
 constexpr const lockstep_leaf_type* kLeaves[] = {&kMisbehave};
 

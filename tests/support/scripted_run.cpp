@@ -27,9 +27,11 @@ ScriptedRun::ScriptedRun(std::string_view tree, std::string_view leaves, FaultPo
     : tree_(tree_from_text(tree)),
       board_(tree_),
       slots_(tree_.leaves.size()),
+      plugin_nodes_(tree_, board_, slots_),
       ticker_(tree_, slots_, board_, policy) {
   const auto by_name = scripts(leaves);
   for (std::uint32_t number = 0; number < slots_.size(); ++number) {
+    if (slots_[number].self != nullptr) continue;
     const auto script = by_name.find(leaf_name(number));
     if (script == by_name.end()) {
       throw std::invalid_argument("no script for leaf '" + leaf_name(number) + "'");
@@ -57,6 +59,7 @@ void ScriptedRun::set(std::string_view key, Value value) {
 
 Status ScriptedRun::tick_root(Nanoseconds now) {
   ++tree_tick_;
+  plugin_nodes_.time.now = now;
   return ticker_.tick_root(now);
 }
 
@@ -70,6 +73,7 @@ void ScriptedRun::restart() {
   ticker_.halt_all();
   board_.reset(tree_);
   ticker_.reset();
+  plugin_nodes_.restart();
   for (ScriptedLeaf& leaf : leaves_) leaf.rewind();
   for (LeafSlot& slot : slots_) slot.error = nullptr;
   events.clear();

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "engine/ticker.h"
+#include "support/plugin_nodes.h"
 #include "support/scripted_leaf.h"
 
 namespace lockstep::test {
@@ -39,6 +40,7 @@ class ScriptedRun {
   std::uint32_t tree_tick_ = 0;
   std::deque<ScriptedLeaf> leaves_;
   std::vector<LeafSlot> slots_;
+  PluginNodes plugin_nodes_;
   Ticker ticker_;
 };
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "engine/compile.h"
+#include "support/plugin_nodes.h"
 #include "support/scripted_leaf.h"
 
 namespace lockstep::test {
@@ -124,6 +125,7 @@ class Builder {
     for (const NodeKind* kind : built_in_kinds()) {
       if (kind->type.id == name) return kind->type;
     }
+    if (const NodeType* type = plugin_node_type(name)) return *type;
     fail("no node '" + std::string(name) + "'");
   }
 

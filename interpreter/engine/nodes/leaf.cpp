@@ -1,6 +1,6 @@
-// The leaves of plugins: the only place where the engine calls the C ABI. Whatever a leaf does
-// against its contract becomes a fault here. A fault that the run goes on after marks the leaf's
-// slot until the activation has ended, with a Failure or a halt.
+// The nodes of plugins, mostly leaves: the only place where the engine calls the C ABI. Whatever
+// one does against its contract becomes a fault here. A fault that the run goes on after marks the
+// leaf's slot until the activation has ended, with a Failure or a halt.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -12,6 +12,24 @@
 
 namespace lockstep {
 namespace {
+
+enum class Kind { Action, Condition, Control };
+
+// Gives a control node access to its children during a call.
+class Reach {
+ public:
+  Reach(Ticker& ticker, NodeIndex self, ChildAccess access) : leaf_(ticker.leaf(self)) {
+    leaf_.ticker = &ticker;
+    leaf_.node = self;
+    leaf_.access = access;
+  }
+  ~Reach() { leaf_.access = ChildAccess::None; }
+  Reach(const Reach&) = delete;
+  Reach& operator=(const Reach&) = delete;
+
+ private:
+  LeafSlot& leaf_;
+};
 
 // The contract forbids exceptions, but a leaf that throws must not take the robot with it.
 template <class Call>
@@ -33,12 +51,19 @@ bool take_error(Ticker& ticker, NodeIndex self, LeafSlot& leaf) {
 
 void call(Ticker& ticker, NodeIndex self, void (*function)(void*)) {
   LeafSlot& leaf = ticker.leaf(self);
+  const Reach reach(ticker, self, ChildAccess::Look);
   if (function != nullptr) guarded(ticker, self, [&] { function(leaf.self); });
   take_error(ticker, self, leaf);
 }
 
+// Children are halted before their control node.
+template <Kind kKind>
 void halt(Ticker& ticker, NodeIndex self) {
   LeafSlot& leaf = ticker.leaf(self);
+  if constexpr (kKind == Kind::Control) {
+    ticker.halt_range(self + 1, ticker.end_of(self));
+    if (ticker.faulted() && !ticker.in_last_halt()) return;  // halted at the end of the run
+  }
   if (leaf.started) call(ticker, self, leaf.type->halt);
   leaf.failed = false;
 }
@@ -49,9 +74,10 @@ bool is_out(const Ticker& ticker, const LeafSlot& leaf) {
 }
 
 // What a tick returns once the leaf is out.
+template <Kind kKind>
 Status out(Ticker& ticker, NodeIndex self) {
   if (ticker.faulted()) return Status::Running;  // halted at the end of the run, in its order
-  halt(ticker, self);
+  halt<kKind>(ticker, self);
   return Status::Failure;
 }
 
@@ -69,7 +95,7 @@ void prepare(Ticker& ticker, NodeIndex self, LeafSlot& leaf) {
 }
 
 // Running when the leaf is out.
-template <bool kIsCondition>
+template <Kind kKind>
 Status checked(Ticker& ticker, NodeIndex self, LeafSlot& leaf, lockstep_status result) {
   if (leaf.error != nullptr) [[unlikely]] {
     take_error(ticker, self, leaf);
@@ -78,7 +104,7 @@ Status checked(Ticker& ticker, NodeIndex self, LeafSlot& leaf, lockstep_status r
   if (is_out(ticker, leaf)) return Status::Running;
   if (result == LOCKSTEP_SUCCESS) return Status::Success;
   if (result == LOCKSTEP_FAILURE) return Status::Failure;
-  if (result == LOCKSTEP_RUNNING && !kIsCondition) return Status::Running;
+  if (result == LOCKSTEP_RUNNING && kKind != Kind::Condition) return Status::Running;
   ticker.set_fault(self, result == LOCKSTEP_RUNNING
                              ? std::string("is a condition and returned running")
                              : "returned status " + std::to_string(result) +
@@ -86,20 +112,40 @@ Status checked(Ticker& ticker, NodeIndex self, LeafSlot& leaf, lockstep_status r
   return Status::Running;
 }
 
-template <bool kIsCondition>
+template <Kind kKind>
 Status tick(Ticker& ticker, NodeIndex self) {
   LeafSlot& leaf = ticker.leaf(self);
   if (ticker.activity(self) != Activity::Running) prepare(ticker, self, leaf);
-  if (is_out(ticker, leaf)) return out(ticker, self);
+  if (is_out(ticker, leaf)) return out<kKind>(ticker, self);
   lockstep_status result = LOCKSTEP_RUNNING;
   guarded(ticker, self, [&] { result = leaf.type->tick(leaf.self); });
-  const Status status = checked<kIsCondition>(ticker, self, leaf, result);
-  return leaf.failed ? out(ticker, self) : status;
+  const Status status = checked<kKind>(ticker, self, leaf, result);
+  return leaf.failed ? out<kKind>(ticker, self) : status;
+}
+
+Status tick_control(Ticker& ticker, NodeIndex self) {
+  LeafSlot& leaf = ticker.leaf(self);
+  if (ticker.activity(self) != Activity::Running) prepare(ticker, self, leaf);
+  if (is_out(ticker, leaf)) return out<Kind::Control>(ticker, self);
+  lockstep_status result = LOCKSTEP_RUNNING;
+  {
+    const Reach reach(ticker, self, ChildAccess::Tick);
+    guarded(ticker, self, [&] { result = leaf.type->tick(leaf.self); });
+  }
+  const Status status = checked<Kind::Control>(ticker, self, leaf, result);
+  if (leaf.failed) return out<Kind::Control>(ticker, self);
+  if (status != Status::Running) ticker.halt_running_children(self);
+  return status;
 }
 
 void pause(Ticker& ticker, NodeIndex self) {
   LeafSlot& leaf = ticker.leaf(self);
   if (!leaf.failed) call(ticker, self, leaf.type->pause);
+}
+
+void pause_control(Ticker& ticker, NodeIndex self) {
+  for (const NodeIndex child : ticker.leaf(self).children) ticker.pause(child);
+  if (!ticker.faulted()) pause(ticker, self);
 }
 
 double corrected(Ticker& ticker, NodeIndex self, LeafSlot& leaf, double reported) {
@@ -123,20 +169,46 @@ double progress(Ticker& ticker, NodeIndex self) {
   return corrected(ticker, self, leaf, reported);
 }
 
+double progress_of_children(Ticker& ticker, const LeafSlot& leaf) {
+  double least = 1.0;
+  bool any = false;
+  for (const NodeIndex child : leaf.children) {
+    if (ticker.status(child) != Status::Running) continue;
+    least = std::min(least, ticker.progress(child));
+    any = true;
+  }
+  return any ? least : 0.0;
+}
+
+double progress_of_control(Ticker& ticker, NodeIndex self) {
+  const LeafSlot& leaf = ticker.leaf(self);
+  if (leaf.failed) return 0.0;
+  if (leaf.type->progress == nullptr) return progress_of_children(ticker, leaf);
+  const Reach reach(ticker, self, ChildAccess::Look);
+  return progress(ticker, self);
+}
+
 }  // namespace
 
 const NodeKind kPluginAction{
     .type = {.id = "Action", .category = NodeCategory::Action, .doc = "", .arity = {0, 0}},
-    .tick = tick<false>,
+    .tick = tick<Kind::Action>,
     .progress = progress,
-    .halt = halt,
+    .halt = halt<Kind::Action>,
     .pause = pause};
 
 const NodeKind kPluginCondition{
     .type = {.id = "Condition", .category = NodeCategory::Condition, .doc = "", .arity = {0, 0}},
-    .tick = tick<true>,
+    .tick = tick<Kind::Condition>,
     .progress = progress,
-    .halt = halt,
+    .halt = halt<Kind::Condition>,
     .pause = pause};
+
+const NodeKind kPluginControl{
+    .type = {.id = "Control", .category = NodeCategory::Control, .doc = "", .arity = {1}},
+    .tick = tick_control,
+    .progress = progress_of_control,
+    .halt = halt<Kind::Control>,
+    .pause = pause_control};
 
 }  // namespace lockstep

@@ -25,6 +25,18 @@ std::string initialize_in(Session& session) {
   return "does not survive its init: " + words(session);
 }
 
+// Its children are leaves of other processes, or of this one.
+std::optional<Problem> refuse_control_nodes(const lockstep_plugin& plugin) {
+  for (std::uint32_t index = 0; index < plugin.leaf_type_count; ++index) {
+    const lockstep_leaf_type& type = *plugin.leaf_types[index];
+    if (type.kind != LOCKSTEP_CONTROL && type.kind != LOCKSTEP_DECORATOR) continue;
+    return Problem{fmt::format("cannot be isolated: '{}' is a {}", type.id,
+                               type.kind == LOCKSTEP_CONTROL ? "control node" : "decorator"),
+                   "load it without isolation, or move its leaves into another plugin"};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 IsolatedPlugin::IsolatedPlugin(std::string path, IsolationOptions options)
@@ -71,7 +83,9 @@ std::optional<Problem> IsolatedPlugin::describe(MessageReader description) {
     return Problem{"has changed since it was loaded", "start lockstep again"};
   }
   description_.assign(bytes.begin(), bytes.end());
-  if (descriptors_.read(description, remote_plugin(), remote_leaf_type())) return std::nullopt;
+  if (descriptors_.read(description, remote_plugin(), remote_leaf_type())) {
+    return refuse_control_nodes(entry());
+  }
   return Problem{"cannot be loaded: its process sent an invalid answer",
                  "is lockstep-leafhost of the same build as lockstep?"};
 }

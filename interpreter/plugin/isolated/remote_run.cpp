@@ -237,7 +237,9 @@ const lockstep_leaf_type& remote_leaf_type() {
                                             .resume = resume,
                                             .progress = progress,
                                             .get_extension = nullptr,
-                                            .flags = 0};
+                                            .flags = 0,
+                                            .min_children = 0,
+                                            .max_children = 0};
   return kType;
 }
 

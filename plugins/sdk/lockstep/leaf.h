@@ -48,9 +48,18 @@ extern "C" {
 /* The result of a tick. Any other number is a fault of the leaf. A condition never runs. */
 typedef int32_t lockstep_status;
 enum { LOCKSTEP_RUNNING = 1, LOCKSTEP_SUCCESS = 2, LOCKSTEP_FAILURE = 3 };
+/* Since 1.1: of a child that is not active. No result of a tick. */
+enum { LOCKSTEP_IDLE = 0 };
 
+/* The kind of a node type. Control nodes and decorators (since 1.1) have children in the tree and
+ * tick them with the functions of lockstep_children; all else holds for them as for an action. */
 typedef int32_t lockstep_leaf_kind;
-enum { LOCKSTEP_ACTION = 1, LOCKSTEP_CONDITION = 2 };
+enum {
+  LOCKSTEP_ACTION = 1,
+  LOCKSTEP_CONDITION = 2,
+  LOCKSTEP_CONTROL = 3,  /* has min_children to max_children */
+  LOCKSTEP_DECORATOR = 4 /* has one child */
+};
 
 /* Bits of lockstep_leaf_type::flags. A host ignores those that it does not know. */
 enum {
@@ -144,6 +153,37 @@ typedef struct lockstep_host {
   const void* (*get_extension)(const char* id);
 } lockstep_host;
 
+/* Since 1.1: what a control node or decorator does with its children, which it names by index, from
+ * 0. Found with get_extension(LOCKSTEP_CHILDREN); a host that loads such a node has it.
+ *
+ * tick, halt and pause are called inside the node's own tick only; count, status and progress
+ * inside any function of the node but create and destroy. It is a fault of the node to call them
+ * elsewhere, to name a child that it does not have, or to tick a child twice in one tick. After a
+ * fault, also one of a leaf below, they do nothing, tick and status return LOCKSTEP_RUNNING, and
+ * what the node returns does not count.
+ *
+ * The host keeps the rest in order. When the node completes, children that still run are halted.
+ * When the node is halted or paused, so are its children, before its own function is called. A
+ * child that runs and is not ticked goes on by itself, unless it was paused or halted. */
+typedef struct lockstep_children {
+  uint32_t struct_size;
+
+  /* [run] */
+  uint32_t (*count)(const lockstep_caller* caller);
+  /* [run] Ticks a child; its first tick starts it, and a tick after a pause resumes it. */
+  lockstep_status (*tick)(const lockstep_caller* caller, uint32_t child);
+  /* [run] Ends the activation of a child that runs; after it the child is idle. */
+  void (*halt)(const lockstep_caller* caller, uint32_t child);
+  /* [run] Holds a child that runs, until it is ticked again. */
+  void (*pause)(const lockstep_caller* caller, uint32_t child);
+  /* [run] The result of its last tick; LOCKSTEP_IDLE before its first one, and after a halt. */
+  lockstep_status (*status)(const lockstep_caller* caller, uint32_t child);
+  /* [run] In [0, 1]: 1 after success, 0 when it failed or is idle. */
+  double (*progress)(const lockstep_caller* caller, uint32_t child);
+} lockstep_children;
+
+#define LOCKSTEP_CHILDREN "lockstep.children"
+
 /* A type of leaf. Functions marked (optional) may be NULL.
  *
  * An activation: start, then tick once per tick of the tree until it returns success or failure;
@@ -176,13 +216,16 @@ typedef struct lockstep_leaf_type {
   /* [run] (optional) Ticks come again. */
   void (*resume)(void* leaf);
   /* [run] (optional) How much of the activation is done, in [0, 1]. Asked only while running,
-   * also while paused. Outside [0, 1] is clamped, with a warning; NaN is a fault. It may fall. */
+   * also while paused. Outside [0, 1] is clamped, with a warning; NaN is a fault. It may fall. Of a
+   * control node or decorator without this function: the least of its children that run. */
   double (*progress)(void* leaf);
   /* [run] (optional) */
   const void* (*get_extension)(void* leaf, const char* id);
 
   /* Since 1.1. */
   uint64_t flags;
+  uint32_t min_children; /* of a control node; 0: one */
+  uint32_t max_children; /* of a control node; 0: any number */
 } lockstep_leaf_type;
 
 typedef struct lockstep_plugin {

@@ -1,2 +1,2 @@
-#define LEAF_KIND 3
+#define LEAF_KIND 5
 #include "entry.h"

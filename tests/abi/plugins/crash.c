@@ -107,6 +107,8 @@ static const lockstep_leaf_type leaf_type = {sizeof(lockstep_leaf_type),
                                              NULL,
                                              progress,
                                              NULL,
+                                             0,
+                                             0,
                                              0};
 static const lockstep_leaf_type* const leaf_types[] = {&leaf_type};
 

@@ -135,6 +135,8 @@ constexpr lockstep_leaf_type kType = {sizeof(lockstep_leaf_type),
                                       nullptr,
                                       nullptr,
                                       nullptr,
+                                      0,
+                                      0,
                                       0};
 constexpr const lockstep_leaf_type* kTypes[] = {&kType};
 

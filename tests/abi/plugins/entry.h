@@ -62,6 +62,12 @@
 #ifndef LEAF_FLAGS
 #define LEAF_FLAGS 0
 #endif
+#ifndef LEAF_MIN_CHILDREN
+#define LEAF_MIN_CHILDREN 0
+#endif
+#ifndef LEAF_MAX_CHILDREN
+#define LEAF_MAX_CHILDREN 0
+#endif
 #ifndef PORT_COUNT
 #define PORT_COUNT 1
 #endif
@@ -92,9 +98,9 @@ static const lockstep_port the_port = {PORT_SIZE,    PORT_TYPE, PORT_DIRECTION, 
 MAYBE_UNUSED static const lockstep_port* const the_ports[] = {&the_port, &the_port};
 
 static const lockstep_leaf_type the_leaf_type = {
-    LEAF_SIZE,   LEAF_KIND,     LEAF_ID,    LEAF_DOC,  PORT_COUNT, PORT_LIST,
-    LEAF_CREATE, LEAF_DESTROY,  LEAF_START, LEAF_TICK, LEAF_HALT,  NULL,
-    NULL,        LEAF_PROGRESS, NULL,       LEAF_FLAGS};
+    LEAF_SIZE,   LEAF_KIND,     LEAF_ID,    LEAF_DOC,   PORT_COUNT,        PORT_LIST,
+    LEAF_CREATE, LEAF_DESTROY,  LEAF_START, LEAF_TICK,  LEAF_HALT,         NULL,
+    NULL,        LEAF_PROGRESS, NULL,       LEAF_FLAGS, LEAF_MIN_CHILDREN, LEAF_MAX_CHILDREN};
 MAYBE_UNUSED static const lockstep_leaf_type* const the_leaf_types[] = {&the_leaf_type,
                                                                         &the_leaf_type};
 

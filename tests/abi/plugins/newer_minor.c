@@ -25,7 +25,7 @@ static const newer_port port = {
 static const lockstep_port* const ports[] = {&port.base};
 static const newer_leaf_type leaf_type = {
     {sizeof(newer_leaf_type), LOCKSTEP_ACTION, "Probe", NULL, 1, ports, probe_create, probe_destroy,
-     probe_start, probe_tick, probe_halt, NULL, NULL, NULL, NULL, 0},
+     probe_start, probe_tick, probe_halt, NULL, NULL, NULL, NULL, 0, 0, 0},
     more};
 static const lockstep_leaf_type* const leaf_types[] = {&leaf_type.base};
 

@@ -133,6 +133,30 @@ TEST_CASE("every call reaches its leaf, marked with its function, site and tick"
   CHECK(CallMark::this_thread().look().function() == PluginFunction::None);
 }
 
+TEST_CASE("a call within a call of a control node is marked and timed by itself") {
+  Fixture fixture(2, 0, {.budget = 30ms});
+  int depth = 0;
+  on_probe_call = [&](PluginFunction, void*) {
+    if (depth++ != 0) {
+      fixture.clock.time += 20ms;
+      return;
+    }
+    fixture.clock.time += 15ms;
+    fixture.slot(1).type->tick(fixture.slot(1).self);
+    const CallMark::Look look = CallMark::this_thread().look();
+    CHECK(look.function() == PluginFunction::Tick);
+    CHECK(look.site->leaf == "'Main/leaf0' (Full of plugin 'probe')");
+    fixture.clock.time += 10ms;
+  };
+  fixture.slot(0).type->tick(fixture.slot(0).self);
+  on_probe_call = nullptr;
+  CHECK(depth == 2);
+  CHECK(CallMark::this_thread().look().function() == PluginFunction::None);
+  CHECK(fixture.watch.slowest().took == 25ms);
+  CHECK(fixture.watch.slowest().leaf == 0);
+  CHECK(fixture.slow.empty());  // 45 ms with its child
+}
+
 TEST_CASE("the watch is gone before leaves are destroyed, and back when they are made again") {
   Fixture fixture(2);
   const lockstep_leaf_type* const watched = fixture.slot().type;

@@ -42,6 +42,8 @@ const lockstep_leaf_type kLeaf = {sizeof(lockstep_leaf_type),
                                   nullptr,
                                   nullptr,
                                   nullptr,
+                                  0,
+                                  0,
                                   0};
 const lockstep_leaf_type* const kLeaves[] = {&kLeaf};
 const lockstep_plugin kPlugin = {LOCKSTEP_ABI_MAJOR,

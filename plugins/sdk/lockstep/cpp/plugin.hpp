@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "action.hpp"
+#include "control.hpp"
 
 namespace lockstep {
 inline namespace sdk1 {
@@ -22,8 +22,9 @@ struct LeafAccess {
 template <class T>
 struct LeafFunctions {
   static constexpr bool kIsAction = std::is_base_of_v<ActionFunctions, T>;
-  static_assert(kIsAction || std::is_base_of_v<ConditionFunctions, T>,
-                "a leaf derives from lockstep::Action, Condition or ThreadedAction");
+  static_assert(
+      kIsAction || std::is_base_of_v<ConditionFunctions, T>,
+      "a node derives from lockstep::Action, Condition, ThreadedAction, Control or Decorator");
 
   static void* create(const lockstep_host* host, const lockstep_caller* id, void* run_context) {
     const Caller caller{host, id, run_context};
@@ -173,7 +174,7 @@ constexpr lockstep_plugin plugin(const PluginParts<Count>& parts,
 
 // Parts of a plugin, to be listed in LOCKSTEP_PLUGIN.
 
-// A leaf of class T: its XML tag, and one or two sentences about it.
+// A leaf, control node or decorator of class T: its XML tag, and one or two sentences about it.
 template <class T>
 constexpr lockstep_leaf_type leaf(const char* id, const char* doc) {
   using Functions = detail::LeafFunctions<T>;
@@ -181,7 +182,7 @@ constexpr lockstep_leaf_type leaf(const char* id, const char* doc) {
   if (!detail::is_name(id)) detail::error_name_must_be_letters_digits_and_underscores();
   lockstep_leaf_type type{};
   type.struct_size = sizeof(lockstep_leaf_type);
-  type.kind = Functions::kIsAction ? LOCKSTEP_ACTION : LOCKSTEP_CONDITION;
+  type.kind = detail::kind_of<T>();
   type.id = id;
   type.doc = doc;
   type.port_count = Table::kCount;
@@ -191,6 +192,10 @@ constexpr lockstep_leaf_type leaf(const char* id, const char* doc) {
   type.tick = &Functions::tick;
   type.flags = T::kRealTime ? LOCKSTEP_REAL_TIME : 0;
   if constexpr (Functions::kIsAction) detail::add_optional_functions<T>(type);
+  if constexpr (std::is_base_of_v<ControlFunctions, T>) {
+    type.min_children = T::kMinChildren;
+    type.max_children = T::kMaxChildren;
+  }
   return type;
 }
 

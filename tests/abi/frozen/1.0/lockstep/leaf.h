@@ -1,0 +1,214 @@
+/* lockstep/leaf.h: the contract between lockstep and a plugin of leaves (actions, conditions).
+ *
+ * A plugin is a shared object that exports one symbol, `lockstep_plugin_entry`, a constant
+ * `lockstep_plugin`. Everything else is reached from there. This header is C99; it is also valid
+ * C11 and C++. C++ authors want lockstep/leaf.hpp, which wraps it.
+ *
+ * Compatibility. A host loads a plugin whose abi_major equals its own; the minor may be older or
+ * newer. Within a major, structs only grow at their end and functions are only added. Every
+ * struct begins with its size (or holds it right after the version), so each side reads only what
+ * the other wrote: a member beyond the given size is absent. What does not fit is added as an
+ * extension, found by a string id.
+ *
+ * Threads. Marks on functions:
+ *   [load]  called by one thread, while no leaf of this plugin exists, or at the very end.
+ *   [run]   called by the thread that ticks this run. One run is ticked by one thread at a time;
+ *           the leaves of one run are never called at the same time. Other runs of the same plugin
+ *           may be ticked by other threads at that moment: what they share must be guarded.
+ *           A function of the host with this mark refuses other threads: get and set return false,
+ *           set_error does nothing, numbers are 0.
+ *   [any]   may be called from any thread, as long as the leaf exists.
+ *
+ * Memory. Descriptors and every string in them belong to the plugin and stay valid and unchanged
+ * until the end of the process. A string passed to a function belongs to the caller and is valid
+ * during the call, unless said otherwise. Neither side frees what the other allocated.
+ *
+ * Exceptions must not cross: a C++ plugin catches its own. (The host catches what it can.)
+ */
+#ifndef LOCKSTEP_LEAF_H
+#define LOCKSTEP_LEAF_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define LOCKSTEP_ABI_MAJOR 1u
+#define LOCKSTEP_ABI_MINOR 0u
+
+#if defined(_WIN32)
+#define LOCKSTEP_EXPORT __declspec(dllexport)
+#else
+#define LOCKSTEP_EXPORT __attribute__((visibility("default")))
+#endif
+
+/* The result of a tick. Any other number is a fault of the leaf. A condition never runs. */
+typedef int32_t lockstep_status;
+enum { LOCKSTEP_RUNNING = 1, LOCKSTEP_SUCCESS = 2, LOCKSTEP_FAILURE = 3 };
+
+typedef int32_t lockstep_leaf_kind;
+enum { LOCKSTEP_ACTION = 1, LOCKSTEP_CONDITION = 2 };
+
+typedef int32_t lockstep_type;
+enum {
+  LOCKSTEP_BOOL = 1,       /* "true", "false" */
+  LOCKSTEP_INT = 2,        /* 64 bits, signed */
+  LOCKSTEP_DOUBLE = 3,     /* finite */
+  LOCKSTEP_STRING = 4,     /* UTF-8 */
+  LOCKSTEP_DOUBLE_LIST = 5 /* "0.25;0.5" */
+};
+
+typedef int32_t lockstep_direction;
+enum { LOCKSTEP_INPUT = 1, LOCKSTEP_OUTPUT = 2, LOCKSTEP_INOUT = 3 };
+
+typedef int32_t lockstep_log_level;
+enum { LOCKSTEP_LOG_DEBUG = 0, LOCKSTEP_LOG_INFO = 1, LOCKSTEP_LOG_WARNING = 2 };
+
+/* A port: an XML attribute of the leaf, constant or bound to a blackboard entry. */
+typedef struct lockstep_port {
+  uint32_t struct_size; /* sizeof(lockstep_port) as the plugin knew it */
+  lockstep_type type;
+  lockstep_direction direction;
+  const char* name;          /* the XML attribute: a letter, then letters, digits, '_'; each port of
+                                a leaf has its own; 'name' and 'ID' are taken */
+  const char* default_value; /* a constant, as written in XML; NULL: an input or inout must be given
+                                in the tree, an output (which has no default) may be left out */
+  const char* unit;          /* "s", "m/s"; NULL or "" for none */
+  const char* doc;           /* one sentence; NULL for none */
+} lockstep_port;
+
+/* Who is calling: one leaf of one run, or one run (in create_run). Given by the host at create or
+ * create_run and valid until destroy or destroy_run returns. Opaque. */
+typedef struct lockstep_caller lockstep_caller;
+
+/* What the host offers. Valid until the end of the process. */
+typedef struct lockstep_host {
+  uint32_t abi_major;
+  uint32_t abi_minor;
+  uint32_t struct_size;
+  const char* name;    /* "lockstep" */
+  const char* version; /* of the host, "1.2.3" */
+
+  /* [run] Ports, by their index in the leaf type. get returns false and leaves *value unchanged
+   * when the port has no value now (an entry nobody wrote yet, an output without a binding), when
+   * the index or the type is wrong, or when the caller is a run. A string or list that get hands
+   * out belongs to the host and is valid until the next call that sets a port, or until the leaf
+   * function returns, whichever is first; a string ends in a NUL that *length does not count. set
+   * copies; it returns false and changes nothing when the port is an input, not bound to an entry,
+   * or of another type, when a number is not finite, or when there is no memory. No get or set
+   * locks; what allocates is a string or list that grows. */
+  bool (*get_bool)(const lockstep_caller* caller, uint32_t port, bool* value);
+  bool (*get_int)(const lockstep_caller* caller, uint32_t port, int64_t* value);
+  bool (*get_double)(const lockstep_caller* caller, uint32_t port, double* value);
+  bool (*get_string)(const lockstep_caller* caller, uint32_t port, const char** text,
+                     size_t* length);
+  bool (*get_double_list)(const lockstep_caller* caller, uint32_t port, const double** values,
+                          size_t* count);
+  bool (*set_bool)(const lockstep_caller* caller, uint32_t port, bool value);
+  bool (*set_int)(const lockstep_caller* caller, uint32_t port, int64_t value);
+  bool (*set_double)(const lockstep_caller* caller, uint32_t port, double value);
+  bool (*set_string)(const lockstep_caller* caller, uint32_t port, const char* text, size_t length);
+  bool (*set_double_list)(const lockstep_caller* caller, uint32_t port, const double* values,
+                          size_t count);
+
+  /* [run] Says that the caller has failed as a program, not as an action: the run ends in order
+   * with `message` as the reason. To be called inside a function of the leaf, which then returns
+   * as usual; its result does not count. The first message of a call is kept: its first 500 bytes are
+   * copied, the rest is counted. */
+  void (*set_error)(const lockstep_caller* caller, const char* message);
+
+  /* [run] Seconds since the run began, the same for the whole of a tick. */
+  double (*now)(const lockstep_caller* caller);
+  /* [run] Seconds between two ticks, as set for the run. */
+  double (*tick_period)(const lockstep_caller* caller);
+
+  /* [run] The caller's own stream of random numbers: 64 random bits, or uniform in [0, 1). The
+   * same seed, tree and run give the same numbers. */
+  uint64_t (*random_bits)(const lockstep_caller* caller);
+  double (*random)(const lockstep_caller* caller);
+
+  /* [any] A line for the person who runs the tree. Not a way to report a failure. */
+  void (*log)(const lockstep_caller* caller, lockstep_log_level level, const char* message);
+
+  /* [any] A table of functions beyond this one, or NULL when the host does not know the id. */
+  const void* (*get_extension)(const char* id);
+} lockstep_host;
+
+/* A type of leaf. Functions marked (optional) may be NULL.
+ *
+ * An activation: start, then tick once per tick of the tree until it returns success or failure;
+ * or halt, when the tree moves on first. Then, perhaps, start again, on the same object. pause is
+ * called when a synchronized node begins to withhold ticks from a running leaf, resume just before
+ * the next tick; halt may come while paused. When start sets an error, tick and halt do not follow;
+ * after an error in tick, pause, resume or progress, halt does.
+ * Every function must return quickly: all leaves of a run share its tick. */
+typedef struct lockstep_leaf_type {
+  uint32_t struct_size; /* sizeof(lockstep_leaf_type) as the plugin knew it */
+  lockstep_leaf_kind kind;
+  const char* id;  /* the XML tag: a letter, then letters, digits, '_'; no tag of the language */
+  const char* doc; /* one or two sentences; NULL for none */
+  uint32_t port_count;               /* at most 4096 */
+  const lockstep_port* const* ports; /* port_count pointers, none NULL */
+
+  /* [run] A new leaf for one node of one run, or NULL after set_error. run_context is what
+   * create_run returned, or NULL. What is returned in spite of an error is destroyed. */
+  void* (*create)(const lockstep_host* host, const lockstep_caller* caller, void* run_context);
+  /* [run] The end of the leaf; it is not running. */
+  void (*destroy)(void* leaf);
+  /* [run] (optional) The first tick of an activation is about to come. */
+  void (*start)(void* leaf);
+  /* [run] */
+  lockstep_status (*tick)(void* leaf);
+  /* [run] (optional) Stop now: the activation ends here. */
+  void (*halt)(void* leaf);
+  /* [run] (optional) Hold still, keep the position; ticks stop coming for a while. */
+  void (*pause)(void* leaf);
+  /* [run] (optional) Ticks come again. */
+  void (*resume)(void* leaf);
+  /* [run] (optional) How much of the activation is done, in [0, 1]. Asked only while running,
+   * also while paused. Outside [0, 1] is clamped; NaN is a fault. It may fall. */
+  double (*progress)(void* leaf);
+  /* [run] (optional) */
+  const void* (*get_extension)(void* leaf, const char* id);
+} lockstep_leaf_type;
+
+typedef struct lockstep_plugin {
+  uint32_t abi_major;       /* LOCKSTEP_ABI_MAJOR */
+  uint32_t abi_minor;       /* LOCKSTEP_ABI_MINOR */
+  uint32_t struct_size;     /* sizeof(lockstep_plugin) as the plugin knew it */
+  const char* name;         /* as in <plugin name="..."/>: letters, digits, '_', '-' */
+  const char* version;      /* of the plugin; NULL for none */
+  const char* doc;          /* one sentence; NULL for none */
+  uint32_t leaf_type_count; /* at most 4096 */
+  const lockstep_leaf_type* const* leaf_types; /* leaf_type_count pointers, none NULL */
+
+  /* [load] (optional) Before the first leaf; false refuses to work, with the reason that set_error
+   * was told. The caller is the plugin itself: it has no ports, no time and no random numbers, its
+   * log is not shown, and it is valid until init returns. Not called again unless deinit came in
+   * between. Listing the descriptors (`lockstep nodes`, `lockstep check`) does not call it. */
+  bool (*init)(const lockstep_host* host, const lockstep_caller* caller);
+  /* [load] (optional) After the last leaf, if init returned true (or is NULL). */
+  void (*deinit)(void);
+
+  /* [run] (optional, both or none) What the leaves of one run share, such as a simulated world.
+   * NULL from create_run is a legal context unless set_error was called; destroy_run gets it too,
+   * after the run's last leaf was destroyed. */
+  void* (*create_run)(const lockstep_host* host, const lockstep_caller* caller);
+  void (*destroy_run)(void* run_context);
+
+  /* [any] (optional) */
+  const void* (*get_extension)(const char* id);
+} lockstep_plugin;
+
+/* The plugin defines it, once: const lockstep_plugin lockstep_plugin_entry = {...}; */
+#define LOCKSTEP_PLUGIN_ENTRY "lockstep_plugin_entry"
+extern LOCKSTEP_EXPORT const lockstep_plugin lockstep_plugin_entry;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,43 @@
+// Nodes of plugins in tree texts: a test program that links the source of a plugin makes its nodes
+// known, and ScriptedRun creates them beside its scripted leaves.
+#pragma once
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "plugin/host.h"
+
+namespace lockstep::test {
+
+// A static object of a test file. The plugin must not have a run context.
+struct KnownPlugin {
+  explicit KnownPlugin(const lockstep_plugin& plugin);
+};
+
+// Null for an id that no plugin has.
+const NodeType* plugin_node_type(std::string_view id);
+
+// The nodes of plugins in one run.
+class PluginNodes {
+ public:
+  PluginNodes(const Tree& tree, Blackboard& board, std::vector<LeafSlot>& slots);
+  ~PluginNodes();
+  PluginNodes(const PluginNodes&) = delete;
+  PluginNodes& operator=(const PluginNodes&) = delete;
+
+  // Every node is created again.
+  void restart();
+  LeafTime time;
+
+ private:
+  void create_all();
+  void destroy_all();
+
+  const Tree& tree_;
+  std::vector<LeafSlot>& slots_;
+  LeafLog log_;
+  std::vector<std::unique_ptr<lockstep_caller>> callers_;  // null for a scripted leaf
+};
+
+}  // namespace lockstep::test
