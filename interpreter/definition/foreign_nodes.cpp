@@ -24,7 +24,6 @@ constexpr ForeignAttribute kParallel[] = {{"success_threshold", "success_count",
 constexpr ForeignAttribute kParallelAll[] = {{"max_failures", "failure_count", FromOne}};
 constexpr ForeignAttribute kSubTree[] = {
     {"ID", "ID"}, {"__autoremap", "_autoremap"}, {"__shared_blackboard", "_autoremap"}};
-constexpr ForeignAttribute kRecovery[] = {{"number_of_retries", "attempts", OneMore}};
 constexpr ForeignAttribute kScripts[] = {{"_skipIf", ""},    {"_successIf", ""}, {"_failureIf", ""},
                                          {"_while", ""},     {"_onHalted", ""},  {"_onFailure", ""},
                                          {"_onSuccess", ""}, {"_post", ""}};
@@ -42,8 +41,7 @@ constexpr std::string_view kTry =
     "write <Fallback memory=\"true\"> of a Sequence of the others and <ForceFailure> of the last";
 constexpr std::string_view kAttempts =
     "one attempt in each tick; for ever: a <Repeat> between two <Inverter>";
-constexpr std::string_view kRecover =
-    "in it <Fallback memory=\"true\"> of the first child and <ForceFailure> of the second";
+constexpr std::string_view kNav = "the plugin nav has it: add <plugin name=\"nav\"/>";
 constexpr std::string_view kAsk = "put a condition before it, in a Sequence";
 constexpr std::string_view kAskNot = "put a condition before it, in a Fallback";
 constexpr std::string_view kOften = "let the leaf return its last result until it is time";
@@ -101,13 +99,13 @@ constexpr ForeignNode kNodes[] = {
     {"WasEntryUpdated", "", {}, kWriter},
     {"TreeNodesModel", "", {}, kModel},
     {"TreeNodeModel", "", {}, kModel},
-    {"RecoveryNode", "Retry", kRecovery, kRecover},
-    {"PipelineSequence", "Sequence", {}, "the children behind a child that runs again are halted"},
+    {"RecoveryNode", "", {}, kNav},
+    {"PipelineSequence", "", {}, kNav},
+    {"RoundRobin", "", {}, kNav},
+    {"RateController", "", {}, kNav},
     {"NonblockingSequence", "Parallel", {}, "actions that succeeded are not ticked again"},
     {"PersistentSequence", "Sequence memory=\"true\"", {}, "its place is not on the blackboard"},
-    {"RoundRobin", "Fallback memory=\"true\"", {}, "it always begins with the first child"},
     {"SingleTrigger", "RunOnce", {}, "after that it returns the first result"},
-    {"RateController", "", {}, kOften},
     {"SpeedController", "", {}, kOften},
     {"DistanceController", "", {}, kOften},
     {"GoalUpdatedController", "", {}, kAskNot},
@@ -135,7 +133,7 @@ std::string translated(ForeignValue kind, std::string_view text) {
   const bool is_count = kind == OrEndless || kind == FromOne;
   if (!number || (is_count && *number < 1)) return "…";
   if (kind == Milliseconds) return to_text(Value(*number / 1000));
-  return to_text(Value(kind == OneMore ? *number + 1 : *number));
+  return to_text(Value(*number));
 }
 
 // ` attempts="5"`, or "" where it is left out.

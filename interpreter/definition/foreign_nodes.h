@@ -16,7 +16,6 @@ enum class ForeignValue : unsigned char {
   FromOne,       // less than 1 has a meaning there, and none here
   Milliseconds,  // is in seconds here
   OrEndless,     // -1 is for ever, for which the attribute is left out here
-  OneMore,       // counts repetitions, where we count attempts
 };
 
 struct ForeignAttribute {

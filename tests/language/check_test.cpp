@@ -86,8 +86,7 @@ TEST_CASE("nodes of other libraries: what to write instead") {
       {R"(<SubTreePlus ID="T" __autoremap="true"/>)",
        "write <SubTree ID=\"T\" _autoremap=\"true\">"},
       {R"(<RecoveryNode number_of_retries="6"><AlwaysSuccess/><AlwaysSuccess/></RecoveryNode>)",
-       "write <Retry attempts=\"7\">; in it <Fallback memory=\"true\"> of the first child and "
-       "<ForceFailure> of the second"},
+       "the plugin nav has it: add <plugin name=\"nav\"/>"},
       {R"(<Repeat num_cycles="3"><AlwaysSuccess/></Repeat>)",
        "write times=\"3\"; one iteration in each tick"},
       {R"(<Repeat num_cycles="-1"><AlwaysSuccess/></Repeat>)",

@@ -146,8 +146,7 @@ std::string foreign_table() {
   };
   const auto note = [](ForeignValue value) -> std::string_view {
     if (value == ForeignValue::Milliseconds) return " (not milliseconds)";
-    if (value == ForeignValue::OrEndless) return " (left out = for ever)";
-    return value == ForeignValue::OneMore ? " (one more)" : "";
+    return value == ForeignValue::OrEndless ? " (left out = for ever)" : "";
   };
   std::string table = "| There | Here | |\n|---|---|---|\n";
   const auto nodes = foreign_nodes();

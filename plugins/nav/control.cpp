@@ -1,0 +1,86 @@
+#include "control.hpp"
+
+#include <stdexcept>
+
+namespace nav {
+
+using Status = lockstep::Status;
+
+void RecoveryNode::start() {
+  retries_ = 0;
+  recovering_ = false;
+}
+
+Status RecoveryNode::tick() {
+  if (recovering_) return recover();
+  const Status status = tick_child(kAction);
+  if (status != Status::Failure) return status;
+  if (retries_ >= number_of_retries.get()) return Status::Failure;
+  return recover();
+}
+
+Status RecoveryNode::recover() {
+  const Status status = tick_child(kRecovery);
+  recovering_ = status == Status::Running;
+  if (status == Status::Failure) return status;
+  if (status == Status::Success) ++retries_;
+  return Status::Running;  // the action is tried again in the next tick
+}
+
+// A child that runs again, behind which others have been reached already, does not stop those.
+Status PipelineSequence::tick() {
+  for (std::uint32_t child = 0; child < child_count(); ++child) {
+    const Status status = tick_child(child);
+    if (status == Status::Failure) return status;
+    if (status == Status::Running && child >= furthest_) {
+      furthest_ = child;
+      return status;
+    }
+  }
+  return Status::Success;
+}
+
+// Of the furthest child, as that of a Sequence with memory.
+double PipelineSequence::progress() const {
+  return (furthest_ + child_progress(furthest_)) / child_count();
+}
+
+Status RoundRobin::tick() {
+  while (!is_exhausted()) {
+    const Status status = tick_child(current_);
+    if (status == Status::Running) return status;
+    ++current_;
+    if (wrap_around.get()) current_ %= child_count();
+    if (status == Status::Success) return status;
+    ++failed_;
+  }
+  current_ = 0;
+  return Status::Failure;
+}
+
+bool RoundRobin::is_exhausted() const {
+  return current_ >= child_count() || failed_ >= child_count();
+}
+
+// The period goes on when the child has completed, also into the next activation, so that a
+// PipelineSequence above starts its child again at this rate. It ends with a halt, or with a gap in
+// the ticks.
+Status RateController::tick() {
+  if (hz.get() <= 0) throw std::invalid_argument("hz must be more than 0");
+  if (now() - ticked_ > 1.5 * tick_period()) is_first_ = true;
+  ticked_ = now();
+  if (is_first_) began_ = now();
+  if (!is_due()) return Status::Running;
+  is_first_ = false;
+  const Status status = tick_child();
+  if (status == Status::Success) began_ = now();
+  return status;
+}
+
+bool RateController::is_due() const {
+  constexpr double kRounding = 1e-9;  // of a sum of ticks
+  return is_first_ || child_status() == Status::Running ||
+         now() - began_ >= 1 / hz.get() - kRounding;
+}
+
+}  // namespace nav
