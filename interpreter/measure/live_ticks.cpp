@@ -37,7 +37,9 @@ LiveTicks::LiveTicks(const Tree& tree, const Measuring& measuring)
       numbers_(slots_.size()),
       parallel_ticks_(measuring.parallels().size()),
       node_ticks_(measuring.nodes().size()) {
-  for (const NodeIndex node : measuring.parallels()) parallels_.emplace_back(tree, node);
+  for (const NodeIndex node : measuring.parallels()) {
+    parallels_.emplace_back(tree, node, measuring.needs_held());
+  }
   for (const NodeIndex node : measuring.nodes()) {
     Node measured{.index = node, .parent = {}, .child = 0};
     const NodeIndex parent = tree.labels[node].parent;

@@ -67,6 +67,7 @@ void Measuring::add_child(const MeasureSpec& spec, const MeasuredTree& tree) {
         "'" + tree.paths[*node] + "' is not a child of a synchronized node, so it is never held";
     return;
   }
+  needs_held_ = true;
   MeasureTarget target = target_of(parent);
   target.child = number_[*node];
   add(spec, tree.paths[*node], target);

@@ -46,6 +46,8 @@ class Measuring {
   std::span<const NodeIndex> parallels() const { return parallels_; }
   std::span<const NodeIndex> nodes() const { return nodes_; }
   std::span<const std::size_t> entries() const { return entries_; }
+  // Whether it must also contain which children are held.
+  bool needs_held() const { return needs_held_; }
 
   void reset();  // for the next run
   void after_tick(const TickView& view);
@@ -67,6 +69,7 @@ class Measuring {
   std::vector<std::size_t> entries_;
   std::map<NodeIndex, std::size_t> places_;     // of the parallels
   std::vector<std::size_t> children_, number_;  // of each node: how many, and which of its parent
+  bool needs_held_ = false;
   std::string error_;
 };
 

@@ -6,10 +6,29 @@
 
 namespace lockstep {
 
+namespace {
+
+// A general sort takes most of the time for the few children that a parallel has.
+void copy_sorted(std::span<const double> values, std::span<double> sorted) {
+  constexpr std::size_t kFew = 16;
+  if (values.size() > kFew) {
+    std::ranges::copy(values, sorted.begin());
+    std::ranges::sort(sorted);
+    return;
+  }
+  for (std::size_t count = 0; count < values.size(); ++count) {
+    std::size_t place = count;
+    for (; place > 0 && sorted[place - 1] > values[count]; --place)
+      sorted[place] = sorted[place - 1];
+    sorted[place] = values[count];
+  }
+}
+
+}  // namespace
+
 double progress_distance(std::span<const double> progress, std::span<double> scratch) {
   const auto sorted = scratch.first(progress.size());
-  std::ranges::copy(progress, sorted.begin());
-  std::ranges::sort(sorted);
+  copy_sorted(progress, sorted);
   // The gap between two neighbors is part of the distance of each pair that lies around it.
   double sum = 0;
   for (std::size_t i = 1; i < sorted.size(); ++i) {

@@ -54,8 +54,11 @@ void SynchronizedMeasure::run_ended(Nanoseconds time) {
   for (HeldChild& child : held_) child.run_ended(time);
 }
 
-SynchronizedProbe::SynchronizedProbe(const Tree& tree, NodeIndex node)
-    : node_(node), children_(children_of(tree, node)), held_(children_.size()) {
+SynchronizedProbe::SynchronizedProbe(const Tree& tree, NodeIndex node, bool with_held)
+    : node_(node),
+      children_(children_of(tree, node)),
+      with_held_(with_held),
+      held_(children_.size()) {
   if (synchronization(tree.nodes[node]) == Synchronization::None) {
     progress_.resize(children_.size());
   }
@@ -74,12 +77,12 @@ SynchronizedTick SynchronizedProbe::read(Ticker& ticker, Nanoseconds time) {
   tick.time = time;
   tick.ticked = ticker.ticked(node_);
   tick.status = ticker.status(node_);
-  for (std::size_t child = 0; child < children_.size(); ++child) {
+  for (std::size_t child = 0; with_held_ && child < children_.size(); ++child) {
     const NodeIndex node = children_[child];
     held_.set(child, ticker.status(node), ticker.ticked(node), ticker.held(node));
   }
   if (!tick.ticked) return tick;
-  tick.held = {held_.data(), children_.size()};
+  if (with_held_) tick.held = {held_.data(), children_.size()};
   tick.progress = progress_;
   if (!progress_.empty()) return tick;
   if (succeeded(ticker, node_)) tick.status = Status::Success;

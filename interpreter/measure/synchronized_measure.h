@@ -70,7 +70,8 @@ class SynchronizedMeasure {
 // Reads the ticks of one parallel from a Ticker. No allocation after it is made.
 class SynchronizedProbe {
  public:
-  SynchronizedProbe(const Tree& tree, NodeIndex node);
+  // Without `with_held` its ticks do not say which children are held.
+  SynchronizedProbe(const Tree& tree, NodeIndex node, bool with_held = true);
   // A plain parallel does not store the progress of its children, so this reads it.
   void before_tick(Ticker& ticker);
   // Valid until the next call.
@@ -82,6 +83,7 @@ class SynchronizedProbe {
  private:
   NodeIndex node_;
   std::vector<NodeIndex> children_;
+  bool with_held_;
   HeldChildren held_;
   std::vector<double> progress_;  // only where the node does not synchronize
 };

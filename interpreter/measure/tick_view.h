@@ -19,7 +19,8 @@ struct SynchronizedTick {
   Status status = Status::Idle;  // Success also when an ancestor has ended the node since
   double limit = 0;              // that counted: engine/synchronized.h
   std::span<const double> progress = {};  // of each child, as the node used it in this tick
-  // Of each child: it was running and did not get this tick. It may have been halted since.
+  // Of each child: it was running and did not get this tick. It may have been halted since. Empty
+  // if no measure asks for it.
   std::span<const bool> held = {};
 };
 

@@ -9,8 +9,6 @@
 namespace lockstep {
 namespace {
 
-constinit thread_local CallMark t_mark;
-
 // A signal handler may read it.
 static_assert(std::atomic<const CallSite*>::is_always_lock_free &&
               std::atomic<std::uint32_t>::is_always_lock_free &&
@@ -38,10 +36,6 @@ const CallSite& CallSite::of(std::string leaf, std::string plugin) {
   static auto& sites = *new std::set<CallSite, Less>;
   const std::lock_guard lock(mutex);
   return *sites.insert({std::move(leaf), std::move(plugin)}).first;
-}
-
-CallMark& CallMark::this_thread() {
-  return t_mark;
 }
 
 // What was read between two equal looks at `call_` belongs to that call.

@@ -69,7 +69,7 @@ class CallMark {
     call_.store(serial_, std::memory_order_release);
   }
   // The end of a call that may be within another one: a control node's child. `around` is what
-  // `look` gave before.
+  // `current` gave before.
   void leave(const Look& around) {
     leave();
     if (around.function() != PluginFunction::None) [[unlikely]]
@@ -96,6 +96,10 @@ class CallMark {
   RunOfStudy run() const { return {cell_.load(), run_number_.load(), seed_.load()}; }
 
   Look look() const;
+  // The same for the thread itself.
+  Look current() const {
+    return {site_.load(std::memory_order_relaxed), call_.load(std::memory_order_relaxed)};
+  }
   std::uint64_t tick() const { return tick_.load(std::memory_order_relaxed); }
   static constexpr std::uint64_t kNoTick = ~std::uint64_t{0};  // before the first
 
@@ -106,6 +110,14 @@ class CallMark {
   std::atomic<std::uint64_t> tick_{kNoTick};
   std::atomic<std::uint64_t> cell_{0}, run_number_{kNoRun}, seed_{0};
 };
+
+namespace detail {
+inline constinit thread_local CallMark t_mark;  // here, so that a call of a leaf finds it at once
+}
+
+inline CallMark& CallMark::this_thread() {
+  return detail::t_mark;
+}
 
 // Marks a call for the time of its scope, also when an exception ends it.
 class MarkedCall {

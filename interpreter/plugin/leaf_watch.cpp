@@ -40,36 +40,52 @@ struct WatchedLeaf {
   std::optional<Histogram> ticks;  // when calls are timed
 };
 
-// The time of a call, also of one that an exception ends.
+// Marks a call and restores the mode after it, also when an exception ends the call.
 class WatchedCall {
  public:
   WatchedCall(WatchedLeaf& leaf, PluginFunction function)
-      : leaf_(leaf), mark_(CallMark::this_thread()), around_(mark_.look()), function_(function) {
+      : leaf_(leaf), mark_(CallMark::this_thread()), around_(mark_.current()), function_(function) {
     mark_.enter(*leaf.site, function);
-    if (!leaf.ticks) return;
-    outer_ = std::exchange(leaf.watch->inner, Nanoseconds(0));
-    start_ = leaf.watch->clock.now();
   }
 
   ~WatchedCall() {
     mark_.leave(around_);
-    Watch& watch = *leaf_.watch;
-    if (FloatMode::current() != watch.mode) [[unlikely]] {
-      restore_mode(watch);
-    }
-    if (leaf_.ticks) note_time(watch, watch.clock.now());
+    if (FloatMode::current() != leaf_.watch->mode) [[unlikely]]
+      restore_mode();
   }
 
   WatchedCall(const WatchedCall&) = delete;
   WatchedCall& operator=(const WatchedCall&) = delete;
 
  private:
-  void restore_mode(const Watch& watch) {
+  // Out of line, so that the rest of each call is inline.
+  [[gnu::cold, gnu::noinline]] void restore_mode() {
+    const Watch& watch = *leaf_.watch;
     watch.mode.restore();
     if (std::exchange(leaf_.mode_told, true) || !watch.options.on_float_mode) return;
     watch.options.on_float_mode(leaf_.node, function_);
   }
 
+  WatchedLeaf& leaf_;
+  CallMark& mark_;
+  const CallMark::Look around_;
+  const PluginFunction function_;
+};
+
+// The time of a call, also of one that an exception ends.
+class TimedCall {
+ public:
+  TimedCall(WatchedLeaf& leaf, PluginFunction function)
+      : leaf_(leaf),
+        function_(function),
+        outer_(std::exchange(leaf.watch->inner, Nanoseconds(0))),
+        start_(leaf.watch->clock.now()) {}
+  ~TimedCall() { note_time(*leaf_.watch, leaf_.watch->clock.now()); }
+
+  TimedCall(const TimedCall&) = delete;
+  TimedCall& operator=(const TimedCall&) = delete;
+
+ private:
   void note_time(Watch& watch, Nanoseconds end) {
     const Nanoseconds whole = end - start_;
     const Nanoseconds took = whole - watch.inner;
@@ -92,11 +108,9 @@ class WatchedCall {
   }
 
   WatchedLeaf& leaf_;
-  CallMark& mark_;
-  const CallMark::Look around_;
   const PluginFunction function_;
-  Nanoseconds start_{0};
-  Nanoseconds outer_{0};  // of the call around this one
+  const Nanoseconds outer_;  // of the call around this one
+  const Nanoseconds start_;
 };
 
 // A function of the leaf type that stands in the slot: calls the same one of the leaf.
@@ -107,6 +121,12 @@ auto forward(void* self) {
   return rethrowing([&] { return (leaf.type->*kMember)(leaf.self); });
 }
 
+template <auto kMember, PluginFunction kFunction>
+auto forward_timed(void* self) {
+  const TimedCall call(*static_cast<WatchedLeaf*>(self), kFunction);
+  return forward<kMember, kFunction>(self);
+}
+
 const void* forward_get_extension(void* self, const char* id) {
   const auto& leaf = *static_cast<const WatchedLeaf*>(self);
   return leaf.type->get_extension(leaf.self, id);
@@ -114,20 +134,21 @@ const void* forward_get_extension(void* self, const char* id) {
 
 // What the leaf does not have, the watched one has not either.
 template <auto kMember, PluginFunction kFunction>
-void put_in_front(lockstep_leaf_type& type) {
-  if (type.*kMember != nullptr) type.*kMember = forward<kMember, kFunction>;
+void put_in_front(lockstep_leaf_type& type, bool is_timed) {
+  if (type.*kMember == nullptr) return;
+  type.*kMember = is_timed ? forward_timed<kMember, kFunction> : forward<kMember, kFunction>;
 }
 
-lockstep_leaf_type watched(lockstep_leaf_type type) {
+lockstep_leaf_type watched(lockstep_leaf_type type, bool is_timed) {
   using Type = lockstep_leaf_type;
   type.create = nullptr;  // LeafSet's own matter, like destroy
   type.destroy = nullptr;
-  put_in_front<&Type::start, PluginFunction::Start>(type);
-  put_in_front<&Type::tick, PluginFunction::Tick>(type);
-  put_in_front<&Type::halt, PluginFunction::Halt>(type);
-  put_in_front<&Type::pause, PluginFunction::Pause>(type);
-  put_in_front<&Type::resume, PluginFunction::Resume>(type);
-  put_in_front<&Type::progress, PluginFunction::Progress>(type);
+  put_in_front<&Type::start, PluginFunction::Start>(type, is_timed);
+  put_in_front<&Type::tick, PluginFunction::Tick>(type, is_timed);
+  put_in_front<&Type::halt, PluginFunction::Halt>(type, is_timed);
+  put_in_front<&Type::pause, PluginFunction::Pause>(type, is_timed);
+  put_in_front<&Type::resume, PluginFunction::Resume>(type, is_timed);
+  put_in_front<&Type::progress, PluginFunction::Progress>(type, is_timed);
   if (type.get_extension != nullptr) type.get_extension = forward_get_extension;
   return type;
 }
@@ -150,7 +171,7 @@ void LeafWatch::Implementation::know_leaves(const Tree& tree, std::span<LeafSlot
   leaves.reserve(slots.size());
   for (std::size_t index = 0; index < slots.size(); ++index) {
     const lockstep_leaf_type* const type = slots[index].type;
-    types.try_emplace(type, watched(*type));
+    types.try_emplace(type, watched(*type, watch.options.budget.has_value()));
     std::optional<Histogram> ticks;
     if (watch.options.budget) ticks.emplace(Histogram::kCoarse);
     leaves.push_back({.watch = &watch,

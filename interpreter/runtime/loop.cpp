@@ -26,7 +26,9 @@ class Loop {
     for (Observer* observer : observers_) {
       observer->run_started(run_.ticker(), {run_.period(), is_real_});
     }
-    while (run_.fault() == nullptr && may_tick() && tick() && meet_next()) wait();
+    if (run_.fault() == nullptr) {  // of a leaf that could not be created
+      while (may_tick() && tick() && meet_next()) wait();
+    }
     end_.time = clock_.now() - start_;
     run_.halt();
     if (run_.fault() != nullptr) {
@@ -72,11 +74,13 @@ class Loop {
     end_.status = run_.tick(now);
     if (is_real_) note_worst(clock_.now() - start_ - now);
     // Of the loop's own: an observer that asks for progress may add to the ticker's.
-    const std::vector<Fault> faults = ticker.take_tolerated();
+    std::vector<Fault> faults;
+    if (!ticker.tolerated().empty()) [[unlikely]]
+      faults = ticker.take_tolerated();
     const TickReport report{end_.ticks, now, end_.status, skipped_before_, faults};
     for (Observer* observer : observers_) observer->after_tick(ticker, report);
     ++end_.ticks;
-    if (run_.fault() != nullptr) return false;
+    if (ticker.faulted()) return false;
     if (is_complete(end_.status)) return stop(StopReason::Completed);
     return true;
   }
@@ -112,8 +116,9 @@ class Loop {
   // Any signal ends a sleep, only a stop signal ends the wait.
   void wait() {
     const Nanoseconds deadline = start_ + deadlines_.at(deadline_);
+    if (!is_real_) return clock_.sleep_until(deadline);
     for (auto now = clock_.now(); now < deadline && !stop_requested(); now = clock_.now()) {
-      clock_.sleep_until(is_real_ ? std::min(deadline, now + kLongestSleep) : deadline);
+      clock_.sleep_until(std::min(deadline, now + kLongestSleep));
     }
   }
 

@@ -67,9 +67,11 @@ void RowReader::expect_row() {
   if (!row) return;
   if (row->cell != cell_) {
     cell_text_ = row_cell(plan_, cell_ = row->cell);
+    seed_ = cell_seed(plan_, cell_);
     rules_.enter(cell_);
   }
-  append_row_beginning(plan_, *row, cell_text_, beginning_);
+  append_row_beginning(cell_text_, row->run, run_seed(seed_, seeding_cell(plan_, cell_), row->run),
+                       beginning_);
 }
 
 bool RowReader::is_expected() {

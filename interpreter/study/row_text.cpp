@@ -49,9 +49,9 @@ std::string row_cell(const StudyPlan& plan, std::uint64_t cell) {
   return text;
 }
 
-void append_row_beginning(const StudyPlan& plan, StudyRow row, const std::string& cell,
+void append_row_beginning(const std::string& cell, std::uint64_t run, std::uint64_t seed,
                           fmt::memory_buffer& out) {
-  fmt::format_to(std::back_inserter(out), "{}{},{},", cell, row.run, run_seed(plan, row));
+  fmt::format_to(std::back_inserter(out), "{}{},{},", cell, run, seed);
 }
 
 void append_row_end(const RowResult& row, fmt::memory_buffer& out) {

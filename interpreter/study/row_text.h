@@ -25,7 +25,7 @@ std::string row_header(const StudyPlan& plan);
 // The beginning of a line, known before the run: "cell,<grid>,run,seed,". `cell` is the part of the
 // cell: "cell,<grid>,".
 std::string row_cell(const StudyPlan& plan, std::uint64_t cell);
-void append_row_beginning(const StudyPlan& plan, StudyRow row, const std::string& cell,
+void append_row_beginning(const std::string& cell, std::uint64_t run, std::uint64_t seed,
                           fmt::memory_buffer& out);
 // "ticks,result,<columns>" and the end of the line.
 void append_row_end(const RowResult& row, fmt::memory_buffer& out);

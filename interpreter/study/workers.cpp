@@ -142,7 +142,7 @@ void Workshop::make(std::uint64_t number, Chunk& chunk, std::optional<StudyRun>&
     made.values.assign(work_.plan.columns.size(), std::numeric_limits<double>::quiet_NaN());
     for (std::size_t i = 0; i < at.columns.size(); ++i)
       made.values[at.columns[i]] = run->values()[i];
-    append_row_beginning(work_.plan, row, cell_text, chunk.lines);
+    append_row_beginning(cell_text, row.run, seed, chunk.lines);
     append_row_end(made, chunk.lines);
   }
 }

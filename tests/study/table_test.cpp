@@ -34,7 +34,7 @@ std::string runs_csv(const StudyPlan& plan, const std::vector<double>& values) {
   fmt::memory_buffer lines;
   for (std::uint64_t row = 0; row < values.size(); ++row) {
     const StudyRow at = row_at(plan, row);
-    append_row_beginning(plan, at, row_cell(plan, at.cell), lines);
+    append_row_beginning(row_cell(plan, at.cell), at.run, run_seed(plan, at), lines);
     append_row_end({.ticks = 7, .values = {values[row]}}, lines);
   }
   return row_header(plan) + std::string(lines.data(), lines.size());
@@ -81,7 +81,7 @@ TEST_CASE("studies: what no run reached has no numbers, and every run is counted
   const double none = std::nan("");
   const auto add = [&](std::uint64_t row, StudyResult result, std::vector<double> values) {
     const StudyRow at = row_at(plan, row);
-    append_row_beginning(plan, at, row_cell(plan, at.cell), lines);
+    append_row_beginning(row_cell(plan, at.cell), at.run, run_seed(plan, at), lines);
     const std::uint64_t ticks = result == StudyResult::Limit ? 100 : 7;
     append_row_end({.ticks = ticks, .result = result, .values = std::move(values)}, lines);
   };

@@ -1,9 +1,11 @@
 #include "measure/progress_distance.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <string>
 
+#include "core/random.h"
 #include "measure/spread.h"
 #include "measure/step_length.h"
 
@@ -23,6 +25,24 @@ TEST_CASE("progress distance counts each unordered pair once") {
   CHECK(distance({0.1, 0.2, 0.5}) == Approx(0.1 + 0.4 + 0.3));
   CHECK(distance({1, 0, 1, 0}) == Approx(4));
   CHECK(distance({0.4, 0.4, 0.4}) == 0);
+}
+
+TEST_CASE("progress distance is the same for few children and for many, in any order") {
+  RandomStream random(7, 0);
+  for (std::size_t children = 2; children <= 40; ++children) {
+    INFO(children << " children");
+    std::vector<double> progress(children);
+    for (double& it : progress) it = std::round(random.next_double() * 20) / 20;  // some are equal
+    double pairs = 0;
+    for (const double one : progress) {
+      for (const double other : progress) pairs += std::abs(one - other) / 2;
+    }
+    CHECK(distance(progress) == Approx(pairs));
+    std::vector<double> sorted = progress;
+    std::sort(sorted.begin(), sorted.end());
+    CHECK(distance(progress) == distance(sorted));
+    CHECK(distance({sorted.rbegin(), sorted.rend()}) == distance(sorted));
+  }
 }
 
 // The progress before each tick of the worked traces, derived by hand from who is ticked.
