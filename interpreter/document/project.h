@@ -43,7 +43,7 @@ std::unique_ptr<Project> load_project(const std::string& path, const Arguments& 
                                       Diagnostics& diagnostics,
                                       MainFile main = MainFile::IsRegular);
 
-// The same from text instead of a main file; includes are relative to `path`. For tests.
+// The same from text instead of a main file; includes are relative to `path`.
 std::unique_ptr<Project> load_project_text(const std::string& path, std::string text,
                                            const Arguments& arguments, Diagnostics& diagnostics);
 

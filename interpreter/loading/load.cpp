@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "core/freed_memory.h"
 #include "engine/compile.h"
 
 namespace lockstep {
@@ -18,13 +17,9 @@ std::optional<LoadFailure> failure_of(const Project* project, const Diagnostics&
   return diagnostics.has_errors() ? std::optional(LoadFailure::Options) : std::nullopt;
 }
 
-}  // namespace
-
-tl::expected<Loaded, LoadFailure> load(const std::string& path, const LoadOptions& options,
+tl::expected<Loaded, LoadFailure> load(std::unique_ptr<Project> project, const LoadOptions& options,
                                        Diagnostics& diagnostics,
                                        std::shared_ptr<PluginSet> plugins) {
-  keep_freed_memory();
-  auto project = load_project(path, options.arguments, diagnostics, options.main_file);
   const auto failed = failure_of(project.get(), diagnostics);
   Diagnostics refused;
   bool good = load_given_plugins(options.plugins, *plugins, refused);
@@ -41,12 +36,27 @@ tl::expected<Loaded, LoadFailure> load(const std::string& path, const LoadOption
   return Loaded{std::move(plugins), std::move(project), std::move(definition).value()};
 }
 
+}  // namespace
+
+tl::expected<Loaded, LoadFailure> load(const std::string& path, const LoadOptions& options,
+                                       Diagnostics& diagnostics,
+                                       std::shared_ptr<PluginSet> plugins) {
+  return load(load_project(path, options.arguments, diagnostics, options.main_file), options,
+              diagnostics, std::move(plugins));
+}
+
+tl::expected<Loaded, LoadFailure> load_text(const std::string& path, std::string text,
+                                            const LoadOptions& options, Diagnostics& diagnostics,
+                                            std::shared_ptr<PluginSet> plugins) {
+  return load(load_project_text(path, std::move(text), options.arguments, diagnostics), options,
+              diagnostics, std::move(plugins));
+}
+
 Runnable make_runnable(Loaded loaded) {
   Runnable runnable{std::move(loaded.plugins), std::move(loaded.project->arguments),
                     compile(loaded.definition)};
   loaded.definition = {};
   loaded.project.reset();
-  return_freed_memory();
   return runnable;
 }
 

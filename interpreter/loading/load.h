@@ -1,5 +1,6 @@
-// From a file name to a tree that can run: the steps of docs/architecture.md in order. For any
-// program that embeds lockstep: nothing here prints or knows exit codes.
+// From a file name to a tree that can run: the steps of docs/architecture.md in order. For the
+// commands and for programs that embed lockstep: nothing here prints, knows exit codes or changes
+// the process.
 #pragma once
 
 #include <memory>
@@ -41,6 +42,10 @@ enum class LoadFailure : unsigned char {
 // trees may share `plugins`, which keep what was loaded, even after a failure.
 [[nodiscard]] tl::expected<Loaded, LoadFailure> load(
     const std::string& path, const LoadOptions& options, Diagnostics& diagnostics,
+    std::shared_ptr<PluginSet> plugins = std::make_shared<PluginSet>());
+// The same from `text` instead of a main file; includes are relative to `path`.
+[[nodiscard]] tl::expected<Loaded, LoadFailure> load_text(
+    const std::string& path, std::string text, const LoadOptions& options, Diagnostics& diagnostics,
     std::shared_ptr<PluginSet> plugins = std::make_shared<PluginSet>());
 
 // All that a run needs; the documents and the definition are gone.

@@ -42,7 +42,8 @@ void warn_of_missing_directories(const PluginOptions& options, Diagnostics& diag
 
 }  // namespace
 
-fs::path program_directory() {
+fs::path program_directory(const PluginOptions& options) {
+  if (!options.program_directory.empty()) return options.program_directory;
   std::error_code error;
   return fs::read_symlink("/proc/self/exe", error).parent_path();
 }
@@ -59,7 +60,7 @@ std::vector<std::string> plugin_directories(const PluginOptions& options) {
       if (!directory.empty()) directories.push_back(directory);
     }
   }
-  if (const auto beside = program_directory(); !beside.empty()) {
+  if (const auto beside = program_directory(options); !beside.empty()) {
     directories.push_back((beside / "plugins").string());  // in a build directory
     directories.push_back((beside / LOCKSTEP_PLUGINS_FROM_BIN).lexically_normal().string());
   }

@@ -10,8 +10,8 @@
 
 namespace lockstep {
 
-// Of this program; "" when the system does not tell.
-std::filesystem::path program_directory();
+// Of the options, else of this program; "" when the system does not tell.
+std::filesystem::path program_directory(const PluginOptions& options);
 
 // --plugin-path, then LOCKSTEP_PLUGIN_PATH, then where plugins are installed beside this program.
 // Relative ones are left out when the program is privileged.

@@ -11,8 +11,8 @@ namespace lockstep {
 namespace {
 
 // Where lockstep-leafhost is: beside this program in a build directory, else where it is installed.
-std::string leafhost_path() {
-  const auto directory = program_directory();
+std::string leafhost_path(const PluginOptions& options) {
+  const auto directory = program_directory(options);
   const auto beside = directory / "lockstep-leafhost";
   std::error_code error;
   if (std::filesystem::exists(beside, error)) return beside.string();
@@ -27,7 +27,7 @@ bool is_plugin_file(const std::string& plugin) {
 
 bool load_given_plugins(const PluginOptions& options, PluginSet& plugins,
                         Diagnostics& diagnostics) {
-  plugins.set_isolation({.leafhost = leafhost_path(),
+  plugins.set_isolation({.leafhost = leafhost_path(options),
                          .hang_limit = from_seconds(options.hang_limit),
                          .all = options.isolate});
   if (!check_plugin_options(options, diagnostics)) return false;

@@ -78,12 +78,11 @@ PluginSet::PluginSet() = default;
 
 PluginSet::~PluginSet() {
   for (auto plugin = plugins_.rbegin(); plugin != plugins_.rend(); ++plugin) {
-    (*plugin)->isolated.reset();
-    const auto deinit = (*plugin)->descriptors.plugin.deinit;
-    if (!(*plugin)->initialized || deinit == nullptr) continue;
-    const MarkedCall mark(CallSite::of("", (*plugin)->descriptors.plugin.name),
-                          PluginFunction::Deinit);
-    thrown_by(deinit);  // the work is done; there is no one to report to
+    if ((*plugin)->isolated) {
+      (*plugin)->isolated.reset();
+    } else if ((*plugin)->initialized) {
+      deinitialize_plugin((*plugin)->descriptors.plugin);
+    }
   }
 }
 

@@ -56,8 +56,8 @@ class PluginSet {
            SourceLocation where = {});
 
   // Calls the init of each plugin that is not initialized yet. On failure, returns false with one
-  // error that names the plugin. A plugin has one state per process: if two sets exist at the same
-  // time, only one may initialize it.
+  // error that names the plugin. A plugin has one state per process: what several sets share is
+  // initialized by the first and deinitialized by the last of them.
   bool initialize(Diagnostics& diagnostics);
 
   // The leaves of all plugins; `origin` and `leaf` are in full size whatever the plugin's age.

@@ -56,9 +56,7 @@ class Loop {
     return true;
   }
 
-  bool stop_requested() const {
-    return options_.stop_signal != nullptr && options_.stop_signal() != 0;
-  }
+  bool stop_requested() const { return options_.stop_signal && options_.stop_signal() != 0; }
 
   bool stop(StopReason reason) {
     end_.reason = reason;

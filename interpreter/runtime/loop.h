@@ -29,7 +29,7 @@ struct LoopOptions {
   double rate = 100;                       // Hz, in [0.001, 100000]
   std::optional<std::uint64_t> max_ticks;  // stop after this many
   std::optional<Nanoseconds> timeout;      // stop before the first tick at or after this time
-  int (*stop_signal)() = nullptr;          // called before each tick: nonzero = stop
+  std::function<int()> stop_signal = {};   // called before each tick: nonzero = stop
   OverrunPolicy overrun = OverrunPolicy::Skip;
   std::function<bool()> recording_failed = {};  // called before each tick: true = stop
 };

@@ -43,6 +43,8 @@ class Run {
   // Null while every leaf has kept its contract.
   const Fault* fault() const;
   Ticker& ticker() { return ticker_; }
+  // For the owner, between ticks.
+  Blackboard& blackboard() { return blackboard_; }
   Nanoseconds period() const { return time_.period; }
   LeafWatch* watch() const { return watch_; }  // null: not watched
 

@@ -7,6 +7,7 @@
 #include "cli/checks.h"
 #include "cli/exit_code.h"
 #include "core/clock.h"
+#include "core/freed_memory.h"
 #include "runtime/plugin_thread.h"
 
 namespace lockstep {
@@ -68,6 +69,7 @@ tl::expected<Loaded, LoadFailure> load_given(const std::string& path,
                                              const LoadCommandOptions& options,
                                              Diagnostics& diagnostics,
                                              std::shared_ptr<PluginSet> plugins) {
+  keep_freed_memory();
   watch_this_thread(from_seconds(options.plugins.hang_limit));
   return load(path,
               {.plugins = options.plugins,

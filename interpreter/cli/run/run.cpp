@@ -10,6 +10,7 @@
 #include "cli/run/run_options.h"
 #include "cli/run/run_watch.h"
 #include "cli/run/view.h"
+#include "core/freed_memory.h"
 #include "core/suggest.h"
 #include "core/wording.h"
 #include "recording/write/recorder.h"
@@ -251,6 +252,7 @@ int run(const RunCommandOptions& options) {
       would_overwrite("--record", options.record, inputs_of_run(options, *loaded)))
     return kExitUsage;
   Runnable runnable = make_runnable(std::move(*loaded));
+  return_freed_memory();
   if (!knows_recorded_keys(options, runnable.tree)) return kExitUsage;
   if (!options.is_wall()) {
     Diagnostics warnings;

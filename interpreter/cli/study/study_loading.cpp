@@ -10,6 +10,7 @@
 #include "cli/checks.h"
 #include "cli/exit_code.h"
 #include "cli/load/real_time_leaves.h"
+#include "core/freed_memory.h"
 #include "core/suggest.h"
 #include "study/column_names.h"
 #include "study/grid_text.h"
@@ -211,6 +212,7 @@ int StudyLoader::load_cell(std::uint64_t number) {
   add_files(*loaded->project);
   study_.cells.push_back(
       {make_runnable(std::move(*loaded)).tree, cell_rate(plan, number), cell_seed(plan, number)});
+  return_freed_memory();
   if (!warned_of_real_time_) {
     warned_of_real_time_ = warn_of_real_time_leaves(
         study_.cells.back().tree, options_.tree,
