@@ -1,5 +1,5 @@
 # Builds the plugin templates as a stranger would: copied elsewhere, against the installed SDK only.
-#   cmake -DBUILD=… -DWORK=… -DNM=… -DCXX_COMPILER=… -DC_COMPILER=… -P run.cmake
+#   cmake -DBUILD=… -DSANITIZED=… -DWORK=… -DNM=… -DCXX_COMPILER=… -DC_COMPILER=… -P run.cmake
 # When the build has the program, each template's tree must also run to Success.
 cmake_minimum_required(VERSION 3.20)
 
@@ -61,3 +61,35 @@ endfunction()
 check_components("COMPONENTS sdk" "")
 check_components("OPTIONAL_COMPONENTS nonsense" "")
 check_components("COMPONENTS nonsense" "no component 'nonsense'")
+check_components("COMPONENTS runtime" "only the SDK of lockstep is installed here")
+
+# Programs that tick trees, against all of lockstep. It is found where it is moved to.
+if(EXISTS ${BUILD}/liblockstep-runtime.so AND NOT SANITIZED)
+  run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/installed)
+  file(RENAME ${WORK}/installed ${WORK}/moved)
+  file(COPY ${WORK}/moved/share/lockstep/examples DESTINATION ${WORK})
+  run(${CMAKE_COMMAND} -S ${WORK}/examples -B ${WORK}/examples/build
+      -DCMAKE_PREFIX_PATH=${WORK}/moved -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF
+      -DCMAKE_C_COMPILER=${C_COMPILER} -DCMAKE_CXX_COMPILER=${CXX_COMPILER}
+      -DCMAKE_C_FLAGS=-Wall\ -Wextra\ -Werror\ -std=c99 -DCMAKE_CXX_FLAGS=-Wall\ -Wextra\ -Werror)
+  run(${CMAKE_COMMAND} --build ${WORK}/examples/build)
+  set(trees ${WORK}/moved/share/lockstep/trees)
+  run(${WORK}/examples/build/own_loop)
+  if(NOT output MATCHES "success: left at 0.7")
+    message(FATAL_ERROR "own_loop printed:\n${output}")
+  endif()
+  run(${WORK}/examples/build/many_runs ${trees}/door_pulling.xml)
+  if(NOT output MATCHES "1000 of 1000 runs succeeded")
+    message(FATAL_ERROR "many_runs printed:\n${output}")
+  endif()
+  run(${WORK}/examples/build/in_c ${trees}/door_pulling.xml)
+  if(NOT output MATCHES "100 %\nsuccess")
+    message(FATAL_ERROR "in_c printed:\n${output}")
+  endif()
+  file(GLOB library ${WORK}/moved/lib*/liblockstep-runtime.so ${WORK}/moved/lib/*/liblockstep-runtime.so)
+  run(${NM} -D --defined-only ${library})
+  string(REGEX REPLACE "[0-9a-f]+ [A-Za-z] lockstep_[a-z_]+\n" "" others "${output}")
+  if(NOT others STREQUAL "")
+    message(FATAL_ERROR "liblockstep-runtime.so exports more than its functions:\n${others}")
+  endif()
+endif()

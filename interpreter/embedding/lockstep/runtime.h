@@ -1,0 +1,229 @@
+/* lockstep/runtime.h: lockstep inside a program. Loads a tree, and ticks runs of it at the times
+ * that the program gives, or in lockstep's fixed-rate loop. C++ programs want lockstep/runtime.hpp,
+ * which wraps it; docs/embedding.md is the manual.
+ *
+ * Compatibility. This interface only grows: a program that was built with an older header of the
+ * same major goes on working. Every struct begins with its size, which the program sets; members
+ * beyond it are neither read nor written.
+ *
+ * Threads. A project belongs to one thread until it has been loaded. After that it does not change
+ * any more, and runs of it may be made and used in several threads. One run is used by one thread
+ * at a time.
+ *
+ * Errors. A function that fails returns false or NULL, and lockstep_last_error() has the reason.
+ * What is wrong with a tree is a list of diagnostics of its project. Nothing here prints, installs
+ * signal handlers, changes malloc or ends the process. No exception comes out of it.
+ *
+ * Strings that are passed in are copied. Strings that come out belong to lockstep; each function
+ * says how long they are valid. All text is UTF-8 and ends in a NUL.
+ */
+#ifndef LOCKSTEP_RUNTIME_H
+#define LOCKSTEP_RUNTIME_H
+
+#include <lockstep/leaf.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define LOCKSTEP_RUNTIME_MAJOR 1u
+#define LOCKSTEP_RUNTIME_MINOR 0u
+
+/* The library's own (major << 16 | minor), which may be newer than the header's. */
+LOCKSTEP_EXPORT uint32_t lockstep_runtime_version(void);
+/* Why the last call of this thread that failed did. Valid until the next call that fails. */
+LOCKSTEP_EXPORT const char* lockstep_last_error(void);
+
+/* ---- Projects: a tree file, its includes and plugins -------------------------------------------
+ */
+
+typedef struct lockstep_project lockstep_project;
+
+LOCKSTEP_EXPORT lockstep_project* lockstep_project_new(void);
+/* NULL is allowed. Its runs may live on. */
+LOCKSTEP_EXPORT void lockstep_project_free(lockstep_project* project);
+
+/* What it is loaded with. Each of these before loading. */
+
+/* A directory in which plugins are searched; LOCKSTEP_PLUGIN_PATH is searched after those. */
+LOCKSTEP_EXPORT bool lockstep_project_add_plugin_path(lockstep_project* project,
+                                                      const char* directory);
+/* A plugin that no tree asks for: a file, or a name to search for. */
+LOCKSTEP_EXPORT bool lockstep_project_add_plugin(lockstep_project* project, const char* plugin);
+/* Leaves that are in the program. The table, and all that it points to, stays valid and unchanged
+ * as long as the project and its runs. */
+LOCKSTEP_EXPORT bool lockstep_project_add_leaves(lockstep_project* project,
+                                                 const lockstep_plugin* plugin);
+/* The value of an <arg>. */
+LOCKSTEP_EXPORT bool lockstep_project_set_argument(lockstep_project* project, const char* name,
+                                                   const char* value);
+/* The start value of a blackboard entry, written as in XML. */
+LOCKSTEP_EXPORT bool lockstep_project_set_value(lockstep_project* project, const char* key,
+                                                const char* value);
+/* Which <BehaviorTree>; without it main_tree_to_execute, or the only one. */
+LOCKSTEP_EXPORT bool lockstep_project_set_main_tree(lockstep_project* project, const char* id);
+/* Runs every plugin in a separate process, not only those for which the tree asks it. Leaves that
+ * are in the program stay there. */
+LOCKSTEP_EXPORT bool lockstep_project_isolate_all(lockstep_project* project);
+
+/* Loads the tree, once. False when there are errors; the diagnostics have them, and warnings too
+ * when there are none. */
+LOCKSTEP_EXPORT bool lockstep_project_load_file(lockstep_project* project, const char* path);
+/* The same from a text. `name` stands for its file in diagnostics, and includes are relative to
+ * it. */
+LOCKSTEP_EXPORT bool lockstep_project_load_text(lockstep_project* project, const char* name,
+                                                const char* text, size_t length);
+
+enum { LOCKSTEP_ERROR = 0, LOCKSTEP_WARNING = 1, LOCKSTEP_NOTE = 2 };
+
+/* Strings are valid as long as the project. */
+typedef struct lockstep_diagnostic {
+  uint32_t struct_size; /* set by the program */
+  int32_t severity;
+  const char* file; /* "" when it is about no file */
+  uint32_t line;    /* from 1; 0 for the file as a whole */
+  uint32_t column;  /* from 1, in bytes */
+  const char* message;
+  const char* hint; /* what to do, or "" */
+} lockstep_diagnostic;
+
+LOCKSTEP_EXPORT uint32_t lockstep_project_diagnostic_count(const lockstep_project* project);
+LOCKSTEP_EXPORT bool lockstep_project_diagnostic(const lockstep_project* project, uint32_t index,
+                                                 lockstep_diagnostic* diagnostic);
+
+/* The nodes of the tree in pre-order, subtrees expanded; the root is node 0. Strings are valid as
+ * long as the project. */
+typedef struct lockstep_node {
+  uint32_t struct_size; /* set by the program */
+  uint32_t parent;      /* the root is its own */
+  uint32_t end;         /* one past its last descendant */
+  const char* path;     /* "Main/pull/arm" */
+  const char* name;     /* "arm"; without a name in the tree, its id */
+  const char* id;       /* the tag: "MoveArm" */
+} lockstep_node;
+
+/* 0 before it was loaded. */
+LOCKSTEP_EXPORT uint32_t lockstep_project_node_count(const lockstep_project* project);
+LOCKSTEP_EXPORT bool lockstep_project_node(const lockstep_project* project, uint32_t index,
+                                           lockstep_node* node);
+LOCKSTEP_EXPORT bool lockstep_project_find_node(const lockstep_project* project, const char* path,
+                                                uint32_t* index);
+
+/* ---- Runs --------------------------------------------------------------------------------------
+ */
+
+typedef struct lockstep_run lockstep_run;
+
+/* What a fault of a leaf (it throws, returns a wrong status, …) does. */
+enum {
+  LOCKSTEP_ON_FAULT_STOP = 0, /* the run ends */
+  LOCKSTEP_ON_FAULT_FAIL = 1  /* the leaf fails, and the run goes on */
+};
+
+typedef struct lockstep_run_options {
+  uint32_t struct_size; /* set by the program; all else may be 0 */
+  int32_t on_fault;
+  uint64_t seed;      /* of the leaves' random numbers */
+  double tick_period; /* what leaves see as such, in seconds; 0: 0.01 */
+  /* A line that a leaf logs; from any thread. */
+  void (*log)(void* user, const char* who, lockstep_log_level level, const char* message);
+  void* user;
+} lockstep_run_options;
+
+/* A new run, whose leaves are created. NULL when a leaf cannot be. `options` may be NULL. */
+LOCKSTEP_EXPORT lockstep_run* lockstep_run_new(lockstep_project* project,
+                                               const lockstep_run_options* options);
+/* Halts what runs, then destroys the leaves. NULL is allowed. */
+LOCKSTEP_EXPORT void lockstep_run_free(lockstep_run* run);
+/* Begins again, as a new run with this seed would; much faster than that. */
+LOCKSTEP_EXPORT bool lockstep_run_restart(lockstep_run* run, uint64_t seed);
+
+/* One tick of the tree. `seconds` is the time since the run began, which must not decrease; time
+ * stands still within a tick. Returns LOCKSTEP_RUNNING also after a fault, when nothing is ticked
+ * any more: ask lockstep_run_fault; and when the time is wrong, with lockstep_last_error. After
+ * Success or Failure the next tick begins the tree again.
+ */
+LOCKSTEP_EXPORT lockstep_status lockstep_run_tick(lockstep_run* run, double seconds);
+/* Halts every leaf that runs, in the order of the tree. */
+LOCKSTEP_EXPORT void lockstep_run_halt(lockstep_run* run);
+
+/* What ended the run ("Main/arm: threw an exception: …"), and the node; NULL when nothing did. `node` may be
+ * NULL. Valid until the next call for this run. */
+LOCKSTEP_EXPORT const char* lockstep_run_fault(lockstep_run* run, uint32_t* node);
+
+typedef struct lockstep_node_state {
+  uint32_t struct_size; /* set by the program */
+  lockstep_status status;
+  double progress; /* in [0, 1] */
+  bool held;       /* ticks are withheld by a synchronized node */
+  bool ticked;     /* in the last tick */
+} lockstep_node_state;
+
+/* Progress is asked from the leaves. */
+LOCKSTEP_EXPORT bool lockstep_run_node(lockstep_run* run, uint32_t node,
+                                       lockstep_node_state* state);
+
+/* Blackboard entries, between ticks, by key: "height", or "Deliver/height" in a SubTree. get fails
+ * while nothing has written the entry. Numbers and flags need an entry of their type; text is
+ * written as in XML and works for all. What get_text gives is valid until the next call for this
+ * run. */
+LOCKSTEP_EXPORT const char* lockstep_run_get_text(lockstep_run* run, const char* key);
+LOCKSTEP_EXPORT bool lockstep_run_get_bool(lockstep_run* run, const char* key, bool* value);
+LOCKSTEP_EXPORT bool lockstep_run_get_int(lockstep_run* run, const char* key, int64_t* value);
+LOCKSTEP_EXPORT bool lockstep_run_get_double(lockstep_run* run, const char* key, double* value);
+LOCKSTEP_EXPORT bool lockstep_run_set_text(lockstep_run* run, const char* key, const char* text);
+LOCKSTEP_EXPORT bool lockstep_run_set_bool(lockstep_run* run, const char* key, bool value);
+LOCKSTEP_EXPORT bool lockstep_run_set_int(lockstep_run* run, const char* key, int64_t value);
+LOCKSTEP_EXPORT bool lockstep_run_set_double(lockstep_run* run, const char* key, double value);
+
+/* Called after each tick, also of the loop, in the thread that ticks. It may read the run, and must
+ * not tick, halt or free it. Several may observe; NULL as `observe` removes those of this `user`.
+ */
+typedef void (*lockstep_observe)(void* user, lockstep_run* run, uint64_t tick, double seconds,
+                                 lockstep_status status);
+LOCKSTEP_EXPORT bool lockstep_run_observe(lockstep_run* run, lockstep_observe observe, void* user);
+
+/* ---- The fixed-rate loop -----------------------------------------------------------------------
+ */
+
+enum { LOCKSTEP_OVERRUN_SKIP = 0, LOCKSTEP_OVERRUN_CATCH_UP = 1, LOCKSTEP_OVERRUN_FAIL = 2 };
+/* Why a loop ended. */
+enum {
+  LOCKSTEP_COMPLETED = 0,
+  LOCKSTEP_FAULT = 1,
+  LOCKSTEP_TIMEOUT = 2,
+  LOCKSTEP_MAX_TICKS = 3,
+  LOCKSTEP_STOPPED = 4, /* by `stop` */
+  LOCKSTEP_OVERRUN = 5
+};
+
+typedef struct lockstep_loop_options {
+  uint32_t struct_size; /* set by the program; all else may be 0 */
+  int32_t overrun;      /* what happens to deadlines that a late tick misses */
+  uint64_t max_ticks;   /* 0: any number */
+  double timeout;       /* seconds; 0: none */
+  bool virtual_clock;   /* time jumps to the next tick: as fast as possible, the same every time */
+  bool (*stop)(void* user); /* asked before each tick; true: stop. May be NULL */
+  void* user;
+} lockstep_loop_options;
+
+typedef struct lockstep_loop_result {
+  uint32_t struct_size; /* set by the program */
+  int32_t reason;
+  lockstep_status status; /* of the root after the last tick */
+  uint64_t ticks;
+  uint64_t overruns; /* ticks that ended after the next deadline */
+  double seconds;
+} lockstep_loop_result;
+
+/* Ticks a new or restarted run once every tick_period until it completes or has to stop, and halts
+ * it. The thread sleeps in between. `options` and `result` may be NULL. False: an argument is
+ * wrong. On the virtual clock max_ticks 0 is a million. */
+LOCKSTEP_EXPORT bool lockstep_run_loop(lockstep_run* run, const lockstep_loop_options* options,
+                                       lockstep_loop_result* result);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,394 @@
+// lockstep/runtime.hpp: lockstep inside a C++ program, C++17. Header only, over the C interface of
+// lockstep/runtime.h, so a program goes on working with later versions of the library. Link
+// lockstep::runtime. docs/embedding.md is the manual. In a few lines:
+//
+//   lockstep::runtime::Project project;
+//   project.add_leaf<Reach>("Reach", "Moves the arm");     // a leaf as in a plugin
+//   project.load_file("tree.xml");                         // throws when there are errors
+//   lockstep::runtime::Run run(project);
+//   while (run.tick(seconds_since_start()) == lockstep::Status::Running) sleep_until_next_cycle();
+//
+// Errors are exceptions of type lockstep::runtime::Error. Threads: see runtime.h.
+#pragma once
+
+#include <lockstep/runtime.h>
+
+#include <exception>
+#include <functional>
+#include <lockstep/leaf.hpp>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lockstep::runtime {
+
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct Diagnostic {
+  enum class Severity { Error = LOCKSTEP_ERROR, Warning = LOCKSTEP_WARNING, Note = LOCKSTEP_NOTE };
+  Severity severity = Severity::Error;
+  std::string file;  // "" when it is about no file
+  std::uint32_t line = 0, column = 0;
+  std::string message, hint;
+};
+
+// Node `index` of a tree, in pre-order.
+struct NodeInfo {
+  std::uint32_t index = 0, parent = 0, end = 0;
+  std::string path, name, id;
+};
+
+struct NodeState {
+  std::optional<Status> status;  // nothing when it is idle
+  double progress = 0;
+  bool held = false, ticked = false;
+};
+
+namespace detail {
+
+inline void require(bool good) {
+  if (!good) throw Error(lockstep_last_error());
+}
+
+template <class Struct>
+Struct sized() {
+  Struct it{};
+  it.struct_size = sizeof it;
+  return it;
+}
+
+}  // namespace detail
+
+// A tree with its includes and plugins. Its runs share it and may outlive it.
+class Project {
+ public:
+  Project() : it_(lockstep_project_new()) { detail::require(it_ != nullptr); }
+
+  Project& add_plugin_path(const std::string& directory) {
+    return check(lockstep_project_add_plugin_path(it_.get(), directory.c_str()));
+  }
+  // A file, or a name to search for.
+  Project& add_plugin(const std::string& plugin) {
+    return check(lockstep_project_add_plugin(it_.get(), plugin.c_str()));
+  }
+  // A leaf, control node or decorator of the program, of a class as in a plugin; `id` is its tag.
+  // Both texts must live as long as the program.
+  template <class T>
+  Project& add_leaf(const char* id, const char* doc) {
+    leaves_->types.push_back(std::make_unique<lockstep_leaf_type>(leaf<T>(id, doc)));
+    return *this;
+  }
+  // What the leaves of the program share in a run; they reach it with context<Context>().
+  template <class Context>
+  Project& set_run_context() {
+    const lockstep::detail::RunContextPart part = run_context<Context>();
+    leaves_->plugin.create_run = part.create;
+    leaves_->plugin.destroy_run = part.destroy;
+    return *this;
+  }
+  Project& set_argument(const std::string& name, const std::string& value) {
+    return check(lockstep_project_set_argument(it_.get(), name.c_str(), value.c_str()));
+  }
+  Project& set_value(const std::string& key, const std::string& value) {
+    return check(lockstep_project_set_value(it_.get(), key.c_str(), value.c_str()));
+  }
+  Project& set_main_tree(const std::string& id) {
+    return check(lockstep_project_set_main_tree(it_.get(), id.c_str()));
+  }
+  Project& isolate_all() { return check(lockstep_project_isolate_all(it_.get())); }
+
+  // Both throw an Error with all error messages; diagnostics() has them as data. Once in the life
+  // of a project.
+  void load_file(const std::string& path) {
+    add_leaves();
+    finish(lockstep_project_load_file(it_.get(), path.c_str()));
+  }
+  void load_text(const std::string& text, const std::string& name = "text") {
+    add_leaves();
+    finish(lockstep_project_load_text(it_.get(), name.c_str(), text.data(), text.size()));
+  }
+
+  std::vector<Diagnostic> diagnostics() const {
+    std::vector<Diagnostic> list(lockstep_project_diagnostic_count(it_.get()));
+    for (std::uint32_t i = 0; i < list.size(); ++i) {
+      auto from = detail::sized<lockstep_diagnostic>();
+      detail::require(lockstep_project_diagnostic(it_.get(), i, &from));
+      list[i] = {static_cast<Diagnostic::Severity>(from.severity),
+                 from.file,
+                 from.line,
+                 from.column,
+                 from.message,
+                 from.hint};
+    }
+    return list;
+  }
+
+  std::vector<NodeInfo> nodes() const {
+    std::vector<NodeInfo> list(lockstep_project_node_count(it_.get()));
+    for (std::uint32_t i = 0; i < list.size(); ++i) {
+      auto from = detail::sized<lockstep_node>();
+      detail::require(lockstep_project_node(it_.get(), i, &from));
+      list[i] = {i, from.parent, from.end, from.path, from.name, from.id};
+    }
+    return list;
+  }
+  // The node with this path: "Main/pull/arm".
+  std::uint32_t find_node(const std::string& path) const {
+    std::uint32_t index = 0;
+    detail::require(lockstep_project_find_node(it_.get(), path.c_str(), &index));
+    return index;
+  }
+
+  lockstep_project* get() const { return it_.get(); }
+
+ private:
+  friend class Run;  // of this namespace, not that of leaf.hpp
+
+  struct Free {
+    void operator()(lockstep_project* project) const { lockstep_project_free(project); }
+  };
+  // The tables of the program's leaves.
+  struct Leaves {
+    lockstep_plugin plugin{};
+    std::vector<std::unique_ptr<lockstep_leaf_type>> types;
+    std::vector<const lockstep_leaf_type*> list;
+  };
+
+  Project& check(bool good) {
+    detail::require(good);
+    return *this;
+  }
+
+  void add_leaves() {
+    if (leaves_->types.empty()) return;
+    lockstep_plugin& plugin = leaves_->plugin;
+    plugin.abi_major = LOCKSTEP_ABI_MAJOR;
+    plugin.abi_minor = LOCKSTEP_ABI_MINOR;
+    plugin.struct_size = sizeof plugin;
+    plugin.name = "program";
+    leaves_->list.clear();
+    for (const auto& type : leaves_->types) leaves_->list.push_back(type.get());
+    plugin.leaf_type_count = static_cast<std::uint32_t>(leaves_->list.size());
+    plugin.leaf_types = leaves_->list.data();
+    check(lockstep_project_add_leaves(it_.get(), &plugin));
+  }
+
+  void finish(bool good) const {
+    if (good) return;
+    std::string text = lockstep_last_error();
+    if (text.find("diagnostics") == std::string::npos) throw Error(text);
+    for (const Diagnostic& it : diagnostics()) {
+      if (it.severity != Diagnostic::Severity::Error) continue;
+      text += "\n" + it.file + ":" + std::to_string(it.line) + ":" + std::to_string(it.column) +
+              ": " + it.message + (it.hint.empty() ? "" : " (" + it.hint + ")");
+    }
+    throw Error(text);
+  }
+
+  std::shared_ptr<Leaves> leaves_ = std::make_shared<Leaves>();
+  std::unique_ptr<lockstep_project, Free> it_;
+};
+
+struct RunSettings {
+  std::uint64_t seed = 0;      // of the leaves' random numbers
+  double tick_period = 0.01;   // what leaves see as such, and the period of the loop, in seconds
+  bool fail_on_fault = false;  // a fault of a leaf is its Failure, and the run goes on
+  // A line that a leaf logs; from any thread.
+  std::function<void(const std::string& who, LogLevel level, const std::string& message)> log = {};
+};
+
+enum class Overrun {
+  Skip = LOCKSTEP_OVERRUN_SKIP,
+  CatchUp = LOCKSTEP_OVERRUN_CATCH_UP,
+  Fail = LOCKSTEP_OVERRUN_FAIL
+};
+
+struct LoopSettings {
+  bool virtual_clock = false;   // time jumps to the next tick: as fast as possible
+  std::uint64_t max_ticks = 0;  // 0: any number; on the virtual clock a million
+  double timeout = 0;           // seconds; 0: none
+  Overrun overrun = Overrun::Skip;
+  std::function<bool()> stop = {};  // asked before each tick; true: stop
+};
+
+struct LoopResult {
+  enum class Reason {
+    Completed = LOCKSTEP_COMPLETED,
+    Fault = LOCKSTEP_FAULT,
+    Timeout = LOCKSTEP_TIMEOUT,
+    MaxTicks = LOCKSTEP_MAX_TICKS,
+    Stopped = LOCKSTEP_STOPPED,
+    Overrun = LOCKSTEP_OVERRUN
+  };
+  Reason reason = Reason::Completed;
+  Status status = Status::Running;  // of the root after the last tick
+  std::uint64_t ticks = 0, overruns = 0;
+  double seconds = 0;
+};
+
+// One run of a tree, with leaves of its own. Used by one thread at a time.
+class Run {
+ public:
+  explicit Run(const Project& project, RunSettings settings = {})
+      : leaves_(project.leaves_), hooks_(std::make_unique<Hooks>()) {
+    hooks_->log = std::move(settings.log);
+    auto options = detail::sized<lockstep_run_options>();
+    options.seed = settings.seed;
+    options.tick_period = settings.tick_period;
+    options.on_fault = settings.fail_on_fault ? LOCKSTEP_ON_FAULT_FAIL : LOCKSTEP_ON_FAULT_STOP;
+    if (hooks_->log) options.log = &Hooks::on_log;
+    options.user = hooks_.get();
+    it_.reset(lockstep_run_new(project.get(), &options));
+    detail::require(it_ != nullptr);
+    detail::require(lockstep_run_observe(it_.get(), &Hooks::on_tick, hooks_.get()));
+  }
+
+  // One tick, `seconds` after the run began. Throws an Error after a fault of a leaf, with the path
+  // of the leaf, when everything that runs has been halted.
+  Status tick(double seconds) {
+    const auto status = static_cast<Status>(lockstep_run_tick(it_.get(), seconds));
+    throw_failures();
+    return status;
+  }
+  // Halts every leaf that runs, in the order of the tree.
+  void halt() { lockstep_run_halt(it_.get()); }
+  // Begins again, as a new run with this seed would.
+  void restart(std::uint64_t seed) { detail::require(lockstep_run_restart(it_.get(), seed)); }
+  // Ticks at the run's period until the tree completes or has to stop.
+  LoopResult loop(const LoopSettings& settings = {}) {
+    auto options = detail::sized<lockstep_loop_options>();
+    options.virtual_clock = settings.virtual_clock;
+    options.max_ticks = settings.max_ticks;
+    options.timeout = settings.timeout;
+    options.overrun = static_cast<std::int32_t>(settings.overrun);
+    if (settings.stop) options.stop = [](void* stop) { return (*static_cast<Stop*>(stop))(); };
+    Stop stop = settings.stop;
+    options.user = &stop;
+    auto result = detail::sized<lockstep_loop_result>();
+    detail::require(lockstep_run_loop(it_.get(), &options, &result));
+    rethrow();
+    return {static_cast<LoopResult::Reason>(result.reason), static_cast<Status>(result.status),
+            result.ticks, result.overruns, result.seconds};
+  }
+
+  // "Main/arm: threw an exception: …"; nothing while there is none.
+  std::optional<std::string> fault() const {
+    const char* const text = lockstep_run_fault(it_.get(), nullptr);
+    if (text == nullptr) return std::nullopt;
+    return text;
+  }
+  NodeState node(std::uint32_t index) const {
+    auto state = detail::sized<lockstep_node_state>();
+    detail::require(lockstep_run_node(it_.get(), index, &state));
+    return {state.status == LOCKSTEP_IDLE
+                ? std::nullopt
+                : std::optional<Status>(static_cast<Status>(state.status)),
+            state.progress, state.held, state.ticked};
+  }
+
+  // The entry `key` of the blackboard, "height" or "Deliver/height": a bool, std::int64_t, double,
+  // or as text, which works for every type. get throws while nothing has written the entry.
+  template <class T>
+  T get(const std::string& key) const;
+  void set(const std::string& key, bool value) {
+    detail::require(lockstep_run_set_bool(it_.get(), key.c_str(), value));
+  }
+  void set(const std::string& key, std::int64_t value) {
+    detail::require(lockstep_run_set_int(it_.get(), key.c_str(), value));
+  }
+  void set(const std::string& key, int value) { set(key, std::int64_t{value}); }
+  void set(const std::string& key, double value) {
+    detail::require(lockstep_run_set_double(it_.get(), key.c_str(), value));
+  }
+  void set(const std::string& key, const std::string& text) {
+    detail::require(lockstep_run_set_text(it_.get(), key.c_str(), text.c_str()));
+  }
+  void set(const std::string& key, const char* text) { set(key, std::string(text)); }
+
+  // Called after each tick, also of the loop, with the tick's number from 0, its time and the
+  // status of the root. It may read the run, and must not tick or halt it.
+  void on_tick(std::function<void(std::uint64_t tick, double seconds, Status status)> observe) {
+    hooks_->observers.push_back(std::move(observe));
+  }
+
+  lockstep_run* get() const { return it_.get(); }
+
+ private:
+  using Stop = std::function<bool()>;
+
+  // What the C functions call back. No exception may pass through them: it is kept and thrown after
+  // the tick.
+  struct Hooks {
+    decltype(RunSettings::log) log;
+    std::vector<std::function<void(std::uint64_t, double, Status)>> observers;
+    std::exception_ptr thrown;
+
+    static void on_log(void* self, const char* who, lockstep_log_level level, const char* text) {
+      lockstep::detail::catching(
+          [&] { static_cast<Hooks*>(self)->log(who, static_cast<LogLevel>(level), text); },
+          [](const char*) {});
+    }
+    static void on_tick(void* self, lockstep_run*, std::uint64_t tick, double seconds,
+                        lockstep_status status) {
+      auto& hooks = *static_cast<Hooks*>(self);
+      try {
+        for (const auto& observe : hooks.observers) {
+          observe(tick, seconds, static_cast<Status>(status));
+        }
+      } catch (...) {
+        hooks.thrown = std::current_exception();
+      }
+    }
+  };
+  struct Free {
+    void operator()(lockstep_run* run) const { lockstep_run_free(run); }
+  };
+
+  void rethrow() {
+    if (hooks_->thrown) std::rethrow_exception(std::exchange(hooks_->thrown, nullptr));
+  }
+  void throw_failures() {
+    rethrow();
+    const auto reason = fault();
+    if (!reason) return;
+    halt();
+    throw Error(*reason);
+  }
+
+  std::shared_ptr<void> leaves_;  // outlive the run
+  std::unique_ptr<Hooks> hooks_;
+  std::unique_ptr<lockstep_run, Free> it_;
+};
+
+template <>
+inline bool Run::get<bool>(const std::string& key) const {
+  bool value = false;
+  detail::require(lockstep_run_get_bool(it_.get(), key.c_str(), &value));
+  return value;
+}
+template <>
+inline std::int64_t Run::get<std::int64_t>(const std::string& key) const {
+  std::int64_t value = 0;
+  detail::require(lockstep_run_get_int(it_.get(), key.c_str(), &value));
+  return value;
+}
+template <>
+inline double Run::get<double>(const std::string& key) const {
+  double value = 0;
+  detail::require(lockstep_run_get_double(it_.get(), key.c_str(), &value));
+  return value;
+}
+template <>
+inline std::string Run::get<std::string>(const std::string& key) const {
+  const char* const text = lockstep_run_get_text(it_.get(), key.c_str());
+  detail::require(text != nullptr);
+  return text;
+}
+
+}  // namespace lockstep::runtime

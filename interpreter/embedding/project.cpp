@@ -1,0 +1,204 @@
+// lockstep_project: the settings, the loading, and what was loaded.
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "embedding/handles.h"
+
+namespace lockstep::embedding {
+namespace {
+
+thread_local std::string t_error;
+
+constexpr std::uint32_t kVersion = LOCKSTEP_RUNTIME_MAJOR << 16 | LOCKSTEP_RUNTIME_MINOR;
+
+// What is installed with lockstep is found from this library, whatever program it is in: in a build
+// directory beside it, else as seen from the directory of programs.
+std::string program_directory() {
+  Dl_info info{};
+  if (dladdr(&kVersion, &info) == 0 || info.dli_fname == nullptr) return {};
+  std::error_code error;
+  const auto directory = std::filesystem::canonical(info.dli_fname, error).parent_path();
+  if (std::filesystem::exists(directory / "lockstep-leafhost", error)) return directory.string();
+  return (directory / LOCKSTEP_BIN_FROM_LIB).lexically_normal().string();
+}
+
+// Changes a setting of a project that has not been loaded.
+template <class Change>
+bool set(lockstep_project* project, const void* argument, Change change) {
+  return guarded([&] {
+    if (project == nullptr || argument == nullptr) return fail("an argument is NULL");
+    if (project->load_tried) return fail("the project has been loaded already");
+    change();
+    return true;
+  });
+}
+
+template <class Load>
+bool load_with(lockstep_project* project, const void* argument, Load load) {
+  return set(project, argument, [] {}) && guarded([&] {
+           project->load_tried = true;
+           auto loaded = load();
+           if (loaded && project->plugins->initialize(project->diagnostics)) {
+             auto program = std::make_shared<Program>();
+             program->runnable = make_runnable(std::move(*loaded));
+             const Tree& tree = program->runnable.tree;
+             for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
+               program->paths.push_back(tree.path(node));
+               program->names.emplace_back(tree.labels[node].name);
+               program->ids.emplace_back(tree.labels[node].type->id);
+             }
+             project->program = std::move(program);
+           }
+           project->diagnostics.sort();
+           return project->program != nullptr ||
+                  fail("the tree has errors: see the diagnostics of its project");
+         });
+}
+
+const Tree* tree_of(const lockstep_project* project) {
+  return project == nullptr || !project->program ? nullptr : &project->program->runnable.tree;
+}
+
+}  // namespace
+
+bool fail(std::string_view reason) noexcept {
+  try {
+    t_error = reason;
+  } catch (...) {
+    t_error.clear();  // no memory: what fits a string without any is too short to say so
+  }
+  return false;
+}
+
+}  // namespace lockstep::embedding
+
+using namespace lockstep;
+using namespace lockstep::embedding;
+
+uint32_t lockstep_runtime_version(void) {
+  return kVersion;
+}
+
+const char* lockstep_last_error(void) {
+  return t_error.c_str();
+}
+
+lockstep_project* lockstep_project_new(void) {
+  return guarded([] {
+    auto project = std::make_unique<lockstep_project>();
+    project->options.plugins.program_directory = program_directory();
+    project->options.main_file = MainFile::IsRegular;
+    return project.release();
+  });
+}
+
+void lockstep_project_free(lockstep_project* project) {
+  delete project;
+}
+
+bool lockstep_project_add_plugin_path(lockstep_project* project, const char* directory) {
+  return set(project, directory,
+             [&] { project->options.plugins.directories.emplace_back(directory); });
+}
+
+bool lockstep_project_add_plugin(lockstep_project* project, const char* plugin) {
+  return set(project, plugin, [&] { project->options.plugins.plugins.emplace_back(plugin); });
+}
+
+bool lockstep_project_add_leaves(lockstep_project* project, const lockstep_plugin* plugin) {
+  bool added = false;
+  return set(project, plugin,
+             [&] {
+               Diagnostics refused;
+               added = project->plugins->add(*plugin, "this program", refused);
+               if (!added) fail(refused.all().front().message);
+             }) &&
+         added;
+}
+
+bool lockstep_project_set_argument(lockstep_project* project, const char* name, const char* value) {
+  return set(project, name == nullptr ? nullptr : value,
+             [&] { project->options.arguments[name] = value; });
+}
+
+bool lockstep_project_set_value(lockstep_project* project, const char* key, const char* value) {
+  return set(project, key == nullptr ? nullptr : value,
+             [&] { project->options.values[key] = value; });
+}
+
+bool lockstep_project_set_main_tree(lockstep_project* project, const char* id) {
+  return set(project, id, [&] { project->options.main_tree = id; });
+}
+
+bool lockstep_project_isolate_all(lockstep_project* project) {
+  return set(project, project, [&] { project->options.plugins.isolate = true; });
+}
+
+bool lockstep_project_load_file(lockstep_project* project, const char* path) {
+  return load_with(project, path, [&] {
+    return load(path, project->options, project->diagnostics, project->plugins);
+  });
+}
+
+bool lockstep_project_load_text(lockstep_project* project, const char* name, const char* text,
+                                size_t length) {
+  return load_with(project, name == nullptr ? nullptr : text, [&] {
+    return load_text(name, std::string(text, length), project->options, project->diagnostics,
+                     project->plugins);
+  });
+}
+
+uint32_t lockstep_project_diagnostic_count(const lockstep_project* project) {
+  return project == nullptr ? 0 : static_cast<uint32_t>(project->diagnostics.all().size());
+}
+
+bool lockstep_project_diagnostic(const lockstep_project* project, uint32_t index,
+                                 lockstep_diagnostic* diagnostic) {
+  return guarded([&] {
+    if (index >= lockstep_project_diagnostic_count(project)) return fail("no such diagnostic");
+    const Diagnostic& it = project->diagnostics.all()[index];
+    return write_struct({.struct_size = 0,
+                         .severity = static_cast<int32_t>(it.severity),
+                         .file = it.location.file.c_str(),
+                         .line = it.location.line,
+                         .column = it.location.column,
+                         .message = it.message.c_str(),
+                         .hint = it.hint.c_str()},
+                        diagnostic);
+  });
+}
+
+uint32_t lockstep_project_node_count(const lockstep_project* project) {
+  const Tree* const tree = tree_of(project);
+  return tree == nullptr ? 0 : static_cast<uint32_t>(tree->nodes.size());
+}
+
+bool lockstep_project_node(const lockstep_project* project, uint32_t index, lockstep_node* node) {
+  return guarded([&] {
+    if (index >= lockstep_project_node_count(project)) return fail("no such node");
+    const Program& program = *project->program;
+    const NodeLabel& label = program.runnable.tree.labels[index];
+    return write_struct({.struct_size = 0,
+                         .parent = label.parent,
+                         .end = program.runnable.tree.nodes[index].end,
+                         .path = program.paths[index].c_str(),
+                         .name = program.names[index].c_str(),
+                         .id = program.ids[index].c_str()},
+                        node);
+  });
+}
+
+bool lockstep_project_find_node(const lockstep_project* project, const char* path,
+                                uint32_t* index) {
+  return guarded([&] {
+    if (tree_of(project) == nullptr) return fail("the project has not been loaded");
+    if (path == nullptr || index == nullptr) return fail("an argument is NULL");
+    const auto& paths = project->program->paths;
+    const auto found = std::ranges::find(paths, path);
+    if (found == paths.end()) return fail(fmt::format("there is no node '{}'", path));
+    *index = static_cast<uint32_t>(found - paths.begin());
+    return true;
+  });
+}

@@ -1,0 +1,337 @@
+// lockstep_run: ticks, states of nodes, blackboard entries, and the fixed-rate loop.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "core/suggest.h"
+#include "embedding/handles.h"
+#include "runtime/loop.h"
+#include "runtime/run.h"
+
+struct lockstep_run {
+  struct Watcher {
+    lockstep_observe observe;
+    void* user;
+  };
+
+  lockstep_run(std::shared_ptr<const lockstep::Program> loaded, const lockstep::RunOptions& options)
+      : program(std::move(loaded)), run(program->runnable.tree, options) {}
+
+  void notify(double seconds, lockstep_status status) {
+    const std::uint64_t tick = run.ticker().tick_number() - 1;
+    for (std::size_t i = 0; i < watchers.size(); ++i) {
+      watchers[i].observe(watchers[i].user, this, tick, seconds, status);
+    }
+  }
+
+  std::shared_ptr<const lockstep::Program> program;
+  lockstep::Run run;
+  std::vector<Watcher> watchers;
+  lockstep::Nanoseconds last{0};  // when it was ticked last
+  std::string text;               // of the last get_text or fault
+};
+
+namespace lockstep::embedding {
+namespace {
+
+const Tree& tree_of(const lockstep_run& run) {
+  return run.program->runnable.tree;
+}
+
+Entry* find_entry(lockstep_run* run, const char* key) {
+  if (run == nullptr || key == nullptr) {
+    fail("an argument is NULL");
+    return nullptr;
+  }
+  const auto& slots = tree_of(*run).slots;
+  const auto found = std::ranges::find(slots, std::string_view(key), &Slot::name);
+  if (found != slots.end()) return &run->run.blackboard().entries[found - slots.begin()];
+  std::vector<std::string_view> keys;
+  for (const Slot& slot : slots) keys.push_back(slot.name);
+  const std::string hint = did_you_mean(key, keys);
+  fail(fmt::format("no node uses an entry '{}'{}{}", key, hint.empty() ? "" : "; ", hint));
+  return nullptr;
+}
+
+template <class T>
+bool get(lockstep_run* run, const char* key, T* value) {
+  return guarded([&] {
+    if (value == nullptr) return fail("an argument is NULL");
+    const Entry* const entry = find_entry(run, key);
+    if (entry == nullptr) return false;
+    const T* const found = std::get_if<T>(&entry->value);
+    if (found == nullptr) {
+      return fail(std::holds_alternative<NoValue>(entry->value)
+                      ? fmt::format("nothing has written the entry '{}'", key)
+                      : fmt::format("the entry '{}' has another type", key));
+    }
+    *value = *found;
+    return true;
+  });
+}
+
+ValueType type_of(lockstep_run* run, const Entry& entry) {
+  return tree_of(*run).slots[&entry - run->run.blackboard().entries.data()].type;
+}
+
+bool write(Entry& entry, Value value) {
+  entry.value = std::move(value);
+  ++entry.writes;
+  return true;
+}
+
+template <class T>
+bool set(lockstep_run* run, const char* key, ValueType type, T value) {
+  return guarded([&] {
+    Entry* const entry = find_entry(run, key);
+    if (entry == nullptr) return false;
+    const ValueType expected = type_of(run, *entry);
+    if (expected != type) {
+      return fail(fmt::format("the entry '{}' is of type {}", key, to_string(expected)));
+    }
+    if constexpr (std::is_same_v<T, double>) {
+      if (!std::isfinite(value)) return fail("a number must be finite");
+    }
+    return write(*entry, Value(value));
+  });
+}
+
+// In a leaf's function there is a run that is being ticked; to tick it again has no meaning.
+std::optional<Nanoseconds> time_from(double seconds) {
+  constexpr double kMost = 9e9;  // in nanoseconds it must fit 64 bits
+  if (!(seconds >= 0 && seconds <= kMost)) return std::nullopt;
+  return from_seconds(seconds);
+}
+
+class Observing final : public Observer {
+ public:
+  explicit Observing(lockstep_run& run) : run_(run) {}
+  void after_tick(Ticker&, const TickReport& report) override {
+    run_.notify(to_seconds(report.time), static_cast<lockstep_status>(report.status));
+  }
+
+ private:
+  lockstep_run& run_;
+};
+
+int32_t reason_of(StopReason reason) {
+  switch (reason) {
+    case StopReason::Completed:
+      return LOCKSTEP_COMPLETED;
+    case StopReason::Fault:
+      return LOCKSTEP_FAULT;
+    case StopReason::Timeout:
+      return LOCKSTEP_TIMEOUT;
+    case StopReason::MaxTicks:
+      return LOCKSTEP_MAX_TICKS;
+    case StopReason::Overrun:
+      return LOCKSTEP_OVERRUN;
+    case StopReason::Signal:
+    case StopReason::Recording:
+      break;
+  }
+  return LOCKSTEP_STOPPED;
+}
+
+bool run_loop(lockstep_run& run, const lockstep_loop_options& given, RunEnd& end) {
+  if (given.overrun < LOCKSTEP_OVERRUN_SKIP || given.overrun > LOCKSTEP_OVERRUN_FAIL) {
+    return fail("overrun is none of the LOCKSTEP_OVERRUN_ constants");
+  }
+  if (run.run.ticker().tick_number() != 0) {
+    return fail("the run has been ticked already: restart it before the loop");
+  }
+  LoopOptions options;
+  options.rate = 1 / to_seconds(run.run.period());
+  options.overrun = static_cast<OverrunPolicy>(given.overrun);
+  if (given.max_ticks != 0) options.max_ticks = given.max_ticks;
+  if (given.timeout != 0) {
+    options.timeout = time_from(given.timeout);
+    if (!options.timeout) return fail("the timeout is no number of seconds");
+  }
+  if (given.virtual_clock && !options.max_ticks) options.max_ticks = kMostVirtualTicks;
+  if (given.stop != nullptr) {
+    options.stop_signal = [&given] { return given.stop(given.user) ? 1 : 0; };
+  }
+  WallClock wall;
+  VirtualClock virtual_clock;
+  Observing observing(run);
+  Observer* const observers[] = {&observing};
+  Clock& clock = given.virtual_clock ? static_cast<Clock&>(virtual_clock) : wall;
+  end = lockstep::run_loop(run.run, clock, options, observers);
+  return true;
+}
+
+}  // namespace
+}  // namespace lockstep::embedding
+
+using namespace lockstep;
+using namespace lockstep::embedding;
+
+lockstep_run* lockstep_run_new(lockstep_project* project, const lockstep_run_options* given) {
+  return guarded([&]() -> lockstep_run* {
+    if (project == nullptr || !project->program) {
+      fail("the project has not been loaded");
+      return nullptr;
+    }
+    const lockstep_run_options options = read_struct(given);
+    RunOptions run_options{.seed = options.seed};
+    if (options.tick_period != 0) {
+      const auto period = time_from(options.tick_period);
+      if (!period || period->count() < 1) {
+        fail("tick_period is no number of seconds");
+        return nullptr;
+      }
+      run_options.period = *period;
+    }
+    if (options.on_fault == LOCKSTEP_ON_FAULT_FAIL) run_options.on_fault = FaultPolicy::Fail;
+    if (options.log != nullptr) {
+      run_options.log = [log = options.log, user = options.user](
+                            std::string_view who, lockstep_log_level level, std::string_view text) {
+        log(user, std::string(who).c_str(), level, std::string(text).c_str());
+      };
+    }
+    auto run = std::make_unique<lockstep_run>(project->program, run_options);
+    if (run->run.fault() != nullptr) {
+      const Fault& fault = *run->run.fault();
+      fail(fmt::format("{}: {}", tree_of(*run).path(fault.node), fault.message));
+      return nullptr;
+    }
+    return run.release();
+  });
+}
+
+void lockstep_run_free(lockstep_run* run) {
+  delete run;
+}
+
+bool lockstep_run_restart(lockstep_run* run, uint64_t seed) {
+  return guarded([&] {
+    if (run == nullptr) return fail("an argument is NULL");
+    run->last = Nanoseconds(0);
+    run->run.restart(seed);
+    return run->run.fault() == nullptr || fail(run->run.fault()->message);
+  });
+}
+
+lockstep_status lockstep_run_tick(lockstep_run* run, double seconds) {
+  const auto time = time_from(seconds);
+  if (run == nullptr || !time) {
+    fail(run == nullptr ? "an argument is NULL" : "the time is no number of seconds");
+    return LOCKSTEP_RUNNING;
+  }
+  lockstep_status status = LOCKSTEP_RUNNING;
+  guarded([&] {
+    if (*time < run->last) return fail("the time is before that of the last tick");
+    run->last = *time;
+    status = static_cast<lockstep_status>(run->run.tick(*time));
+    run->notify(seconds, status);
+    return true;
+  });
+  return status;
+}
+
+void lockstep_run_halt(lockstep_run* run) {
+  guarded([&] {
+    if (run != nullptr) run->run.halt();
+    return true;
+  });
+}
+
+const char* lockstep_run_fault(lockstep_run* run, uint32_t* node) {
+  return guarded([&]() -> const char* {
+    const Fault* const fault = run == nullptr ? nullptr : run->run.fault();
+    if (fault == nullptr) return nullptr;
+    if (node != nullptr) *node = fault->node;
+    run->text = fmt::format("{}: {}", run->program->paths[fault->node], fault->message);
+    return run->text.c_str();
+  });
+}
+
+bool lockstep_run_node(lockstep_run* run, uint32_t node, lockstep_node_state* state) {
+  return guarded([&] {
+    if (run == nullptr || node >= tree_of(*run).nodes.size()) return fail("no such node");
+    Ticker& ticker = run->run.ticker();
+    return write_struct({.struct_size = 0,
+                         .status = static_cast<lockstep_status>(ticker.status(node)),
+                         .progress = ticker.progress(node),
+                         .held = ticker.held(node),
+                         .ticked = ticker.ticked(node)},
+                        state);
+  });
+}
+
+const char* lockstep_run_get_text(lockstep_run* run, const char* key) {
+  return guarded([&]() -> const char* {
+    const Entry* const entry = find_entry(run, key);
+    if (entry == nullptr) return nullptr;
+    if (std::holds_alternative<NoValue>(entry->value)) {
+      fail(fmt::format("nothing has written the entry '{}'", key));
+      return nullptr;
+    }
+    run->text = to_text(entry->value);
+    return run->text.c_str();
+  });
+}
+
+bool lockstep_run_get_bool(lockstep_run* run, const char* key, bool* value) {
+  return get(run, key, value);
+}
+bool lockstep_run_get_int(lockstep_run* run, const char* key, int64_t* value) {
+  return get(run, key, value);
+}
+bool lockstep_run_get_double(lockstep_run* run, const char* key, double* value) {
+  return get(run, key, value);
+}
+
+bool lockstep_run_set_text(lockstep_run* run, const char* key, const char* text) {
+  return guarded([&] {
+    if (text == nullptr) return fail("an argument is NULL");
+    Entry* const entry = find_entry(run, key);
+    if (entry == nullptr) return false;
+    const ValueType type = type_of(run, *entry);
+    auto value = parse_value(type, text);
+    if (!value) {
+      return fail(fmt::format("the entry '{}' is of type {}: expected {}", key, to_string(type),
+                              expected_text(type)));
+    }
+    return write(*entry, std::move(*value));
+  });
+}
+bool lockstep_run_set_bool(lockstep_run* run, const char* key, bool value) {
+  return set(run, key, ValueType::Bool, value);
+}
+bool lockstep_run_set_int(lockstep_run* run, const char* key, int64_t value) {
+  return set(run, key, ValueType::Int, value);
+}
+bool lockstep_run_set_double(lockstep_run* run, const char* key, double value) {
+  return set(run, key, ValueType::Double, value);
+}
+
+bool lockstep_run_observe(lockstep_run* run, lockstep_observe observe, void* user) {
+  return guarded([&] {
+    if (run == nullptr) return fail("an argument is NULL");
+    if (observe != nullptr) {
+      run->watchers.push_back({observe, user});
+    } else {
+      std::erase_if(run->watchers, [&](const auto& it) { return it.user == user; });
+    }
+    return true;
+  });
+}
+
+bool lockstep_run_loop(lockstep_run* run, const lockstep_loop_options* given,
+                       lockstep_loop_result* result) {
+  return guarded([&] {
+    if (run == nullptr) return fail("an argument is NULL");
+    RunEnd end;
+    if (!embedding::run_loop(*run, read_struct(given), end)) return false;
+    return result == nullptr || write_struct({.struct_size = 0,
+                                              .reason = reason_of(end.reason),
+                                              .status = static_cast<lockstep_status>(end.status),
+                                              .ticks = end.ticks,
+                                              .overruns = end.overruns,
+                                              .seconds = to_seconds(end.time)},
+                                             result);
+  });
+}

@@ -1,0 +1,339 @@
+// lockstep in a program, through lockstep/runtime.hpp and the shared library alone.
+#include <signal.h>
+
+#include <array>
+#include <catch2/catch.hpp>
+#include <lockstep/runtime.hpp>
+#include <thread>
+
+#include "support/paths.h"
+
+namespace {
+
+namespace runtime = lockstep::runtime;
+using lockstep::Status;
+using Strings = std::vector<std::string>;
+
+Strings calls;  // of all Step leaves
+
+struct StepPorts : lockstep::Ports {
+  Input<double> step{this, "step", "0.25", "progress per tick"};
+  InOut<std::int64_t> ticks{this, "ticks", "0", "counts them"};
+};
+
+class Step : public lockstep::Action<StepPorts> {
+ public:
+  void start() override { done_ = 0; }
+  Status tick() override {
+    if (step.get() < 0) throw std::runtime_error("cannot go back");
+    done_ += step.get();
+    ticks.set(ticks.get() + 1);
+    return done_ >= 1 ? Status::Success : Status::Running;
+  }
+  void halt() override { calls.push_back("halt"); }
+  void pause() override { calls.push_back("pause"); }
+  double progress() const override { return done_; }
+
+ private:
+  double done_ = 0;
+};
+
+struct Shared {
+  int users = 0;
+};
+class Counts : public lockstep::Condition<> {
+ public:
+  bool check() override {
+    log("user " + std::to_string(++context<Shared>().users));
+    return true;
+  }
+};
+
+std::string tree(const std::string& nodes) {
+  return "<root lockstep=\"1\"><BehaviorTree ID=\"Main\">" + nodes + "</BehaviorTree></root>";
+}
+
+runtime::Project project_of(const std::string& nodes) {
+  runtime::Project project;
+  project.add_leaf<Step>("Step", "Makes a step in each tick");
+  project.load_text(tree(nodes));
+  calls.clear();
+  return project;
+}
+
+template <class Work>
+std::string error_of(Work work) {
+  try {
+    work();
+  } catch (const runtime::Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+}  // namespace
+
+TEST_CASE("a program ticks a tree of its own leaves at times of its own") {
+  const runtime::Project project = project_of("<Step name=\"a\" ticks=\"{n}\"/>");
+  runtime::Run run(project);
+  CHECK(run.tick(0) == Status::Running);
+  CHECK(run.node(0).progress == 0.25);
+  CHECK(run.tick(0.5) == Status::Running);
+  CHECK(run.tick(0.5) == Status::Running);
+  CHECK(run.tick(7) == Status::Success);
+  CHECK(run.get<std::int64_t>("n") == 4);
+  CHECK(run.node(0).status == Status::Success);
+  CHECK(run.tick(8) == Status::Running);  // begins again
+  run.halt();
+  CHECK(calls == Strings{"halt"});
+  CHECK_FALSE(run.node(0).status);
+}
+
+TEST_CASE("time that goes back is refused") {
+  const runtime::Project project = project_of("<Step/>");
+  runtime::Run run(project);
+  run.tick(2);
+  CHECK(lockstep_run_tick(run.get(), 1) == LOCKSTEP_RUNNING);
+  CHECK(std::string(lockstep_last_error()) == "the time is before that of the last tick");
+  CHECK(lockstep_run_tick(run.get(), -1) == LOCKSTEP_RUNNING);
+  CHECK(std::string(lockstep_last_error()) == "the time is no number of seconds");
+  CHECK(run.node(0).progress == 0.25);
+}
+
+TEST_CASE("what is wrong with a tree is data") {
+  runtime::Project project;
+  const std::string error = error_of([&] {
+    project.load_text(
+        "<root lockstep=\"1\">\n<BehaviorTree ID=\"Main\">\n<Sequnce/>\n"
+        "</BehaviorTree></root>",
+        "robot.xml");
+  });
+  CHECK(error ==
+        "the tree has errors: see the diagnostics of its project\n"
+        "robot.xml:3:1: unknown node 'Sequnce' (did you mean 'Sequence'?)");
+  REQUIRE(project.diagnostics().size() == 1);
+  const runtime::Diagnostic it = project.diagnostics()[0];
+  CHECK(it.severity == runtime::Diagnostic::Severity::Error);
+  CHECK((it.file == "robot.xml" && it.line == 3 && it.column == 1));
+  CHECK(it.message == "unknown node 'Sequnce'");
+  CHECK(it.hint == "did you mean 'Sequence'?");
+  CHECK(error_of([&] { project.load_text(tree("<AlwaysSuccess/>")); }) ==
+        "the project has been loaded already");
+  CHECK(error_of([&] { const runtime::Run run(project); }) == "the project has not been loaded");
+}
+
+TEST_CASE("a warning does not keep a tree from being loaded") {
+  const runtime::Project project = project_of("<Step step=\"{unknown}\"/>");
+  REQUIRE(project.diagnostics().size() == 1);
+  CHECK(project.diagnostics()[0].severity == runtime::Diagnostic::Severity::Warning);
+}
+
+TEST_CASE("a file that is not there is an error of the project") {
+  runtime::Project project;
+  CHECK_THROWS_AS(project.load_file("/nowhere/tree.xml"), runtime::Error);
+  REQUIRE(project.diagnostics().size() == 1);
+  CHECK(project.diagnostics()[0].file == "/nowhere/tree.xml");
+}
+
+TEST_CASE("nodes are known by index and path") {
+  const runtime::Project project =
+      project_of("<Sequence name=\"all\"><Step name=\"a\"/><Step/></Sequence>");
+  const auto nodes = project.nodes();
+  REQUIRE(nodes.size() == 3);
+  CHECK((nodes[0].path == "Main/all" && nodes[0].id == "Sequence" && nodes[0].end == 3));
+  CHECK((nodes[1].path == "Main/all/a" && nodes[1].parent == 0 && nodes[1].name == "a"));
+  CHECK(nodes[2].name == "Step");
+  CHECK(project.find_node("Main/all/Step") == 2);
+  CHECK(error_of([&] { project.find_node("Main/b"); }) == "there is no node 'Main/b'");
+}
+
+TEST_CASE("entries are read and written by key") {
+  const runtime::Project project = project_of("<Step step=\"{step}\" ticks=\"{n}\"/>");
+  runtime::Run run(project);
+  CHECK(error_of([&] { run.get<double>("step"); }) == "nothing has written the entry 'step'");
+  run.set("step", 0.5);
+  CHECK(run.tick(0) == Status::Running);
+  CHECK(run.get<double>("step") == 0.5);
+  CHECK(run.get<std::string>("n") == "1");
+  run.set("step", "0.375");
+  run.set("n", 10);
+  CHECK(run.tick(0) == Status::Running);
+  CHECK(run.get<std::int64_t>("n") == 11);
+  CHECK(error_of([&] { run.set("steep", 1.0); }) ==
+        "no node uses an entry 'steep'; did you mean 'step'?");
+  CHECK(error_of([&] { run.set("n", 1.0); }) == "the entry 'n' is of type int");
+  CHECK(error_of([&] { run.set("n", "many"); }) ==
+        "the entry 'n' is of type int: expected a whole number");
+  CHECK(error_of([&] { run.get<bool>("n"); }) == "the entry 'n' has another type");
+  CHECK(error_of([&] { run.set("step", 1.0 / 0.0); }) == "a number must be finite");
+}
+
+TEST_CASE("a fault of a leaf is an error with everything halted, or a failure") {
+  const runtime::Project project =
+      project_of("<Parallel><Step/><Step step=\"-1\"/><Step/></Parallel>");
+  runtime::Run run(project);
+  CHECK(error_of([&] { run.tick(0); }) == "Main/Parallel/Step#2: cannot go back");
+  CHECK(calls == Strings{"halt", "halt"});
+  CHECK(run.fault() == "Main/Parallel/Step#2: cannot go back");
+  run.restart(1);
+  CHECK_FALSE(run.fault());
+
+  runtime::Run tolerant(project, {0, 0.01, true});
+  CHECK(tolerant.tick(0) == Status::Failure);
+}
+
+TEST_CASE("observers see each tick, and what they throw comes out of it") {
+  const runtime::Project project = project_of("<Step/>");
+  runtime::Run run(project);
+  std::vector<double> times;
+  run.on_tick([&](std::uint64_t tick, double seconds, Status status) {
+    CHECK(tick == times.size());
+    CHECK(status == (tick == 3 ? Status::Success : Status::Running));
+    times.push_back(seconds);
+  });
+  const auto result = run.loop({true});
+  CHECK(result.reason == runtime::LoopResult::Reason::Completed);
+  CHECK(result.status == Status::Success);
+  CHECK(result.ticks == 4);
+  REQUIRE(times.size() == 4);
+  CHECK(times[3] == Approx(0.03));
+  run.on_tick([](std::uint64_t, double, Status) { throw runtime::Error("enough"); });
+  run.restart(0);
+  times.clear();
+  CHECK(error_of([&] { run.tick(0); }) == "enough");
+}
+
+TEST_CASE("a loop ends at its limits, and halts what runs") {
+  const runtime::Project project = project_of("<Step step=\"0.001\"/>");
+  runtime::Run run(project);
+  using Reason = runtime::LoopResult::Reason;
+  CHECK(run.loop({true, 10}).reason == Reason::MaxTicks);
+  CHECK(calls == Strings{"halt"});
+  CHECK(error_of([&] { run.loop({true}); }) ==
+        "the run has been ticked already: restart it before the loop");
+  run.restart(0);
+  CHECK(run.loop({true, 0, 0.5}).reason == Reason::Timeout);
+  run.restart(0);
+  int asked = 0;
+  runtime::LoopSettings settings;
+  settings.virtual_clock = true;
+  settings.stop = [&] { return ++asked > 5; };
+  CHECK(run.loop(settings).reason == Reason::Stopped);
+  run.restart(0);
+  settings = {};
+  settings.max_ticks = 3;
+  const auto result = run.loop(settings);  // on the wall clock
+  CHECK(result.ticks == 3);
+  CHECK(result.seconds >= 0.02);
+}
+
+TEST_CASE("leaves of a run share its context, and log") {
+  runtime::Project project;
+  project.add_leaf<Counts>("Counts", "Counts its ticks");
+  project.set_run_context<Shared>();
+  project.load_text(tree("<Sequence><Counts/><Counts name=\"second\"/></Sequence>"));
+  Strings lines;
+  runtime::RunSettings settings;
+  settings.log = [&](const std::string& who, lockstep::LogLevel, const std::string& text) {
+    lines.push_back(who + ": " + text);
+  };
+  runtime::Run one(project, settings), other(project, settings);
+  one.tick(0);
+  other.tick(0);
+  const Strings both = {"Main/Sequence/Counts: user 1", "Main/Sequence/second: user 2"};
+  CHECK(lines == Strings{both[0], both[1], both[0], both[1]});
+}
+
+TEST_CASE("runs outlive their project, and may be in threads") {
+  std::vector<std::unique_ptr<runtime::Run>> runs;
+  {
+    runtime::Project project;
+    project.add_plugin_path(LOCKSTEP_BINARY_DIR "/plugins");
+    project.set_argument("barriers", "0.5");
+    project.load_file(LOCKSTEP_SOURCE_DIR "/trees/door_pulling.xml");
+    for (int i = 0; i < 4; ++i) runs.push_back(std::make_unique<runtime::Run>(project));
+  }
+  std::array<std::uint64_t, 4> ticks{};
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    threads.emplace_back([&, i] {
+      runs[i]->restart(7);
+      ticks[i] = runs[i]->loop({true}).ticks;
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  CHECK(ticks[0] > 100);
+  CHECK((ticks[1] == ticks[0] && ticks[2] == ticks[0] && ticks[3] == ticks[0]));
+}
+
+TEST_CASE("several projects may load one plugin") {
+  for (int round = 0; round < 2; ++round) {
+    runtime::Project one, other;
+    for (runtime::Project* project : {&one, &other}) {
+      project->add_plugin_path(LOCKSTEP_BINARY_DIR "/plugins");
+      project->load_file(LOCKSTEP_SOURCE_DIR "/trees/fetch_and_carry.xml");
+    }
+    runtime::Run run(one), second(other);
+    CHECK(run.loop({true}).status == second.loop({true}).status);
+  }
+}
+
+TEST_CASE("two kinds of leaves with one tag are refused") {
+  runtime::Project project;
+  project.add_leaf<Step>("Step", "").add_leaf<Step>("Step", "");
+  CHECK(error_of([&] { project.load_text(tree("<Step/>")); }).find("has the id 'Step'") !=
+        std::string::npos);
+}
+
+TEST_CASE("no signal handler of the program is changed") {
+  const auto handlers = [] {
+    std::vector<void (*)(int)> all;
+    for (int signal = 1; signal < NSIG; ++signal) {
+      struct sigaction action {};
+      sigaction(signal, nullptr, &action);
+      all.push_back(action.sa_handler);
+    }
+    return all;
+  };
+  const auto before = handlers();
+  const runtime::Project project = project_of("<Step/>");
+  runtime::Run run(project);
+  run.loop({true});
+  CHECK(handlers() == before);
+}
+
+TEST_CASE("NULL is an error and no crash") {
+  const auto refused = [](bool good) {
+    return !good && std::string(lockstep_last_error()).size() > 4;
+  };
+  lockstep_project* const project = lockstep_project_new();
+  CHECK(refused(lockstep_project_add_plugin_path(project, nullptr)));
+  CHECK(refused(lockstep_project_add_plugin(nullptr, "x")));
+  CHECK(refused(lockstep_project_add_leaves(project, nullptr)));
+  CHECK(refused(lockstep_project_set_argument(project, nullptr, "x")));
+  CHECK(refused(lockstep_project_set_value(project, "x", nullptr)));
+  CHECK(refused(lockstep_project_set_main_tree(project, nullptr)));
+  CHECK(refused(lockstep_project_load_file(project, nullptr)));
+  CHECK(refused(lockstep_project_load_text(project, "x", nullptr, 3)));
+  CHECK(refused(lockstep_run_new(nullptr, nullptr) != nullptr));
+  CHECK(refused(lockstep_run_restart(nullptr, 1)));
+  CHECK(refused(lockstep_run_loop(nullptr, nullptr, nullptr)));
+  CHECK(refused(lockstep_run_get_text(nullptr, "x") != nullptr));
+  CHECK(lockstep_run_fault(nullptr, nullptr) == nullptr);
+  CHECK(lockstep_project_node_count(nullptr) == 0);
+  lockstep_run_free(nullptr);
+  lockstep_project_free(nullptr);
+  lockstep_project_free(project);
+}
+
+TEST_CASE("a program with a smaller struct of an older header is not written beyond it") {
+  const runtime::Project project = project_of("<Step/>");
+  runtime::Run run(project);
+  lockstep_node_state state{};
+  state.struct_size = offsetof(lockstep_node_state, progress);
+  state.progress = 5;
+  REQUIRE(lockstep_run_node(run.get(), 0, &state));
+  CHECK(state.progress == 5);
+  state.struct_size = 0;
+  CHECK_FALSE(lockstep_run_node(run.get(), 0, &state));
+}
