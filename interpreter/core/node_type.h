@@ -18,11 +18,12 @@ struct lockstep_leaf_type;
 
 namespace lockstep {
 
-enum class NodeCategory : std::uint8_t { Control, Decorator, Action, Condition, SubTree };
+// A Group is declared beside the trees and joins nodes anywhere in them, its members.
+enum class NodeCategory : std::uint8_t { Control, Decorator, Action, Condition, SubTree, Group };
 
 enum class Direction : std::uint8_t { Input, Output, InOut };
 
-// How a control node synchronizes its children.
+// How a control node synchronizes its children, or a group its members.
 enum class Synchronization : std::uint8_t { None, Absolute, Relative };
 
 // Numbers that a parameter may take. The ends belong to it unless said otherwise.
@@ -45,6 +46,7 @@ struct Parameter {
   Range range = {};                                // numbers, and each number of a list
   std::span<const std::string_view> choices = {};  // strings: the words that are allowed
   bool constant = false;                           // shapes the tree, so it is never a {key}
+  std::string_view group = {};  // its value names a group of this type: the node is a member
 };
 
 struct Arity {
@@ -84,6 +86,7 @@ struct NodeType {
   std::string_view sign = {};  // as papers draw it, "→"; "": by its id
   Synchronization synchronization = Synchronization::None;
   Status goes_on_after = Status::Idle;  // children are ticked from the left, each after this result
+  bool latches = false;                 // a parallel: a child with actions is not ticked again
   bool inverts = false;                 // a decorator that swaps Success and Failure
   bool can_run = false;                 // Running is its own result, not only a child's
   bool acts_again = true;               // false: after it completed once, a tick of it does nothing
@@ -96,8 +99,8 @@ struct NodeType {
 };
 
 constexpr std::string_view to_string(NodeCategory category) {
-  constexpr std::string_view kNames[] = {"control node", "decorator", "action", "condition",
-                                         "subtree"};
+  constexpr std::string_view kNames[] = {"control node", "decorator", "action",
+                                         "condition",    "subtree",   "group"};
   return kNames[static_cast<unsigned>(category)];
 }
 

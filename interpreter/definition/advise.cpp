@@ -22,7 +22,14 @@ class Adviser {
       if (definition_.forgets(at(node))) {
         type.goes_on_after != Status::Idle ? restarts(node) : restarts_completed(node);
       }
-      if (type.synchronization != Synchronization::None) child_without_progress(node);
+      if (type.synchronization == Synchronization::None) continue;
+      for (const std::uint32_t child : children_in(definition_.nodes, node)) {
+        without_progress(child, node);
+      }
+    }
+    for (const DefinitionGroup& group : definition_.groups) {
+      if (at(group.node).type->synchronization == Synchronization::None) continue;
+      for (const std::uint32_t member : group.members) without_progress(member, group.node);
     }
     unwritten_entries();
   }
@@ -137,18 +144,15 @@ class Adviser {
   }
 
   // A decorator or SubTree has its child's progress.
-  void child_without_progress(std::uint32_t parallel) const {
-    for (const std::uint32_t child : children_in(definition_.nodes, parallel)) {
-      std::uint32_t source = child;
-      while (at(source).children == 1 && at(source).type->category != NodeCategory::Control)
-        ++source;
-      const NodeType& type = *at(source).type;
-      if (type.category != NodeCategory::Action || type.has_progress) continue;
-      add(source, Severity::Note,
-          fmt::format("'{}' reports no progress: for '{}' it is at 0 until it succeeds",
-                      brief(at(source).name), brief(at(parallel).name)),
-          "the others wait for it at the first barrier, or within delta of 0");
-    }
+  void without_progress(std::uint32_t child, std::uint32_t keeper) const {
+    std::uint32_t source = child;
+    while (at(source).children == 1 && at(source).type->category != NodeCategory::Control) ++source;
+    const NodeType& type = *at(source).type;
+    if (type.category != NodeCategory::Action || type.has_progress) return;
+    add(source, Severity::Note,
+        fmt::format("'{}' reports no progress: for '{}' it is at 0 until it succeeds",
+                    brief(at(source).name), brief(at(keeper).name)),
+        "the others wait for it at the first barrier, or within delta of 0");
   }
 
   void unwritten_entries() const {

@@ -181,6 +181,7 @@ bool check_parameter(const NodeElement& element, const Reporter& report,
     if (parameter.default_text) value = *parse_value(parameter.type, *parameter.default_text);
     return !port.key.empty();
   }
+  if (attribute != nullptr && !parameter.group.empty()) port.place = attribute->place;
   if (attribute != nullptr && parameter.direction != Direction::Input) {
     report.at_value(
         attribute->place,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/identifier.h"
 #include "core/pre_order.h"
 #include "core/suggest.h"
 #include "core/wording.h"
@@ -34,7 +35,7 @@ bool matches(std::string_view tag, NodeCategory category) {
 }
 
 std::string element_hint(std::string_view tag) {
-  constexpr std::string_view kTags[] = {"BehaviorTree", "plugin", "arg", "include"};
+  constexpr std::string_view kTags[] = {"BehaviorTree", "plugin", "arg", "include", "barrier"};
   const std::string hint = foreign_node_hint(tag, {});
   return hint.empty() ? suggest(tag, kTags, "elements of 'root'") : hint;
 }
@@ -70,6 +71,9 @@ class TreeChecker {
       const std::string_view tag = element(child).tag;
       if (tag == "BehaviorTree") {
         check_tree(child);
+      } else if (const NodeType* type = catalog_.find(tag);
+                 type != nullptr && type->category == NodeCategory::Group) {
+        check_group(child, *type);
       } else if (tag != "arg" && tag != "include" && tag != "plugin") {
         if (report_.counted_only(Severity::Error)) continue;
         report_.at(element(child).place, fmt::format("unknown element '{}' in 'root'", brief(tag)),
@@ -109,6 +113,41 @@ class TreeChecker {
       report_.at(element(0).place, "'root' needs the attribute 'lockstep'",
                  "write <root lockstep=\"1\">: the version of the language");
     }
+  }
+
+  // A declaration that nodes of the trees name.
+  void check_group(std::uint32_t index, const NodeType& type) {
+    if (element(index).end > index + 1) {
+      report_.at(element(index + 1).place, fmt::format("'{}' cannot contain elements", type.id));
+    }
+    CheckedNode group;
+    group.type = &type;
+    group.place = element(index).place;
+    check_attributes({group.place, attributes(index), false}, report_, group, trees_);
+    keep_written({group.place, attributes(index), false}, group, trees_);
+    const Attribute* name = find_attribute(attributes(index), "name");
+    if (name == nullptr) {
+      report_.at(group.place, fmt::format("'{}' needs the attribute 'name'", type.id),
+                 fmt::format("write <{} name=\"…\">: the nodes of the trees refer to it", type.id));
+    } else if (!is_identifier(name->value)) {
+      report_.at_value(name->place,
+                       fmt::format("'{}' is not a name for '{}'", brief(name->value), type.id),
+                       fmt::format("such a name is {}", kIdentifierRule));
+    } else {
+      group.name = name->value;
+      enter_group(group, name->place);
+    }
+  }
+
+  void enter_group(const CheckedNode& group, Place name) {
+    const auto [first, is_new] = group_places_.try_emplace(group.name, group.place);
+    if (is_new) {
+      trees_.groups.push_back(group);
+      return;
+    }
+    report_.at_value(
+        name, fmt::format("the name '{}' is declared already", brief(group.name)),
+        fmt::format("the first is at {}", to_text(project_.sources.locate(first->second))));
   }
 
   void check_tree(std::uint32_t tree) {
@@ -177,6 +216,11 @@ class TreeChecker {
     node.place = element(index).place;
     const bool is_explicit = lockstep::is_explicit(element(index).tag);
     node.type = is_explicit ? find_explicit_type(index) : find_type(index);
+    if (node.type != nullptr && node.type->category == NodeCategory::Group) {
+      report_.at(node.place, fmt::format("'{}' is no node of a tree", node.type->id),
+                 "it is declared in 'root', beside the trees");
+      node.type = nullptr;
+    }
     for ([[maybe_unused]] const auto child : children_in(elements_, index)) ++node.children;
     if (node.type != nullptr) {
       check_arity(index, node);
@@ -304,6 +348,7 @@ class TreeChecker {
   CheckedTrees trees_;
   CheckedTree tree_;                          // that is being checked
   std::map<std::string_view, Place> places_;  // of the trees, by ID
+  std::map<std::string_view, Place> group_places_;
   const Document* document_ = nullptr;
   std::span<const Element> elements_;  // of the document
   const NodeType* last_type_ = nullptr;

@@ -17,7 +17,7 @@ namespace lockstep {
 // A parameter of a node: a constant, a {key} with its default, or absent.
 struct CheckedPort {
   std::uint32_t value = Port::kNone;  // in CheckedTrees::values
-  Place place = {};                   // of the attribute that has the key
+  Place place = {};                   // of the attribute that has the key, or names a group
   std::string_view key = {};
 };
 
@@ -74,6 +74,7 @@ struct CheckedTrees {
   std::vector<WrittenAttribute> written;
   std::map<std::string_view, CheckedTree> trees;  // by the ID of the BehaviorTree
   std::vector<std::string_view> ids;              // as they stand in the documents
+  std::vector<CheckedNode> groups;                // declared beside the trees; names are distinct
   std::optional<CheckedMain> main;                // none: it is no tree file
 };
 

@@ -48,18 +48,58 @@ struct BlackboardEntry {
   Place first_use = {};  // of the attribute that names it first
 };
 
+// A declaration beside the trees that nodes of the tree name.
+struct DefinitionGroup {
+  std::uint32_t node;                       // in `nodes`: behind the root's subtree, its own parent
+  std::vector<std::uint32_t> members = {};  // in pre-order
+};
+
 struct Definition {
   std::string_view id;
-  std::vector<DefinitionNode> nodes;
+  std::vector<DefinitionNode> nodes;  // the root and its subtree, then one for each group
   std::vector<Value> values;
   std::vector<Port> ports;
   std::vector<BlackboardEntry> entries;
   std::vector<WrittenAttribute> written = {};
+  std::vector<DefinitionGroup> groups = {};  // in the order of their nodes
 
   // A parameter that is a constant; null when it is absent or comes from an entry.
   const Value* constant(const DefinitionNode& node, std::size_t parameter) const {
     const Port& port = ports[node.first + parameter];
     return port.entry == Port::kNone && port.value != Port::kNone ? &values[port.value] : nullptr;
+  }
+
+  // Whether a parameter of that name is there, as a value or from an entry.
+  bool has(const DefinitionNode& node, std::string_view parameter) const {
+    for (std::size_t i = 0; i < node.type->parameters.size(); ++i) {
+      if (node.type->parameters[i].name != parameter) continue;
+      const Port& port = ports[node.first + i];
+      return port.entry != Port::kNone || port.value != Port::kNone;
+    }
+    return false;
+  }
+
+  // A barrier with a delta holds as ParallelRelative does.
+  Synchronization synchronization(const DefinitionNode& node) const {
+    const bool by_delta = node.type->category == NodeCategory::Group && has(node, "delta");
+    return by_delta ? Synchronization::Relative : node.type->synchronization;
+  }
+
+  // A barrier whose members wait for those that are idle.
+  bool waits(const DefinitionGroup& group) const {
+    const DefinitionNode& node = nodes[group.node];
+    for (std::size_t i = 0; i < node.type->parameters.size(); ++i) {
+      if (node.type->parameters[i].name == "idle") return *constant(node, i) == Value("wait");
+    }
+    return false;
+  }
+
+  // The lowest node that has all of these below it. They are in pre-order, and none is below
+  // another.
+  std::uint32_t common_ancestor(std::span<const std::uint32_t> below) const {
+    std::uint32_t ancestor = nodes[below.front()].parent;
+    while (nodes[ancestor].end <= below.back()) ancestor = nodes[ancestor].parent;
+    return ancestor;
   }
 
   // A control node with memory="false".

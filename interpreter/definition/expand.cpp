@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <set>
 #include <span>
+#include <utility>
 
 #include "core/pre_order.h"
 #include "core/suggest.h"
@@ -26,10 +29,13 @@ class Expander {
     definition_.values = std::move(trees_.values);
     definition_.written = std::move(trees_.written);
     shared_.assign(trees_.ports.size(), Port::kNone);
+    members_.resize(trees_.groups.size());
+    for (std::size_t i = 0; i < members_.size(); ++i) groups_.emplace(trees_.groups[i].name, i);
     definition_.nodes.reserve(trees_.nodes.size());  // without subtrees, all that will be needed
     Scope scope(definition_.entries);
     for (const auto& [key, text] : values_) scope.set_text(key, text);
     add(trees_.trees.at(main).root, 0, scope);
+    add_groups(scope);
     check_set_keys(scope);
     return std::move(definition_);
   }
@@ -52,6 +58,7 @@ class Expander {
       enter_subtree(trees_.subtrees[checked.first], checked.name, place, scope);
     } else if (!checked.type->parameters.empty()) {
       definition_.nodes[place].first = bind_ports(checked, scope);
+      join_group(place, checked, scope);
     }
     for (const std::uint32_t child : children_in(trees_.nodes, from)) {
       add(child, place, scope);
@@ -76,6 +83,64 @@ class Expander {
           fmt::format("the tree '{}' does not use '{{{}}}'", brief(subtree.id), brief(it.key)),
           suggest(it.key, scope.open_keys(), "it also uses"), Severity::Warning);
     }
+  }
+
+  // The groups that have members, each with its parameters in the scope of the main tree.
+  void add_groups(Scope& scope) {
+    for (std::size_t i = 0; i < trees_.groups.size(); ++i) {
+      const CheckedNode& group = trees_.groups[i];
+      if (members_[i].empty()) {
+        if (report_.has_errors()) continue;  // it may be for want of what they refuse
+        report_.at(group.place,
+                   fmt::format("no node of '{}' uses the {} '{}'", brief(definition_.id),
+                               group.type->id, brief(group.name)),
+                   {}, Severity::Note);
+        continue;
+      }
+      const auto place = static_cast<std::uint32_t>(definition_.nodes.size());
+      definition_.groups.push_back({place, std::move(members_[i])});
+      definition_.nodes.push_back({.type = group.type,
+                                   .end = place + 1,
+                                   .parent = place,
+                                   .children = 0,
+                                   .first = bind_ports(group, scope),
+                                   .name = group.name,
+                                   .place = group.place,
+                                   .written = group.written});
+    }
+  }
+
+  // Adds a node to the group that one of its parameters names, if there is such a parameter.
+  void join_group(std::uint32_t place, const CheckedNode& checked, Scope& scope) {
+    const auto& parameters = checked.type->parameters;
+    for (std::uint32_t i = 0; i < parameters.size(); ++i) {
+      const CheckedPort& port = trees_.ports[checked.first + i];
+      if (parameters[i].group.empty() || port.value == Port::kNone) continue;
+      const std::string_view written = std::get<std::string>(definition_.values[port.value]);
+      const std::string_view name = scope.group(written);
+      const auto group = groups_.find(name);
+      if (group != groups_.end() && trees_.groups[group->second].type->id == parameters[i].group) {
+        members_[group->second].push_back(place);
+      } else if (unknown_groups_.emplace(port.place.byte, name).second) {
+        unknown_group(parameters[i].group, port.place, written, name);
+      }
+      return;
+    }
+  }
+
+  void unknown_group(std::string_view type, Place place, std::string_view written,
+                     std::string_view name) const {
+    if (report_.counted_only(Severity::Error)) return;
+    std::vector<std::string_view> names;
+    for (const CheckedNode& it : trees_.groups) {
+      if (it.type->id == type) names.push_back(it.name);
+    }
+    std::string hint = suggest(name, names, fmt::format("declared with <{}>", type));
+    if (hint.empty())
+      hint = fmt::format("declare it in 'root': <{} name=\"{}\" …/>", type, brief(name));
+    const std::string origin =
+        name == written ? "" : fmt::format(", which a SubTree gives for '{}'", brief(written));
+    report_.at_value(place, fmt::format("unknown {} '{}'{}", type, brief(name), origin), hint);
   }
 
   // Where nothing comes from an entry, all expansions of a tree share their ports.
@@ -144,6 +209,9 @@ class Expander {
   const StartValues& values_;
   const Reporter& report_;
   Definition definition_;
+  std::map<std::string_view, std::size_t> groups_;   // by name: its place in trees_.groups
+  std::vector<std::vector<std::uint32_t>> members_;  // of each of them
+  std::set<std::pair<std::uint32_t, std::string_view>> unknown_groups_;  // reported: where, name
   std::vector<std::uint32_t> shared_;  // of each first checked port: its ports, made already
 };
 

@@ -6,6 +6,7 @@
 #include "core/wording.h"
 #include "definition/advise.h"
 #include "definition/check_trees.h"
+#include "definition/groups.h"
 #include "definition/references.h"
 #include "document/reporter.h"
 
@@ -54,6 +55,8 @@ std::optional<Definition> resolve(const Project& project, const Catalog& catalog
   const auto main = choose_main(trees, options.main_tree, report);
   if (!check_references(trees, report) || !main) return std::nullopt;
   Definition definition = expand(trees, *main, options.values, report);
+  if (report.has_errors()) return std::nullopt;
+  check_groups(definition, report);
   if (report.has_errors()) return std::nullopt;
   advise(definition, report);
   return definition;

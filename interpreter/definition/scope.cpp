@@ -19,10 +19,20 @@ Scope::Found Scope::find(std::string_view key) {
   return {entry, true, has_text ? text->second : std::string_view(), has_text};
 }
 
+std::string_view Scope::group(std::string_view name) {
+  if (outer_ == nullptr) return name;
+  groups_.insert(name);
+  const auto other = texts_.find(name);
+  return outer_->group(other == texts_.end() ? name : other->second);
+}
+
 std::vector<std::string_view> Scope::open_keys() const {
   std::vector<std::string_view> keys;
   for (const auto& [key, entry] : known_) {
     if (!remapped_.contains(key) && !texts_.contains(key)) keys.push_back(key);
+  }
+  for (const std::string_view name : groups_) {
+    if (!texts_.contains(name)) keys.push_back(name);
   }
   return keys;
 }

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,8 +38,10 @@ class Scope {
   };
   // The entry that `key` means here; created if it does not exist.
   Found find(std::string_view key);
-  bool used(std::string_view key) const { return known_.contains(key); }
-  // The keys that are used but that no attribute of the SubTree sets.
+  // The name in the project of the group that `name` means here.
+  std::string_view group(std::string_view name);
+  bool used(std::string_view key) const { return known_.contains(key) || groups_.contains(key); }
+  // The keys and names that are used but that no attribute of the SubTree sets.
   std::vector<std::string_view> open_keys() const;
 
  private:
@@ -49,6 +52,7 @@ class Scope {
   std::map<std::string_view, std::string_view> remapped_;
   std::map<std::string_view, std::string_view> texts_;
   std::map<std::string_view, std::uint32_t> known_;
+  std::set<std::string_view> groups_;  // names of groups that were looked up
 };
 
 }  // namespace lockstep

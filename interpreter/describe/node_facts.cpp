@@ -8,11 +8,10 @@
 namespace lockstep {
 
 std::span<const NodeGroup> node_groups() {
-  static constexpr NodeGroup kGroups[] = {{NodeCategory::Control, "Control nodes"},
-                                          {NodeCategory::Decorator, "Decorators"},
-                                          {NodeCategory::SubTree, "Subtrees"},
-                                          {NodeCategory::Action, "Actions"},
-                                          {NodeCategory::Condition, "Conditions"}};
+  static constexpr NodeGroup kGroups[] = {
+      {NodeCategory::Control, "Control nodes"}, {NodeCategory::Decorator, "Decorators"},
+      {NodeCategory::SubTree, "Subtrees"},      {NodeCategory::Action, "Actions"},
+      {NodeCategory::Condition, "Conditions"},  {NodeCategory::Group, "Beside the trees, in root"}};
   return kGroups;
 }
 
@@ -44,6 +43,7 @@ std::string children_text(const NodeType& type) {
 
 std::string facts_text(const Parameter& parameter) {
   std::string text(to_string(parameter.type));
+  if (!parameter.group.empty()) text = fmt::format("the name of a {}", parameter.group);
   if (!parameter.unit.empty()) text += fmt::format(" in {}", parameter.unit);
   if (parameter.direction != Direction::Input) {
     text += fmt::format(", {}put to a blackboard entry", to_string(parameter.direction));
@@ -64,6 +64,7 @@ std::string facts_text(const Parameter& parameter) {
 std::string usage_text(const NodeType& type) {
   std::string text = fmt::format("<{}", type.id);
   if (type.category == NodeCategory::SubTree) text += " ID=\"…\"";
+  if (type.category == NodeCategory::Group) text += " name=\"…\"";
   for (const Parameter& parameter : type.parameters) {
     if (!parameter.required) continue;
     const bool is_key = parameter.direction != Direction::Input;

@@ -28,11 +28,12 @@ std::string barriers_text(const std::vector<double>& barriers) {
 
 // What the sign of a control node does not say.
 std::vector<std::string> control_lines(const Definition& definition, const DefinitionNode& node) {
-  if (node.type->synchronization == Synchronization::Absolute) {
+  const Synchronization synchronization = definition.synchronization(node);
+  if (synchronization == Synchronization::Absolute) {
     if (const Value* barriers = constant(definition, node, "barriers")) {
       return {barriers_text(std::get<std::vector<double>>(*barriers))};
     }
-  } else if (node.type->synchronization == Synchronization::Relative) {
+  } else if (synchronization == Synchronization::Relative) {
     if (const Value* delta = constant(definition, node, "delta")) {
       return {fmt::format("Δ = {}", std::get<double>(*delta))};
     }

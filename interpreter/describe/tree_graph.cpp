@@ -49,7 +49,7 @@ std::string label(const Definition& definition, const DefinitionNode& node,
 }
 
 std::string_view dot_shape(NodeCategory category) {
-  constexpr std::string_view kShapes[] = {"square", "diamond", "box", "ellipse", "tab"};
+  constexpr std::string_view kShapes[] = {"square", "diamond", "box", "ellipse", "tab", "hexagon"};
   return kShapes[static_cast<unsigned>(category)];
 }
 
@@ -58,8 +58,16 @@ struct Brackets {
 };
 
 Brackets mermaid_shape(NodeCategory category) {
-  constexpr Brackets kShapes[] = {{"[", "]"}, {"{{", "}}"}, {"[", "]"}, {"([", "])"}, {"[[", "]]"}};
+  constexpr Brackets kShapes[] = {{"[", "]"},   {"{{", "}}"}, {"[", "]"},
+                                  {"([", "])"}, {"[[", "]]"}, {"{{", "}}"}};
   return kShapes[static_cast<unsigned>(category)];
+}
+
+template <class Visit>
+void for_each_member(const Definition& definition, Visit visit) {
+  for (const DefinitionGroup& group : definition.groups) {
+    for (const std::uint32_t member : group.members) visit(group.node, member);
+  }
 }
 
 }  // namespace
@@ -74,8 +82,13 @@ std::string tree_as_dot(const Definition& definition) {
     text += fmt::format("  n{} [shape={}, label=\"{}\"];\n", index,
                         dot_shape(nodes[index].type->category),
                         label(definition, nodes[index], dot_escaped, "\\n"));
-    if (index > 0) text += fmt::format("  n{} -> n{};\n", nodes[index].parent, index);
+    if (nodes[index].parent != index) {
+      text += fmt::format("  n{} -> n{};\n", nodes[index].parent, index);
+    }
   }
+  for_each_member(definition, [&](std::uint32_t group, std::uint32_t member) {
+    text += fmt::format("  n{} -> n{} [style=dashed, constraint=false];\n", group, member);
+  });
   return text + "}\n";
 }
 
@@ -86,8 +99,13 @@ std::string tree_as_mermaid(const Definition& definition) {
     const auto [open, close] = mermaid_shape(nodes[index].type->category);
     text += fmt::format("  n{}{}\"{}\"{}\n", index, open,
                         label(definition, nodes[index], mermaid_escaped, "<br/>"), close);
-    if (index > 0) text += fmt::format("  n{} --- n{}\n", nodes[index].parent, index);
+    if (nodes[index].parent != index) {
+      text += fmt::format("  n{} --- n{}\n", nodes[index].parent, index);
+    }
   }
+  for_each_member(definition, [&](std::uint32_t group, std::uint32_t member) {
+    text += fmt::format("  n{} -.- n{}\n", group, member);
+  });
   return text;
 }
 

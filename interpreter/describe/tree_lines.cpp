@@ -29,8 +29,9 @@ std::string tree_as_text(const Definition& definition, bool ascii) {
   std::vector<std::string> before(nodes.size());
   for (std::uint32_t index = 0; index < nodes.size(); ++index) {
     const DefinitionNode& node = nodes[index];
-    const std::string prefix = index == 0 ? "" : before[node.parent];
-    const bool last = index == 0 || node.end == nodes[node.parent].end;
+    const bool is_top = node.parent == index;  // the root, and the groups behind it
+    const std::string prefix = is_top ? "" : before[node.parent];
+    const bool last = is_top ? node.end == nodes.size() : node.end == nodes[node.parent].end;
     text.append(prefix).append(last ? strokes.last : strokes.branch);
     text.append(line(definition, node)).append("\n");
     if (node.children > 0)

@@ -221,6 +221,26 @@ std::string node(const NodeType& type) {
   return text + std::string(kElementEnd);
 }
 
+// A group is declared in 'root' and cannot be in a tree.
+std::string group(const NodeType& type) {
+  std::string text =
+      fmt::format("        <xs:element name=\"{}\">\n    {}\n    <xs:complexType>\n", type.id,
+                  annotation(type.doc)) +
+      children({0, 0}) +
+      "      <xs:attribute name=\"name\" use=\"required\">\n"
+      "        <xs:simpleType><xs:union memberTypes=\"identifier substituted\"/></xs:simpleType>\n"
+      "      </xs:attribute>\n"
+      "      <xs:attribute name=\"_description\" type=\"xs:string\"/>\n";
+  for (const Parameter& parameter : type.parameters) text += attribute(parameter);
+  return text + std::string(kElementEnd);
+}
+
+void add_group(const NodeType& type, std::string& text) {
+  constexpr std::string_view kEndOfRoot = "      </xs:choice>\n";
+  text.insert(text.find(kEndOfRoot), group(type));
+  text += fmt::format("  <xs:element name=\"{}\" abstract=\"true\"/>\n", type.id);
+}
+
 // A strict wildcard takes only elements that the schema declares.
 void refuse_unknown(std::string& text) {
   constexpr std::string_view kElements = "<xs:any namespace=\"##local\" processContents=\"";
@@ -234,8 +254,13 @@ void refuse_unknown(std::string& text) {
 
 std::string make_xsd(NodeTypes types, UnknownNodes unknown) {
   std::string text(kPrologue);
+  for (const NodeType* type : types) {
+    if (type->category == NodeCategory::Group) add_group(*type, text);
+  }
   text += explicit_forms(types, unknown);
-  for (const NodeType* type : types) text += node(*type);
+  for (const NodeType* type : types) {
+    if (type->category != NodeCategory::Group) text += node(*type);
+  }
   text += "\n</xs:schema>\n";
   if (unknown == UnknownNodes::Refused) refuse_unknown(text);
   return text;

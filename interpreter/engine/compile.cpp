@@ -51,7 +51,9 @@ class Compiler {
   Tree compile() {
     tree_.id = definition_.id;
     tree_.nodes.reserve(definition_.nodes.size());
+    number_members();
     for (const DefinitionNode& node : definition_.nodes) add(node);
+    add_groups();
     find_guards();
     list_children();
     for (const BlackboardEntry& entry : definition_.entries) {
@@ -73,15 +75,19 @@ class Compiler {
   }
 
   void add(const DefinitionNode& from) {
+    const auto self = static_cast<NodeIndex>(tree_.nodes.size());
     Node node{.kind = kind(*from.type),
               .end = from.end,
-              .children = from.children & 0x3fffffffu,  // kMaxNodes is far less
+              .children = children_of(from) & 0xfffffffu,  // kMaxNodes is far less
+              .synchronizes = static_cast<unsigned>(definition_.synchronization(from)) & 3u,
               .is_guard = from.type->category != NodeCategory::Action,
               .is_latched = false,
               .params = 0,
               .state = static_cast<std::uint32_t>(tree_.state_size)};
     if (from.type->leaf != nullptr) {
       node.params = add_leaf(from);
+    } else if (!numbers_.empty() && numbers_.contains(self)) {
+      add_member(from, self, node);
     } else if (is_bound(from)) {
       add_bound(from, node);
     } else {
@@ -93,12 +99,52 @@ class Compiler {
     tree_.nodes.push_back(node);
   }
 
+  // Of a group: its members.
+  std::uint32_t children_of(const DefinitionNode& from) const {
+    if (from.type->category != NodeCategory::Group) return from.children;
+    const std::size_t group = tree_.nodes.size() - definition_.nodes[0].end;
+    return static_cast<std::uint32_t>(definition_.groups[group].members.size());
+  }
+
+  void number_members() {
+    for (const DefinitionGroup& group : definition_.groups) {
+      std::uint32_t number = 0;
+      for (const std::uint32_t node : group.members) {
+        numbers_.emplace(node, static_cast<std::uint32_t>(tree_.members.size()));
+        tree_.members.push_back({.node = node, .group = group.node, .number = number++});
+      }
+    }
+  }
+
+  void add_groups() {
+    std::uint32_t first = 0;
+    for (const DefinitionGroup& group : definition_.groups) {
+      const auto count = static_cast<std::uint32_t>(group.members.size());
+      tree_.groups.push_back({.node = group.node,
+                              .ancestor = definition_.common_ancestor(group.members),
+                              .first = first,
+                              .count = count});
+      first += count;
+    }
+  }
+
+  // Its place among the members is in the cell before that of a bound node.
+  void add_member(const DefinitionNode& from, NodeIndex self, Node& node) {
+    tree_.cells.push_back({.integer = numbers_.at(self)});
+    if (is_bound(from)) {
+      add_bound(from, node);
+      return;
+    }
+    tree_.cells.push_back({.integer = 0});
+    node.params = append_parameters(from);
+  }
+
   // A node is a guard when all of its children are.
   void find_guards() {
     for (auto node = static_cast<NodeIndex>(tree_.nodes.size()); node-- > 0;) {
       const DefinitionNode& from = definition_.nodes[node];
       Node& it = tree_.nodes[node];
-      it.is_latched = it.is_guard == 0;
+      it.is_latched = it.is_guard == 0 && definition_.nodes[from.parent].type->latches;
       if (it.is_guard == 0) tree_.nodes[from.parent].is_guard = 0;
       if (!definition_.forgets(from)) continue;
       for (const NodeIndex child : children_in(tree_.nodes, node)) {
@@ -170,7 +216,12 @@ class Compiler {
     if (from.type->parameters.empty()) return 0;
     std::uint32_t& first = cells_[from.first];
     if (first != kNone) return first;
-    first = static_cast<std::uint32_t>(tree_.cells.size());
+    first = append_parameters(from);
+    return first;
+  }
+
+  std::uint32_t append_parameters(const DefinitionNode& from) {
+    const auto first = static_cast<std::uint32_t>(tree_.cells.size());
     for (std::size_t i = 0; i < from.type->parameters.size(); ++i) {
       const Value* value = definition_.constant(from, i);
       tree_.cells.push_back(value != nullptr ? cell(from.type->parameters[i], *value)
@@ -206,6 +257,10 @@ class Compiler {
       tree_.labels.push_back({.name = name, .type = node.type, .parent = node.parent});
     }
     tree_.names = std::move(names);
+    for (const Group& group : tree_.groups) {  // beside the root, whose name may be the same
+      if (tree_.labels[group.node].name == tree_.labels[0].name)
+        tree_.labels[group.node].repeat = 2;
+    }
     for (NodeIndex node = 0; node < tree_.nodes.size(); ++node) {
       if (tree_.nodes[node].children > 1) make_segments_unique(node);
     }
@@ -240,6 +295,8 @@ class Compiler {
   Tree tree_;
   std::vector<std::uint32_t> constants_;  // of each value of the definition: its constant
   std::vector<std::uint32_t> cells_;      // of each first port of a node: its first cell
+  // Of each member of a group: its place in Tree::members.
+  std::unordered_map<NodeIndex, std::uint32_t> numbers_;
   const NodeType* last_type_ = nullptr;
   const NodeKind* last_kind_ = nullptr;
 };

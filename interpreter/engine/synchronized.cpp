@@ -5,22 +5,49 @@
 namespace lockstep {
 namespace {
 
+std::size_t place_of(const Tree& tree, NodeIndex node, std::string_view parameter) {
+  const auto parameters = tree.labels[node].type->parameters;
+  const auto it = std::ranges::find(parameters, parameter, &Parameter::name);
+  return static_cast<std::size_t>(it - parameters.begin());
+}
+
+// The cell of a parameter that the node has.
+const Cell& cell_of(const Tree& tree, NodeIndex node, std::string_view parameter) {
+  return tree.cells[tree.nodes[node].params + place_of(tree, node, parameter)];
+}
+
+// Null when all its parameters are constants.
+const BoundNode* bound_of(const Tree& tree, NodeIndex node) {
+  const auto it = std::ranges::lower_bound(tree.bound, node, {}, &BoundNode::node);  // in pre-order
+  return it != tree.bound.end() && it->node == node ? &*it : nullptr;
+}
+
 bool is_constant(const Tree& tree, NodeIndex node, Synchronization wanted) {
-  if (synchronization(tree.nodes[node]) != wanted) return false;
-  return !std::ranges::binary_search(tree.bound, node, {}, &BoundNode::node);  // in pre-order
+  return synchronization(tree.nodes[node]) == wanted && bound_of(tree, node) == nullptr;
 }
 
 }  // namespace
 
 std::optional<std::span<const double>> barriers(const Tree& tree, NodeIndex node) {
   if (!is_constant(tree, node, Synchronization::Absolute)) return std::nullopt;
-  const Cell& cell = tree.cells[tree.nodes[node].params];
+  const Cell& cell = cell_of(tree, node, "barriers");
   return std::span(tree.numbers).subspan(cell.list.first, cell.list.count);
 }
 
 std::optional<double> delta(const Tree& tree, NodeIndex node) {
   if (!is_constant(tree, node, Synchronization::Relative)) return std::nullopt;
-  return tree.cells[tree.nodes[node].params].number;
+  return cell_of(tree, node, "delta").number;
+}
+
+bool ignores_idle(const Tree& tree, NodeIndex node) {
+  if (!tree.is_group(node)) return false;
+  const std::size_t place = place_of(tree, node, "idle");
+  if (place == tree.labels[node].type->parameters.size()) return false;
+  if (const BoundNode* bound = bound_of(tree, node)) {
+    return tree.constants[tree.ports[bound->first_port + place].constant] == Value("ignore");
+  }
+  return tree.labels[node].type->parameters[place].choices[static_cast<std::size_t>(
+             cell_of(tree, node, "idle").integer)] == "ignore";
 }
 
 }  // namespace lockstep

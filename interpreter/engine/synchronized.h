@@ -1,7 +1,8 @@
-// The state of a synchronized parallel, for measures, views and recordings. No other code computes
-// which child waits for what.
+// The state of a synchronized node, a parallel or a barrier beside the tree, for measures, views
+// and recordings. No other code computes which child waits for what.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <span>
 
@@ -19,7 +20,7 @@ struct SynchronizedState {
 };
 
 inline Synchronization synchronization(const Node& node) {
-  return node.kind->type.synchronization;
+  return static_cast<Synchronization>(node.synchronizes);
 }
 
 // The limit in the node's last tick. ParallelAbsolute: the current barrier, infinity if none is
@@ -34,8 +35,22 @@ inline double farthest(Synchronization synchronization, double limit, double lea
   return synchronization == Synchronization::Relative ? least + limit : limit;
 }
 
+// Visits the nodes that a synchronized node, or any other, holds or ticks: the children of a
+// parallel, and of a group what each member holds.
+template <class Visit>
+void for_each_child(const Tree& tree, NodeIndex node, Visit visit) {
+  if (tree.is_group(node)) {
+    for (const Member& member : tree.members_of(node)) visit(member.node + 1);
+    return;
+  }
+  for (NodeIndex child = node + 1; child != tree.nodes[node].end; child = tree.nodes[child].end) {
+    visit(child);
+  }
+}
+
 // The progress of each child at the start of its parallel's last tick, as the node used it: 1 for a
-// child that has succeeded. Only for synchronized nodes; valid until the next tick.
+// child that has succeeded, not a number for one that was left out. Only for synchronized nodes;
+// valid until the next tick.
 inline std::span<const double> child_progress(Ticker& ticker, NodeIndex node) {
   return ticker.child_numbers(node);
 }
@@ -46,9 +61,23 @@ inline bool succeeded(Ticker& ticker, NodeIndex node) {
   return ticker.state<SynchronizedState>(node).succeeded;
 }
 
+// Of the children that were not left out; 1 if all were.
+inline double least_progress(std::span<const double> progress) {
+  double least = 1.0;
+  for (const double one : progress) {
+    if (one < least) least = one;
+  }
+  return least;
+}
+inline bool is_left_out(double progress) {
+  return std::isnan(progress);
+}
+
 // Of a ParallelAbsolute, rising, and the delta of a ParallelRelative. Nothing for other nodes, and
 // where an entry gives any parameter.
 std::optional<std::span<const double>> barriers(const Tree& tree, NodeIndex node);
 std::optional<double> delta(const Tree& tree, NodeIndex node);
+// A group that leaves out the members that are idle.
+bool ignores_idle(const Tree& tree, NodeIndex node);
 
 }  // namespace lockstep

@@ -23,7 +23,30 @@ Ticker::Ticker(const Tree& tree, std::span<LeafSlot> leaves, const Blackboard& b
 Status Ticker::tick_root(Nanoseconds now) {
   set_now(now);
   ++tick_number_;
-  return tick(0);
+  if (tree_.groups.empty()) [[likely]]
+    return tick(0);
+  return tick_with_groups();
+}
+
+// A group is idle when its common ancestor does not run: the ancestor's next tick begins an
+// activation, and the group begins anew with it. Whether the tick reached the group, its members
+// say.
+Status Ticker::tick_with_groups() {
+  const auto rests = [this](const Group& group) {
+    return status(group.ancestor) != Status::Running;
+  };
+  for (const Group& group : tree_.groups) {
+    Activity& activity = state_.activity[group.node];
+    if (rests(group)) activity = Activity::Idle;
+    const Status status = tree_.nodes[group.node].kind->tick(*this, group.node);
+    activity = static_cast<Activity>(faulted_ ? Status::Running : status);
+  }
+  const Status result = tick(0);
+  for (const Group& group : tree_.groups) {
+    Activity& activity = state_.activity[group.node];
+    if (rests(group) && activity == Activity::Running) activity = Activity::Idle;
+  }
+  return result;
 }
 
 Status Ticker::tick_bound(NodeIndex node) {
@@ -116,7 +139,7 @@ void Ticker::set_fault(NodeIndex node, std::string message) {
 }
 
 void Ticker::keep_ancestors_running(NodeIndex node) {
-  while (node != 0) {
+  while (node != tree_.labels[node].parent) {
     node = tree_.labels[node].parent;
     if (status(node) != Status::Running) state_.activity[node] = Activity::Running;
   }

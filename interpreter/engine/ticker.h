@@ -102,6 +102,15 @@ class Ticker {
   // Ticks a node of Tree::bound with the current values of its entries. A value that the node does
   // not accept is a fault.
   Status tick_bound(NodeIndex node);
+  // Of a node whose kind has a parameter that names a group.
+  const Member& membership(NodeIndex node) const {
+    const Cell& place = parameters_.cells()[tree_.nodes[node].params - 2];
+    return tree_.members[static_cast<std::size_t>(place.integer)];
+  }
+  // A member was ticked: its group counts as ticked in this tick.
+  void reach(NodeIndex group) { state_.last_tick[group] = tick_number_; }
+  // Of a group: Success, until the common ancestor of its members begins an activation.
+  void complete(NodeIndex group) { state_.activity[group] = Activity::Success; }
   LeafSlot& leaf(NodeIndex node) { return leaves_[tree_.nodes[node].params]; }
 
   // Under FaultPolicy::Fail the fault is noted in tolerated(), and a leaf's slot is marked failed:
@@ -155,6 +164,7 @@ class Ticker {
   const RunState& run_state() const { return state_; }
 
  private:
+  Status tick_with_groups();
   void forget_descendants(NodeIndex node);
   NodeIndex end_activation(NodeIndex node);
   void keep_ancestors_running(NodeIndex node);

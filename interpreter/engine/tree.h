@@ -17,10 +17,11 @@ namespace lockstep {
 
 struct Node {
   const NodeKind* kind;
-  NodeIndex end;                 // one past the last descendant
-  std::uint32_t children : 30;   // how many
-  std::uint32_t is_guard : 1;    // no action is in it: a parallel asks it in every tick
-  std::uint32_t is_latched : 1;  // a parallel does not tick it again after it has completed
+  NodeIndex end;                       // one past the last descendant
+  std::uint32_t children : 28;         // how many; of a group: members
+  std::uint32_t synchronizes : 2 = 0;  // Synchronization: see engine/synchronized.h
+  std::uint32_t is_guard : 1;          // no action is in it: a parallel asks it in every tick
+  std::uint32_t is_latched : 1;        // a parallel does not tick it again after it has completed
   std::uint32_t params;  // first cell in Tree::cells; of a plugin leaf: its place in Tree::leaves
   std::uint32_t state;   // first byte in RunState's node states
 };
@@ -68,17 +69,33 @@ struct Slot {
 struct NodeLabel {
   std::string_view name;  // the name attribute, in Tree::names; else the type's id
   const NodeType* type;
-  NodeIndex parent;          // the root is its own
+  NodeIndex parent;          // the root is its own, and so is a group
   std::uint32_t repeat = 0;  // makes the name unique among its siblings: Tree::segment
 };
 
+// Nodes anywhere in the tree that a declaration beside it joins. The declaration is a node without
+// children behind the root's subtree; it is ticked before the root.
+struct Group {
+  NodeIndex node;              // of the declaration
+  NodeIndex ancestor;          // the lowest that all members are below
+  std::uint32_t first, count;  // in Tree::members
+};
+
+struct Member {
+  NodeIndex node;
+  NodeIndex group;       // the node of the declaration
+  std::uint32_t number;  // among the members of the group
+};
+
 struct Tree {
-  std::vector<Node> nodes;
+  std::vector<Node> nodes;  // the root and its subtree, then one for each group
   std::vector<Cell> cells;
   std::vector<double> numbers;
   std::vector<LeafNode> leaves;
   std::vector<NodeIndex> children;  // of the control nodes of plugins
   std::vector<BoundNode> bound;
+  std::vector<Group> groups;       // in the order of their nodes
+  std::vector<Member> members;     // of each group, in pre-order
   std::vector<PortBinding> ports;  // of leaves and bound nodes, each type's parameters in order
   std::vector<Value> constants;
   std::vector<Slot> slots;
@@ -87,6 +104,12 @@ struct Tree {
   std::vector<NodeLabel> labels;  // not touched while ticking
   // What the labels' names point into; a copy of the tree shares it.
   std::shared_ptr<const std::string> names;
+
+  bool is_group(NodeIndex node) const { return node >= nodes[0].end; }
+  std::span<const Member> members_of(NodeIndex group) const {
+    const Group& it = groups[group - nodes[0].end];
+    return std::span(members).subspan(it.first, it.count);
+  }
 
   // A node's part of the path: its name, or "name#2" for the second sibling of that name.
   std::string segment(NodeIndex node) const;

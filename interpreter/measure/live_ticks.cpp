@@ -23,7 +23,8 @@ MeasuredTree measured_tree(const Tree& tree) {
   for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
     const NodeLabel& label = tree.labels[node];
     measured.paths.push_back(tree.path(node));
-    measured.nodes.push_back({label.parent, label.type->synchronization, label.type->id});
+    measured.nodes.push_back(
+        {label.parent, synchronization(tree.nodes[node]), label.type->id, children_of(tree, node)});
   }
   for (const Slot& slot : tree.slots) {
     measured.entries.push_back(slot.name);
@@ -42,12 +43,12 @@ LiveTicks::LiveTicks(const Tree& tree, const Measuring& measuring)
   }
   for (const NodeIndex node : measuring.nodes()) {
     Node measured{.index = node, .parent = {}, .child = 0};
-    const NodeIndex parent = tree.labels[node].parent;
-    if (synchronization(tree.nodes[parent]) != Synchronization::None && parent != node) {
-      const auto children = children_of(tree, parent);
-      measured.parent = parent;
-      measured.child =
-          static_cast<std::size_t>(std::ranges::find(children, node) - children.begin());
+    for (const NodeIndex keeper : synchronized_nodes(tree)) {
+      const auto children = children_of(tree, keeper);
+      const auto child = std::ranges::find(children, node);
+      if (child == children.end()) continue;
+      measured.parent = keeper;
+      measured.child = static_cast<std::size_t>(child - children.begin());
     }
     nodes_.push_back(measured);
   }
@@ -70,7 +71,8 @@ TickView LiveTicks::read(Ticker& ticker, std::uint64_t tick, Nanoseconds time) {
     node_ticks_[i].status = ticker.status(node.index);
     // What a synchronized node has seen counts more than what was seen before its tick.
     if (node.parent && ticker.ticked(*node.parent)) {
-      node_ticks_[i].progress = child_progress(ticker, *node.parent)[node.child];
+      const double used = child_progress(ticker, *node.parent)[node.child];
+      if (!is_left_out(used)) node_ticks_[i].progress = used;
     }
   }
   for (std::size_t i = 0; i < slots_.size(); ++i) {

@@ -23,8 +23,8 @@ class LiveTicks {
  private:
   struct Node {
     NodeIndex index;
-    std::optional<NodeIndex> parent;  // if it is synchronized
-    std::size_t child;                // the node's place among the parent's children
+    std::optional<NodeIndex> parent;  // the synchronized node that holds it, if any
+    std::size_t child;                // the node's place among its children
   };
   std::vector<SynchronizedProbe> parallels_;
   std::vector<Node> nodes_;

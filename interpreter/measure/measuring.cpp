@@ -1,5 +1,7 @@
 #include "measure/measuring.h"
 
+#include <algorithm>
+
 #include "measure/measure_spec.h"
 
 namespace lockstep {
@@ -11,11 +13,7 @@ bool is_parallel(const MeasuredTree::Node& node) {
 
 }  // namespace
 
-Measuring::Measuring(const MeasuredTree& tree, std::span<const MeasureSpec> specs)
-    : children_(tree.nodes.size()), number_(tree.nodes.size()) {
-  for (std::size_t node = 1; node < tree.nodes.size(); ++node) {
-    number_[node] = children_[tree.nodes[node].parent]++;
-  }
+Measuring::Measuring(const MeasuredTree& tree, std::span<const MeasureSpec> specs) {
   for (const MeasureSpec& spec : specs) {
     switch (spec.measure->of) {
       case MeasureOf::Run:
@@ -43,15 +41,15 @@ void Measuring::add(const MeasureSpec& spec, std::string node, const MeasureTarg
   accumulators_.push_back(spec.measure->make(spec, target));
 }
 
-MeasureTarget Measuring::target_of(NodeIndex parallel) {
+MeasureTarget Measuring::target_of(const MeasuredTree& tree, NodeIndex parallel) {
   const auto [place, is_new] = places_.try_emplace(parallel, parallels_.size());
   if (is_new) parallels_.push_back(parallel);
-  return {.place = place->second, .children = children_[parallel]};
+  return {.place = place->second, .children = tree.nodes[parallel].children.size()};
 }
 
 void Measuring::add_parallels(const MeasureSpec& spec, const MeasuredTree& tree) {
   for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
-    if (is_parallel(tree.nodes[node])) add(spec, tree.paths[node], target_of(node));
+    if (is_parallel(tree.nodes[node])) add(spec, tree.paths[node], target_of(tree, node));
   }
 }
 
@@ -61,16 +59,23 @@ void Measuring::add_child(const MeasureSpec& spec, const MeasuredTree& tree) {
     error_ = node.error().message;
     return;
   }
-  const NodeIndex parent = tree.nodes[*node].parent;
-  if (parent == *node || tree.nodes[parent].synchronization == Synchronization::None) {
-    error_ =
-        "'" + tree.paths[*node] + "' is not a child of a synchronized node, so it is never held";
+  for (NodeIndex keeper = 0; keeper < tree.nodes.size(); ++keeper) {
+    if (tree.nodes[keeper].synchronization == Synchronization::None) continue;
+    const auto& children = tree.nodes[keeper].children;
+    // A SyncProgress stands for its child.
+    const auto child = std::ranges::find_if(children, [&](NodeIndex held) {
+      const NodeIndex around = tree.nodes[held].parent;
+      return held == *node || (around == *node && around != keeper);
+    });
+    if (child == children.end()) continue;
+    needs_held_ = true;
+    MeasureTarget target = target_of(tree, keeper);
+    target.child = static_cast<std::size_t>(child - children.begin());
+    add(spec, tree.paths[*node], target);
     return;
   }
-  needs_held_ = true;
-  MeasureTarget target = target_of(parent);
-  target.child = number_[*node];
-  add(spec, tree.paths[*node], target);
+  error_ = "'" + tree.paths[*node] +
+           "' is not a child of a synchronized node, nor of a SyncProgress, so it is never held";
 }
 
 void Measuring::add_node(const MeasureSpec& spec, const MeasuredTree& tree) {

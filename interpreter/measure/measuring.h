@@ -16,9 +16,10 @@ namespace lockstep {
 // What can be measured.
 struct MeasuredTree {
   struct Node {
-    NodeIndex parent = 0;  // the root is its own
+    NodeIndex parent = 0;  // the root is its own, and so is a group
     Synchronization synchronization = Synchronization::None;
     std::string_view kind = {};
+    std::vector<NodeIndex> children = {};  // that it holds or ticks
   };
   std::string id;
   std::vector<std::string> paths;        // of each node
@@ -61,14 +62,13 @@ class Measuring {
   void add_child(const MeasureSpec& spec, const MeasuredTree& tree);
   void add_node(const MeasureSpec& spec, const MeasuredTree& tree);
   void add_entry(const MeasureSpec& spec, const MeasuredTree& tree);
-  MeasureTarget target_of(NodeIndex parallel);
+  MeasureTarget target_of(const MeasuredTree& tree, NodeIndex parallel);
 
   std::vector<Column> columns_;
   std::vector<std::unique_ptr<Accumulator>> accumulators_;  // of each column
   std::vector<NodeIndex> parallels_, nodes_;
   std::vector<std::size_t> entries_;
-  std::map<NodeIndex, std::size_t> places_;     // of the parallels
-  std::vector<std::size_t> children_, number_;  // of each node: how many, and which of its parent
+  std::map<NodeIndex, std::size_t> places_;  // of the parallels
   bool needs_held_ = false;
   std::string error_;
 };

@@ -1,6 +1,7 @@
 #include "measure/progress_distance.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/value.h"
 
@@ -8,27 +9,31 @@ namespace lockstep {
 
 namespace {
 
-// A general sort takes most of the time for the few children that a parallel has.
-void copy_sorted(std::span<const double> values, std::span<double> sorted) {
+// Without what is left out. A general sort takes most of the time for the few children that a
+// parallel has.
+std::span<double> copy_sorted(std::span<const double> values, std::span<double> sorted) {
   constexpr std::size_t kFew = 16;
+  std::size_t count = 0;
   if (values.size() > kFew) {
-    std::ranges::copy(values, sorted.begin());
-    std::ranges::sort(sorted);
-    return;
+    for (const double value : values) {
+      if (!std::isnan(value)) sorted[count++] = value;
+    }
+    std::ranges::sort(sorted.first(count));
+    return sorted.first(count);
   }
-  for (std::size_t count = 0; count < values.size(); ++count) {
-    std::size_t place = count;
-    for (; place > 0 && sorted[place - 1] > values[count]; --place)
-      sorted[place] = sorted[place - 1];
-    sorted[place] = values[count];
+  for (const double value : values) {
+    if (std::isnan(value)) continue;
+    std::size_t place = count++;
+    for (; place > 0 && sorted[place - 1] > value; --place) sorted[place] = sorted[place - 1];
+    sorted[place] = value;
   }
+  return sorted.first(count);
 }
 
 }  // namespace
 
 double progress_distance(std::span<const double> progress, std::span<double> scratch) {
-  const auto sorted = scratch.first(progress.size());
-  copy_sorted(progress, sorted);
+  const auto sorted = copy_sorted(progress, scratch);
   // The gap between two neighbors is part of the distance of each pair that lies around it.
   double sum = 0;
   for (std::size_t i = 1; i < sorted.size(); ++i) {

@@ -7,8 +7,12 @@ namespace lockstep {
 void Spread::after_tick(const TickView& view) {
   const SynchronizedTick& tick = view.parallels[place_];
   if (!tick.ticked) return;
-  const auto [least, most] = std::ranges::minmax(tick.progress);
-  largest_ = std::fmax(largest_, most - least);
+  double least = 1, most = 0;
+  for (const double one : tick.progress) {  // no comparison is true for one that is left out
+    if (one < least) least = one;
+    if (one > most) most = one;
+  }
+  largest_ = std::fmax(largest_, std::max(0.0, most - least));
 }
 
 extern const Measure kSpread{

@@ -17,18 +17,19 @@ std::optional<std::size_t> StallDetector::after_tick(const SynchronizedTick& tic
     runs_ = runs_ && tick.status == Status::Running;  // else it was halted
     return std::nullopt;
   }
-  const auto least = std::ranges::min_element(tick.progress);
-  const bool is_new = !runs_ || *least > best_ + kNoChange || *least >= 1 - kNoChange;
+  const double least = least_progress(tick.progress);
+  const bool is_new = !runs_ || least > best_ + kNoChange || least >= 1 - kNoChange;
   runs_ = tick.status == Status::Running;
   if (is_new) {
-    best_ = *least;
+    best_ = least;
     somebody_waits_ = reported_ = false;
   }
   if (!runs_ || std::ranges::find(tick.held, true) == tick.held.end()) return std::nullopt;
   if (!std::exchange(somebody_waits_, true)) since_ = tick.time;
   if (reported_ || tick.time - since_ <= limit_) return std::nullopt;
   reported_ = true;
-  return static_cast<std::size_t>(least - tick.progress.begin());
+  const auto child = std::ranges::find(tick.progress, least);
+  return static_cast<std::size_t>(child - tick.progress.begin());
 }
 
 StallWatch::StallWatch(const Tree& tree, Nanoseconds limit, Report report)

@@ -1,8 +1,10 @@
 #include "measure/synchronized_measure.h"
 
 #include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
 
-#include "core/pre_order.h"
 #include "engine/synchronized.h"
 
 namespace lockstep {
@@ -17,8 +19,54 @@ std::vector<NodeIndex> synchronized_nodes(const Tree& tree) {
 
 std::vector<NodeIndex> children_of(const Tree& tree, NodeIndex node) {
   std::vector<NodeIndex> children;
-  for (const NodeIndex child : children_in(tree.nodes, node)) children.push_back(child);
+  for_each_child(tree, node, [&](NodeIndex child) { children.push_back(child); });
   return children;
+}
+
+namespace {
+
+// The last `segments` of a path; all of it when it has no more.
+std::string_view end_of(std::string_view path, std::size_t segments) {
+  std::size_t begin = path.size();
+  for (std::size_t i = 0; i < segments && begin != std::string_view::npos && begin > 0; ++i) {
+    begin = path.rfind('/', begin - 1);
+  }
+  return begin == std::string_view::npos ? path : path.substr(begin + 1);
+}
+
+// "left/…/arm" of "left/Sequence/carry/arm".
+std::string without_middle(std::string_view end) {
+  const auto first = end.find('/'), last = end.rfind('/');
+  if (first == last) return std::string(end);
+  return std::string(end.substr(0, first)) + "/…" + std::string(end.substr(last));
+}
+
+}  // namespace
+
+std::vector<std::string> names_of(std::span<const std::string> paths) {
+  std::vector<std::string> names(paths.begin(), paths.end());
+  std::vector<std::size_t> open(paths.size());  // those without a name yet
+  std::iota(open.begin(), open.end(), 0u);
+  for (std::size_t segments = 1; !open.empty(); ++segments) {
+    std::map<std::string_view, int> ends;  // how often
+    for (const std::string& path : paths) ++ends[end_of(path, segments)];
+    std::erase_if(open, [&](std::size_t i) {
+      const std::string_view end = end_of(paths[i], segments);
+      if (ends.at(end) == 1) names[i] = without_middle(end);
+      return ends.at(end) == 1 || end.size() == paths[i].size();
+    });
+  }
+  const std::set<std::string_view> different(names.begin(), names.end());
+  return different.size() == names.size() ? names : std::vector(paths.begin(), paths.end());
+}
+
+std::vector<std::string> child_names(const Tree& tree, NodeIndex node) {
+  std::vector<std::string> names;
+  const bool is_group = tree.is_group(node);
+  for (const NodeIndex child : children_of(tree, node)) {
+    names.push_back(is_group ? tree.path(child) : tree.segment(child));
+  }
+  return is_group ? names_of(names) : names;
 }
 
 SynchronizedMeasure::SynchronizedMeasure(std::size_t children, Synchronization synchronization)
@@ -40,13 +88,14 @@ void SynchronizedMeasure::after_tick(const SynchronizedTick& tick) {
   falls_.after_tick(tick);
   for (HeldChild& child : held_) child.after_tick(view);
   if (!tick.ticked) return;
-  const double least = std::ranges::min(tick.progress);
+  left_out_ |= std::ranges::any_of(tick.progress, is_left_out);
+  const double least = least_progress(tick.progress);
   const double most = std::min(1.0, farthest(synchronization_, tick.limit, least));
   widest_ = std::max(widest_, most - least);
 }
 
 std::optional<double> SynchronizedMeasure::bound() const {
-  if (falls_.while_ticked() || falls_.while_held()) return std::nullopt;
+  if (falls_.while_ticked() || falls_.while_held() || left_out_) return std::nullopt;
   return std::min(1.0, widest_ + step_length());
 }
 
@@ -57,6 +106,7 @@ void SynchronizedMeasure::run_ended(Nanoseconds time) {
 SynchronizedProbe::SynchronizedProbe(const Tree& tree, NodeIndex node, bool with_held)
     : node_(node),
       children_(children_of(tree, node)),
+      is_group_(tree.is_group(node)),
       with_held_(with_held),
       held_(children_.size()) {
   if (synchronization(tree.nodes[node]) == Synchronization::None) {
@@ -79,7 +129,9 @@ SynchronizedTick SynchronizedProbe::read(Ticker& ticker, Nanoseconds time) {
   tick.status = ticker.status(node_);
   for (std::size_t child = 0; with_held_ && child < children_.size(); ++child) {
     const NodeIndex node = children_[child];
-    held_.set(child, ticker.status(node), ticker.ticked(node), ticker.held(node));
+    const bool asked = !is_group_ || ticker.ticked(ticker.tree().labels[node].parent);
+    held_.set(child, ticker.status(node), ticker.ticked(node) || !asked,
+              ticker.held(node) && asked);
   }
   if (!tick.ticked) return tick;
   if (with_held_) tick.held = {held_.data(), children_.size()};

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "engine/tree.h"
@@ -21,7 +22,12 @@ class Ticker;
 
 // The nodes of the tree that keep their children in step, in pre-order.
 std::vector<NodeIndex> synchronized_nodes(const Tree& tree);
+// What the node holds: the children of a parallel, of a barrier what its members hold.
 std::vector<NodeIndex> children_of(const Tree& tree, NodeIndex node);
+// The ends of these paths, each as short as it can be and still differ from all others.
+std::vector<std::string> names_of(std::span<const std::string> paths);
+// What the node calls its children: the children of a parallel differ in their last segment.
+std::vector<std::string> child_names(const Tree& tree, NodeIndex node);
 
 // Finds from the states after each tick which children their node held in that tick.
 class HeldChildren {
@@ -29,7 +35,7 @@ class HeldChildren {
   explicit HeldChildren(std::size_t children)
       : running_(std::make_unique<bool[]>(children)), held_(std::make_unique<bool[]>(children)) {}
 
-  // `reached`: by the tick; `held`: its ticks are still withheld.
+  // `reached`: by the tick, or nobody asked; `held`: its ticks are still withheld.
   void set(std::size_t child, Status status, bool reached, bool held) {
     held_[child] = held || (status == Status::Idle && running_[child] && !reached);
     running_[child] = status == Status::Running;
@@ -52,7 +58,7 @@ class SynchronizedMeasure {
   double largest_spread() const { return spread_.value({}); }
   double step_length() const { return step_length_.value({}); }
   // The spread cannot be larger: what the limits allowed, and the longest step. Nothing if progress
-  // fell.
+  // fell, or a child that was left out may have joined from far behind.
   std::optional<double> bound() const;
   const FallWatch& falls() const { return falls_; }
   std::span<const HeldChild> held() const { return held_; }
@@ -62,7 +68,8 @@ class SynchronizedMeasure {
   Spread spread_;
   StepLength step_length_;
   Synchronization synchronization_;
-  double widest_ = 0;  // between the least progress and the farthest that was allowed
+  bool left_out_ = false;  // somebody, in some tick
+  double widest_ = 0;      // between the least progress and the farthest that was allowed
   FallWatch falls_;
   std::vector<HeldChild> held_;
 };
@@ -83,6 +90,7 @@ class SynchronizedProbe {
  private:
   NodeIndex node_;
   std::vector<NodeIndex> children_;
+  bool is_group_;
   bool with_held_;
   HeldChildren held_;
   std::vector<double> progress_;  // only where the node does not synchronize

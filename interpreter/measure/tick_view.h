@@ -18,7 +18,8 @@ struct SynchronizedTick {
   bool ticked = false;           // did the tick reach the node? If not, only the time counts.
   Status status = Status::Idle;  // Success also when an ancestor has ended the node since
   double limit = 0;              // that counted: engine/synchronized.h
-  std::span<const double> progress = {};  // of each child, as the node used it in this tick
+  // Of each child, as the node used it in this tick; not a number: it was left out.
+  std::span<const double> progress = {};
   // Of each child: it was running and did not get this tick. It may have been halted since. Empty
   // if no measure asks for it.
   std::span<const bool> held = {};

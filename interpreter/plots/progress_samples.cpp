@@ -62,7 +62,7 @@ class Collector {
     const auto all = tick.progress;
     push({.time = time,
           .begins = !running_,
-          .least = *std::ranges::min_element(all),
+          .least = least_progress(all),
           .limit = tick.limit,
           .progress = {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(drawn())},
           .held_until = std::vector<double>(drawn(), time)});

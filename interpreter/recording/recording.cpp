@@ -13,6 +13,10 @@ std::vector<RecordedNode> describe(const Tree& tree) {
     node.synchronization = synchronization(tree.nodes[index]);
     if (const auto list = barriers(tree, index)) node.barriers.emplace(list->begin(), list->end());
     node.delta = delta(tree, index);
+    node.ignores_idle = ignores_idle(tree, index);
+    if (tree.is_group(index)) {
+      for_each_child(tree, index, [&](NodeIndex child) { node.members.push_back(child); });
+    }
   }
   return nodes;
 }

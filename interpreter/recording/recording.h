@@ -24,6 +24,8 @@ struct RecordedNode {
   Synchronization synchronization = Synchronization::None;
   std::optional<std::vector<double>> barriers;  // Absolute; none: an entry gives them
   std::optional<double> delta;                  // Relative; likewise
+  std::vector<NodeIndex> members = {};          // of a group, which has no parent: what they hold
+  bool ignores_idle = false;                    // a group that leaves out who is idle
 };
 
 struct RecordedKey {

@@ -94,13 +94,9 @@ std::optional<WorstTickSummary> Statistics::worst_tick() const {
 }
 
 SynchronizedSummary Statistics::summary_of(const Measured& measured) const {
-  std::vector<std::string> children;
-  for (const NodeIndex child : measured.probe.children()) {
-    children.push_back(tree_.segment(child));
-  }
   const NodeIndex node = measured.probe.node();
   return summarize(measured.measure, tree_.path(node), std::string(tree_.labels[node].type->id),
-                   children);
+                   child_names(tree_, node));
 }
 
 std::string describe_node(const Tree& tree, NodeIndex node) {

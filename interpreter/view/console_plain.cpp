@@ -127,12 +127,13 @@ void ConsolePlain::tell_wait(Watched& node, std::size_t child, const Synchronize
   const bool is_soon = wait.last_end && wait.since - *wait.last_end <= kShortWait;
   if (wait.told || (is_soon && tick.time - wait.since < kShortWait)) return;
   wait.told = true;
-  const auto children = node.probe.children();
+  const NodeIndex self = node.probe.node();
   std::string text =
-      waiting_text({.synchronization = synchronization(tree_.nodes[node.probe.node()]),
+      waiting_text({.synchronization = synchronization(tree_.nodes[self]),
                     .limit = tick.limit,
                     .progress = tick.progress,
-                    .name_of = [&](std::size_t number) { return tree_.segment(children[number]); }},
+                    .name_of = [&](std::size_t number) { return child_names(tree_, self)[number]; },
+                    .group = tree_.is_group(self) ? tree_.segment(self) : ""},
                    child);
   if (wait.since != tick.time) text += fmt::format(", since {:.3f} s", to_seconds(wait.since));
   tell(node.probe.children()[child], text);

@@ -91,8 +91,7 @@ Snapshot snapshot_of(const RecordingHeader& header, const TreeShape& shape, cons
     NodeView& view = snapshot.nodes[node];
     view.limit = state.limit;
     view.activity = state.held ? Activity::Paused : static_cast<Activity>(state.status);
-    const auto parent = shape.nodes[node].parent;
-    if (parent && shape.nodes[*parent].synchronization != Synchronization::None) {
+    if (shape.nodes[node].keeper) {
       view.progress = shown_progress(view.activity, state.progress);
     }
   }

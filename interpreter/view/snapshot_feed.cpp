@@ -102,11 +102,11 @@ void SnapshotFeed::take_round(Ticker& ticker, NodeIndex node, NodeView& view) {
 void SnapshotFeed::take_progress(Ticker& ticker, NodeIndex node,
                                  std::vector<NodeView>& views) const {
   views[node].limit = limit(ticker, node);
-  NodeIndex child = node + 1;
-  for (const double used : child_progress(ticker, node)) {
-    views[child].progress = shown_progress(views[child].activity, used);
-    child = ticker.end_of(child);
-  }
+  const double* used = child_progress(ticker, node).data();
+  for_each_child(ticker.tree(), node, [&](NodeIndex child) {
+    views[child].progress = shown_progress(views[child].activity, is_left_out(*used) ? 0 : *used);
+    ++used;
+  });
 }
 
 }  // namespace lockstep

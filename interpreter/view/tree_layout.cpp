@@ -73,11 +73,8 @@ class Ranking {
   }
 
   bool is_in_step(NodeIndex node) const {
-    const auto synchronized = [this](NodeIndex it) {
-      return tree_.nodes[it].synchronization != Synchronization::None;
-    };
-    const auto parent = tree_.nodes[node].parent;
-    return synchronized(node) || (parent && synchronized(*parent));
+    const ShapeNode& it = tree_.nodes[node];
+    return it.synchronization != Synchronization::None || it.keeper;
   }
 
   Group group(NodeIndex node) const {

@@ -65,10 +65,7 @@ class View {
   bool is_synchronized(NodeIndex node) const {
     return tree_.nodes[node].synchronization != Synchronization::None;
   }
-  bool has_bar(NodeIndex node) const {
-    const auto parent = tree_.nodes[node].parent;
-    return parent && is_synchronized(*parent);
-  }
+  bool has_bar(NodeIndex node) const { return tree_.nodes[node].keeper.has_value(); }
   // What is deep must not be out of sight.
   std::size_t indent(NodeIndex node) const {
     return std::min<std::size_t>(2 * (tree_.nodes[node].depth - outermost_), options_.width / 2);
@@ -168,27 +165,29 @@ class View {
     const auto [entry, is_new] = children_.try_emplace(parent);
     Children& children = entry->second;
     if (!is_new) return children;
-    for (const NodeIndex child : tree_.nodes[parent].children) {
-      children.progress.push_back(snapshot_.nodes[child].progress);
-      children.least = std::min(children.least, children.progress.back());
+    for (const NodeIndex child : tree_.nodes[parent].in_step) {
+      const NodeView& view = snapshot_.nodes[child];
+      children.progress.push_back(view.progress);
+      const bool counts = !tree_.nodes[parent].ignores_idle || view.activity != Activity::Idle;
+      if (counts) children.least = std::min(children.least, view.progress);
       children.columns = std::max(children.columns, columns(printable(tree_.nodes[child].segment)));
     }
     return children;
   }
 
   void add_bar(TextLine& line, NodeIndex node, Style style) const {
-    const NodeIndex self = *tree_.nodes[node].parent;
-    const ShapeNode& parent = tree_.nodes[self];
+    const NodeIndex self = *tree_.nodes[node].keeper;
+    const auto& in_step = tree_.nodes[self].in_step;
     const auto& [progress, least, name] = children_of(self);
-    const auto found = std::lower_bound(parent.children.begin(), parent.children.end(), node);
-    const auto place = static_cast<std::size_t>(found - parent.children.begin());
+    const auto found = std::lower_bound(in_step.begin(), in_step.end(), node);
+    const auto place = static_cast<std::size_t>(found - in_step.begin());
     const std::size_t gutter = browsing_.cursor ? 2 : 0;
     line.fill_to(gutter + indent(node) + 3 + std::min<std::size_t>(name, 24));
     line.add(bar(self, progress[place], least), style);
     line.add(fmt::format(" {:.2f}", progress[place]));
     // Under a parent that is held itself, the parent says what is waited for.
     if (snapshot_.nodes[node].activity != Activity::Paused ||
-        snapshot_.nodes[self].activity == Activity::Paused) {
+        snapshot_.nodes[*tree_.nodes[node].parent].activity == Activity::Paused) {
       return;
     }
     line.add("  ");
@@ -198,12 +197,17 @@ class View {
   std::string waiting(NodeIndex node, const std::vector<double>& progress,
                       std::size_t place) const {
     const ShapeNode& shape = tree_.nodes[node];
-    return waiting_text(
-        {.synchronization = shape.synchronization,
-         .limit = snapshot_.nodes[node].limit,
-         .progress = progress,
-         .name_of = [&](std::size_t child) { return tree_.nodes[shape.children[child]].segment; }},
-        place);
+    return waiting_text({.synchronization = shape.synchronization,
+                         .limit = snapshot_.nodes[node].limit,
+                         .progress = progress,
+                         .name_of =
+                             [&](std::size_t child) {
+                               return shape.names.empty()
+                                          ? tree_.nodes[shape.in_step[child]].segment
+                                          : shape.names[child];
+                             },
+                         .group = shape.parent || node == 0 ? "" : shape.segment},
+                        place);
   }
 
   // Barriers that an entry gives are not known but for the current one.

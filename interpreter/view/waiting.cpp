@@ -15,7 +15,7 @@ std::string slowest(const WaitedAt& node, double least) {
   std::vector<std::string> names;
   std::size_t count = 0;
   for (std::size_t child = 0; child < node.progress.size(); ++child) {
-    if (node.progress[child] > least + kProgressEpsilon) continue;
+    if (!(node.progress[child] <= least + kProgressEpsilon)) continue;  // or it is left out
     if (++count <= kNamed) names.push_back(node.name_of(child));
   }
   if (count == 1) return names[0];
@@ -26,29 +26,32 @@ std::string slowest(const WaitedAt& node, double least) {
 }  // namespace
 
 std::string waiting_text(const WaitedAt& node, std::size_t child) {
-  const double least = *std::ranges::min_element(node.progress);
+  const double least = least_progress(node.progress);
   const std::string whom = slowest(node, least);
+  const std::string of = node.group.empty() ? "" : fmt::format(" of '{}'", node.group);
   if (node.synchronization == Synchronization::Relative) {
-    return fmt::format("waits for {}, {:.2f} ahead (delta {})", whom, node.progress[child] - least,
-                       node.limit);
+    return fmt::format("waits for {}, {:.2f} ahead (delta {}{})", whom,
+                       node.progress[child] - least, node.limit, of);
   }
   if (std::isinf(node.limit)) return fmt::format("waits for {}", whom);
-  return fmt::format("waits for {} at barrier {:.6g}", whom, node.limit);
+  return fmt::format("waits for {} at barrier {:.6g}{}", whom, node.limit, of);
 }
 
 std::string standstill_text(const Tree& tree, const Standstill& standstill) {
   constexpr double kNoChange = 1e-9;
+  const std::string others =
+      fmt::format("the other {} of '{}'", tree.is_group(standstill.node) ? "members" : "children",
+                  tree.segment(standstill.node));
   if (standstill.progress < standstill.best - kNoChange) {
     return fmt::format(
-        "{} moves, but is at {:.6g} and has not come beyond {:.6g} since {:.3f} s, and holds the "
-        "other children of '{}' back",
+        "{} moves, but is at {:.6g} and has not come beyond {:.6g} since {:.3f} s, and holds {} "
+        "back",
         tree.path(standstill.child), standstill.progress, standstill.best,
-        to_seconds(standstill.since), tree.segment(standstill.node));
+        to_seconds(standstill.since), others);
   }
-  return fmt::format(
-      "{} stands still at {:.6g} since {:.3f} s and holds the other children of '{}' back",
-      tree.path(standstill.child), standstill.progress, to_seconds(standstill.since),
-      tree.segment(standstill.node));
+  return fmt::format("{} stands still at {:.6g} since {:.3f} s and holds {} back",
+                     tree.path(standstill.child), standstill.progress, to_seconds(standstill.since),
+                     others);
 }
 
 }  // namespace lockstep

@@ -17,10 +17,11 @@ struct WaitedAt {
   double limit = 0;                       // that counted: engine/synchronized.h
   std::span<const double> progress = {};  // of each child, as the node used it
   std::function<std::string(std::size_t child)> name_of;
+  std::string group = {};  // the name of a barrier beside the tree
 };
 
-// "waits for base at barrier 0.5" or "waits for base, 0.12 ahead (delta 0.1)". `child` is the
-// number of the one that is held.
+// "waits for base at barrier 0.5" or "waits for base, 0.12 ahead (delta 0.1)", of a group with "of
+// 'lift'". `child` is the number of the one that is held.
 std::string waiting_text(const WaitedAt& node, std::size_t child);
 
 // "Door/pull/base stands still at 0.31 since 2.4 s and holds the other children of 'pull' back".

@@ -68,8 +68,12 @@ namespace {
 // Every kind of node, over leaves of a plugin in C++ that have ports and read them; it runs on.
 constexpr const char* kTree = R"(
 <root lockstep="1" main_tree_to_execute="Main">
+  <barrier name="early" barriers="0.3;0.6" idle="ignore"/>
+  <barrier name="close" delta="1e-8"/>
   <BehaviorTree ID="Main">
-    <Parallel success_count="8">
+    <Parallel success_count="10">
+      <SyncProgress barrier="close"><Sequence memory="true"><SyncProgress barrier="early"><Advance step="1e-9"/></SyncProgress></Sequence></SyncProgress>
+      <Sequence memory="true"><Wait seconds="0.5"/><SyncProgress barrier="close"><SubTree ID="Other" barrier="early"/></SyncProgress></Sequence>
       <SubTree ID="Planned" plan="0.3;0.6"/>
       <ParallelAbsolute barriers="0.3;0.6"><Advance step="1e-9"/><Advance step="2e-9"/></ParallelAbsolute>
       <ParallelRelative delta="1e-8"><Advance step="1e-9"/><Advance step="9e-9"/></ParallelRelative>
@@ -80,6 +84,7 @@ constexpr const char* kTree = R"(
       <KeepRunningUntilFailure><ForceSuccess><Timeout seconds="0.03"><Advance step="0"/></Timeout></ForceSuccess></KeepRunningUntilFailure>
     </Parallel>
   </BehaviorTree>
+  <BehaviorTree ID="Other"><SyncProgress barrier="barrier"><Advance step="9e-9"/></SyncProgress></BehaviorTree>
   <BehaviorTree ID="Planned">
     <ParallelAbsolute barriers="{plan}"><Advance step="1e-9"/><Advance step="2e-9"/></ParallelAbsolute>
   </BehaviorTree>

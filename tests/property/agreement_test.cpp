@@ -50,6 +50,7 @@ class Comparison {
   }
   void same_progress(std::string_view what, std::size_t node, double engine, double reference) {
     if (std::abs(engine - reference) < 1e-12) return;
+    if (std::isnan(engine) && std::isnan(reference)) return;
     same(fmt::format("{} of node {}", what, node), engine, reference);
   }
 

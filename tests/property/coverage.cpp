@@ -22,7 +22,7 @@ constexpr std::array kNever{
     "ForceSuccess failure",  "ForceFailure success",  "KeepRunningUntilFailure success",
     "AlwaysSuccess running", "AlwaysSuccess failure", "AlwaysFailure running",
     "AlwaysFailure success", "AlwaysRunning success", "AlwaysRunning failure",
-    "Wait failure",          "Condition running",
+    "Wait failure",          "Condition running",     "barrier failure",
 };
 
 constexpr std::array kFaults{"error of the script", "threw", "returned", "is a condition",

@@ -20,7 +20,11 @@ std::string parameters(const Plan& plan) {
   if (plan.has_barriers) add("barriers", fmt::format("{}", fmt::join(plan.barriers, ";")));
   if (plan.barrier_count >= 0) add("barrier_count", plan.barrier_count);
   if (plan.tick_at_barrier) add("at_barrier", "tick");
-  if (plan.kind == "ParallelRelative") add("delta", plan.delta);
+  const bool is_delta = plan.kind == "barrier" && !plan.has_barriers && plan.barrier_count < 0;
+  if (plan.kind == "ParallelRelative" || is_delta) add("delta", plan.delta);
+  if (plan.ignores_idle) add("idle", "ignore");
+  if (plan.kind == "barrier") add("name", plan.name);
+  if (plan.kind == "SyncProgress") add("barrier", plan.barrier);
   if (plan.times >= 0) add(plan.kind == "Retry" ? "attempts" : "times", plan.times);
   if (plan.kind == "Wait" || plan.kind == "Delay" || plan.kind == "Timeout") {
     add("seconds", plan.seconds);
@@ -29,9 +33,7 @@ std::string parameters(const Plan& plan) {
   return text.empty() ? text : "[" + text + "]";
 }
 
-}  // namespace
-
-std::string tree_text(const Plan& plan) {
+std::string node_text(const Plan& plan) {
   if (plan.kind == "action") return plan.name;
   if (plan.kind == "condition") return plan.name + "?";
   if (plan.kind == "bare") return plan.name + "[bare]";
@@ -40,9 +42,31 @@ std::string tree_text(const Plan& plan) {
   text += '(';
   for (const Plan& child : plan.children) {
     if (text.back() != '(') text += ' ';
-    text += tree_text(child);
+    text += node_text(child);
   }
   return text + ')';
+}
+
+bool has_member(const Plan& plan, std::string_view barrier) {
+  return plan.barrier == barrier || std::ranges::any_of(plan.children, [&](const Plan& child) {
+           return has_member(child, barrier);
+         });
+}
+
+}  // namespace
+
+std::vector<const Plan*> barriers_of(const Plan& plan) {
+  std::vector<const Plan*> used;
+  for (const Plan& barrier : plan.beside) {
+    if (has_member(plan, barrier.name)) used.push_back(&barrier);
+  }
+  return used;
+}
+
+std::string tree_text(const Plan& plan) {
+  std::string text = node_text(plan);
+  for (const Plan* barrier : barriers_of(plan)) text += ' ' + node_text(*barrier);
+  return text;
 }
 
 std::string leaves_text(const Plan& plan) {

@@ -27,12 +27,20 @@ struct Plan {
   double delta = 0;
   int times = -1;  // of Repeat, attempts of Retry
   double seconds = 0;
-  bool wall_clock = false;  // Timeout, Delay
+  bool wall_clock = false;   // Timeout, Delay
+  std::string barrier = {};  // SyncProgress: the name of one of the root's
+
+  // Of the root: the barriers beside the tree, by name. With a delta if they have no list.
+  std::vector<Plan> beside = {};
+  bool ignores_idle = false;
 };
 
 // As tree_from_text and ScriptedRun read them.
 std::string tree_text(const Plan& plan);
 std::string leaves_text(const Plan& plan);
+
+// Of the root: the barriers beside the tree that have members, in order.
+std::vector<const Plan*> barriers_of(const Plan& plan);
 
 // No action is in it.
 bool is_guard(const Plan& plan);

@@ -38,6 +38,7 @@ class Generator : Random {
     budget_ = between(1, one_in(4) ? 40 : 14);
     faults_ = one_in(8);
     trial.plan = node(1);
+    if (needs_barriers_) trial.plan.beside = {barrier("g0"), barrier("g1")};
     trial.period = pick(std::array{.1, .05, .13, 1.0});
     trial.ticks = between(5, 60);
     trial.halt_every = one_in(3) ? between(2, 15) : 0;
@@ -114,10 +115,26 @@ class Generator : Random {
     }
   }
 
+  Plan barrier(std::string name) {
+    Plan plan{.kind = "barrier", .name = std::move(name)};
+    plan.ignores_idle = one_in(2);
+    if (one_in(2)) {
+      barriers(plan);
+    } else {
+      plan.delta = one_in(4) ? between(0, 1) : fraction();
+    }
+    return plan;
+  }
+
   Plan decorator(int depth) {
     Plan plan{.kind = pick(std::array{"Inverter", "ForceSuccess", "ForceFailure", "Repeat",
                                       "Repeat", "Retry", "Timeout", "Delay", "RunOnce",
-                                      "KeepRunningUntilFailure", "SubTree"})};
+                                      "KeepRunningUntilFailure", "SubTree", "SyncProgress",
+                                      "SyncProgress", "SyncProgress", "SyncProgress"})};
+    if (plan.kind == "SyncProgress") {
+      plan.barrier = one_in(4) ? "g1" : "g0";
+      needs_barriers_ = true;
+    }
     plan.children.push_back(node(depth + 1));
     if (plan.kind == "Retry" || (plan.kind == "Repeat" && !one_in(4))) plan.times = between(1, 4);
     plan.seconds = .05 * between(plan.kind == "Timeout" ? 1 : 0, 20);
@@ -197,6 +214,7 @@ class Generator : Random {
   int budget_ = 0;
   int leaves_ = 0;
   bool faults_ = false;
+  bool needs_barriers_ = false;
 };
 
 // Each plan that comes from taking a child away or putting a child in its parent's place.
@@ -232,6 +250,7 @@ std::vector<Trial> smaller_trials(const Trial& trial) {
   add_smaller_plans(trial.plan, plans);
   std::vector<Trial> trials;
   for (Plan& plan : plans) {
+    plan.beside = trial.plan.beside;
     trials.push_back(trial);
     trials.back().plan = std::move(plan);
   }

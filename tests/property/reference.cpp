@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <map>
 #include <stdexcept>
 
 #include "support/scripted_leaf.h"
@@ -24,6 +26,7 @@ struct Reference::World {
   std::uint32_t tick = 0;
   std::optional<std::size_t> fault;
   std::uint32_t leaves = 0;
+  std::map<std::string, ReferenceBarrier*> barriers;  // by name
 };
 
 class ReferenceNode {
@@ -89,6 +92,25 @@ class ReferenceNode {
 };
 
 namespace {
+
+std::optional<double> next_barrier(const Plan& plan, double least) {
+  std::vector<double> barriers = plan.barriers;
+  for (int i = 1; i <= plan.barrier_count; ++i) {
+    barriers.push_back(static_cast<double>(i) / plan.barrier_count);
+  }
+  for (const double barrier : barriers) {
+    if (barrier > least + kEpsilon) return barrier;
+  }
+  return std::nullopt;
+}
+
+// By the parameters of a synchronized parallel, or of a barrier beside the tree.
+bool is_held(const Plan& plan, double progress, double least) {
+  if (!plan.has_barriers && plan.barrier_count < 0) return progress > least + plan.delta + kEpsilon;
+  const auto barrier = next_barrier(plan, least);
+  if (!barrier) return false;
+  return plan.tick_at_barrier ? progress > *barrier + kEpsilon : progress >= *barrier - kEpsilon;
+}
 
 class Leaf : public ReferenceNode {
  public:
@@ -269,10 +291,9 @@ class Synchronized : public Parallel {
       snapshot.push_back(reached(*child));
       least = std::min(least, snapshot.back());
     }
-    const auto barrier = next_barrier(least);
     for (std::size_t i = 0; i < children.size(); ++i) {
       if (!may_be_ticked(*children[i])) continue;
-      if (is_guard(children[i]->plan) || !is_held(snapshot[i], least, barrier)) {
+      if (is_guard(children[i]->plan) || !is_held(plan, snapshot[i], least)) {
         children[i]->tick();
       } else if (children[i]->status == Status::Running && !children[i]->paused) {
         children[i]->pause();
@@ -293,23 +314,13 @@ class Synchronized : public Parallel {
     if (child.status == Status::Failure && !may_be_ticked(child)) return 1;
     return child.progress();
   }
+};
 
-  std::optional<double> next_barrier(double least) const {
-    std::vector<double> barriers = plan.barriers;
-    for (int i = 1; i <= plan.barrier_count; ++i) {
-      barriers.push_back(static_cast<double>(i) / plan.barrier_count);
-    }
-    for (const double barrier : barriers) {
-      if (barrier > least + kEpsilon) return barrier;
-    }
-    return std::nullopt;
-  }
-
-  bool is_held(double progress, double least, std::optional<double> barrier) const {
-    if (plan.kind == "ParallelRelative") return progress > least + plan.delta + kEpsilon;
-    if (!barrier) return false;
-    return plan.tick_at_barrier ? progress > *barrier + kEpsilon : progress >= *barrier - kEpsilon;
-  }
+class SyncProgress : public ReferenceNode {
+ public:
+  using ReferenceNode::ReferenceNode;
+  Status on_tick(bool first) override;
+  double on_progress() override { return child().progress(); }
 };
 
 // Inverter, ForceSuccess, ForceFailure, KeepRunningUntilFailure, SubTree.
@@ -412,6 +423,121 @@ std::unique_ptr<ReferenceNode> node(Reference& tree, const Plan& plan) {
 
 }  // namespace
 
+// A node of its own behind the tree: it looks before the root is ticked.
+class ReferenceBarrier : public ReferenceNode {
+ public:
+  ReferenceBarrier(Reference& tree, const Plan& its_plan, ReferenceNode& root)
+      : ReferenceNode(tree, its_plan) {
+    std::vector<ReferenceNode*> way;
+    find_members(root, way);
+    held.resize(members.size());
+    succeeded.resize(members.size());
+    world.barriers[plan.name] = this;
+  }
+
+  void before_tick() {
+    const bool begins = ancestor().status != Status::Running;
+    if (begins) succeeded.assign(members.size(), false);
+    snapshot.clear();
+    double least = 1;
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      snapshot.push_back(reached(i, begins));
+      if (!std::isnan(snapshot[i])) least = std::min(least, snapshot[i]);
+    }
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      held[i] = !succeeded[i] && !is_guard(members[i]->plan) && !std::isnan(snapshot[i]) &&
+                is_held(plan, snapshot[i], least);
+    }
+    status = all_succeeded() ? Status::Success : Status::Running;
+  }
+
+  void after_tick() {
+    if (ancestor().status != Status::Running && status == Status::Running) status = Status::Idle;
+  }
+
+  void succeed(std::size_t member) {
+    succeeded[member] = true;
+    if (all_succeeded()) status = Status::Success;
+  }
+
+  std::size_t place_of(const ReferenceNode& member) const {
+    return static_cast<std::size_t>(std::ranges::find(members, &member) - members.begin());
+  }
+
+  Status on_tick(bool) override { throw std::logic_error("a barrier is not in the tree"); }
+  double on_progress() override {
+    double least = 1;
+    for (const double one : snapshot) {
+      if (one < least) least = one;
+    }
+    return least;
+  }
+
+  std::vector<ReferenceNode*> members;
+  std::vector<bool> held, succeeded;
+
+ private:
+  void find_members(ReferenceNode& node, std::vector<ReferenceNode*>& way) {
+    if (node.plan.barrier == plan.name) {
+      members.push_back(&node);
+      ways_.push_back(way);
+    }
+    way.push_back(&node);
+    for (auto& child : node.children) find_members(*child, way);
+    way.pop_back();
+  }
+
+  bool all_succeeded() const { return std::ranges::find(succeeded, false) == succeeded.end(); }
+
+  // The last node on the way to every member; the root, when that is the only member.
+  ReferenceNode& ancestor() const {
+    ReferenceNode* last = members[0];
+    for (std::size_t level = 0;; ++level) {
+      for (const auto& way : ways_) {
+        if (level >= way.size() || way[level] != ways_[0][level]) return *last;
+      }
+      last = ways_[0][level];
+    }
+  }
+
+  double reached(std::size_t i, bool begins) {
+    ReferenceNode& member = *members[i];
+    if (begins || (!succeeded[i] && member.status == Status::Idle)) {
+      return plan.ignores_idle ? std::numeric_limits<double>::quiet_NaN() : 0;
+    }
+    if (succeeded[i] && !is_guard(member.plan)) return 1;
+    if (member.status == Status::Failure && is_over(i)) return 1;
+    return member.progress();
+  }
+
+  // It failed, and a parallel below the ancestor keeps that result, or one that came of it.
+  bool is_over(std::size_t i) const {
+    std::vector<ReferenceNode*> way = ways_[i];
+    way.push_back(members[i]);
+    for (std::size_t at = way.size() - 1; way[at] != &ancestor() && at > 0; --at) {
+      const Plan& parent = way[at - 1]->plan;
+      if (!parent.kind.starts_with("Parallel") || parent.forgets) continue;
+      if (is_complete(way[at]->status) && !is_guard(way[at]->plan)) return true;
+    }
+    return false;
+  }
+
+  std::vector<std::vector<ReferenceNode*>> ways_;  // to each member, from the root
+};
+
+Status SyncProgress::on_tick(bool) {
+  ReferenceBarrier& barrier = *world.barriers.at(plan.barrier);
+  barrier.last_tick = world.tick;
+  const std::size_t place = barrier.place_of(*this);
+  if (barrier.held[place]) {
+    if (child().status == Status::Running && !child().paused) child().pause();
+    return Status::Running;
+  }
+  const Status result = child().tick();
+  if (result == Status::Success) barrier.succeed(place);
+  return result;
+}
+
 std::unique_ptr<ReferenceNode> ReferenceNode::make(Reference& tree, const Plan& plan) {
   const std::string& kind = plan.kind;
   if (!plan.script.empty()) return std::make_unique<Leaf>(tree, plan, tree.world_->leaves++);
@@ -425,11 +551,16 @@ std::unique_ptr<ReferenceNode> ReferenceNode::make(Reference& tree, const Plan& 
   if (kind == "Retry") return node<Retry>(tree, plan);
   if (kind == "Timeout" || kind == "Delay") return node<Timed>(tree, plan);
   if (kind == "RunOnce") return node<RunOnce>(tree, plan);
+  if (kind == "SyncProgress") return node<SyncProgress>(tree, plan);
   return node<Result>(tree, plan);
 }
 
 Reference::Reference(const Plan& plan)
-    : world_(std::make_unique<World>()), root_(ReferenceNode::make(*this, plan)) {}
+    : world_(std::make_unique<World>()), root_(ReferenceNode::make(*this, plan)) {
+  for (const Plan* barrier : barriers_of(plan)) {
+    barriers_.push_back(std::make_unique<ReferenceBarrier>(*this, *barrier, *root_));
+  }
+}
 
 Reference::~Reference() = default;
 
@@ -437,7 +568,10 @@ Status Reference::tick(Nanoseconds now) {
   world_->now = now;
   ++world_->tick;
   try {
-    return root_->tick();
+    for (auto& barrier : barriers_) barrier->before_tick();
+    const Status status = root_->tick();
+    for (auto& barrier : barriers_) barrier->after_tick();
+    return status;
   } catch (const LeafFault& fault) {
     world_->fault = fault.node;
     halt();

@@ -14,6 +14,7 @@
 namespace lockstep::test {
 
 class ReferenceNode;
+class ReferenceBarrier;
 
 class Reference {
  public:
@@ -32,7 +33,8 @@ class Reference {
   bool ticked(std::size_t node) const;  // in the last tick
   bool held(std::size_t node) const;
   double progress(std::size_t node);  // may find a fault
-  // What a synchronized node saw at the start of its last tick; empty for other nodes.
+  // What a synchronized node saw at the start of its last tick, not a number for a member of a
+  // barrier that was left out; empty for other nodes.
   const std::vector<double>& snapshot(std::size_t node) const;
   // The leaf at fault.
   const std::optional<std::size_t>& fault() const;
@@ -44,6 +46,7 @@ class Reference {
   std::unique_ptr<World> world_;
   std::vector<ReferenceNode*> nodes_;
   std::unique_ptr<ReferenceNode> root_;
+  std::vector<std::unique_ptr<ReferenceBarrier>> barriers_;  // beside the tree
 };
 
 }  // namespace lockstep::test

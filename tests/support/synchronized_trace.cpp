@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/synchronized.h"
+#include "measure/synchronized_measure.h"
 #include "support/scripted_run.h"
 
 namespace lockstep::test {
@@ -21,26 +22,19 @@ struct Outcome {
 double spread(std::span<const double> progress) {
   double sum = 0;
   for (const double one : progress) {
-    for (const double other : progress) sum += std::abs(one - other) / 2;
+    for (const double other : progress) {
+      if (!is_left_out(one) && !is_left_out(other)) sum += std::abs(one - other) / 2;
+    }
   }
   return sum;
 }
 
-std::vector<bool> succeeded_children(const Ticker& ticker) {
-  std::vector<bool> list;
-  for (NodeIndex child = 1; child != ticker.end_of(0); child = ticker.end_of(child)) {
-    list.push_back(ticker.status(child) == Status::Success);
-  }
-  return list;
-}
-
-std::string who_is_ticked(const Ticker& ticker, const std::vector<bool>& had_succeeded) {
+std::string who_is_ticked(const Ticker& ticker) {
   std::string who;
-  NodeIndex child = 1;
-  for (const bool done : had_succeeded) {
+  for (const LeafNode& leaf : ticker.tree().leaves) {
     const char digit = static_cast<char>('1' + who.size());
-    who += ticker.ticked(child) ? digit : done ? '.' : '-';
-    child = ticker.end_of(child);
+    const bool runs = ticker.status(leaf.node) == Status::Running;
+    who += ticker.ticked(leaf.node) ? digit : runs ? '-' : '.';
   }
   return who;
 }
@@ -48,11 +42,11 @@ std::string who_is_ticked(const Ticker& ticker, const std::vector<bool>& had_suc
 Outcome play(const SynchronizedTrace& trace, std::size_t ticks) {
   ScriptedRun run(trace.tree, trace.leaves);
   Outcome outcome;
+  const auto node = synchronized_nodes(run.tree()).front();
   for (std::size_t tick = 0; tick < ticks && outcome.status == Status::Running; ++tick) {
-    const auto had_succeeded = succeeded_children(run.ticker());
     outcome.status = run.tick(tick * std::chrono::milliseconds(100));
-    const auto progress = child_progress(run.ticker(), 0);
-    outcome.who += (tick == 0 ? "" : " ") + who_is_ticked(run.ticker(), had_succeeded);
+    const auto progress = child_progress(run.ticker(), node);
+    outcome.who += (tick == 0 ? "" : " ") + who_is_ticked(run.ticker());
     outcome.progress.emplace_back(progress.begin(), progress.end());
     outcome.distance += spread(progress);
   }

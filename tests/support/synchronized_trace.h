@@ -1,6 +1,6 @@
 // Worked traces of the synchronized nodes, as the paper's algorithms give them:
-//   12 1- .2   a digit: that child is ticked; '-': it is held; '.': it has already succeeded.
-// The root is the synchronized node, and succeeds in the last tick.
+//   12 1- .2   a digit: that leaf is ticked; '-': it is held; '.': it is idle or has succeeded.
+// The first synchronized node is watched. The root succeeds in the last tick.
 #pragma once
 
 #include <span>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <optional>
 #include <stdexcept>
 
@@ -45,8 +46,8 @@ class Builder {
 
   Definition build() {
     node(0);
-    skip_blanks();
-    if (!rest_.empty()) fail("text after the tree");
+    for (skip_blanks(); !rest_.empty(); skip_blanks()) group();
+    if (!members_.empty()) fail("no group '" + members_.begin()->first + "'");
     definition_.id = "Test";
     return std::move(definition_);
   }
@@ -92,6 +93,7 @@ class Builder {
     const bool built_in = std::isupper(static_cast<unsigned char>(name[0])) != 0;
     const NodeType& type = built_in ? built_in_type(name) : scripted_type();
     const auto given = built_in ? attributes() : std::vector<Attribute>();
+    join(type, given, self);
     const std::uint32_t children = take('(') ? nodes_until_end(self) : 0;
     if (children < type.arity.min || children > type.arity.max) {
       fail("arity of " + std::string(type.id));
@@ -104,6 +106,35 @@ class Builder {
     it.children = children;
     it.first = first;
     it.end = static_cast<std::uint32_t>(definition_.nodes.size());
+  }
+
+  // "barrier[name=g delta=.1]", behind the tree.
+  void group() {
+    const auto tag = take_until(" []");
+    auto given = attributes();
+    const auto name = std::ranges::find(given, "name", &Attribute::name);
+    if (name == given.end()) fail("text after the tree");
+    const std::string_view id = name->value;
+    given.erase(name);
+    const NodeType& type = built_in_type(tag);
+    const auto self = static_cast<std::uint32_t>(definition_.nodes.size());
+    definition_.groups.push_back({self, std::move(members_[std::string(id)])});
+    members_.erase(std::string(id));
+    const std::uint32_t first = parameters(type, given, 0);
+    definition_.nodes.push_back({.type = &type,
+                                 .end = self + 1,
+                                 .parent = self,
+                                 .children = 0,
+                                 .first = first,
+                                 .name = id});
+  }
+
+  void join(const NodeType& type, const std::vector<Attribute>& given, std::uint32_t self) {
+    for (const Parameter& parameter : type.parameters) {
+      if (parameter.group.empty()) continue;
+      const auto name = std::ranges::find(given, parameter.name, &Attribute::name);
+      members_[std::string(name->value)].push_back(self);
+    }
   }
 
   std::uint32_t nodes_until_end(std::uint32_t parent) {
@@ -181,6 +212,7 @@ class Builder {
     return static_cast<std::uint32_t>(definition_.entries.size() - 1);
   }
 
+  std::map<std::string, std::vector<std::uint32_t>> members_;  // of the groups, by name
   std::string_view all_, rest_;
   Definition definition_;
 };

@@ -52,7 +52,8 @@ const NodeKind kParallel{
              .arity = {1},
              .parameters = kParameters,
              .rule = rule,
-             .sign = "⇉"},
+             .sign = "⇉",
+             .latches = true},
     .tick = tick,
     .progress = progress,
     .state_per_child = sizeof(double)};

@@ -44,30 +44,52 @@ double delta_from(JsonValue value, std::size_t index) {
   throw JsonError(fmt::format("the delta of node {} is not in [0, 1]", index));
 }
 
+std::vector<NodeIndex> members_from(JsonValue value, std::size_t index) {
+  std::vector<NodeIndex> members;
+  members.reserve(value.count_items());
+  value.each_item([&](JsonValue item) {
+    const std::uint64_t member = item.whole();
+    if (member >= index || (!members.empty() && member <= members.back())) {
+      throw JsonError(fmt::format("the members of node {} are not nodes before it, rising", index));
+    }
+    members.push_back(static_cast<NodeIndex>(member));
+  });
+  return members;
+}
+
+bool is_ignore(JsonValue value, std::size_t index) {
+  std::string_view text;
+  if (value.get(text) && (text == "ignore" || text == "wait")) return text == "ignore";
+  throw JsonError(fmt::format("'idle' of node {} is neither 'wait' nor 'ignore'", index));
+}
+
 RecordedNode node_from(JsonObject object, std::size_t index) {
   RecordedNode node;
   std::uint64_t place = 0;
   bool is_absolute = false, is_relative = false;
-  object.read({{"index", into(place)},
-               {"path", into(node.path)},
-               {"kind", into(node.kind)},
-               {"name", into(node.name)},
-               {"parent",
-                [&](JsonValue value) {
-                  if (!value.is_null()) node.parent = parent_from(value, index);
-                }},
-               {"barriers",
-                [&](JsonValue value) {
-                  is_absolute = true;
-                  if (!value.is_null()) node.barriers = barriers_from(value, index);
-                },
-                kMayLack},
-               {"delta",
-                [&](JsonValue value) {
-                  is_relative = true;
-                  if (!value.is_null()) node.delta = delta_from(value, index);
-                },
-                kMayLack}});
+  object.read(
+      {{"index", into(place)},
+       {"path", into(node.path)},
+       {"kind", into(node.kind)},
+       {"name", into(node.name)},
+       {"parent",
+        [&](JsonValue value) {
+          if (!value.is_null()) node.parent = parent_from(value, index);
+        }},
+       {"barriers",
+        [&](JsonValue value) {
+          is_absolute = true;
+          if (!value.is_null()) node.barriers = barriers_from(value, index);
+        },
+        kMayLack},
+       {"delta",
+        [&](JsonValue value) {
+          is_relative = true;
+          if (!value.is_null()) node.delta = delta_from(value, index);
+        },
+        kMayLack},
+       {"idle", [&](JsonValue value) { node.ignores_idle = is_ignore(value, index); }, kMayLack},
+       {"members", [&](JsonValue value) { node.members = members_from(value, index); }, kMayLack}});
   if (place != index) throw JsonError(fmt::format("node {} is missing", index));
   if (is_absolute && is_relative)
     throw JsonError(fmt::format("node {} has both barriers and delta", index));
@@ -104,9 +126,15 @@ void read_arguments(JsonValue value, RecordingHeader& header) {
 }
 
 // The nodes are in pre-order: the parent of a node is the node before it, or one of its ancestors.
+// Groups, without parents, are behind them.
 void check_order(std::span<const RecordedNode> nodes) {
   std::vector<NodeIndex> open;
+  const auto is_group = [](const RecordedNode& node) { return !node.members.empty(); };
+  while (nodes.size() > 1 && is_group(nodes.back()) && !nodes.back().parent) {
+    nodes = nodes.first(nodes.size() - 1);
+  }
   for (NodeIndex node = 0; node < nodes.size(); ++node) {
+    if (is_group(nodes[node])) throw JsonError(fmt::format("node {} has members", node));
     const auto parent = nodes[node].parent;
     while (!open.empty() && parent && open.back() != *parent) open.pop_back();
     if (node > 0 && (!parent || open.empty()))

@@ -1,6 +1,7 @@
 #include "recording/use/recorded_probe.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "measure/measure_spec.h"
@@ -19,6 +20,7 @@ std::vector<std::vector<NodeIndex>> children_of(const RecordingHeader& header) {
   std::vector<std::vector<NodeIndex>> children(header.nodes.size());
   for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
     if (const auto parent = header.nodes[node].parent) children[*parent].push_back(node);
+    if (!header.nodes[node].members.empty()) children[node] = header.nodes[node].members;
   }
   return children;
 }
@@ -29,7 +31,15 @@ RecordedProbe::RecordedProbe(const RecordingHeader& header, NodeIndex node,
       children_(std::move(children)),
       held_(children_.size()),
       synchronizes_(header.nodes[node].synchronization != Synchronization::None) {
-  for (const NodeIndex child : children_) names_.push_back(last_segment(header.nodes[child].path));
+  const RecordedNode& it = header.nodes[node];
+  ignores_idle_ = it.ignores_idle;
+  for (const NodeIndex child : children_) {
+    const RecordedNode& held = header.nodes[child];
+    names_.push_back(it.members.empty() ? last_segment(held.path) : held.path);
+    if (!it.members.empty()) members_.push_back(held.parent.value_or(0));
+  }
+  if (!it.members.empty()) names_ = names_of(names_);
+  was_idle_.resize(children_.size(), true);
   progress_.resize(children_.size());
 }
 
@@ -39,7 +49,9 @@ SynchronizedTick RecordedProbe::read(const RecordedTick& tick) {
     // A parallel that does not synchronize is judged by what was there before its tick, and none of
     // its children has progress when it starts again.
     progress_[child] = synchronizes_ || runs_ ? state.progress : 0;
-    held_.set(child, state.status, state.ticked, state.held);
+    if (ignores_idle_) leave_out(child, tick);
+    const bool asked = members_.empty() || tick.nodes[members_[child]].ticked;
+    held_.set(child, state.status, state.ticked || !asked, state.held && asked);
   }
   runs_ = tick.nodes[node_].status == Status::Running;
   const bool succeeded = std::ranges::find(tick.succeeded, node_) != tick.succeeded.end();
@@ -49,6 +61,13 @@ SynchronizedTick RecordedProbe::read(const RecordedTick& tick) {
           .limit = tick.nodes[node_].limit,
           .progress = progress_,
           .held = {held_.data(), children_.size()}};
+}
+
+// A member that did not run, and had not succeeded, when the tick began.
+void RecordedProbe::leave_out(std::size_t child, const RecordedTick& tick) {
+  const bool idle = !runs_ || was_idle_[child];
+  if (idle && progress_[child] == 0) progress_[child] = std::numeric_limits<double>::quiet_NaN();
+  was_idle_[child] = tick.nodes[members_[child]].status == Status::Idle;
 }
 
 std::vector<RecordedMeasure> measures_of(const RecordingHeader& header) {

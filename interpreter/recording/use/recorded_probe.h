@@ -22,17 +22,22 @@ class RecordedProbe {
 
   NodeIndex node() const { return node_; }
   const std::vector<NodeIndex>& children() const { return children_; }
-  // The last segment of each child's path.
+  // The end of each child's path.
   const std::vector<std::string>& names() const { return names_; }
 
  private:
+  void leave_out(std::size_t child, const RecordedTick& tick);
+
   NodeIndex node_;
   std::vector<NodeIndex> children_;
   std::vector<std::string> names_;
+  std::vector<NodeIndex> members_;  // of a group: the parents of the children
   std::vector<double> progress_;
   HeldChildren held_;
   bool synchronizes_;
-  bool runs_ = false;  // after the last tick
+  bool ignores_idle_ = false;
+  std::vector<bool> was_idle_;  // each member, after the last tick
+  bool runs_ = false;           // after the last tick
 };
 
 // A synchronized node and its measures.

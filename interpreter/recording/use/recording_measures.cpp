@@ -23,9 +23,12 @@ std::string text_of(double value) {
 
 MeasuredTree measured_tree(const RecordingHeader& header) {
   MeasuredTree tree{.id = header.tree, .paths = {}, .nodes = {}, .entries = {}, .entry_types = {}};
-  for (const RecordedNode& node : header.nodes) {
+  auto children = children_of(header);
+  for (NodeIndex index = 0; index < header.nodes.size(); ++index) {
+    const RecordedNode& node = header.nodes[index];
     tree.paths.push_back(node.path);
-    tree.nodes.push_back({node.parent.value_or(0), node.synchronization, node.kind});
+    tree.nodes.push_back(
+        {node.parent.value_or(index), node.synchronization, node.kind, std::move(children[index])});
   }
   for (const RecordedKey& entry : header.entries) {
     tree.entries.push_back(entry.key);

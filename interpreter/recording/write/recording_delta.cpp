@@ -127,12 +127,12 @@ void RecordingDelta::set_progress(NodeIndex node, double progress) {
 void RecordingDelta::take_snapshots(Ticker& ticker) {
   for (const NodeIndex node : synchronized_nodes_) {
     if (!ticker.ticked(node)) continue;
-    NodeIndex child = node + 1;
-    for (const double progress : child_progress(ticker, node)) {
-      set_progress(child, progress);
+    const double* used = child_progress(ticker, node).data();
+    for_each_child(ticker.tree(), node, [&](NodeIndex child) {
+      set_progress(child, is_left_out(*used) ? 0 : *used);
       source_[child] = kUnknown;
-      child = ticker.end_of(child);
-    }
+      ++used;
+    });
   }
 }
 

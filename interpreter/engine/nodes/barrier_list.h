@@ -1,0 +1,94 @@
+// What ParallelAbsolute and a barrier beside the trees share: the list of barriers, and who is held
+// at one of them.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/node_type.h"
+#include "engine/synchronized.h"
+
+namespace lockstep::absolute {
+
+// Their parameters begin with these three.
+inline constexpr unsigned kBarriers = 0;
+inline constexpr unsigned kBarrierCount = 1;
+inline constexpr unsigned kAtBarrier = 2;
+
+inline constexpr std::string_view kAtBarrierChoices[] = {"wait", "tick"};
+inline constexpr std::int64_t kTickAtBarrier = 1;
+
+inline constexpr Parameter kBarriersParameter{
+    .name = "barriers",
+    .type = ValueType::DoubleList,
+    .doc = "Progress values at which the children wait for each other, rising: 0.25;0.5;0.75.",
+    .range = {.min = 0, .max = 1, .min_excluded = true}};
+inline constexpr Parameter kBarrierCountParameter{
+    .name = "barrier_count",
+    .type = ValueType::Int,
+    .doc = "Instead of barriers: n equidistant ones, i/n for i = 1 to n; 0 = none.",
+    .range = {.min = 0, .max = 100000}};
+inline constexpr Parameter kAtBarrierParameter{
+    .name = "at_barrier",
+    .type = ValueType::String,
+    .doc =
+        "What a child exactly at a barrier does: wait (the definition) or tick once more (the "
+        "pseudocode).",
+    .default_text = "wait",
+    .choices = kAtBarrierChoices};
+
+inline std::optional<RuleBreak> check_order(const std::vector<double>& barriers) {
+  const auto not_rising = std::ranges::adjacent_find(barriers, std::greater_equal<>());
+  if (not_rising == barriers.end()) return std::nullopt;
+  auto sorted = barriers;
+  std::ranges::sort(sorted);
+  if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end()) {
+    return RuleBreak{kBarriers, "barrier " + to_text(*twice) + " is given twice", ""};
+  }
+  constexpr std::size_t kMostShown = 20;
+  return RuleBreak{kBarriers, "barriers must rise",
+                   sorted.size() > kMostShown ? "" : "write '" + to_text(sorted) + "'"};
+}
+
+// Fills in the equidistant barriers that 'barrier_count' stands for. At least one of the two is
+// given.
+inline std::optional<RuleBreak> check_barriers(const ParameterValues& given) {
+  if (given.is_given(kBarriers) && given.is_given(kBarrierCount)) {
+    return RuleBreak{kBarrierCount, "both 'barriers' and 'barrier_count' are given",
+                     "give exactly one of the two"};
+  }
+  const auto* barriers = std::get_if<std::vector<double>>(&given.values[kBarriers]);
+  if (barriers != nullptr) return check_order(*barriers);
+  if (const auto* count = std::get_if<std::int64_t>(&given.values[kBarrierCount])) {
+    std::vector<double> equidistant;
+    for (std::int64_t i = 1; i <= *count; ++i) {
+      equidistant.push_back(static_cast<double>(i) / static_cast<double>(*count));
+    }
+    given.values[kBarriers] = std::move(equidistant);
+  }
+  return std::nullopt;
+}
+
+// The smallest barrier that not everybody has passed; infinity when none is left.
+inline double current_barrier(std::span<const double> barriers, double least) {
+  const auto next = std::upper_bound(barriers.begin(), barriers.end(), least + kProgressEpsilon);
+  return next == barriers.end() ? std::numeric_limits<double>::infinity() : *next;
+}
+
+// Whether that progress is held at the current barrier.
+struct Held {
+  double barrier;
+  bool ticks_at_barrier;
+
+  bool operator()(double reached) const {
+    return ticks_at_barrier ? reached > barrier + kProgressEpsilon
+                            : reached >= barrier - kProgressEpsilon;
+  }
+};
+
+}  // namespace lockstep::absolute

@@ -1,0 +1,163 @@
+#include <catch2/catch.hpp>
+
+#include "engine/synchronized.h"
+#include "support/scripted_run.h"
+#include "support/synchronized_trace.h"
+#include "support/tick_table.h"
+
+namespace lockstep::test {
+namespace {
+
+// clang-format off
+constexpr SynchronizedTrace kAcross[] = {
+  {"X1", "Parallel(SyncProgress[barrier=g](a) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5;1]",
+   "a+.1 b+.3", "12 12 1- 1- 1- 12 12 1. 1. 1.", 2.10},
+  {"X2 wait",
+   "Parallel(Sequence[memory=true](a SyncProgress[barrier=g](b)) SyncProgress[barrier=g](c)) "
+   "barrier[name=g barriers=.5]",
+   "a+.25 b+.2 c+.2", "1.3 1.3 1.3 12- .2- .2- .23 .23", 1.8, "0,0 0,.2 0,.4 0,.6 .2,.6 .4,.6 .6,.6 .8,.8"},
+  {"X2 ignore",
+   "Parallel(Sequence[memory=true](a SyncProgress[barrier=g](b)) SyncProgress[barrier=g](c)) "
+   "barrier[name=g barriers=.5 idle=ignore]",
+   "a+.25 b+.2 c+.2", "1.3 1.3 1.3 123 .2- .2- .23 .2.", 1.4},
+  {"R1 across branches",
+   "Parallel(SyncProgress[barrier=g](a) SyncProgress[barrier=g](b)) barrier[name=g delta=.2]",
+   "a+.1 b+.3", "12 12 1- 1- 12 1- 1- 12 1. 1.", 2.30},
+  {"A2t across branches",
+   "Parallel(SyncProgress[barrier=g](a) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5;1 at_barrier=tick]",
+   "a+.1 b+.25", "12 12 12 1- 1- 12 1. 1. 1. 1.", 2.50},
+};
+
+constexpr TickRow kMemberRows[] = {
+//  law
+//    tree  |  leaves, tick by tick  |  expected
+  {"returns what its child returns",
+   "Parallel[failure_count=2](SyncProgress[barrier=g](a) Inverter(SyncProgress[barrier=g](b))) barrier[name=g barriers=]",
+   "a=RS b=RF", "R[a b] S[a b]"},
+  {"a held member is Running, and its child is paused once",
+   "Parallel(SyncProgress[barrier=g](a) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5]",
+   "a=R.1R.1R.5R.6 b=R.7", "R[a b] R[a] pause[b] R[a] R[a b] resume[b]"},
+  {"reads progress also from a held child, and ticks it when it falls below the barrier",
+   "Parallel(SyncProgress[barrier=g](a) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5]",
+   "a=R.1 b=R~0,.6,.6,.3", "R[a b] R[a] pause[b] R[a] R[a b] resume[b]"},
+  {"takes one snapshot before the root is ticked, whatever comes first in the tree",
+   "Sequence(Parallel(SyncProgress[barrier=g](a) Delay[seconds=0](SyncProgress[barrier=g](b)))) barrier[name=g barriers=.5]",
+   "a=R.4R.6 b=R.5", "R[a b] R[a] pause[b] R[a b] resume[b]"},
+  {"a member that was never reached counts as 0",
+   "Parallel(Sequence[memory=true](x SyncProgress[barrier=g](a)) SyncProgress[barrier=g](b)) barrier[name=g delta=.5]",
+   "x=RRS a=R.4 b=R.6", "R[x b] R[x] pause[b] R[x a] R[a b] resume[b]"},
+  {"idle=ignore: it does not count, and holds nobody",
+   "Parallel(Sequence[memory=true](x SyncProgress[barrier=g](a)) SyncProgress[barrier=g](b)) barrier[name=g delta=.5 idle=ignore]",
+   "x=RRS a=R.4R.1 b=R.6R.8", "R[x b] R[x b] R[x a b] R[a b] R[a] pause[b]"},
+  {"asks a guard in every tick and never holds it",
+   "Parallel(SyncProgress[barrier=g](c?) SyncProgress[barrier=g](a) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5]",
+   "c=SSSF a=R.1 b=R.6", "R[c a b] R[c a] pause[b] R[c a] F[c a] halt[a b]"},
+  {"of a guard only the last result counts",
+   "Parallel[success_count=2 failure_count=2](SyncProgress[barrier=g](c?) SyncProgress[barrier=g](a) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5]",
+   "c=SFSS a=R.6 b=R.6", "R[c a b] R[c a b] R[c] pause[a b] R[c a b] resume[a b]"},
+  {"a success counts until the common ancestor begins again, also when the member is ticked again",
+   "Parallel(Sequence(SyncProgress[barrier=g](a) x) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5]",
+   "a=S x=R b=R.7", "R[a x b] R{start a, tick a, tick x, tick b}"},
+  {"the common ancestor begins again: so does the barrier",
+   "Parallel(SyncProgress[barrier=g](a) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5]",
+   "a+.25 b+.5",
+   "R[a b] R[a] pause[b] R[a b] resume[b] S[a] R[a b] R[a] pause[b] R[a b] resume[b] S[a]"},
+  {"nobody waits for a member that failed for good",
+   "Parallel[success_count=1 failure_count=2](SyncProgress[barrier=g](a) SyncProgress[barrier=g](b) SyncProgress[barrier=g](c)) barrier[name=g barriers=.5]",
+   "a=R.1F b=R.4R.6 c=R.7", "R[a b c] R[a b] pause[c] R[b c] resume[c]"},
+  {"nobody waits for it either when a decorator turned the failure into a success",
+   "Parallel(ForceSuccess(SyncProgress[barrier=g](a)) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5]",
+   "a=R.1F b=R.7", "R[a b] R[a] pause[b] R[b] resume[b]"},
+  {"the others wait for one that is tried again",
+   "Parallel(Retry[attempts=2](SyncProgress[barrier=g](a)) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5]",
+   "a=R.1FR.1 b=R.7", "R[a b] R[a] pause[b] R{start a, tick a}"},
+  {"a halted member that was held is not resumed",
+   "Parallel(SyncProgress[barrier=g](a) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5]",
+   "a=R.1R.1F b=R.6", "R[a b] R[a] pause[b] F[a] halt[b]"},
+  {"a member in a held subtree is not reached; the others still wait for it",
+   "ParallelAbsolute[barriers=.5](x Parallel(SyncProgress[barrier=g](a) SyncProgress[barrier=g](b))) barrier[name=g delta=0]",
+   "x=R.1 a=R.6 b=R.6", "R[x a b] R[x] pause[a b]"},
+  {"two barriers hold independently of each other",
+   "Parallel(SyncProgress[barrier=g](a) SyncProgress[barrier=h](b) SyncProgress[barrier=g](c) SyncProgress[barrier=h](d)) barrier[name=g delta=.1] barrier[name=h delta=.5]",
+   "a=R.1 b=R.1 c=R.4 d=R.4", "R[a b c d] R[a b d] pause[c]"},
+  {"a member may be inside one of another barrier",
+   "Parallel(SyncProgress[barrier=g](SyncProgress[barrier=h](a)) SyncProgress[barrier=h](b) SyncProgress[barrier=g](c)) barrier[name=g delta=.1] barrier[name=h delta=.1]",
+   "a=R.3 b=R.1 c=R.1", "R[a b c] R[b c] pause[a]"},
+  {"ends the run when a member's progress is not a number, and ticks nobody after that",
+   "Parallel(SyncProgress[barrier=g](a) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5]",
+   "a=R b=R<nan>", "R[a b] X{halt a, halt b}=b"},
+};
+// clang-format on
+
+std::string barrier_fault(ScriptedRun& run) {
+  const Fault* fault = run.ticker().fault();
+  return fault == nullptr ? "" : run.tree().path(fault->node) + ": " + fault->message;
+}
+
+constexpr std::string_view kFromEntry =
+    "Parallel(SyncProgress[barrier=g](a) SyncProgress[barrier=g](b)) barrier[name=g delta={d}]";
+
+}  // namespace
+
+TEST_CASE("SyncProgress: worked traces") {
+  check_traces(kAcross);
+}
+
+TEST_CASE("SyncProgress") {
+  check_rows(kMemberRows);
+}
+
+TEST_CASE("SyncProgress: the limits of a barrier may come from entries") {
+  ScriptedRun run(kFromEntry, "a=R.1... b=R.6...");
+  run.set("d", 1.0);
+  run.tick(from_seconds(0));
+  run.tick(from_seconds(0.1));
+  CHECK_FALSE(run.ticker().held(4));
+  run.set("d", 0.2);
+  run.tick(from_seconds(0.2));
+  CHECK(run.ticker().held(4));
+  CHECK(limit(run.ticker(), 5) == 0.2);
+  CHECK(barrier_fault(run).empty());
+}
+
+TEST_CASE("SyncProgress: an entry that the barrier does not accept is its fault") {
+  ScriptedRun run(kFromEntry, "a=R.1... b=R.6...");
+  run.set("d", 1.0);
+  run.tick(from_seconds(0));
+  run.set("d", 2.0);
+  CHECK(run.tick(from_seconds(0.1)) == Status::Running);
+  CHECK(barrier_fault(run).starts_with("Test/g: 2 is outside the range of 'delta'"));
+  CHECK(run.ticker().status(0) == Status::Idle);
+
+  ScriptedRun goes_on(kFromEntry, "a=R.1... b=R.6...", FaultPolicy::Fail);
+  goes_on.set("d", 1.0);
+  goes_on.tick(from_seconds(0));
+  goes_on.set("d", 2.0);
+  CHECK(goes_on.tick(from_seconds(0.1)) == Status::Failure);
+  CHECK(goes_on.ticker().take_tolerated().size() == 1);
+  goes_on.set("d", 0.2);
+  CHECK(goes_on.tick(from_seconds(0.2)) == Status::Running);
+}
+
+TEST_CASE("SyncProgress: a barrier runs with the common ancestor, and succeeds with its members") {
+  ScriptedRun run(
+      "Sequence[memory=true](x Parallel(SyncProgress[barrier=g](a) SyncProgress[barrier=g](b)) y) "
+      "barrier[name=g delta=1]",
+      "x=RS a=RS b=RRS y=RRS");
+  const NodeIndex barrier = run.tree().groups[0].node;
+  CHECK(run.tree().groups[0].ancestor == 2);
+  auto after_tick = [&, tick = 0]() mutable {
+    run.tick(from_seconds(0.1 * tick++));
+    return run.ticker().status(barrier);
+  };
+  CHECK(after_tick() == Status::Idle);  // x
+  CHECK_FALSE(run.ticker().ticked(barrier));
+  CHECK(after_tick() == Status::Running);
+  CHECK(run.ticker().ticked(barrier));
+  CHECK(after_tick() == Status::Running);
+  CHECK(after_tick() == Status::Success);
+  CHECK(after_tick() == Status::Idle);  // y
+  CHECK_FALSE(run.ticker().ticked(barrier));
+}
+
+}  // namespace lockstep::test

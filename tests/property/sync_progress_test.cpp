@@ -1,0 +1,100 @@
+// A SyncProgress on each child of a Parallel is, bit for bit, a synchronized parallel.
+#include <catch2/catch.hpp>
+#include <optional>
+
+#include "engine/synchronized.h"
+#include "property/random_tree.h"
+#include "support/scripted_run.h"
+
+namespace lockstep::test {
+namespace {
+
+constexpr int kTrees = 10000;
+
+bool has_barrier(const Plan& plan) {
+  return !plan.barrier.empty() || std::ranges::any_of(plan.children, has_barrier);
+}
+
+// The first synchronized parallel of the tree. One that forgets starts children again, whose
+// success a barrier remembers.
+const Plan* synchronized_in(const Plan& plan) {
+  const bool is_one = plan.kind == "ParallelAbsolute" || plan.kind == "ParallelRelative";
+  if (is_one && !plan.forgets && !has_barrier(plan)) return &plan;
+  for (const Plan& child : plan.children) {
+    if (const Plan* found = synchronized_in(child)) return found;
+  }
+  return nullptr;
+}
+
+Plan across(const Plan& parallel) {
+  Plan plan{.kind = "Parallel"};
+  plan.success_count = parallel.success_count;
+  plan.failure_count = parallel.failure_count;
+  for (const Plan& child : parallel.children) {
+    plan.children.push_back({.kind = "SyncProgress", .children = {child}, .barrier = "g"});
+  }
+  Plan barrier{.kind = "barrier", .name = "g"};
+  barrier.has_barriers = parallel.has_barriers;
+  barrier.barriers = parallel.barriers;
+  barrier.barrier_count = parallel.barrier_count;
+  barrier.tick_at_barrier = parallel.tick_at_barrier;
+  barrier.delta = parallel.delta;
+  plan.beside.push_back(barrier);
+  return plan;
+}
+
+// Of a run, all nodes but the members of the barrier and what is behind the root.
+std::vector<Activity> activities(ScriptedRun& run) {
+  std::vector<Activity> list;
+  const Tree& tree = run.tree();
+  for (NodeIndex node = 0; node < tree.nodes[0].end; ++node) {
+    if (tree.labels[node].type->id != "SyncProgress") list.push_back(run.ticker().activity(node));
+  }
+  return list;
+}
+
+std::vector<double> snapshot(ScriptedRun& run) {
+  const Tree& tree = run.tree();
+  const NodeIndex node = tree.groups.empty() ? 0 : tree.groups[0].node;
+  const auto progress = child_progress(run.ticker(), node);
+  return {progress.begin(), progress.end()};
+}
+
+// Whether the two could be compared: a run with a fault asks nobody else after it.
+bool compare(const Trial& trial, const Plan& parallel) {
+  const Plan other = across(parallel);
+  ScriptedRun one(tree_text(parallel), leaves_text(parallel));
+  ScriptedRun two(tree_text(other), leaves_text(other));
+  INFO(tree_text(parallel) << ", " << leaves_text(parallel));
+  for (int tick = 0; tick < trial.ticks; ++tick) {
+    INFO("tick " << tick);
+    const Nanoseconds now = tick * from_seconds(trial.period);
+    const Status status = one.tick(now), same = two.tick(now);
+    if (one.ticker().fault() != nullptr || two.ticker().fault() != nullptr) return false;
+    REQUIRE(status == same);
+    REQUIRE(one.events == two.events);
+    REQUIRE(activities(one) == activities(two));
+    REQUIRE(snapshot(one) == snapshot(two));
+    if (trial.halt_every == 0 || tick % trial.halt_every != trial.halt_every - 1) continue;
+    one.ticker().halt_all();
+    two.ticker().halt_all();
+  }
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("SyncProgress on all children of one Parallel is a synchronized parallel") {
+  int compared = 0;
+  std::uint64_t seed = 0;
+  for (; compared < kTrees && seed < 10 * kTrees; ++seed) {
+    const Trial trial = random_trial(seed);
+    const Plan* parallel = synchronized_in(trial.plan);
+    if (parallel == nullptr) continue;
+    INFO("seed " << seed);
+    compared += compare(trial, *parallel);
+  }
+  CHECK(compared == kTrees);
+}
+
+}  // namespace lockstep::test
