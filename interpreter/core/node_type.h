@@ -23,8 +23,14 @@ enum class NodeCategory : std::uint8_t { Control, Decorator, Action, Condition, 
 
 enum class Direction : std::uint8_t { Input, Output, InOut };
 
-// How a control node synchronizes its children, or a group its members.
-enum class Synchronization : std::uint8_t { None, Absolute, Relative };
+// How a control node synchronizes its children, or a group its members. Resources: a pool holds
+// those that need what others own.
+enum class Synchronization : std::uint8_t { None, Absolute, Relative, Resources };
+// A pool does not.
+constexpr bool compares_progress(Synchronization synchronization) {
+  return synchronization == Synchronization::Absolute ||
+         synchronization == Synchronization::Relative;
+}
 
 // Numbers that a parameter may take. The ends belong to it unless said otherwise.
 struct Range {
@@ -47,6 +53,7 @@ struct Parameter {
   std::span<const std::string_view> choices = {};  // strings: the words that are allowed
   bool constant = false;                           // shapes the tree, so it is never a {key}
   std::string_view group = {};  // its value names a group of this type: the node is a member
+  bool of_pool = false;         // its value names resources of that group: core/resource_set.h
 };
 
 struct Arity {

@@ -22,13 +22,13 @@ class Adviser {
       if (definition_.forgets(at(node))) {
         type.goes_on_after != Status::Idle ? restarts(node) : restarts_completed(node);
       }
-      if (type.synchronization == Synchronization::None) continue;
+      if (!compares_progress(type.synchronization)) continue;
       for (const std::uint32_t child : children_in(definition_.nodes, node)) {
         without_progress(child, node);
       }
     }
     for (const DefinitionGroup& group : definition_.groups) {
-      if (at(group.node).type->synchronization == Synchronization::None) continue;
+      if (!compares_progress(at(group.node).type->synchronization)) continue;
       for (const std::uint32_t member : group.members) without_progress(member, group.node);
     }
     unwritten_entries();

@@ -275,7 +275,7 @@ void keep_written(const NodeElement& element, CheckedNode& node, CheckedTrees& t
   for (const Attribute& attribute : element.attributes) {
     const bool names_type = element.is_explicit && attribute.name == "ID";
     if (attribute.name == "name" || names_type) continue;
-    trees.written.push_back({attribute.name, attribute.value, false});
+    trees.written.push_back({attribute.name, attribute.value, false, attribute.place});
   }
   if (trees.written.size() == first) return;
   trees.written.back().is_last = true;

@@ -35,7 +35,8 @@ bool matches(std::string_view tag, NodeCategory category) {
 }
 
 std::string element_hint(std::string_view tag) {
-  constexpr std::string_view kTags[] = {"BehaviorTree", "plugin", "arg", "include", "barrier"};
+  constexpr std::string_view kTags[] = {"BehaviorTree", "plugin",  "arg",
+                                        "include",      "barrier", "resources"};
   const std::string hint = foreign_node_hint(tag, {});
   return hint.empty() ? suggest(tag, kTags, "elements of 'root'") : hint;
 }

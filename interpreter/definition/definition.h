@@ -3,6 +3,7 @@
 // after the documents are gone. Views point into the project.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -32,6 +33,7 @@ struct WrittenAttribute {
   std::string_view name;
   std::string_view value;
   bool is_last;  // of its node
+  Place place = {};
 };
 
 // Where a parameter gets its value. Neither: it is absent, or an output that goes nowhere.
@@ -52,6 +54,8 @@ struct BlackboardEntry {
 struct DefinitionGroup {
   std::uint32_t node;                       // in `nodes`: behind the root's subtree, its own parent
   std::vector<std::uint32_t> members = {};  // in pre-order
+  std::vector<std::string> resources = {};  // of a pool: their names
+  std::uint32_t rank = 0;                   // before each tick, lower ranks are ticked first
 };
 
 struct Definition {
@@ -69,6 +73,24 @@ struct Definition {
     return port.entry == Port::kNone && port.value != Port::kNone ? &values[port.value] : nullptr;
   }
 
+  const Value* constant(const DefinitionNode& node, std::string_view parameter) const {
+    const auto place = std::ranges::find(node.type->parameters, parameter, &Parameter::name);
+    return constant(node, static_cast<std::size_t>(place - node.type->parameters.begin()));
+  }
+
+  // The list that a pool declares, or that a member names: a constant, or the start value of an
+  // entry; "" if neither.
+  std::string_view resources_of(const DefinitionNode& node) const {
+    const auto place = std::ranges::find(node.type->parameters, "resources", &Parameter::name);
+    const Port& port =
+        ports[node.first + static_cast<std::size_t>(place - node.type->parameters.begin())];
+    if (port.entry == Port::kNone && port.value == Port::kNone) return {};
+    const Value& value =
+        port.entry != Port::kNone ? entries[port.entry].initial : values[port.value];
+    const auto* list = std::get_if<std::string>(&value);
+    return list == nullptr ? std::string_view() : *list;
+  }
+
   // Whether a parameter of that name is there, as a value or from an entry.
   bool has(const DefinitionNode& node, std::string_view parameter) const {
     for (std::size_t i = 0; i < node.type->parameters.size(); ++i) {
@@ -77,6 +99,11 @@ struct Definition {
       return port.entry != Port::kNone || port.value != Port::kNone;
     }
     return false;
+  }
+
+  // A group whose members use its resources.
+  bool is_pool(const DefinitionGroup& group) const {
+    return nodes[group.node].type->synchronization == Synchronization::Resources;
   }
 
   // A barrier with a delta holds as ParallelRelative does.

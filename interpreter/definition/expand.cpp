@@ -122,15 +122,16 @@ class Expander {
       if (group != groups_.end() && trees_.groups[group->second].type->id == parameters[i].group) {
         members_[group->second].push_back(place);
       } else if (unknown_groups_.emplace(port.place.byte, name).second) {
-        unknown_group(parameters[i].group, port.place, written, name);
+        unknown_group(parameters[i], port.place, written, name);
       }
       return;
     }
   }
 
-  void unknown_group(std::string_view type, Place place, std::string_view written,
+  void unknown_group(const Parameter& parameter, Place place, std::string_view written,
                      std::string_view name) const {
     if (report_.counted_only(Severity::Error)) return;
+    const std::string_view type = parameter.group;
     std::vector<std::string_view> names;
     for (const CheckedNode& it : trees_.groups) {
       if (it.type->id == type) names.push_back(it.name);
@@ -140,7 +141,8 @@ class Expander {
       hint = fmt::format("declare it in 'root': <{} name=\"{}\" …/>", type, brief(name));
     const std::string origin =
         name == written ? "" : fmt::format(", which a SubTree gives for '{}'", brief(written));
-    report_.at_value(place, fmt::format("unknown {} '{}'{}", type, brief(name), origin), hint);
+    report_.at_value(place, fmt::format("unknown {} '{}'{}", parameter.name, brief(name), origin),
+                     hint);
   }
 
   // Where nothing comes from an entry, all expansions of a tree share their ports.

@@ -18,7 +18,7 @@ class GroupChecker {
   void check() const {
     bool all_meet = true;
     for (const DefinitionGroup& group : definition_.groups) {
-      if (at(group.node).type->synchronization == Synchronization::None) continue;
+      if (!compares_progress(at(group.node).type->synchronization)) continue;
       all_meet &= check_members(group);
     }
     if (!all_meet) return;

@@ -8,6 +8,7 @@
 #include "definition/check_trees.h"
 #include "definition/groups.h"
 #include "definition/references.h"
+#include "definition/resources.h"
 #include "document/reporter.h"
 
 namespace lockstep {
@@ -55,10 +56,12 @@ std::optional<Definition> resolve(const Project& project, const Catalog& catalog
   const auto main = choose_main(trees, options.main_tree, report);
   if (!check_references(trees, report) || !main) return std::nullopt;
   Definition definition = expand(trees, *main, options.values, report);
+  resolve_resources(definition, report);
   if (report.has_errors()) return std::nullopt;
   check_groups(definition, report);
   if (report.has_errors()) return std::nullopt;
   advise(definition, report);
+  advise_resources(definition, report);
   return definition;
 }
 

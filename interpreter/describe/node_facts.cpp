@@ -43,7 +43,7 @@ std::string children_text(const NodeType& type) {
 
 std::string facts_text(const Parameter& parameter) {
   std::string text(to_string(parameter.type));
-  if (!parameter.group.empty()) text = fmt::format("the name of a {}", parameter.group);
+  if (!parameter.group.empty()) text = fmt::format("the name of a {}", parameter.name);
   if (!parameter.unit.empty()) text += fmt::format(" in {}", parameter.unit);
   if (parameter.direction != Direction::Input) {
     text += fmt::format(", {}put to a blackboard entry", to_string(parameter.direction));

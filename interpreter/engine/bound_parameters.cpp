@@ -3,6 +3,9 @@
 #include <algorithm>
 
 #include "core/parameter_value.h"
+#include "core/resource_set.h"
+#include "core/suggest.h"
+#include "core/wording.h"
 
 namespace lockstep {
 
@@ -57,6 +60,9 @@ std::string BoundParameters::take_values(const BoundNode& node, Values& values) 
       if (const auto why = refuse_value(type.parameters[i], entry->value)) {
         return refusal(node, i, *why);
       }
+      if (const auto why = refuse_resources(node, type.parameters[i], entry->value)) {
+        return refusal(node, i, *why);
+      }
       values.values[i] = entry->value;
     } else if (port.constant != PortBinding::kUnbound) {
       values.values[i] = tree_.constants[port.constant];
@@ -73,6 +79,21 @@ std::string BoundParameters::take_values(const BoundNode& node, Values& values) 
       type.rule({.values = values.values, .children = tree_.nodes[node.node].children});
   if (!broken) return {};
   return refusal(node, static_cast<unsigned>(broken->parameter), *broken);
+}
+
+// What the pool of a member does not have.
+std::optional<RuleBreak> BoundParameters::refuse_resources(const BoundNode& node,
+                                                           const Parameter& parameter,
+                                                           const Value& value) const {
+  if (!parameter.of_pool) return std::nullopt;
+  const std::span<const std::string> names = pool_of(node);
+  const std::string_view unknown = resource_list(std::get<std::string>(value), names).unknown;
+  if (unknown.empty()) return std::nullopt;
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  return RuleBreak{.message = "the pool '" +
+                              std::string(tree_.labels[tree_.membership(node.node).group].name) +
+                              "' has no resource '" + brief(unknown) + "'",
+                   .hint = suggest(unknown, known, "its resources")};
 }
 
 std::string BoundParameters::refusal(const BoundNode& node, unsigned parameter,
@@ -96,7 +117,9 @@ void BoundParameters::set_cells(const BoundNode& node, Values& values) {
   const auto& parameters = node.kind->type.parameters;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const auto* list = std::get_if<std::vector<double>>(&values.values[i]);
-    if (list == nullptr) {
+    if (parameters[i].of_pool) {
+      cells[i] = resource_cell(pool_of(node), values.values[i]);
+    } else if (list == nullptr) {
       cells[i] = scalar_cell(parameters[i], values.values[i]);
     } else {
       set_list(cells[i], values.space[i], *list);

@@ -3,6 +3,7 @@
 // the node's last tick is checked like a constant and then stored in its cell.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,11 @@ class BoundParameters {
   };
   bool is_current(const BoundNode& node, const Values& values) const;
   std::string take_values(const BoundNode& node, Values& values) const;
+  std::span<const std::string> pool_of(const BoundNode& node) const {
+    return tree_.group(tree_.membership(node.node).group).resources;
+  }
+  std::optional<RuleBreak> refuse_resources(const BoundNode& node, const Parameter& parameter,
+                                            const Value& value) const;
   std::string refusal(const BoundNode& node, unsigned parameter, const RuleBreak& why) const;
   void set_cells(const BoundNode& node, Values& values);
   void set_list(Cell& cell, std::uint32_t& space, const std::vector<double>& list);

@@ -4,11 +4,13 @@
 #include <array>
 #include <list>
 #include <memory_resource>
+#include <numeric>
 #include <string>
 #include <unordered_map>
 
 #include "core/pre_order.h"
 #include "engine/nodes/kinds.h"
+#include "engine/resources.h"
 #include "engine/ticker.h"
 
 namespace lockstep {
@@ -54,6 +56,8 @@ class Compiler {
     number_members();
     for (const DefinitionNode& node : definition_.nodes) add(node);
     add_groups();
+    order_groups();
+    find_gates();
     find_guards();
     list_children();
     for (const BlackboardEntry& entry : definition_.entries) {
@@ -123,9 +127,39 @@ class Compiler {
       tree_.groups.push_back({.node = group.node,
                               .ancestor = definition_.common_ancestor(group.members),
                               .first = first,
-                              .count = count});
+                              .count = count,
+                              .resources = group.resources});
       first += count;
     }
+  }
+
+  void order_groups() {
+    tree_.group_order.resize(tree_.groups.size());
+    std::iota(tree_.group_order.begin(), tree_.group_order.end(), 0u);
+    std::ranges::stable_sort(tree_.group_order, {}, [this](std::uint32_t group) {
+      return definition_.groups[group].rank;
+    });
+  }
+
+  // Of a member of a pool: the members of groups above it, and of a barrier just below.
+  void find_gates() {
+    for (Member& member : tree_.members) {
+      if (!is_pool(tree_, member.group)) continue;
+      member.first_gate = static_cast<std::uint32_t>(tree_.gates.size());
+      for (NodeIndex node = member.node; node != 0;) {
+        node = definition_.nodes[node].parent;
+        if (numbers_.contains(node)) tree_.gates.push_back(node);
+      }
+      NodeIndex below = member.node + 1;
+      while (tree_.nodes[below].children == 1 && !numbers_.contains(below)) ++below;
+      if (waits_at_barrier(below)) tree_.gates.push_back(below);
+      member.gates = static_cast<std::uint32_t>(tree_.gates.size()) - member.first_gate;
+    }
+  }
+
+  bool waits_at_barrier(NodeIndex node) const {
+    const auto it = numbers_.find(node);
+    return it != numbers_.end() && !is_pool(tree_, tree_.members[it->second].group);
   }
 
   // Its place among the members is in the cell before that of a bound node.
@@ -137,6 +171,17 @@ class Compiler {
     }
     tree_.cells.push_back({.integer = 0});
     node.params = append_parameters(from);
+    const auto& parameters = from.type->parameters;
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      if (!parameters[i].of_pool) continue;
+      const DefinitionGroup& pool = definition_.groups[group_of(self)];
+      tree_.cells[node.params + i] = resource_cell(pool.resources, *definition_.constant(from, i));
+    }
+  }
+
+  // The number of a member's group.
+  std::size_t group_of(NodeIndex member) const {
+    return tree_.members[numbers_.at(member)].group - definition_.nodes[0].end;
   }
 
   // A node is a guard when all of its children are.

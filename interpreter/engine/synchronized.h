@@ -24,7 +24,7 @@ inline Synchronization synchronization(const Node& node) {
 }
 
 // The limit in the node's last tick. ParallelAbsolute: the current barrier, infinity if none is
-// left. ParallelRelative: delta.
+// left. ParallelRelative: delta. Also of a node that uses resources: engine/resources.h.
 inline double limit(Ticker& ticker, NodeIndex node) {
   return ticker.state<SynchronizedState>(node).limit;
 }
@@ -49,8 +49,8 @@ void for_each_child(const Tree& tree, NodeIndex node, Visit visit) {
 }
 
 // The progress of each child at the start of its parallel's last tick, as the node used it: 1 for a
-// child that has succeeded, not a number for one that was left out. Only for synchronized nodes;
-// valid until the next tick.
+// child that has succeeded, not a number for one that was left out. Only for nodes that compare
+// progress; valid until the next tick.
 inline std::span<const double> child_progress(Ticker& ticker, NodeIndex node) {
   return ticker.child_numbers(node);
 }
@@ -72,6 +72,9 @@ inline double least_progress(std::span<const double> progress) {
 inline bool is_left_out(double progress) {
   return std::isnan(progress);
 }
+
+// Whether a member of a barrier beside the tree is held in this tick.
+bool is_held_at_barrier(Ticker& ticker, NodeIndex member);
 
 // Of a ParallelAbsolute, rising, and the delta of a ParallelRelative. Nothing for other nodes, and
 // where an entry gives any parameter.

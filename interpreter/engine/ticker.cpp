@@ -35,7 +35,8 @@ Status Ticker::tick_with_groups() {
   const auto rests = [this](const Group& group) {
     return status(group.ancestor) != Status::Running;
   };
-  for (const Group& group : tree_.groups) {
+  for (const std::uint32_t number : tree_.group_order) {
+    const Group& group = tree_.groups[number];
     Activity& activity = state_.activity[group.node];
     if (rests(group)) activity = Activity::Idle;
     const Status status = tree_.nodes[group.node].kind->tick(*this, group.node);
@@ -47,6 +48,13 @@ Status Ticker::tick_with_groups() {
     if (rests(group) && activity == Activity::Running) activity = Activity::Idle;
   }
   return result;
+}
+
+bool Ticker::refresh(NodeIndex node) {
+  const auto bound =
+      static_cast<std::uint32_t>(parameters_.cells()[tree_.nodes[node].params - 1].integer);
+  if (bound >= tree_.bound.size() || tree_.bound[bound].node != node) return true;
+  return parameters_.read(bound).empty();
 }
 
 Status Ticker::tick_bound(NodeIndex node) {

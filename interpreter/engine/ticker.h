@@ -88,11 +88,13 @@ class Ticker {
   State& state(NodeIndex node) {
     return *reinterpret_cast<State*>(state_bytes() + tree_.nodes[node].state);
   }
-  // The doubles that a kind with state_per_child keeps behind its state, one for each child.
-  std::span<double> child_numbers(NodeIndex node) {
+  // What a kind with state_per_child keeps behind its state, one for each child.
+  template <class T>
+  std::span<T> child_states(NodeIndex node) {
     const Node& it = tree_.nodes[node];
-    return {reinterpret_cast<double*>(state_bytes() + it.state + it.kind->state_size), it.children};
+    return {reinterpret_cast<T*>(state_bytes() + it.state + it.kind->state_size), it.children};
   }
+  std::span<double> child_numbers(NodeIndex node) { return child_states<double>(node); }
   const Cell& parameter(NodeIndex node, unsigned index) const {
     return parameters_.cells()[tree_.nodes[node].params + index];
   }
@@ -102,11 +104,11 @@ class Ticker {
   // Ticks a node of Tree::bound with the current values of its entries. A value that the node does
   // not accept is a fault.
   Status tick_bound(NodeIndex node);
+  // For the group of a member that runs: reads its entries. False if it does not accept a value;
+  // its tick reports that.
+  bool refresh(NodeIndex node);
   // Of a node whose kind has a parameter that names a group.
-  const Member& membership(NodeIndex node) const {
-    const Cell& place = parameters_.cells()[tree_.nodes[node].params - 2];
-    return tree_.members[static_cast<std::size_t>(place.integer)];
-  }
+  const Member& membership(NodeIndex node) const { return tree_.membership(node); }
   // A member was ticked: its group counts as ticked in this tick.
   void reach(NodeIndex group) { state_.last_tick[group] = tick_number_; }
   // Of a group: Success, until the common ancestor of its members begins an activation.

@@ -76,15 +76,18 @@ struct NodeLabel {
 // Nodes anywhere in the tree that a declaration beside it joins. The declaration is a node without
 // children behind the root's subtree; it is ticked before the root.
 struct Group {
-  NodeIndex node;              // of the declaration
-  NodeIndex ancestor;          // the lowest that all members are below
-  std::uint32_t first, count;  // in Tree::members
+  NodeIndex node;                           // of the declaration
+  NodeIndex ancestor;                       // the lowest that all members are below
+  std::uint32_t first, count;               // in Tree::members
+  std::vector<std::string> resources = {};  // of a pool: their names, in the order of their bits
 };
 
 struct Member {
   NodeIndex node;
   NodeIndex group;       // the node of the declaration
   std::uint32_t number;  // among the members of the group
+  // In Tree::gates: the members of other groups that withhold its ticks when they hold.
+  std::uint32_t first_gate = 0, gates = 0;
 };
 
 struct Tree {
@@ -94,8 +97,10 @@ struct Tree {
   std::vector<LeafNode> leaves;
   std::vector<NodeIndex> children;  // of the control nodes of plugins
   std::vector<BoundNode> bound;
-  std::vector<Group> groups;       // in the order of their nodes
-  std::vector<Member> members;     // of each group, in pre-order
+  std::vector<Group> groups;    // in the order of their nodes
+  std::vector<Member> members;  // of each group, in pre-order
+  std::vector<NodeIndex> gates;
+  std::vector<std::uint32_t> group_order;  // in which they are ticked
   std::vector<PortBinding> ports;  // of leaves and bound nodes, each type's parameters in order
   std::vector<Value> constants;
   std::vector<Slot> slots;
@@ -106,9 +111,17 @@ struct Tree {
   std::shared_ptr<const std::string> names;
 
   bool is_group(NodeIndex node) const { return node >= nodes[0].end; }
-  std::span<const Member> members_of(NodeIndex group) const {
-    const Group& it = groups[group - nodes[0].end];
+  const Group& group(NodeIndex node) const { return groups[node - nodes[0].end]; }
+  std::span<const Member> members_of(NodeIndex group_node) const {
+    const Group& it = group(group_node);
     return std::span(members).subspan(it.first, it.count);
+  }
+  // Of a node whose kind has a parameter that names a group.
+  const Member& membership(NodeIndex node) const {
+    return members[static_cast<std::size_t>(cells[nodes[node].params - 2].integer)];
+  }
+  std::span<const NodeIndex> gates_of(const Member& member) const {
+    return std::span(gates).subspan(member.first_gate, member.gates);
   }
 
   // A node's part of the path: its name, or "name#2" for the second sibling of that name.
@@ -119,5 +132,7 @@ struct Tree {
 
 // The cell of a value that is no list; of an absent one: 0.
 Cell scalar_cell(const Parameter& parameter, const Value& value);
+// Of a value that names resources: their set.
+Cell resource_cell(std::span<const std::string> names, const Value& value);
 
 }  // namespace lockstep

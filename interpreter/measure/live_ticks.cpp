@@ -44,6 +44,7 @@ LiveTicks::LiveTicks(const Tree& tree, const Measuring& measuring)
   for (const NodeIndex node : measuring.nodes()) {
     Node measured{.index = node, .parent = {}, .child = 0};
     for (const NodeIndex keeper : synchronized_nodes(tree)) {
+      if (!compares_progress(synchronization(tree.nodes[keeper]))) continue;
       const auto children = children_of(tree, keeper);
       const auto child = std::ranges::find(children, node);
       if (child == children.end()) continue;

@@ -8,7 +8,7 @@ namespace lockstep {
 namespace {
 
 bool is_parallel(const MeasuredTree::Node& node) {
-  return node.synchronization != Synchronization::None || node.kind == "Parallel";
+  return compares_progress(node.synchronization) || node.kind == "Parallel";
 }
 
 }  // namespace
@@ -75,7 +75,8 @@ void Measuring::add_child(const MeasureSpec& spec, const MeasuredTree& tree) {
     return;
   }
   error_ = "'" + tree.paths[*node] +
-           "' is not a child of a synchronized node, nor of a SyncProgress, so it is never held";
+           "' is not a child of a synchronized node, of a SyncProgress or of a UseResources, so it "
+           "is never held";
 }
 
 void Measuring::add_node(const MeasureSpec& spec, const MeasuredTree& tree) {

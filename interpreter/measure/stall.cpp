@@ -35,6 +35,7 @@ std::optional<std::size_t> StallDetector::after_tick(const SynchronizedTick& tic
 StallWatch::StallWatch(const Tree& tree, Nanoseconds limit, Report report)
     : report_(std::move(report)) {
   for (const NodeIndex node : synchronized_nodes(tree)) {
+    if (!compares_progress(synchronization(tree.nodes[node]))) continue;
     nodes_.push_back({SynchronizedProbe(tree, node), StallDetector(limit)});
   }
 }

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <set>
 
-#include "engine/synchronized.h"
+#include "engine/resources.h"
 
 namespace lockstep {
 
@@ -108,8 +108,9 @@ SynchronizedProbe::SynchronizedProbe(const Tree& tree, NodeIndex node, bool with
       children_(children_of(tree, node)),
       is_group_(tree.is_group(node)),
       with_held_(with_held),
+      is_pool_(is_pool(tree, node)),
       held_(children_.size()) {
-  if (synchronization(tree.nodes[node]) == Synchronization::None) {
+  if (!compares_progress(synchronization(tree.nodes[node]))) {
     progress_.resize(children_.size());
   }
 }
@@ -129,6 +130,10 @@ SynchronizedTick SynchronizedProbe::read(Ticker& ticker, Nanoseconds time) {
   tick.status = ticker.status(node_);
   for (std::size_t child = 0; with_held_ && child < children_.size(); ++child) {
     const NodeIndex node = children_[child];
+    if (is_pool_) {
+      held_.set(child, ticker.ticked(node - 1) && waits(limit(ticker, node - 1)));
+      continue;
+    }
     const bool asked = !is_group_ || ticker.ticked(ticker.tree().labels[node].parent);
     held_.set(child, ticker.status(node), ticker.ticked(node) || !asked,
               ticker.held(node) && asked);

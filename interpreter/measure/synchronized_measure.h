@@ -20,9 +20,9 @@ namespace lockstep {
 
 class Ticker;
 
-// The nodes of the tree that keep their children in step, in pre-order.
+// The nodes of the tree that keep their children in step, in pre-order, and the pools.
 std::vector<NodeIndex> synchronized_nodes(const Tree& tree);
-// What the node holds: the children of a parallel, of a barrier what its members hold.
+// What the node holds: the children of a parallel, of a group what its members hold.
 std::vector<NodeIndex> children_of(const Tree& tree, NodeIndex node);
 // The ends of these paths, each as short as it can be and still differ from all others.
 std::vector<std::string> names_of(std::span<const std::string> paths);
@@ -40,6 +40,8 @@ class HeldChildren {
     held_[child] = held || (status == Status::Idle && running_[child] && !reached);
     running_[child] = status == Status::Running;
   }
+  // Of a pool: the answer of the pool decides alone, also about a child that has not begun.
+  void set(std::size_t child, bool waits) { held_[child] = waits; }
   const bool* data() const { return held_.get(); }
 
  private:
@@ -60,6 +62,7 @@ class SynchronizedMeasure {
   // The spread cannot be larger: what the limits allowed, and the longest step. Nothing if progress
   // fell, or a child that was left out may have joined from far behind.
   std::optional<double> bound() const;
+  bool is_pool() const { return synchronization_ == Synchronization::Resources; }
   const FallWatch& falls() const { return falls_; }
   std::span<const HeldChild> held() const { return held_; }
 
@@ -92,6 +95,7 @@ class SynchronizedProbe {
   std::vector<NodeIndex> children_;
   bool is_group_;
   bool with_held_;
+  bool is_pool_;
   HeldChildren held_;
   std::vector<double> progress_;  // only where the node does not synchronize
 };

@@ -55,6 +55,7 @@ std::string held_lines(const ProgressPlot& plot, std::size_t child) {
 }
 
 std::string law(const RecordedNode& node) {
+  if (!node.resources.empty()) return counted(node.resources.size(), "resource");
   if (node.delta) return fmt::format("delta = {}", *node.delta);
   if (node.synchronization == Synchronization::Relative) return "delta from an entry";
   if (!node.barriers) return "barriers from an entry";
@@ -90,7 +91,8 @@ Legend legend_of(const ProgressPlot& plot, PlotSize size) {
 // own.
 std::string_view kind_of(const ProgressPlot& plot) {
   if (is_relative(plot)) return "band";
-  return plot.node.barriers ? "barriers" : "steps";
+  const bool has_limit = compares_progress(plot.node.synchronization);
+  return plot.node.barriers || !has_limit ? "barriers" : "steps";
 }
 
 }  // namespace

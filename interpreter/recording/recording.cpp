@@ -15,10 +15,21 @@ std::vector<RecordedNode> describe(const Tree& tree) {
     node.delta = delta(tree, index);
     node.ignores_idle = ignores_idle(tree, index);
     if (tree.is_group(index)) {
+      node.resources = tree.group(index).resources;
       for_each_child(tree, index, [&](NodeIndex child) { node.members.push_back(child); });
     }
   }
   return nodes;
+}
+
+std::vector<bool> resource_users(const RecordingHeader& header) {
+  std::vector<bool> users(header.nodes.size());
+  for (const RecordedNode& node : header.nodes) {
+    if (node.synchronization != Synchronization::Resources) continue;
+    for (const NodeIndex child : node.members)
+      users[header.nodes[child].parent.value_or(child)] = true;
+  }
+  return users;
 }
 
 Nanoseconds period_of(const RecordingHeader& header) {

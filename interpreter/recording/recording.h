@@ -24,6 +24,7 @@ struct RecordedNode {
   Synchronization synchronization = Synchronization::None;
   std::optional<std::vector<double>> barriers;  // Absolute; none: an entry gives them
   std::optional<double> delta;                  // Relative; likewise
+  std::vector<std::string> resources = {};      // of a pool
   std::vector<NodeIndex> members = {};          // of a group, which has no parent: what they hold
   bool ignores_idle = false;                    // a group that leaves out who is idle
 };
@@ -50,7 +51,8 @@ struct RecordedState {
   double progress = 0;           // at the start of the tick, as its parent used it
   bool ticked = false;
   bool held = false;
-  double limit = 0;  // of a synchronized node: engine/synchronized.h
+  // Of a synchronized node: engine/synchronized.h; of a UseResources: engine/resources.h.
+  double limit = 0;
 
   friend bool operator==(const RecordedState&, const RecordedState&) = default;
 };
@@ -104,6 +106,8 @@ struct RecordedEnd {
 
 // The header's part about the nodes.
 std::vector<RecordedNode> describe(const Tree& tree);
+// By index: whether the node uses resources of a pool.
+std::vector<bool> resource_users(const RecordingHeader& header);
 // From one tick to the next; 0 when the rate is not known.
 Nanoseconds period_of(const RecordingHeader& header);
 

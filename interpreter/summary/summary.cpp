@@ -70,15 +70,19 @@ std::string waited(const ChildSummary& child) {
                      counted(child.held_ticks, "tick"));
 }
 
-void write_node(const SynchronizedSummary& node, std::string& out, bool color) {
-  const auto name = styled(printable(node.path), Style::Strong, color);
-  fmt::format_to(std::back_inserter(out), "  {} ({}, {})\n", name, printable(node.kind),
-                 counted(node.samples, "tick"));
+void write_distance(const SynchronizedSummary& node, std::string& out) {
   fmt::format_to(std::back_inserter(out),
                  "    progress distance {:.6g}, mean {:.6g} a tick; largest spread {:.6g}{}, ",
                  node.distance_sum, node.distance_mean, node.largest_spread,
                  node.spread_bound ? fmt::format(" (bound {:.6g})", *node.spread_bound) : "");
   fmt::format_to(std::back_inserter(out), "longest step {:.6g}\n", node.step_length);
+}
+
+void write_node(const SynchronizedSummary& node, std::string& out, bool color) {
+  const auto name = styled(printable(node.path), Style::Strong, color);
+  fmt::format_to(std::back_inserter(out), "  {} ({}, {})\n", name, printable(node.kind),
+                 counted(node.samples, "tick"));
+  if (!node.is_pool) write_distance(node, out);
   std::vector<TableRow> rows;
   for (const ChildSummary& child : node.children) {
     rows.push_back({"    " + printable(child.name), waited(child)});
@@ -134,7 +138,8 @@ SynchronizedSummary summarize(const SynchronizedMeasure& measure, std::string pa
                               .largest_spread = measure.largest_spread(),
                               .spread_bound = measure.bound(),
                               .step_length = measure.step_length(),
-                              .children = {}};
+                              .children = {},
+                              .is_pool = measure.is_pool()};
   for (std::size_t child = 0; child < children.size(); ++child) {
     const auto& held = measure.held()[child];
     summary.children.push_back(

@@ -38,6 +38,7 @@ struct SynchronizedSummary {
   std::optional<double> spread_bound;  // none: progress fell
   double step_length = 0;
   std::vector<ChildSummary> children;
+  bool is_pool = false;  // of resources: only its members' waits are known
 };
 
 // One of the nodes that decided the result; measure/decision.h.

@@ -13,6 +13,9 @@ Json json_of(const SynchronizedSummary& node) {
                         {"held_ticks", child.held_ticks},
                         {"waits", child.waits}});
   }
+  if (node.is_pool) {
+    return {{"path", node.path}, {"samples", node.samples}, {"children", std::move(children)}};
+  }
   return {{"path", node.path},
           {"kind", node.kind},
           {"samples", node.samples},
@@ -79,8 +82,9 @@ std::string to_json(const Summary& summary) {
   json["tick_budget_s"] = summary.tick_budget;
   json["over_budget"] = json_of(summary.over_budget);
   json["synchronized_nodes"] = Json::array();
+  json["pools"] = Json::array();
   for (const auto& node : summary.synchronized_nodes) {
-    json["synchronized_nodes"].push_back(json_of(node));
+    json[node.is_pool ? "pools" : "synchronized_nodes"].push_back(json_of(node));
   }
   json["never_reached"] = summary.never_reached;
   json["notes"] = summary.notes;

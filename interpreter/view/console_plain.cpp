@@ -19,7 +19,8 @@ ConsolePlain::ConsolePlain(const Tree& tree, Outlet& out, RealTime real_time)
   }
   for (const NodeIndex node : synchronized_nodes(tree)) {
     const std::size_t children = tree.nodes[node].children;
-    nodes_.push_back({SynchronizedProbe(tree, node), std::vector<Wait>(children)});
+    nodes_.push_back({SynchronizedProbe(tree, node), std::vector<Wait>(children),
+                      std::vector<double>(is_pool(tree, node) ? children : 0)});
   }
 }
 
@@ -105,6 +106,9 @@ void ConsolePlain::tell_again(Leaf& leaf, Status status) {
 
 void ConsolePlain::tell_waits(Ticker& ticker, Watched& node) {
   const SynchronizedTick tick = node.probe.read(ticker, time_);
+  for (std::size_t i = 0; i < node.limits.size(); ++i) {
+    node.limits[i] = limit(ticker, node.probe.children()[i] - 1);
+  }
   if (!tick.ticked) {  // it is held itself, or it was halted
     if (tick.status != Status::Running) std::ranges::fill(node.waits, Wait{});
     return;
@@ -127,16 +131,28 @@ void ConsolePlain::tell_wait(Watched& node, std::size_t child, const Synchronize
   const bool is_soon = wait.last_end && wait.since - *wait.last_end <= kShortWait;
   if (wait.told || (is_soon && tick.time - wait.since < kShortWait)) return;
   wait.told = true;
-  const NodeIndex self = node.probe.node();
-  std::string text =
-      waiting_text({.synchronization = synchronization(tree_.nodes[self]),
-                    .limit = tick.limit,
-                    .progress = tick.progress,
-                    .name_of = [&](std::size_t number) { return child_names(tree_, self)[number]; },
-                    .group = tree_.is_group(self) ? tree_.segment(self) : ""},
-                   child);
+  std::string text = waiting(node, child, tick);
   if (wait.since != tick.time) text += fmt::format(", since {:.3f} s", to_seconds(wait.since));
   tell(node.probe.children()[child], text);
+}
+
+std::string ConsolePlain::waiting(const Watched& node, std::size_t child,
+                                  const SynchronizedTick& tick) const {
+  const NodeIndex self = node.probe.node();
+  const auto name_of = [&](std::size_t number) { return child_names(tree_, self)[number]; };
+  if (is_pool(tree_, self)) {
+    return ownership_text({.resources = tree_.group(self).resources,
+                           .members = node.limits.size(),
+                           .limit = [&](std::size_t number) { return node.limits[number]; },
+                           .name_of = name_of},
+                          child);
+  }
+  return waiting_text({.synchronization = synchronization(tree_.nodes[self]),
+                       .limit = tick.limit,
+                       .progress = tick.progress,
+                       .name_of = name_of,
+                       .group = tree_.is_group(self) ? tree_.segment(self) : ""},
+                      child);
 }
 
 void ConsolePlain::tell_end_of_wait(Ticker& ticker, Watched& node, std::size_t child) {

@@ -54,7 +54,8 @@ class ConsolePlain final : public Observer {
   };
   struct Watched {
     SynchronizedProbe probe;
-    std::vector<Wait> waits;  // of each child
+    std::vector<Wait> waits;     // of each child
+    std::vector<double> limits;  // of a pool: of each member
   };
   bool may_print();
   void tell_left_out();
@@ -63,6 +64,7 @@ class ConsolePlain final : public Observer {
   void tell_again(Leaf& leaf, Status status);
   void tell_waits(Ticker& ticker, Watched& node);
   void tell_wait(Watched& node, std::size_t child, const SynchronizedTick& tick);
+  std::string waiting(const Watched& node, std::size_t child, const SynchronizedTick& tick) const;
   void tell_end_of_wait(Ticker& ticker, Watched& node, std::size_t child);
   void tell(NodeIndex node, std::string_view what);
 

@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "engine/synchronized.h"
+#include "engine/resources.h"
 #include "measure/synchronized_measure.h"
 
 namespace lockstep {
@@ -69,7 +69,15 @@ void SnapshotFeed::publish(Ticker& ticker) {
   for (NodeIndex node = 0; node < back.nodes.size(); ++node) {
     back.nodes[node] = {.activity = activity_[node]};
   }
-  for (const NodeIndex node : synchronized_nodes_) take_progress(ticker, node, back.nodes);
+  for (const NodeIndex node : synchronized_nodes_) {
+    if (compares_progress(synchronization(ticker.node(node))))
+      take_progress(ticker, node, back.nodes);
+  }
+  for_each_resource_user(ticker.tree(), [&](NodeIndex node) {
+    back.nodes[node].limit = limit(ticker, node);
+    const double progress = ticker.progress(node + 1);
+    back.nodes[node + 1].progress = shown_progress(activity_[node + 1], progress);
+  });
   for (const NodeIndex node : repeating_nodes_) take_round(ticker, node, back.nodes[node]);
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     if (back.entries[i].changed != entries_[i].changed) back.entries[i] = entries_[i];

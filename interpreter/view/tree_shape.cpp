@@ -52,6 +52,7 @@ TreeShape shape_of(const Tree& tree) {
     node.synchronization = synchronization(tree.nodes[index]);
     if (const auto list = barriers(tree, index)) node.barriers.assign(list->begin(), list->end());
     node.ignores_idle = ignores_idle(tree, index);
+    if (tree.is_group(index)) node.resources = tree.group(index).resources;
     add(shape, std::move(node));
   }
   for (NodeIndex index = 0; index < tree.nodes.size(); ++index) {
@@ -69,6 +70,7 @@ TreeShape shape_of(const RecordingHeader& header) {
                 .kind = node.kind,
                 .parent = node.parent,
                 .synchronization = node.synchronization,
+                .resources = node.resources,
                 .barriers = node.barriers.value_or(std::vector<double>()),
                 .ignores_idle = node.ignores_idle});
   }

@@ -17,11 +17,12 @@ struct ShapeNode {
   std::size_t depth = 0;
   std::vector<NodeIndex> children = {};
   Synchronization synchronization = Synchronization::None;
-  std::vector<double> barriers = {};     // Absolute; empty where an entry gives them
-  std::vector<NodeIndex> in_step = {};   // synchronized: the nodes that it holds
-  std::vector<std::string> names = {};   // of a group: what it calls them
-  bool ignores_idle = false;             // of those, the ones that are idle
-  std::optional<NodeIndex> keeper = {};  // the synchronized node that holds this one
+  std::vector<std::string> resources = {};  // of a pool
+  std::vector<double> barriers = {};        // Absolute; empty where an entry gives them
+  std::vector<NodeIndex> in_step = {};      // synchronized: the nodes that it holds
+  std::vector<std::string> names = {};      // of a group: what it calls them
+  bool ignores_idle = false;                // of those, the ones that are idle
+  std::optional<NodeIndex> keeper = {};     // the synchronized node that holds this one
 };
 
 struct TreeShape {

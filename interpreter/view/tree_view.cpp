@@ -185,6 +185,9 @@ class View {
     line.fill_to(gutter + indent(node) + 3 + std::min<std::size_t>(name, 24));
     line.add(bar(self, progress[place], least), style);
     line.add(fmt::format(" {:.2f}", progress[place]));
+    if (tree_.nodes[self].synchronization == Synchronization::Resources) {
+      return add_ownership(line, self, place);
+    }
     // Under a parent that is held itself, the parent says what is waited for.
     if (snapshot_.nodes[node].activity != Activity::Paused ||
         snapshot_.nodes[*tree_.nodes[node].parent].activity == Activity::Paused) {
@@ -192,6 +195,22 @@ class View {
     }
     line.add("  ");
     line.add(waiting(self, progress, place), Style::Warning);
+  }
+
+  void add_ownership(TextLine& line, NodeIndex pool, std::size_t place) const {
+    const ShapeNode& shape = tree_.nodes[pool];
+    const auto limit = [&](std::size_t child) {
+      return snapshot_.nodes[shape.in_step[child] - 1].limit;
+    };
+    const std::string text = ownership_text(
+        {.resources = shape.resources,
+         .members = shape.in_step.size(),
+         .limit = limit,
+         .name_of = [&](std::size_t child) { return printable(shape.names[child]); }},
+        place);
+    if (text.empty()) return;
+    line.add("  ");
+    line.add(text, waits(limit(place)) ? Style::Warning : Style::Plain);
   }
 
   std::string waiting(NodeIndex node, const std::vector<double>& progress,
@@ -220,7 +239,8 @@ class View {
                     .marks = shape.barriers,
                     .cells = std::clamp<std::size_t>(options_.width / 4, 8, 40)};
     // An idle node has no limit yet.
-    if (shape.barriers.empty() && most > 0) bar.marks = {&most, 1};
+    if (shape.barriers.empty() && most > 0 && compares_progress(shape.synchronization))
+      bar.marks = {&most, 1};
     if (relative) bar.band_begin = least;
     if (relative) bar.band_end = most;
     return to_text(bar, options_.unicode);

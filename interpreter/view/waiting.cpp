@@ -37,6 +37,21 @@ std::string waiting_text(const WaitedAt& node, std::size_t child) {
   return fmt::format("waits for {} at barrier {:.6g}{}", whom, node.limit, of);
 }
 
+std::string ownership_text(const OwnedFrom& pool, std::size_t child) {
+  const double limit = pool.limit(child);
+  const ResourceSet set = resource_set(limit);
+  if (!waits(limit)) return limit == 0 ? "" : "owns " + to_text(set, pool.resources);
+  std::string text;
+  for (std::size_t other = 0; other < pool.members; ++other) {
+    const double its = pool.limit(other);
+    const ResourceSet shared = waits(its) ? 0 : set & resource_set(its);
+    if (shared == 0) continue;
+    text += fmt::format("{}{} ({})", text.empty() ? "waits for " : ", ",
+                        to_text(shared, pool.resources), pool.name_of(other));
+  }
+  return text;
+}
+
 std::string standstill_text(const Tree& tree, const Standstill& standstill) {
   constexpr double kNoChange = 1e-9;
   const std::string others =

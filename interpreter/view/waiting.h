@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "engine/synchronized.h"
+#include "engine/resources.h"
 #include "measure/stall.h"
 
 namespace lockstep {
@@ -23,6 +23,17 @@ struct WaitedAt {
 // "waits for base at barrier 0.5" or "waits for base, 0.12 ahead (delta 0.1)", of a group with "of
 // 'lift'". `child` is the number of the one that is held.
 std::string waiting_text(const WaitedAt& node, std::size_t child);
+
+// A pool in one tick. A member is known by its child's number.
+struct OwnedFrom {
+  std::span<const std::string> resources = {};
+  std::size_t members = 0;
+  std::function<double(std::size_t child)> limit;  // of the member: engine/resources.h
+  std::function<std::string(std::size_t child)> name_of;
+};
+
+// "owns left;gripper", "waits for left (Plato/eat)", or "".
+std::string ownership_text(const OwnedFrom& pool, std::size_t child);
 
 // "Door/pull/base stands still at 0.31 since 2.4 s and holds the other children of 'pull' back".
 std::string standstill_text(const Tree& tree, const Standstill& standstill);

@@ -70,8 +70,9 @@ constexpr const char* kTree = R"(
 <root lockstep="1" main_tree_to_execute="Main">
   <barrier name="early" barriers="0.3;0.6" idle="ignore"/>
   <barrier name="close" delta="1e-8"/>
+  <resources name="hands"/>
   <BehaviorTree ID="Main">
-    <Parallel success_count="10">
+    <Parallel success_count="13">
       <SyncProgress barrier="close"><Sequence memory="true"><SyncProgress barrier="early"><Advance step="1e-9"/></SyncProgress></Sequence></SyncProgress>
       <Sequence memory="true"><Wait seconds="0.5"/><SyncProgress barrier="close"><SubTree ID="Other" barrier="early"/></SyncProgress></Sequence>
       <SubTree ID="Planned" plan="0.3;0.6"/>
@@ -82,9 +83,15 @@ constexpr const char* kTree = R"(
       <KeepRunningUntilFailure><Sequence><SubTree ID="Part"/><Inverter><AlwaysFailure/></Inverter></Sequence></KeepRunningUntilFailure>
       <Repeat times="1000000"><Sequence><Advance step="0.5"/><Delay seconds="0.02"><AlwaysSuccess/></Delay></Sequence></Repeat>
       <KeepRunningUntilFailure><ForceSuccess><Timeout seconds="0.03"><Advance step="0"/></Timeout></ForceSuccess></KeepRunningUntilFailure>
+      <SubTree ID="Uses" hand="left"/>
+      <SubTree ID="Uses" hand="left;right"/>
+      <UseResources pool="hands" resources="right" keep="true"><Advance step="1e-9"/></UseResources>
     </Parallel>
   </BehaviorTree>
   <BehaviorTree ID="Other"><SyncProgress barrier="barrier"><Advance step="9e-9"/></SyncProgress></BehaviorTree>
+  <BehaviorTree ID="Uses">
+    <Repeat><UseResources pool="hands" resources="{hand}"><Advance step="0.3"/></UseResources></Repeat>
+  </BehaviorTree>
   <BehaviorTree ID="Planned">
     <ParallelAbsolute barriers="{plan}"><Advance step="1e-9"/><Advance step="2e-9"/></ParallelAbsolute>
   </BehaviorTree>

@@ -118,6 +118,30 @@ TEST_CASE("the worked traces of the page are what a run does") {
   CHECK(page.find("|\n" + relative + "\n") != std::string::npos);
 }
 
+TEST_CASE("the trace of the resources on the page is what a run does") {
+  const Pipeline pipeline(example_of("Dinner").xml);
+  REQUIRE(pipeline.loaded());
+  Run run(pipeline.tree(), {});
+  std::string rows;
+  Status status = Status::Running;
+  for (int tick = 1; status == Status::Running; ++tick) {
+    std::vector<Status> before;
+    for (const LeafNode& leaf : pipeline.tree().leaves) {
+      before.push_back(run.ticker().status(leaf.node));
+    }
+    status = run.tick(tick * run.period());
+    rows += fmt::format("| {} |", tick);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      const NodeIndex leaf = pipeline.tree().leaves[i].node;
+      const std::string now = word(run.ticker(), leaf, before[i]);
+      rows += " " + (now == "held" ? "waits" : now) + " |";
+    }
+    rows += "\n";
+  }
+  CHECK(std::ranges::count(rows, '\n') == 6);
+  CHECK(read_page().find("|\n" + rows + "\n") != std::string::npos);
+}
+
 TEST_CASE("the page names every built-in node and parameter, and every limit") {
   const std::string page = read_page();
   const auto names = [&](std::string_view text) {

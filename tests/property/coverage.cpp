@@ -23,6 +23,7 @@ constexpr std::array kNever{
     "AlwaysSuccess running", "AlwaysSuccess failure", "AlwaysFailure running",
     "AlwaysFailure success", "AlwaysRunning success", "AlwaysRunning failure",
     "Wait failure",          "Condition running",     "barrier failure",
+    "resources success",     "resources failure",
 };
 
 constexpr std::array kFaults{"error of the script", "threw", "returned", "is a condition",

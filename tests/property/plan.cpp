@@ -23,7 +23,13 @@ std::string parameters(const Plan& plan) {
   const bool is_delta = plan.kind == "barrier" && !plan.has_barriers && plan.barrier_count < 0;
   if (plan.kind == "ParallelRelative" || is_delta) add("delta", plan.delta);
   if (plan.ignores_idle) add("idle", "ignore");
-  if (plan.kind == "barrier") add("name", plan.name);
+  if (plan.kind == "barrier" || plan.kind == "resources") add("name", plan.name);
+  if (plan.kind == "resources") add("increment", plan.increment);
+  if (plan.kind == "UseResources") {
+    add("pool", plan.pool);
+    add("resources", plan.resources);
+    if (plan.keep) add("keep", "true");
+  }
   if (plan.kind == "SyncProgress") add("barrier", plan.barrier);
   if (plan.times >= 0) add(plan.kind == "Retry" ? "attempts" : "times", plan.times);
   if (plan.kind == "Wait" || plan.kind == "Delay" || plan.kind == "Timeout") {
@@ -47,25 +53,25 @@ std::string node_text(const Plan& plan) {
   return text + ')';
 }
 
-bool has_member(const Plan& plan, std::string_view barrier) {
-  return plan.barrier == barrier || std::ranges::any_of(plan.children, [&](const Plan& child) {
-           return has_member(child, barrier);
-         });
+bool has_member(const Plan& plan, std::string_view group) {
+  return plan.barrier == group || plan.pool == group ||
+         std::ranges::any_of(plan.children,
+                             [&](const Plan& child) { return has_member(child, group); });
 }
 
 }  // namespace
 
-std::vector<const Plan*> barriers_of(const Plan& plan) {
+std::vector<const Plan*> groups_of(const Plan& plan) {
   std::vector<const Plan*> used;
-  for (const Plan& barrier : plan.beside) {
-    if (has_member(plan, barrier.name)) used.push_back(&barrier);
+  for (const Plan& group : plan.beside) {
+    if (has_member(plan, group.name)) used.push_back(&group);
   }
   return used;
 }
 
 std::string tree_text(const Plan& plan) {
   std::string text = node_text(plan);
-  for (const Plan* barrier : barriers_of(plan)) text += ' ' + node_text(*barrier);
+  for (const Plan* group : groups_of(plan)) text += ' ' + node_text(*group);
   return text;
 }
 

@@ -30,17 +30,23 @@ struct Plan {
   bool wall_clock = false;   // Timeout, Delay
   std::string barrier = {};  // SyncProgress: the name of one of the root's
 
-  // Of the root: the barriers beside the tree, by name. With a delta if they have no list.
+  std::string pool = {};  // UseResources: likewise
+  std::string resources = {};
+  bool keep = false;
+
+  // Of the root: the barriers and pools beside the tree, by name. A barrier has a delta if it has
+  // no list.
   std::vector<Plan> beside = {};
   bool ignores_idle = false;
+  int increment = 1;
 };
 
 // As tree_from_text and ScriptedRun read them.
 std::string tree_text(const Plan& plan);
 std::string leaves_text(const Plan& plan);
 
-// Of the root: the barriers beside the tree that have members, in order.
-std::vector<const Plan*> barriers_of(const Plan& plan);
+// Of the root: the barriers and pools beside the tree that have members, in order.
+std::vector<const Plan*> groups_of(const Plan& plan);
 
 // No action is in it.
 bool is_guard(const Plan& plan);

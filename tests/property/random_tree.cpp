@@ -38,7 +38,7 @@ class Generator : Random {
     budget_ = between(1, one_in(4) ? 40 : 14);
     faults_ = one_in(8);
     trial.plan = node(1);
-    if (needs_barriers_) trial.plan.beside = {barrier("g0"), barrier("g1")};
+    trial.plan.beside = {barrier("g0"), barrier("g1"), pool("p"), pool("q")};
     trial.period = pick(std::array{.1, .05, .13, 1.0});
     trial.ticks = between(5, 60);
     trial.halt_every = one_in(3) ? between(2, 15) : 0;
@@ -76,7 +76,10 @@ class Generator : Random {
     const int children = between(1, 4);
     const bool is_parallel = plan.kind.starts_with("Parallel");
     for (int i = 0; i < children; ++i) {
-      plan.children.push_back(is_parallel && one_in(5) ? guard(depth + 1) : node(depth + 1));
+      const bool shares = is_parallel && !inside_q_ && one_in(4);
+      plan.children.push_back(is_parallel && one_in(5) ? guard(depth + 1)
+                              : shares                 ? use_resources(depth + 1)
+                                                       : node(depth + 1));
     }
     if (!is_parallel) plan.memory = one_in(2);
     if (is_parallel && one_in(6)) plan.forgets = true;
@@ -126,14 +129,33 @@ class Generator : Random {
     return plan;
   }
 
+  Plan pool(std::string name) {
+    Plan plan{.kind = "resources", .name = std::move(name)};
+    plan.increment = between(0, 2);
+    return plan;
+  }
+
+  // The pool q may be used inside of p, else no member is inside of another one.
+  Plan use_resources(int depth) {
+    Plan plan{.kind = "UseResources"};
+    plan.pool = inside_p_ || one_in(3) ? "q" : "p";
+    plan.resources = pick(std::array{"A", "B", "C", "A;B", "B;C", "A;C", "A;B;C"});
+    plan.keep = one_in(4);
+    bool& inside = plan.pool == "q" ? inside_q_ : inside_p_;
+    inside = true;
+    plan.children.push_back(node(depth + 1));
+    inside = false;
+    return plan;
+  }
+
   Plan decorator(int depth) {
+    if (!inside_q_ && one_in(3)) return use_resources(depth);
     Plan plan{.kind = pick(std::array{"Inverter", "ForceSuccess", "ForceFailure", "Repeat",
                                       "Repeat", "Retry", "Timeout", "Delay", "RunOnce",
                                       "KeepRunningUntilFailure", "SubTree", "SyncProgress",
                                       "SyncProgress", "SyncProgress", "SyncProgress"})};
     if (plan.kind == "SyncProgress") {
       plan.barrier = one_in(4) ? "g1" : "g0";
-      needs_barriers_ = true;
     }
     plan.children.push_back(node(depth + 1));
     if (plan.kind == "Retry" || (plan.kind == "Repeat" && !one_in(4))) plan.times = between(1, 4);
@@ -214,7 +236,7 @@ class Generator : Random {
   int budget_ = 0;
   int leaves_ = 0;
   bool faults_ = false;
-  bool needs_barriers_ = false;
+  bool inside_p_ = false, inside_q_ = false;
 };
 
 // Each plan that comes from taking a child away or putting a child in its parent's place.

@@ -5,6 +5,8 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <set>
+#include <sstream>
 #include <stdexcept>
 
 #include "support/scripted_leaf.h"
@@ -21,12 +23,14 @@ struct LeafFault {
 
 }  // namespace
 
+class ReferenceBarrier;
+
 struct Reference::World {
   Nanoseconds now{0};
   std::uint32_t tick = 0;
   std::optional<std::size_t> fault;
   std::uint32_t leaves = 0;
-  std::map<std::string, ReferenceBarrier*> barriers;  // by name
+  std::map<std::string, ReferenceGroup*> groups;  // by name
 };
 
 class ReferenceNode {
@@ -36,7 +40,10 @@ class ReferenceNode {
   ReferenceNode(Reference& tree, const Plan& its_plan)
       : plan(its_plan), world(*tree.world_), events(tree.events), number(tree.nodes_.size()) {
     tree.nodes_.push_back(this);
-    for (const Plan& child : plan.children) children.push_back(make(tree, child));
+    for (const Plan& child : plan.children) {
+      children.push_back(make(tree, child));
+      children.back()->parent = this;
+    }
   }
   virtual ~ReferenceNode() = default;
   static std::unique_ptr<ReferenceNode> make(Reference& tree, const Plan& plan);
@@ -80,6 +87,7 @@ class ReferenceNode {
 
   ReferenceNode& child() { return *children.front(); }
 
+  ReferenceNode* parent = nullptr;
   const Plan& plan;
   Reference::World& world;
   EventLog& events;
@@ -321,6 +329,10 @@ class SyncProgress : public ReferenceNode {
   using ReferenceNode::ReferenceNode;
   Status on_tick(bool first) override;
   double on_progress() override { return child().progress(); }
+  bool is_held() const;
+
+ private:
+  ReferenceBarrier& barrier() const;
 };
 
 // Inverter, ForceSuccess, ForceFailure, KeepRunningUntilFailure, SubTree.
@@ -424,18 +436,58 @@ std::unique_ptr<ReferenceNode> node(Reference& tree, const Plan& plan) {
 }  // namespace
 
 // A node of its own behind the tree: it looks before the root is ticked.
-class ReferenceBarrier : public ReferenceNode {
+class ReferenceGroup : public ReferenceNode {
  public:
-  ReferenceBarrier(Reference& tree, const Plan& its_plan, ReferenceNode& root)
+  ReferenceGroup(Reference& tree, const Plan& its_plan, ReferenceNode& root)
       : ReferenceNode(tree, its_plan) {
     std::vector<ReferenceNode*> way;
     find_members(root, way);
-    held.resize(members.size());
-    succeeded.resize(members.size());
-    world.barriers[plan.name] = this;
+    world.groups[plan.name] = this;
   }
 
-  void before_tick() {
+  virtual void before_tick() = 0;
+  void after_tick() {
+    if (ancestor().status != Status::Running && status == Status::Running) status = Status::Idle;
+  }
+  Status on_tick(bool) override { throw std::logic_error("a group is not in the tree"); }
+
+  std::vector<ReferenceNode*> members;
+
+ protected:
+  // The last node on the way to every member; the root, when that is the only member.
+  ReferenceNode& ancestor() const {
+    ReferenceNode* last = members[0];
+    for (std::size_t level = 0;; ++level) {
+      for (const auto& way : ways_) {
+        if (level >= way.size() || way[level] != ways_[0][level]) return *last;
+      }
+      last = ways_[0][level];
+    }
+  }
+
+  std::vector<std::vector<ReferenceNode*>> ways_;  // to each member, from the root
+
+ private:
+  void find_members(ReferenceNode& node, std::vector<ReferenceNode*>& way) {
+    if (node.plan.barrier == plan.name || node.plan.pool == plan.name) {
+      members.push_back(&node);
+      ways_.push_back(way);
+    }
+    way.push_back(&node);
+    for (auto& child : node.children) find_members(*child, way);
+    way.pop_back();
+  }
+};
+
+class ReferenceBarrier : public ReferenceGroup {
+ public:
+  ReferenceBarrier(Reference& tree, const Plan& its_plan, ReferenceNode& root)
+      : ReferenceGroup(tree, its_plan, root) {
+    held.resize(members.size());
+    succeeded.resize(members.size());
+  }
+
+  void before_tick() override {
     const bool begins = ancestor().status != Status::Running;
     if (begins) succeeded.assign(members.size(), false);
     snapshot.clear();
@@ -451,10 +503,6 @@ class ReferenceBarrier : public ReferenceNode {
     status = all_succeeded() ? Status::Success : Status::Running;
   }
 
-  void after_tick() {
-    if (ancestor().status != Status::Running && status == Status::Running) status = Status::Idle;
-  }
-
   void succeed(std::size_t member) {
     succeeded[member] = true;
     if (all_succeeded()) status = Status::Success;
@@ -464,7 +512,6 @@ class ReferenceBarrier : public ReferenceNode {
     return static_cast<std::size_t>(std::ranges::find(members, &member) - members.begin());
   }
 
-  Status on_tick(bool) override { throw std::logic_error("a barrier is not in the tree"); }
   double on_progress() override {
     double least = 1;
     for (const double one : snapshot) {
@@ -473,32 +520,10 @@ class ReferenceBarrier : public ReferenceNode {
     return least;
   }
 
-  std::vector<ReferenceNode*> members;
   std::vector<bool> held, succeeded;
 
  private:
-  void find_members(ReferenceNode& node, std::vector<ReferenceNode*>& way) {
-    if (node.plan.barrier == plan.name) {
-      members.push_back(&node);
-      ways_.push_back(way);
-    }
-    way.push_back(&node);
-    for (auto& child : node.children) find_members(*child, way);
-    way.pop_back();
-  }
-
   bool all_succeeded() const { return std::ranges::find(succeeded, false) == succeeded.end(); }
-
-  // The last node on the way to every member; the root, when that is the only member.
-  ReferenceNode& ancestor() const {
-    ReferenceNode* last = members[0];
-    for (std::size_t level = 0;; ++level) {
-      for (const auto& way : ways_) {
-        if (level >= way.size() || way[level] != ways_[0][level]) return *last;
-      }
-      last = ways_[0][level];
-    }
-  }
 
   double reached(std::size_t i, bool begins) {
     ReferenceNode& member = *members[i];
@@ -515,18 +540,16 @@ class ReferenceBarrier : public ReferenceNode {
     std::vector<ReferenceNode*> way = ways_[i];
     way.push_back(members[i]);
     for (std::size_t at = way.size() - 1; way[at] != &ancestor() && at > 0; --at) {
-      const Plan& parent = way[at - 1]->plan;
-      if (!parent.kind.starts_with("Parallel") || parent.forgets) continue;
+      const Plan& around = way[at - 1]->plan;
+      if (!around.kind.starts_with("Parallel") || around.forgets) continue;
       if (is_complete(way[at]->status) && !is_guard(way[at]->plan)) return true;
     }
     return false;
   }
-
-  std::vector<std::vector<ReferenceNode*>> ways_;  // to each member, from the root
 };
 
 Status SyncProgress::on_tick(bool) {
-  ReferenceBarrier& barrier = *world.barriers.at(plan.barrier);
+  ReferenceBarrier& barrier = this->barrier();
   barrier.last_tick = world.tick;
   const std::size_t place = barrier.place_of(*this);
   if (barrier.held[place]) {
@@ -536,6 +559,113 @@ Status SyncProgress::on_tick(bool) {
   const Status result = child().tick();
   if (result == Status::Success) barrier.succeed(place);
   return result;
+}
+
+ReferenceBarrier& SyncProgress::barrier() const {
+  return dynamic_cast<ReferenceBarrier&>(*world.groups.at(plan.barrier));
+}
+
+bool SyncProgress::is_held() const {
+  return barrier().held[barrier().place_of(*this)];
+}
+
+class ReferencePool : public ReferenceGroup {
+ public:
+  using ReferenceGroup::ReferenceGroup;
+  void before_tick() override;
+  double on_progress() override { return 0; }
+
+  std::set<std::string> owned;  // in this tick
+};
+
+class UseResources : public ReferenceNode {
+ public:
+  using ReferenceNode::ReferenceNode;
+
+  Status on_tick(bool) override {
+    pool().last_tick = world.tick;
+    if (asked_ != world.tick) ask();
+    if (owns_) return child().tick();
+    if (is_open()) priority += pool().plan.increment;
+    if (child().status == Status::Running && !child().paused) child().pause();
+    return Status::Running;
+  }
+  double on_progress() override { return child().progress(); }
+
+  void ask() {
+    asked_ = world.tick;
+    owns_ = is_open() && std::ranges::none_of(names(), [this](const std::string& name) {
+              return pool().owned.contains(name);
+            });
+    if (owns_) own();
+  }
+
+  bool keeps() { return plan.keep && child().status == Status::Running; }
+  void keep() {
+    asked_ = world.tick;
+    owns_ = true;
+    own();
+  }
+
+  // What a parallel does in this tick is not known before its tick.
+  bool is_held_by_parallel() const {
+    if (!paused) return false;
+    const ReferenceNode* holder = this;
+    while (holder->paused) holder = holder->parent;
+    return holder->plan.kind.starts_with("Parallel");
+  }
+
+  int priority = 0;
+
+ private:
+  ReferencePool& pool() const { return dynamic_cast<ReferencePool&>(*world.groups.at(plan.pool)); }
+
+  std::set<std::string> names() const {
+    std::set<std::string> names;
+    std::istringstream text(plan.resources);
+    for (std::string name; std::getline(text, name, ';');) names.insert(name);
+    return names;
+  }
+  void own() {
+    for (const std::string& name : names()) pool().owned.insert(name);
+    priority = 0;
+  }
+
+  // No barrier and no other pool withholds ticks, as far as is known before the tick.
+  bool is_open() const {
+    for (const ReferenceNode* node = parent; node != nullptr; node = node->parent) {
+      const auto* barrier = dynamic_cast<const SyncProgress*>(node);
+      if (barrier != nullptr && barrier->is_held()) return false;
+      const auto* outer = dynamic_cast<const UseResources*>(node);
+      if (outer != nullptr && !(outer->asked_ == world.tick && outer->owns_)) return false;
+    }
+    const ReferenceNode* below = children.front().get();
+    while (below->children.size() == 1 && below->plan.barrier.empty() && below->plan.pool.empty()) {
+      below = below->children.front().get();
+    }
+    const auto* barrier = dynamic_cast<const SyncProgress*>(below);
+    return barrier == nullptr || !barrier->is_held();
+  }
+
+  std::uint32_t asked_ = 0;
+  bool owns_ = false;
+};
+
+void ReferencePool::before_tick() {
+  status = Status::Running;
+  owned.clear();
+  std::vector<UseResources*> asking;
+  for (ReferenceNode* node : members) {
+    auto* member = dynamic_cast<UseResources*>(node);
+    if (member->status != Status::Running) continue;
+    if (member->keeps()) {
+      member->keep();
+    } else if (!member->is_held_by_parallel()) {
+      asking.push_back(member);
+    }
+  }
+  std::ranges::stable_sort(asking, std::greater<>(), &UseResources::priority);
+  for (UseResources* member : asking) member->ask();
 }
 
 std::unique_ptr<ReferenceNode> ReferenceNode::make(Reference& tree, const Plan& plan) {
@@ -551,14 +681,19 @@ std::unique_ptr<ReferenceNode> ReferenceNode::make(Reference& tree, const Plan& 
   if (kind == "Retry") return node<Retry>(tree, plan);
   if (kind == "Timeout" || kind == "Delay") return node<Timed>(tree, plan);
   if (kind == "RunOnce") return node<RunOnce>(tree, plan);
+  if (kind == "UseResources") return node<UseResources>(tree, plan);
   if (kind == "SyncProgress") return node<SyncProgress>(tree, plan);
   return node<Result>(tree, plan);
 }
 
 Reference::Reference(const Plan& plan)
     : world_(std::make_unique<World>()), root_(ReferenceNode::make(*this, plan)) {
-  for (const Plan* barrier : barriers_of(plan)) {
-    barriers_.push_back(std::make_unique<ReferenceBarrier>(*this, *barrier, *root_));
+  for (const Plan* group : groups_of(plan)) {
+    if (group->kind == "barrier") {
+      groups_.push_back(std::make_unique<ReferenceBarrier>(*this, *group, *root_));
+    } else {
+      groups_.push_back(std::make_unique<ReferencePool>(*this, *group, *root_));
+    }
   }
 }
 
@@ -568,9 +703,9 @@ Status Reference::tick(Nanoseconds now) {
   world_->now = now;
   ++world_->tick;
   try {
-    for (auto& barrier : barriers_) barrier->before_tick();
+    for (auto& group : groups_) group->before_tick();
     const Status status = root_->tick();
-    for (auto& barrier : barriers_) barrier->after_tick();
+    for (auto& group : groups_) group->after_tick();
     return status;
   } catch (const LeafFault& fault) {
     world_->fault = fault.node;

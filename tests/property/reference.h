@@ -14,7 +14,7 @@
 namespace lockstep::test {
 
 class ReferenceNode;
-class ReferenceBarrier;
+class ReferenceGroup;
 
 class Reference {
  public:
@@ -46,7 +46,7 @@ class Reference {
   std::unique_ptr<World> world_;
   std::vector<ReferenceNode*> nodes_;
   std::unique_ptr<ReferenceNode> root_;
-  std::vector<std::unique_ptr<ReferenceBarrier>> barriers_;  // beside the tree
+  std::vector<std::unique_ptr<ReferenceGroup>> groups_;  // beside the tree
 };
 
 }  // namespace lockstep::test

@@ -11,15 +11,17 @@ namespace {
 
 constexpr int kTrees = 10000;
 
-bool has_barrier(const Plan& plan) {
-  return !plan.barrier.empty() || std::ranges::any_of(plan.children, has_barrier);
+// A barrier or a pool. A member of a pool asks later where a parallel has held it.
+bool has_group(const Plan& plan) {
+  return !plan.barrier.empty() || !plan.pool.empty() ||
+         std::ranges::any_of(plan.children, has_group);
 }
 
 // The first synchronized parallel of the tree. One that forgets starts children again, whose
 // success a barrier remembers.
 const Plan* synchronized_in(const Plan& plan) {
   const bool is_one = plan.kind == "ParallelAbsolute" || plan.kind == "ParallelRelative";
-  if (is_one && !plan.forgets && !has_barrier(plan)) return &plan;
+  if (is_one && !plan.forgets && !has_group(plan)) return &plan;
   for (const Plan& child : plan.children) {
     if (const Plan* found = synchronized_in(child)) return found;
   }

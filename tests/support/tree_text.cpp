@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "definition/resources.h"
 #include "engine/compile.h"
 #include "support/plugin_nodes.h"
 #include "support/scripted_leaf.h"
@@ -49,6 +50,7 @@ class Builder {
     for (skip_blanks(); !rest_.empty(); skip_blanks()) group();
     if (!members_.empty()) fail("no group '" + members_.begin()->first + "'");
     definition_.id = "Test";
+    resolve_resources();
     return std::move(definition_);
   }
 
@@ -106,6 +108,12 @@ class Builder {
     it.children = children;
     it.first = first;
     it.end = static_cast<std::uint32_t>(definition_.nodes.size());
+  }
+
+  void resolve_resources() {
+    const Sources sources;
+    Diagnostics diagnostics;
+    lockstep::resolve_resources(definition_, Reporter(sources, diagnostics));
   }
 
   // "barrier[name=g delta=.1]", behind the tree.

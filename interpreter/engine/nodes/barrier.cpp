@@ -161,6 +161,11 @@ Status tick_member(Ticker& ticker, NodeIndex self) {
 
 }  // namespace
 
+bool is_held_at_barrier(Ticker& ticker, NodeIndex node) {
+  const Member& member = ticker.membership(node);
+  return place_of(ticker, member.group, member.number).held;
+}
+
 const NodeKind kBarrier{
     .type = {.id = "barrier",
              .category = NodeCategory::Group,

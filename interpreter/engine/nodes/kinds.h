@@ -8,7 +8,7 @@ namespace lockstep {
 extern const NodeKind kSequence, kFallback, kParallel, kParallelAbsolute, kParallelRelative;
 extern const NodeKind kInverter, kForceSuccess, kForceFailure, kRepeat, kRetry, kTimeout, kDelay,
     kRunOnce, kKeepRunningUntilFailure, kSubTree;
-extern const NodeKind kBarrier, kSyncProgress;
+extern const NodeKind kBarrier, kSyncProgress, kResources, kUseResources;
 extern const NodeKind kAlwaysSuccess, kAlwaysFailure, kAlwaysRunning, kWait;
 
 // In the order in which they are documented.
@@ -17,10 +17,10 @@ inline constexpr const NodeKind* kBuiltInKinds[] = {
     &kSequence, &kFallback, &kParallel, &kParallelAbsolute, &kParallelRelative,
     // Decorators
     &kInverter, &kForceSuccess, &kForceFailure, &kRepeat, &kRetry, &kTimeout, &kDelay, &kRunOnce,
-    &kKeepRunningUntilFailure, &kSyncProgress, &kSubTree,
+    &kKeepRunningUntilFailure, &kSyncProgress, &kUseResources, &kSubTree,
     // Leaves
     &kAlwaysSuccess, &kAlwaysFailure, &kAlwaysRunning, &kWait,
     // Beside the trees
-    &kBarrier};
+    &kBarrier, &kResources};
 
 }  // namespace lockstep

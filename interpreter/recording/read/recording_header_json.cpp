@@ -6,6 +6,7 @@
 #include <span>
 #include <unordered_set>
 
+#include "core/resource_set.h"
 #include "core/wording.h"
 #include "recording/read/recording_json.h"
 
@@ -57,6 +58,19 @@ std::vector<NodeIndex> members_from(JsonValue value, std::size_t index) {
   return members;
 }
 
+std::vector<std::string> resources_from(JsonValue value, std::size_t index) {
+  std::vector<std::string> resources;
+  value.each_item([&](JsonValue item) {
+    std::string_view name;
+    if (!item.get(name) || name.empty() || resources.size() == kMaxResources) {
+      throw JsonError(
+          fmt::format("the resources of node {} are not up to {} names", index, kMaxResources));
+    }
+    resources.emplace_back(name);
+  });
+  return resources;
+}
+
 bool is_ignore(JsonValue value, std::size_t index) {
   std::string_view text;
   if (value.get(text) && (text == "ignore" || text == "wait")) return text == "ignore";
@@ -89,12 +103,15 @@ RecordedNode node_from(JsonObject object, std::size_t index) {
         },
         kMayLack},
        {"idle", [&](JsonValue value) { node.ignores_idle = is_ignore(value, index); }, kMayLack},
+       {"resources", [&](JsonValue value) { node.resources = resources_from(value, index); },
+        kMayLack},
        {"members", [&](JsonValue value) { node.members = members_from(value, index); }, kMayLack}});
   if (place != index) throw JsonError(fmt::format("node {} is missing", index));
   if (is_absolute && is_relative)
     throw JsonError(fmt::format("node {} has both barriers and delta", index));
   if (is_absolute) node.synchronization = Synchronization::Absolute;
   if (is_relative) node.synchronization = Synchronization::Relative;
+  if (!node.resources.empty()) node.synchronization = Synchronization::Resources;
   return node;
 }
 
@@ -184,6 +201,7 @@ RecordingHeader RecordingJson::header(std::string& line) {
          {"nodes", [&](JsonValue value) { header.nodes = nodes_from(value); }},
          {"entries", [&](JsonValue value) { header.entries = keys_from(value); }, kMayLack}});
     keys_ = header.entries.size();
+    users_ = resource_users(header);
   });
   if (header.nodes.empty()) throw JsonError("'nodes' is empty");
   check_order(header.nodes);

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <optional>
 
+#include "core/resource_set.h"
 #include "core/wording.h"
 
 namespace lockstep {
@@ -84,9 +86,18 @@ void apply(JsonValue change, std::vector<RecordedState>& states) {
   states[node] = state;
 }
 
-// Nothing: no barrier is left.
-void apply_limit(JsonValue change, std::vector<RecordedState>& states) {
+// Of a UseResources a set of resources, negative when it waits for them.
+bool is_limit(double limit, bool is_set) {
+  if (!is_set) return limit >= 0 && limit <= 1;
+  constexpr auto kEnd = static_cast<double>(ResourceSet{1} << kMaxResources);
+  return std::fabs(limit) < kEnd && std::trunc(limit) == limit;
+}
+
+// Null: no barrier is left.
+void apply_limit(JsonValue change, const std::vector<bool>& users,
+                 std::vector<RecordedState>& states) {
   constexpr char kNone[] = "a node's limit is not [index, number in [0, 1] or null]";
+  constexpr char kNoSet[] = "the limit of a UseResources is not [index, set of resources]";
   if (!change.is_list()) throw JsonError(kNone);
   NodeIndex node = 0;
   double limit = std::numeric_limits<double>::infinity();
@@ -94,7 +105,9 @@ void apply_limit(JsonValue change, std::vector<RecordedState>& states) {
   change.each_item([&](JsonValue item) {
     if (field == 0) {
       node = node_from(item, states.size(), kNone);
-    } else if (field > 1 || (!item.is_null() && !(item.get(limit) && limit >= 0 && limit <= 1))) {
+    } else if (field == 1 && users[node]) {
+      if (!item.get(limit) || !is_limit(limit, true)) throw JsonError(kNoSet);
+    } else if (field > 1 || (!item.is_null() && !(item.get(limit) && is_limit(limit, false)))) {
       throw JsonError(kNone);
     }
     ++field;
@@ -229,7 +242,7 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
     value.each_item([&](JsonValue change) { apply(change, states); });
   };
   const auto read_limits = [&](JsonValue value) {
-    value.each_item([&](JsonValue change) { apply_limit(change, states); });
+    value.each_item([&](JsonValue change) { apply_limit(change, users_, states); });
   };
   const auto read_faults = [&](JsonValue value) {
     faults_.reserve(value.count_items());

@@ -26,7 +26,8 @@ class RecordingJson {
   std::vector<RecordedFault> faults_;
   std::vector<RecordedEntry> entries_;
   std::vector<LeafLine> logs_;
-  std::size_t keys_ = 0;  // how many entries the header names
+  std::size_t keys_ = 0;     // how many entries the header names
+  std::vector<bool> users_;  // by index: does the node use resources?
 };
 
 }  // namespace lockstep

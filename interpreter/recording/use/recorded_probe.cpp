@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/resources.h"
 #include "measure/measure_spec.h"
 
 namespace lockstep {
@@ -33,6 +34,7 @@ RecordedProbe::RecordedProbe(const RecordingHeader& header, NodeIndex node,
       synchronizes_(header.nodes[node].synchronization != Synchronization::None) {
   const RecordedNode& it = header.nodes[node];
   ignores_idle_ = it.ignores_idle;
+  is_pool_ = it.synchronization == Synchronization::Resources;
   for (const NodeIndex child : children_) {
     const RecordedNode& held = header.nodes[child];
     names_.push_back(it.members.empty() ? last_segment(held.path) : held.path);
@@ -50,6 +52,11 @@ SynchronizedTick RecordedProbe::read(const RecordedTick& tick) {
     // its children has progress when it starts again.
     progress_[child] = synchronizes_ || runs_ ? state.progress : 0;
     if (ignores_idle_) leave_out(child, tick);
+    if (is_pool_) {
+      const RecordedState& member = tick.nodes[members_[child]];
+      held_.set(child, member.ticked && waits(member.limit));
+      continue;
+    }
     const bool asked = members_.empty() || tick.nodes[members_[child]].ticked;
     held_.set(child, state.status, state.ticked || !asked, state.held && asked);
   }

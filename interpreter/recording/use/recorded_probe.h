@@ -35,7 +35,7 @@ class RecordedProbe {
   std::vector<double> progress_;
   HeldChildren held_;
   bool synchronizes_;
-  bool ignores_idle_ = false;
+  bool ignores_idle_ = false, is_pool_ = false;
   std::vector<bool> was_idle_;  // each member, after the last tick
   bool runs_ = false;           // after the last tick
 };

@@ -21,6 +21,9 @@ void add(Values& values, std::string what, std::optional<std::string> a,
 }
 
 std::string describe(const RecordedNode& node) {
+  if (!node.resources.empty()) {
+    return fmt::format("{} resources={}", node.kind, fmt::join(node.resources, ";"));
+  }
   if (node.synchronization == Synchronization::Absolute) {
     if (!node.barriers) return node.kind + " barriers from an entry";
     return fmt::format("{} barriers={}", node.kind, fmt::join(*node.barriers, ";"));

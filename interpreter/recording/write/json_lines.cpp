@@ -27,6 +27,7 @@ Json json_of(const RecordedNode& node, std::size_t index) {
   } else if (node.synchronization == Synchronization::Relative) {
     json["delta"] = node.delta;
   }
+  if (!node.resources.empty()) json["resources"] = node.resources;
   if (!node.members.empty()) json["members"] = node.members;
   if (node.ignores_idle) json["idle"] = "ignore";
   return json;

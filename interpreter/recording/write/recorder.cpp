@@ -41,8 +41,8 @@ Recorder::Recorder(const Tree& tree, RecorderOptions options)
       delta_(tree),
       slots_(slots_of(tree, options_.entries)),
       entries_(slots_) {
-  line_end_.reserve(
-      options_.format.most_of_tick_end(synchronized_nodes(tree).size(), slots_.size()));
+  line_end_.reserve(options_.format.most_of_tick_end(
+      synchronized_nodes(tree).size() + tree.members.size(), slots_.size()));
 }
 
 void Recorder::run_started(Ticker&, const RunStart& start) {

@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "engine/synchronized.h"
+#include "engine/resources.h"
 #include "engine/ticker.h"
 #include "measure/synchronized_measure.h"
 
@@ -61,6 +61,9 @@ RecordingDelta::RecordingDelta(const Tree& tree)
       kept_progress_(tree.nodes.size()),
       changes_(tree.nodes.size()) {
   for (const NodeIndex node : synchronized_nodes_) kept_limits_.push_back({.node = node});
+  for_each_resource_user(tree, [this](NodeIndex node) { kept_limits_.push_back({.node = node}); });
+  first_user_ = synchronized_nodes_.size();
+  limits_.reserve(kept_limits_.size());
 }
 
 // Only running nodes are asked. The progress of all others follows from their Activity, so it is
@@ -97,8 +100,9 @@ std::span<const NodeIndex> RecordingDelta::succeeded(Ticker& ticker) {
 
 std::span<const LimitChange> RecordingDelta::limits(Ticker& ticker) {
   limits_.clear();
-  for (const LimitChange& kept : kept_limits_) {
-    if (!ticker.ticked(kept.node)) continue;
+  for (std::size_t i = 0; i < kept_limits_.size(); ++i) {
+    const LimitChange& kept = kept_limits_[i];
+    if (i < first_user_ && !ticker.ticked(kept.node)) continue;
     const double limit = lockstep::limit(ticker, kept.node);
     if (limit != kept.limit) limits_.push_back({kept.node, limit});
   }
@@ -126,6 +130,7 @@ void RecordingDelta::set_progress(NodeIndex node, double progress) {
 // What a synchronized node has seen counts more than what was seen before its tick.
 void RecordingDelta::take_snapshots(Ticker& ticker) {
   for (const NodeIndex node : synchronized_nodes_) {
+    if (!compares_progress(synchronization(ticker.node(node)))) continue;
     if (!ticker.ticked(node)) continue;
     const double* used = child_progress(ticker, node).data();
     for_each_child(ticker.tree(), node, [&](NodeIndex child) {

@@ -35,7 +35,8 @@ class RecordingDelta {
 
   std::vector<NodeIndex> synchronized_nodes_;
   std::vector<NodeIndex> succeeded_;
-  std::vector<LimitChange> kept_limits_;  // of each synchronized node
+  std::vector<LimitChange> kept_limits_;  // of each synchronized node, then of users of resources
+  std::size_t first_user_ = 0;            // of these
   std::vector<LimitChange> limits_;
   std::vector<double> progress_;      // at the start of this tick
   std::vector<std::uint8_t> source_;  // the Activity that it is of, where it follows from that

@@ -256,7 +256,7 @@ TEST_CASE("the summary as JSON") {
       R"("step_length":0.5,"children":[)"
       R"({"name":"a","held_s":0.0,"held_ticks":0,"waits":0},)"
       R"({"name":"b","held_s":0.0,"held_ticks":0,"waits":0}]}],)"
-      R"("never_reached":0,"notes":[]})");
+      R"("pools":[],"never_reached":0,"notes":[]})");
 }
 
 }  // namespace

@@ -39,6 +39,27 @@ TEST_CASE("an absolute node: its barriers are marks in the bars") {
         "  > base [#######..|........] 0.40\n");
 }
 
+TEST_CASE("a pool: who owns what, and who waits for whom") {
+  const Tree tree = tree_from_text(
+      "Parallel(UseResources[pool=p resources=left](a) UseResources[pool=p "
+      "resources=left;right](b)) "
+      "resources[name=p]");
+  const Snapshot now = snapshot({{Activity::Running},
+                                 limited(1),
+                                 {Activity::Running, 0.5},
+                                 limited(-3),
+                                 {Activity::Idle},
+                                 {Activity::Running}});
+  CHECK(draw(tree, now, kPlain) ==
+        "Test  10 Hz  tick 4  0.400 s  overruns 0\n"
+        "> Parallel\n"
+        "  > UseResources\n"
+        "    > a [#########.........] 0.50  owns left\n"
+        "  > UseResources#2 (UseResources)\n"
+        "    - b [..................] 0.00  waits for left (a)\n"
+        "> p (resources)\n");
+}
+
 TEST_CASE("a relative node: the band in which its children may move") {
   const Tree tree = tree_from_text("ParallelRelative[delta=.25](arm base)");
   const Snapshot now = snapshot({limited(0.25), {Activity::Running, 0.5}, {Activity::Paused, 0.8}});

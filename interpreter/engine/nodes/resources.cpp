@@ -1,0 +1,94 @@
+// A pool of resources, beside the trees. Before the root is ticked it decides which of its members
+// own their resources in this tick.
+#include "engine/resources.h"
+
+#include <algorithm>
+
+#include "engine/nodes/kinds.h"
+
+namespace lockstep {
+namespace {
+
+constexpr Parameter kParameters[] = {
+    {.name = "increment",
+     .type = ValueType::Int,
+     .doc = "What the priority of a member grows by in a tick in which it waits; 0: the first in "
+            "the tree always wins, and the others may wait for ever.",
+     .default_text = "1",
+     .range = {.min = 0, .max = 1000000},
+     .constant = true},
+    {.name = "resources",
+     .type = ValueType::String,
+     .doc = "All names in the pool: left;right. When absent, those that its members name in the "
+            "tree.",
+     .constant = true},
+};
+
+std::optional<RuleBreak> rule(const ParameterValues& given) {
+  constexpr unsigned kNames = 1;
+  return resources::check_list(given, kNames);
+}
+
+// A child that runs keeps its set, until it completes or is halted.
+bool keeps(Ticker& ticker, NodeIndex member) {
+  const bool may_keep = ticker.parameter(member, resources::kKeep).boolean;
+  return may_keep && ticker.status(member + 1) == Status::Running;
+}
+
+// Of a node that runs: a synchronized parallel has withheld its last tick, and may do so again.
+// Such a member asks when a tick reaches it.
+bool is_held_by_parallel(const Ticker& ticker, NodeIndex node) {
+  if (!ticker.held(node)) return false;
+  const auto& labels = ticker.tree().labels;
+  while (ticker.held(node)) node = labels[node].parent;
+  return ticker.node(node).children > 1;
+}
+
+// Lets those keep their resources that may. Of all others that ask, their numbers.
+std::span<std::uint32_t> who_asks(Ticker& ticker, NodeIndex self, std::span<const Member> members) {
+  const auto numbers = ticker.child_states<std::uint32_t>(self);
+  std::size_t count = 0;
+  for (const Member& member : members) {
+    ticker.state<ResourceUse>(member.node).limit = 0;
+    if (ticker.status(member.node) != Status::Running) continue;
+    if (keeps(ticker, member.node)) {
+      resources::keep(ticker, member.node);
+    } else if (!is_held_by_parallel(ticker, member.node) && ticker.refresh(member.node)) {
+      numbers[count++] = member.number;
+    }
+  }
+  return numbers.first(count);
+}
+
+Status tick(Ticker& ticker, NodeIndex self) {
+  ticker.state<ResourcePool>(self).owned = 0;
+  const auto members = ticker.tree().members_of(self);
+  const auto asking = who_asks(ticker, self, members);
+  const auto priority = [&](std::uint32_t number) {
+    return ticker.state<ResourceUse>(members[number].node).priority;
+  };
+  std::ranges::sort(asking, [&](std::uint32_t one, std::uint32_t other) {
+    if (priority(one) != priority(other)) return priority(one) > priority(other);
+    return one < other;
+  });
+  for (const std::uint32_t number : asking) resources::ask(ticker, members[number].node);
+  return Status::Running;
+}
+
+}  // namespace
+
+const NodeKind kResources{
+    .type = {.id = "resources",
+             .category = NodeCategory::Group,
+             .doc = "A pool of things that only one node can use at a time: arms, a gripper, the "
+                    "space in a door. UseResources takes them.",
+             .arity = {0, 0},
+             .parameters = kParameters,
+             .rule = rule,
+             .synchronization = Synchronization::Resources},
+    .tick = tick,
+    .progress = [](Ticker&, NodeIndex) { return 0.0; },
+    .state_size = sizeof(ResourcePool),
+    .state_per_child = sizeof(std::uint32_t)};
+
+}  // namespace lockstep

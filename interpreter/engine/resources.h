@@ -1,0 +1,76 @@
+// Who owns which resources of a pool, for its nodes, views and recordings. A pool is a group
+// (Tree::groups); its members are the nodes that use its resources.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/resource_set.h"
+#include "engine/synchronized.h"
+
+namespace lockstep {
+
+// What a member got when it asked for its resources.
+enum class Grant : std::uint8_t {
+  Owned,   // its child may be ticked
+  Denied,  // another member owns one of them
+  Closed,  // a barrier or an outer pool withholds ticks from it, so it did not ask
+};
+
+// The state of a member. Its limit (engine/synchronized.h) is the set that it owns in this tick;
+// negative: the set that it waits for; 0: neither.
+struct ResourceUse : SynchronizedState {
+  ResourceSet owned;      // while it is Owned
+  std::int64_t priority;  // rises with each tick in which it is Denied
+  std::uint32_t asked;    // in this tick, for its number
+  Grant grant;
+};
+
+// The state of a pool.
+struct ResourcePool : SynchronizedState {
+  ResourceSet owned;  // in this tick, by all members
+};
+
+inline bool is_pool(const Tree& tree, NodeIndex node) {
+  return synchronization(tree.nodes[node]) == Synchronization::Resources;
+}
+
+// Whether the limit of a member says that it waits.
+inline bool waits(double limit) {
+  return limit < 0;
+}
+// The set that it waits for, or owns.
+inline ResourceSet resource_set(double limit) {
+  return static_cast<ResourceSet>(std::fabs(limit));
+}
+
+// Visits the members of all pools.
+template <class Visit>
+void for_each_resource_user(const Tree& tree, Visit visit) {
+  for (const Member& member : tree.members) {
+    if (is_pool(tree, member.group)) visit(member.node);
+  }
+}
+
+namespace resources {
+
+// Where the parameters of a pool and of a member stand in their cells.
+inline constexpr unsigned kIncrement = 0;
+inline constexpr unsigned kResources = 1, kKeep = 2;
+
+// What is wrong with a list of resources, if it is given.
+std::optional<RuleBreak> check_list(const ParameterValues& given, unsigned parameter);
+
+// True when the member has an answer for this tick.
+inline bool has_asked(const Ticker& ticker, const ResourceUse& use) {
+  return use.asked == ticker.tick_number();
+}
+
+// Decides for this tick whether a member gets its resources: those that no other member owns.
+void ask(Ticker& ticker, NodeIndex member);
+// The same for one that goes on with what it owns.
+void keep(Ticker& ticker, NodeIndex member);
+
+}  // namespace resources
+
+}  // namespace lockstep

@@ -1,0 +1,176 @@
+// Resources: who owns what in which tick.
+#include <catch2/catch.hpp>
+
+#include "engine/resources.h"
+#include "support/scripted_run.h"
+#include "support/tick_table.h"
+
+namespace lockstep::test {
+namespace {
+
+struct ResourceTrace {
+  std::string_view tree, leaves;
+  std::string_view
+      who;  // digit: that leaf is ticked; '-': it runs and is held; '.': it does not run
+};
+
+// clang-format off
+constexpr ResourceTrace kResourceTraces[] = {
+  {"Parallel(UseResources[pool=p resources=A;B](a) UseResources[pool=p resources=B;C](b)"
+   " UseResources[pool=p resources=A;C](c)) resources[name=p increment=0]",
+   "a+.1 b+.1 c+.1",
+   "1.. 1.. 1.. 1.. 1.. 1.. 1.. 1.. 1.. 1.. .2. .2. .2. .2. .2. .2. .2. .2. .2. .2. "
+   "..3 ..3 ..3 ..3 ..3 ..3 ..3 ..3 ..3 ..3"},
+  {"Parallel(UseResources[pool=p resources=A;B](a) UseResources[pool=p resources=B;C](b)"
+   " UseResources[pool=p resources=A;C](c)) resources[name=p increment=1]",
+   "a+.1 b+.1 c+.1",
+   "1.. -2. --3 1-- -2- --3 1-- -2- --3 1-- -2- --3 1-- -2- --3 1-- -2- --3 1-- -2- --3 "
+   "1-- -2- --3 1-- -2- --3 1-- .2- ..3"},
+  {"Parallel(UseResources[pool=p resources=A](a) UseResources[pool=p resources=B](b)"
+   " UseResources[pool=p resources=A;B](c) UseResources[pool=p resources=C](d))"
+   " resources[name=p increment=1]",
+   "a=RRRRRS b=RRRRRS c=RRRRRS d=RRRRRS",
+   "12.4 --34 12-4 --34 12-4 --34 12-. --3. 12-. --3. 12-. ..3."},
+  {"Parallel(UseResources[pool=p resources=A keep=true](a) UseResources[pool=p resources=A](b))"
+   " resources[name=p]",
+   "a=RRRS b=RRS", "1. 1. 1. 1. .2 .2 .2"},
+};
+
+constexpr TickRow kResourceRows[] = {
+//  law
+//    tree  |  leaves, tick by tick  |  expected
+  {"ticks both children where their resources are disjoint",
+   "Parallel(UseResources[pool=p resources=A](a) UseResources[pool=p resources=B](b)) resources[name=p]",
+   "a=R b=R", "R[a b] R[a b]"},
+  {"pauses a child that runs when it has to wait, and resumes it",
+   "Parallel(UseResources[pool=p resources=A](a) UseResources[pool=p resources=A](b)) resources[name=p]",
+   "a=R b=R", "R[a] R{pause a, start b, tick b} R{resume a, tick a, pause b}"},
+  {"returns what its child returns, and frees its resources for the next tick",
+   "Sequence[memory=true](UseResources[pool=p resources=A](a) UseResources[pool=p resources=A](b)) resources[name=p]",
+   "a=RS b=F", "R[a] R[a] F[b]"},
+  {"a member that is first reached asks in that tick",
+   "Parallel(UseResources[pool=p resources=A](a) Sequence[memory=true](c UseResources[pool=p resources=B](b))) resources[name=p]",
+   "a=R c=S b=R", "R[a c b]"},
+  {"one that asks in the tick comes after those that were there before",
+   "Parallel(Sequence[memory=true](c UseResources[pool=p resources=A](a)) UseResources[pool=p resources=A](b)) resources[name=p increment=0]",
+   "a=R c=RS b=R", "R[c b] R[c b] R[a] pause[b]"},
+  {"a halted member gives back what it owns for the next tick, also with keep",
+   "Parallel[success_count=1 failure_count=2](Sequence(g? UseResources[pool=p resources=A keep=true](a)) UseResources[pool=p resources=A](b)) resources[name=p]",
+   "g=SSF a=R b=R", "R[g a] R[g a] R[g] halt[a] R[b]"},
+  {"two pools do not know each other",
+   "Parallel(UseResources[pool=p resources=A](a) UseResources[pool=q resources=A](b)) resources[name=p] resources[name=q]",
+   "a=R b=R", "R[a b] R[a b]"},
+  {"has the progress of its child",
+   "UseResources[pool=p resources=A](a) resources[name=p]", "a=R.4", "R[a]=.4"},
+  {"a member that a parallel holds neither owns nor waits, and asks when a tick reaches it again",
+   "ParallelAbsolute[barriers=.5](UseResources[pool=p resources=A](a) UseResources[pool=p resources=A](b)) resources[name=p increment=0]",
+   "a=R.5 b=R.2R.5R.6",
+   "R[a] R[] pause[a] R[b] R[b] R[b]"},
+  {"a member that a barrier holds neither owns nor waits: it is above",
+   "Parallel(SyncProgress[barrier=g](UseResources[pool=p resources=A](a)) SyncProgress[barrier=g](UseResources[pool=p resources=A](b)))"
+   " barrier[name=g barriers=.5] resources[name=p increment=0]",
+   "a=R.5 b=R.2R.5R.6",
+   "R[a] R[b] pause[a] R[b] R[a] resume[a] pause[b]"},
+  {"a member that a barrier holds neither owns nor waits: it is below",
+   "Parallel(UseResources[pool=p resources=A](SyncProgress[barrier=g](a)) UseResources[pool=p resources=A](SyncProgress[barrier=g](b)))"
+   " barrier[name=g barriers=.5] resources[name=p increment=0]",
+   "a=R.5 b=R.2R.5R.6",
+   "R[a] R[b] pause[a] R[b] R[a] resume[a] pause[b]"},
+  {"a member inside of one of another pool owns only while that owns",
+   "Parallel(UseResources[pool=q resources=Z](UseResources[pool=p resources=A](a)) UseResources[pool=q resources=Z](b) UseResources[pool=p resources=A](c))"
+   " resources[name=p increment=0] resources[name=q]",
+   "a=R b=R c=R",
+   "R[a] R[b c] pause[a] R[a] resume[a] pause[b c] R[b c] pause[a] resume[b c]"},
+  {"a child that fails ends its member",
+   "Fallback[memory=true](UseResources[pool=p resources=A](a) b) resources[name=p]", "a=RF b=S", "R[a] S[a b]"},
+  {"a completed member starts again with the priority 0",
+   "Parallel(Repeat(UseResources[pool=p resources=A](a)) UseResources[pool=p resources=A](b)) resources[name=p]",
+   "a=S b=R", "R[a] R[b] R[a] pause[b] R[b] resume[b]"},
+};
+// clang-format on
+
+std::string who_owns(ScriptedRun& run) {
+  std::string who;
+  for (const LeafNode& leaf : run.tree().leaves) {
+    const bool runs = run.ticker().status(leaf.node) == Status::Running;
+    const char digit = static_cast<char>('1' + who.size());
+    who += run.ticker().ticked(leaf.node) ? digit : runs ? '-' : '.';
+  }
+  return who;
+}
+
+}  // namespace
+
+TEST_CASE("UseResources: worked traces") {
+  for (const ResourceTrace& trace : kResourceTraces) {
+    INFO(trace.tree << ", " << trace.leaves);
+    ScriptedRun run(trace.tree, trace.leaves);
+    const auto ticks = std::ranges::count(trace.who, ' ') + 1;
+    std::string who;
+    Status status = Status::Running;
+    for (int tick = 0; tick < ticks && status == Status::Running; ++tick) {
+      status = run.tick(tick * std::chrono::milliseconds(100));
+      who += (tick == 0 ? "" : " ") + who_owns(run);
+    }
+    CHECK(who == trace.who);
+    CHECK(status == Status::Success);
+  }
+}
+
+TEST_CASE("UseResources: resources from an entry are read in each tick") {
+  ScriptedRun run(
+      "Parallel(UseResources[pool=p resources={set}](a) UseResources[pool=p resources=A](b)"
+      " UseResources[pool=p resources=B](c)) resources[name=p increment=0]",
+      "a=R b=R c=R");
+  const auto who_with = [&](const char* set) {
+    run.set("set", std::string(set));
+    run.tick(Nanoseconds(0));
+    return who_owns(run);
+  };
+  CHECK(who_with("A") == "1.3");
+  CHECK(who_with("B") == "12-");
+  CHECK(who_with("B, A") == "1--");
+  who_with("A;D");
+  const Fault* fault = run.ticker().fault();
+  REQUIRE(fault != nullptr);
+  CHECK(run.tree().path(fault->node) == "Test/Parallel/UseResources");
+  CHECK(fault->message ==
+        "the pool 'p' has no resource 'D': 'resources' is 'A;D', from the entry '{set}'; its "
+        "resources: 'A', 'B'");
+}
+
+TEST_CASE("UseResources: an entry without a resource, or without a value, is a fault") {
+  const std::string tree =
+      "Parallel(UseResources[pool=p resources={set}](a) UseResources[pool=p resources=A](b))"
+      " resources[name=p]";
+  ScriptedRun empty(tree, "a=R b=R");
+  empty.set("set", std::string());
+  empty.tick(Nanoseconds(0));
+  REQUIRE(empty.ticker().fault() != nullptr);
+  CHECK_THAT(empty.ticker().fault()->message, Catch::StartsWith("'resources' names nothing"));
+  ScriptedRun unwritten(tree, "a=R b=R");
+  unwritten.tick(Nanoseconds(0));
+  REQUIRE(unwritten.ticker().fault() != nullptr);
+  CHECK_THAT(unwritten.ticker().fault()->message, Catch::StartsWith("'resources' has no value"));
+}
+
+TEST_CASE("UseResources: with --on-fault fail a wrong entry fails the node, and frees the others") {
+  ScriptedRun run(
+      "Parallel[success_count=1 failure_count=2](UseResources[pool=p resources={set}](a)"
+      " UseResources[pool=p resources=A](b)) resources[name=p increment=0]",
+      "a=R b=R", FaultPolicy::Fail);
+  run.set("set", std::string("A"));
+  run.tick(Nanoseconds(0));
+  CHECK(who_owns(run) == "1.");
+  run.set("set", std::string("D"));
+  run.tick(Nanoseconds(0));
+  CHECK(who_owns(run) == ".2");
+  CHECK(run.ticker().status(1) == Status::Failure);
+  CHECK(run.ticker().tolerated().size() == 1);
+}
+
+TEST_CASE("UseResources") {
+  check_rows(kResourceRows);
+}
+
+}  // namespace lockstep::test
