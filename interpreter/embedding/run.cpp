@@ -184,6 +184,7 @@ lockstep_run* lockstep_run_new(lockstep_project* project, const lockstep_run_opt
       }
       run_options.period = *period;
     }
+    run_options.virtual_time = options.virtual_time;
     if (options.on_fault == LOCKSTEP_ON_FAULT_FAIL) run_options.on_fault = FaultPolicy::Fail;
     if (options.log != nullptr) {
       run_options.log = [log = options.log, user = options.user](

@@ -23,9 +23,9 @@ struct Less {
 }  // namespace
 
 const char* name_of(PluginFunction function) {
-  static constexpr std::array kNames{"none",     "load",    "init",        "create_run", "create",
-                                     "start",    "tick",    "halt",        "pause",      "resume",
-                                     "progress", "destroy", "destroy_run", "deinit",     "end"};
+  static constexpr std::array kNames{
+      "none",  "load",   "init",     "create_run", "create",  "start",       "tick",   "halt",
+      "pause", "resume", "progress", "run",        "destroy", "destroy_run", "deinit", "end"};
   static_assert(kNames.size() == static_cast<std::size_t>(PluginFunction::End) + 1);
   return kNames[static_cast<std::size_t>(function)];
 }

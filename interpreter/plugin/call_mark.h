@@ -23,6 +23,7 @@ enum class PluginFunction : std::uint8_t {
   Pause,
   Resume,
   Progress,
+  Run,  // the work of a thread of the leaf, for which the run waits
   Destroy,
   DestroyRun,
   Deinit,
@@ -122,12 +123,16 @@ inline CallMark& CallMark::this_thread() {
 // Marks a call for the time of its scope, also when an exception ends it.
 class MarkedCall {
  public:
-  MarkedCall(const CallSite& site, PluginFunction function) {
+  MarkedCall(const CallSite& site, PluginFunction function)
+      : around_(CallMark::this_thread().look()) {
     CallMark::this_thread().enter(site, function);
   }
-  ~MarkedCall() { CallMark::this_thread().leave(); }
+  ~MarkedCall() { CallMark::this_thread().leave(around_); }
   MarkedCall(const MarkedCall&) = delete;
   MarkedCall& operator=(const MarkedCall&) = delete;
+
+ private:
+  const CallMark::Look around_;
 };
 
 }  // namespace lockstep

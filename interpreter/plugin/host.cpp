@@ -11,6 +11,7 @@
 #include "core/utf8.h"
 #include "core/wording.h"
 #include "plugin/held.h"
+#include "plugin/workers.h"
 
 namespace lockstep {
 namespace {
@@ -149,8 +150,10 @@ void log(const lockstep_caller* caller, lockstep_log_level level, const char* me
 }
 
 const void* get_extension(const char* id) {
-  const bool children = id != nullptr && std::string_view(id) == LOCKSTEP_CHILDREN;
-  return children ? &children_table() : nullptr;
+  const std::string_view wanted = id == nullptr ? "" : id;
+  if (wanted == LOCKSTEP_CHILDREN) return &children_table();
+  if (wanted == LOCKSTEP_WORKERS) return &workers_table();
+  return nullptr;
 }
 
 // A leaf knows its ports, only we know the entries: what leaf.hpp says of a port without a value is

@@ -12,6 +12,7 @@
 #include "engine/blackboard.h"
 #include "engine/leaf_slot.h"
 #include "lockstep/leaf.h"
+#include "plugin/call_mark.h"
 #include "plugin/leaf_set.h"
 
 namespace lockstep {
@@ -38,6 +39,7 @@ struct lockstep_caller {
   const lockstep::LeafLog* log;
   lockstep::LeafSlot* slot;                 // its `error` tells of set_error
   const lockstep_plugin* plugin = nullptr;  // of a run: whose run context it is
+  const lockstep::CallSite* site = nullptr;
   // Collects the entries that are set, for a process that only mirrors them; null: not collected.
   std::vector<lockstep::Entry*>* written = nullptr;
   lockstep::Shortened error = {};

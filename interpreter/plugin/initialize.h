@@ -1,5 +1,5 @@
-// Calls init and deinit of plugins: once per process, although several sets may have the same plugin.
-// Only within plugin/. Any thread.
+// Calls init and deinit of plugins: once per process, although several sets may have the same
+// plugin. Only within plugin/. Any thread.
 #pragma once
 
 #include <string>

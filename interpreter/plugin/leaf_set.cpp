@@ -120,6 +120,7 @@ LeafSet::Implementation::Implementation(const Tree& tree, Blackboard& blackboard
     slot.children = children_of(tree, leaf);
     callers_.push_back(make_caller(tree.path(leaf.node), slot));
     sites_.push_back(&site_of(tree, leaf));
+    callers_.back()->site = sites_.back();
     callers_.back()->ports = bind_ports(tree, leaf, blackboard);
   }
 }

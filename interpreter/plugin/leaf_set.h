@@ -19,11 +19,14 @@ inline const void* this_thread_id() {
   return &id;
 }
 
+class Workers;
+
 // The time of a run as its leaves see it; the owner of the run updates it.
 struct LeafTime {
   Nanoseconds now{0};
   Nanoseconds period{0};
   const void* thread = nullptr;  // as this_thread_id: the one that may call the host; null: any
+  Workers* workers = nullptr;    // on the virtual clock: threads of leaves take turns
 };
 
 // Lines that leaves log: the path of the leaf (or the plugin's name, from create_run), level, text.

@@ -4,7 +4,10 @@ namespace lockstep {
 
 Run::Run(const Tree& tree, const RunOptions& options)
     : blackboard_(tree),
-      time_{.now = Nanoseconds(0), .period = options.period, .thread = this_thread_id()},
+      time_{.now = Nanoseconds(0),
+            .period = options.period,
+            .thread = this_thread_id(),
+            .workers = options.virtual_time ? &workers_ : nullptr},
       watch_(options.watch),
       leaves_(tree, blackboard_, time_, options.seed, options.log, options.watch),
       ticker_(tree, leaves_.slots(), blackboard_, options.on_fault) {}
@@ -37,12 +40,15 @@ void Run::set_now(Nanoseconds now) {
   adopt_thread();
   time_.now = now;
   ticker_.set_now(now);
+  workers_.give_turns(to_seconds(now));
 }
 
 Status Run::tick(Nanoseconds now) {
   set_now(now);
   if (watch_ != nullptr) watch_->begin_tick(ticker_.tick_number());  // which counts from 1
-  return ticker_.tick_root(now);
+  const Status status = ticker_.tick_root(now);
+  workers_.give_turns(to_seconds(now));
+  return status;
 }
 
 const Fault* Run::fault() const {

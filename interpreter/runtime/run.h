@@ -8,6 +8,7 @@
 #include "engine/ticker.h"
 #include "plugin/leaf_set.h"
 #include "plugin/leaf_watch.h"
+#include "plugin/workers.h"
 
 namespace lockstep {
 
@@ -16,6 +17,7 @@ struct RunOptions {
   Nanoseconds period = std::chrono::milliseconds(10);
   LeafLog log = {};
   FaultPolicy on_fault = FaultPolicy::Stop;
+  bool virtual_time = false;   // time jumps, so ticks wait for the threads of leaves
   LeafWatch* watch = nullptr;  // must outlive the run; null: nothing is watched and nothing costs
 };
 
@@ -52,6 +54,7 @@ class Run {
   void adopt_thread();
 
   Blackboard blackboard_;
+  Workers workers_;
   LeafTime time_;
   LeafWatch* watch_;
   LeafSet leaves_;

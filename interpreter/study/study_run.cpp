@@ -15,10 +15,11 @@ RunEnd StudyRun::run(std::uint64_t seed) {
   if (run_) {
     run_->restart(seed);
   } else {
-    run_.emplace(
-        cell_.tree,
-        RunOptions{
-            .seed = seed, .period = deadline_of(1, cell_.rate), .log = {}, .watch = &watch_});
+    run_.emplace(cell_.tree, RunOptions{.seed = seed,
+                                        .period = deadline_of(1, cell_.rate),
+                                        .log = {},
+                                        .virtual_time = true,
+                                        .watch = &watch_});
   }
   VirtualClock clock;
   return run_loop(*run_, clock, options_, observers_);

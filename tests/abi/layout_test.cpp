@@ -69,6 +69,16 @@ MEMBER_AT(lockstep_leaf_type, flags, 112);
 MEMBER_AT(lockstep_leaf_type, min_children, 120);
 MEMBER_AT(lockstep_leaf_type, max_children, 124);
 
+SIZE_IS(lockstep_workers, 64);
+MEMBER_AT(lockstep_workers, struct_size, 0);
+MEMBER_AT(lockstep_workers, begin, 8);
+MEMBER_AT(lockstep_workers, finish, 16);
+MEMBER_AT(lockstep_workers, start, 24);
+MEMBER_AT(lockstep_workers, wait, 32);
+MEMBER_AT(lockstep_workers, end, 40);
+MEMBER_AT(lockstep_workers, now, 48);
+MEMBER_AT(lockstep_workers, wake, 56);
+
 SIZE_IS(lockstep_children, 56);
 MEMBER_AT(lockstep_children, struct_size, 0);
 MEMBER_AT(lockstep_children, count, 8);

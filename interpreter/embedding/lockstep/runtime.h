@@ -125,6 +125,9 @@ typedef struct lockstep_run_options {
   int32_t on_fault;
   uint64_t seed;      /* of the leaves' random numbers */
   double tick_period; /* what leaves see as such, in seconds; 0: 0.01 */
+  /* The times of ticks are not real: a tick waits for the threads of leaves, which sleep in the
+   * run's time. The loop on the virtual clock needs it. */
+  bool virtual_time;
   /* A line that a leaf logs; from any thread. */
   void (*log)(void* user, const char* who, lockstep_log_level level, const char* message);
   void* user;
@@ -147,8 +150,8 @@ LOCKSTEP_EXPORT lockstep_status lockstep_run_tick(lockstep_run* run, double seco
 /* Halts every leaf that runs, in the order of the tree. */
 LOCKSTEP_EXPORT void lockstep_run_halt(lockstep_run* run);
 
-/* What ended the run ("Main/arm: threw an exception: …"), and the node; NULL when nothing did. `node` may be
- * NULL. Valid until the next call for this run. */
+/* What ended the run ("Main/arm: threw an exception: …"), and the node; NULL when nothing did.
+ * `node` may be NULL. Valid until the next call for this run. */
 LOCKSTEP_EXPORT const char* lockstep_run_fault(lockstep_run* run, uint32_t* node);
 
 typedef struct lockstep_node_state {

@@ -199,6 +199,9 @@ struct RunSettings {
   std::uint64_t seed = 0;      // of the leaves' random numbers
   double tick_period = 0.01;   // what leaves see as such, and the period of the loop, in seconds
   bool fail_on_fault = false;  // a fault of a leaf is its Failure, and the run goes on
+  // The times of ticks are not real: a tick waits for threaded leaves, whose sleeps are in the
+  // run's time. For the loop with virtual_clock.
+  bool virtual_time = false;
   // A line that a leaf logs; from any thread.
   std::function<void(const std::string& who, LogLevel level, const std::string& message)> log = {};
 };
@@ -242,6 +245,7 @@ class Run {
     options.seed = settings.seed;
     options.tick_period = settings.tick_period;
     options.on_fault = settings.fail_on_fault ? LOCKSTEP_ON_FAULT_FAIL : LOCKSTEP_ON_FAULT_STOP;
+    options.virtual_time = settings.virtual_time;
     if (hooks_->log) options.log = &Hooks::on_log;
     options.user = hooks_.get();
     it_.reset(lockstep_run_new(project.get(), &options));

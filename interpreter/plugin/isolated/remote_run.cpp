@@ -68,6 +68,7 @@ MessageWriter& begin(RemoteRun& run, PluginFunction function, std::uint32_t numb
   request.put(number);
   request.put(caller.time->now);
   request.put(caller.time->period);
+  request.put(static_cast<std::uint8_t>(caller.time->workers != nullptr));
   return request;
 }
 

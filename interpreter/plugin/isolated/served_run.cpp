@@ -92,6 +92,7 @@ ServedRun::Object* ServedRun::create_leaf(std::uint32_t number, MessageReader& r
   leaf->site = &CallSite::of(fmt::format("'{}' ({} of plugin '{}')", printable(leaf->caller->who),
                                          leaf->type->id, descriptors_.plugin.name),
                              descriptors_.plugin.name);
+  leaf->caller->site = leaf->site;
   if (!read_ports(request, leaf->caller->ports)) return nullptr;
   return (objects_[number] = std::move(leaf)).get();
 }
@@ -199,11 +200,14 @@ bool ServedRun::answer(PluginFunction function, MessageReader& request, MessageW
   time_.thread = this_thread_id();
   time_.now = request.get<Nanoseconds>();
   time_.period = request.get<Nanoseconds>();
+  time_.workers = request.get<std::uint8_t>() != 0 ? &workers_ : nullptr;
   Object* const object = function == PluginFunction::CreateRun ? create_run(request)
                          : function == PluginFunction::Create  ? create_leaf(number, request)
                                                                : find(number);
   if (object == nullptr || !read_entries(request)) return false;
+  workers_.give_turns(to_seconds(time_.now));
   perform(*object, function, answer);
+  workers_.give_turns(to_seconds(time_.now));
   return true;
 }
 

@@ -13,6 +13,7 @@
 #include "plugin/isolated/answer.h"
 #include "plugin/isolated/host_log.h"
 #include "plugin/isolated/message.h"
+#include "plugin/workers.h"
 
 namespace lockstep {
 
@@ -49,6 +50,7 @@ class ServedRun {
 
   const Descriptors& descriptors_;
   HostLog& log_;
+  Workers workers_;
   LeafTime time_;
   std::unordered_map<std::uint32_t, std::unique_ptr<Object>> objects_;
   std::deque<Entry> entries_;  // none of them moves

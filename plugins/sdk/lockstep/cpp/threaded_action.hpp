@@ -1,10 +1,13 @@
-// An action whose work blocks: it runs in a separate thread, while the tree continues to tick.
+// An action whose work blocks: it runs in a separate thread, while the tree continues to tick. On
+// the virtual clock the thread takes turns with the ticks, and its sleeps last as long in the run's
+// time, so that the run is the same every time.
 // Included by lockstep/leaf.hpp.
 #pragma once
 
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <limits>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -31,14 +34,25 @@ class Token {
 
   // Returns at once when not paused, else when resumed or halted. False: halted, return now.
   bool wait_while_paused() {
+    if (worker_ != nullptr) {
+      const double forever = std::numeric_limits<double>::infinity();
+      while (!stop_requested() && pause_requested()) workers_->wait(worker_, forever);
+      return !stop_requested();
+    }
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait(lock, [this] { return stop_ || !pause_; });
     return !stop_;
   }
 
-  // A sleep in real time that a halt ends. False: halted, return now.
+  // A sleep that a halt ends, in real time or that of the virtual clock. False: halted, return now.
   template <class Rep, class Period>
   bool sleep_for(std::chrono::duration<Rep, Period> duration) {
+    if (worker_ != nullptr) {
+      const double end = workers_->now(worker_) + std::chrono::duration<double>(duration).count();
+      while (!stop_requested() && !workers_->wait(worker_, end)) {  // woken
+      }
+      return !stop_requested();
+    }
     std::unique_lock<std::mutex> lock(mutex_);
     return !changed_.wait_for(lock, duration, [this] { return stop_; });
   }
@@ -63,6 +77,7 @@ class Token {
       this->*what = value;
     }
     changed_.notify_all();
+    if (worker_ != nullptr) workers_->wake(worker_);
   }
   void reset() {
     stop_ = pause_ = false;
@@ -74,6 +89,9 @@ class Token {
   bool stop_ = false;
   bool pause_ = false;
   std::atomic<double> progress_{0};
+  // Of the activation, on the virtual clock; else null.
+  const lockstep_workers* workers_ = nullptr;
+  lockstep_worker* worker_ = nullptr;
 };
 
 namespace detail {
@@ -82,19 +100,17 @@ namespace detail {
 class Worker {
  public:
   template <class Work>
-  void launch(Work work) {
+  void launch(const Caller& caller, Work work) {
     token_.reset();
     done_.store(false, std::memory_order_relaxed);
     error_ = nullptr;
-    thread_ = std::thread([this, work] {
-      in_worker = true;
-      try {
-        result_ = work(token_);
-      } catch (...) {
-        error_ = std::current_exception();
-      }
-      done_.store(true, std::memory_order_release);
-    });
+    begin_turns(caller);
+    try {
+      thread_ = std::thread([this, work] { live(work); });
+    } catch (...) {
+      end_turns();
+      throw;
+    }
   }
 
   // The result is there: take() will not block.
@@ -119,8 +135,41 @@ class Worker {
   double progress() const { return token_.progress_.load(std::memory_order_relaxed); }
 
  private:
+  // The whole life of the thread.
+  template <class Work>
+  void live(Work work) {
+    in_worker = true;
+    lockstep_worker* const worker = token_.worker_;
+    if (worker != nullptr) token_.workers_->start(worker);
+    try {
+      result_ = work(token_);
+    } catch (...) {
+      error_ = std::current_exception();
+    }
+    done_.store(true, std::memory_order_release);
+    if (worker != nullptr) token_.workers_->end(worker);
+  }
+
+  void begin_turns(const Caller& caller) {
+    const void* const table = caller.host->get_extension(LOCKSTEP_WORKERS);
+    if (table == nullptr) return;  // an older host
+    token_.workers_ = static_cast<const lockstep_workers*>(table);
+    token_.worker_ = token_.workers_->begin(caller.id);
+  }
+  // For a worker without a thread.
+  void end_turns() {
+    if (token_.worker_ != nullptr) token_.workers_->end(token_.worker_);
+    finish_turns();
+  }
+  void finish_turns() {
+    if (token_.worker_ == nullptr) return;
+    token_.workers_->finish(token_.worker_);
+    token_.worker_ = nullptr;
+  }
   void join() {
-    if (thread_.joinable()) thread_.join();
+    if (!thread_.joinable()) return;
+    finish_turns();
+    thread_.join();
   }
 
   std::thread thread_;
@@ -136,8 +185,6 @@ template <class PortsOfLeaf = NoPorts>
 class ThreadedAction : public Action<PortsOfLeaf> {
  public:
   using Status = sdk1::Status;
-  static constexpr bool kRealTime = true;
-
   // In the tree's thread, before run: read the ports here.
   virtual void begin() {}
   // The work, in a separate thread, which ends with it. Returns Success or Failure; after a halt
@@ -149,7 +196,7 @@ class ThreadedAction : public Action<PortsOfLeaf> {
 
   void start() final {
     begin();
-    worker_.launch([this](Token& token) { return run(token); });
+    worker_.launch(this->caller_, [this](Token& token) { return run(token); });
   }
   Status tick() final {
     if (!worker_.done()) return Status::Running;
