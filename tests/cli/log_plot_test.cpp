@@ -123,8 +123,8 @@ TEST_CASE("log measure tells which name it does not know") {
       {"progress-distance[3:2]", "expected 'progress-distance[K1:K2]', with whole numbers"},
       {"held", "expected 'held:NODE'"},
       {"held:pull",
-       "'Main/pull' is not a child of a synchronized node, nor of a SyncProgress, so it is never "
-       "held"},
+       "'Main/pull' is not a child of a synchronized node, of a SyncProgress or of a UseResources, "
+       "so it is never held"},
       {"pauses:arn", "no node 'arn', did you mean 'arm'?"},
       {"entry:lap", "no entry 'lap'"},
       {"duration:x", "expected nothing after 'duration'"},
