@@ -11,27 +11,37 @@ namespace lockstep {
 namespace {
 
 // The first number of a value that the range does not allow.
-std::optional<double> out_of_range(const Range& range, const Value& value) {
-  const auto outside = [&](double number) {
-    const bool above = range.min_excluded ? number > range.min : number >= range.min;
-    return !above || number > range.max;
-  };
-  if (const auto* integer = std::get_if<std::int64_t>(&value)) {
-    const auto number = static_cast<double>(*integer);
-    if (outside(number)) return number;
-  } else if (const auto* number = std::get_if<double>(&value)) {
-    if (outside(*number)) return *number;
-  } else if (const auto* list = std::get_if<std::vector<double>>(&value)) {
-    const auto it = std::find_if(list->begin(), list->end(), outside);
-    if (it != list->end()) return *it;
+class OutOfRange {
+ public:
+  explicit OutOfRange(const Range& range) : range_(range) {}
+
+  template <class T>
+  std::optional<double> operator()(const T& /*no number*/) const {
+    return std::nullopt;
   }
-  return std::nullopt;
-}
+  std::optional<double> operator()(std::int64_t number) const {
+    return (*this)(static_cast<double>(number));
+  }
+  std::optional<double> operator()(double number) const {
+    const bool above = range_.min_excluded ? number > range_.min : number >= range_.min;
+    return above && number <= range_.max ? std::nullopt : std::optional(number);
+  }
+  template <class T>
+  std::optional<double> operator()(const std::vector<T>& list) const {
+    for (const T& item : list) {
+      if (const auto number = (*this)(item)) return number;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  const Range& range_;
+};
 
 }  // namespace
 
 std::optional<RuleBreak> refuse_value(const Parameter& parameter, const Value& value) {
-  if (const auto number = out_of_range(parameter.range, value)) {
+  if (const auto number = std::visit(OutOfRange(parameter.range), value)) {
     return RuleBreak{
         .message = fmt::format("{} is outside the range of '{}'", *number, parameter.name),
         .hint = "it must be " + range_text(parameter.range)};

@@ -1,8 +1,10 @@
 // The values that parameters, ports and blackboard entries hold, and how they are written in text.
+// The table of types in value.cpp has what the rest of the program needs to know about a type.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -10,7 +12,18 @@
 
 namespace lockstep {
 
-enum class ValueType : std::uint8_t { Bool, Int, Double, String, DoubleList };
+// Number, "int or double", is a type of ports and entries; a value is one of the two.
+enum class ValueType : std::uint8_t {
+  Number,
+  Bool,
+  Int,
+  Double,
+  String,
+  DoubleList,
+  IntList,
+  BoolList,
+  StringList
+};
 
 // An entry that nobody has written. Not std::monostate: libstdc++ 12 assumes that a variant of it,
 // numbers, strings and vectors always has a value, and crashes when copying one throws.
@@ -21,14 +34,25 @@ struct NoValue {
   bool operator==(const NoValue&) const = default;
 };
 
-// The alternatives are in the order of ValueType.
-using Value = std::variant<NoValue, bool, std::int64_t, double, std::string, std::vector<double>>;
+// An item of a list of bool: std::vector<bool> has no array of them.
+struct Flag {
+  bool is_set = false;
+  bool operator==(const Flag&) const = default;
+};
 
-// "bool", "int", "double", "string", "list of double".
+// The alternative of each ValueType but Number has its number as index.
+using Value = std::variant<NoValue, bool, std::int64_t, double, std::string, std::vector<double>,
+                           std::vector<std::int64_t>, std::vector<Flag>, std::vector<std::string>>;
+
+// True if a value of this type has been written.
+bool holds(const Value& value, ValueType type);
+
+// "bool", "int", "double", "string", "list of double", …
 std::string_view to_string(ValueType type);
 
 // The whole text as a value of `type`, or nothing. Blanks around it are ignored, except in a
-// string. bool: true, false, 1, 0. double: decimal, finite. list: separated by ; or , or blanks.
+// string. bool: true, false, 1, 0. double: decimal, finite. list: separated by ; or , or blanks; of
+// strings by ; only, and a backslash takes the character after it as it is.
 std::optional<Value> parse_value(ValueType type, std::string_view text);
 
 // What parse_value accepts for `type`, for a message: "a number", "true or false", …
@@ -42,5 +66,15 @@ void append_text(const Value& value, std::string& out);
 // A finite decimal number that is the whole of `text`, or nothing.
 std::optional<double> parse_double(std::string_view text);
 std::optional<std::int64_t> parse_int(std::string_view text);
+
+// The texts of a type in the XSD: a simple type, with the pattern that restricts its base.
+struct SchemaType {
+  std::string_view name;
+  std::string_view base = {};     // "": the schema language has the type
+  std::string_view pattern = {};  // "": none
+  std::string_view doc = {};
+};
+const SchemaType& schema_type(ValueType type);
+std::span<const ValueType> all_value_types();
 
 }  // namespace lockstep

@@ -16,7 +16,7 @@ namespace lockstep {
 namespace {
 
 std::string with_article(ValueType type) {
-  return fmt::format("{} {}", type == ValueType::Int ? "an" : "a", to_string(type));
+  return fmt::format("{} {}", to_string(type).starts_with('i') ? "an" : "a", to_string(type));
 }
 
 class Expander {
@@ -170,7 +170,10 @@ class Expander {
       entry.type = parameter.type;
       entry.first_use = port.place;
       if (found.has_text) set_initial(port.place, parameter, found.text, entry);
-    } else if (entry.type != parameter.type) {
+    } else if (entry.type == ValueType::Number && is_number(parameter.type)) {
+      narrow(port.place, parameter, entry);
+    } else if (entry.type != parameter.type &&
+               !(parameter.type == ValueType::Number && is_number(entry.type))) {
       report_.at_value(
           port.place,
           fmt::format("'{{{}}}' is {} for '{}', but {} elsewhere", brief(port.key),
@@ -179,6 +182,18 @@ class Expander {
                       to_text(report_.sources().locate(entry.first_use))));
     }
     return found.entry;
+  }
+
+  static bool is_number(ValueType type) {
+    return type == ValueType::Int || type == ValueType::Double;
+  }
+
+  // Until now, all uses of the entry took an int or a double; this one takes one of them.
+  void narrow(Place place, const Parameter& parameter, BlackboardEntry& entry) {
+    entry.type = parameter.type;
+    if (std::holds_alternative<NoValue>(entry.initial)) return;
+    const std::string text = to_text(std::exchange(entry.initial, Value()));
+    set_initial(place, parameter, text, entry);
   }
 
   void set_initial(Place place, const Parameter& parameter, std::string_view text,

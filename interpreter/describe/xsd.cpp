@@ -23,21 +23,9 @@ constexpr std::string_view kPrologue = R"xsd(<?xml version="1.0" encoding="UTF-8
     <xs:annotation><xs:documentation>{key}: an entry of the blackboard.</xs:documentation></xs:annotation>
     <xs:restriction base="xs:string"><xs:pattern value="\{[A-Za-z_][A-Za-z0-9_]*\}"/></xs:restriction>
   </xs:simpleType>
-  <xs:simpleType name="text">
-    <xs:annotation><xs:documentation>Any text that is not {…}.</xs:documentation></xs:annotation>
-    <xs:restriction base="xs:string"><xs:pattern value="([^{](.|\s)*)?|\{((.|\s)*[^}])?|\{\}"/></xs:restriction>
-  </xs:simpleType>
-  <xs:simpleType name="int">
-    <xs:restriction base="xs:long"/>
-  </xs:simpleType>
-  <xs:simpleType name="double">
-    <xs:restriction base="xs:double"><xs:pattern value="[+\-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+\-]?[0-9]+)?"/></xs:restriction>
-  </xs:simpleType>
-  <xs:simpleType name="list">
-    <xs:annotation><xs:documentation>Numbers, separated by ; or , or blanks.</xs:documentation></xs:annotation>
-    <xs:restriction base="xs:string"><xs:pattern value="[\s;,]*([+\-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+\-]?[0-9]+)?([\s;,]+[+\-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+\-]?[0-9]+)?)*)?[\s;,]*"/></xs:restriction>
-  </xs:simpleType>
-  <xs:simpleType name="boolean">
+)xsd";
+
+constexpr std::string_view kPrologueEnd = R"xsd(  <xs:simpleType name="boolean">
     <xs:union memberTypes="xs:boolean substituted"/>
   </xs:simpleType>
   <xs:simpleType name="word">
@@ -129,6 +117,23 @@ std::string annotation(std::string_view doc) {
   if (doc.empty()) return {};
   return fmt::format("<xs:annotation><xs:documentation>{}</xs:documentation></xs:annotation>",
                      xsd_escaped(printable(doc)));
+}
+
+// Those that the schema language does not have.
+std::string value_types() {
+  std::string text;
+  for (const ValueType type : all_value_types()) {
+    const SchemaType& it = schema_type(type);
+    if (it.base.empty()) continue;
+    text += fmt::format("  <xs:simpleType name=\"{}\">\n", it.name);
+    if (!it.doc.empty()) text += fmt::format("    {}\n", annotation(it.doc));
+    text += fmt::format("    <xs:restriction base=\"{}\"", it.base);
+    text += it.pattern.empty()
+                ? "/>\n"
+                : fmt::format("><xs:pattern value=\"{}\"/></xs:restriction>\n", it.pattern);
+    text += "  </xs:simpleType>\n";
+  }
+  return text;
 }
 
 std::string children(const Arity& arity) {
@@ -254,6 +259,8 @@ void refuse_unknown(std::string& text) {
 
 std::string make_xsd(NodeTypes types, UnknownNodes unknown) {
   std::string text(kPrologue);
+  text += value_types();
+  text += kPrologueEnd;
   for (const NodeType* type : types) {
     if (type->category == NodeCategory::Group) add_group(*type, text);
   }

@@ -9,11 +9,6 @@
 namespace lockstep {
 namespace {
 
-std::string_view base_of(ValueType type) {
-  constexpr std::string_view kBases[] = {"xs:boolean", "int", "double", "text", "list"};
-  return kBases[static_cast<unsigned>(type)];
-}
-
 // XSD compares single numbers only. What can be said of a list with a pattern is the range from 0
 // to 1, which is that of barriers.
 std::string list_facets(const Range& range) {
@@ -43,8 +38,16 @@ std::string facets(const Parameter& parameter) {
     facets += fmt::format("<xs:enumeration value=\"{}\"/>", xsd_escaped(choice));
   }
   if (!facets.empty()) return facets;
-  return parameter.type == ValueType::DoubleList ? list_facets(parameter.range)
-                                                 : number_facets(parameter.range);
+  switch (parameter.type) {
+    case ValueType::Number:
+    case ValueType::Int:
+    case ValueType::Double:
+      return number_facets(parameter.range);
+    case ValueType::DoubleList:
+      return list_facets(parameter.range);
+    default:
+      return {};
+  }
 }
 
 }  // namespace
@@ -54,7 +57,7 @@ std::string xsd_type(const Parameter& parameter) {
     return "<xs:simpleType><xs:union memberTypes=\"substituted key\"/></xs:simpleType>";
   }
   const std::string_view others = parameter.constant ? "substituted" : "substituted key";
-  const std::string_view base = base_of(parameter.type);
+  const std::string_view base = schema_type(parameter.type).name;
   const std::string limits = facets(parameter);
   if (limits.empty()) {
     return fmt::format("<xs:simpleType><xs:union memberTypes=\"{} {}\"/></xs:simpleType>", base,

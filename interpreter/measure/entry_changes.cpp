@@ -5,14 +5,30 @@
 namespace lockstep {
 namespace {
 
+// Of a value as text, so that one that is far too long is not written.
+template <class T>
+std::size_t least_bytes(const T& /*scalar*/) {
+  return 1;
+}
+std::size_t least_bytes(const std::string& text) {
+  return text.size();
+}
+template <class T>
+std::size_t least_bytes(const std::vector<T>& list) {
+  std::size_t bytes = list.empty() ? 0 : list.size() - 1;
+  for (const T& item : list) {
+    if (bytes > EntryChanges::kLongest) break;
+    bytes += least_bytes(item);
+  }
+  return bytes;
+}
+
 // False: it is too long.
 bool put_short(const Value& value, std::string& text) {
   text.clear();
-  // A number of a list has two bytes at least, with its separator.
-  const auto* list = std::get_if<std::vector<double>>(&value);
-  if (list != nullptr && list->size() > EntryChanges::kLongest) return false;
-  const auto* words = std::get_if<std::string>(&value);
-  if (words != nullptr && words->size() > EntryChanges::kLongest) return false;
+  if (std::visit([](const auto& it) { return least_bytes(it); }, value) > EntryChanges::kLongest) {
+    return false;
+  }
   append_text(value, text);
   return text.size() <= EntryChanges::kLongest;
 }

@@ -11,6 +11,13 @@ bool is_parallel(const MeasuredTree::Node& node) {
   return compares_progress(node.synchronization) || node.kind == "Parallel";
 }
 
+// The name of a type whose values are numbers; those of a bool are 1 and 0.
+bool is_number(std::string_view type) {
+  constexpr ValueType kTypes[] = {ValueType::Bool, ValueType::Int, ValueType::Double,
+                                  ValueType::Number};
+  return std::ranges::any_of(kTypes, [&](ValueType it) { return type == to_string(it); });
+}
+
 }  // namespace
 
 Measuring::Measuring(const MeasuredTree& tree, std::span<const MeasureSpec> specs) {
@@ -96,7 +103,7 @@ void Measuring::add_entry(const MeasureSpec& spec, const MeasuredTree& tree) {
     return;
   }
   const std::string& type = tree.entry_types[*entry];
-  if (type == to_string(ValueType::String) || type == to_string(ValueType::DoubleList)) {
+  if (!is_number(type)) {
     error_ = "the entry '" + tree.entries[*entry] + "' is a " + type + ", expected a number";
     return;
   }

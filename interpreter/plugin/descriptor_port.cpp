@@ -12,6 +12,15 @@ namespace {
 
 constexpr std::size_t kSizeIn10 = offsetof(lockstep_port, doc) + sizeof(lockstep_port::doc);
 
+constexpr lockstep_type kTypeCount = std::variant_size_v<Value> - 1;
+
+// The types of the contract have the numbers of ours.
+std::optional<ValueType> type_of(lockstep_type type) {
+  if (type == LOCKSTEP_NUMBER) return ValueType::Number;
+  if (type < 1 || type > kTypeCount) return std::nullopt;
+  return static_cast<ValueType>(type);
+}
+
 bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
@@ -59,15 +68,20 @@ std::optional<Problem> check_default(const lockstep_port& port, ValueType type) 
 
 std::optional<Problem> check(const lockstep_port& port, std::span<const Parameter> others) {
   if (auto refusal = check_name(port, others)) return refusal;
-  if (port.type < LOCKSTEP_BOOL || port.type > LOCKSTEP_DOUBLE_LIST) {
+  const auto type = type_of(port.type);
+  if (!type) {
     return Problem{fmt::format("('{}') has type {}", port.name, port.type),
-                   "use one of the LOCKSTEP_ types, 1 to 5"};
+                   fmt::format("use LOCKSTEP_NUMBER or one of the types 1 to {}", kTypeCount)};
   }
   if (port.direction < LOCKSTEP_INPUT || port.direction > LOCKSTEP_INOUT) {
     return Problem{fmt::format("('{}') has direction {}", port.name, port.direction),
                    "use LOCKSTEP_INPUT, LOCKSTEP_OUTPUT or LOCKSTEP_INOUT, 1 to 3"};
   }
-  return check_default(port, static_cast<ValueType>(port.type - 1));
+  if (type == ValueType::Number && port.direction != LOCKSTEP_INPUT) {
+    return Problem{fmt::format("('{}') is an output of type LOCKSTEP_NUMBER", port.name),
+                   "an output is an int or a double, so that others know what they read"};
+  }
+  return check_default(port, *type);
 }
 
 }  // namespace
@@ -93,7 +107,7 @@ std::optional<Problem> read_port(const lockstep_port* from, std::span<const Para
   const lockstep_port copy = covered_copy(from, from->struct_size);
   if (auto refusal = check(copy, others)) return refusal;
   port = Parameter{.name = copy.name,
-                   .type = static_cast<ValueType>(copy.type - 1),
+                   .type = *type_of(copy.type),
                    .doc = text_or_empty(copy.doc),
                    .required = copy.default_value == nullptr && copy.direction != LOCKSTEP_OUTPUT,
                    .direction = static_cast<Direction>(copy.direction - 1),

@@ -28,7 +28,8 @@ const T* readable(const lockstep_caller* caller, std::uint32_t port) {
   const BoundPort& it = caller->ports[port];
   if (it.read == nullptr) return nullptr;
   const T* const found = std::get_if<T>(it.read);
-  return found != nullptr || it.fallback == nullptr ? found : std::get_if<T>(it.fallback);
+  if (found != nullptr || it.fallback == nullptr) return found;
+  return std::holds_alternative<NoValue>(*it.read) ? std::get_if<T>(it.fallback) : nullptr;
 }
 
 template <class T>
@@ -47,12 +48,40 @@ bool get_string(const lockstep_caller* caller, std::uint32_t port, const char** 
   return true;
 }
 
-bool get_double_list(const lockstep_caller* caller, std::uint32_t port, const double** values,
-                     std::size_t* count) {
-  const auto* found = readable<std::vector<double>>(caller, port);
+// A number is an int when the port is bound to an entry that is one, or has such a constant.
+bool get_double(const lockstep_caller* caller, std::uint32_t port, double* value) {
+  if (get(caller, port, value)) return true;
+  const auto* whole = readable<std::int64_t>(caller, port);
+  if (whole == nullptr || caller->ports[port].type != ValueType::Number) return false;
+  *value = static_cast<double>(*whole);
+  return true;
+}
+
+// The items as the contract has them; those of std::vector<T> look the same in memory.
+template <class T, class Item>
+bool get_list(const lockstep_caller* caller, std::uint32_t port, const Item** items,
+              std::size_t* count) {
+  static_assert(sizeof(T) == sizeof(Item));
+  const auto* found = readable<std::vector<T>>(caller, port);
   if (found == nullptr) return false;
-  *values = found->data();
+  *items = reinterpret_cast<const Item*>(found->data());
   *count = found->size();
+  return true;
+}
+
+bool get_string_list(const lockstep_caller* caller, std::uint32_t port, const lockstep_text** items,
+                     std::size_t* count) {
+  const auto* found = readable<std::vector<std::string>>(caller, port);
+  if (found == nullptr) return false;
+  auto& texts = mine(caller).ports[port].texts;
+  try {
+    texts.clear();
+    for (const std::string& text : *found) texts.push_back({text.c_str(), text.size()});
+  } catch (const std::exception&) {
+    return false;
+  }
+  *items = texts.data();
+  *count = texts.size();
   return true;
 }
 
@@ -71,12 +100,22 @@ Value* writable(const lockstep_caller* caller, std::uint32_t port, ValueType typ
   return &entry->value;
 }
 
-template <class T, ValueType type>
+// The type whose values are of type T.
+template <class T, std::size_t kIndex = 1>
+constexpr ValueType type_of() {
+  if constexpr (std::is_same_v<T, std::variant_alternative_t<kIndex, Value>>) {
+    return static_cast<ValueType>(kIndex);
+  } else {
+    return type_of<T, kIndex + 1>();
+  }
+}
+
+template <class T>
 bool set(const lockstep_caller* caller, std::uint32_t port, T value) {
   if constexpr (std::is_same_v<T, double>) {
     if (!std::isfinite(value)) return false;
   }
-  Value* const target = writable(caller, port, type);
+  Value* const target = writable(caller, port, type_of<T>());
   if (target != nullptr) target->emplace<T>(value);
   return target != nullptr;
 }
@@ -95,23 +134,48 @@ bool set_string(const lockstep_caller* caller, std::uint32_t port, const char* t
   return true;
 }
 
-bool set_double_list(const lockstep_caller* caller, std::uint32_t port, const double* values,
-                     std::size_t count) {
-  if (values == nullptr && count != 0) return false;
-  if (!std::all_of(values, values + count, [](double it) { return std::isfinite(it); })) {
-    return false;
+template <class T, class Item>
+bool set_list(const lockstep_caller* caller, std::uint32_t port, const Item* items,
+              std::size_t count) {
+  static_assert(sizeof(T) == sizeof(Item));
+  if (items == nullptr && count != 0) return false;
+  if constexpr (std::is_same_v<Item, double>) {
+    if (!std::all_of(items, items + count, [](double it) { return std::isfinite(it); })) {
+      return false;
+    }
   }
-  Value* const target = writable(caller, port, ValueType::DoubleList);
+  Value* const target = writable(caller, port, type_of<std::vector<T>>());
   if (target == nullptr) return false;
   try {
-    auto& list = held<std::vector<double>>(*target);
+    auto& list = held<std::vector<T>>(*target);
+    const auto* const values = reinterpret_cast<const T*>(items);
     if (count > list.size()) {
       list.assign(values, values + count);
     } else {
       // `values` may be a part of this very list.
-      if (count != 0) std::memmove(list.data(), values, count * sizeof(double));
+      if (count != 0) std::memmove(list.data(), values, count * sizeof(T));
       list.resize(count);
     }
+  } catch (const std::exception&) {
+    return false;
+  }
+  return true;
+}
+
+bool set_string_list(const lockstep_caller* caller, std::uint32_t port, const lockstep_text* items,
+                     std::size_t count) {
+  if (items == nullptr && count != 0) return false;
+  const auto is_text = [](const lockstep_text& it) { return it.text != nullptr || it.length == 0; };
+  if (!std::all_of(items, items + count, is_text)) return false;
+  Value* const target = writable(caller, port, ValueType::StringList);
+  if (target == nullptr) return false;
+  try {
+    std::vector<std::string> list;  // the items may be texts of this very list
+    list.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      list.emplace_back(items[i].length == 0 ? "" : items[i].text, items[i].length);
+    }
+    *target = std::move(list);
   } catch (const std::exception&) {
     return false;
   }
@@ -188,14 +252,14 @@ const lockstep_host& host_table() {
       .version = LOCKSTEP_VERSION,
       .get_bool = get<bool>,
       .get_int = get<std::int64_t>,
-      .get_double = get<double>,
+      .get_double = get_double,
       .get_string = get_string,
-      .get_double_list = get_double_list,
-      .set_bool = set<bool, ValueType::Bool>,
-      .set_int = set<std::int64_t, ValueType::Int>,
-      .set_double = set<double, ValueType::Double>,
+      .get_double_list = get_list<double>,
+      .set_bool = set<bool>,
+      .set_int = set<std::int64_t>,
+      .set_double = set<double>,
       .set_string = set_string,
-      .set_double_list = set_double_list,
+      .set_double_list = set_list<double>,
       .set_error = set_error,
       .now = now,
       .tick_period = tick_period,
@@ -203,6 +267,12 @@ const lockstep_host& host_table() {
       .random = random_double,
       .log = log,
       .get_extension = get_extension,
+      .get_int_list = get_list<std::int64_t>,
+      .get_bool_list = get_list<Flag>,
+      .get_string_list = get_string_list,
+      .set_int_list = set_list<std::int64_t>,
+      .set_bool_list = set_list<Flag>,
+      .set_string_list = set_string_list,
   };
   return kTable;
 }

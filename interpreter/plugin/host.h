@@ -26,6 +26,7 @@ struct BoundPort {
   const Value* fallback = nullptr;  // the default, while the entry that it is bound to has no value
   std::string_view name = {};       // unknown in a process that only mirrors the entries
   std::string_view entry = {};
+  std::vector<lockstep_text> texts = {};  // the list of strings that was handed out last
 };
 
 }  // namespace lockstep

@@ -64,6 +64,32 @@ TEST_CASE("isolated: values of every type go in and out, also large ones") {
   CHECK(leaves.get<double>(kDoubleOut) == -0.125);
 }
 
+TEST_CASE("lists and numbers go in and out, in this process and isolated") {
+  for (const Isolation isolation : {Isolation::InProcess, Isolation::Isolated}) {
+    INFO((isolation == Isolation::Isolated));
+    Leaves leaves("echo", {{}}, isolation);
+    CHECK(leaves.tick().empty());
+    CHECK(leaves.value(kStringListOut).index() == 0);
+    for (const std::size_t size : {std::size_t{2}, std::size_t{0}, std::size_t{1000}}) {
+      const std::vector<std::int64_t> numbers(size, INT64_MIN);
+      const std::vector<Flag> flags(size, Flag{true});
+      const std::vector<std::string> texts(size, std::string("a\0b", 3));
+      leaves.value(kIntListIn) = numbers;
+      leaves.value(kBoolListIn) = flags;
+      leaves.value(kStringListIn) = texts;
+      leaves.value(kNumberIn) = static_cast<std::int64_t>(size);
+      CHECK(leaves.tick().empty());
+      CHECK(leaves.get<std::vector<std::int64_t>>(kIntListOut) == numbers);
+      CHECK((leaves.get<std::vector<Flag>>(kBoolListOut) == flags));
+      CHECK(leaves.get<std::vector<std::string>>(kStringListOut) == texts);
+      CHECK(leaves.get<double>(kNumberOut) == static_cast<double>(size));
+    }
+    leaves.value(kNumberIn) = 0.5;
+    CHECK(leaves.tick().empty());
+    CHECK(leaves.get<double>(kNumberOut) == 0.5);
+  }
+}
+
 TEST_CASE("isolated: values that are too large are an error, and the process lives on") {
   Leaves leaves("echo", {{}});
   const std::string error =

@@ -25,7 +25,11 @@ MEMBER_AT(lockstep_port, default_value, 24);
 MEMBER_AT(lockstep_port, unit, 32);
 MEMBER_AT(lockstep_port, doc, 40);
 
-SIZE_IS(lockstep_host, 168);
+SIZE_IS(lockstep_text, 16);
+MEMBER_AT(lockstep_text, text, 0);
+MEMBER_AT(lockstep_text, length, 8);
+
+SIZE_IS(lockstep_host, 216);
 MEMBER_AT(lockstep_host, abi_major, 0);
 MEMBER_AT(lockstep_host, abi_minor, 4);
 MEMBER_AT(lockstep_host, struct_size, 8);
@@ -48,6 +52,12 @@ MEMBER_AT(lockstep_host, random_bits, 136);
 MEMBER_AT(lockstep_host, random, 144);
 MEMBER_AT(lockstep_host, log, 152);
 MEMBER_AT(lockstep_host, get_extension, 160);
+MEMBER_AT(lockstep_host, get_int_list, 168);
+MEMBER_AT(lockstep_host, get_bool_list, 176);
+MEMBER_AT(lockstep_host, get_string_list, 184);
+MEMBER_AT(lockstep_host, set_int_list, 192);
+MEMBER_AT(lockstep_host, set_bool_list, 200);
+MEMBER_AT(lockstep_host, set_string_list, 208);
 
 SIZE_IS(lockstep_leaf_type, 128);
 MEMBER_AT(lockstep_leaf_type, struct_size, 0);
@@ -113,5 +123,7 @@ static_assert(LOCKSTEP_CONTROL == 3 && LOCKSTEP_DECORATOR == 4);
 static_assert(LOCKSTEP_REAL_TIME == 1);
 static_assert(LOCKSTEP_BOOL == 1 && LOCKSTEP_INT == 2 && LOCKSTEP_DOUBLE == 3);
 static_assert(LOCKSTEP_STRING == 4 && LOCKSTEP_DOUBLE_LIST == 5);
+static_assert(LOCKSTEP_INT_LIST == 6 && LOCKSTEP_BOOL_LIST == 7 && LOCKSTEP_STRING_LIST == 8);
+static_assert(LOCKSTEP_NUMBER == 100);
 static_assert(LOCKSTEP_INPUT == 1 && LOCKSTEP_OUTPUT == 2 && LOCKSTEP_INOUT == 3);
 static_assert(LOCKSTEP_LOG_DEBUG == 0 && LOCKSTEP_LOG_INFO == 1 && LOCKSTEP_LOG_WARNING == 2);

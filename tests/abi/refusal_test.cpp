@@ -55,7 +55,7 @@ const Case kCases[] = {
   {"bad_port_name", "is malformed: leaf type 0 ('Probe'): port 0 is named '2nd'", "a port's name is a letter, then letters, digits and '_'"},
   {"reserved_port_name", "is malformed: leaf type 0 ('Probe'): port 0 is named 'ID', an attribute that every node has", "give the port another name"},
   {"same_port_twice", "is malformed: leaf type 0 ('Probe'): port 1 is named 'ticks', as a port before it", "give each port of a leaf its own name"},
-  {"bad_port_type", "is malformed: leaf type 0 ('Probe'): port 0 ('ticks') has type 6", "use one of the LOCKSTEP_ types, 1 to 5"},
+  {"bad_port_type", "is malformed: leaf type 0 ('Probe'): port 0 ('ticks') has type 9", "use LOCKSTEP_NUMBER or one of the types 1 to 8"},
   {"bad_port_direction", "is malformed: leaf type 0 ('Probe'): port 0 ('ticks') has direction 0", "use LOCKSTEP_INPUT, LOCKSTEP_OUTPUT or LOCKSTEP_INOUT, 1 to 3"},
   {"bad_default", "is malformed: leaf type 0 ('Probe'): port 0 ('ticks') has the default 'two', expected a whole number", "a default is a constant, written as in a tree"},
   {"key_as_default", "is malformed: leaf type 0 ('Probe'): port 0 ('ticks') has the default '{key}', expected text", "a default is a constant, written as in a tree"},

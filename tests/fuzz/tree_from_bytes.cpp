@@ -104,11 +104,12 @@ std::string Generator::value(ValueType type) {
       return below(2) == 1 ? "true" : "false";
     case ValueType::Int:
       return std::to_string(below(5));
+    case ValueType::Number:
     case ValueType::Double:
       return fmt::format("{}", below(16) / 15.0);
     case ValueType::String:
       return garbage();
-    case ValueType::DoubleList:
+    default:
       break;
   }
   std::string list;

@@ -30,11 +30,10 @@ bool is_finite(const Value& value) {
 }
 
 void check_values(std::string_view text) {
-  for (const ValueType type : {ValueType::Bool, ValueType::Int, ValueType::Double,
-                               ValueType::String, ValueType::DoubleList}) {
+  for (const ValueType type : all_value_types()) {
     const auto value = parse_value(type, text);
     if (!value) continue;
-    require(value->index() == 1 + static_cast<std::size_t>(type) && is_finite(*value));
+    require(holds(*value, type) && is_finite(*value));
     require(parse_value(type, to_text(*value)) == value);
   }
 }

@@ -39,6 +39,82 @@ TEST_CASE("literals of each type") {
   check_runs(kRows);
 }
 
+TEST_CASE("lists of each type") {
+  constexpr ClaimRow kRows[] = {
+      {"they have defaults", R"(<ShowLists/>)", "success 1: 1,2,true,false,'red','blue',"},
+      {"numbers and bools are separated by ; or , or blanks",
+       R"(<ShowLists steps="3, -4 5" flags="1;0 true"/>)",
+       "success 1: 3,-4,5,true,false,true,'red','blue',"},
+      {"strings by ; only, and blanks around them do not count",
+       R"(<root lockstep="1" main_tree_to_execute="T">
+          <BehaviorTree ID="T"><SubTree ID="S" d=" front door ; back, left"/></BehaviorTree>
+          <BehaviorTree ID="S"><ShowLists steps="" flags="" doors="{d}"/></BehaviorTree></root>)",
+       "success 1: 'front door','back, left',"},
+      {"a backslash keeps the character after it",
+       R"(<root lockstep="1" main_tree_to_execute="T">
+          <BehaviorTree ID="T"><SubTree ID="S" d="a\;b;\\;\ "/></BehaviorTree>
+          <BehaviorTree ID="S"><ShowLists steps="" flags="" doors="{d}"/></BehaviorTree></root>)",
+       R"(success 1: 'a;b','\',' ',)"},
+      {"a list has items of its type", R"(<ShowLists steps="1;0.5"/>)",
+       "2:19 error: '1;0.5' is not a list such as 1;2, which 'steps' must be"},
+      {"a bool too", R"(<ShowLists flags="1;2"/>)",
+       "2:19 error: '1;2' is not a list such as true;false, which 'flags' must be"},
+      {"they are written and read",
+       R"(<Sequence memory="true"><ShowLists steps="1" flags="1" doors="{d}" next="{n}"
+          inverse="{i}"/><ShowLists steps="{n}" flags="{i}" doors="{d}"/></Sequence>)",
+       "success 1: 1,true,'x',, 2,false,'x','a;b',", "set.d=x"},
+      {"lists of two types are two types",
+       R"(<Sequence memory="true"><ShowLists steps="{x}"/>
+<ShowLists flags="{x}"/></Sequence>)",
+       "3:19 error: '{x}' is a list of bool for 'flags', but a list of int elsewhere", "set.x=1"},
+  };
+  for (const ClaimRow& row : kRows) {
+    INFO(row.claim);
+    const Pipeline pipeline(row.xml, row.options);
+    CHECK((pipeline.loaded() ? pipeline.run() : pipeline.told()) == row.expected);
+  }
+}
+
+TEST_CASE("a port that takes an int or a double") {
+  constexpr ClaimRow kRows[] = {
+      {"a whole constant is an int", R"(<Measure value="-3"/>)", "success 1: int -3"},
+      {"another one is a double", R"(<Measure value="3.5"/>)", "success 1: double 3.5"},
+      {"a text is neither", R"(<Measure value="fast"/>)",
+       "2:17 error: 'fast' is not a number, which 'value' must be"},
+      {"an entry may be an int",
+       R"(<Sequence memory="true"><Count total="{n}"/><Measure value="{n}"/></Sequence>)",
+       "success 1: 5, int 5", "set.n=4"},
+      {"also if the number is its first use",
+       R"(<Sequence memory="true"><Measure value="{n}"/><Count total="{n}"/></Sequence>)",
+       "success 1: int 4, 5", "set.n=4"},
+      {"or a double",
+       R"(<Sequence memory="true"><Measure value="{v}"/><Show speed="{v}"/></Sequence>)",
+       "success 1: double 2, false 0 2 '' []", "set.v=2"},
+      {"an entry of numbers only has what it was given", R"(<Measure value="{v}"/>)",
+       "success 1: int 2", "set.v=2"},
+      {"a start value must fit all uses",
+       "<Sequence memory=\"true\">\n<Measure value=\"{n}\"/>\n<Count total=\"{n}\"/></Sequence>",
+       "4:15 error: the start value '0.5' of 'n' is not a whole number, which 'total' must be",
+       "set.n=0.5"},
+      {"int and double stay two types",
+       "<Sequence memory=\"true\">\n<Measure value=\"{n}\"/><Count total=\"{n}\"/>\n"
+       "<Show speed=\"{n}\"/></Sequence>",
+       "4:14 error: '{n}' is a double for 'speed', but an int elsewhere", "set.n=1"},
+      {"a text is no number",
+       "<Sequence memory=\"true\">\n<Say text=\"{n}\"/>\n<Measure value=\"{n}\"/></Sequence>",
+       "4:17 error: '{n}' is an int or double for 'value', but a string elsewhere", "set.n=1"},
+      {"the default counts until the entry is written",
+       R"(<Sequence memory="true"><Measure value="{n}"/><Tally sum="{n}"/><Measure value="{n}"/>
+          </Sequence>)",
+       "success 1: int 1, 11, int 11"},
+  };
+  for (const ClaimRow& row : kRows) {
+    INFO(row.claim);
+    const Pipeline pipeline(row.xml, row.options);
+    CHECK((pipeline.loaded() ? pipeline.run() : pipeline.told()) == row.expected);
+  }
+}
+
 TEST_CASE("ports: given, left out, bound") {
   constexpr ClaimRow kRows[] = {
       {"an input without a default must be given", R"(<GoTo/>)",

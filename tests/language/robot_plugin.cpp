@@ -101,6 +101,54 @@ class Show : public lockstep::Action<ShowPorts> {
   }
 };
 
+struct ListPorts : lockstep::Ports {
+  Input<std::vector<std::int64_t>> steps{this, "steps", "1;2", "a list of int"};
+  Input<std::vector<bool>> flags{this, "flags", "true;false", "a list of bool"};
+  InOut<std::vector<std::string>> doors{this, "doors", "red;blue", "a list of strings"};
+  Output<std::vector<std::int64_t>> next{this, "next", "the steps, each one more"};
+  Output<std::vector<bool>> inverse{this, "inverse", "the flags, inverted"};
+};
+
+class ShowLists : public lockstep::Action<ListPorts> {
+ public:
+  Status tick() override {
+    std::ostringstream line;
+    line << std::boolalpha;
+    std::vector<std::int64_t> larger;
+    for (const std::int64_t step : steps.view()) {
+      line << step << ',';
+      larger.push_back(step + 1);
+    }
+    std::vector<bool> inverted;
+    for (const bool flag : flags.get()) {
+      line << flag << ',';
+      inverted.push_back(!flag);
+    }
+    std::vector<std::string> longer = doors.get();
+    for (const std::string_view door : doors.view()) line << '\'' << door << "',";
+    longer.emplace_back("a;b");
+    next.set(larger);
+    inverse.set(inverted);
+    doors.set(longer);
+    said.push_back(line.str());
+    return Status::Success;
+  }
+};
+
+struct MeasurePorts : lockstep::Ports {
+  Input<lockstep::Number> value{this, "value", "1", "an int or a double"};
+};
+
+class Measure : public lockstep::Action<MeasurePorts> {
+ public:
+  Status tick() override {
+    std::ostringstream line;
+    line << (value.get().is_int() ? "int " : "double ") << value.get();
+    said.push_back(line.str());
+    return Status::Success;
+  }
+};
+
 struct IsOpenPorts : lockstep::Ports {
   Input<bool> open{this, "open", "false", "whether the door is open"};
 };
@@ -121,6 +169,8 @@ LOCKSTEP_PLUGIN_TABLE(robot_table, "robot", "1.0", "A robot that only says what 
                       lockstep::leaf<Count>("Count", "Counts."),
                       lockstep::leaf<Tally>("Tally", "Counts from ten."),
                       lockstep::leaf<Show>("Show", "Shows its ports."),
+                      lockstep::leaf<ShowLists>("ShowLists", "Shows lists, and sets longer ones."),
+                      lockstep::leaf<Measure>("Measure", "Shows a number."),
                       lockstep::leaf<IsOpen>("IsOpen", "Whether a door is open."));
 
 namespace lockstep::test {

@@ -15,8 +15,10 @@ set(said_10 "error_two_leaves_have_the_same_id")
 set(said_11 "error_name_must_be_letters_digits_and_underscores")
 set(said_12 "error_an_output_has_no_default")
 set(said_13 "error_an_output_has_no_default")
+set(said_14 "error_default_is_not_a_value_of_the_port_type")
+set(said_15 "an output is an int or a double, not either")
 
-foreach(mistake RANGE 13)
+foreach(mistake RANGE 15)
   execute_process(
     COMMAND ${CXX_COMPILER} -std=c++17 -fsyntax-only -I${SDK} -DMISTAKE=${mistake} ${SOURCE}
     RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)

@@ -18,10 +18,15 @@ struct GoodPorts : lockstep::Ports {
   Output<double> other{this, "other", "0", "a default for an output"};
 #elif MISTAKE == 13
   Output<std::string> other{this, "other", "0", "a default for an output"};
+#elif MISTAKE == 14
+  Input<std::vector<std::int64_t> > other{this, "other", "1;0.5", "not a list of int"};
+#elif MISTAKE == 15
+  Output<lockstep::Number> other{this, "other", "neither an int nor a double"};
 #else
   Output<double> speed{this, "speed", "no value", "m/s"};
   Output<std::vector<double> > points{this, "points", "", "m"};
   Output<std::string> text{this, "text", "true"};
+  Output<std::vector<std::string> > texts{this, "texts", "true"};
 #endif
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "plugin/held.h"
 
@@ -22,16 +23,92 @@ void MessageWriter::put_text_or_null(const char* text) {
   if (text != nullptr) put_text(text);
 }
 
+namespace {
+
+// Of a list these are the items that are copied together. A bool is not: not every byte is one.
+template <class T>
+constexpr bool kIsNumber = std::is_same_v<T, double> || std::is_same_v<T, std::int64_t>;
+
+class ValueWriter {
+ public:
+  explicit ValueWriter(MessageWriter& message) : message_(message) {}
+
+  void operator()(NoValue) const {}
+  void operator()(bool flag) const { message_.put(static_cast<std::uint8_t>(flag)); }
+  void operator()(Flag flag) const { (*this)(flag.is_set); }
+  void operator()(std::int64_t number) const { message_.put(number); }
+  void operator()(double number) const { message_.put(number); }
+  void operator()(const std::string& text) const { message_.put_text(text); }
+  template <class T>
+  void operator()(const std::vector<T>& list) const {
+    message_.put(std::uint64_t{list.size()});
+    if constexpr (kIsNumber<T>) {
+      message_.append(list.data(), list.size() * sizeof(T));
+    } else {
+      for (const T& item : list) (*this)(item);
+    }
+  }
+
+ private:
+  MessageWriter& message_;
+};
+
+// True if there was a value.
+class ValueReader {
+ public:
+  explicit ValueReader(MessageReader& message) : message_(message) {}
+
+  bool operator()(NoValue&) const { return true; }
+  bool operator()(bool& flag) const {
+    flag = message_.get<std::uint8_t>() != 0;
+    return message_.good();
+  }
+  bool operator()(Flag& flag) const { return (*this)(flag.is_set); }
+  bool operator()(std::int64_t& number) const {
+    number = message_.get<std::int64_t>();
+    return message_.good();
+  }
+  bool operator()(double& number) const {
+    number = message_.get<double>();
+    return message_.good() && std::isfinite(number);
+  }
+  bool operator()(std::string& text) const {
+    text.assign(message_.text());
+    return message_.good();
+  }
+  template <class T>
+  bool operator()(std::vector<T>& list) const {
+    constexpr std::size_t kLeast = std::is_same_v<T, Flag> ? 1 : 8;  // bytes of an item
+    const auto count = message_.get<std::uint64_t>();
+    if (!message_.good() || count > message_.rest().size() / kLeast) return false;
+    list.resize(count);
+    if constexpr (kIsNumber<T>) {
+      const std::byte* const data = message_.take(count * sizeof(T));
+      if (count != 0) std::memcpy(list.data(), data, count * sizeof(T));
+      return std::ranges::all_of(list, [](T it) { return std::isfinite(it); });
+    } else {
+      return std::ranges::all_of(list, [this](T& item) { return (*this)(item); });
+    }
+  }
+
+ private:
+  MessageReader& message_;
+};
+
+// Reads the alternative of this number.
+template <std::size_t... kIndices>
+bool read_alternative(MessageReader& message, std::size_t index, Value& value,
+                      std::index_sequence<kIndices...>) {
+  const ValueReader read(message);
+  return ((index == kIndices && read(held<std::variant_alternative_t<kIndices, Value>>(value))) ||
+          ...);
+}
+
+}  // namespace
+
 void MessageWriter::put_value(const Value& value) {
   put(static_cast<std::uint8_t>(value.index()));
-  if (const auto* flag = std::get_if<bool>(&value)) put(static_cast<std::uint8_t>(*flag));
-  if (const auto* whole = std::get_if<std::int64_t>(&value)) put(*whole);
-  if (const auto* number = std::get_if<double>(&value)) put(*number);
-  if (const auto* text = std::get_if<std::string>(&value)) put_text(*text);
-  if (const auto* list = std::get_if<std::vector<double>>(&value)) {
-    put(std::uint64_t{list->size()});
-    append(list->data(), list->size() * sizeof(double));
-  }
+  std::visit(ValueWriter(*this), value);
 }
 
 bool MessageReader::fail() {
@@ -64,36 +141,8 @@ bool MessageReader::has_text() {
 bool MessageReader::value_into(Value& value) {
   const auto index = get<std::uint8_t>();
   if (!good_) return false;
-  if (index == 0) {
-    value.emplace<NoValue>();
-    return true;
-  }
-  switch (static_cast<ValueType>(index - 1)) {
-    case ValueType::Bool:
-      value.emplace<bool>(get<std::uint8_t>() != 0);
-      return good_;
-    case ValueType::Int:
-      value.emplace<std::int64_t>(get<std::int64_t>());
-      return good_;
-    case ValueType::Double: {
-      const double number = value.emplace<double>(get<double>());
-      return (good_ && std::isfinite(number)) || fail();
-    }
-    case ValueType::String:
-      held<std::string>(value).assign(text());
-      return good_;
-    case ValueType::DoubleList: {
-      const auto count = get<std::uint64_t>();
-      if (count > rest_.size() / sizeof(double)) return fail();
-      auto& list = held<std::vector<double>>(value);
-      list.resize(count);
-      const std::byte* const data = take(count * sizeof(double));
-      if (count != 0) std::memcpy(list.data(), data, count * sizeof(double));
-      const bool finite = std::ranges::all_of(list, [](double it) { return std::isfinite(it); });
-      return (good_ && finite) || fail();
-    }
-  }
-  return fail();
+  constexpr auto kAll = std::make_index_sequence<std::variant_size_v<Value>>();
+  return read_alternative(*this, index, value, kAll) || fail();
 }
 
 }  // namespace lockstep

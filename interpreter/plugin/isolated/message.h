@@ -26,11 +26,10 @@ class MessageWriter {
   // A text that may be absent, as in the descriptors.
   void put_text_or_null(const char* text);
   void put_value(const Value& value);
+  void append(const void* data, std::size_t size);
   std::span<const std::byte> bytes() const { return bytes_; }
 
  private:
-  void append(const void* data, std::size_t size);
-
   std::vector<std::byte> bytes_;  // keeps its capacity
 };
 
@@ -49,11 +48,11 @@ class MessageReader {
   bool has_text();  // what put_text_or_null wrote before the text
   // Reads into `value` and reuses its memory. Returns false if it is not a value of any type.
   bool value_into(Value& value);
+  const std::byte* take(std::size_t size);  // null: there are not so many
   std::span<const std::byte> rest() const { return rest_; }
   bool good() const { return good_; }
 
  private:
-  const std::byte* take(std::size_t size);
   bool fail();
 
   std::span<const std::byte> rest_;

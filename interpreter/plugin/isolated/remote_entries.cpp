@@ -30,7 +30,7 @@ bool RemoteEntries::read(MessageReader& message) {
     if (number >= entries_.size() || entries_[number].write == nullptr) return false;
     Entry& entry = entries_[number];
     if (!message.value_into(entry.last)) return false;
-    if (entry.last.index() != static_cast<std::size_t>(entry.type) + 1) return false;
+    if (!holds(entry.last, entry.type)) return false;
     entry.write->value = entry.last;
     ++entry.write->writes;
     entry.known = true;

@@ -70,12 +70,24 @@ enum {
 
 typedef int32_t lockstep_type;
 enum {
-  LOCKSTEP_BOOL = 1,       /* "true", "false" */
-  LOCKSTEP_INT = 2,        /* 64 bits, signed */
-  LOCKSTEP_DOUBLE = 3,     /* finite */
-  LOCKSTEP_STRING = 4,     /* UTF-8 */
-  LOCKSTEP_DOUBLE_LIST = 5 /* "0.25;0.5" */
+  LOCKSTEP_BOOL = 1,        /* "true", "false" */
+  LOCKSTEP_INT = 2,         /* 64 bits, signed */
+  LOCKSTEP_DOUBLE = 3,      /* finite */
+  LOCKSTEP_STRING = 4,      /* UTF-8 */
+  LOCKSTEP_DOUBLE_LIST = 5, /* "0.25;0.5" */
+  /* Since 1.1. */
+  LOCKSTEP_INT_LIST = 6,    /* "1;-2" */
+  LOCKSTEP_BOOL_LIST = 7,   /* "true;false" */
+  LOCKSTEP_STRING_LIST = 8, /* "front door;back door"; a backslash before ';' or '\\' keeps it */
+  LOCKSTEP_NUMBER = 100     /* of an input: a constant or an entry, int or double */
 };
+
+/* A text that is an item of a list. It need not end in a NUL; one that the host hands out does, and
+ * length does not count it. */
+typedef struct lockstep_text {
+  const char* text;
+  size_t length;
+} lockstep_text;
 
 typedef int32_t lockstep_direction;
 enum { LOCKSTEP_INPUT = 1, LOCKSTEP_OUTPUT = 2, LOCKSTEP_INOUT = 3 };
@@ -151,6 +163,21 @@ typedef struct lockstep_host {
 
   /* [any] A table of functions beyond this one, or NULL when the host does not know the id. */
   const void* (*get_extension)(const char* id);
+
+  /* [run] Since 1.1, as get and set above: a host that loads a leaf with a port of such a type has
+   * them. Of a LOCKSTEP_NUMBER, get_double reads what it is now, and get_int only an int. */
+  bool (*get_int_list)(const lockstep_caller* caller, uint32_t port, const int64_t** values,
+                       size_t* count);
+  bool (*get_bool_list)(const lockstep_caller* caller, uint32_t port, const bool** values,
+                        size_t* count);
+  bool (*get_string_list)(const lockstep_caller* caller, uint32_t port,
+                          const lockstep_text** values, size_t* count);
+  bool (*set_int_list)(const lockstep_caller* caller, uint32_t port, const int64_t* values,
+                       size_t count);
+  bool (*set_bool_list)(const lockstep_caller* caller, uint32_t port, const bool* values,
+                        size_t count);
+  bool (*set_string_list)(const lockstep_caller* caller, uint32_t port, const lockstep_text* values,
+                          size_t count);
 } lockstep_host;
 
 /* Since 1.1: what a control node or decorator does with its children, which it names by index, from

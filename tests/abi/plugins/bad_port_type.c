@@ -1,2 +1,2 @@
-#define PORT_TYPE 6
+#define PORT_TYPE 9
 #include "entry.h"

@@ -25,7 +25,15 @@ enum Port : std::uint32_t {
   kProcess,
   kSeen,
   kSpeak,
-  kGrow
+  kGrow,
+  kIntListIn,
+  kBoolListIn,
+  kStringListIn,
+  kNumberIn,
+  kIntListOut,
+  kBoolListOut,
+  kStringListOut,
+  kNumberOut
 };
 
 struct Echo {
@@ -70,6 +78,26 @@ void copy_lists(const Echo& it) {
   }
 }
 
+void copy_more(const Echo& it) {
+  const std::int64_t* numbers = nullptr;
+  const bool* flags = nullptr;
+  const lockstep_text* texts = nullptr;
+  std::size_t count = 0;
+  double number = 0;
+  if (it.host->get_int_list(it.caller, kIntListIn, &numbers, &count)) {
+    it.host->set_int_list(it.caller, kIntListOut, numbers, count);
+  }
+  if (it.host->get_bool_list(it.caller, kBoolListIn, &flags, &count)) {
+    it.host->set_bool_list(it.caller, kBoolListOut, flags, count);
+  }
+  if (it.host->get_string_list(it.caller, kStringListIn, &texts, &count)) {
+    it.host->set_string_list(it.caller, kStringListOut, texts, count);
+  }
+  if (it.host->get_double(it.caller, kNumberIn, &number)) {
+    it.host->set_double(it.caller, kNumberOut, number);
+  }
+}
+
 void grow(const Echo& it) {
   std::int64_t size = 0;
   if (!it.host->get_int(it.caller, kGrow, &size) || size == 0) return;
@@ -81,6 +109,7 @@ lockstep_status tick(void* leaf) {
   Echo& it = *static_cast<Echo*>(leaf);
   copy_scalars(it);
   copy_lists(it);
+  copy_more(it);
   grow(it);
   it.host->set_double(it.caller, kRandom, it.host->random(it.caller) + it.host->now(it.caller));
   it.host->set_int(it.caller, kProcess, getpid());
@@ -114,17 +143,26 @@ constexpr lockstep_port kPorts[] = {
     port(LOCKSTEP_INT, LOCKSTEP_OUTPUT, "seen", nullptr),
     port(LOCKSTEP_BOOL, LOCKSTEP_INPUT, "speak", "false"),
     port(LOCKSTEP_INT, LOCKSTEP_INPUT, "grow", "0"),
+    port(LOCKSTEP_INT_LIST, LOCKSTEP_INPUT, "int_list_in", "0"),
+    port(LOCKSTEP_BOOL_LIST, LOCKSTEP_INPUT, "bool_list_in", "0"),
+    port(LOCKSTEP_STRING_LIST, LOCKSTEP_INPUT, "string_list_in", "a"),
+    port(LOCKSTEP_NUMBER, LOCKSTEP_INPUT, "number_in", "0"),
+    port(LOCKSTEP_INT_LIST, LOCKSTEP_OUTPUT, "int_list_out", nullptr),
+    port(LOCKSTEP_BOOL_LIST, LOCKSTEP_OUTPUT, "bool_list_out", nullptr),
+    port(LOCKSTEP_STRING_LIST, LOCKSTEP_OUTPUT, "string_list_out", nullptr),
+    port(LOCKSTEP_DOUBLE, LOCKSTEP_OUTPUT, "number_out", nullptr),
 };
-constexpr const lockstep_port* kPortList[] = {&kPorts[0],  &kPorts[1],  &kPorts[2],  &kPorts[3],
-                                              &kPorts[4],  &kPorts[5],  &kPorts[6],  &kPorts[7],
-                                              &kPorts[8],  &kPorts[9],  &kPorts[10], &kPorts[11],
-                                              &kPorts[12], &kPorts[13], &kPorts[14]};
+constexpr const lockstep_port* kPortList[] = {
+    &kPorts[0],  &kPorts[1],  &kPorts[2],  &kPorts[3],  &kPorts[4],  &kPorts[5],
+    &kPorts[6],  &kPorts[7],  &kPorts[8],  &kPorts[9],  &kPorts[10], &kPorts[11],
+    &kPorts[12], &kPorts[13], &kPorts[14], &kPorts[15], &kPorts[16], &kPorts[17],
+    &kPorts[18], &kPorts[19], &kPorts[20], &kPorts[21], &kPorts[22]};
 
 constexpr lockstep_leaf_type kType = {sizeof(lockstep_leaf_type),
                                       LOCKSTEP_ACTION,
                                       "Echo",
                                       nullptr,
-                                      15,
+                                      23,
                                       kPortList,
                                       create,
                                       destroy,

@@ -164,7 +164,15 @@ enum EchoPort : std::size_t {
   kProcess,
   kSeen,
   kSpeak,
-  kGrow
+  kGrow,
+  kIntListIn,
+  kBoolListIn,
+  kStringListIn,
+  kNumberIn,
+  kIntListOut,
+  kBoolListOut,
+  kStringListOut,
+  kNumberOut
 };
 
 }  // namespace lockstep::test

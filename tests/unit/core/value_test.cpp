@@ -20,6 +20,10 @@ std::vector<double> list(std::initializer_list<double> numbers) {
   return numbers;
 }
 
+using Ints = std::vector<std::int64_t>;
+using Flags = std::vector<Flag>;
+using Strings = std::vector<std::string>;
+
 }  // namespace
 
 TEST_CASE("a text is a value of its type or nothing") {
@@ -51,6 +55,19 @@ TEST_CASE("a text is a value of its type or nothing") {
       {ValueType::DoubleList, " 1, 2\t3 ;4\n", list({1, 2, 3, 4})},
       {ValueType::DoubleList, "", list({})},
       {ValueType::DoubleList, "1;x", std::nullopt},
+      {ValueType::IntList, "1;-2, +3\n4;", Ints{1, -2, 3, 4}},
+      {ValueType::IntList, "", Ints{}},
+      {ValueType::IntList, "1;0.5", std::nullopt},
+      {ValueType::BoolList, "true;0, 1 false", Flags{{true}, {false}, {true}, {false}}},
+      {ValueType::BoolList, "true;2", std::nullopt},
+      {ValueType::StringList, "front door ; back, door;", Strings{"front door", "back, door"}},
+      {ValueType::StringList, " \n", Strings{}},
+      {ValueType::StringList, ";a", Strings{"", "a"}},
+      {ValueType::StringList, R"(a\;b;\ c\ \\;\)", Strings{"a;b", R"( c \)", R"(\)"}},
+      {ValueType::Number, " 3", std::int64_t{3}},
+      {ValueType::Number, "3.0", 3.0},
+      {ValueType::Number, "9223372036854775808", 9223372036854775808.0},
+      {ValueType::Number, "three", std::nullopt},
   };
   for (const auto& row : rows) {
     INFO(to_string(row.type) << " '" << row.text << "'");
@@ -70,10 +87,28 @@ TEST_CASE("a value written as text reads back to the same value") {
       {ValueType::String, std::string("a;b")},
       {ValueType::DoubleList, list({0.1, 1.0 / 3, 1})},
       {ValueType::DoubleList, list({})},
+      {ValueType::IntList, Ints{1, -2}},
+      {ValueType::BoolList, Flags{{true}, {false}}},
+      {ValueType::StringList, Strings{}},
+      {ValueType::StringList, Strings{""}},
+      {ValueType::StringList, Strings{"a", ""}},
+      {ValueType::StringList, Strings{"", "a;b", R"(c\)", " ", " \t d ", "e, f"}},
   };
   for (const auto& [type, value] : rows) {
     INFO(to_text(value));
     CHECK(parse_value(type, to_text(value)) == value);
   }
   CHECK(to_text(Value()).empty());
+}
+
+TEST_CASE("a value holds its type, and a number is an int or a double") {
+  for (const ValueType type : all_value_types()) {
+    INFO(to_string(type));
+    const auto value = parse_value(type, "1");
+    REQUIRE(value);
+    CHECK(holds(*value, type));
+    CHECK(holds(*value, ValueType::Number) ==
+          (type == ValueType::Number || type == ValueType::Int || type == ValueType::Double));
+    CHECK_FALSE(holds(Value(), type));
+  }
 }

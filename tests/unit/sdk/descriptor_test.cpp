@@ -167,5 +167,14 @@ TEST_CASE("the compiler accepts the defaults that the tree language accepts", "[
   CHECK(lockstep::detail::is_bool(text) == accepted(ValueType::Bool));
   CHECK(lockstep::detail::is_int(text) == accepted(ValueType::Int));
   CHECK(lockstep::detail::is_double(text) == accepted(ValueType::Double));
-  CHECK(lockstep::detail::is_double_list(text) == accepted(ValueType::DoubleList));
+  CHECK(lockstep::detail::PortTraits<lockstep::Number>::accepts(text) ==
+        accepted(ValueType::Number));
+  CHECK(lockstep::detail::PortTraits<std::vector<double>>::accepts(text) ==
+        accepted(ValueType::DoubleList));
+  CHECK(lockstep::detail::PortTraits<std::vector<std::int64_t>>::accepts(text) ==
+        accepted(ValueType::IntList));
+  CHECK(lockstep::detail::PortTraits<std::vector<bool>>::accepts(text) ==
+        accepted(ValueType::BoolList));
+  CHECK(lockstep::detail::PortTraits<std::vector<std::string>>::accepts(text) ==
+        accepted(ValueType::StringList));
 }

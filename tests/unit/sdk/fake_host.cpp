@@ -41,12 +41,25 @@ bool get_string(const lockstep_caller* caller, std::uint32_t port, const char** 
   return true;
 }
 
-bool get_list(const lockstep_caller* caller, std::uint32_t port, const double** values,
-              std::size_t* count) {
-  const auto* found = find<std::vector<double>>(caller, port);
+template <class List>
+bool get_list(const lockstep_caller* caller, std::uint32_t port,
+              const typename List::value_type** values, std::size_t* count) {
+  const auto* found = find<List>(caller, port);
   if (found == nullptr) return false;
   *values = found->data();
   *count = found->size();
+  return true;
+}
+
+bool get_string_list(const lockstep_caller* caller, std::uint32_t port,
+                     const lockstep_text** values, std::size_t* count) {
+  const auto* found = find<std::vector<std::string>>(caller, port);
+  if (found == nullptr) return false;
+  auto& texts = self(caller).texts;
+  texts.clear();
+  for (const std::string& text : *found) texts.push_back({text.data(), text.size()});
+  *values = texts.data();
+  *count = texts.size();
   return true;
 }
 
@@ -55,9 +68,17 @@ bool set_string(const lockstep_caller* caller, std::uint32_t port, const char* t
   return set_value(caller, port, std::string(text, length));
 }
 
-bool set_list(const lockstep_caller* caller, std::uint32_t port, const double* values,
-              std::size_t count) {
-  return set_value(caller, port, std::vector<double>(values, values + count));
+template <class List>
+bool set_list(const lockstep_caller* caller, std::uint32_t port,
+              const typename List::value_type* values, std::size_t count) {
+  return set_value(caller, port, List(values, values + count));
+}
+
+bool set_string_list(const lockstep_caller* caller, std::uint32_t port, const lockstep_text* values,
+                     std::size_t count) {
+  std::vector<std::string> list;
+  for (std::size_t i = 0; i < count; ++i) list.emplace_back(values[i].text, values[i].length);
+  return set_value(caller, port, std::move(list));
 }
 
 void set_error(const lockstep_caller* caller, const char* message) {
@@ -100,19 +121,25 @@ const lockstep_host& FakeHost::table() {
                                        get<std::int64_t>,
                                        get<double>,
                                        get_string,
-                                       get_list,
+                                       get_list<std::vector<double>>,
                                        set<bool>,
                                        set<std::int64_t>,
                                        set<double>,
                                        set_string,
-                                       set_list,
+                                       set_list<std::vector<double>>,
                                        set_error,
                                        now,
                                        tick_period,
                                        random_bits,
                                        random_double,
                                        log,
-                                       get_extension};
+                                       get_extension,
+                                       get_list<std::vector<std::int64_t>>,
+                                       get_list<Flags>,
+                                       get_string_list,
+                                       set_list<std::vector<std::int64_t>>,
+                                       set_list<Flags>,
+                                       set_string_list};
   return kTable;
 }
 

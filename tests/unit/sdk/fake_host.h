@@ -13,8 +13,10 @@
 
 namespace sdk_test {
 
+using Flags = std::basic_string<bool>;  // std::vector<bool> has no array of them
 using PortValue =
-    std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<double>>;
+    std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<double>,
+                 std::vector<std::int64_t>, Flags, std::vector<std::string>>;
 
 struct FakeHost {
   std::vector<PortValue> ports;  // by index; monostate: no value
@@ -23,6 +25,7 @@ struct FakeHost {
   std::vector<std::string> lines;
   std::uint64_t draws = 0;
   double time = 0;
+  std::vector<lockstep_text> texts;  // of the list that was read last
 
   const lockstep_caller* caller() const { return reinterpret_cast<const lockstep_caller*>(this); }
   static const lockstep_host& table();

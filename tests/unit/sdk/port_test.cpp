@@ -163,3 +163,69 @@ TEST_CASE("a constructor may use ports and services", "[sdk]") {
 TEST_CASE("a leaf is created by its host only", "[sdk]") {
   CHECK_THROWS_WITH(Probe(), "a leaf can only be created by its host");
 }
+
+namespace {
+
+struct MorePorts : lockstep::Ports {
+  InOut<std::vector<std::int64_t>> steps{this, "steps", "1;-2", ""};
+  InOut<std::vector<bool>> flags{this, "flags", "true 0", ""};
+  InOut<std::vector<std::string>> doors{this, "doors", "red;blue", ""};
+  Input<lockstep::Number> number{this, "number", "0.5", ""};
+};
+
+class More : public lockstep::Action<MorePorts> {
+ public:
+  Status tick() override {
+    work(*this);
+    return Status::Success;
+  }
+  static inline std::function<void(More&)> work;
+};
+
+constexpr lockstep_leaf_type kMore = lockstep::leaf<More>("More", "");
+
+}  // namespace
+
+TEST_CASE("lists are read and written", "[sdk]") {
+  using Strings = std::vector<std::string>;
+  FakeLeaf leaf(kMore, {std::vector<std::int64_t>{4, 5}, sdk_test::Flags{true, false, true},
+                        Strings{"a", ""}, std::int64_t{3}});
+  More::work = [](More& it) {
+    CHECK(it.steps.get() == std::vector<std::int64_t>{4, 5});
+    CHECK(it.steps.view()[1] == 5);
+    CHECK(it.flags.get() == std::vector<bool>{true, false, true});
+    CHECK(it.flags.view()[1] == false);
+    CHECK(it.doors.get() == Strings{"a", ""});
+    CHECK(it.doors.view().size() == 2);
+    CHECK(it.doors.view()[0] == "a");
+    CHECK(it.steps.set({7}));
+    CHECK(it.flags.set({false, true}));
+    CHECK(it.doors.set({"red", "a;b"}));
+  };
+  CHECK(leaf.tick() == LOCKSTEP_SUCCESS);
+  CHECK(leaf.host.take_error().empty());
+  CHECK(leaf.host.ports[0] == PortValue(std::vector<std::int64_t>{7}));
+  CHECK(leaf.host.ports[1] == PortValue(sdk_test::Flags{false, true}));
+  CHECK(leaf.host.ports[2] == PortValue(Strings{"red", "a;b"}));
+}
+
+TEST_CASE("a number is an int or a double", "[sdk]") {
+  FakeLeaf leaf(kMore, {{}, {}, {}, std::int64_t{1} << 60});
+  More::work = [](More& it) {
+    CHECK(it.number.get().is_int());
+    CHECK(it.number.get().to_int() == std::int64_t{1} << 60);
+    CHECK(it.number.get() > 1e18);
+  };
+  leaf.tick();
+  leaf.host.ports[3] = 2.75;
+  More::work = [](More& it) {
+    CHECK_FALSE(it.number.get().is_int());
+    CHECK(it.number.get().to_int() == 2);
+    CHECK(it.number.get() == 2.75);
+  };
+  leaf.tick();
+  leaf.host.ports[3] = {};
+  More::work = [](More& it) { CHECK(it.number.try_get() == std::nullopt); };
+  leaf.tick();
+  CHECK(leaf.host.take_error().empty());
+}

@@ -112,7 +112,8 @@ constexpr lockstep_port describe(lockstep_direction direction, const char* name,
 // Refuses what was meant as a default: a doc that is a value.
 template <class T>
 constexpr lockstep_port describe_output(const char* name, const char* doc, const char* unit) {
-  constexpr bool kIsText = PortTraits<T>::kType == LOCKSTEP_STRING;
+  constexpr auto kType = PortTraits<T>::kType;
+  constexpr bool kIsText = kType == LOCKSTEP_STRING || kType == LOCKSTEP_STRING_LIST;
   const bool is_value = is_double(doc) || (!kIsText && *doc != '\0' && PortTraits<T>::accepts(doc));
   if (is_value) error_an_output_has_no_default();
   return describe<T>(LOCKSTEP_OUTPUT, name, doc, unit);
@@ -133,8 +134,8 @@ class ReadablePort : public Port {
     return from_view<T>(value);
   }
 
-  // As get, without a copy: a std::string_view or a ListView, valid until a port is set or the
-  // function of the leaf returns.
+  // As get, without a copy: a std::string_view or a view of a list, valid until a port is set or
+  // the function of the leaf returns.
   View view() const {
     View value{};
     if (!PortTraits<T>::get(caller(), index(), value)) {
@@ -163,6 +164,8 @@ class Input : public detail::ReadablePort<T> {
 
 template <class T>
 class Output : public detail::Port {
+  static_assert(!std::is_same_v<T, Number>, "an output is an int or a double, not either");
+
  public:
   constexpr Output(Ports* owner, const char* name, const char* doc, const char* unit = "")
       : Port(owner, detail::describe_output<T>(name, doc, unit)) {}
@@ -174,6 +177,8 @@ class Output : public detail::Port {
 
 template <class T>
 class InOut : public detail::ReadablePort<T> {
+  static_assert(!std::is_same_v<T, Number>, "an output is an int or a double, not either");
+
  public:
   // The default is used until the entry is written; without an entry the port can be read but not
   // set.

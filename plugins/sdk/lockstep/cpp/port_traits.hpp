@@ -1,11 +1,13 @@
-// The five types that a port may have, each with its functions of the host. Included by
-// cpp/port.hpp.
+// The types that a port may have, each with its functions of the host. Included by cpp/port.hpp.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "caller.hpp"
@@ -14,22 +16,77 @@
 namespace lockstep {
 inline namespace sdk1 {
 
-// Numbers that belong to the host: a list port, read without a copy.
-class ListView {
+// Items that belong to the host: a list port, read without a copy.
+template <class Item>
+class BasicListView {
  public:
-  constexpr ListView() = default;
-  constexpr ListView(const double* data, std::size_t size) : data_(data), size_(size) {}
+  constexpr BasicListView() = default;
+  constexpr BasicListView(const Item* data, std::size_t size) : data_(data), size_(size) {}
 
-  constexpr const double* begin() const { return data_; }
-  constexpr const double* end() const { return data_ + size_; }
-  constexpr const double* data() const { return data_; }
+  constexpr const Item* begin() const { return data_; }
+  constexpr const Item* end() const { return data_ + size_; }
+  constexpr const Item* data() const { return data_; }
   constexpr std::size_t size() const { return size_; }
   constexpr bool empty() const { return size_ == 0; }
-  constexpr double operator[](std::size_t index) const { return data_[index]; }
+  constexpr Item operator[](std::size_t index) const { return data_[index]; }
 
  private:
-  const double* data_ = nullptr;
+  const Item* data_ = nullptr;
   std::size_t size_ = 0;
+};
+
+using ListView = BasicListView<double>;
+
+// The same of strings, whose items are std::string_views.
+class StringListView {
+ public:
+  class Iterator {
+   public:
+    explicit Iterator(const lockstep_text* item) : item_(item) {}
+    std::string_view operator*() const { return {item_->text, item_->length}; }
+    Iterator& operator++() {
+      ++item_;
+      return *this;
+    }
+    bool operator!=(const Iterator& other) const { return item_ != other.item_; }
+
+   private:
+    const lockstep_text* item_;
+  };
+
+  StringListView() = default;
+  StringListView(const lockstep_text* data, std::size_t size) : data_(data), size_(size) {}
+
+  Iterator begin() const { return Iterator(data_); }
+  Iterator end() const { return Iterator(data_ + size_); }
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  std::string_view operator[](std::size_t index) const { return *Iterator(data_ + index); }
+
+ private:
+  const lockstep_text* data_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+// What a port reads that takes an int or a double.
+class Number {
+ public:
+  constexpr Number() = default;
+  constexpr Number(std::int64_t value) : whole_(value), is_int_(true) {}  // NOLINT: a number
+  constexpr Number(double value) : number_(value), is_int_(false) {}      // NOLINT: is a number
+  constexpr bool is_int() const { return is_int_; }
+  constexpr operator double() const {  // NOLINT: in either case
+    return is_int_ ? static_cast<double>(whole_) : number_;
+  }
+  // Exactly, if it is an int; else without what comes after the point.
+  constexpr std::int64_t to_int() const {
+    return is_int_ ? whole_ : static_cast<std::int64_t>(number_);
+  }
+
+ private:
+  std::int64_t whole_ = 0;
+  double number_ = 0;
+  bool is_int_ = true;
 };
 
 namespace detail {
@@ -37,45 +94,53 @@ namespace detail {
 template <class T>
 struct PortTraits {
   static_assert(sizeof(T) == 0,
-                "a port is of type bool, std::int64_t, double, std::string or std::vector<double>");
+                "a port is of type bool, std::int64_t, double, std::string, lockstep::Number or a "
+                "std::vector of one of the first four");
 };
 
-template <>
-struct PortTraits<bool> {
-  using View = bool;
-  static constexpr lockstep_type kType = LOCKSTEP_BOOL;
-  static constexpr bool accepts(std::string_view text) { return is_bool(text); }
+// What `kGet` and `kSet` of the host exchange as they are.
+template <class T, lockstep_type kOfType, auto kGet, auto kSet, bool (*kAccepts)(std::string_view)>
+struct ScalarTraits {
+  using View = T;
+  static constexpr lockstep_type kType = kOfType;
+  static constexpr bool accepts(std::string_view text) { return kAccepts(text); }
   static bool get(const Caller& caller, std::uint32_t port, View& value) {
-    return caller.host->get_bool(caller.id, port, &value);
+    return (caller.host->*kGet)(caller.id, port, &value);
   }
   static bool set(const Caller& caller, std::uint32_t port, View value) {
-    return caller.host->set_bool(caller.id, port, value);
+    return (caller.host->*kSet)(caller.id, port, value);
   }
 };
 
 template <>
-struct PortTraits<std::int64_t> {
-  using View = std::int64_t;
-  static constexpr lockstep_type kType = LOCKSTEP_INT;
-  static constexpr bool accepts(std::string_view text) { return is_int(text); }
-  static bool get(const Caller& caller, std::uint32_t port, View& value) {
-    return caller.host->get_int(caller.id, port, &value);
-  }
-  static bool set(const Caller& caller, std::uint32_t port, View value) {
-    return caller.host->set_int(caller.id, port, value);
-  }
-};
+struct PortTraits<bool> : ScalarTraits<bool, LOCKSTEP_BOOL, &lockstep_host::get_bool,
+                                       &lockstep_host::set_bool, is_bool> {};
 
 template <>
-struct PortTraits<double> {
-  using View = double;
-  static constexpr lockstep_type kType = LOCKSTEP_DOUBLE;
+struct PortTraits<std::int64_t> : ScalarTraits<std::int64_t, LOCKSTEP_INT, &lockstep_host::get_int,
+                                               &lockstep_host::set_int, is_int> {};
+
+template <>
+struct PortTraits<double> : ScalarTraits<double, LOCKSTEP_DOUBLE, &lockstep_host::get_double,
+                                         &lockstep_host::set_double, is_double> {};
+
+// Only of an input.
+template <>
+struct PortTraits<Number> {
+  using View = Number;
+  static constexpr lockstep_type kType = LOCKSTEP_NUMBER;
   static constexpr bool accepts(std::string_view text) { return is_double(text); }
   static bool get(const Caller& caller, std::uint32_t port, View& value) {
-    return caller.host->get_double(caller.id, port, &value);
-  }
-  static bool set(const Caller& caller, std::uint32_t port, View value) {
-    return caller.host->set_double(caller.id, port, value);
+    std::int64_t whole = 0;
+    double number = 0;
+    if (caller.host->get_int(caller.id, port, &whole)) {
+      value = whole;
+    } else if (caller.host->get_double(caller.id, port, &number)) {
+      value = number;
+    } else {
+      return false;
+    }
+    return true;
   }
 };
 
@@ -96,20 +161,61 @@ struct PortTraits<std::string> {
   }
 };
 
-template <>
-struct PortTraits<std::vector<double>> {
-  using View = ListView;
-  static constexpr lockstep_type kType = LOCKSTEP_DOUBLE_LIST;
-  static constexpr bool accepts(std::string_view text) { return is_double_list(text); }
+template <class Item, lockstep_type kOfType, auto kGet, auto kSet,
+          bool (*kAccepts)(std::string_view)>
+struct ListTraits {
+  using View = BasicListView<Item>;
+  static constexpr lockstep_type kType = kOfType;
+  static constexpr bool accepts(std::string_view text) { return is_list(text, kAccepts); }
   static bool get(const Caller& caller, std::uint32_t port, View& value) {
-    const double* data = nullptr;
+    const Item* data = nullptr;
     std::size_t size = 0;
-    if (!caller.host->get_double_list(caller.id, port, &data, &size)) return false;
+    if (!(caller.host->*kGet)(caller.id, port, &data, &size)) return false;
     value = View(data, size);
     return true;
   }
-  static bool set(const Caller& caller, std::uint32_t port, const std::vector<double>& value) {
-    return caller.host->set_double_list(caller.id, port, value.data(), value.size());
+  static bool set(const Caller& caller, std::uint32_t port, const std::vector<Item>& value) {
+    if constexpr (std::is_same_v<Item, bool>) {
+      const std::unique_ptr<bool[]> flags(new bool[value.size()]);  // NOLINT: std::vector has none
+      std::copy(value.begin(), value.end(), flags.get());
+      return (caller.host->*kSet)(caller.id, port, flags.get(), value.size());
+    } else {
+      return (caller.host->*kSet)(caller.id, port, value.data(), value.size());
+    }
+  }
+};
+
+template <>
+struct PortTraits<std::vector<double>>
+    : ListTraits<double, LOCKSTEP_DOUBLE_LIST, &lockstep_host::get_double_list,
+                 &lockstep_host::set_double_list, is_double> {};
+
+template <>
+struct PortTraits<std::vector<std::int64_t>>
+    : ListTraits<std::int64_t, LOCKSTEP_INT_LIST, &lockstep_host::get_int_list,
+                 &lockstep_host::set_int_list, is_int> {};
+
+template <>
+struct PortTraits<std::vector<bool>>
+    : ListTraits<bool, LOCKSTEP_BOOL_LIST, &lockstep_host::get_bool_list,
+                 &lockstep_host::set_bool_list, is_bool> {};
+
+template <>
+struct PortTraits<std::vector<std::string>> {
+  using View = StringListView;
+  static constexpr lockstep_type kType = LOCKSTEP_STRING_LIST;
+  static constexpr bool accepts(std::string_view) { return true; }
+  static bool get(const Caller& caller, std::uint32_t port, View& value) {
+    const lockstep_text* data = nullptr;
+    std::size_t size = 0;
+    if (!caller.host->get_string_list(caller.id, port, &data, &size)) return false;
+    value = View(data, size);
+    return true;
+  }
+  static bool set(const Caller& caller, std::uint32_t port, const std::vector<std::string>& value) {
+    std::vector<lockstep_text> texts;
+    for (const std::string& text : value) texts.push_back({text.data(), text.size()});
+    return caller.host->set_string_list(caller.id, port, texts.data(), texts.size());
   }
 };
 
@@ -121,9 +227,15 @@ template <class T>
 std::string from_view(std::string_view value) {
   return std::string(value);
 }
+template <class T, class Item>
+T from_view(BasicListView<Item> value) {
+  return T(value.begin(), value.end());
+}
 template <class T>
-std::vector<double> from_view(ListView value) {
-  return std::vector<double>(value.begin(), value.end());
+T from_view(StringListView value) {
+  T texts;
+  for (const std::string_view text : value) texts.emplace_back(text);
+  return texts;
 }
 
 }  // namespace detail

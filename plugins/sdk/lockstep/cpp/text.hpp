@@ -104,7 +104,8 @@ constexpr bool is_bool(std::string_view text) {
   return text == "true" || text == "false" || text == "1" || text == "0";
 }
 
-constexpr bool is_double_list(std::string_view text) {
+// Items of which `is_item` is true, separated by ; or , or blanks.
+constexpr bool is_list(std::string_view text, bool (*is_item)(std::string_view)) {
   constexpr std::string_view kSeparators = ";, \t\r\n";
   while (true) {
     const auto first = text.find_first_not_of(kSeparators);
@@ -112,7 +113,7 @@ constexpr bool is_double_list(std::string_view text) {
     text.remove_prefix(first);
     const auto found = text.find_first_of(kSeparators);
     const auto length = found == std::string_view::npos ? text.size() : found;
-    if (!is_double(text.substr(0, length))) return false;
+    if (!is_item(text.substr(0, length))) return false;
     text.remove_prefix(length);
   }
 }

@@ -17,7 +17,10 @@ const std::vector<Value> kValues{Value(),
                                  Value(std::string()),
                                  Value(std::string("a\0b", 3)),
                                  Value(std::vector<double>{}),
-                                 Value(std::vector<double>{1, -2.5})};
+                                 Value(std::vector<double>{1, -2.5}),
+                                 Value(std::vector<std::int64_t>{1, -2}),
+                                 Value(std::vector<Flag>{{true}, {false}}),
+                                 Value(std::vector<std::string>{"a", "", "b;"})};
 
 MessageWriter written() {
   MessageWriter message;
@@ -72,10 +75,10 @@ TEST_CASE("message: numbers that are not finite are no values") {
 }
 
 TEST_CASE("message: sizes beyond the message are not believed") {
-  for (const auto type : {std::uint8_t{4}, std::uint8_t{5}}) {
+  for (const auto type : {4, 5, 6, 7, 8}) {
     for (const std::uint64_t size : {std::uint64_t{9}, std::uint64_t{1} << 61, ~std::uint64_t{0}}) {
       MessageWriter message;
-      message.put(type);
+      message.put(static_cast<std::uint8_t>(type));
       message.put(size);
       message.put(std::uint64_t{0});
       CHECK(read_values(message.bytes(), 1).empty());
