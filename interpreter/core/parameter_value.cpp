@@ -56,6 +56,12 @@ std::optional<RuleBreak> refuse_value(const Parameter& parameter, const Value& v
       .hint = "it must be one of " + listed(parameter.choices)};
 }
 
+std::string refusal_text(const RuleBreak& why, std::string_view parameter, const Value& value,
+                         std::string_view entry) {
+  return fmt::format("{}: '{}' is '{}', from the entry '{{{}}}'{}{}", why.message, parameter,
+                     brief(to_text(value)), brief(entry), why.hint.empty() ? "" : "; ", why.hint);
+}
+
 std::string range_text(const Range& range) {
   const bool has_min = std::isfinite(range.min);
   const bool has_max = std::isfinite(range.max);

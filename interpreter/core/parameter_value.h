@@ -12,6 +12,11 @@ namespace lockstep {
 // choices. The message does not mention where the value comes from.
 std::optional<RuleBreak> refuse_value(const Parameter& parameter, const Value& value);
 
+// The same as a text, with the value of the entry that a run has read: what, parameter, value,
+// entry, hint.
+std::string refusal_text(const RuleBreak& why, std::string_view parameter, const Value& value,
+                         std::string_view entry);
+
 // "from 0 to 1", "more than 0, at most 1", …; "" when every number is allowed.
 std::string range_text(const Range& range);
 

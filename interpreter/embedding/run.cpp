@@ -82,12 +82,12 @@ bool write(Entry& entry, Value value) {
 }
 
 template <class T>
-bool set(lockstep_run* run, const char* key, ValueType type, T value) {
+bool set(lockstep_run* run, const char* key, T value) {
   return guarded([&] {
     Entry* const entry = find_entry(run, key);
     if (entry == nullptr) return false;
     const ValueType expected = type_of(run, *entry);
-    if (expected != type) {
+    if (!holds(Value(value), expected)) {
       return fail(fmt::format("the entry '{}' is of type {}", key, to_string(expected)));
     }
     if constexpr (std::is_same_v<T, double>) {
@@ -300,13 +300,13 @@ bool lockstep_run_set_text(lockstep_run* run, const char* key, const char* text)
   });
 }
 bool lockstep_run_set_bool(lockstep_run* run, const char* key, bool value) {
-  return set(run, key, ValueType::Bool, value);
+  return set(run, key, value);
 }
 bool lockstep_run_set_int(lockstep_run* run, const char* key, int64_t value) {
-  return set(run, key, ValueType::Int, value);
+  return set(run, key, value);
 }
 bool lockstep_run_set_double(lockstep_run* run, const char* key, double value) {
-  return set(run, key, ValueType::Double, value);
+  return set(run, key, value);
 }
 
 bool lockstep_run_observe(lockstep_run* run, lockstep_observe observe, void* user) {

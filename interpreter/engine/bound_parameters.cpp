@@ -98,18 +98,15 @@ std::optional<RuleBreak> BoundParameters::refuse_resources(const BoundNode& node
 
 std::string BoundParameters::refusal(const BoundNode& node, unsigned parameter,
                                      const RuleBreak& why) const {
-  std::string text = why.message;
   const NodeType& type = node.kind->type;
   if (parameter < type.parameters.size()) {
     const std::uint32_t slot = tree_.ports[node.first_port + parameter].slot;
     if (slot != PortBinding::kUnbound) {
-      text += ": '" + std::string(type.parameters[parameter].name) + "' is '" +
-              to_text(board_.entries[slot].value) + "', from the entry '{" +
-              tree_.slots[slot].name + "}'";
+      return refusal_text(why, type.parameters[parameter].name, board_.entries[slot].value,
+                          tree_.slots[slot].name);
     }
   }
-  if (!why.hint.empty()) text += "; " + why.hint;
-  return text;
+  return why.hint.empty() ? why.message : why.message + "; " + why.hint;
 }
 
 void BoundParameters::set_cells(const BoundNode& node, Values& values) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -25,7 +26,8 @@ struct Descriptors {
   HostedPlugin plugin{};
   struct Leaf {
     lockstep_leaf_type type{};
-    std::vector<Parameter> parameters;  // its ports, in order
+    std::vector<Parameter> parameters;                  // its ports, in order
+    std::deque<std::vector<std::string_view>> choices;  // of its parameters
     NodeType node_type{};
   };
   std::vector<std::unique_ptr<Leaf>> leaves;

@@ -69,11 +69,12 @@ std::optional<Problem> check_leaf(const lockstep_leaf_type& leaf) {
   return std::nullopt;
 }
 
-std::optional<Problem> read_ports(const lockstep_leaf_type& leaf, std::vector<Parameter>& ports) {
+std::optional<Problem> read_ports(const lockstep_leaf_type& leaf, Descriptors::Leaf& into) {
+  std::vector<Parameter>& ports = into.parameters;
   ports.reserve(leaf.port_count);
   for (std::uint32_t index = 0; index < leaf.port_count; ++index) {
     Parameter port{};
-    if (auto refusal = read_port(leaf.ports[index], ports, port)) {
+    if (auto refusal = read_port(leaf.ports[index], ports, into.choices.emplace_back(), port)) {
       return Problem{fmt::format("('{}'): port {} {}", leaf.id, index, refusal->message),
                      std::move(refusal->hint)};
     }
@@ -93,7 +94,7 @@ std::optional<Problem> read_leaf(const lockstep_leaf_type* from, Descriptors::Le
   }
   leaf.type = covered_copy(from, from->struct_size);
   if (auto refusal = check_leaf(leaf.type)) return refusal;
-  return read_ports(leaf.type, leaf.parameters);
+  return read_ports(leaf.type, leaf);
 }
 
 }  // namespace lockstep

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "core/diagnostics.h"
 #include "core/identifier.h"
+#include "core/parameter_value.h"
 #include "plugin/descriptor.h"
 
 namespace lockstep {
@@ -50,7 +52,7 @@ std::optional<Problem> check_name(const lockstep_port& port, std::span<const Par
   return std::nullopt;
 }
 
-std::optional<Problem> check_default(const lockstep_port& port, ValueType type) {
+std::optional<Problem> check_default(const lockstep_port& port, const Parameter& parameter) {
   if (port.default_value == nullptr) return std::nullopt;
   const std::string_view text = port.default_value;
   if (port.direction == LOCKSTEP_OUTPUT) {
@@ -58,12 +60,63 @@ std::optional<Problem> check_default(const lockstep_port& port, ValueType type) 
                    "only an input or inout port has a default"};
   }
   const bool is_key = text.size() > 1 && text.front() == '{' && text.back() == '}';
-  if (is_key || !parse_value(type, text)) {
+  const auto value = parse_value(parameter.type, text);
+  if (is_key || !value) {
     return Problem{fmt::format("('{}') has the default '{}', expected {}", port.name, text,
-                               expected_text(type)),
+                               expected_text(parameter.type)),
                    "a default is a constant, written as in a tree"};
   }
+  if (auto refused = refuse_value(parameter, *value)) {
+    return Problem{
+        fmt::format("('{}') has the default '{}': {}", port.name, text, refused->message),
+        std::move(refused->hint)};
+  }
   return std::nullopt;
+}
+
+std::vector<std::string_view> words_of(const char* choices) {
+  std::vector<std::string_view> words;
+  for (std::string_view rest = text_or_empty(choices); !rest.empty();) {
+    const auto length = std::min(rest.find(';'), rest.size());
+    words.push_back(rest.substr(0, length));
+    rest.remove_prefix(std::min(length + 1, rest.size()));
+  }
+  return words;
+}
+
+std::optional<Problem> check_choices(const lockstep_port& port, ValueType type,
+                                     std::vector<std::string_view> words) {
+  if (words.empty()) return std::nullopt;
+  if (type != ValueType::String) {
+    return Problem{fmt::format("('{}') has choices, but is not a string", port.name),
+                   "only a LOCKSTEP_STRING has choices"};
+  }
+  std::ranges::sort(words);
+  const bool has_twice = std::ranges::adjacent_find(words) != words.end();
+  const bool has_odd = std::ranges::any_of(words, [](std::string_view word) {
+    return word.empty() || word != printable(word) || word.front() == ' ' || word.back() == ' ' ||
+           word.front() == '{';
+  });
+  if (!has_twice && !has_odd) return std::nullopt;
+  return Problem{fmt::format("('{}') has the choices '{}'", port.name, printable(port.choices)),
+                 "choices are different words, separated by ';' only"};
+}
+
+bool has_range(const lockstep_port& port) {
+  return port.min != 0 || port.max != 0;
+}
+
+std::optional<Problem> check_range(const lockstep_port& port, ValueType type) {
+  if (!has_range(port)) return std::nullopt;
+  constexpr ValueType kNumbers[] = {ValueType::Number, ValueType::Int, ValueType::Double,
+                                    ValueType::IntList, ValueType::DoubleList};
+  if (std::ranges::find(kNumbers, type) == std::end(kNumbers)) {
+    return Problem{fmt::format("('{}') has min and max, but is not a number", port.name),
+                   "only numbers and lists of them have min and max"};
+  }
+  if (port.min <= port.max) return std::nullopt;
+  return Problem{fmt::format("('{}') has min {} and max {}", port.name, port.min, port.max),
+                 "min is at most max; use HUGE_VAL for no upper end"};
 }
 
 std::optional<Problem> check(const lockstep_port& port, std::span<const Parameter> others) {
@@ -81,7 +134,7 @@ std::optional<Problem> check(const lockstep_port& port, std::span<const Paramete
     return Problem{fmt::format("('{}') is an output of type LOCKSTEP_NUMBER", port.name),
                    "an output is an int or a double, so that others know what they read"};
   }
-  return check_default(port, *type);
+  return check_range(port, *type);
 }
 
 }  // namespace
@@ -97,7 +150,7 @@ bool is_plugin_name(std::string_view name) {
 }
 
 std::optional<Problem> read_port(const lockstep_port* from, std::span<const Parameter> others,
-                                 Parameter& port) {
+                                 std::vector<std::string_view>& choices, Parameter& port) {
   if (from == nullptr) return Problem{"is NULL", "list port_count ports"};
   if (from->struct_size < kSizeIn10) {
     return Problem{
@@ -106,14 +159,18 @@ std::optional<Problem> read_port(const lockstep_port* from, std::span<const Para
   }
   const lockstep_port copy = covered_copy(from, from->struct_size);
   if (auto refusal = check(copy, others)) return refusal;
+  choices = words_of(copy.choices);
+  if (auto refusal = check_choices(copy, *type_of(copy.type), choices)) return refusal;
   port = Parameter{.name = copy.name,
                    .type = *type_of(copy.type),
                    .doc = text_or_empty(copy.doc),
                    .required = copy.default_value == nullptr && copy.direction != LOCKSTEP_OUTPUT,
                    .direction = static_cast<Direction>(copy.direction - 1),
-                   .unit = text_or_empty(copy.unit)};
+                   .unit = text_or_empty(copy.unit),
+                   .choices = choices};
+  if (has_range(copy)) port.range = {.min = copy.min, .max = copy.max};
   if (copy.default_value != nullptr) port.default_text = copy.default_value;
-  return std::nullopt;
+  return check_default(copy, port);
 }
 
 }  // namespace lockstep

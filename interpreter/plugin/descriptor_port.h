@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/node_type.h"
 #include "core/problem.h"
@@ -16,7 +17,8 @@ inline constexpr std::uint32_t kMaxDescriptorCount = 4096;  // of leaves, and of
 bool is_attribute_name(std::string_view text);
 
 // `others` are the ports before it. The message says what is wrong with "it".
+// The words that it may be are put into `choices`, and the port refers to them.
 std::optional<Problem> read_port(const lockstep_port* from, std::span<const Parameter> others,
-                                 Parameter& port);
+                                 std::vector<std::string_view>& choices, Parameter& port);
 
 }  // namespace lockstep

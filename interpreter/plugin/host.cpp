@@ -8,6 +8,7 @@
 #include <new>
 
 #include "core/fork_guard.h"
+#include "core/parameter_value.h"
 #include "core/utf8.h"
 #include "core/wording.h"
 #include "plugin/held.h"
@@ -21,6 +22,22 @@ lockstep_caller& mine(const lockstep_caller* caller) {
   return const_cast<lockstep_caller&>(*caller);  // NOLINT: every caller is made non-constant
 }
 
+// False: the entry has a value that the port does not take, which is an error of the caller.
+bool may_be_read(const lockstep_caller& caller, const BoundPort& port) {
+  const auto why = refuse_value(*port.limits, *port.read);
+  if (why) take_error(caller, Shortened(refusal_text(*why, port.name, *port.read, port.entry)));
+  return !why;
+}
+
+// The same of a value that the caller sets.
+bool may_be_set(const lockstep_caller& caller, std::uint32_t port, const Value& value) {
+  const auto why = refuse_value(*caller.ports[port].limits, value);
+  if (why)
+    take_error(caller, Shortened(fmt::format("cannot set '{}': {}; {}", caller.ports[port].name,
+                                             why->message, why->hint)));
+  return !why;
+}
+
 // The port's value when it has one of this type.
 template <class T>
 const T* readable(const lockstep_caller* caller, std::uint32_t port) {
@@ -28,6 +45,7 @@ const T* readable(const lockstep_caller* caller, std::uint32_t port) {
   const BoundPort& it = caller->ports[port];
   if (it.read == nullptr) return nullptr;
   const T* const found = std::get_if<T>(it.read);
+  if (found != nullptr && it.limits != nullptr && !may_be_read(*caller, it)) return nullptr;
   if (found != nullptr || it.fallback == nullptr) return found;
   return std::holds_alternative<NoValue>(*it.read) ? std::get_if<T>(it.fallback) : nullptr;
 }
@@ -110,11 +128,19 @@ constexpr ValueType type_of() {
   }
 }
 
+// What the caller sets there is to be checked first.
+bool has_limits(const lockstep_caller* caller, std::uint32_t port) {
+  if (caller->is_foreign() || port >= caller->ports.size()) return false;
+  const Parameter* const limits = caller->ports[port].limits;
+  return limits != nullptr && limits->direction != Direction::Input;
+}
+
 template <class T>
 bool set(const lockstep_caller* caller, std::uint32_t port, T value) {
   if constexpr (std::is_same_v<T, double>) {
     if (!std::isfinite(value)) return false;
   }
+  if (has_limits(caller, port) && !may_be_set(*caller, port, Value(value))) return false;
   Value* const target = writable(caller, port, type_of<T>());
   if (target != nullptr) target->emplace<T>(value);
   return target != nullptr;
@@ -123,9 +149,13 @@ bool set(const lockstep_caller* caller, std::uint32_t port, T value) {
 bool set_string(const lockstep_caller* caller, std::uint32_t port, const char* text,
                 std::size_t length) {
   if (text == nullptr && length != 0) return false;
-  Value* const target = writable(caller, port, ValueType::String);
-  if (target == nullptr) return false;
   try {
+    const bool is_limited = has_limits(caller, port);
+    if (is_limited && !may_be_set(*caller, port, std::string(length == 0 ? "" : text, length))) {
+      return false;
+    }
+    Value* const target = writable(caller, port, ValueType::String);
+    if (target == nullptr) return false;
     // Also right when the text is (a part of) this entry's own.
     held<std::string>(*target).assign(length == 0 ? "" : text, length);
   } catch (const std::exception&) {
@@ -144,11 +174,15 @@ bool set_list(const lockstep_caller* caller, std::uint32_t port, const Item* ite
       return false;
     }
   }
-  Value* const target = writable(caller, port, type_of<std::vector<T>>());
-  if (target == nullptr) return false;
   try {
-    auto& list = held<std::vector<T>>(*target);
     const auto* const values = reinterpret_cast<const T*>(items);
+    if (has_limits(caller, port) &&
+        !may_be_set(*caller, port, std::vector<T>(values, values + count))) {
+      return false;
+    }
+    Value* const target = writable(caller, port, type_of<std::vector<T>>());
+    if (target == nullptr) return false;
+    auto& list = held<std::vector<T>>(*target);
     if (count > list.size()) {
       list.assign(values, values + count);
     } else {
@@ -235,6 +269,11 @@ Shortened with_entry(const lockstep_caller& caller, const Shortened& message) {
 }
 
 }  // namespace
+
+const Parameter* limits_of(const Parameter& port) {
+  const bool has_range = std::isfinite(port.range.min) || std::isfinite(port.range.max);
+  return has_range || !port.choices.empty() ? &port : nullptr;
+}
 
 void take_error(const lockstep_caller& caller, const Shortened& message) {
   lockstep_caller& it = mine(&caller);

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/node_type.h"
 #include "core/random.h"
 #include "core/shortened.h"
 #include "core/value.h"
@@ -24,8 +25,9 @@ struct BoundPort {
   const Value* read = nullptr;      // null: no value
   Entry* write = nullptr;           // null: an input, or not bound to an entry
   const Value* fallback = nullptr;  // the default, while the entry that it is bound to has no value
-  std::string_view name = {};       // unknown in a process that only mirrors the entries
+  std::string_view name = {};
   std::string_view entry = {};
+  const Parameter* limits = nullptr;      // null: it takes every value of its type
   std::vector<lockstep_text> texts = {};  // the list of strings that was handed out last
 };
 
@@ -57,6 +59,8 @@ namespace lockstep {
 // What set_error does after shortening the message; the first error of a call is kept.
 void take_error(const lockstep_caller& caller, const Shortened& message);
 
+// The port's declaration if it does not take every value of its type, else null.
+const Parameter* limits_of(const Parameter& port);
 // Where the node's ports read and write.
 std::vector<BoundPort> bind_ports(const Tree& tree, const LeafNode& node, Blackboard& blackboard);
 // Its children in the tree, in order.

@@ -39,7 +39,7 @@ std::vector<BoundPort> bind_ports(const Tree& tree, const LeafNode& leaf, Blackb
   for (std::size_t index = 0; index < leaf.type->parameters.size(); ++index) {
     const PortBinding& binding = tree.ports[leaf.first_port + index];
     const Parameter& parameter = leaf.type->parameters[index];
-    BoundPort port{.type = parameter.type, .name = parameter.name};
+    BoundPort port{.type = parameter.type, .name = parameter.name, .limits = limits_of(parameter)};
     const Value* const constant =
         binding.constant != PortBinding::kUnbound ? &tree.constants[binding.constant] : nullptr;
     if (binding.slot != PortBinding::kUnbound) {

@@ -28,6 +28,7 @@ TEST_CASE("isolated: the node types are those of the plugin in this process") {
     CHECK((a.name == b.name && a.type == b.type && a.doc == b.doc && a.unit == b.unit));
     CHECK((a.default_text == b.default_text && a.required == b.required));
     CHECK(a.direction == b.direction);
+    CHECK((a.range.min == b.range.min && a.range.max == b.range.max));
   }
 }
 
@@ -86,6 +87,11 @@ TEST_CASE("lists and numbers go in and out, in this process and isolated") {
     }
     leaves.value(kNumberIn) = 0.5;
     CHECK(leaves.tick().empty());
+    CHECK(leaves.get<double>(kNumberOut) == 0.5);
+    leaves.value(kNumberIn) = std::int64_t{-2};
+    CHECK(leaves.tick() ==
+          "-2 is outside the range of 'number_in': 'number_in' is '-2', from the entry "
+          "'{number_in}'; it must be from -1 to 1000");
     CHECK(leaves.get<double>(kNumberOut) == 0.5);
   }
 }

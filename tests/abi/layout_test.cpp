@@ -16,7 +16,7 @@ SIZE_IS(lockstep_type, 4);
 SIZE_IS(lockstep_direction, 4);
 SIZE_IS(lockstep_log_level, 4);
 
-SIZE_IS(lockstep_port, 48);
+SIZE_IS(lockstep_port, 72);
 MEMBER_AT(lockstep_port, struct_size, 0);
 MEMBER_AT(lockstep_port, type, 4);
 MEMBER_AT(lockstep_port, direction, 8);
@@ -24,6 +24,9 @@ MEMBER_AT(lockstep_port, name, 16);
 MEMBER_AT(lockstep_port, default_value, 24);
 MEMBER_AT(lockstep_port, unit, 32);
 MEMBER_AT(lockstep_port, doc, 40);
+MEMBER_AT(lockstep_port, choices, 48);
+MEMBER_AT(lockstep_port, min, 56);
+MEMBER_AT(lockstep_port, max, 64);
 
 SIZE_IS(lockstep_text, 16);
 MEMBER_AT(lockstep_text, text, 0);

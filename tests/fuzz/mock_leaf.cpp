@@ -177,10 +177,26 @@ double progress(void* self) {
   return it.progress;
 }
 
-constexpr lockstep_port kScriptPort = {
-    sizeof(lockstep_port), LOCKSTEP_STRING, LOCKSTEP_INPUT, "script", "S", nullptr, nullptr};
-constexpr lockstep_port kOutPort = {
-    sizeof(lockstep_port), LOCKSTEP_DOUBLE, LOCKSTEP_OUTPUT, "out", nullptr, nullptr, nullptr};
+constexpr lockstep_port kScriptPort = {sizeof(lockstep_port),
+                                       LOCKSTEP_STRING,
+                                       LOCKSTEP_INPUT,
+                                       "script",
+                                       "S",
+                                       nullptr,
+                                       nullptr,
+                                       nullptr,
+                                       0,
+                                       0};
+constexpr lockstep_port kOutPort = {sizeof(lockstep_port),
+                                    LOCKSTEP_DOUBLE,
+                                    LOCKSTEP_OUTPUT,
+                                    "out",
+                                    nullptr,
+                                    nullptr,
+                                    nullptr,
+                                    nullptr,
+                                    0,
+                                    0};
 constexpr const lockstep_port* kPorts[] = {&kScriptPort, &kOutPort};
 
 constexpr lockstep_leaf_type leaf_type(const char* id, lockstep_leaf_kind kind) {

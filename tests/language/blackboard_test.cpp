@@ -75,6 +75,47 @@ TEST_CASE("lists of each type") {
   }
 }
 
+TEST_CASE("ports that take some values only") {
+  constexpr ClaimRow kRows[] = {
+      {"what they take",
+       R"(<Hold grip="firm" force="20" fingers="1" hand="right" angles="1;1.5"/>)",
+       "success 1: firm 20 1 right 2"},
+      {"a constant is checked when the tree is loaded", R"(<Hold force="21"/>)",
+       "2:14 error: 21 is outside the range of 'force'"},
+      {"one end may be open", R"(<Hold fingers="0"/>)",
+       "2:16 error: 0 is outside the range of 'fingers'"},
+      {"each number of a list is checked", R"(<Hold angles="1;2"/>)",
+       "2:15 error: 2 is outside the range of 'angles'"},
+      {"a word is one of the choices", R"(<Hold grip="hard"/>)",
+       "2:13 error: 'hard' is not a value of 'grip'"},
+      {"of a text too", R"(<Hold hand="both"/>)", "2:13 error: 'both' is not a value of 'hand'"},
+      {"an entry is checked when it is read", R"(<Hold force="{f}"/>)",
+       "success 1: soft 7 2 left 0", "set.f=7"},
+      {"another value is a fault", R"(<Hold force="{f}"/>)",
+       "fault: -1 is outside the range of 'force': 'force' is '-1', from the entry '{f}'; it must "
+       "be from 0 to 20",
+       "set.f=-1"},
+      {"for a word too", R"(<Hold grip="{g}"/>)",
+       "fault: 'hard' is not a value of 'grip': 'grip' is 'hard', from the entry '{g}'; it must be "
+       "one of 'soft', 'firm'",
+       "set.g=hard"},
+      {"a leaf that changes the entry is checked by who reads it",
+       R"(<Sequence memory="true"><FindDoor sees="hard" door="{g}"/><Hold grip="{g}"/></Sequence>)",
+       "fault: 'hard' is not a value of 'grip': 'grip' is 'hard', from the entry '{g}'; it must be "
+       "one of 'soft', 'firm'"},
+      {"what a leaf writes is checked too", R"(<Hold force="20" angles="1;1;1" reached="{r}"/>)",
+       "fault: cannot set 'reached': 23 is outside the range of 'reached'; it must be at most 22"},
+      {"an output of words is a text for others",
+       R"(<Sequence memory="true"><Hold grip="firm" used="{u}"/><Say text="{u}"/></Sequence>)",
+       "success 1: firm 5 2 left 0, firm"},
+  };
+  for (const ClaimRow& row : kRows) {
+    INFO(row.claim);
+    const Pipeline pipeline(row.xml, row.options);
+    CHECK((pipeline.loaded() ? pipeline.run() : pipeline.told()) == row.expected);
+  }
+}
+
 TEST_CASE("a port that takes an int or a double") {
   constexpr ClaimRow kRows[] = {
       {"a whole constant is an int", R"(<Measure value="-3"/>)", "success 1: int -3"},
@@ -252,7 +293,7 @@ TEST_CASE("remapping: names differ, levels add up, each use is a scope") {
 TEST_CASE("what is wrong with a SubTree") {
   constexpr ClaimRow kRows[] = {
       {"it needs an ID", R"(<SubTree/>)", "2:1 error: 'SubTree' needs the attribute 'ID'"},
-      {"the ID is a tree's", R"(<SubTree ID="Grasp"/>)", "2:14 error: unknown tree 'Grasp'"},
+      {"the ID is a tree's", R"(<SubTree ID="Hold"/>)", "2:14 error: unknown tree 'Hold'"},
       {"it has no children", R"(<SubTree ID="T"><AlwaysSuccess/></SubTree>)",
        "2:14 error: the tree 'T' contains itself: T -> T\n"
        "2:17 error: 'SubTree' cannot have children"},

@@ -135,6 +135,37 @@ class ShowLists : public lockstep::Action<ListPorts> {
   }
 };
 
+enum class Grip { Soft, Firm };
+
+}  // namespace
+
+LOCKSTEP_CHOICES(Grip, "soft;firm");
+
+namespace {
+
+struct HoldPorts : lockstep::Ports {
+  Input<Grip> grip{this, "grip", "soft", "how it holds"};
+  Input<double> force{this, "force", "5", "how much", "N", between(0, 20)};
+  Input<std::int64_t> fingers{this, "fingers", "2", "how many", at_least(1)};
+  Input<std::string> hand{this, "hand", "left", "which one", one_of("left;right")};
+  Input<std::vector<double>> angles{this, "angles", "", "of the fingers", at_most(1.5)};
+  Output<Grip> used{this, "used", "how it has held"};
+  Output<double> reached{this, "reached", "how much it was", "N", at_most(22)};
+};
+
+class Hold : public lockstep::Action<HoldPorts> {
+ public:
+  Status tick() override {
+    std::ostringstream line;
+    line << (grip.get() == Grip::Firm ? "firm " : "soft ") << force.get() << ' ' << fingers.get()
+         << ' ' << hand.get() << ' ' << angles.view().size();
+    used.set(grip.get());
+    reached.set(force.get() + static_cast<double>(angles.view().size()));
+    said.push_back(line.str());
+    return Status::Success;
+  }
+};
+
 struct MeasurePorts : lockstep::Ports {
   Input<lockstep::Number> value{this, "value", "1", "an int or a double"};
 };
@@ -170,6 +201,7 @@ LOCKSTEP_PLUGIN_TABLE(robot_table, "robot", "1.0", "A robot that only says what 
                       lockstep::leaf<Tally>("Tally", "Counts from ten."),
                       lockstep::leaf<Show>("Show", "Shows its ports."),
                       lockstep::leaf<ShowLists>("ShowLists", "Shows lists, and sets longer ones."),
+                      lockstep::leaf<Hold>("Hold", "Holds something."),
                       lockstep::leaf<Measure>("Measure", "Shows a number."),
                       lockstep::leaf<IsOpen>("IsOpen", "Whether a door is open."));
 

@@ -17,8 +17,15 @@ set(said_12 "error_an_output_has_no_default")
 set(said_13 "error_an_output_has_no_default")
 set(said_14 "error_default_is_not_a_value_of_the_port_type")
 set(said_15 "an output is an int or a double, not either")
+set(said_16 "error_default_is_outside_the_limits")
+set(said_17 "error_default_is_not_one_of_the_choices")
+set(said_18 "error_only_numbers_have_limits")
+set(said_19 "error_choices_are_different_words_separated_by_semicolons")
+set(said_20 "name the values of the enum with LOCKSTEP_CHOICES")
+set(said_21 "error_limits_are_a_least_and_a_greatest_number")
+set(said_22 "error_only_a_string_has_choices")
 
-foreach(mistake RANGE 15)
+foreach(mistake RANGE 22)
   execute_process(
     COMMAND ${CXX_COMPILER} -std=c++17 -fsyntax-only -I${SDK} -DMISTAKE=${mistake} ${SOURCE}
     RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)

@@ -2,6 +2,10 @@
 // mistakes.cmake expects. MISTAKE=0 is right.
 #include <lockstep/leaf.hpp>
 
+enum class Grip { Soft, Firm };
+enum class Unnamed { One };
+LOCKSTEP_CHOICES(Grip, "soft;firm");
+
 struct GoodPorts : lockstep::Ports {
   Input<double> step{this, "step", "0.1", "a step"};
 #if MISTAKE == 1
@@ -22,7 +26,23 @@ struct GoodPorts : lockstep::Ports {
   Input<std::vector<std::int64_t> > other{this, "other", "1;0.5", "not a list of int"};
 #elif MISTAKE == 15
   Output<lockstep::Number> other{this, "other", "neither an int nor a double"};
+#elif MISTAKE == 16
+  Input<double> other{this, "other", "21", "too much", "N", between(0, 20)};
+#elif MISTAKE == 17
+  Input<Grip> other{this, "other", "hard", "none of the words"};
+#elif MISTAKE == 18
+  Input<std::string> other{this, "other", "1", "no number", between(0, 20)};
+#elif MISTAKE == 19
+  Input<std::string> other{this, "other", "a", "blanks", one_of("a; b")};
+#elif MISTAKE == 20
+  Input<Unnamed> other{this, "other", "1", "an enum without names"};
+#elif MISTAKE == 21
+  Input<double> other{this, "other", required, "the wrong way round", between(20, 0)};
+#elif MISTAKE == 22
+  Input<double> other{this, "other", "1", "no text", one_of("1;2")};
 #else
+  Input<Grip> grip{this, "grip", "firm", "an enum"};
+  Input<double> force{this, "force", "0.1", "how much", "N", between(0, 0.1)};
   Output<double> speed{this, "speed", "no value", "m/s"};
   Output<std::vector<double> > points{this, "points", "", "m"};
   Output<std::string> text{this, "text", "true"};

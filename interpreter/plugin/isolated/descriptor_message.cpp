@@ -10,9 +10,11 @@ void write_port(const lockstep_port& declared, MessageWriter& message) {
   const lockstep_port port = covered_copy(&declared, declared.struct_size);
   message.put(port.type);
   message.put(port.direction);
-  for (const char* text : {port.name, port.default_value, port.unit, port.doc}) {
+  for (const char* text : {port.name, port.default_value, port.unit, port.doc, port.choices}) {
     message.put_text_or_null(text);
   }
+  message.put(port.min);
+  message.put(port.max);
 }
 
 // Which of the optional functions there are, a bit for each.
@@ -62,9 +64,12 @@ void OwnedDescriptors::read_port(MessageReader& message) {
   port.struct_size = sizeof port;
   port.type = message.get<lockstep_type>();
   port.direction = message.get<lockstep_direction>();
-  for (const char** text : {&port.name, &port.default_value, &port.unit, &port.doc}) {
+  for (const char** text :
+       {&port.name, &port.default_value, &port.unit, &port.doc, &port.choices}) {
     *text = read_text(message);
   }
+  port.min = message.get<double>();
+  port.max = message.get<double>();
   port_lists_.back().push_back(&ports_.emplace_back(port));
 }
 

@@ -164,6 +164,7 @@ void write_creation(const RemoteLeaf& leaf, std::uint32_t type, MessageWriter& r
     request.put(static_cast<std::uint8_t>(port.write != nullptr));
     request.put(leaf.ports[2 * index]);
     request.put(leaf.ports[2 * index + 1]);
+    request.put_text(port.entry);
   }
 }
 

@@ -60,14 +60,20 @@ Entry* ServedRun::entry(std::uint32_t number) {
   return &entries_[number];
 }
 
-bool ServedRun::read_ports(MessageReader& request, std::vector<BoundPort>& ports) {
+bool ServedRun::read_ports(MessageReader& request, Object& leaf,
+                           std::span<const Parameter> declared) {
+  std::vector<BoundPort>& ports = leaf.caller->ports;
   const auto count = request.get<std::uint32_t>();
+  if (count != declared.size()) return false;
   for (std::uint32_t index = 0; index < count && request.good(); ++index) {
     BoundPort& port = ports.emplace_back();
     port.type = request.get<ValueType>();
+    port.name = declared[index].name;
+    port.limits = limits_of(declared[index]);
     const bool is_writable = request.get<std::uint8_t>() != 0;
     const auto number = request.get<std::uint32_t>();
     const auto fallback = request.get<std::uint32_t>();
+    port.entry = leaf.entry_names.emplace_back(request.text());
     if (fallback != RemoteEntries::kNone) {
       const Entry* const held = entry(fallback);
       if (held == nullptr) return false;
@@ -93,7 +99,7 @@ ServedRun::Object* ServedRun::create_leaf(std::uint32_t number, MessageReader& r
                                          leaf->type->id, descriptors_.plugin.name),
                              descriptors_.plugin.name);
   leaf->caller->site = leaf->site;
-  if (!read_ports(request, leaf->caller->ports)) return nullptr;
+  if (!read_ports(request, *leaf, descriptors_.leaves[type]->parameters)) return nullptr;
   return (objects_[number] = std::move(leaf)).get();
 }
 

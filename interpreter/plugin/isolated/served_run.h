@@ -4,6 +4,8 @@
 
 #include <deque>
 #include <memory>
+#include <span>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -32,12 +34,13 @@ class ServedRun {
     LeafLog log;
     const CallSite* site;
     std::unique_ptr<lockstep_caller> caller;
+    std::deque<std::string> entry_names;  // of its ports; none of them moves
   };
   std::unique_ptr<Object> make_object(std::uint32_t number, std::string who, RandomStream random);
   Object* create_run(MessageReader& request);
   Object* create_leaf(std::uint32_t number, MessageReader& request);
   Object* find(std::uint32_t number);
-  bool read_ports(MessageReader& request, std::vector<BoundPort>& ports);
+  bool read_ports(MessageReader& request, Object& leaf, std::span<const Parameter> declared);
   bool read_entries(MessageReader& request);
   Entry* entry(std::uint32_t number);
   // Returns the description of what it threw, or "" if it returned.

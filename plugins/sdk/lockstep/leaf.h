@@ -106,6 +106,11 @@ typedef struct lockstep_port {
                                 in the tree, an output (which has no default) may be left out */
   const char* unit;          /* "s", "m/s"; NULL or "" for none */
   const char* doc;           /* one sentence; NULL for none */
+
+  /* Since 1.1: what the host checks for the plugin, in constants when a tree is loaded, in entries
+   * when the port is read (get returns false, and the leaf has an error), and in set. */
+  const char* choices; /* of a string: the words that it may be, "soft;firm"; NULL for any text */
+  double min, max;     /* of numbers, also in lists; both 0 for any, HUGE_VAL for no upper end */
 } lockstep_port;
 
 /* Who is calling: one leaf of one run, or one run (in create_run). Given by the host at create or

@@ -88,7 +88,7 @@ static double progress(void* leaf) {
 
 #define PORT(variable, name)              \
   static const lockstep_port variable = { \
-      sizeof(lockstep_port), LOCKSTEP_STRING, LOCKSTEP_INPUT, name, "", NULL, NULL}
+      sizeof(lockstep_port), LOCKSTEP_STRING, LOCKSTEP_INPUT, name, "", NULL, NULL, NULL, 0, 0}
 PORT(where_port, "where");
 PORT(how_port, "how");
 static const lockstep_port* const ports[] = {&where_port, &how_port};

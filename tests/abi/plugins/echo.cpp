@@ -124,7 +124,14 @@ lockstep_status tick(void* leaf) {
 
 constexpr lockstep_port port(lockstep_type type, lockstep_direction direction, const char* name,
                              const char* default_value) {
-  return {sizeof(lockstep_port), type, direction, name, default_value, nullptr, nullptr};
+  return {
+      sizeof(lockstep_port), type, direction, name, default_value, nullptr, nullptr, nullptr, 0, 0};
+}
+
+constexpr lockstep_port limited(lockstep_port port, double min, double max) {
+  port.min = min;
+  port.max = max;
+  return port;
 }
 
 constexpr lockstep_port kPorts[] = {
@@ -146,7 +153,7 @@ constexpr lockstep_port kPorts[] = {
     port(LOCKSTEP_INT_LIST, LOCKSTEP_INPUT, "int_list_in", "0"),
     port(LOCKSTEP_BOOL_LIST, LOCKSTEP_INPUT, "bool_list_in", "0"),
     port(LOCKSTEP_STRING_LIST, LOCKSTEP_INPUT, "string_list_in", "a"),
-    port(LOCKSTEP_NUMBER, LOCKSTEP_INPUT, "number_in", "0"),
+    limited(port(LOCKSTEP_NUMBER, LOCKSTEP_INPUT, "number_in", "0"), -1, 1000),
     port(LOCKSTEP_INT_LIST, LOCKSTEP_OUTPUT, "int_list_out", nullptr),
     port(LOCKSTEP_BOOL_LIST, LOCKSTEP_OUTPUT, "bool_list_out", nullptr),
     port(LOCKSTEP_STRING_LIST, LOCKSTEP_OUTPUT, "string_list_out", nullptr),

@@ -90,11 +90,23 @@
 #define PORT_DEFAULT "2"
 #endif
 
+#ifndef PORT_CHOICES
+#define PORT_CHOICES NULL
+#endif
+#ifndef PORT_MIN
+#define PORT_MIN 0
+#endif
+#ifndef PORT_MAX
+#define PORT_MAX 0
+#endif
+
 /* Some files refer to other lists than these. */
 #define MAYBE_UNUSED __attribute__((unused))
 
-static const lockstep_port the_port = {PORT_SIZE,    PORT_TYPE, PORT_DIRECTION,          PORT_NAME,
-                                       PORT_DEFAULT, NULL,      "how many ticks it runs"};
+static const lockstep_port the_port = {
+    PORT_SIZE,    PORT_TYPE, PORT_DIRECTION,           PORT_NAME,
+    PORT_DEFAULT, NULL,      "how many ticks it runs", PORT_CHOICES,
+    PORT_MIN,     PORT_MAX};
 MAYBE_UNUSED static const lockstep_port* const the_ports[] = {&the_port, &the_port};
 
 static const lockstep_leaf_type the_leaf_type = {

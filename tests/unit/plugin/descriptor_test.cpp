@@ -72,8 +72,8 @@ struct Crowd {
   Crowd(std::uint32_t leaves, std::uint32_t ports_of_each) {
     for (std::uint32_t i = 0; i < ports_of_each; ++i) {
       const char* const name = names.emplace_back("p" + std::to_string(i)).c_str();
-      ports.push_back(
-          {sizeof(lockstep_port), LOCKSTEP_BOOL, LOCKSTEP_INPUT, name, "true", nullptr, nullptr});
+      ports.push_back({sizeof(lockstep_port), LOCKSTEP_BOOL, LOCKSTEP_INPUT, name, "true", nullptr,
+                       nullptr, nullptr, 0, 0});
     }
     for (const lockstep_port& port : ports) port_list.push_back(&port);
     for (std::uint32_t i = 0; i < leaves; ++i) {
@@ -124,8 +124,16 @@ TEST_CASE("of a struct that is shorter than ours only what is there is read") {
   char* const end = static_cast<char*>(pages) + page;
   REQUIRE(mprotect(end, page, PROT_NONE) == 0);
   void* const place = end - sizeof(lockstep_port);
-  new (place) lockstep_port{
-      sizeof(lockstep_port), LOCKSTEP_INT, LOCKSTEP_INPUT, "ticks", nullptr, nullptr, "doc"};
+  new (place) lockstep_port{sizeof(lockstep_port),
+                            LOCKSTEP_INT,
+                            LOCKSTEP_INPUT,
+                            "ticks",
+                            nullptr,
+                            nullptr,
+                            "doc",
+                            nullptr,
+                            0,
+                            0};
 
   const auto* const from = static_cast<const LongerPort*>(place);
   const LongerPort copy = covered_copy(from, from->base.struct_size);

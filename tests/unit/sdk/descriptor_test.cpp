@@ -1,6 +1,7 @@
 // The constants that leaf.hpp makes of classes: what a host can list without creating anything.
 #include <catch2/catch.hpp>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -177,4 +178,51 @@ TEST_CASE("the compiler accepts the defaults that the tree language accepts", "[
         accepted(ValueType::BoolList));
   CHECK(lockstep::detail::PortTraits<std::vector<std::string>>::accepts(text) ==
         accepted(ValueType::StringList));
+}
+
+namespace {
+
+enum class Grip { Soft, Firm };
+
+}  // namespace
+
+LOCKSTEP_CHOICES(Grip, "soft;firm");
+
+namespace {
+
+struct LimitedPorts : lockstep::Ports {
+  Input<Grip> grip{this, "grip", "firm", ""};
+  Input<double> force{this, "force", "0.5", "", "N", between(-1, 20)};
+  Input<std::int64_t> count{this, "count", required, "", at_least(1)};
+  Output<std::vector<double>> angles{this, "angles", "", at_most(1.5)};
+  InOut<std::string> hand{this, "hand", "left", "", one_of("left;right")};
+};
+
+class Limited : public lockstep::Action<LimitedPorts> {
+ public:
+  Status tick() override { return Status::Success; }
+};
+
+constexpr lockstep_leaf_type kLimited = lockstep::leaf<Limited>("Limited", "");
+
+}  // namespace
+
+TEST_CASE("ports say which values they take", "[sdk]") {
+  const auto port = [](std::size_t index) { return *kLimited.ports[index]; };
+  CHECK(port(0).type == LOCKSTEP_STRING);
+  CHECK(std::string(port(0).choices) == "soft;firm");
+  CHECK((port(1).min == -1 && port(1).max == 20 && port(1).choices == nullptr));
+  CHECK((port(2).min == 1 && port(2).max == HUGE_VAL && port(2).default_value == nullptr));
+  CHECK((port(3).min == -HUGE_VAL && port(3).max == 1.5 && std::string(port(3).unit).empty()));
+  CHECK(std::string(port(4).choices) == "left;right");
+  CHECK((kFull.ports[0]->min == 0 && kFull.ports[0]->max == 0));
+}
+
+TEST_CASE("the compiler looks whether a default is within the limits", "[sdk]") {
+  using lockstep::detail::may_be_within;
+  CHECK(may_be_within("0.1", 0.1, 0.1));
+  CHECK(may_be_within(" -2.50 ", -2.5, -2.5));
+  CHECK_FALSE(may_be_within("+20.5", 0, 20));
+  CHECK_FALSE(may_be_within("-1", 0, 20));
+  CHECK(may_be_within("1e9", 0, 20));  // left to the host
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -38,11 +39,20 @@ class Ports {
   using InOut = sdk1::InOut<T>;
   static constexpr Required required{};
 
+  // What values a port takes. Anything else is an error of the tree, or of the run when an entry
+  // has it.
+  static constexpr Limits between(double min, double max) { return {nullptr, min, max}; }
+  static constexpr Limits at_least(double min) { return {nullptr, min, kInfinity}; }
+  static constexpr Limits at_most(double max) { return {nullptr, -kInfinity, max}; }
+  static constexpr Limits one_of(const char* words) { return {words, 0, 0}; }  // "soft;firm"
+
   constexpr Ports() = default;
   Ports(const Ports&) = delete;
   Ports& operator=(const Ports&) = delete;
 
  private:
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
   friend class detail::Port;
   friend struct detail::PortsAccess;
   detail::Port* first_port_ = nullptr;
@@ -95,28 +105,58 @@ class Port {
   Port* next_ = nullptr;
 };
 
+template <class T>
+constexpr Limits all_limits(Limits limits) {
+  if constexpr (std::is_enum_v<T>) limits.choices = PortTraits<T>::kWords;
+  constexpr auto kType = PortTraits<T>::kType;
+  constexpr bool kIsNumber = kType == LOCKSTEP_NUMBER || kType == LOCKSTEP_INT ||
+                             kType == LOCKSTEP_DOUBLE || kType == LOCKSTEP_INT_LIST ||
+                             kType == LOCKSTEP_DOUBLE_LIST;
+  if (limits.choices && kType != LOCKSTEP_STRING) error_only_a_string_has_choices();
+  if (limits.choices && !are_choices(limits.choices)) {
+    error_choices_are_different_words_separated_by_semicolons();
+  }
+  const bool has_range = limits.min != 0 || limits.max != 0;
+  if (has_range && !kIsNumber) error_only_numbers_have_limits();
+  if (!(limits.min <= limits.max)) error_limits_are_a_least_and_a_greatest_number();
+  return limits;
+}
+
 // A port without a default.
 template <class T>
 constexpr lockstep_port describe(lockstep_direction direction, const char* name, const char* doc,
-                                 const char* unit) {
-  return {sizeof(lockstep_port), PortTraits<T>::kType, direction, name, nullptr, unit, doc};
+                                 const char* unit, Limits limits) {
+  limits = all_limits<T>(limits);
+  return {sizeof(lockstep_port), PortTraits<T>::kType, direction, name, nullptr, unit, doc,
+          limits.choices,        limits.min,           limits.max};
 }
 
 template <class T>
 constexpr lockstep_port describe(lockstep_direction direction, const char* name,
-                                 const char* default_value, const char* doc, const char* unit) {
+                                 const char* default_value, const char* doc, const char* unit,
+                                 Limits limits) {
   if (!PortTraits<T>::accepts(default_value)) error_default_is_not_a_value_of_the_port_type();
-  return {sizeof(lockstep_port), PortTraits<T>::kType, direction, name, default_value, unit, doc};
+  lockstep_port port = describe<T>(direction, name, doc, unit, limits);
+  port.default_value = default_value;
+  if (port.choices && index_of(default_value, port.choices) >= count_words(port.choices)) {
+    error_default_is_not_one_of_the_choices();
+  }
+  const bool has_range = port.min != 0 || port.max != 0;
+  if (has_range && is_double(default_value) && !may_be_within(default_value, port.min, port.max)) {
+    error_default_is_outside_the_limits();
+  }
+  return port;
 }
 
 // Refuses what was meant as a default: a doc that is a value.
 template <class T>
-constexpr lockstep_port describe_output(const char* name, const char* doc, const char* unit) {
+constexpr lockstep_port describe_output(const char* name, const char* doc, const char* unit,
+                                        Limits limits) {
   constexpr auto kType = PortTraits<T>::kType;
   constexpr bool kIsText = kType == LOCKSTEP_STRING || kType == LOCKSTEP_STRING_LIST;
   const bool is_value = is_double(doc) || (!kIsText && *doc != '\0' && PortTraits<T>::accepts(doc));
   if (is_value) error_an_output_has_no_default();
-  return describe<T>(LOCKSTEP_OUTPUT, name, doc, unit);
+  return describe<T>(LOCKSTEP_OUTPUT, name, doc, unit, limits);
 }
 
 template <class T>
@@ -155,11 +195,18 @@ class Input : public detail::ReadablePort<T> {
  public:
   // `default_value` as a tree would write it.
   constexpr Input(Ports* owner, const char* name, const char* default_value, const char* doc,
-                  const char* unit = "")
+                  const char* unit = "", Limits limits = {})
       : detail::ReadablePort<T>(
-            owner, detail::describe<T>(LOCKSTEP_INPUT, name, default_value, doc, unit)) {}
-  constexpr Input(Ports* owner, const char* name, Required, const char* doc, const char* unit = "")
-      : detail::ReadablePort<T>(owner, detail::describe<T>(LOCKSTEP_INPUT, name, doc, unit)) {}
+            owner, detail::describe<T>(LOCKSTEP_INPUT, name, default_value, doc, unit, limits)) {}
+  constexpr Input(Ports* owner, const char* name, const char* default_value, const char* doc,
+                  Limits limits)
+      : Input(owner, name, default_value, doc, "", limits) {}
+  constexpr Input(Ports* owner, const char* name, Required, const char* doc, const char* unit = "",
+                  Limits limits = {})
+      : detail::ReadablePort<T>(owner,
+                                detail::describe<T>(LOCKSTEP_INPUT, name, doc, unit, limits)) {}
+  constexpr Input(Ports* owner, const char* name, Required, const char* doc, Limits limits)
+      : Input(owner, name, Ports::required, doc, "", limits) {}
 };
 
 template <class T>
@@ -167,8 +214,11 @@ class Output : public detail::Port {
   static_assert(!std::is_same_v<T, Number>, "an output is an int or a double, not either");
 
  public:
-  constexpr Output(Ports* owner, const char* name, const char* doc, const char* unit = "")
-      : Port(owner, detail::describe_output<T>(name, doc, unit)) {}
+  constexpr Output(Ports* owner, const char* name, const char* doc, const char* unit = "",
+                   Limits limits = {})
+      : Port(owner, detail::describe_output<T>(name, doc, unit, limits)) {}
+  constexpr Output(Ports* owner, const char* name, const char* doc, Limits limits)
+      : Output(owner, name, doc, "", limits) {}
 
   // Writes the entry that the tree binds to the port; false when it binds none, or when the host
   // refuses the value (a number that is not finite).
@@ -183,11 +233,18 @@ class InOut : public detail::ReadablePort<T> {
   // The default is used until the entry is written; without an entry the port can be read but not
   // set.
   constexpr InOut(Ports* owner, const char* name, const char* default_value, const char* doc,
-                  const char* unit = "")
+                  const char* unit = "", Limits limits = {})
       : detail::ReadablePort<T>(
-            owner, detail::describe<T>(LOCKSTEP_INOUT, name, default_value, doc, unit)) {}
-  constexpr InOut(Ports* owner, const char* name, Required, const char* doc, const char* unit = "")
-      : detail::ReadablePort<T>(owner, detail::describe<T>(LOCKSTEP_INOUT, name, doc, unit)) {}
+            owner, detail::describe<T>(LOCKSTEP_INOUT, name, default_value, doc, unit, limits)) {}
+  constexpr InOut(Ports* owner, const char* name, const char* default_value, const char* doc,
+                  Limits limits)
+      : InOut(owner, name, default_value, doc, "", limits) {}
+  constexpr InOut(Ports* owner, const char* name, Required, const char* doc, const char* unit = "",
+                  Limits limits = {})
+      : detail::ReadablePort<T>(owner,
+                                detail::describe<T>(LOCKSTEP_INOUT, name, doc, unit, limits)) {}
+  constexpr InOut(Ports* owner, const char* name, Required, const char* doc, Limits limits)
+      : InOut(owner, name, Ports::required, doc, "", limits) {}
 
   bool set(const T& value) {
     return detail::PortTraits<T>::set(this->caller(), this->index(), value);

@@ -89,9 +89,21 @@ class Number {
   bool is_int_ = true;
 };
 
+// What values a port takes. Made by the functions of Ports; the host checks them.
+struct Limits {
+  const char* choices = nullptr;  // of a string, "soft;firm"
+  double min = 0, max = 0;        // of numbers; both 0 for any
+};
+
+// The names of an enum's values, which LOCKSTEP_CHOICES declares.
+template <class Enum>
+struct Choices {
+  static_assert(sizeof(Enum) == 0, "name the values of the enum with LOCKSTEP_CHOICES");
+};
+
 namespace detail {
 
-template <class T>
+template <class T, class = void>
 struct PortTraits {
   static_assert(sizeof(T) == 0,
                 "a port is of type bool, std::int64_t, double, std::string, lockstep::Number or a "
@@ -158,6 +170,26 @@ struct PortTraits<std::string> {
   }
   static bool set(const Caller& caller, std::uint32_t port, View value) {
     return caller.host->set_string(caller.id, port, value.data(), value.size());
+  }
+};
+
+// A string that is one of the names of an enum.
+template <class Enum>
+struct PortTraits<Enum, std::enable_if_t<std::is_enum_v<Enum>>> {
+  using View = Enum;
+  using Text = PortTraits<std::string>;
+  static constexpr lockstep_type kType = LOCKSTEP_STRING;
+  static constexpr const char* kWords = Choices<Enum>::kWords;
+  static constexpr bool accepts(std::string_view) { return true; }
+  static bool get(const Caller& caller, std::uint32_t port, View& value) {
+    std::string_view word;
+    if (!Text::get(caller, port, word)) return false;
+    const std::size_t index = index_of(word, kWords);
+    value = static_cast<Enum>(index);
+    return index < count_words(kWords);
+  }
+  static bool set(const Caller& caller, std::uint32_t port, View value) {
+    return Text::set(caller, port, word_at(static_cast<std::size_t>(value), kWords));
   }
 };
 
@@ -241,3 +273,12 @@ T from_view(StringListView value) {
 }  // namespace detail
 }  // namespace sdk1
 }  // namespace lockstep
+
+// Names the values of an enum that counts from 0, in order: LOCKSTEP_CHOICES(Grip, "soft;firm"). A
+// port may then be of this type. Once, outside of any namespace.
+#define LOCKSTEP_CHOICES(Enum, words)                                                    \
+  template <>                                                                            \
+  struct lockstep::Choices<Enum> {                                                       \
+    static_assert(std::is_enum_v<Enum>, "LOCKSTEP_CHOICES names the values of an enum"); \
+    static constexpr const char* kWords = words;                                         \
+  }

@@ -28,6 +28,24 @@ namespace detail {
 [[noreturn]] inline void error_default_is_not_a_value_of_the_port_type() {
   std::abort();
 }
+[[noreturn]] inline void error_choices_are_different_words_separated_by_semicolons() {
+  std::abort();
+}
+[[noreturn]] inline void error_only_a_string_has_choices() {
+  std::abort();
+}
+[[noreturn]] inline void error_only_numbers_have_limits() {
+  std::abort();
+}
+[[noreturn]] inline void error_limits_are_a_least_and_a_greatest_number() {
+  std::abort();
+}
+[[noreturn]] inline void error_default_is_not_one_of_the_choices() {
+  std::abort();
+}
+[[noreturn]] inline void error_default_is_outside_the_limits() {
+  std::abort();
+}
 [[noreturn]] inline void error_two_leaves_have_the_same_id() {
   std::abort();
 }
@@ -97,6 +115,58 @@ constexpr bool is_double(std::string_view text) {
   text.remove_prefix(1);
   skip_sign(text);
   return skip_digits(text) > 0 && text.empty();
+}
+
+// False only if the number is not within [min, max]; with an exponent it is not looked at.
+constexpr bool may_be_within(std::string_view text, double min, double max) {
+  double number = 0, divisor = 1;
+  bool is_negative = false, has_point = false;
+  for (const char c : trim(text)) {
+    if (c == 'e' || c == 'E') return true;
+    if (c == '-') is_negative = true;
+    if (c == '.') has_point = true;
+    if (!is_digit(c)) continue;
+    number = 10 * number + (c - '0');
+    if (has_point) divisor *= 10;
+  }
+  number = (is_negative ? -number : number) / divisor;
+  return number >= min && number <= max;
+}
+
+// The place of `word` in "soft;firm"; as many as there are words if it is none of them.
+constexpr std::size_t index_of(std::string_view word, std::string_view words) {
+  for (std::size_t index = 0;; ++index) {
+    const auto end = words.find(';');
+    if (words.substr(0, end) == word) return index;
+    if (end == std::string_view::npos) return index + 1;
+    words.remove_prefix(end + 1);
+  }
+}
+
+// The word at this place; empty if there are not so many.
+constexpr std::string_view word_at(std::size_t index, std::string_view words) {
+  for (; index > 0; --index) {
+    const auto end = words.find(';');
+    if (end == std::string_view::npos) return {};
+    words.remove_prefix(end + 1);
+  }
+  return words.substr(0, words.find(';'));
+}
+
+constexpr std::size_t count_words(std::string_view words) {
+  std::size_t count = 1;
+  for (const char c : words) count += c == ';' ? 1 : 0;
+  return count;
+}
+
+// Different words, separated by ';' only.
+constexpr bool are_choices(std::string_view words) {
+  for (std::size_t i = 0; i < count_words(words); ++i) {
+    const std::string_view word = word_at(i, words);
+    if (word.empty() || trim(word).size() != word.size() || index_of(word, words) != i)
+      return false;
+  }
+  return true;
 }
 
 constexpr bool is_bool(std::string_view text) {

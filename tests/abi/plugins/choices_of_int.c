@@ -1,0 +1,2 @@
+#define PORT_CHOICES "1;2"
+#include "entry.h"

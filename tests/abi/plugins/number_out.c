@@ -1,0 +1,4 @@
+#define PORT_TYPE LOCKSTEP_NUMBER
+#define PORT_DIRECTION LOCKSTEP_OUTPUT
+#define PORT_DEFAULT NULL
+#include "entry.h"

@@ -1,0 +1,3 @@
+#define PORT_TYPE LOCKSTEP_STRING
+#define PORT_MAX 1
+#include "entry.h"
