@@ -1,4 +1,4 @@
-// The cheapest leaf in C++: what lockstep/leaf.hpp costs.
+// The cheapest leaf in C++, and a Sequence: what lockstep/leaf.hpp costs.
 #include <lockstep/leaf.hpp>
 
 namespace {
@@ -8,7 +8,20 @@ class SdkSuccess : public lockstep::Action<> {
   Status tick() override { return Status::Success; }
 };
 
+class SdkSequence : public lockstep::Control<> {
+ public:
+  Status tick() override {
+    const std::uint32_t count = child_count();
+    for (std::uint32_t child = 0; child < count; ++child) {
+      const Status status = tick_child(child);
+      if (status != Status::Success) return status;
+    }
+    return Status::Success;
+  }
+};
+
 }  // namespace
 
 LOCKSTEP_PLUGIN("bench_sdk", "1.0", "For benchmarks",
-                lockstep::leaf<SdkSuccess>("SdkSuccess", "Succeeds"));
+                lockstep::leaf<SdkSuccess>("SdkSuccess", "Succeeds"),
+                lockstep::leaf<SdkSequence>("SdkSequence", "A Sequence without memory"));

@@ -90,6 +90,7 @@ void sizes(benchmark::internal::Benchmark* benchmark) {
 
 BENCHMARK(floor_of_calls)->Apply(sizes);
 BENCHMARK_CAPTURE(flat, sequence, "Sequence", "", "BenchSuccess")->Apply(sizes);
+BENCHMARK_CAPTURE(flat, sequence_of_a_plugin, "SdkSequence", "", "BenchSuccess")->Apply(sizes);
 BENCHMARK_CAPTURE(flat, fallback, "Fallback", "", "BenchFailure")->Apply(sizes);
 BENCHMARK_CAPTURE(flat, parallel, "Parallel", "", "BenchRunning")->Apply(sizes);
 BENCHMARK_CAPTURE(flat, parallel_advance, "Parallel", "", "BenchAdvance")->Apply(sizes);
