@@ -51,6 +51,7 @@ struct Parameter {
   std::string_view unit = {};                      // "s", "" for none
   Range range = {};                                // numbers, and each number of a list
   std::span<const std::string_view> choices = {};  // strings: the words that are allowed
+  const ObjectType* object = nullptr;              // of type Object: which
   bool constant = false;                           // shapes the tree, so it is never a {key}
   std::string_view group = {};  // its value names a group of this type: the node is a member
   bool of_pool = false;         // its value names resources of that group: core/resource_set.h

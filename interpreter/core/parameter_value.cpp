@@ -40,6 +40,24 @@ class OutOfRange {
 
 }  // namespace
 
+std::string_view type_name(ValueType type, const ObjectType* object) {
+  return type == ValueType::Object ? object->name() : to_string(type);
+}
+
+std::optional<Value> parse_value(ValueType type, const ObjectType* object, std::string_view text) {
+  if (type != ValueType::Object) return parse_value(type, text);
+  if (!object->has_from_text()) return std::nullopt;
+  auto made = object->from_text(text);
+  if (!made) return std::nullopt;
+  return Value(std::move(*made));
+}
+
+std::string expected_text(ValueType type, const ObjectType* object) {
+  if (type != ValueType::Object) return std::string(expected_text(type));
+  if (object->has_from_text()) return fmt::format("the text of a {}", object->name());
+  return fmt::format("an entry {{key}} that carries a {}", object->name());
+}
+
 std::optional<RuleBreak> refuse_value(const Parameter& parameter, const Value& value) {
   if (const auto number = std::visit(OutOfRange(parameter.range), value)) {
     return RuleBreak{

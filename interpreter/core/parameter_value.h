@@ -8,6 +8,13 @@
 
 namespace lockstep {
 
+// The type in words: "int", or the name of a type of objects.
+std::string_view type_name(ValueType type, const ObjectType* object);
+
+// parse_value and expected_text, also of objects.
+std::optional<Value> parse_value(ValueType type, const ObjectType* object, std::string_view text);
+std::string expected_text(ValueType type, const ObjectType* object);
+
 // The error in `value`, which has the parameter's type: outside of its range, or not among its
 // choices. The message does not mention where the value comes from.
 std::optional<RuleBreak> refuse_value(const Parameter& parameter, const Value& value);

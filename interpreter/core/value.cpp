@@ -62,6 +62,10 @@ bool parse(std::string_view text, std::string& out) {
   return true;
 }
 
+bool parse(std::string_view /*text*/, Object& /*out*/) {
+  return false;
+}
+
 template <class T>
 bool parse(std::string_view text, std::vector<T>& out) {
   constexpr std::string_view kSeparators = ";, \t\r\n";
@@ -123,6 +127,9 @@ class Writer {
   void operator()(std::int64_t number) const { put(number); }
   void operator()(double number) const { put(number); }
   void operator()(const std::string& text) const { out_ += text; }
+  void operator()(const Object& object) const {
+    if (object.get() != nullptr) object.type()->append_text(object.get(), out_);
+  }
   template <class T>
   void operator()(const std::vector<T>& list) const {
     for (std::size_t i = 0; i < list.size(); ++i) {
@@ -193,7 +200,8 @@ constexpr TypeRow kTypes[] = {
      parse_as<std::vector<Flag>>,
      {"boolList", "xs:string", LIST_PATTERN("(true|false|1|0)"),
       "true or false, separated by ; or , or blanks."}},
-    {"list of string", "a list such as a;b", parse_as<std::vector<std::string>>, {"text"}}};
+    {"list of string", "a list such as a;b", parse_as<std::vector<std::string>>, {"text"}},
+    {"object", "an object", parse_as<Object>, {"text"}}};
 
 static_assert(std::size(kTypes) == std::variant_size_v<Value>, "a row for each type");
 

@@ -10,6 +10,8 @@
 #include <variant>
 #include <vector>
 
+#include "core/object.h"
+
 namespace lockstep {
 
 // Number, "int or double", is a type of ports and entries; a value is one of the two.
@@ -22,7 +24,8 @@ enum class ValueType : std::uint8_t {
   DoubleList,
   IntList,
   BoolList,
-  StringList
+  StringList,
+  Object  // of a type that a plugin declares: ObjectType
 };
 
 // An entry that nobody has written. Not std::monostate: libstdc++ 12 assumes that a variant of it,
@@ -41,8 +44,9 @@ struct Flag {
 };
 
 // The alternative of each ValueType but Number has its number as index.
-using Value = std::variant<NoValue, bool, std::int64_t, double, std::string, std::vector<double>,
-                           std::vector<std::int64_t>, std::vector<Flag>, std::vector<std::string>>;
+using Value =
+    std::variant<NoValue, bool, std::int64_t, double, std::string, std::vector<double>,
+                 std::vector<std::int64_t>, std::vector<Flag>, std::vector<std::string>, Object>;
 
 // True if a value of this type has been written.
 bool holds(const Value& value, ValueType type);
@@ -53,12 +57,14 @@ std::string_view to_string(ValueType type);
 // The whole text as a value of `type`, or nothing. Blanks around it are ignored, except in a
 // string. bool: true, false, 1, 0. double: decimal, finite. list: separated by ; or , or blanks; of
 // strings by ; only, and a backslash takes the character after it as it is.
+// Of an object nothing; see ObjectType::from_text.
 std::optional<Value> parse_value(ValueType type, std::string_view text);
 
 // What parse_value accepts for `type`, for a message: "a number", "true or false", …
 std::string_view expected_text(ValueType type);
 
-// The value as text that parse_value reads back to the same value; "" for no value.
+// The value as text that parse_value reads back to the same value; "" for no value. Of an object
+// what its type makes of it.
 std::string to_text(const Value& value);
 // Appends the same to `out`; allocates only if `out` has no room.
 void append_text(const Value& value, std::string& out);

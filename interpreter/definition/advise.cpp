@@ -168,7 +168,7 @@ class Adviser {
       if (told[entry]) return;
       told[entry] = true;
       if (report_.counted_only(Severity::Warning)) return;
-      const auto& [name, type, initial, first_use] = definition_.entries[entry];
+      const auto& [name, type, initial, first_use, object] = definition_.entries[entry];
       report_.at_value(first_use, fmt::format("nothing writes '{{{}}}'", brief(name)),
                        unwritten_hint(parameter, name, valued), Severity::Warning);
     });

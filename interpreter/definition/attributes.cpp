@@ -55,14 +55,15 @@ class AttributeChecker {
   // wrong.
   Value constant(const Parameter& parameter, const Attribute* attribute) const {
     if (attribute == nullptr) return absent(parameter);
-    auto value = parse_value(parameter.type, attribute->value);
+    auto value = parse_value(parameter.type, parameter.object, attribute->value);
     // A wrong or missing argument was already reported; $${ is a literal, and wrong here.
     const bool unknown = attribute->value.find("${") != std::string_view::npos;
     if (!value && unknown && report_.has_errors()) return {};
     if (!value) {
-      report_.at_value(attribute->place,
-                       fmt::format("'{}' is not {}, which '{}' must be", brief(attribute->value),
-                                   expected_text(parameter.type), parameter.name));
+      report_.at_value(
+          attribute->place,
+          fmt::format("'{}' is not {}, which '{}' must be", brief(attribute->value),
+                      expected_text(parameter.type, parameter.object), parameter.name));
       return {};
     }
     if (const auto refused = refuse_value(parameter, *value)) {

@@ -46,8 +46,9 @@ struct Port {
 struct BlackboardEntry {
   std::string name;  // the key, after the path of names to its SubTree
   ValueType type = ValueType::String;
-  Value initial;         // monostate: none
-  Place first_use = {};  // of the attribute that names it first
+  Value initial;                       // monostate: none
+  Place first_use = {};                // of the attribute that names it first
+  const ObjectType* object = nullptr;  // of type Object: which
 };
 
 // A declaration beside the trees that nodes of the tree name.

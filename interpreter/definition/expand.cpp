@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "core/parameter_value.h"
 #include "core/pre_order.h"
 #include "core/suggest.h"
 #include "core/wording.h"
@@ -15,8 +16,9 @@
 namespace lockstep {
 namespace {
 
-std::string with_article(ValueType type) {
-  return fmt::format("{} {}", to_string(type).starts_with('i') ? "an" : "a", to_string(type));
+std::string with_article(ValueType type, const ObjectType* object) {
+  const std::string_view name = type_name(type, object);
+  return fmt::format("{} {}", name.starts_with('i') ? "an" : "a", name);
 }
 
 class Expander {
@@ -168,20 +170,26 @@ class Expander {
     BlackboardEntry& entry = definition_.entries[found.entry];
     if (found.is_new) {
       entry.type = parameter.type;
+      entry.object = parameter.object;
       entry.first_use = port.place;
       if (found.has_text) set_initial(port.place, parameter, found.text, entry);
     } else if (entry.type == ValueType::Number && is_number(parameter.type)) {
       narrow(port.place, parameter, entry);
-    } else if (entry.type != parameter.type &&
-               !(parameter.type == ValueType::Number && is_number(entry.type))) {
-      report_.at_value(
-          port.place,
-          fmt::format("'{{{}}}' is {} for '{}', but {} elsewhere", brief(port.key),
-                      with_article(parameter.type), parameter.name, with_article(entry.type)),
-          fmt::format("the other use is at {}",
-                      to_text(report_.sources().locate(entry.first_use))));
+    } else if (!fits(parameter, entry)) {
+      report_.at_value(port.place,
+                       fmt::format("'{{{}}}' is {} for '{}', but {} elsewhere", brief(port.key),
+                                   with_article(parameter.type, parameter.object), parameter.name,
+                                   with_article(entry.type, entry.object)),
+                       fmt::format("the other use is at {}",
+                                   to_text(report_.sources().locate(entry.first_use))));
     }
     return found.entry;
+  }
+
+  static bool fits(const Parameter& parameter, const BlackboardEntry& entry) {
+    if (parameter.type == ValueType::Number && is_number(entry.type)) return true;
+    if (parameter.type != entry.type) return false;
+    return parameter.type != ValueType::Object || parameter.object->name() == entry.object->name();
   }
 
   static bool is_number(ValueType type) {
@@ -198,16 +206,16 @@ class Expander {
 
   void set_initial(Place place, const Parameter& parameter, std::string_view text,
                    BlackboardEntry& entry) {
-    const auto value = parse_value(parameter.type, text);
+    const auto value = parse_value(parameter.type, parameter.object, text);
     if (value) {
       entry.initial = *value;
       return;
     }
-    report_.at_value(
-        place,
-        fmt::format("the start value '{}' of '{}' is not {}, which '{}' must be", brief(text),
-                    brief(entry.name), expected_text(parameter.type), parameter.name),
-        "it comes from --set or from an attribute of a SubTree");
+    report_.at_value(place,
+                     fmt::format("the start value '{}' of '{}' is not {}, which '{}' must be",
+                                 brief(text), brief(entry.name),
+                                 expected_text(parameter.type, parameter.object), parameter.name),
+                     "it comes from --set or from an attribute of a SubTree");
   }
 
   void check_set_keys(const Scope& scope) {

@@ -42,7 +42,7 @@ std::string children_text(const NodeType& type) {
 }
 
 std::string facts_text(const Parameter& parameter) {
-  std::string text(to_string(parameter.type));
+  std::string text(type_name(parameter.type, parameter.object));
   if (!parameter.group.empty()) text = fmt::format("the name of a {}", parameter.name);
   if (!parameter.unit.empty()) text += fmt::format(" in {}", parameter.unit);
   if (parameter.direction != Direction::Input) {

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "core/json.h"
+#include "core/parameter_value.h"
 #include "describe/node_reference.h"
 
 namespace lockstep {
@@ -16,7 +17,7 @@ Json range_json(const Range& range) {
 
 Json parameter_json(const Parameter& parameter) {
   Json json{{"name", parameter.name},
-            {"type", to_string(parameter.type)},
+            {"type", type_name(parameter.type, parameter.object)},
             {"direction", to_string(parameter.direction)},
             {"default", nullptr},
             {"required", parameter.required},

@@ -53,7 +53,8 @@ std::string facets(const Parameter& parameter) {
 }  // namespace
 
 std::string xsd_type(const Parameter& parameter) {
-  if (parameter.direction != Direction::Input) {
+  const bool has_text = parameter.object == nullptr || parameter.object->has_from_text();
+  if (parameter.direction != Direction::Input || !has_text) {
     return "<xs:simpleType><xs:union memberTypes=\"substituted key\"/></xs:simpleType>";
   }
   const std::string_view others = parameter.constant ? "substituted" : "substituted key";

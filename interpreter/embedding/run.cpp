@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/parameter_value.h"
 #include "core/suggest.h"
 #include "embedding/handles.h"
 #include "runtime/loop.h"
@@ -71,8 +72,8 @@ bool get(lockstep_run* run, const char* key, T* value) {
   });
 }
 
-ValueType type_of(lockstep_run* run, const Entry& entry) {
-  return tree_of(*run).slots[&entry - run->run.blackboard().entries.data()].type;
+const Slot& slot_of(lockstep_run* run, const Entry& entry) {
+  return tree_of(*run).slots[&entry - run->run.blackboard().entries.data()];
 }
 
 bool write(Entry& entry, Value value) {
@@ -86,7 +87,7 @@ bool set(lockstep_run* run, const char* key, T value) {
   return guarded([&] {
     Entry* const entry = find_entry(run, key);
     if (entry == nullptr) return false;
-    const ValueType expected = type_of(run, *entry);
+    const ValueType expected = slot_of(run, *entry).type;
     if (!holds(Value(value), expected)) {
       return fail(fmt::format("the entry '{}' is of type {}", key, to_string(expected)));
     }
@@ -290,11 +291,11 @@ bool lockstep_run_set_text(lockstep_run* run, const char* key, const char* text)
     if (text == nullptr) return fail("an argument is NULL");
     Entry* const entry = find_entry(run, key);
     if (entry == nullptr) return false;
-    const ValueType type = type_of(run, *entry);
-    auto value = parse_value(type, text);
+    const auto& [name, type, initial, object] = slot_of(run, *entry);
+    auto value = parse_value(type, object, text);
     if (!value) {
-      return fail(fmt::format("the entry '{}' is of type {}: expected {}", key, to_string(type),
-                              expected_text(type)));
+      return fail(fmt::format("the entry '{}' is of type {}: expected {}", key,
+                              type_name(type, object), expected_text(type, object)));
     }
     return write(*entry, std::move(*value));
   });

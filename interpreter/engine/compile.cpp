@@ -61,7 +61,7 @@ class Compiler {
     find_guards();
     list_children();
     for (const BlackboardEntry& entry : definition_.entries) {
-      tree_.slots.push_back({entry.name, entry.type, entry.initial});
+      tree_.slots.push_back({entry.name, entry.type, entry.initial, entry.object});
     }
     add_labels();
     return std::move(tree_);

@@ -64,6 +64,7 @@ struct Slot {
   std::string name;  // the key, after the path of its SubTree
   ValueType type;
   Value initial;
+  const ObjectType* object = nullptr;  // of type Object: which
 };
 
 struct NodeLabel {

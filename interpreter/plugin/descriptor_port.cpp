@@ -8,6 +8,7 @@
 #include "core/identifier.h"
 #include "core/parameter_value.h"
 #include "plugin/descriptor.h"
+#include "plugin/object_type.h"
 
 namespace lockstep {
 namespace {
@@ -159,6 +160,19 @@ std::optional<Problem> read_port(const lockstep_port* from, std::span<const Para
   }
   const lockstep_port copy = covered_copy(from, from->struct_size);
   if (auto refusal = check(copy, others)) return refusal;
+  const ObjectType* object = nullptr;
+  if (copy.type == LOCKSTEP_OBJECT) {
+    auto found = read_object_type(copy.object);
+    if (!found) {
+      return Problem{fmt::format("('{}') {}", copy.name, found.error().message),
+                     found.error().hint};
+    }
+    if (copy.default_value != nullptr) {
+      return Problem{fmt::format("('{}') has a default, but carries objects", copy.name),
+                     "an object has no default"};
+    }
+    object = *found;
+  }
   choices = words_of(copy.choices);
   if (auto refusal = check_choices(copy, *type_of(copy.type), choices)) return refusal;
   port = Parameter{.name = copy.name,
@@ -167,7 +181,8 @@ std::optional<Problem> read_port(const lockstep_port* from, std::span<const Para
                    .required = copy.default_value == nullptr && copy.direction != LOCKSTEP_OUTPUT,
                    .direction = static_cast<Direction>(copy.direction - 1),
                    .unit = text_or_empty(copy.unit),
-                   .choices = choices};
+                   .choices = choices,
+                   .object = object};
   if (has_range(copy)) port.range = {.min = copy.min, .max = copy.max};
   if (copy.default_value != nullptr) port.default_text = copy.default_value;
   return check_default(copy, port);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <new>
+#include <utility>
 
 #include "core/fork_guard.h"
 #include "core/parameter_value.h"
@@ -216,6 +217,24 @@ bool set_string_list(const lockstep_caller* caller, std::uint32_t port, const lo
   return true;
 }
 
+bool get_object(const lockstep_caller* caller, std::uint32_t port, void** object) {
+  const auto* found = readable<Object>(caller, port);
+  if (found == nullptr) return false;
+  *object = found->get();
+  return true;
+}
+
+bool set_object(const lockstep_caller* caller, std::uint32_t port, void* object) {
+  if (object == nullptr) return false;
+  Value* const target = writable(caller, port, ValueType::Object);
+  if (target == nullptr) return false;
+  const ObjectType& type = *caller->ports[port].object;
+  type.retain(object);
+  // What the entry had is released at the end: its release finds the entry as it will be.
+  const Value before = std::exchange(*target, Object(type, object));
+  return true;
+}
+
 void set_error(const lockstep_caller* caller, const char* message) {
   if (caller->is_foreign()) return;
   if (message == nullptr || *message == '\0') message = "unknown error";
@@ -312,6 +331,8 @@ const lockstep_host& host_table() {
       .set_int_list = set_list<std::int64_t>,
       .set_bool_list = set_list<Flag>,
       .set_string_list = set_string_list,
+      .get_object = get_object,
+      .set_object = set_object,
   };
   return kTable;
 }

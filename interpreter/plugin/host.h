@@ -22,12 +22,13 @@ constexpr std::size_t kLongestLogLine = std::size_t{32} << 10;  // bytes; the re
 
 struct BoundPort {
   ValueType type;
-  const Value* read = nullptr;      // null: no value
-  Entry* write = nullptr;           // null: an input, or not bound to an entry
-  const Value* fallback = nullptr;  // the default, while the entry that it is bound to has no value
+  const Value* read = nullptr;         // null: no value
+  Entry* write = nullptr;              // null: an input, or not bound to an entry
+  const Value* fallback = nullptr;     // the default, while the entry has no value
+  const Parameter* limits = nullptr;   // null: it takes every value of its type
+  const ObjectType* object = nullptr;  // of type Object: which
   std::string_view name = {};
   std::string_view entry = {};
-  const Parameter* limits = nullptr;      // null: it takes every value of its type
   std::vector<lockstep_text> texts = {};  // the list of strings that was handed out last
 };
 

@@ -39,7 +39,10 @@ std::vector<BoundPort> bind_ports(const Tree& tree, const LeafNode& leaf, Blackb
   for (std::size_t index = 0; index < leaf.type->parameters.size(); ++index) {
     const PortBinding& binding = tree.ports[leaf.first_port + index];
     const Parameter& parameter = leaf.type->parameters[index];
-    BoundPort port{.type = parameter.type, .name = parameter.name, .limits = limits_of(parameter)};
+    BoundPort port{.type = parameter.type,
+                   .limits = limits_of(parameter),
+                   .object = parameter.object,
+                   .name = parameter.name};
     const Value* const constant =
         binding.constant != PortBinding::kUnbound ? &tree.constants[binding.constant] : nullptr;
     if (binding.slot != PortBinding::kUnbound) {
@@ -93,6 +96,7 @@ struct LeafSet::Implementation {
                    Call call);
 
   const Tree& tree_;
+  Blackboard& blackboard_;
   const LeafTime& time_;
   LeafLog log_;
   LeafWatch* const watch_;
@@ -106,7 +110,12 @@ struct LeafSet::Implementation {
 
 LeafSet::Implementation::Implementation(const Tree& tree, Blackboard& blackboard,
                                         const LeafTime& time, LeafLog log, LeafWatch* watch)
-    : tree_(tree), time_(time), log_(std::move(log)), watch_(watch), slots_(tree.leaves.size()) {
+    : tree_(tree),
+      blackboard_(blackboard),
+      time_(time),
+      log_(std::move(log)),
+      watch_(watch),
+      slots_(tree.leaves.size()) {
   for (const LeafNode& leaf : tree.leaves) {
     if (find_context(leaf.type->origin) == nullptr) {
       const lockstep_plugin* const plugin = leaf.type->origin;
@@ -132,6 +141,10 @@ void LeafSet::Implementation::destroy_all() {
     LeafSlot& slot = slots_[index];
     if (slot.self != nullptr) destroy_leaf(index);
     slot = LeafSlot{.type = slot.type, .children = slot.children};
+  }
+  // While what the leaves of a run share is still there.
+  for (Entry& entry : blackboard_.entries) {
+    if (std::holds_alternative<Object>(entry.value)) entry.value = NoValue();
   }
   for (std::size_t index = contexts_.size(); index-- > 0;) {
     Context& context = *contexts_[index];

@@ -41,6 +41,18 @@ TEST_CASE("isolated: a plugin with control nodes is refused") {
                           "without isolation, or move its leaves into another plugin");
 }
 
+TEST_CASE("isolated: a plugin that carries objects is refused") {
+  const std::string path = plugin_path("carries");
+  PluginSet plugins;
+  Diagnostics diagnostics;
+  CHECK(plugins.load_file(path, diagnostics));
+  const Strings refused = refusal(path, Isolation::Isolated);
+  REQUIRE(refused.size() == 1);
+  CHECK(refused[0] == "plugin '" + path +
+                          "' cannot be isolated: the port 'ticks' of 'Probe' carries objects | "
+                          "load it without isolation: an object cannot leave its process");
+}
+
 TEST_CASE("isolated: values of every type go in and out, also large ones") {
   const NothingRemains nothing_remains;
   Leaves leaves("echo", {{}});

@@ -16,7 +16,7 @@ SIZE_IS(lockstep_type, 4);
 SIZE_IS(lockstep_direction, 4);
 SIZE_IS(lockstep_log_level, 4);
 
-SIZE_IS(lockstep_port, 72);
+SIZE_IS(lockstep_port, 80);
 MEMBER_AT(lockstep_port, struct_size, 0);
 MEMBER_AT(lockstep_port, type, 4);
 MEMBER_AT(lockstep_port, direction, 8);
@@ -27,12 +27,21 @@ MEMBER_AT(lockstep_port, doc, 40);
 MEMBER_AT(lockstep_port, choices, 48);
 MEMBER_AT(lockstep_port, min, 56);
 MEMBER_AT(lockstep_port, max, 64);
+MEMBER_AT(lockstep_port, object, 72);
+
+SIZE_IS(lockstep_object_type, 48);
+MEMBER_AT(lockstep_object_type, struct_size, 0);
+MEMBER_AT(lockstep_object_type, name, 8);
+MEMBER_AT(lockstep_object_type, retain, 16);
+MEMBER_AT(lockstep_object_type, release, 24);
+MEMBER_AT(lockstep_object_type, to_text, 32);
+MEMBER_AT(lockstep_object_type, from_text, 40);
 
 SIZE_IS(lockstep_text, 16);
 MEMBER_AT(lockstep_text, text, 0);
 MEMBER_AT(lockstep_text, length, 8);
 
-SIZE_IS(lockstep_host, 216);
+SIZE_IS(lockstep_host, 232);
 MEMBER_AT(lockstep_host, abi_major, 0);
 MEMBER_AT(lockstep_host, abi_minor, 4);
 MEMBER_AT(lockstep_host, struct_size, 8);
@@ -61,6 +70,8 @@ MEMBER_AT(lockstep_host, get_string_list, 184);
 MEMBER_AT(lockstep_host, set_int_list, 192);
 MEMBER_AT(lockstep_host, set_bool_list, 200);
 MEMBER_AT(lockstep_host, set_string_list, 208);
+MEMBER_AT(lockstep_host, get_object, 216);
+MEMBER_AT(lockstep_host, set_object, 224);
 
 SIZE_IS(lockstep_leaf_type, 128);
 MEMBER_AT(lockstep_leaf_type, struct_size, 0);
@@ -127,6 +138,7 @@ static_assert(LOCKSTEP_REAL_TIME == 1);
 static_assert(LOCKSTEP_BOOL == 1 && LOCKSTEP_INT == 2 && LOCKSTEP_DOUBLE == 3);
 static_assert(LOCKSTEP_STRING == 4 && LOCKSTEP_DOUBLE_LIST == 5);
 static_assert(LOCKSTEP_INT_LIST == 6 && LOCKSTEP_BOOL_LIST == 7 && LOCKSTEP_STRING_LIST == 8);
+static_assert(LOCKSTEP_OBJECT == 9);
 static_assert(LOCKSTEP_NUMBER == 100);
 static_assert(LOCKSTEP_INPUT == 1 && LOCKSTEP_OUTPUT == 2 && LOCKSTEP_INOUT == 3);
 static_assert(LOCKSTEP_LOG_DEBUG == 0 && LOCKSTEP_LOG_INFO == 1 && LOCKSTEP_LOG_WARNING == 2);

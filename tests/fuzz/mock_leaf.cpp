@@ -186,7 +186,8 @@ constexpr lockstep_port kScriptPort = {sizeof(lockstep_port),
                                        nullptr,
                                        nullptr,
                                        0,
-                                       0};
+                                       0,
+                                       nullptr};
 constexpr lockstep_port kOutPort = {sizeof(lockstep_port),
                                     LOCKSTEP_DOUBLE,
                                     LOCKSTEP_OUTPUT,
@@ -196,7 +197,8 @@ constexpr lockstep_port kOutPort = {sizeof(lockstep_port),
                                     nullptr,
                                     nullptr,
                                     0,
-                                    0};
+                                    0,
+                                    nullptr};
 constexpr const lockstep_port* kPorts[] = {&kScriptPort, &kOutPort};
 
 constexpr lockstep_leaf_type leaf_type(const char* id, lockstep_leaf_kind kind) {

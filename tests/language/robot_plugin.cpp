@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <lockstep/leaf.hpp>
+#include <memory>
 #include <sstream>
+#include <stdexcept>
 
 namespace {
 
@@ -166,6 +168,77 @@ class Hold : public lockstep::Action<HoldPorts> {
   }
 };
 
+// Counts itself.
+struct Alive {
+  Alive() { ++lockstep::test::objects_alive; }
+  Alive(const Alive&) { ++lockstep::test::objects_alive; }
+  Alive& operator=(const Alive&) = default;
+  ~Alive() { --lockstep::test::objects_alive; }
+};
+
+struct Pose {
+  double x = 0, y = 0;
+  Alive alive = {};
+};
+
+std::string to_text(const Pose& pose) {
+  std::ostringstream text;
+  text << pose.x << ';' << pose.y;
+  return text.str();
+}
+
+bool from_text(std::string_view text, Pose& pose) {
+  std::istringstream in{std::string(text)};
+  char separator = 0;
+  if (text == "throw") throw std::runtime_error("a pose that throws");
+  return in >> pose.x >> separator >> pose.y && separator == ';' && in.peek() == EOF;
+}
+
+struct Route {
+  std::vector<double> points;
+  Alive alive = {};
+};
+
+}  // namespace
+
+LOCKSTEP_OBJECT_TYPE(Pose, "robot.Pose");
+LOCKSTEP_OBJECT_TYPE(Route, "robot.Route");
+
+namespace {
+
+struct PlanPorts : lockstep::Ports {
+  Input<std::shared_ptr<const Pose>> goal{this, "goal", required, "where to go"};
+  Output<std::shared_ptr<const Route>> route{this, "route", "how to get there"};
+  Output<std::shared_ptr<const Pose>> half{this, "half", "half of the way"};
+};
+
+class Plan : public lockstep::Action<PlanPorts> {
+ public:
+  Status tick() override {
+    const auto pose = goal.get();
+    route.set(std::make_shared<Route>(Route{{0, 0, pose->x, pose->y}}));
+    half.set(std::make_shared<Pose>(Pose{pose->x / 2, pose->y / 2}));
+    said.push_back("plan to " + to_text(*pose));
+    return Status::Success;
+  }
+};
+
+struct FollowPorts : lockstep::Ports {
+  InOut<std::shared_ptr<const Route>> route{this, "route", required, "where to go"};
+};
+
+// Makes the route shorter as it goes.
+class Follow : public lockstep::Action<FollowPorts> {
+ public:
+  Status tick() override {
+    const auto given = route.get();
+    if (given->points.empty()) return Status::Success;
+    route.set(std::make_shared<Route>(Route{{given->points.begin() + 2, given->points.end()}}));
+    said.push_back("at " + std::to_string(given->points.size()));
+    return route.set(nullptr) ? Status::Failure : Status::Running;
+  }
+};
+
 struct MeasurePorts : lockstep::Ports {
   Input<lockstep::Number> value{this, "value", "1", "an int or a double"};
 };
@@ -202,6 +275,8 @@ LOCKSTEP_PLUGIN_TABLE(robot_table, "robot", "1.0", "A robot that only says what 
                       lockstep::leaf<Show>("Show", "Shows its ports."),
                       lockstep::leaf<ShowLists>("ShowLists", "Shows lists, and sets longer ones."),
                       lockstep::leaf<Hold>("Hold", "Holds something."),
+                      lockstep::leaf<Plan>("Plan", "Plans a route."),
+                      lockstep::leaf<Follow>("Follow", "Follows a route."),
                       lockstep::leaf<Measure>("Measure", "Shows a number."),
                       lockstep::leaf<IsOpen>("IsOpen", "Whether a door is open."));
 

@@ -2,6 +2,7 @@
 // that write down what they are told.
 #pragma once
 
+#include <atomic>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,9 @@ namespace lockstep::test {
 
 // What the leaves have said on this thread.
 inline thread_local std::vector<std::string> said;
+
+// Objects that its leaves made and nobody has destroyed yet.
+inline std::atomic<int> objects_alive = 0;
 
 const lockstep_plugin& robot_plugin();
 

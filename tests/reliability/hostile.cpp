@@ -296,7 +296,17 @@ void deinit() {
 
 constexpr lockstep_port port(lockstep_type type, lockstep_direction direction, const char* name,
                              const char* value) {
-  return {sizeof(lockstep_port), type, direction, name, value, nullptr, nullptr, nullptr, 0, 0};
+  return {sizeof(lockstep_port),
+          type,
+          direction,
+          name,
+          value,
+          nullptr,
+          nullptr,
+          nullptr,
+          0,
+          0,
+          nullptr};
 }
 constexpr lockstep_port kHowPort = port(LOCKSTEP_STRING, LOCKSTEP_INPUT, "how", "");
 constexpr lockstep_port kWherePort = port(LOCKSTEP_STRING, LOCKSTEP_INPUT, "where", "tick");

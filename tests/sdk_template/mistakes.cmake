@@ -24,8 +24,11 @@ set(said_19 "error_choices_are_different_words_separated_by_semicolons")
 set(said_20 "name the values of the enum with LOCKSTEP_CHOICES")
 set(said_21 "error_limits_are_a_least_and_a_greatest_number")
 set(said_22 "error_only_a_string_has_choices")
+set(said_23 "error_default_is_not_a_value_of_the_port_type")
+set(said_24 "name the type of the object with LOCKSTEP_OBJECT_TYPE")
+set(said_25 "a port is of type bool")
 
-foreach(mistake RANGE 22)
+foreach(mistake RANGE 25)
   execute_process(
     COMMAND ${CXX_COMPILER} -std=c++17 -fsyntax-only -I${SDK} -DMISTAKE=${mistake} ${SOURCE}
     RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)

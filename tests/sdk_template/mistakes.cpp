@@ -5,6 +5,9 @@
 enum class Grip { Soft, Firm };
 enum class Unnamed { One };
 LOCKSTEP_CHOICES(Grip, "soft;firm");
+struct Path {};
+struct NoName {};
+LOCKSTEP_OBJECT_TYPE(Path, "nav.Path");
 
 struct GoodPorts : lockstep::Ports {
   Input<double> step{this, "step", "0.1", "a step"};
@@ -40,7 +43,14 @@ struct GoodPorts : lockstep::Ports {
   Input<double> other{this, "other", required, "the wrong way round", between(20, 0)};
 #elif MISTAKE == 22
   Input<double> other{this, "other", "1", "no text", one_of("1;2")};
+#elif MISTAKE == 23
+  Input<std::shared_ptr<const Path> > other{this, "other", "1;2", "an object has no default"};
+#elif MISTAKE == 24
+  Input<std::shared_ptr<const NoName> > other{this, "other", required, "an object without a name"};
+#elif MISTAKE == 25
+  Input<std::shared_ptr<Path> > other{this, "other", required, "an object that could change"};
 #else
+  Input<std::shared_ptr<const Path> > path{this, "path", required, "an object"};
   Input<Grip> grip{this, "grip", "firm", "an enum"};
   Input<double> force{this, "force", "0.1", "how much", "N", between(0, 0.1)};
   Output<double> speed{this, "speed", "no value", "m/s"};

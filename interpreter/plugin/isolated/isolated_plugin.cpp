@@ -25,10 +25,16 @@ std::string initialize_in(Session& session) {
   return "does not survive its init: " + words(session);
 }
 
-// Its children are leaves of other processes, or of this one.
-std::optional<Problem> refuse_control_nodes(const lockstep_plugin& plugin) {
+// The children of a control node are leaves of other processes, or of this one.
+std::optional<Problem> refuse_what_is_local(const lockstep_plugin& plugin) {
   for (std::uint32_t index = 0; index < plugin.leaf_type_count; ++index) {
     const lockstep_leaf_type& type = *plugin.leaf_types[index];
+    for (std::uint32_t port = 0; port < type.port_count; ++port) {
+      if (type.ports[port]->type != LOCKSTEP_OBJECT) continue;
+      return Problem{fmt::format("cannot be isolated: the port '{}' of '{}' carries objects",
+                                 type.ports[port]->name, type.id),
+                     "load it without isolation: an object cannot leave its process"};
+    }
     if (type.kind != LOCKSTEP_CONTROL && type.kind != LOCKSTEP_DECORATOR) continue;
     return Problem{fmt::format("cannot be isolated: '{}' is a {}", type.id,
                                type.kind == LOCKSTEP_CONTROL ? "control node" : "decorator"),
@@ -84,7 +90,7 @@ std::optional<Problem> IsolatedPlugin::describe(MessageReader description) {
   }
   description_.assign(bytes.begin(), bytes.end());
   if (descriptors_.read(description, remote_plugin(), remote_leaf_type())) {
-    return refuse_control_nodes(entry());
+    return refuse_what_is_local(entry());
   }
   return Problem{"cannot be loaded: its process sent an invalid answer",
                  "is lockstep-leafhost of the same build as lockstep?"};

@@ -34,6 +34,7 @@ class ValueWriter {
   explicit ValueWriter(MessageWriter& message) : message_(message) {}
 
   void operator()(NoValue) const {}
+  void operator()(const Object&) const {}  // a plugin that carries them is not isolated
   void operator()(bool flag) const { message_.put(static_cast<std::uint8_t>(flag)); }
   void operator()(Flag flag) const { (*this)(flag.is_set); }
   void operator()(std::int64_t number) const { message_.put(number); }
@@ -59,6 +60,7 @@ class ValueReader {
   explicit ValueReader(MessageReader& message) : message_(message) {}
 
   bool operator()(NoValue&) const { return true; }
+  bool operator()(Object&) const { return false; }
   bool operator()(bool& flag) const {
     flag = message_.get<std::uint8_t>() != 0;
     return message_.good();

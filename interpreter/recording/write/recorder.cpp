@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "core/parameter_value.h"
 #include "core/wording.h"
 #include "measure/synchronized_measure.h"
 #include "summary/statistics.h"
@@ -62,7 +63,7 @@ std::vector<RecordedKey> Recorder::keys() const {
   std::vector<RecordedKey> keys;
   for (const std::uint32_t slot : slots_) {
     const auto& entry = tree_.slots[slot];
-    keys.push_back({entry.name, std::string(to_string(entry.type))});
+    keys.push_back({entry.name, std::string(type_name(entry.type, entry.object))});
   }
   return keys;
 }

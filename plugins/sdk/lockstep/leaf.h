@@ -79,6 +79,7 @@ enum {
   LOCKSTEP_INT_LIST = 6,    /* "1;-2" */
   LOCKSTEP_BOOL_LIST = 7,   /* "true;false" */
   LOCKSTEP_STRING_LIST = 8, /* "front door;back door"; a backslash before ';' or '\\' keeps it */
+  LOCKSTEP_OBJECT = 9,      /* carried by reference count: lockstep_object_type */
   LOCKSTEP_NUMBER = 100     /* of an input: a constant or an entry, int or double */
 };
 
@@ -94,6 +95,27 @@ enum { LOCKSTEP_INPUT = 1, LOCKSTEP_OUTPUT = 2, LOCKSTEP_INOUT = 3 };
 
 typedef int32_t lockstep_log_level;
 enum { LOCKSTEP_LOG_DEBUG = 0, LOCKSTEP_LOG_INFO = 1, LOCKSTEP_LOG_WARNING = 2 };
+
+/* Since 1.1: a type of objects that ports carry by reference. What is carried does not change. Two
+ * types of one name are one, also of different plugins: each may get what the other has made, so
+ * the name says how the object looks in memory. Declare each type once in a plugin. */
+typedef struct lockstep_object_type {
+  uint32_t struct_size; /* sizeof(lockstep_object_type) as the plugin knew it */
+  const char* name;     /* "nav.Path": up to 100 letters, digits and '._:/-' */
+
+  /* [any] One reference more; one less, and with the last the end of the object. A reference that a
+   * leaf has set is released in a function of the run, at the latest before destroy_run. */
+  void (*retain)(void* object);
+  void (*release)(void* object);
+
+  /* [any] (optional) For recordings and views: writes at most `size` bytes of the text, without a
+   * NUL, and returns how many bytes the whole text has. */
+  size_t (*to_text)(const void* object, char* text, size_t size);
+  /* [any] (optional) For constants in a tree: a new object with one reference, or NULL when the
+   * text is none. It must not need init: `lockstep check` calls it too. Such an object belongs to
+   * the tree, whose runs share it, and is released when the tree is. */
+  void* (*from_text)(const char* text, size_t length);
+} lockstep_object_type;
 
 /* A port: an XML attribute of the leaf, constant or bound to a blackboard entry. */
 typedef struct lockstep_port {
@@ -111,6 +133,7 @@ typedef struct lockstep_port {
    * when the port is read (get returns false, and the leaf has an error), and in set. */
   const char* choices; /* of a string: the words that it may be, "soft;firm"; NULL for any text */
   double min, max;     /* of numbers, also in lists; both 0 for any, HUGE_VAL for no upper end */
+  const lockstep_object_type* object; /* of a LOCKSTEP_OBJECT, which has no default; else NULL */
 } lockstep_port;
 
 /* Who is calling: one leaf of one run, or one run (in create_run). Given by the host at create or
@@ -183,6 +206,10 @@ typedef struct lockstep_host {
                         size_t count);
   bool (*set_string_list)(const lockstep_caller* caller, uint32_t port, const lockstep_text* values,
                           size_t count);
+  /* get gives no reference away: to keep the object, retain it. set adds one of its own; NULL is no
+   * object. */
+  bool (*get_object)(const lockstep_caller* caller, uint32_t port, void** object);
+  bool (*set_object)(const lockstep_caller* caller, uint32_t port, void* object);
 } lockstep_host;
 
 /* Since 1.1: what a control node or decorator does with its children, which it names by index, from

@@ -1,2 +1,2 @@
-#define PORT_TYPE 9
+#define PORT_TYPE 10
 #include "entry.h"

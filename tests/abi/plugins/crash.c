@@ -86,9 +86,18 @@ static double progress(void* leaf) {
   return 0.25;
 }
 
-#define PORT(variable, name)              \
-  static const lockstep_port variable = { \
-      sizeof(lockstep_port), LOCKSTEP_STRING, LOCKSTEP_INPUT, name, "", NULL, NULL, NULL, 0, 0}
+#define PORT(variable, name)                                    \
+  static const lockstep_port variable = {sizeof(lockstep_port), \
+                                         LOCKSTEP_STRING,       \
+                                         LOCKSTEP_INPUT,        \
+                                         name,                  \
+                                         "",                    \
+                                         NULL,                  \
+                                         NULL,                  \
+                                         NULL,                  \
+                                         0,                     \
+                                         0,                     \
+                                         NULL}
 PORT(where_port, "where");
 PORT(how_port, "how");
 static const lockstep_port* const ports[] = {&where_port, &how_port};

@@ -124,8 +124,17 @@ lockstep_status tick(void* leaf) {
 
 constexpr lockstep_port port(lockstep_type type, lockstep_direction direction, const char* name,
                              const char* default_value) {
-  return {
-      sizeof(lockstep_port), type, direction, name, default_value, nullptr, nullptr, nullptr, 0, 0};
+  return {sizeof(lockstep_port),
+          type,
+          direction,
+          name,
+          default_value,
+          nullptr,
+          nullptr,
+          nullptr,
+          0,
+          0,
+          nullptr};
 }
 
 constexpr lockstep_port limited(lockstep_port port, double min, double max) {

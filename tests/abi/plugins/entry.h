@@ -93,6 +93,9 @@
 #ifndef PORT_CHOICES
 #define PORT_CHOICES NULL
 #endif
+#ifndef PORT_OBJECT
+#define PORT_OBJECT NULL
+#endif
 #ifndef PORT_MIN
 #define PORT_MIN 0
 #endif
@@ -103,10 +106,17 @@
 /* Some files refer to other lists than these. */
 #define MAYBE_UNUSED __attribute__((unused))
 
-static const lockstep_port the_port = {
-    PORT_SIZE,    PORT_TYPE, PORT_DIRECTION,           PORT_NAME,
-    PORT_DEFAULT, NULL,      "how many ticks it runs", PORT_CHOICES,
-    PORT_MIN,     PORT_MAX};
+static const lockstep_port the_port = {PORT_SIZE,
+                                       PORT_TYPE,
+                                       PORT_DIRECTION,
+                                       PORT_NAME,
+                                       PORT_DEFAULT,
+                                       NULL,
+                                       "how many ticks it runs",
+                                       PORT_CHOICES,
+                                       PORT_MIN,
+                                       PORT_MAX,
+                                       PORT_OBJECT};
 MAYBE_UNUSED static const lockstep_port* const the_ports[] = {&the_port, &the_port};
 
 static const lockstep_leaf_type the_leaf_type = {

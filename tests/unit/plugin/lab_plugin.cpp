@@ -45,8 +45,17 @@ void destroy_run(void* context) {
 
 constexpr lockstep_port port(const char* name, lockstep_type type, lockstep_direction direction,
                              const char* default_value = nullptr) {
-  return {
-      sizeof(lockstep_port), type, direction, name, default_value, "m/s", nullptr, nullptr, 0, 0};
+  return {sizeof(lockstep_port),
+          type,
+          direction,
+          name,
+          default_value,
+          "m/s",
+          nullptr,
+          nullptr,
+          0,
+          0,
+          nullptr};
 }
 
 const lockstep_port kPorts[] = {

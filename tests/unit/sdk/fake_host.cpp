@@ -139,7 +139,9 @@ const lockstep_host& FakeHost::table() {
                                        get_string_list,
                                        set_list<std::vector<std::int64_t>>,
                                        set_list<Flags>,
-                                       set_string_list};
+                                       set_string_list,
+                                       nullptr,
+                                       nullptr};
   return kTable;
 }
 

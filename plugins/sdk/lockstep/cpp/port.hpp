@@ -122,13 +122,23 @@ constexpr Limits all_limits(Limits limits) {
   return limits;
 }
 
+template <class T>
+constexpr const lockstep_object_type* object_of() {
+  if constexpr (PortTraits<T>::kType == LOCKSTEP_OBJECT) {
+    return PortTraits<T>::kObject;
+  } else {
+    return nullptr;
+  }
+}
+
 // A port without a default.
 template <class T>
 constexpr lockstep_port describe(lockstep_direction direction, const char* name, const char* doc,
                                  const char* unit, Limits limits) {
   limits = all_limits<T>(limits);
-  return {sizeof(lockstep_port), PortTraits<T>::kType, direction, name, nullptr, unit, doc,
-          limits.choices,        limits.min,           limits.max};
+  return {
+      sizeof(lockstep_port), PortTraits<T>::kType, direction,  name,          nullptr, unit, doc,
+      limits.choices,        limits.min,           limits.max, object_of<T>()};
 }
 
 template <class T>

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "caller.hpp"
@@ -101,13 +103,20 @@ struct Choices {
   static_assert(sizeof(Enum) == 0, "name the values of the enum with LOCKSTEP_CHOICES");
 };
 
+// The name of a type of objects, which LOCKSTEP_OBJECT_TYPE declares.
+template <class T>
+struct ObjectName {
+  static_assert(sizeof(T) == 0, "name the type of the object with LOCKSTEP_OBJECT_TYPE");
+};
+
 namespace detail {
 
 template <class T, class = void>
 struct PortTraits {
-  static_assert(sizeof(T) == 0,
-                "a port is of type bool, std::int64_t, double, std::string, lockstep::Number or a "
-                "std::vector of one of the first four");
+  static_assert(
+      sizeof(T) == 0,
+      "a port is of type bool, std::int64_t, double, std::string, a std::vector of one of "
+      "these, lockstep::Number, an enum, or a std::shared_ptr<const T>");
 };
 
 // What `kGet` and `kSet` of the host exchange as they are.
@@ -190,6 +199,94 @@ struct PortTraits<Enum, std::enable_if_t<std::is_enum_v<Enum>>> {
   }
   static bool set(const Caller& caller, std::uint32_t port, View value) {
     return Text::set(caller, port, word_at(static_cast<std::size_t>(value), kWords));
+  }
+};
+
+// What an object is for the host: a std::shared_ptr with a count of its references there.
+template <class T>
+struct ObjectHolder {
+  std::shared_ptr<const T> value;
+  std::atomic<std::size_t> references{1};
+};
+
+template <class T, class = void>
+inline constexpr bool has_to_text = false;
+template <class T>
+inline constexpr bool
+    has_to_text<T, std::void_t<decltype(std::string(to_text(std::declval<const T&>())))>> = true;
+
+template <class T, class = void>
+inline constexpr bool has_from_text = false;
+template <class T>
+inline constexpr bool has_from_text<T, std::void_t<decltype(static_cast<bool>(from_text(
+                                           std::string_view(), std::declval<T&>())))>> = true;
+
+// The functions of the C table. A to_text or from_text that throws gives no text or no object.
+template <class T>
+struct ObjectFunctions {
+  using Holder = ObjectHolder<T>;
+
+  static void retain(void* object) { ++static_cast<Holder*>(object)->references; }
+  static void release(void* object) {
+    Holder* const holder = static_cast<Holder*>(object);
+    if (--holder->references == 0) delete holder;
+  }
+  static std::size_t text_of(const void* object, char* text, std::size_t size) {
+    std::size_t length = 0;
+    catching(
+        [&] {
+          const std::string whole(to_text(*static_cast<const Holder*>(object)->value));
+          whole.copy(text, size);
+          length = whole.size();
+        },
+        [](const char*) {});
+    return length;
+  }
+  static void* make(const char* text, std::size_t length) {
+    Holder* made = nullptr;
+    catching(
+        [&] {
+          auto value = std::make_shared<T>();
+          if (!from_text(std::string_view(text, length), *value)) return;
+          made = new Holder{std::move(value)};
+        },
+        [](const char*) {});
+    return made;
+  }
+
+  static constexpr lockstep_object_type table() {
+    lockstep_object_type type{};
+    type.struct_size = sizeof(lockstep_object_type);
+    type.name = ObjectName<T>::kName;
+    type.retain = retain;
+    type.release = release;
+    if constexpr (has_to_text<T>) type.to_text = text_of;
+    if constexpr (has_from_text<T>) type.from_text = make;
+    return type;
+  }
+};
+
+template <class T>
+inline constexpr lockstep_object_type kObjectTable = ObjectFunctions<T>::table();
+
+template <class T>
+struct PortTraits<std::shared_ptr<const T>> {
+  using View = std::shared_ptr<const T>;
+  static constexpr lockstep_type kType = LOCKSTEP_OBJECT;
+  static constexpr const lockstep_object_type* kObject = &kObjectTable<T>;
+  static constexpr bool accepts(std::string_view) { return false; }
+  static bool get(const Caller& caller, std::uint32_t port, View& value) {
+    void* object = nullptr;
+    if (!caller.host->get_object(caller.id, port, &object)) return false;
+    value = static_cast<const ObjectHolder<T>*>(object)->value;
+    return true;
+  }
+  static bool set(const Caller& caller, std::uint32_t port, const View& value) {
+    if (!value) return false;
+    auto* const holder = new ObjectHolder<T>{value};
+    const bool is_set = caller.host->set_object(caller.id, port, holder);
+    ObjectFunctions<T>::release(holder);
+    return is_set;
   }
 };
 
@@ -281,4 +378,15 @@ T from_view(StringListView value) {
   struct lockstep::Choices<Enum> {                                                       \
     static_assert(std::is_enum_v<Enum>, "LOCKSTEP_CHOICES names the values of an enum"); \
     static constexpr const char* kWords = words;                                         \
+  }
+
+// Declares a type of objects that ports carry as std::shared_ptr<const Type>, with a name for all
+// plugins that know it: LOCKSTEP_OBJECT_TYPE(Path, "nav.Path"). Once, outside of any namespace, and
+// after those of these functions in the namespace of Type that there are:
+//   std::string to_text(const Path&);         // for recordings and views
+//   bool from_text(std::string_view, Path&);  // for constants in trees; false: the text is none
+#define LOCKSTEP_OBJECT_TYPE(Type, name)       \
+  template <>                                  \
+  struct lockstep::ObjectName<Type> {          \
+    static constexpr const char* kName = name; \
   }
