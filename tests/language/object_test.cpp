@@ -85,6 +85,20 @@ TEST_CASE("objects live as long as an entry, a leaf or the tree has them") {
   CHECK(objects_alive == 0);
 }
 
+// So an object may use what the leaves of its run share.
+TEST_CASE("objects in entries go with the leaves, not with the blackboard") {
+  const Pipeline pipeline(R"(<Plan goal="1;2" route="{r}" half="{h}"/>)");
+  REQUIRE(pipeline.loaded());
+  Blackboard blackboard(pipeline.tree());
+  const LeafTime time;
+  LeafSet leaves(pipeline.tree(), blackboard, time, 1);
+  const LeafSlot& slot = leaves.slots()[0];
+  CHECK(slot.type->tick(slot.self) == LOCKSTEP_SUCCESS);
+  CHECK(objects_alive == 3);
+  leaves.destroy_all();
+  CHECK(objects_alive == 1);  // that of the tree
+}
+
 TEST_CASE("an entry with an object has the text of the object") {
   const Pipeline pipeline(R"(<Plan goal="1;2" route="{r}" half="{h}"/>)");
   REQUIRE(pipeline.loaded());
