@@ -1,4 +1,4 @@
-// UTF-8, read by utf8proc: what is a character, and how a terminal shows it.
+// UTF-8 with utf8proc: characters, and how a terminal shows them.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@ struct Character {
   char32_t code = 0;
 };
 
-// The character that `text` begins with. No bytes: it does not begin with one, but with a stray or
-// cut sequence, an overlong form, a surrogate, something beyond U+10FFFF, or it is empty.
+// The first character of `text`. 0 bytes if there is none: `text` is empty, or begins with a stray
+// or cut sequence, an overlong form, a surrogate, or a code point beyond U+10FFFF.
 Character first_character(std::string_view text);
 inline std::size_t utf8_length(std::string_view text) {
   return first_character(text).bytes;
@@ -23,7 +23,7 @@ std::string_view utf8_front(std::string_view text, std::size_t bytes);
 
 // How many columns a terminal needs: 2 for a wide character, 0 for a mark on the one before it.
 std::size_t columns(char32_t code);
-// Of text that is printable(), all together.
+// The sum over a text that is printable().
 std::size_t columns(std::string_view text);
 
 // Characters that control a terminal: control characters (some terminals also obey U+0080 to

@@ -21,9 +21,9 @@ class Document {
   // A longer text is refused.
   static constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
 
-  // Null if the text is not readable XML; an error then reports where and why. A fault that leaves
-  // the elements readable (text in an element, an unknown '&x;') is an error too, but the document
-  // is there. `path` is how messages name the file, `first` the place of its first byte.
+  // Returns null, with an error, if the text is not readable XML. A mistake that leaves the
+  // elements readable (text in an element, an unknown '&x;') is an error too, but returns the
+  // document. Messages call the file `path`; `first` is the place of its first byte.
   static std::unique_ptr<Document> parse(std::string path, std::string text,
                                          Diagnostics& diagnostics, Place first = {});
   ~Document();

@@ -11,7 +11,7 @@
 namespace lockstep {
 namespace {
 
-// A text with so many is not a tree; each takes memory.
+// No tree has as many, and each takes memory.
 constexpr std::size_t kMaxFaults = 100;
 
 class Checker {
@@ -96,7 +96,7 @@ class Checker {
     if (given.size() < 2 || are_two) return;
     names_.clear();
     for (const auto& attribute : given) names_.push_back(attribute.name);
-    // Stable: of two with one name the second is the fault.
+    // Stable: of two with the same name, the second is reported.
     std::stable_sort(names_.begin(), names_.end());
     for (std::size_t i = 1; i < names_.size(); ++i) {
       if (names_[i] != names_[i - 1]) continue;
@@ -122,7 +122,7 @@ class Checker {
   }
 
   void text(const Token& token) {
-    // Blank is only a CDATA section, which outside of the root is not XML.
+    // Only a CDATA section is blank here, and XML has none outside of the root.
     const auto* first = std::find_if_not(token.value.begin(), token.value.end(), is_xml_blank);
     const bool blank = first == token.value.end();
     if (blank && !open_.empty()) return;
@@ -164,8 +164,8 @@ class Checker {
     stopped_ = true;
   }
 
-  // How often `shortest`, which has `mark` in it, can stand in the text. Memory that is not needed
-  // in the end is never touched.
+  // At most how often `shortest`, which contains `mark`, is in the text. Memory that turns out not
+  // to be needed is never touched.
   std::size_t at_most(char mark, std::string_view shortest) const {
     const auto marks = std::count(text_.begin(), text_.end(), mark);
     return std::min(static_cast<std::size_t>(marks), text_.size() / shortest.size());

@@ -1,7 +1,6 @@
-// Whether a text is XML, with the exact place of what is wrong, and where its elements and
-// attributes are. It knows nesting and bytes, not what tags and values mean.
-// docs/decisions/loading.md says why tinyxml2, which has no columns and accepts more than XML, does
-// not do this.
+// Checks whether a text is XML, reports the exact place of a mistake, and finds its elements and
+// attributes. It knows bytes and nesting, not the meaning of tags and values. tinyxml2 cannot do
+// this: it has no columns and accepts more than XML (docs/decisions/loading.md).
 #pragma once
 
 #include <optional>
@@ -13,7 +12,7 @@
 
 namespace lockstep {
 
-// Elements inside each other: more than the 1,000 levels that a tree may have.
+// Levels of elements; more than the 1,000 that a tree may have.
 constexpr std::size_t kMaxElementDepth = 1'024;
 constexpr std::size_t kMaxAttributes = 256;  // of one element
 
@@ -23,7 +22,7 @@ std::optional<XmlFault> check_encoding(std::string_view text);
 
 struct WellFormed {
   std::vector<XmlFault> faults;
-  bool readable = true;  // false: after a fault the elements are not those of the text
+  bool readable = true;  // false: because of a mistake, the elements are not those of the text
   // In the order of the text; the values of attributes as they are written there.
   std::vector<Element> elements;
   std::vector<Attribute> attributes;

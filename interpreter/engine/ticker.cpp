@@ -29,7 +29,7 @@ Status Ticker::tick_root(Nanoseconds now) {
 }
 
 // A group is idle when its common ancestor does not run: the ancestor's next tick begins an
-// activation, and the group begins anew with it. Whether the tick reached the group, its members
+// activation, and the group begins again with it. Whether the tick reached the group, its members
 // say.
 Status Ticker::tick_with_groups() {
   const auto rests = [this](const Group& group) {

@@ -1,5 +1,4 @@
-// What all plots have in common: letters that fit the size of the picture, and text that fits its
-// width.
+// Common to all plots: the size of letters for a picture, and text that fits its width.
 #pragma once
 
 #include <string>
@@ -9,8 +8,8 @@
 
 namespace lockstep {
 
-// So many lines differ in progress_plot.gp: six colors, first solid, then with five patterns of
-// dashes.
+// How many lines progress_plot.gp can distinguish: six colors, solid or with one of five patterns
+// of dashes.
 constexpr std::size_t kPlotStyles = 36;
 
 // The height of a letter, in pixels: smaller in a small picture, down to what can be read.

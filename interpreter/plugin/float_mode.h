@@ -45,7 +45,7 @@ class FloatMode {
  private:
   static constexpr unsigned kFlags = 0x3f;  // what happened so far; not a mode
   std::uint64_t bits_ = 0;
-  std::uint16_t x87_ = 0;  // long double computes with the old unit, which has a mode of its own
+  std::uint16_t x87_ = 0;  // long double computes with the old unit, which has a separate mode
 };
 
 }  // namespace lockstep

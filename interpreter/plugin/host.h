@@ -41,7 +41,7 @@ struct lockstep_caller {
   lockstep::RandomStream random;
   const lockstep::LeafTime* time;
   const lockstep::LeafLog* log;
-  lockstep::LeafSlot* slot;                 // its `error` tells of set_error
+  lockstep::LeafSlot* slot;                 // set_error sets its `error`
   const lockstep_plugin* plugin = nullptr;  // of a run: whose run context it is
   const lockstep::CallSite* site = nullptr;
   // Collects the entries that are set, for a process that only mirrors them; null: not collected.

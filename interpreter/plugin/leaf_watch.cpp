@@ -141,7 +141,7 @@ void put_in_front(lockstep_leaf_type& type, bool is_timed) {
 
 lockstep_leaf_type watched(lockstep_leaf_type type, bool is_timed) {
   using Type = lockstep_leaf_type;
-  type.create = nullptr;  // LeafSet's own matter, like destroy
+  type.create = nullptr;  // only LeafSet calls it, and destroy
   type.destroy = nullptr;
   put_in_front<&Type::start, PluginFunction::Start>(type, is_timed);
   put_in_front<&Type::tick, PluginFunction::Tick>(type, is_timed);

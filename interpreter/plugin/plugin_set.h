@@ -21,7 +21,7 @@ enum class Isolation : bool { InProcess, Isolated };
 struct IsolationOptions {
   std::string leafhost;                               // path of the program lockstep-leafhost
   Nanoseconds hang_limit = std::chrono::seconds(10);  // 0 = never
-  bool all = false;                                   // whatever a load function is told
+  bool all = false;                                   // whatever is passed to a load function
 };
 
 class PluginSet {

@@ -23,7 +23,7 @@ struct RunOptions {
 
 class Run {
  public:
-  // `tree` must outlive the run. Several runs may share one tree, each on a thread of its own.
+  // `tree` must outlive the run. Several runs may share one tree, each on a separate thread.
   Run(const Tree& tree, const RunOptions& options);
   // Halts the running leaves, then destroys all leaves.
   ~Run();

@@ -28,7 +28,7 @@ struct LogPlotOptions {
   PlotSize size;
 };
 
-// The nodes to draw; none after an error, which it tells.
+// The nodes to draw; none after an error, which it prints.
 std::vector<NodeIndex> chosen_nodes(const LogPlotOptions& options, const RecordingHeader& header) {
   const auto nodes = synchronized_nodes(header);
   if (nodes.empty()) {

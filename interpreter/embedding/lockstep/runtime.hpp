@@ -235,7 +235,7 @@ struct LoopResult {
   double seconds = 0;
 };
 
-// One run of a tree, with leaves of its own. Used by one thread at a time.
+// One run of a tree, with separate leaves. Used by one thread at a time.
 class Run {
  public:
   explicit Run(const Project& project, RunSettings settings = {})

@@ -27,7 +27,7 @@ inline constexpr Parameter kMemory{
     .default_text = "true",
     .constant = true};
 
-// Where the two counts stand in the parameters of a kind.
+// The positions of the two counts in the parameters of a kind.
 struct Places {
   unsigned success_count, failure_count;
 };
@@ -49,12 +49,12 @@ inline std::optional<RuleBreak> check_counts(const ParameterValues& given, const
   return std::nullopt;
 }
 
-// A guard is ticked in every tick: one that is looked at once guards nothing.
+// A guard is ticked in every tick.
 inline bool is_over(const Ticker& ticker, NodeIndex child) {
   return is_complete(ticker.status(child)) && ticker.is_latched(child);
 }
 
-// How many children have which result.
+// How many children have succeeded, failed, …
 struct Tally {
   std::int64_t succeeded = 0, failed = 0;
 

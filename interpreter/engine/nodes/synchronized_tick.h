@@ -10,8 +10,8 @@
 
 namespace lockstep::synchronized {
 
-// The progress of a child as the node counts it: 1 also when it has failed for good, for nobody
-// waits for a child that is over.
+// The progress of a child as the node counts it. A child that has failed for good counts as 1, so
+// that no other child waits for it.
 inline double reached(Ticker& ticker, NodeIndex child) {
   const Status status = ticker.status(child);
   if (status == Status::Failure && ticker.is_latched(child)) return 1.0;
@@ -58,7 +58,7 @@ Status tick_children(Ticker& ticker, NodeIndex self, const parallel::Places& pla
   return status;
 }
 
-// So that synchronized nodes nest: the least progressed child.
+// The progress of the least progressed child, so that synchronized nodes can be nested.
 inline double least_progress(Ticker& ticker, NodeIndex self) {
   double least = 1.0;
   for (NodeIndex child = self + 1; child != ticker.end_of(self); child = ticker.end_of(child)) {

@@ -18,7 +18,7 @@ class RecordingJson;
 
 // The findings after a recording has been read; "" if there is nothing to report.
 struct RecordingOutcome {
-  std::string error, gaps, cut;    // as RecordingReader tells them
+  std::string error, gaps, cut;    // as RecordingReader reports them
   std::optional<RecordedEnd> end;  // the closing line
 };
 

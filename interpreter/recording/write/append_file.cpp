@@ -127,7 +127,7 @@ void AppendFile::write_until_stopped() {
 
 // Nothing is written after an error: a gap in the middle would be worse than a short file. A packet
 // stays in the ring until its text is in the file, and the text follows from the ring alone. So a
-// crash in the middle of this costs nothing: the handler begins it anew, and leaves out what is
+// crash in the middle of this costs nothing: the handler begins it again, and leaves out what is
 // written.
 void AppendFile::write_out(Failure failure) {
   PacketPrinter printer(ring_, format_);
@@ -210,7 +210,7 @@ void AppendFile::save(std::chrono::nanoseconds deadline) {
   work_.ring();
   while (!mine && !is_done() && monotonic_now() < deadline) nap();
   if (is_done() || !(mine || claim())) return;
-  // A pipe that nobody reads must not hold up the end of the process.
+  // An unread pipe must not delay the end of the process.
   ::fcntl(file_, F_SETFL, O_APPEND | O_NONBLOCK);
   write_out(Failure::Silent);
   release();

@@ -1,5 +1,5 @@
 // Runs one tree a thousand times on the virtual clock, on all processors, and prints how often it
-// succeeded. The tree is loaded once; each thread has a run of its own and restarts it.
+// succeeded. The tree is loaded once; each thread has a run and restarts it.
 //   many_runs tree.xml [plugin directory]
 #include <algorithm>
 #include <atomic>

@@ -1,4 +1,4 @@
-// A program with a loop of its own at 100 Hz, and with the leaves of its robot: two arms that reach
+// A program with its own loop at 100 Hz, and with the leaves of its robot: two arms that reach
 // out and wait for each other at half of the way. Ends with the time at which each arm was there.
 #include <algorithm>
 #include <chrono>

@@ -72,7 +72,7 @@ Result guarded(const Caller& caller, Result otherwise, Work&& work) noexcept {
   return result;
 }
 
-// The end of a run context: there is no run left that an error could end, so a warning tells.
+// The end of a run context: no run is left that an error could end, so this logs a warning.
 template <class Work>
 void guarded_end(const Caller& caller, Work&& work) noexcept {
   catching(work, [&](const char* message) {

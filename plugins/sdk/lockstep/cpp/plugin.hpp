@@ -73,7 +73,7 @@ struct LeafFunctions {
   }
 };
 
-// A pointer to a member function has the class that declares it in its type: that tells an
+// A pointer to a member function has the class that declares it in its type. This distinguishes an
 // overridden function from one that was left alone.
 template <class Own, class Inherited>
 inline constexpr bool is_overridden = !std::is_same_v<Own, Inherited>;
