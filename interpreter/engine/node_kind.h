@@ -16,6 +16,8 @@ using NodeIndex = std::uint32_t;
 // The current round of a node that repeats its child, from 1, and the number of rounds; 0: endless.
 struct Round {
   std::int64_t number = 0, of = 0;
+
+  friend bool operator==(const Round&, const Round&) = default;
 };
 
 struct NodeKind {

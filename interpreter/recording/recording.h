@@ -11,6 +11,7 @@
 
 #include "core/clock.h"
 #include "core/status.h"
+#include "engine/node_kind.h"
 #include "engine/synchronized.h"
 #include "runtime/leaf_lines.h"
 
@@ -47,12 +48,13 @@ struct RecordingHeader {
 
 // The state of one node in one tick. Before the first tick all nodes are as constructed here.
 struct RecordedState {
-  Status status = Status::Idle;  // after the tick
-  double progress = 0;           // at the start of the tick, as its parent used it
-  bool ticked = false;
-  bool held = false;
+  double progress = 0;  // at the start of the tick, as its parent used it
   // Of a synchronized node: engine/synchronized.h; of a UseResources: engine/resources.h.
   double limit = 0;
+  Round round = {};              // of a node that repeats its child; number 0: not running
+  Status status = Status::Idle;  // after the tick
+  bool ticked = false;
+  bool held = false;
 
   friend bool operator==(const RecordedState&, const RecordedState&) = default;
 };

@@ -90,6 +90,7 @@ Snapshot snapshot_of(const RecordingHeader& header, const TreeShape& shape, cons
     const RecordedState& state = moment.nodes[node];
     NodeView& view = snapshot.nodes[node];
     view.limit = state.limit;
+    view.round = state.round;
     view.activity = state.held ? Activity::Paused : static_cast<Activity>(state.status);
     if (shape.nodes[node].keeper) {
       view.progress = shown_progress(view.activity, state.progress);

@@ -39,6 +39,23 @@ constexpr const char* kTick1 =
 
 }  // namespace
 
+TEST_CASE("a replay shows which round of Retry and Repeat it is") {
+  const TemporaryDirectory directory;
+  const std::string file = record(
+      directory,
+      tree_text("<Parallel><ForceSuccess><Retry attempts=\"8\"><Inverter><Advance step=\"0.5\"/>"
+                "</Inverter></Retry></ForceSuccess><Repeat><Advance step=\"0.4\"/></Repeat>"
+                "</Parallel>"),
+      "30");
+  const auto shown = [&](const std::string& tick) {
+    return call({"replay", file, "--at", tick}).out;
+  };
+  CHECK(contains(shown("0"), "> Retry  1/8\n"));
+  CHECK(contains(shown("4"), "> Retry  3/8\n"));
+  CHECK(contains(shown("4"), "> Repeat  2\n"));
+  CHECK_FALSE(contains(shown("20"), "/8"));
+}
+
 TEST_CASE("without a terminal a replay prints one tick: that of --at, else the last") {
   const TemporaryDirectory directory;
   const std::string file = record(directory);

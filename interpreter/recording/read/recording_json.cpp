@@ -83,7 +83,26 @@ void apply(JsonValue change, std::vector<RecordedState>& states) {
   });
   if (field != kFields) throw JsonError(kNone);
   state.limit = states[node].limit;
+  state.round = states[node].round;
   states[node] = state;
+}
+
+void apply_round(JsonValue change, std::vector<RecordedState>& states) {
+  constexpr char kNone[] = "a node's round is not [index, number, of]";
+  if (!change.is_list()) throw JsonError(kNone);
+  std::uint64_t fields[3] = {};
+  unsigned field = 0;
+  NodeIndex node = 0;
+  change.each_item([&](JsonValue item) {
+    if (field == 0) {
+      node = node_from(item, states.size(), kNone);
+    } else if (field > 2 || !item.get(fields[field]) || fields[field] > INT64_MAX) {
+      throw JsonError(kNone);
+    }
+    ++field;
+  });
+  if (field != 3) throw JsonError(kNone);
+  states[node].round = {static_cast<std::int64_t>(fields[1]), static_cast<std::int64_t>(fields[2])};
 }
 
 // Of a UseResources a set of resources, negative when it waits for them.
@@ -244,6 +263,9 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
   const auto read_limits = [&](JsonValue value) {
     value.each_item([&](JsonValue change) { apply_limit(change, users_, states); });
   };
+  const auto read_rounds = [&](JsonValue value) {
+    value.each_item([&](JsonValue change) { apply_round(change, states); });
+  };
   const auto read_faults = [&](JsonValue value) {
     faults_.reserve(value.count_items());
     value.each_item([&](JsonValue it) { faults_.push_back(fault_from(it, states.size())); });
@@ -266,6 +288,7 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
          {"time_s", [&](JsonValue value) { into_seconds(time.emplace())(value); }, kMayLack},
          {"nodes", read_nodes, kMayLack},
          {"limits", read_limits, kMayLack},
+         {"rounds", read_rounds, kMayLack},
          {"succeeded", read_succeeded, kMayLack},
          {"faults", read_faults, kMayLack},
          {"entries", read_entries, kMayLack},

@@ -111,6 +111,13 @@ void add_limit(std::string& text, const LimitChange& it) {
   text += ']';
 }
 
+void add_round(std::string& text, const RoundChange& it) {
+  add_number(text += '[', it.node);
+  add_number(text += ',', it.round.number);
+  add_number(text += ',', it.round.of);
+  text += ']';
+}
+
 void add_fault(std::string& text, const Fault& fault) {
   constexpr std::size_t kMostOfMessage = 4096;
   add_number(text += '[', fault.node);
@@ -189,11 +196,12 @@ class JsonLines final : public RecordingFormat {
     return Json{{"end", std::move(json)}}.text() + '\n';
   }
 
-  // ]} or ],"limits":[[1,0.5]],"succeeded":[1],"faults":[[3,"threw …"],…],… } and a newline; of a
-  // long message only the beginning.
+  // ]} or ],"limits":[[1,0.5]],"rounds":[[2,3,8]],"succeeded":[1],"faults":[[3,"threw …"],…],… }
+  // and a newline; of a long message only the beginning.
   void set_tick_end(std::string& text, const TickEnd& end) const override {
     text = ']';
     add_list(text, "limits", end.limits, add_limit);
+    add_list(text, "rounds", end.rounds, add_round);
     add_list(text, "succeeded", end.succeeded, add_number<NodeIndex>);
     add_list(text, "faults", end.faults, add_fault);
     add_list(text, "entries", end.entries, add_entry);
@@ -201,8 +209,8 @@ class JsonLines final : public RecordingFormat {
     text += "}\n";
   }
 
-  std::size_t most_of_tick_end(std::size_t synchronized_nodes, std::size_t entries) const override {
-    return 64 + 64 * (synchronized_nodes + entries);
+  std::size_t most_of_tick_end(std::size_t nodes, std::size_t entries) const override {
+    return 64 + 64 * (nodes + entries);
   }
 
   // {"lost":{"ticks":2,"from":7}} and the end of the line.

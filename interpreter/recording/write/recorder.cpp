@@ -42,8 +42,11 @@ Recorder::Recorder(const Tree& tree, RecorderOptions options)
       delta_(tree),
       slots_(slots_of(tree, options_.entries)),
       entries_(slots_) {
+  const auto repeating = std::ranges::count_if(
+      tree.nodes, [](const Node& node) { return node.kind->round != nullptr; });
   line_end_.reserve(options_.format.most_of_tick_end(
-      synchronized_nodes(tree).size() + tree.members.size(), slots_.size()));
+      synchronized_nodes(tree).size() + tree.members.size() + static_cast<std::size_t>(repeating),
+      slots_.size()));
 }
 
 void Recorder::run_started(Ticker&, const RunStart& start) {
@@ -100,6 +103,7 @@ PacketHead Recorder::head() const {
 
 bool Recorder::push_tick(Ticker& ticker, const TickReport& report) {
   options_.format.set_tick_end(line_end_, {.limits = delta_.limits(ticker),
+                                           .rounds = delta_.rounds(ticker),
                                            .succeeded = delta_.succeeded(ticker),
                                            .faults = report.faults,
                                            .entries = entries_.changes(ticker.blackboard()),

@@ -64,6 +64,10 @@ RecordingDelta::RecordingDelta(const Tree& tree)
   for_each_resource_user(tree, [this](NodeIndex node) { kept_limits_.push_back({.node = node}); });
   first_user_ = synchronized_nodes_.size();
   limits_.reserve(kept_limits_.size());
+  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
+    if (tree.nodes[node].kind->round != nullptr) kept_rounds_.push_back({.node = node});
+  }
+  rounds_.reserve(kept_rounds_.size());
 }
 
 // Only running nodes are asked. The progress of all others follows from their Activity, so it is
@@ -109,7 +113,23 @@ std::span<const LimitChange> RecordingDelta::limits(Ticker& ticker) {
   return limits_;
 }
 
+std::span<const RoundChange> RecordingDelta::rounds(Ticker& ticker) {
+  rounds_.clear();
+  for (const RoundChange& kept : kept_rounds_) {
+    const bool is_running = ticker.status(kept.node) == Status::Running;
+    const Round round =
+        is_running ? ticker.node(kept.node).kind->round(ticker, kept.node) : Round{};
+    if (round != kept.round) rounds_.push_back({kept.node, round});
+  }
+  return rounds_;
+}
+
 void RecordingDelta::keep() {
+  auto kept_round = kept_rounds_.begin();
+  for (const RoundChange& change : rounds_) {  // in the same order
+    while (kept_round->node != change.node) ++kept_round;
+    kept_round->round = change.round;
+  }
   auto kept = kept_limits_.begin();
   for (const LimitChange& change : limits_) {  // in the same order
     while (kept->node != change.node) ++kept;

@@ -26,7 +26,9 @@ class RecordingDelta {
   // The synchronized nodes that the tick reached whose limit is not what was kept. Valid until the
   // next call.
   std::span<const LimitChange> limits(Ticker& ticker);
-  // Call when the file has accepted the last results of changes() and limits().
+  // The rounds that are not what was kept. Valid until the next call.
+  std::span<const RoundChange> rounds(Ticker& ticker);
+  // Call when the file has accepted the last results of changes(), limits() and rounds().
   void keep();
 
  private:
@@ -38,6 +40,8 @@ class RecordingDelta {
   std::vector<LimitChange> kept_limits_;  // of each synchronized node, then of users of resources
   std::size_t first_user_ = 0;            // of these
   std::vector<LimitChange> limits_;
+  std::vector<RoundChange> kept_rounds_;  // of each node that repeats its child
+  std::vector<RoundChange> rounds_;
   std::vector<double> progress_;      // at the start of this tick
   std::vector<std::uint8_t> source_;  // the Activity that it is of, where it follows from that
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "engine/node_kind.h"
 #include "engine/run_state.h"
 
 namespace lockstep {
@@ -28,6 +29,12 @@ struct NodeChange {
 struct LimitChange {
   NodeIndex node = 0;
   double limit = 0;
+};
+
+// The round of a node that repeats its child; number 0: it is not running.
+struct RoundChange {
+  NodeIndex node = 0;
+  Round round = {};
 };
 
 struct PacketHead {

@@ -19,12 +19,14 @@ std::string text_of(NodeIndex node, const RecordedState& state) {
 }
 
 RecordedState random_state(std::mt19937& random) {
-  return {.status = static_cast<Status>(below(random, 4)),
-          .progress = static_cast<double>(below(random, 1001)) / 1000,
-          .ticked = below(random, 2) == 1,
-          .held = below(random, 4) == 0,
-          .limit = below(random, 5) == 0 ? std::numeric_limits<double>::infinity()
-                                         : static_cast<double>(below(random, 11)) / 10};
+  RecordedState state;
+  state.status = static_cast<Status>(below(random, 4));
+  state.progress = static_cast<double>(below(random, 1001)) / 1000;
+  state.ticked = below(random, 2) == 1;
+  state.held = below(random, 4) == 0;
+  state.limit = below(random, 5) == 0 ? std::numeric_limits<double>::infinity()
+                                      : static_cast<double>(below(random, 11)) / 10;
+  return state;
 }
 
 void append_line(const Moment& moment, const std::vector<RecordedState>& before, std::string& out) {

@@ -90,7 +90,7 @@ TEST_CASE("times, faults and lost ticks differ too") {
 TEST_CASE("progress within the tolerance is the same, a status never") {
   std::mt19937 random(6);
   RandomRecording one = random_recording(random);
-  one.ticks[3].nodes[1] = {.status = Status::Running, .progress = 0.5};
+  one.ticks[3].nodes[1] = {.progress = 0.5, .status = Status::Running};
   RandomRecording other = one;
   other.ticks[3].nodes[1].progress = 0.75;
   CHECK(!diff_of(one.text(), other.text()).same());

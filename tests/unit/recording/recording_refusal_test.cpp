@@ -131,6 +131,11 @@ TEST_CASE("a tick is refused for each value that is not what it must be") {
        {"7", "[]", "[0]", "[0,0.5,1]", "[0,1.5]", "[0,-0.1]", "[0,\"1\"]"}) {
     check_all({{"\"tick\":0", "\"limits\":[" + wrong + "],\"tick\":0", limit}}, 2);
   }
+  const std::string round = "a node's round is not [index, number, of]";
+  for (const std::string wrong :
+       {"7", "[0,1]", "[0,1,2,3]", "[0,-1,2]", "[0,1.5,2]", "[0,9223372036854775808,0]"}) {
+    check_all({{"\"tick\":0", "\"rounds\":[" + wrong + "],\"tick\":0", round}}, 2);
+  }
   const std::string log = "a log line is not [who, level, text]";
   check_all({{"\"tick\":0", "\"entries\":[7],\"tick\":0", "an entry is given twice"},
              {"\"tick\":0", "\"logs\":[7],\"tick\":0", log},
