@@ -102,7 +102,8 @@ SynchronizedSummary Statistics::summary_of(const Measured& measured) const {
 std::string describe_node(const Tree& tree, NodeIndex node) {
   const NodeType& type = *tree.labels[node].type;
   if (type.leaf == nullptr) return fmt::format("the node '{}' ({})", tree.path(node), type.id);
-  return fmt::format("the leaf '{}' ({} of plugin '{}')", tree.path(node), type.id, type.plugin);
+  return fmt::format("the {} '{}' ({} of plugin '{}')", type.arity.max == 0 ? "leaf" : "node",
+                     tree.path(node), type.id, type.plugin);
 }
 
 std::string failure_text(const Fault& fault, std::uint64_t ticks) {

@@ -1,7 +1,5 @@
 #include "control.hpp"
 
-#include <stdexcept>
-
 namespace nav {
 
 using Status = lockstep::Status;
@@ -66,21 +64,20 @@ bool RoundRobin::is_exhausted() const {
 // PipelineSequence above starts its child again at this rate. It ends with a halt, or with a gap in
 // the ticks.
 Status RateController::tick() {
-  if (hz.get() <= 0) throw std::invalid_argument("hz must be more than 0");
+  const double period = 1 / hz.get();
   if (now() - ticked_ > 1.5 * tick_period()) is_first_ = true;
   ticked_ = now();
   if (is_first_) began_ = now();
-  if (!is_due()) return Status::Running;
+  if (!is_due(period)) return Status::Running;
   is_first_ = false;
   const Status status = tick_child();
   if (status == Status::Success) began_ = now();
   return status;
 }
 
-bool RateController::is_due() const {
+bool RateController::is_due(double period) const {
   constexpr double kRounding = 1e-9;  // of a sum of ticks
-  return is_first_ || child_status() == Status::Running ||
-         now() - began_ >= 1 / hz.get() - kRounding;
+  return is_first_ || child_status() == Status::Running || now() - began_ >= period - kRounding;
 }
 
 }  // namespace nav

@@ -9,8 +9,9 @@
 namespace nav {
 
 struct RecoveryPorts : lockstep::Ports {
-  Input<std::int64_t> number_of_retries{this, "number_of_retries", "1",
-                                        "how often the recovery may run in an activation"};
+  Input<std::int64_t> number_of_retries{this, "number_of_retries",
+                                        "1",  "how often the recovery may run in an activation",
+                                        "",   at_least(0)};
 };
 
 // Two children: an action and its recovery.
@@ -59,7 +60,7 @@ class RoundRobin : public lockstep::Control<RoundRobinPorts> {
 };
 
 struct RatePorts : lockstep::Ports {
-  Input<double> hz{this, "hz", "10", "how often the child is started", "1/s"};
+  Input<double> hz{this, "hz", "10", "how often the child is started", "1/s", at_least(0.001)};
 };
 
 class RateController : public lockstep::Decorator<RatePorts> {
@@ -68,7 +69,7 @@ class RateController : public lockstep::Decorator<RatePorts> {
   void halt() override { is_first_ = true; }
 
  private:
-  bool is_due() const;
+  bool is_due(double period) const;
 
   bool is_first_ = true;
   double began_ = 0;   // when the current period did

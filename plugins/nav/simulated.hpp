@@ -15,7 +15,8 @@ struct Robot {
 
 struct GoalPorts : lockstep::Ports {
   Input<double> distance{this, "distance", "10", "to the goal when the run begins", "m"};
-  Input<double> failure{this, "failure", "0.1", "probability that no path is found"};
+  Input<double> failure{this, "failure",    "0.1", "probability that no path is found",
+                        "",   between(0, 1)};
   Output<double> path{this, "path", "length of the path", "m"};
 };
 
@@ -26,8 +27,9 @@ class ComputePathToPose : public lockstep::Action<GoalPorts> {
 };
 
 struct FollowPorts : lockstep::Ports {
-  Input<double> speed{this, "speed", "0.5", "of the robot", "m/s"};
-  Input<double> failure{this, "failure", "0.02", "probability of getting stuck in a second"};
+  Input<double> speed{this, "speed", "0.5", "of the robot", "m/s", at_least(0)};
+  Input<double> failure{this, "failure",    "0.02", "probability of getting stuck in a second",
+                        "",   between(0, 1)};
 };
 
 // Drives until the goal is reached, along the newest path.
@@ -49,7 +51,8 @@ class ClearEntireCostmap : public lockstep::Action<> {
 
 struct ManeuverPorts : lockstep::Ports {
   Input<double> seconds{this, "seconds", "2", "how long it takes", "s"};
-  Input<double> success{this, "success", "0.7", "probability that the robot is free after it"};
+  Input<double> success{this, "success",    "0.7", "probability that the robot is free after it",
+                        "",   between(0, 1)};
 };
 
 // Spin and BackUp: move until the robot is free again.

@@ -73,7 +73,7 @@ std::string error_of(Work work) {
 
 }  // namespace
 
-TEST_CASE("a program ticks a tree of its own leaves at times of its own") {
+TEST_CASE("a program ticks a tree with leaves that it defines, when it likes") {
   const runtime::Project project = project_of("<Step name=\"a\" ticks=\"{n}\"/>");
   runtime::Run run(project);
   CHECK(run.tick(0) == Status::Running);

@@ -1,8 +1,8 @@
 // A compiled tree from a short text, without documents:
 //   Sequence(a Inverter(b))   Parallel[success_count=1](a b)   ParallelAbsolute[barriers=.5;1](a b)
-// A name with a capital is a built-in kind, or a node of a known plugin; any other is a scripted action, with '?' behind it a
-// scripted condition, with [bare] an action that has no function but tick. Wait[seconds={pause}]
-// takes its parameter from the entry 'pause'.
+// A name with a capital is a built-in kind, or a node of a known plugin. Any other is a scripted
+// action, with '?' behind it a scripted condition, with [bare] an action that has no function but
+// tick. Wait[seconds={pause}] takes its parameter from the entry 'pause'.
 #pragma once
 
 #include <string_view>

@@ -206,8 +206,8 @@ typedef struct lockstep_host {
                         size_t count);
   bool (*set_string_list)(const lockstep_caller* caller, uint32_t port, const lockstep_text* values,
                           size_t count);
-  /* get gives no reference away: to keep the object, retain it. set adds one of its own; NULL is no
-   * object. */
+  /* The object that get hands out is borrowed: retain it to keep it. set retains it for the entry;
+   * NULL is no object. */
   bool (*get_object)(const lockstep_caller* caller, uint32_t port, void** object);
   bool (*set_object)(const lockstep_caller* caller, uint32_t port, void* object);
 } lockstep_host;
