@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <thread>
 #include <utility>
@@ -98,13 +97,9 @@ class Session {
 
   // False when the terminal is gone.
   bool read_keys() {
-    char bytes[64];
-    const ssize_t count = read(STDIN_FILENO, bytes, sizeof bytes);
-    if (count <= 0) return count < 0 && errno == EINTR;
-    for (const char byte : std::string_view(bytes, static_cast<std::size_t>(count))) {
-      press(decoder_.take(byte));
-    }
-    return true;
+    const auto keys = RawTerminal::read_keys();
+    for (const char byte : keys.value_or("")) press(decoder_.take(byte));
+    return keys.has_value();
   }
 
   // While the number of a tick is typed, all keys belong to it.

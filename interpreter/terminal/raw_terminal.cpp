@@ -1,5 +1,6 @@
 #include "terminal/raw_terminal.h"
 
+#include <poll.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -70,7 +71,7 @@ bool is_in_foreground() {
 void make_raw() {
   termios raw = g_before;
   raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO | IEXTEN);
-  raw.c_cc[VMIN] = 1;
+  raw.c_cc[VMIN] = 0;  // a shell may take a key between our poll and our read
   raw.c_cc[VTIME] = 0;
   tcsetattr(g_keys, TCSANOW, &raw);
 }
@@ -131,6 +132,18 @@ RawTerminal::State RawTerminal::take() {
   if (g_keys >= 0) make_raw();
   hide_cursor(g_screen);
   return State::Taken;
+}
+
+// A process that went into the background after the poll that saw a key may not read: EIO. Whether
+// the terminal is gone, only poll says.
+std::optional<std::string> RawTerminal::read_keys() {
+  if (is_away()) return "";
+  char bytes[64];
+  const ssize_t count = read(g_keys, bytes, sizeof bytes);
+  if (count > 0) return std::string(bytes, static_cast<std::size_t>(count));
+  pollfd keys{g_keys, POLLIN, 0};
+  if (poll(&keys, 1, 0) > 0 && (keys.revents & ~POLLIN) != 0) return std::nullopt;
+  return "";
 }
 
 void RawTerminal::restore_for_good() {

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string>
 
 namespace lockstep {
 
@@ -24,6 +26,9 @@ class RawTerminal {
   };
   // Call before drawing or reading, from one thread.
   State take();
+  // What was typed since the last call; does not wait. Nothing: the terminal is gone. The calling
+  // thread blocks SIGTTIN.
+  static std::optional<std::string> read_keys();
 
   // Restores the terminal for an end of the process: take() returns Away from now on.
   // Async-signal-safe.

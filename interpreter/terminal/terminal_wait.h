@@ -22,7 +22,9 @@ class TerminalWait {
 
  private:
   int keys_;
-  const SignalMask mask_{SIG_BLOCK, signal_set({SIGWINCH})};
+  // Ctrl-Z comes only while wait() waits, so that keys are not read in the background after it; an
+  // attempt to read them there is an error, not a stop.
+  const SignalMask mask_{SIG_BLOCK, signal_set({SIGWINCH, SIGTSTP, SIGCONT, SIGTTIN})};
   struct sigaction action_before_ {};
 };
 

@@ -122,10 +122,9 @@ bool ConsoleLive::wait() {
 }
 
 void ConsoleLive::read_keys() {
-  std::array<char, 64> bytes;
-  const ssize_t count = read(options_.keys, bytes.data(), bytes.size());
-  if (count <= 0) options_.keys = -1;  // the terminal is gone
-  for (ssize_t i = 0; i < count; ++i) press(decoder_.take(bytes[static_cast<std::size_t>(i)]));
+  const auto keys = RawTerminal::read_keys();
+  if (!keys) options_.keys = -1;  // the terminal is gone
+  for (const char byte : keys.value_or("")) press(decoder_.take(byte));
 }
 
 void ConsoleLive::press(std::optional<Key> key) {
