@@ -147,7 +147,7 @@ TEST_CASE("Ctrl-Z gives the terminal back, fg draws the view again") {
     expect("jobs\n", "Running");  // a program that reads the keys there is stopped
     expect("fg\n", "\x1b[?25l");
     REQUIRE(shell.wait_for("> arm"));
-    expect("\x1b[A", "*   > arm");  // still, though the shell has read lines meanwhile
+    expect("\x1b[A", "* > Parallel");  // still, though the shell has read lines meanwhile
     expect("\x03", "\x1b[?25h");
     shell.type("exit\n");
     CHECK(!shell.finish().terminal_is_raw);
