@@ -55,6 +55,8 @@ struct Parameter {
   bool constant = false;                           // shapes the tree, so it is never a {key}
   std::string_view group = {};  // its value names a group of this type: the node is a member
   bool of_pool = false;         // its value names resources of that group: core/resource_set.h
+  bool is_script = false;       // a text that is compiled: expression/
+  bool names_entry = false;     // "k" is the entry k, as "{k}" is
 };
 
 struct Arity {
@@ -100,6 +102,7 @@ struct NodeType {
   bool acts_again = true;               // false: after it completed once, a tick of it does nothing
   bool real_time = false;               // an action that continues to work between ticks
   bool has_progress = true;             // false: an action that reports none, so 0 until Success
+  bool reads_ports = false;             // a built-in kind that reads its values as leaves do
   std::string_view plugin = {};         // the plugin it comes from; "" = built in
   // Of a leaf of a plugin; both are null for built-ins.
   const lockstep_plugin* origin = nullptr;

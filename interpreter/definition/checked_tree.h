@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/hook.h"
 #include "core/node_type.h"
 #include "core/place.h"
 #include "definition/definition.h"
@@ -21,6 +22,14 @@ struct CheckedPort {
   std::string_view key = {};
 };
 
+// A script of a node, as written.
+struct CheckedScript {
+  Hook hook;
+  bool is_last;  // of its node
+  std::string_view text;
+  Place place;  // of the attribute
+};
+
 struct CheckedNode {
   const NodeType* type = nullptr;  // null after an error
   std::string_view name;
@@ -29,6 +38,7 @@ struct CheckedNode {
   std::uint32_t children = 0;
   std::uint32_t first = 0;              // in CheckedTrees::ports; of a SubTree, in subtrees
   std::uint32_t written = Port::kNone;  // its first in CheckedTrees::written
+  std::uint32_t scripts = Port::kNone;  // its first in CheckedTrees::scripts
 };
 
 // What a SubTree gives to a key of its tree: an outer entry, or a start value.
@@ -72,6 +82,7 @@ struct CheckedTrees {
   std::vector<CheckedSubTree> subtrees;
   std::vector<Remapping> remappings;
   std::vector<WrittenAttribute> written;
+  std::vector<CheckedScript> scripts;
   std::map<std::string_view, CheckedTree> trees;  // by the ID of the BehaviorTree
   std::vector<std::string_view> ids;              // as they stand in the documents
   std::vector<CheckedNode> groups;                // declared beside the trees; names are distinct

@@ -4,15 +4,19 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/hook.h"
 #include "core/node_type.h"
 #include "core/place.h"
+#include "expression/expression.h"
 
 namespace lockstep {
 
@@ -25,6 +29,7 @@ struct DefinitionNode {
   std::string_view name;   // the name attribute, else the id
   Place place = {};
   std::uint32_t written = 0xffffffff;  // its first in Definition::written; or none
+  std::uint32_t hooks = 0xffffffff;    // in Definition::hooks; or none
 };
 
 // An attribute as written, with arguments substituted. Attributes that only name the node are left
@@ -51,6 +56,15 @@ struct BlackboardEntry {
   const ObjectType* object = nullptr;  // of type Object: which
 };
 
+// A script, with the entry of each name that it uses.
+struct BoundScript {
+  std::shared_ptr<const Expression> code;
+  std::vector<std::uint32_t> entries;  // of each of Expression::names()
+};
+
+// The scripts of a node, in Definition::scripts; Port::kNone where it has none.
+using NodeHooks = std::array<std::uint32_t, kHooks>;
+
 // A declaration beside the trees that nodes of the tree name.
 struct DefinitionGroup {
   std::uint32_t node;                       // in `nodes`: behind the root's subtree, its own parent
@@ -67,6 +81,8 @@ struct Definition {
   std::vector<BlackboardEntry> entries;
   std::vector<WrittenAttribute> written = {};
   std::vector<DefinitionGroup> groups = {};  // in the order of their nodes
+  std::vector<NodeHooks> hooks = {};
+  std::vector<BoundScript> scripts = {};
 
   // A parameter that is a constant; null when it is absent or comes from an entry.
   const Value* constant(const DefinitionNode& node, std::size_t parameter) const {

@@ -23,7 +23,9 @@ const NodeKind* kind_of(const NodeType& type) {
   }
   static const auto by_type = [] {
     std::unordered_map<const NodeType*, const NodeKind*> map;
-    for (const NodeKind* kind : built_in_kinds()) map.emplace(&kind->type, kind);
+    for (const Language language : {Language::Lockstep, Language::BehaviorTreeCpp}) {
+      for (const NodeKind* kind : built_in_kinds(language)) map.emplace(&kind->type, kind);
+    }
     return map;
   }();
   return by_type.at(&type);
@@ -33,10 +35,12 @@ const NodeKind* kind_of(const NodeType& type) {
 const NodeKind* bound_kind_of(const NodeKind* kind) {
   static const auto by_kind = [] {
     std::unordered_map<const NodeKind*, NodeKind> map;
-    for (const NodeKind* it : built_in_kinds()) {
-      NodeKind bound = *it;
-      bound.tick = [](Ticker& ticker, NodeIndex self) { return ticker.tick_bound(self); };
-      map.emplace(it, bound);
+    for (const Language language : {Language::Lockstep, Language::BehaviorTreeCpp}) {
+      for (const NodeKind* it : built_in_kinds(language)) {
+        NodeKind bound = *it;
+        bound.tick = [](Ticker& ticker, NodeIndex self) { return ticker.tick_bound(self); };
+        map.emplace(it, bound);
+      }
     }
     return map;
   }();

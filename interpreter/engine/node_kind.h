@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/language.h"
 #include "core/node_type.h"
 #include "core/status.h"
 
@@ -38,8 +39,8 @@ struct NodeKind {
   Round (*round)(Ticker& ticker, NodeIndex self) = nullptr;
 };
 
-// All built-in kinds, in the order in which they are documented.
-std::span<const NodeKind* const> built_in_kinds();
+// The built-in kinds of a language, in the order in which they are documented.
+std::span<const NodeKind* const> built_in_kinds(Language language = Language::Lockstep);
 
 // The kinds of all nodes of plugins.
 extern const NodeKind kPluginAction;

@@ -2,7 +2,8 @@
 
 namespace lockstep {
 
-std::span<const NodeKind* const> built_in_kinds() {
+std::span<const NodeKind* const> built_in_kinds(Language language) {
+  if (language == Language::BehaviorTreeCpp) return kBehaviorTreeCppKinds;
   return kBuiltInKinds;
 }
 

@@ -23,4 +23,13 @@ inline constexpr const NodeKind* kBuiltInKinds[] = {
     // Beside the trees
     &kBarrier, &kResources};
 
+// Of trees for BehaviorTree.CPP. A kind that means the same is in both lists.
+inline constexpr const NodeKind* kBehaviorTreeCppKinds[] = {
+    // Control nodes
+    &kParallelAbsolute, &kParallelRelative,
+    // Decorators
+    &kInverter, &kForceSuccess, &kForceFailure, &kSubTree,
+    // Leaves
+    &kAlwaysSuccess, &kAlwaysFailure};
+
 }  // namespace lockstep
