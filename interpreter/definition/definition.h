@@ -46,6 +46,8 @@ struct Port {
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   std::uint32_t entry = kNone;  // in `entries`
   std::uint32_t value = kNone;  // in `values`; with an entry: its value until somebody writes it
+  // Of a parameter that is a script: in Definition::scripts, beside the text in `values`.
+  std::uint32_t script = kNone;
 };
 
 struct BlackboardEntry {
