@@ -23,7 +23,7 @@ struct Round {
 
 struct NodeKind {
   NodeType type;
-  // One tick. Returns Running, Success or Failure. Does not allocate; does not throw itself. Of a
+  // One tick. Returns any status but Idle. Does not allocate; does not throw itself. Of a
   // group: before the root is ticked, in every tick; it is Idle when it begins again.
   Status (*tick)(Ticker& ticker, NodeIndex self);
   // Called only while the node is Running; idle and failed nodes have 0, successful ones 1. In

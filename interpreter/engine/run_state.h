@@ -11,17 +11,20 @@
 
 namespace lockstep {
 
-// A node's status and whether its ticks are withheld, in one byte.
+inline constexpr std::uint8_t kWithheld = 8;  // above the bits of a Status
+static_assert(index_of(kLastStatus) < kWithheld);
+
+// A node's status and whether its ticks are withheld, in one byte. Each status is an Activity.
 enum class Activity : std::uint8_t {
   Idle = 0,
   Running = 1,
   Success = 2,
   Failure = 3,
-  Paused = 5,  // Running, in a subtree that a synchronized parallel withholds ticks from
+  Paused = kWithheld | 1,  // Running, where a synchronized parallel withholds the ticks
 };
 
 constexpr Status status_of(Activity activity) {
-  return static_cast<Status>(static_cast<std::uint8_t>(activity) & 3u);
+  return static_cast<Status>(static_cast<std::uint8_t>(activity) & (kWithheld - 1u));
 }
 
 struct RunState {

@@ -52,7 +52,7 @@ class Ticker {
     if (faulted_) return Status::Running;
     Activity& activity = state_.activity[node];
     const Node& it = tree_.nodes[node];
-    if (is_complete(status_of(activity)) && it.children != 0) forget_descendants(node);
+    if (has_ended(status_of(activity)) && it.children != 0) forget_descendants(node);
     Status status = it.kind->tick(*this, node);
     if (faulted_) [[unlikely]]
       status = Status::Running;

@@ -79,7 +79,7 @@ class Loop {
     for (Observer* observer : observers_) observer->after_tick(ticker, report);
     ++end_.ticks;
     if (ticker.faulted()) return false;
-    if (is_complete(end_.status)) return stop(StopReason::Completed);
+    if (has_ended(end_.status)) return stop(StopReason::Completed);
     return true;
   }
 

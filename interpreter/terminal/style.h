@@ -1,13 +1,12 @@
 // The colors that the observers use, so that one meaning has the same color everywhere.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <string_view>
 
-namespace lockstep {
+#include "core/style.h"
 
-enum class Style : std::uint8_t { Plain, Strong, Dim, Good, Bad, Warning, Active };
+namespace lockstep {
 
 // The ANSI sequence that begins a style; Plain ends every style.
 constexpr std::string_view escape(Style style) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <tuple>
 
 namespace lockstep {
@@ -106,23 +107,11 @@ void show_around(NodeIndex cursor, std::size_t room, Layout& layout) {
 }  // namespace
 
 void Tally::add(Activity activity) {
-  switch (activity) {
-    case Activity::Idle:
-      ++idle;
-      return;
-    case Activity::Running:
-      ++running;
-      return;
-    case Activity::Success:
-      ++succeeded;
-      return;
-    case Activity::Failure:
-      ++failed;
-      return;
-    case Activity::Paused:
-      ++waiting;
-      return;
-  }
+  ++(activity == Activity::Paused ? waiting_ : others_[index_of(status_of(activity))]);
+}
+
+std::size_t Tally::sum() const {
+  return std::accumulate(others_.begin(), others_.end(), waiting_);
 }
 
 std::string Tally::text() const {
@@ -130,11 +119,15 @@ std::string Tally::text() const {
   const auto add_part = [&text](std::size_t count, std::string_view what) {
     if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what);
   };
-  add_part(running, "running");
-  add_part(waiting, "waiting");
-  add_part(succeeded, "succeeded");
-  add_part(failed, "failed");
-  add_part(idle, "idle");
+  const auto add_status = [&](const StatusRow& row) {
+    add_part(others_[index_of(row.status)], row.counted);
+  };
+  add_status(row_of(Status::Running));
+  add_part(waiting_, "waiting");
+  for (const StatusRow& row : kStatuses) {
+    if (has_ended(row.status)) add_status(row);
+  }
+  add_status(row_of(Status::Idle));
   return text;
 }
 

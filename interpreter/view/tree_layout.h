@@ -2,11 +2,13 @@
 // and draws nothing.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "core/status.h"
 #include "view/snapshot.h"
 #include "view/tree_shape.h"
 
@@ -19,13 +21,16 @@ struct Browsing {
 };
 
 // How many nodes are in each state.
-struct Tally {
-  std::size_t running = 0, waiting = 0, succeeded = 0, failed = 0, idle = 0;
-
+class Tally {
+ public:
   void add(Activity activity);
-  std::size_t sum() const { return running + waiting + succeeded + failed + idle; }
+  std::size_t sum() const;
   // "2 running, 1 waiting, 9 idle"
   std::string text() const;
+
+ private:
+  std::size_t waiting_ = 0;
+  std::array<std::size_t, kStatuses.size()> others_{};  // by status
 };
 
 struct Layout {

@@ -17,24 +17,14 @@ namespace lockstep {
 namespace {
 
 struct Look {
-  std::string_view ascii, unicode;
+  std::string_view unicode, ascii;
   Style style;
 };
 
 Look look_of(Activity activity) {
-  switch (activity) {
-    case Activity::Idle:
-      return {"-", "·", Style::Dim};
-    case Activity::Running:
-      return {">", "▶", Style::Active};
-    case Activity::Success:
-      return {"+", "✓", Style::Good};
-    case Activity::Failure:
-      return {"x", "✗", Style::Bad};
-    case Activity::Paused:
-      return {"=", "‖", Style::Warning};
-  }
-  return {};
+  if (activity == Activity::Paused) return {"‖", "=", Style::Warning};
+  const StatusRow& row = row_of(status_of(activity));
+  return {row.sign, row.ascii_sign, row.style};
 }
 
 const Browsing& browsing_of(const DrawOptions& options) {

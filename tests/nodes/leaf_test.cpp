@@ -75,8 +75,8 @@ constexpr FaultRow kFaults[] = {
   {"x", "error of the script"},
   {"T", "threw an exception: thrown by the script"},
   {"t", "threw an exception: thrown by the script"},
-  {"B", "returned status 7, expected running (1), success (2) or failure (3)"},
-  {"I", "returned status 0, expected running (1), success (2) or failure (3)"},
+  {"B", "returned status 7, expected one of lockstep/leaf.h"},
+  {"I", "returned status 0, expected one of lockstep/leaf.h"},
 };
 // clang-format on
 

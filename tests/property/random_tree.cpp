@@ -6,6 +6,7 @@
 #include <array>
 
 #include "core/random.h"
+#include "support/leaf_script.h"
 
 namespace lockstep::test {
 namespace {
@@ -183,15 +184,18 @@ class Generator : Random {
     }
   }
 
+  // The letters of all results that end an activation.
+  static std::string results() { return std::string(status_letters().substr(2)); }
+
   Plan scripted(std::string kind) {
     const std::string name = fmt::format("a{}", leaves_++);
     std::string script;
     if (kind == "condition")
-      script = steps("SF", 4);
+      script = steps(results(), 4);
     else if (!one_in(3))
-      script = one_in(2) ? growth() : steps("RRRRSSF", 10);
+      script = one_in(2) ? growth() : steps("RRRRS" + results(), 10);
     else
-      script = one_in(2) ? "R" + live() : steps("RRRRRRRRSF", 12) + live();
+      script = one_in(2) ? "R" + live() : steps("RRRRRRRR" + results(), 12) + live();
     if (faults_ && one_in(4)) script = fault(script);
     return Plan{.kind = std::move(kind), .name = name, .script = std::move(script)};
   }

@@ -49,7 +49,7 @@ class ReferenceNode {
   static std::unique_ptr<ReferenceNode> make(Reference& tree, const Plan& plan);
 
   Status tick() {
-    if (is_complete(status)) {
+    if (has_ended(status)) {
       for (auto& child : children) child->make_idle();
     }
     status = on_tick(status != Status::Running);
@@ -134,9 +134,10 @@ class Leaf : public ReferenceNode {
     std::int32_t result = 0;
     call([&] { result = leaf_.tick(); });
     const bool may_run = plan.kind != "condition";
-    if (result == 1 && may_run) return Status::Running;
-    if (result == 2) return Status::Success;
-    if (result == 3) return Status::Failure;
+    for (const StatusRow& row : kStatuses) {
+      const bool may_be = row.status == Status::Running ? may_run : row.status != Status::Idle;
+      if (may_be && result == static_cast<std::int32_t>(row.status)) return row.status;
+    }
     throw LeafFault{number};
   }
 

@@ -110,7 +110,7 @@ TEST_CASE("a leaf that sets an error is a fault") {
 }
 
 TEST_CASE("a status that does not exist is a fault") {
-  check_fault({"nonsense"}, "returned status 7, expected running (1), success (2) or failure (3)");
+  check_fault({"nonsense"}, "returned status 7, expected one of lockstep/leaf.h");
 }
 
 TEST_CASE("a progress that is not a number is a fault, one out of range is clamped and told") {

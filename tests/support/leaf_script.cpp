@@ -1,11 +1,28 @@
 #include "support/leaf_script.h"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <limits>
 #include <stdexcept>
 
+#include "core/status.h"
+
 namespace lockstep::test {
 namespace {
+
+// The first letter of each name that no name before it has taken.
+constexpr auto kStatusLetters = [] {
+  std::array<char, kStatuses.size()> letters{};
+  for (std::size_t i = 0; i < letters.size(); ++i) {
+    const char* const begin = letters.data();
+    for (const char letter : kStatuses[i].name) {
+      letters[i] = static_cast<char>(letter - 'a' + 'A');
+      if (std::find(begin, begin + i, letters[i]) == begin + i) break;
+    }
+  }
+  return letters;
+}();
 
 bool take(std::string_view& text, std::string_view prefix) {
   if (!text.starts_with(prefix)) return false;
@@ -24,8 +41,8 @@ std::vector<double> take_numbers(std::string_view& text) {
 }
 
 LeafScript::Step take_step(std::string_view& text) {
-  constexpr std::string_view kLetters = "RSFXTBIxt";
-  if (text.empty() || kLetters.find(text[0]) == std::string_view::npos) {
+  const std::string letters = "XTBxt" + std::string(status_letters());
+  if (text.empty() || letters.find(text[0]) == std::string::npos) {
     throw std::invalid_argument("leaf script: expected a letter at '" + std::string(text) + "'");
   }
   LeafScript::Step step{text[0], std::nullopt};
@@ -46,6 +63,10 @@ Call call_named(std::string_view name) {
 }
 
 }  // namespace
+
+std::string_view status_letters() {
+  return {kStatusLetters.data(), kStatusLetters.size()};
+}
 
 double take_number(std::string_view& text) {
   double number = 0;

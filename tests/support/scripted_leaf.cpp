@@ -83,12 +83,6 @@ std::int32_t ScriptedLeaf::tick() {
   ++ticks_;
   if (step.progress) progress_ = *step.progress;
   switch (step.letter) {
-    case 'R':
-      return LOCKSTEP_RUNNING;
-    case 'S':
-      return LOCKSTEP_SUCCESS;
-    case 'F':
-      return LOCKSTEP_FAILURE;
     case 'B':
       return 7;
     case 'T':
@@ -97,7 +91,7 @@ std::int32_t ScriptedLeaf::tick() {
       *error_ = "error of the script";
       return LOCKSTEP_SUCCESS;
     default:
-      return 0;
+      return static_cast<std::int32_t>(status_letters().find(step.letter));
   }
 }
 

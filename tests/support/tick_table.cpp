@@ -121,7 +121,7 @@ class Row {
     }
     const Status status = run_.tick(tick_++ * from_seconds(row_.period));
     const Fault* fault = run_.ticker().fault();
-    const char letter = fault != nullptr ? 'X' : "IRSF"[static_cast<int>(status)];
+    const char letter = fault != nullptr ? 'X' : status_letters()[index_of(status)];
     const std::string got = step.every_call ? every_call(run_, letter) : summary(run_, letter);
     const std::string suffix = step.suffix.empty() ? "" : suffix_of(step.suffix, fault);
     return line(got, suffix, faults());

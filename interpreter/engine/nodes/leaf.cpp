@@ -102,13 +102,13 @@ Status checked(Ticker& ticker, NodeIndex self, LeafSlot& leaf, lockstep_status r
     return Status::Running;
   }
   if (is_out(ticker, leaf)) return Status::Running;
-  if (result == LOCKSTEP_SUCCESS) return Status::Success;
-  if (result == LOCKSTEP_FAILURE) return Status::Failure;
-  if (result == LOCKSTEP_RUNNING && kKind != Kind::Condition) return Status::Running;
-  ticker.set_fault(self, result == LOCKSTEP_RUNNING
-                             ? std::string("is a condition and returned running")
-                             : "returned status " + std::to_string(result) +
-                                   ", expected running (1), success (2) or failure (3)");
+  const bool is_status = result > LOCKSTEP_IDLE && result <= static_cast<int>(kLastStatus);
+  if (is_status && (kKind != Kind::Condition || result != LOCKSTEP_RUNNING)) [[likely]] {
+    return static_cast<Status>(result);
+  }
+  ticker.set_fault(self, is_status ? std::string("is a condition and returned running")
+                                   : "returned status " + std::to_string(result) +
+                                         ", expected one of lockstep/leaf.h");
   return Status::Running;
 }
 

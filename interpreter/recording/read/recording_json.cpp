@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -30,15 +29,23 @@ NodeIndex node_from(JsonValue value, std::size_t nodes, const char* otherwise) {
   throw JsonError(fmt::format("no node {}, expected 0 to {}", node, nodes - 1));
 }
 
+// "idle, running, …"
+std::string status_names() {
+  std::string text;
+  for (const StatusRow& row : kStatuses) {
+    if (!text.empty()) text += row.status == kLastStatus ? " or " : ", ";
+    text += row.name;
+  }
+  return text;
+}
+
 Status status_from(JsonValue value) {
-  constexpr std::array kAll = {Status::Idle, Status::Running, Status::Success, Status::Failure};
   std::string_view text;
   if (!value.get(text)) throw JsonError("a node's change has a status that is not a string");
-  for (const Status status : kAll) {
-    if (text == to_string(status)) return status;
+  for (const StatusRow& row : kStatuses) {
+    if (text == row.name) return row.status;
   }
-  throw JsonError(
-      fmt::format("no status '{}', expected idle, running, success or failure", brief(text)));
+  throw JsonError(fmt::format("no status '{}', expected {}", brief(text), status_names()));
 }
 
 double progress_from(JsonValue value) {

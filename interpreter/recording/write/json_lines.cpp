@@ -150,14 +150,15 @@ void add_log(std::string& text, const LeafLine& log) {
 // Longer than [4294967295,"success",0.00012345678901234567,1,0] and a comma.
 constexpr std::size_t kMostOfNode = 64;
 static_assert(kMostOfNode <= RecordingFormat::kMostAtOnce);
+static_assert(std::ranges::all_of(kStatuses, [](const StatusRow& row) {
+  return row.name.size() <= std::string_view("success").size();
+}));
 
 char* put_node(char* to, const NodeChange& change) {
-  constexpr std::string_view kStatus[] = {",\"idle\",", ",\"running\",", ",\"success\",",
-                                          ",\"failure\","};
   constexpr std::string_view kFlags[] = {",0,0]", ",0,1]", ",1,0]", ",1,1]"};
   const Activity activity = change.activity();
   to = put_integer(put(to, "["), change.node);
-  to = put(to, kStatus[static_cast<unsigned>(status_of(activity))]);
+  to = put(put(put(to, ",\""), to_string(status_of(activity))), "\",");
   to = put_progress(to, change.progress);
   return put(to, kFlags[2 * change.ticked() + (activity == Activity::Paused)]);
 }

@@ -9,7 +9,7 @@
 namespace lockstep {
 namespace {
 
-constexpr std::uint8_t kMoved = 16;     // above NodeChange::kTicked
+constexpr std::uint8_t kMoved = 32;     // above NodeChange::kTicked
 constexpr std::uint8_t kUnknown = 255;  // no Activity
 
 std::uint64_t eight(const void* bytes) {

@@ -15,7 +15,7 @@ namespace lockstep {
 
 // What a tick line says of one node.
 struct NodeChange {
-  static constexpr std::uint8_t kTicked = 8;  // above the bits of an Activity
+  static constexpr std::uint8_t kTicked = 16;  // above the bits of an Activity
 
   double progress = 0;
   NodeIndex node = 0;

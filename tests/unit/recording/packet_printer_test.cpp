@@ -28,18 +28,17 @@ std::size_t below(std::mt19937& random, std::size_t limit) {
 }
 
 std::string text_of(const NodeChange& change) {
-  constexpr const char* kNames[] = {"idle", "running", "success", "failure"};
   return fmt::format("[{},\"{}\",{},{:d},{:d}]", change.node,
-                     kNames[static_cast<int>(status_of(change.activity()))], change.progress,
-                     change.ticked(), change.activity() == Activity::Paused);
+                     to_string(status_of(change.activity())), change.progress, change.ticked(),
+                     change.activity() == Activity::Paused);
 }
 
 NodeChange random_change(std::mt19937& random) {
-  constexpr Activity kAll[] = {Activity::Idle, Activity::Running, Activity::Success,
-                               Activity::Failure, Activity::Paused};
   NodeChange change;
   change.node = static_cast<NodeIndex>(random());
-  change.state = static_cast<std::uint8_t>(kAll[below(random, 5)]);
+  const std::size_t status = below(random, kStatuses.size() + 1);
+  change.state = static_cast<std::uint8_t>(status < kStatuses.size() ? static_cast<Activity>(status)
+                                                                     : Activity::Paused);
   if (below(random, 2) == 0) change.state |= NodeChange::kTicked;
   change.progress = static_cast<double>(below(random, 3)) / 2;
   if (below(random, 2) == 0)

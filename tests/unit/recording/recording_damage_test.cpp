@@ -95,8 +95,8 @@ void apply(const Json& changes, std::vector<RecordedState>& states) {
   for (const Json& change : changes) {
     REQUIRE(change.size() == 5);
     RecordedState& state = states.at(change[0].get<std::size_t>());
-    for (const Status status : {Status::Idle, Status::Running, Status::Success, Status::Failure}) {
-      if (change[1] == to_string(status)) state.status = status;
+    for (const StatusRow& row : kStatuses) {
+      if (change[1] == row.name) state.status = row.status;
     }
     REQUIRE(change[1] == to_string(state.status));
     state.progress = change[2].get<double>();

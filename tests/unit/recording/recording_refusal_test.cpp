@@ -1,5 +1,8 @@
 // Every way in which a line of a recording can be wrong, and what is told of it.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
+#include <span>
 #include <sstream>
 
 #include "recording/read/recording_reader.h"
@@ -125,7 +128,10 @@ TEST_CASE("a header is refused for each value that is not what it must be") {
 TEST_CASE("a tick is refused for each value that is not what it must be") {
   const std::string time = "'time_s' is not a time in seconds";
   const std::string change = "a node's change is not [index, status, progress, ticked, held]";
-  const std::string status = ", expected idle, running, success or failure";
+  std::string status = ", expected idle";
+  for (const StatusRow& row : std::span(kStatuses).subspan(1)) {
+    status += fmt::format("{}{}", row.status == kLastStatus ? " or " : ", ", row.name);
+  }
   const std::string limit = "a node's limit is not [index, number in [0, 1] or null]";
   for (const std::string wrong :
        {"7", "[]", "[0]", "[0,0.5,1]", "[0,1.5]", "[0,-0.1]", "[0,\"1\"]"}) {
