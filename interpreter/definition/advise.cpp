@@ -163,13 +163,17 @@ class Adviser {
     for_each_port([&](const Parameter& parameter, std::uint32_t entry) {
       if (parameter.direction != Direction::Input) valued[entry] = true;
     });
+    for (const BoundScript& script : definition_.scripts) {
+      for (const std::uint32_t entry : script.entries) valued[entry] = true;
+    }
     std::vector<bool> told = valued;  // one warning an entry
     for_each_port([&](const Parameter& parameter, std::uint32_t entry) {
       if (told[entry]) return;
       told[entry] = true;
       if (report_.counted_only(Severity::Warning)) return;
-      const auto& [name, type, initial, first_use, object] = definition_.entries[entry];
-      report_.at_value(first_use, fmt::format("nothing writes '{{{}}}'", brief(name)),
+      const std::string& name = definition_.entries[entry].name;
+      report_.at_value(definition_.entries[entry].first_use,
+                       fmt::format("nothing writes '{{{}}}'", brief(name)),
                        unwritten_hint(parameter, name, valued), Severity::Warning);
     });
   }

@@ -131,30 +131,6 @@ void check_name(const NodeElement& element, const Reporter& report) {
   }
 }
 
-// What follows from values that entries give follows during the run, so it is not filled in here.
-void check_rule(const NodeElement& element, const Reporter& report, const CheckedNode& node,
-                std::span<const CheckedPort> ports, std::span<Value> values) {
-  ParameterValues parameters{.values = values, .children = node.children};
-  std::vector<Value> copy;
-  for (std::size_t i = 0; i < ports.size(); ++i) {
-    if (!ports[i].key.empty()) parameters.from_entry |= std::uint64_t{1} << i;
-  }
-  if (parameters.from_entry != 0) {
-    copy.assign(values.begin(), values.end());
-    parameters.values = copy;
-  }
-  const auto broken = node.type->rule(parameters);
-  if (!broken) return;
-  if (broken->parameter >= 0) {
-    const auto& name = node.type->parameters[static_cast<unsigned>(broken->parameter)].name;
-    if (const Attribute* attribute = find_attribute(element.attributes, name)) {
-      report.at_value(attribute->place, broken->message, broken->hint);
-      return;
-    }
-  }
-  report.at(element.place, broken->message, broken->hint);
-}
-
 // The key of {key}; "" when that is an error, which is reported.
 std::string_view checked_key(const Reporter& report, const NodeType& type,
                              const Parameter& parameter, Place place, std::string_view key) {
@@ -210,7 +186,7 @@ void check_parameters(const NodeElement& element, const Reporter& report,
     good &=
         check_parameter(element, report, checker, *node.type, parameters[i], ports[i], values[i]);
   }
-  if (good && node.type->rule != nullptr) check_rule(element, report, node, ports, values);
+  if (good) check_rule(element, report, node, ports, values);
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     if (std::holds_alternative<NoValue>(values[i])) continue;
     ports[i].value = static_cast<std::uint32_t>(first_value + i);
@@ -218,6 +194,30 @@ void check_parameters(const NodeElement& element, const Reporter& report,
 }
 
 }  // namespace
+
+void check_rule(const NodeElement& element, const Reporter& report, const CheckedNode& node,
+                std::span<const CheckedPort> ports, std::span<Value> values) {
+  if (node.type->rule == nullptr) return;
+  ParameterValues parameters{.values = values, .children = node.children};
+  std::vector<Value> copy;
+  for (std::size_t i = 0; i < ports.size(); ++i) {
+    if (!ports[i].key.empty()) parameters.from_entry |= std::uint64_t{1} << i;
+  }
+  if (parameters.from_entry != 0) {
+    copy.assign(values.begin(), values.end());
+    parameters.values = copy;
+  }
+  const auto broken = node.type->rule(parameters);
+  if (!broken) return;
+  if (broken->parameter >= 0) {
+    const auto& name = node.type->parameters[static_cast<unsigned>(broken->parameter)].name;
+    if (const Attribute* attribute = find_attribute(element.attributes, name)) {
+      report.at_value(attribute->place, broken->message, broken->hint);
+      return;
+    }
+  }
+  report.at(element.place, broken->message, broken->hint);
+}
 
 std::string parameters_hint(const NodeType& type) {
   if (type.parameters.empty()) return fmt::format("'{}' has no parameters", type.id);

@@ -21,6 +21,11 @@ struct NodeElement {
 void check_attributes(const NodeElement& element, const Reporter& report, CheckedNode& node,
                       CheckedTrees& trees);
 
+// The rule of its type about the parameters of `node`, as a part of check_attributes. What follows
+// from values that entries give follows during the run, so it is not filled in here.
+void check_rule(const NodeElement& element, const Reporter& report, const CheckedNode& node,
+                std::span<const CheckedPort> ports, std::span<Value> values);
+
 // The same for a SubTree, whose attributes are remappings.
 void check_subtree_attributes(const NodeElement& element, const Reporter& report,
                               CheckedSubTree& subtree, CheckedTrees& trees);

@@ -10,28 +10,14 @@
 #include "core/wording.h"
 #include "definition/attributes.h"
 #include "definition/foreign_nodes.h"
+#include "definition/node_check.h"
 
 namespace lockstep {
 namespace {
 
-constexpr std::string_view kExplicitTags[] = {"Action", "Condition", "Control", "Decorator"};
-
 // How an editor finds the schema; they say nothing about the trees.
 bool is_schema_attribute(std::string_view name) {
   return name == "xmlns:xsi" || name == "xsi:noNamespaceSchemaLocation";
-}
-
-bool is_explicit(std::string_view tag) {
-  return std::ranges::find(kExplicitTags, tag) != std::end(kExplicitTags);
-}
-
-bool matches(std::string_view tag, NodeCategory category) {
-  constexpr NodeCategory kCategories[] = {NodeCategory::Action, NodeCategory::Condition,
-                                          NodeCategory::Control, NodeCategory::Decorator};
-  for (std::size_t i = 0; i < std::size(kExplicitTags); ++i) {
-    if (kExplicitTags[i] == tag) return kCategories[i] == category;
-  }
-  return false;
 }
 
 std::string element_hint(std::string_view tag) {
@@ -102,8 +88,10 @@ class TreeChecker {
                            "this program reads lockstep=\"1\"");
         }
       } else if (name == "BTCPP_format") {
-        report_.at(place, "files for BehaviorTree.CPP are not read yet",
-                   "write lockstep=\"1\" and check the tree's meaning in docs/language.md");
+        report_.at(
+            place, "this file is for BehaviorTree.CPP",
+            "the file that includes it is in lockstep's language; all files of a tree are in "
+            "the same");
         versioned = true;
       } else if (name != "main_tree_to_execute" && !is_schema_attribute(name)) {
         report_.at(place, fmt::format("'root' has no attribute '{}'", brief(name)),
@@ -215,7 +203,7 @@ class TreeChecker {
     trees_.nodes.emplace_back();
     CheckedNode node;
     node.place = element(index).place;
-    const bool is_explicit = lockstep::is_explicit(element(index).tag);
+    const bool is_explicit = is_explicit_tag(element(index).tag);
     node.type = is_explicit ? find_explicit_type(index) : find_type(index);
     if (node.type != nullptr && node.type->category == NodeCategory::Group) {
       report_.at(node.place, fmt::format("'{}' is no node of a tree", node.type->id),
@@ -224,7 +212,7 @@ class TreeChecker {
     }
     for ([[maybe_unused]] const auto child : children_in(elements_, index)) ++node.children;
     if (node.type != nullptr) {
-      check_arity(index, node);
+      check_arity({elements_, index}, node, report_);
       check_content({node.place, attributes(index), is_explicit}, self, node);
     }
     path_size += node.name.size() + 1;
@@ -287,7 +275,7 @@ class TreeChecker {
     const NodeType* type = catalog_.find(id->value);
     if (type == nullptr) {
       unknown(index, id->value, id);
-    } else if (!matches(tag, type->category)) {
+    } else if (tag != explicit_tag(type->category)) {
       report_.at_value(
           id->place, fmt::format("'{}' is not of the kind '{}'", id->value, tag),
           fmt::format("it is a kind of {}: write <{}>", to_string(type->category), id->value));
@@ -312,34 +300,6 @@ class TreeChecker {
       report_.at(element(index).place, message, hint);
     } else {
       report_.at_value(attribute->place, message, hint);
-    }
-  }
-
-  void check_arity(std::uint32_t index, const CheckedNode& node) const {
-    const NodeType& type = *node.type;
-    if (type.category == NodeCategory::SubTree) {
-      if (node.children == 0) return;
-      report_.at(element(index + 1).place, "'SubTree' cannot have children",
-                 "its tree is the BehaviorTree that its ID names");
-    } else if (node.children < type.arity.min) {
-      const bool any_number = type.arity.min == 1 && type.arity.max > 1;
-      report_.at(node.place,
-                 fmt::format("'{}' needs {}", type.id,
-                             any_number ? "a child" : arity_text(type.arity.min, type.arity.max)),
-                 fmt::format("it is a {}: put {} into it", to_string(type.category),
-                             node.children + 1 == type.arity.min ? "a node" : "nodes"));
-    } else if (node.children > type.arity.max) {
-      // The first child that is one too many.
-      std::uint32_t extra = index + 1;
-      for (std::uint32_t i = 0; i < type.arity.max; ++i) extra = element(extra).end;
-      report_.at(element(extra).place,
-                 type.arity.max == 0 ? fmt::format("'{}' cannot have children", type.id)
-                 : type.arity.max == 1
-                     ? fmt::format("'{}' has more than one child", type.id)
-                     : fmt::format("'{}' has more than {} children", type.id, type.arity.max),
-                 type.arity.max == 0 ? fmt::format("it is a leaf ({})", to_string(type.category))
-                                     : "put the children into a Sequence, a Fallback or a "
-                                       "parallel node");
     }
   }
 

@@ -4,11 +4,13 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "core/hook.h"
+#include "core/language.h"
 #include "core/node_type.h"
 #include "core/place.h"
 #include "definition/definition.h"
@@ -20,14 +22,14 @@ struct CheckedPort {
   std::uint32_t value = Port::kNone;  // in CheckedTrees::values
   Place place = {};                   // of the attribute that has the key, or names a group
   std::string_view key = {};
+  std::uint32_t script = Port::kNone;  // in CheckedTrees::scripts
 };
 
-// A script of a node, as written.
+// A script of a node or, without a hook, of a port.
 struct CheckedScript {
   Hook hook;
-  bool is_last;  // of its node
-  std::string_view text;
-  Place place;  // of the attribute
+  bool is_last = false;  // of its node
+  std::shared_ptr<const Expression> code;
 };
 
 struct CheckedNode {
@@ -76,6 +78,7 @@ struct CheckedMain {
 };
 
 struct CheckedTrees {
+  Language language = Language::Lockstep;
   std::vector<CheckedNode> nodes;
   std::vector<Value> values;
   std::vector<CheckedPort> ports;

@@ -56,6 +56,7 @@ struct BlackboardEntry {
   Value initial;                       // monostate: none
   Place first_use = {};                // of the attribute that names it first
   const ObjectType* object = nullptr;  // of type Object: which
+  bool is_declared = false;            // a port names it, or it has a start value
 };
 
 // A script, with the entry of each name that it uses.

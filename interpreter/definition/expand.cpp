@@ -11,6 +11,7 @@
 #include "core/pre_order.h"
 #include "core/suggest.h"
 #include "core/wording.h"
+#include "definition/btcpp/literal.h"
 #include "definition/scope.h"
 
 namespace lockstep {
@@ -34,7 +35,7 @@ class Expander {
     members_.resize(trees_.groups.size());
     for (std::size_t i = 0; i < members_.size(); ++i) groups_.emplace(trees_.groups[i].name, i);
     definition_.nodes.reserve(trees_.nodes.size());  // without subtrees, all that will be needed
-    Scope scope(definition_.entries);
+    Scope scope(definition_.entries, trees_.language);
     for (const auto& [key, text] : values_) scope.set_text(key, text);
     add(trees_.trees.at(main).root, 0, scope);
     add_groups(scope);
@@ -55,6 +56,9 @@ class Expander {
                                  .name = checked.name,
                                  .place = checked.place,
                                  .written = checked.written});
+    if (checked.scripts != Port::kNone) {
+      definition_.nodes[place].hooks = bind_hooks(checked.scripts, scope);
+    }
     if (checked.type->category == NodeCategory::SubTree) {
       definition_.nodes[place].children = 1;
       enter_subtree(trees_.subtrees[checked.first], checked.name, place, scope);
@@ -154,10 +158,14 @@ class Expander {
     bool constant = true;
     for (std::uint32_t i = 0; i < checked.type->parameters.size(); ++i) {
       const CheckedPort& port = trees_.ports[checked.first + i];
+      const Parameter& parameter = checked.type->parameters[i];
       Port bound{.value = port.value};
       if (!port.key.empty()) {
         constant = false;
-        bound.entry = use(port, checked.type->parameters[i], scope);
+        bound.entry = use(port, parameter, scope);
+      } else if (port.script != Port::kNone) {
+        constant = false;
+        bound.script = bind_script(trees_.scripts[port.script], scope);
       }
       definition_.ports.push_back(bound);
     }
@@ -165,14 +173,50 @@ class Expander {
     return first;
   }
 
-  std::uint32_t use(const CheckedPort& port, const Parameter& parameter, Scope& scope) {
-    const Scope::Found found = scope.find(port.key);
+  // Those of one node; `script` is its first.
+  std::uint32_t bind_hooks(std::uint32_t script, Scope& scope) {
+    NodeHooks hooks;
+    hooks.fill(Port::kNone);
+    while (true) {
+      const CheckedScript& it = trees_.scripts[script++];
+      hooks[static_cast<std::size_t>(it.hook)] = bind_script(it, scope);
+      if (it.is_last) break;
+    }
+    definition_.hooks.push_back(hooks);
+    return static_cast<std::uint32_t>(definition_.hooks.size() - 1);
+  }
+
+  std::uint32_t bind_script(const CheckedScript& script, Scope& scope) {
+    BoundScript bound{.code = script.code, .entries = {}};
+    for (const std::string& name : script.code->names()) {
+      bound.entries.push_back(find(name, scope));
+    }
+    definition_.scripts.push_back(std::move(bound));
+    return static_cast<std::uint32_t>(definition_.scripts.size() - 1);
+  }
+
+  // A start value has a type by itself until a port has another one.
+  std::uint32_t find(std::string_view key, Scope& scope) {
+    const Scope::Found found = scope.find(key);
+    if (!found.has_text) return found.entry;
     BlackboardEntry& entry = definition_.entries[found.entry];
-    if (found.is_new) {
-      entry.type = parameter.type;
-      entry.object = parameter.object;
-      entry.first_use = port.place;
-      if (found.has_text) set_initial(port.place, parameter, found.text, entry);
+    entry.type = btcpp::literal_type(found.text);
+    entry.initial = *btcpp::read_literal(entry.type, nullptr, found.text);
+    entry.is_declared = true;
+    literals_.emplace(found.entry, found.text);
+    return found.entry;
+  }
+
+  std::uint32_t use(const CheckedPort& port, const Parameter& parameter, Scope& scope) {
+    const std::uint32_t index = find(port.key, scope);
+    BlackboardEntry& entry = definition_.entries[index];
+    const auto literal = literals_.find(index);
+    if (literal != literals_.end() && takes_type(parameter, entry)) {
+      set_type(port.place, parameter, entry);
+      set_initial(port.place, parameter, literal->second, entry);
+      literals_.erase(literal);
+    } else if (!entry.is_declared) {
+      set_type(port.place, parameter, entry);
     } else if (entry.type == ValueType::Number && is_number(parameter.type)) {
       narrow(port.place, parameter, entry);
     } else if (!fits(parameter, entry)) {
@@ -183,10 +227,29 @@ class Expander {
                        fmt::format("the other use is at {}",
                                    to_text(report_.sources().locate(entry.first_use))));
     }
-    return found.entry;
+    return index;
   }
 
-  static bool fits(const Parameter& parameter, const BlackboardEntry& entry) {
+  // Whether a start value is read as the port says. For BehaviorTree.CPP, a text stays one: ports
+  // of other types read it.
+  bool takes_type(const Parameter& parameter, const BlackboardEntry& entry) const {
+    return !is_generic(parameter) && (is_ours() || entry.type != ValueType::String);
+  }
+
+  static void set_type(Place place, const Parameter& parameter, BlackboardEntry& entry) {
+    entry.is_declared = true;
+    entry.type = parameter.type;
+    entry.object = parameter.object;
+    entry.first_use = place;
+  }
+
+  // Takes an entry of any type.
+  static bool is_generic(const Parameter& parameter) { return parameter.names_entry; }
+
+  bool is_ours() const { return trees_.language == Language::Lockstep; }
+
+  bool fits(const Parameter& parameter, const BlackboardEntry& entry) const {
+    if (!is_ours() && (is_generic(parameter) || entry.type == ValueType::String)) return true;
     if (parameter.type == ValueType::Number && is_number(entry.type)) return true;
     if (parameter.type != entry.type) return false;
     return parameter.type != ValueType::Object || parameter.object->name() == entry.object->name();
@@ -237,6 +300,7 @@ class Expander {
   std::map<std::string_view, std::size_t> groups_;   // by name: its place in trees_.groups
   std::vector<std::vector<std::uint32_t>> members_;  // of each of them
   std::set<std::pair<std::uint32_t, std::string_view>> unknown_groups_;  // reported: where, name
+  std::map<std::uint32_t, std::string_view> literals_;  // start values whose type no port gave yet
   std::vector<std::uint32_t> shared_;  // of each first checked port: its ports, made already
 };
 

@@ -5,6 +5,7 @@
 #include "core/suggest.h"
 #include "core/wording.h"
 #include "definition/advise.h"
+#include "definition/btcpp/read_trees.h"
 #include "definition/check_trees.h"
 #include "definition/groups.h"
 #include "definition/references.h"
@@ -52,7 +53,9 @@ std::optional<std::string_view> choose_main(const CheckedTrees& trees, std::stri
 std::optional<Definition> resolve(const Project& project, const Catalog& catalog,
                                   const ResolveOptions& options, Diagnostics& diagnostics) {
   const Reporter report(project.sources, diagnostics);
-  CheckedTrees trees = check_trees(project, catalog, diagnostics);
+  CheckedTrees trees = project.language == Language::Lockstep
+                           ? check_trees(project, catalog, diagnostics)
+                           : btcpp::read_trees(project, catalog, diagnostics);
   const auto main = choose_main(trees, options.main_tree, report);
   if (!check_references(trees, report) || !main) return std::nullopt;
   Definition definition = expand(trees, *main, options.values, report);

@@ -2,12 +2,19 @@
 
 namespace lockstep {
 
+bool Scope::passes_on(std::string_view key) const {
+  return autoremap_ && (language_ == Language::Lockstep || !key.starts_with('_'));
+}
+
 Scope::Found Scope::find(std::string_view key) {
+  if (language_ == Language::BehaviorTreeCpp && key.size() > 1 && key[0] == '@') {
+    return main().find(key.substr(1));
+  }
   if (const auto it = known_.find(key); it != known_.end()) return {it->second, false, {}, false};
   const auto remapped = remapped_.find(key);
   const auto text = texts_.find(key);
-  const bool passes_on = remapped != remapped_.end() || (autoremap_ && text == texts_.end());
-  if (outer_ != nullptr && passes_on) {
+  const bool is_outside = remapped != remapped_.end() || (text == texts_.end() && passes_on(key));
+  if (outer_ != nullptr && is_outside) {
     const Found found = outer_->find(remapped != remapped_.end() ? remapped->second : key);
     known_[key] = found.entry;
     return found;

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/language.h"
 #include "definition/definition.h"
 
 namespace lockstep {
@@ -17,10 +18,12 @@ class Scope {
   static constexpr std::uint32_t kNone = Port::kNone;
 
   // The scope of the main tree.
-  explicit Scope(std::vector<BlackboardEntry>& entries) : entries_(entries) {}
+  Scope(std::vector<BlackboardEntry>& entries, Language language)
+      : entries_(entries), language_(language) {}
   // The scope of a SubTree inside `outer`; `prefix` names it in messages ("grasp/").
   Scope(Scope& outer, const std::string& prefix, bool autoremap)
       : entries_(outer.entries_),
+        language_(outer.language_),
         outer_(&outer),
         prefix_(outer.prefix_ + prefix),
         autoremap_(autoremap) {}
@@ -36,7 +39,8 @@ class Scope {
     std::string_view text;  // its start value as written, or ""
     bool has_text;
   };
-  // The entry that `key` means here; created if it does not exist.
+  // The entry that `key` means here; created if it does not exist. For BehaviorTree.CPP, "@key" is
+  // one of the main tree, and a key with '_' in front is passed on only by a remapping.
   Found find(std::string_view key);
   // The name in the project of the group that `name` means here.
   std::string_view group(std::string_view name);
@@ -45,7 +49,12 @@ class Scope {
   std::vector<std::string_view> open_keys() const;
 
  private:
+  // Whether a key that is neither remapped nor has a start value is one outside.
+  bool passes_on(std::string_view key) const;
+  Scope& main() { return outer_ == nullptr ? *this : outer_->main(); }
+
   std::vector<BlackboardEntry>& entries_;
+  Language language_;
   Scope* outer_ = nullptr;
   std::string prefix_;
   bool autoremap_ = false;

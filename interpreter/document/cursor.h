@@ -16,6 +16,7 @@ struct XmlFault {
   std::size_t offset = 0;
   std::string message;
   std::string hint = {};
+  bool is_warning = false;
 };
 
 constexpr bool is_xml_blank(char c) {

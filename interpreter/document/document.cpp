@@ -5,11 +5,13 @@
 
 #include <deque>
 
+#include "document/language_of.h"
 #include "document/well_formed.h"
 
 namespace lockstep {
 struct Document::Implementation {
   std::shared_ptr<const Source> source;
+  Language language = Language::Lockstep;
   std::vector<Element> elements;
   std::vector<Attribute> attributes;
   std::vector<std::uint32_t> coded;  // attributes whose values have references or line ends
@@ -17,8 +19,9 @@ struct Document::Implementation {
 
   void report(XmlFault fault, Diagnostics& diagnostics) const {
     const auto location = source->locate(source->place_of(fault.offset));
-    diagnostics.error(location, std::move(fault.message), std::move(fault.hint),
-                      source->excerpt(location.line, location.column));
+    diagnostics.add({fault.is_warning ? Severity::Warning : Severity::Error, location,
+                     std::move(fault.message), std::move(fault.hint),
+                     source->excerpt(location.line, location.column)});
   }
 
   bool check(Diagnostics& diagnostics);
@@ -36,7 +39,10 @@ bool Document::Implementation::check(Diagnostics& diagnostics) {
     report(std::move(*fault), diagnostics);
     return false;
   }
-  auto written = check_well_formed(text, source->place_of(0));
+  language = language_of(text);
+  auto written =
+      check_well_formed(text, source->place_of(0),
+                        language == Language::Lockstep ? Grammar::Strict : Grammar::Lenient);
   for (auto& fault : written.faults) report(std::move(fault), diagnostics);
   elements = std::move(written.elements);
   attributes = std::move(written.attributes);
@@ -83,6 +89,10 @@ std::unique_ptr<Document> Document::parse(std::string path, std::string text,
 
 const std::shared_ptr<const Source>& Document::source() const {
   return it_->source;
+}
+
+Language Document::language() const {
+  return it_->language;
 }
 
 std::span<const Element> Document::elements() const {

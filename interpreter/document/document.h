@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "core/diagnostics.h"
+#include "core/language.h"
 #include "document/element.h"
 #include "document/sources.h"
 
@@ -23,12 +24,14 @@ class Document {
 
   // Returns null, with an error, if the text is not readable XML. A mistake that leaves the
   // elements readable (text in an element, an unknown '&x;') is an error too, but returns the
-  // document. Messages call the file `path`; `first` is the place of its first byte.
+  // document. In a text for BehaviorTree.CPP, what its reader accepts is no error. Messages call
+  // the file `path`; `first` is the place of its first byte.
   static std::unique_ptr<Document> parse(std::string path, std::string text,
                                          Diagnostics& diagnostics, Place first = {});
   ~Document();
 
   const std::shared_ptr<const Source>& source() const;
+  Language language() const;
   // Elements in pre-order; 0 is the root element.
   std::span<const Element> elements() const;
   std::span<const Attribute> attributes(std::uint32_t element) const;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
+#include <map>
 
 #include "core/pre_order.h"
 #include "core/wording.h"
@@ -52,10 +52,16 @@ class Loader {
   struct Reading {
     std::string path;
     std::string identity;
+    std::uint32_t document = kUnreadable;  // in Project::documents
   };
+  static constexpr std::uint32_t kUnreadable = 0xffffffff;
 
   bool add(const Reading& file, std::string text);
   void include(Document& document, std::uint32_t element);
+  bool check_include(const Document& document, std::uint32_t element);
+  void includes(std::uint32_t includer, std::uint32_t included) {
+    if (included != kUnreadable) project_->includes[includer].push_back(included);
+  }
   // The chain of files that `next` would close, or "".
   std::string cycle(const Reading& next) const;
   void substitute(Document& document);
@@ -66,9 +72,9 @@ class Loader {
   Reporter report_;
   ArgumentTable arguments_;
   Diagnostics& diagnostics_;
-  std::vector<Reading> open_;   // the chain of includes that is being read
-  std::set<std::string> read_;  // identities
-  std::size_t bytes_ = 0;       // of all files
+  std::vector<Reading> open_;                  // the chain of includes that is being read
+  std::map<std::string, std::uint32_t> read_;  // by identity: its document
+  std::size_t bytes_ = 0;                      // of all files
 };
 
 template <class Visit>
@@ -79,11 +85,14 @@ void Loader::for_each_child(Document& document, std::string_view tag, Visit visi
 }
 
 bool Loader::add(const Reading& file, std::string text) {
-  read_.insert(file.identity);
+  const auto [read, is_new] = read_.emplace(file.identity, kUnreadable);
   auto parsed = Document::parse(file.path, std::move(text), diagnostics_, project_->sources.next());
   if (!parsed) return false;
+  read->second = static_cast<std::uint32_t>(project_->documents.size());
   project_->sources.add(parsed->source());
+  project_->includes.emplace_back();
   auto& document = *project_->documents.emplace_back(std::move(parsed));
+  if (open_.empty()) project_->language = document.language();
   if (!is_root(document)) {
     const Element& first = document.elements()[0];
     report_.at(first.place,
@@ -91,6 +100,7 @@ bool Loader::add(const Reading& file, std::string text) {
     return true;
   }
   open_.push_back(file);
+  open_.back().document = read->second;
   // All arguments of a file before its includes: an included file sees those of its includer.
   for_each_child(document, "arg", [&](auto i) { arguments_.declare(document, i); });
   for_each_child(document, "include", [&](auto i) { include(document, i); });
@@ -99,7 +109,7 @@ bool Loader::add(const Reading& file, std::string text) {
 }
 
 void Loader::include(Document& document, std::uint32_t element) {
-  if (!check_vocabulary(document, element, kIncludeAttributes, 1, report_)) return;
+  if (!check_include(document, element)) return;
   if (!arguments_.substitute(document, element)) return;
   const Attribute& attribute = *document.find_attribute(element, "path");
   const fs::path written(attribute.value);
@@ -110,7 +120,10 @@ void Loader::include(Document& document, std::uint32_t element) {
   };
   const Reading next{path, identity_of(path)};
   if (const auto chain = cycle(next); !chain.empty()) return fail("include cycle: " + chain);
-  if (read_.count(next.identity) > 0) return;
+  if (const auto known = read_.find(next.identity); known != read_.end()) {
+    includes(open_.back().document, known->second);
+    return;
+  }
   if (open_.size() > kMaxIncludeDepth)
     return fail(fmt::format("includes are nested deeper than {} levels", kMaxIncludeDepth));
   auto text = read_file(path, Document::kMaxBytes);
@@ -120,6 +133,17 @@ void Loader::include(Document& document, std::uint32_t element) {
     return fail(fmt::format("with '{}' the files are larger than {} MiB together", path,
                             Document::kMaxBytes >> 20u));
   add(next, std::move(*text));
+  includes(open_.back().document, read_.at(next.identity));
+}
+
+// In a document for BehaviorTree.CPP, other attributes have no meaning.
+bool Loader::check_include(const Document& document, std::uint32_t element) {
+  if (project_->language == Language::Lockstep) {
+    return check_vocabulary(document, element, kIncludeAttributes, 1, report_);
+  }
+  if (document.find_attribute(element, "path") != nullptr) return true;
+  report_.at(document.elements()[element].place, "'include' needs the attribute 'path'");
+  return false;
 }
 
 std::string Loader::cycle(const Reading& next) const {

@@ -23,10 +23,13 @@ struct DeclaredArgument {
 };
 
 struct Project {
+  Language language = Language::Lockstep;  // of the main file, and so of all
   // The main file first, then as included. Their paths are as a user would write them: relative
   // ones stay relative.
   Sources sources;
   std::vector<std::unique_ptr<Document>> documents;  // of the sources
+  // Of each document, those that it includes, in that order.
+  std::vector<std::vector<std::uint32_t>> includes;
   std::vector<DeclaredArgument> arguments;
 };
 

@@ -38,11 +38,12 @@ class Reporter {
     add(source, source.locate_value(attribute), std::move(message), std::move(hint), severity);
   }
   // The same at a byte of the value, as it was read from the text.
-  void in_value(Place attribute, std::size_t byte, std::string message, std::string hint) const {
-    if (counted_only(Severity::Error)) return;
+  void in_value(Place attribute, std::size_t byte, std::string message, std::string hint,
+                Severity severity = Severity::Error) const {
+    if (counted_only(severity)) return;
     const Source& source = sources_.of(attribute);
     add(source, source.locate_value(attribute, byte), std::move(message), std::move(hint),
-        Severity::Error);
+        severity);
   }
   // Reports an error without a place in the texts, such as one in an option.
   void nowhere(std::string message, std::string hint = {}) const {

@@ -55,6 +55,10 @@ Token Scanner::markup() {
 Token Scanner::declaration() {
   if (rest().starts_with("<!--")) return comment();
   if (rest().starts_with("<![CDATA[")) return character_data();
+  if (is_lenient_) {
+    if (rest().starts_with("<?")) return skipped(TokenKind::Instruction, "?>");
+    return skipped(TokenKind::Doctype, ">");
+  }
   if (rest().starts_with("<?")) return skipped(TokenKind::Instruction, skip_instruction);
   if (rest().starts_with("<!DOCTYPE")) return skipped(TokenKind::Doctype, skip_doctype);
   return no_tag(at_.position());
@@ -81,7 +85,7 @@ Token Scanner::inside_tag() {
     const auto found = rest().substr(0, utf8_length(rest()));
     return fail(begin, fmt::format("unexpected '{}' in the tag '<{}'", found, brief(tag_)), hint);
   }
-  if (!blanks) return fail(begin, "expected a blank before the attribute");
+  if (!blanks && !is_lenient_) return fail(begin, "expected a blank before the attribute");
   return attribute(begin, name);
 }
 
@@ -104,7 +108,7 @@ Token Scanner::attribute(std::size_t begin, std::string_view name) {
       return {TokenKind::Attribute, begin, name, text_.substr(open + 1, at - open - 1), is_coded};
     }
     // A quote that is forgotten finds the next value's, far below.
-    if (c == '<')
+    if (c == '<' && !is_lenient_)
       return fail(at, fmt::format("'<' in the value of '{}'", brief(name)),
                   "write '&lt;', or close the quote before it");
     is_coded |= c == '&' || c == '\r';
@@ -128,7 +132,7 @@ Token Scanner::comment() {
   const auto end = text_.find("--", at_.position());
   if (text_.find("-->", at_.position()) == std::string_view::npos)
     return fail(begin, "the comment is not closed", "'-->' ends it");
-  at_.go_to(end + 2);
+  at_.go_to(is_lenient_ ? text_.find("-->", end) + 2 : end + 2);
   if (!at_.skip(">")) return fail(end, "'--' in a comment", "XML does not allow it: write '- -'");
   return {TokenKind::Comment, begin};
 }
@@ -148,6 +152,16 @@ Token Scanner::skipped(TokenKind kind, std::optional<XmlFault> (*skip)(Cursor&))
   const auto begin = at_.position();
   if (auto fault = skip(at_))
     return fail(fault->offset, std::move(fault->message), std::move(fault->hint));
+  return {kind, begin, {}, text_.substr(begin, at_.position() - begin)};
+}
+
+Token Scanner::skipped(TokenKind kind, std::string_view end) {
+  const auto begin = at_.position();
+  const auto found = text_.find(end, begin);
+  if (found == std::string_view::npos)
+    return fail(begin, fmt::format("'{}' is not closed", rest().substr(0, 2)),
+                fmt::format("'{}' ends it", end));
+  at_.go_to(found + end.size());
   return {kind, begin, {}, text_.substr(begin, at_.position() - begin)};
 }
 

@@ -12,6 +12,10 @@
 
 namespace lockstep {
 
+// Lenient: also what programs for BehaviorTree.CPP write. '<' and '&' in values, no blank between
+// attributes, "--" in comments, any declaration and DOCTYPE.
+enum class Grammar : bool { Strict, Lenient };
+
 enum class TokenKind {
   OpenTag,      // <name
   Attribute,    // name="value", between OpenTag and TagEnd
@@ -37,7 +41,8 @@ struct Token {
 
 class Scanner {
  public:
-  explicit Scanner(std::string_view text) : text_(text), at_(text) {}
+  explicit Scanner(std::string_view text, Grammar grammar = Grammar::Strict)
+      : text_(text), at_(text), is_lenient_(grammar == Grammar::Lenient) {}
 
   // The next token. After End or Fault, that one again.
   Token next();
@@ -58,11 +63,14 @@ class Scanner {
   Token character_data();
   // `skip` moves behind it.
   Token skipped(TokenKind kind, std::optional<XmlFault> (*skip)(Cursor&));
+  // The same for what ends at `end`, whatever is inside.
+  Token skipped(TokenKind kind, std::string_view end);
   Token fail(std::size_t offset, std::string message, std::string hint = {});
   std::string_view rest() const { return at_.rest(); }
 
   std::string_view text_;
   Cursor at_;
+  bool is_lenient_;
   std::string_view tag_;  // the tag that is open: its attributes come next
   std::size_t tag_begin_ = 0;
   std::optional<XmlFault> fault_;

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include "core/wording.h"
 #include "document/references.h"
@@ -14,9 +16,19 @@ namespace {
 // No tree has as many, and each takes memory.
 constexpr std::size_t kMaxFaults = 100;
 
+// "&name;"
+bool looks_like_reference(std::string_view text) {
+  const auto name = xml_name_length(text.substr(1));
+  return name > 0 && text.substr(1 + name).starts_with(';');
+}
+
 class Checker {
  public:
-  Checker(std::string_view text, Place first) : text_(text), first_(first), scanner_(text) {
+  Checker(std::string_view text, Place first, Grammar grammar)
+      : text_(text),
+        first_(first),
+        is_lenient_(grammar == Grammar::Lenient),
+        scanner_(text, grammar) {
     result_.elements.reserve(at_most('<', "<a/>"));
     result_.attributes.reserve(at_most('=', " a=''"));
   }
@@ -60,7 +72,11 @@ class Checker {
   }
 
   void open(const Token& token) {
-    if (open_.empty() && has_root()) return stop({token.begin, "a second root element"});
+    if (open_.empty() && has_root()) {
+      if (!is_lenient_) return stop({token.begin, "a second root element"});
+      warn({token.begin, "a second root element is ignored"});
+      leave_out_from(count(result_.elements));
+    }
     if (open_.size() == kMaxElementDepth)
       return stop({token.begin,
                    fmt::format("elements are nested deeper than {} levels", kMaxElementDepth)});
@@ -80,12 +96,31 @@ class Checker {
     if (token.is_coded) references(token);
   }
 
+  // All elements from this one on, and their attributes.
+  void leave_out_from(std::uint32_t element) {
+    if (first_left_out_) return;
+    first_left_out_ = {element, count(result_.attributes)};
+  }
+
+  void leave_out() {
+    if (!first_left_out_) return;
+    const auto [element, attribute] = *first_left_out_;
+    result_.elements.resize(element);
+    result_.attributes.resize(attribute);
+    std::erase_if(result_.coded, [&](std::uint32_t coded) { return coded >= attribute; });
+  }
+
   void references(const Token& token) {
     for (auto at = token.value.find('&'); at != std::string_view::npos;
          at = token.value.find('&', at + 1)) {
-      if (!read_reference(token.value.substr(at)))
-        add({scanner_.offset_of(token.value) + at, "'&' does not begin a known reference",
-             "write '&amp;' for the character itself"});
+      if (read_reference(token.value.substr(at))) continue;
+      const auto offset = scanner_.offset_of(token.value) + at;
+      constexpr auto kHint = "write '&amp;' for the character itself";
+      if (!is_lenient_) {
+        add({offset, "'&' does not begin a known reference", kHint});
+      } else if (looks_like_reference(token.value.substr(at))) {
+        warn({offset, "'&' does not begin a known reference, so it stays as it is", kHint});
+      }
     }
   }
 
@@ -127,6 +162,9 @@ class Checker {
     const bool blank = first == token.value.end();
     if (blank && !open_.empty()) return;
     const auto offset = blank ? token.begin : static_cast<std::size_t>(first - text_.data());
+    const bool is_section = text_.substr(token.begin).starts_with("<![CDATA[");
+    if (is_lenient_ && (is_section || !open_.empty() || !has_root()))
+      return warn({offset, "text is ignored", "put it into a comment: <!-- … -->"});
     if (open_.empty())
       return stop(
           {offset, fmt::format("text {} the root element", has_root() ? "after" : "before")});
@@ -134,6 +172,7 @@ class Checker {
   }
 
   void doctype(const Token& token) {
+    if (is_lenient_) return;
     if (has_root()) return stop({token.begin, "a DOCTYPE must be before the root element"});
     if (has_doctype_) return stop({token.begin, "a second DOCTYPE"});
     has_doctype_ = true;
@@ -149,12 +188,19 @@ class Checker {
     if (!has_root())
       stop({prolog_ ? 0 : token.begin,
             prolog_ ? "the file is empty" : "the root element is missing"});
+    leave_out();
+  }
+
+  void warn(XmlFault fault) {
+    if (++warnings_ > kMaxFaults) return;
+    fault.is_warning = true;
+    result_.faults.push_back(std::move(fault));
   }
 
   void add(XmlFault fault) {
     if (stopped_) return;
     result_.faults.push_back(std::move(fault));
-    if (result_.faults.size() == kMaxFaults) stopped_ = true;
+    if (++errors_ == kMaxFaults) stopped_ = true;
     if (stopped_) result_.readable = false;
   }
 
@@ -188,19 +234,23 @@ class Checker {
 
   std::string_view text_;
   Place first_;
+  bool is_lenient_;
   Scanner scanner_;
   std::vector<std::uint32_t> open_;      // elements
   std::vector<std::string_view> names_;  // of the attributes of one element
   bool stopped_ = false;
   bool has_doctype_ = false;
+  std::size_t errors_ = 0, warnings_ = 0;
+  // The first element and attribute behind the root.
+  std::optional<std::pair<std::uint32_t, std::uint32_t>> first_left_out_;
   bool prolog_ = true;  // nothing but processing instructions so far
   WellFormed result_;
 };
 
 }  // namespace
 
-WellFormed check_well_formed(std::string_view text, Place first) {
-  return Checker(text, first).run();
+WellFormed check_well_formed(std::string_view text, Place first, Grammar grammar) {
+  return Checker(text, first, grammar).run();
 }
 
 }  // namespace lockstep

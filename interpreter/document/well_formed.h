@@ -29,7 +29,9 @@ struct WellFormed {
   std::vector<std::uint32_t> coded;  // those whose values have references or line ends
 };
 
-// `first` is the place of the first byte.
-WellFormed check_well_formed(std::string_view text, Place first = {});
+// `first` is the place of the first byte. In the lenient grammar, text and a second root element
+// are warned of and left out.
+WellFormed check_well_formed(std::string_view text, Place first = {},
+                             Grammar grammar = Grammar::Strict);
 
 }  // namespace lockstep

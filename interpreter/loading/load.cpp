@@ -29,8 +29,8 @@ tl::expected<Loaded, LoadFailure> load(std::unique_ptr<Project> project, const L
   if (!good) return tl::unexpected(failed.value_or(LoadFailure::PluginRefused));
   std::optional<Definition> definition;
   if (project) {
-    definition =
-        resolve(*project, make_catalog(*plugins), {options.main_tree, options.values}, diagnostics);
+    definition = resolve(*project, make_catalog(*plugins, project->language),
+                         {options.main_tree, options.values}, diagnostics);
   }
   if (const auto wrong = failure_of(project.get(), diagnostics)) return tl::unexpected(*wrong);
   return Loaded{std::move(plugins), std::move(project), std::move(definition).value()};

@@ -56,9 +56,9 @@ bool load_requested_plugins(const PluginOptions& options, const Project& project
   return good;
 }
 
-Catalog make_catalog(const PluginSet& plugins) {
+Catalog make_catalog(const PluginSet& plugins, Language language) {
   Catalog catalog;
-  for (const NodeKind* kind : built_in_kinds()) catalog.add(&kind->type);
+  for (const NodeKind* kind : built_in_kinds(language)) catalog.add(&kind->type);
   for (const NodeType* type : plugins.types()) catalog.add(type);
   return catalog;
 }

@@ -30,7 +30,7 @@ bool is_plugin_file(const std::string& plugin);
 [[nodiscard]] bool load_requested_plugins(const PluginOptions& options, const Project& project,
                                           PluginSet& plugins, Diagnostics& diagnostics);
 
-// The built-in nodes and the leaves of `plugins`. It lives as long as these.
-Catalog make_catalog(const PluginSet& plugins);
+// The built-in nodes of a language and the leaves of `plugins`. It lives as long as these.
+Catalog make_catalog(const PluginSet& plugins, Language language = Language::Lockstep);
 
 }  // namespace lockstep

@@ -18,15 +18,12 @@ TEST_CASE("the root says the version of the language") {
   constexpr ClaimRow kRows[] = {
       {"the first element is root", R"(<!-- <root> --><tree/>)",
        "1:16 error: the first element must be 'root', not 'tree'"},
-      {"lockstep is required",
-       R"(<root><BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree></root>)",
-       "1:1 error: 'root' needs the attribute 'lockstep'"},
       {"the version is 1",
        R"(<root lockstep="2"><BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree></root>)",
        "1:17 error: version '2' of the language is not known"},
-      {"files for BehaviorTree.CPP are refused by name",
-       R"(<root BTCPP_format="4"><BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree></root>)",
-       "1:7 error: files for BehaviorTree.CPP are not read yet"},
+      {"without it the file is for BehaviorTree.CPP",
+       R"(<root><BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree></root>)",
+       "1:1 warning: without 'BTCPP_format' this is read as a file of version 3"},
       {"the attributes for editors are allowed",
        R"(<root lockstep="1" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"
                 xsi:noNamespaceSchemaLocation="../schema/lockstep.xsd">

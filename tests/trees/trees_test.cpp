@@ -3,6 +3,8 @@
 //   <!-- expect error 4:7: unknown node 'Sequnce' -->   also warning, note; file:4:7 in an include
 //   <!-- expect success in 10 ticks -->                 or failure; on the virtual clock
 //   <!-- with set speed=0.5 -->                         or arg: more options of the run
+//
+// Those in btcpp/ are in the language of BehaviorTree.CPP.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -30,6 +32,11 @@ std::vector<std::string> files_in(const std::string& directory) {
   return files;
 }
 
+void append(std::vector<std::string>& files, const std::vector<std::string>& more) {
+  REQUIRE(more.size() >= 4);
+  files.insert(files.end(), more.begin(), more.end());
+}
+
 // What stands in the comments that begin with `word`.
 std::vector<std::string> comments(const std::string& file, const std::string& word) {
   std::vector<std::string> found;
@@ -42,8 +49,7 @@ std::vector<std::string> comments(const std::string& file, const std::string& wo
 }
 
 // Messages name files as they were given; the comments name them from where they stand.
-std::string without_directory(std::string message) {
-  const std::string directory = kTrees + "bad/";
+std::string without_directory(std::string message, const std::string& directory) {
   for (auto at = message.find(directory); at != std::string::npos; at = message.find(directory)) {
     message.erase(at, directory.size());
   }
@@ -60,8 +66,9 @@ std::vector<std::string> told(const std::string& file, int& code) {
     const std::string in = it["file"];
     messages.push_back(without_directory(
         it["severity"].get<std::string>() + " " + (in == file ? "" : in + ":") +
-        std::to_string(it["line"].get<int>()) + ":" + std::to_string(it["column"].get<int>()) +
-        ": " + it["message"].get<std::string>()));
+            std::to_string(it["line"].get<int>()) + ":" + std::to_string(it["column"].get<int>()) +
+            ": " + it["message"].get<std::string>(),
+        file.substr(0, file.rfind('/') + 1)));
   }
   return messages;
 }
@@ -87,8 +94,9 @@ std::string result_of(const std::string& file) {
 }  // namespace
 
 TEST_CASE("bad trees: all that is wrong or doubtful is told, at its place, and nothing else") {
-  const auto files = files_in(kTrees + "bad");
+  auto files = files_in(kTrees + "bad");
   REQUIRE(files.size() >= 30);
+  append(files, files_in(kTrees + "btcpp/bad"));
   for (const std::string& file : files) {
     INFO(file);
     const auto expected = comments(file, "expect");
@@ -104,7 +112,9 @@ TEST_CASE("bad trees: all that is wrong or doubtful is told, at its place, and n
 }
 
 TEST_CASE("a tree with errors does not run") {
-  for (const std::string& file : files_in(kTrees + "bad")) {
+  auto files = files_in(kTrees + "bad");
+  append(files, files_in(kTrees + "btcpp/bad"));
+  for (const std::string& file : files) {
     if (comments(file, "expect").front().rfind("error", 0) != 0) continue;
     INFO(file);
     const Outcome outcome = lockstep::test::lockstep({"run", file, "--clock", "virtual"});
@@ -115,8 +125,9 @@ TEST_CASE("a tree with errors does not run") {
 }
 
 TEST_CASE("good trees run to the result and in the ticks that they expect") {
-  const auto files = files_in(kTrees + "good");
+  auto files = files_in(kTrees + "good");
   REQUIRE(files.size() >= 10);
+  append(files, files_in(kTrees + "btcpp/good"));
   for (const std::string& file : files) {
     INFO(file);
     CHECK(std::vector<std::string>{result_of(file)} == comments(file, "expect"));

@@ -49,7 +49,7 @@ class Files {
 };
 
 std::string include(const std::string& path) {
-  return "<root>\n <include path='" + path + "'/>\n</root>";
+  return "<root lockstep='1'>\n <include path='" + path + "'/>\n</root>";
 }
 
 }  // namespace
@@ -66,10 +66,11 @@ TEST_CASE("includes are relative to the file that they are in") {
 
 TEST_CASE("a file is read once, by whatever path it is reached") {
   Files files;
-  files.write("main.xml",
-              "<root><include path='a.xml'/><include path='b.xml'/><include path='./a.xml'/>"
-              "<include path='link.xml'/></root>");
-  files.write("a.xml", "<root><arg name='x' default='1'/></root>");
+  files.write(
+      "main.xml",
+      "<root lockstep='1'><include path='a.xml'/><include path='b.xml'/><include path='./a.xml'/>"
+      "<include path='link.xml'/></root>");
+  files.write("a.xml", "<root lockstep='1'><arg name='x' default='1'/></root>");
   files.write("b.xml", include("a.xml"));
   REQUIRE(symlink("a.xml", (files / "link.xml").c_str()) == 0);
   files.load("main.xml");
@@ -106,12 +107,12 @@ TEST_CASE("includes have a depth limit that is named") {
 TEST_CASE("a file that cannot be read is told where it is included, with the reason") {
   Files files;
   files.write("main.xml",
-              "<root><include path='none.xml'/>\n<include path='directory'/>\n"
+              "<root lockstep='1'><include path='none.xml'/>\n<include path='directory'/>\n"
               "<include path='good.xml'/></root>");
   files.write("directory/x", "");
   files.write("good.xml", "<root/>");
   files.load("main.xml");
-  CHECK(files.told() == Lines{"main.xml:1:22: cannot read 'none.xml': No such file or directory",
+  CHECK(files.told() == Lines{"main.xml:1:35: cannot read 'none.xml': No such file or directory",
                               "main.xml:2:16: cannot read 'directory': Is a directory"});
   CHECK(files.paths() == Lines{"main.xml", "good.xml"});
 }
@@ -142,10 +143,10 @@ TEST_CASE("only regular files are read: others could block or never end") {
 TEST_CASE("all files are checked in one pass") {
   Files files;
   files.write("main.xml",
-              "<root>\n <include path='bad.xml'/>\n <include path='other.xml'/>\n"
+              "<root lockstep='1'>\n <include path='bad.xml'/>\n <include path='other.xml'/>\n"
               " <N x='${a}'/>\n</root>");
-  files.write("bad.xml", "<root>\n <A>\n</root>");
-  files.write("other.xml", "<root>\n <M y='${b}'/>\n</root>");
+  files.write("bad.xml", "<root lockstep='1'>\n <A>\n</root>");
+  files.write("other.xml", "<root lockstep='1'>\n <M y='${b}'/>\n</root>");
   files.load("main.xml");
   CHECK(files.told() == Lines{"bad.xml:3:1: '</root>' closes '<A>', opened at line 2",
                               "main.xml:4:8: unknown argument 'a'",
@@ -154,41 +155,42 @@ TEST_CASE("all files are checked in one pass") {
 
 TEST_CASE("arguments reach all files, and the paths of includes") {
   Files files;
-  files.write(
-      "main.xml",
-      "<root><N x='${b}'/><arg name='part' default='a'/><include path='${part}.xml'/></root>");
-  files.write("a.xml", "<root><arg name='b' default='2'/><M y='${part}${b}'/></root>");
+  files.write("main.xml",
+              "<root lockstep='1'><N x='${b}'/><arg name='part' default='a'/><include "
+              "path='${part}.xml'/></root>");
+  files.write("a.xml", "<root lockstep='1'><arg name='b' default='2'/><M y='${part}${b}'/></root>");
   files.load("main.xml");
   CHECK(files.told().empty());
   CHECK(files.project()->documents[0]->find_attribute(1, "x")->value == "2");
   CHECK(files.project()->documents[1]->find_attribute(2, "y")->value == "a2");
 
   files.load("main.xml", {{"part", "gone"}});
-  CHECK(files.told() == Lines{"main.xml:1:13: unknown argument 'b'",
-                              "main.xml:1:65: cannot read 'gone.xml': No such file or directory"});
+  CHECK(files.told() == Lines{"main.xml:1:26: unknown argument 'b'",
+                              "main.xml:1:78: cannot read 'gone.xml': No such file or directory"});
 }
 
 TEST_CASE("an argument is declared once in all files") {
   Files files;
-  files.write("main.xml", "<root><arg name='a' default='1'/><include path='b.xml'/></root>");
-  files.write("b.xml", "<root>\n<arg name='a' default='2'/></root>");
+  files.write("main.xml",
+              "<root lockstep='1'><arg name='a' default='1'/><include path='b.xml'/></root>");
+  files.write("b.xml", "<root lockstep='1'>\n<arg name='a' default='2'/></root>");
   files.load("main.xml");
   CHECK(files.told() == Lines{"b.xml:2:12: argument 'a' is declared twice"});
-  CHECK(files.hints() == Lines{"the first is at main.xml:1:18"});
+  CHECK(files.hints() == Lines{"the first is at main.xml:1:31"});
 }
 
 TEST_CASE("an <include> is what it may be") {
   const std::pair<std::string, std::string> rows[] = {
-      {"<include/>", "f:1:7: 'include' needs the attribute 'path'"},
-      {"<include file='a.xml'/>", "f:1:7: 'include' needs the attribute 'path'"},
-      {"<include path='/dev/null' x=''/>", "f:1:33: unknown attribute 'x' of 'include'"},
-      {"<include path='/dev/null'><a/></include>", "f:1:33: 'include' cannot contain elements"},
-      {"<include path='${x}'/>", "f:1:22: unknown argument 'x'"},
+      {"<include/>", "f:1:20: 'include' needs the attribute 'path'"},
+      {"<include file='a.xml'/>", "f:1:20: 'include' needs the attribute 'path'"},
+      {"<include path='/dev/null' x=''/>", "f:1:46: unknown attribute 'x' of 'include'"},
+      {"<include path='/dev/null'><a/></include>", "f:1:46: 'include' cannot contain elements"},
+      {"<include path='${x}'/>", "f:1:35: unknown argument 'x'"},
   };
   for (const auto& [element, expected] : rows) {
     INFO(element);
     Diagnostics diagnostics;
-    load_project_text("f", "<root>" + element + "</root>", {}, diagnostics);
+    load_project_text("f", "<root lockstep='1'>" + element + "</root>", {}, diagnostics);
     const auto lines = told(diagnostics);
     CHECK(std::count(lines.begin(), lines.end(), expected) == 1);
   }
@@ -196,7 +198,8 @@ TEST_CASE("an <include> is what it may be") {
 
 TEST_CASE("only directly in the root an element loads something") {
   Diagnostics diagnostics;
-  load_project_text("f", "<root><T><include path='none.xml'/><arg/></T></root>", {}, diagnostics);
+  load_project_text("f", "<root lockstep='1'><T><include path='none.xml'/><arg/></T></root>", {},
+                    diagnostics);
   CHECK(told(diagnostics).empty());
 }
 

@@ -79,7 +79,8 @@ TEST_CASE("load: a failure has its kind, and errors that say more") {
   const Row rows[] = {
       {"", "none.xml", LoadFailure::Unreadable, "cannot be read: No such file or directory"},
       {"<root", "tree.xml", LoadFailure::Unreadable, "the tag '<root' is not closed"},
-      {"<root>" + tree, "tree.xml", LoadFailure::Invalid, "'root' needs the attribute 'lockstep'"},
+      {"<root lockstep='2'>" + tree, "tree.xml", LoadFailure::Invalid,
+       "version '2' of the language is not known"},
       {"<root lockstep='1'><plugin name='none'/>" + tree, "tree.xml", LoadFailure::PluginRefused,
        "plugin 'none' is not found"},
       {"<root lockstep='1'><include path='none.xml'/><plugin name='none'/>" + tree, "tree.xml",

@@ -1,0 +1,231 @@
+#include "definition/btcpp/attributes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/parameter_value.h"
+#include "core/suggest.h"
+#include "core/wording.h"
+#include "definition/btcpp/literal.h"
+#include "definition/btcpp/scripts.h"
+#include "definition/btcpp/words.h"
+
+namespace lockstep::btcpp {
+namespace {
+
+// Those that are not ports. What editors write has no meaning here.
+constexpr std::string_view kOwn[] = {"_failureIf", "_successIf", "_skipIf",
+                                     "_while",     "_onSuccess", "_onFailure",
+                                     "_post",      "_onHalted",  "_autoremap"};
+constexpr std::string_view kMarks[] = {
+    "_collapsed", "_favorite", "_hardcoded", "_subtreeOnly",        "_description",
+    "_uid",       "_fullpath", "_external",  "__shared_blackboard", "__autoremap"};
+
+// A word that has no meaning may be a misspelled one that has.
+void check_mark(const Attribute& attribute, const Reporter& report) {
+  if (!attribute.name.starts_with('_')) return;
+  if (std::ranges::find(kOwn, attribute.name) != std::end(kOwn)) return;
+  if (std::ranges::find(kMarks, attribute.name) != std::end(kMarks)) return;
+  const std::string hint = did_you_mean(attribute.name, kOwn);
+  if (hint.empty() || report.counted_only(Severity::Warning)) return;
+  report.at(attribute.place, fmt::format("the attribute '{}' is ignored", brief(attribute.name)),
+            hint, Severity::Warning);
+}
+
+class PortChecker {
+ public:
+  PortChecker(const NodeElement& element, const Reporter& report, CheckedNode& node,
+              CheckedTrees& trees)
+      : element_(element), report_(report), node_(node), trees_(trees) {}
+
+  void check() {
+    find_unknown();
+    const auto parameters = node_.type->parameters;
+    const std::size_t first_value = trees_.values.size();
+    node_.first = static_cast<std::uint32_t>(trees_.ports.size());
+    trees_.ports.resize(node_.first + parameters.size());
+    trees_.values.resize(first_value + parameters.size());
+    const auto ports = std::span(trees_.ports).subspan(node_.first);
+    const auto values = std::span(trees_.values).subspan(first_value);
+    bool good = true;
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      good &= check(parameters[i], ports[i], values[i]);
+    }
+    if (good) check_rule(element_, report_, node_, ports, values);
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      if (std::holds_alternative<NoValue>(values[i])) continue;
+      ports[i].value = static_cast<std::uint32_t>(first_value + i);
+    }
+  }
+
+ private:
+  void find_unknown() const {
+    for (const Attribute& attribute : element_.attributes) {
+      if (attribute.name == "name" || attribute.name == "ID") continue;
+      if (!is_port_name(attribute.name)) {
+        check_mark(attribute, report_);
+      } else if (!has(attribute.name) && !report_.counted_only(Severity::Error)) {
+        report_.at(
+            attribute.place,
+            fmt::format("'{}' has no port '{}'", brief(node_.type->id), brief(attribute.name)),
+            unknown_hint(attribute.name));
+      }
+    }
+  }
+
+  bool has(std::string_view name) const {
+    return std::ranges::find(node_.type->parameters, name, &Parameter::name) !=
+           node_.type->parameters.end();
+  }
+
+  std::vector<std::string_view> names() const {
+    std::vector<std::string_view> names;
+    for (const Parameter& it : node_.type->parameters) names.push_back(it.name);
+    return names;
+  }
+
+  std::string unknown_hint(std::string_view name) const {
+    const auto all = names();
+    if (all.empty()) return fmt::format("'{}' has no ports", brief(node_.type->id));
+    return suggest(name, all, fmt::format("ports of '{}'", brief(node_.type->id)));
+  }
+
+  // What one port is: a value, a key with its default, or nothing. False after an error.
+  bool check(const Parameter& parameter, CheckedPort& port, Value& value) {
+    const Attribute* attribute = find_attribute(element_.attributes, parameter.name);
+    if (attribute == nullptr) return absent(parameter, value);
+    port.place = attribute->place;
+    port.key = key_of(attribute->value, parameter.name);
+    const bool blank_around = without_blanks_around(attribute->value) != attribute->value;
+    if (!port.key.empty()) return !blank_around || check_blanks(parameter, *attribute);
+    if (parameter.constant || !parameter.names_entry) {
+      return literal(parameter, *attribute, port, value);
+    }
+    port.key = attribute->value;
+    return !port.key.empty() || refuse_empty(parameter, *attribute);
+  }
+
+  bool absent(const Parameter& parameter, Value& value) const {
+    if (parameter.default_text) value = *parse_value(parameter.type, *parameter.default_text);
+    if (!parameter.required || parameter.default_text) return true;
+    if (is_misspelled(parameter)) return false;
+    report_.at(element_.place,
+               fmt::format("'{}' needs the port '{}'", brief(node_.type->id), parameter.name),
+               fmt::format("ports of '{}': {}", brief(node_.type->id), listed(names())));
+    return false;
+  }
+
+  // An unknown attribute means this port: one error is enough.
+  bool is_misspelled(const Parameter& missing) const {
+    return std::ranges::any_of(element_.attributes, [&](const Attribute& attribute) {
+      return is_port_name(attribute.name) && attribute.name != "name" && !has(attribute.name) &&
+             nearest(attribute.name, names()) == missing.name;
+    });
+  }
+
+  bool refuse_empty(const Parameter& parameter, const Attribute& attribute) const {
+    report_.at_value(attribute.place, fmt::format("'{}' names no entry", parameter.name),
+                     fmt::format("write {}=\"{{key}}\"", parameter.name));
+    return false;
+  }
+
+  // With blanks around its braces, it must also be a literal of the type.
+  bool check_blanks(const Parameter& parameter, const Attribute& attribute) const {
+    if (read_literal(parameter.type, parameter.object, attribute.value)) return true;
+    report_.at_value(
+        attribute.place,
+        fmt::format("there are blanks around the entry '{}'",
+                    brief(without_blanks_around(attribute.value))),
+        fmt::format("write {}=\"{}\"", parameter.name, without_blanks_around(attribute.value)));
+    return false;
+  }
+
+  bool literal(const Parameter& parameter, const Attribute& attribute, CheckedPort& port,
+               Value& value) {
+    if (parameter.is_script) {
+      auto code = parse_script(attribute, report_, EmptyScript::DoesNothing);
+      if (!code) return false;
+      value = std::string(attribute.value);
+      if (*code == nullptr) return true;
+      port.script = static_cast<std::uint32_t>(trees_.scripts.size());
+      trees_.scripts.push_back({.hook = {}, .is_last = true, .code = *std::move(code)});
+      return true;
+    }
+    auto read = read_literal(parameter.type, parameter.object, attribute.value);
+    if (!read) {
+      report_.at_value(
+          attribute.place,
+          fmt::format("'{}' is not {}, which '{}' must be", brief(attribute.value),
+                      expected_text(parameter.type, parameter.object), parameter.name));
+      return false;
+    }
+    warn_of_tail(parameter, attribute);
+    if (parameter.direction == Direction::Output) {
+      report_.at_value(
+          attribute.place,
+          fmt::format("what '{}' writes to '{}' is lost", brief(node_.type->id), parameter.name),
+          fmt::format("write {}=\"{{key}}\"", parameter.name), Severity::Warning);
+      return true;
+    }
+    if (const auto refused = refuse_value(parameter, *read)) {
+      report_.at_value(attribute.place, refused->message, refused->hint);
+      return false;
+    }
+    value = *std::move(read);
+    return true;
+  }
+
+  void warn_of_tail(const Parameter& parameter, const Attribute& attribute) const {
+    const std::string_view tail = ignored_tail(parameter, attribute.value);
+    if (tail.empty()) return;
+    report_.in_value(attribute.place, attribute.value.size() - tail.size(),
+                     fmt::format("'{}' after the number is ignored", brief(tail)), {},
+                     Severity::Warning);
+  }
+
+  const NodeElement& element_;
+  const Reporter& report_;
+  CheckedNode& node_;
+  CheckedTrees& trees_;
+};
+
+}  // namespace
+
+void read_attributes(const NodeElement& element, const Reporter& report, CheckedNode& node,
+                     CheckedTrees& trees) {
+  PortChecker(element, report, node, trees).check();
+  check_hooks(element, report, node, trees);
+}
+
+void read_subtree_attributes(const NodeElement& element, const Reporter& report, CheckedNode& node,
+                             CheckedSubTree& subtree, CheckedTrees& trees) {
+  subtree.first = static_cast<std::uint32_t>(trees.remappings.size());
+  for (const Attribute& attribute : element.attributes) {
+    const auto& [name, value, place] = attribute;
+    if (name == "name") continue;
+    if (name == "ID") {
+      subtree.id = value;
+      subtree.place = place;
+    } else if (name == "_autoremap") {
+      const auto autoremap = read_bool(value);
+      subtree.autoremap = autoremap.value_or(false);
+      if (!autoremap) {
+        report.at_value(place, fmt::format("'{}' is not true or false", brief(value)));
+      }
+    } else if (is_port_name(name)) {
+      const auto key = key_of(value, name);
+      trees.remappings.push_back({name, key.empty() ? value : key, !key.empty(), place});
+    } else {
+      check_mark(attribute, report);
+    }
+  }
+  subtree.remappings = static_cast<std::uint32_t>(trees.remappings.size()) - subtree.first;
+  if (subtree.id.empty()) {
+    report.at(element.place, "'SubTree' needs the attribute 'ID'",
+              "write <SubTree ID=\"…\"/> with the ID of a BehaviorTree");
+  }
+  check_hooks(element, report, node, trees);
+}
+
+}  // namespace lockstep::btcpp

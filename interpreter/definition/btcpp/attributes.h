@@ -1,0 +1,19 @@
+// The attributes of a node in a document for BehaviorTree.CPP: ports, scripts and marks.
+#pragma once
+
+#include "definition/attributes.h"
+#include "definition/checked_tree.h"
+#include "document/reporter.h"
+
+namespace lockstep::btcpp {
+
+// Checks the attributes of `node`, whose type and children are known, and appends what they say to
+// `trees`.
+void read_attributes(const NodeElement& element, const Reporter& report, CheckedNode& node,
+                     CheckedTrees& trees);
+
+// The same for a SubTree, whose attributes are remappings.
+void read_subtree_attributes(const NodeElement& element, const Reporter& report, CheckedNode& node,
+                             CheckedSubTree& subtree, CheckedTrees& trees);
+
+}  // namespace lockstep::btcpp

@@ -1,0 +1,271 @@
+#include "definition/btcpp/read_trees.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/pre_order.h"
+#include "core/suggest.h"
+#include "core/wording.h"
+#include "definition/btcpp/attributes.h"
+#include "definition/btcpp/document_order.h"
+#include "definition/node_check.h"
+
+namespace lockstep::btcpp {
+namespace {
+
+// Of the only tree of a file, which needs none.
+constexpr std::string_view kNoId = "BehaviorTree";
+
+class TreeReader {
+ public:
+  TreeReader(const Project& project, const Catalog& catalog, Diagnostics& diagnostics)
+      : project_(project), catalog_(catalog), report_(project.sources, diagnostics) {}
+
+  CheckedTrees read() {
+    trees_.language = Language::BehaviorTreeCpp;
+    for (const std::uint32_t document : document_order(project_)) {
+      document_ = project_.documents[document].get();
+      elements_ = document_->elements();
+      read_document();
+    }
+    for (const auto& [id, tree] : trees_.trees) trees_.ids.push_back(id);
+    return std::move(trees_);
+  }
+
+ private:
+  const Element& element(std::uint32_t index) const { return elements_[index]; }
+  std::span<const Attribute> attributes(std::uint32_t index) const {
+    return document_->attributes(index);
+  }
+
+  void read_document() {
+    if (element(0).tag != "root") return;  // already reported when it was read
+    const bool is_main = document_ == project_.documents.front().get();
+    read_root(is_main);
+    trees_here_ = static_cast<std::uint32_t>(std::ranges::count(
+        children_of_root(), "BehaviorTree", [&](auto child) { return element(child).tag; }));
+    if (is_main) read_main();
+    for (const std::uint32_t child : children_of_root()) read_child(child);
+  }
+
+  std::vector<std::uint32_t> children_of_root() const {
+    std::vector<std::uint32_t> children;
+    for (const std::uint32_t child : children_in(elements_, 0)) children.push_back(child);
+    return children;
+  }
+
+  void read_child(std::uint32_t child) {
+    constexpr std::string_view kKnown[] = {"BehaviorTree", "include", "TreeNodesModel", "plugin",
+                                           "arg"};
+    const std::string_view tag = element(child).tag;
+    if (tag == "BehaviorTree") return read_tree(child);
+    if (std::ranges::find(kKnown, tag) != std::end(kKnown)) return;
+    if (report_.counted_only(Severity::Warning)) return;
+    report_.at(element(child).place, fmt::format("'root' ignores the element '{}'", brief(tag)),
+               suggest(tag, kKnown, "elements of 'root'"), Severity::Warning);
+  }
+
+  void read_root(bool is_main) const {
+    const Attribute* format = find_attribute(attributes(0), "BTCPP_format");
+    if (const Attribute* ours = find_attribute(attributes(0), "lockstep")) {
+      report_.at(ours->place,
+                 is_main ? "this file says that it is in two languages"
+                         : "this file is in lockstep's language",
+                 is_main ? "with BTCPP_format it is for BehaviorTree.CPP: leave out 'lockstep'"
+                         : "the file that includes it is for BehaviorTree.CPP; all files of a tree "
+                           "are in the same language");
+    } else if (format == nullptr) {
+      report_.at(element(0).place, "without 'BTCPP_format' this is read as a file of version 3",
+                 "write <root BTCPP_format=\"4\">, or lockstep=\"1\" for lockstep's own language",
+                 Severity::Warning);
+    } else if (format->value != "4" && format->value != "3") {
+      report_.at_value(format->place,
+                       fmt::format("the format '{}' is not known", brief(format->value)),
+                       "this program reads BTCPP_format=\"4\"");
+    }
+  }
+
+  void read_main() {
+    trees_.main = {.place = element(0).place};
+    const Attribute* main = find_attribute(attributes(0), "main_tree_to_execute");
+    if (main != nullptr && !main->value.empty()) {
+      trees_.main->tree = main->value;
+      trees_.main->tree_place = main->place;
+    } else if (trees_here_ == 1) {
+      for (const std::uint32_t child : children_of_root()) {
+        if (element(child).tag == "BehaviorTree") {
+          trees_.main->tree = id_of(child);
+          trees_.main->tree_place = element(child).place;
+        }
+      }
+    }
+  }
+
+  std::string_view id_of(std::uint32_t tree) const {
+    const Attribute* named = find_attribute(attributes(tree), "ID");
+    if (named != nullptr) return named->value;
+    return trees_here_ == 1 ? kNoId : std::string_view();
+  }
+
+  void read_tree(std::uint32_t tree) {
+    const std::string_view id = id_of(tree);
+    const Place place = element(tree).place;
+    if (id.empty()) {
+      report_.at(place, "'BehaviorTree' needs the attribute 'ID'", "write <BehaviorTree ID=\"…\">");
+    } else if (catalog_.find(id) != nullptr) {
+      report_.at_value(find_attribute(attributes(tree), "ID")->place,
+                       fmt::format("a tree cannot be called '{}', as a node is", brief(id)));
+    }
+    const std::uint32_t root = tree + 1;
+    tree_ = {};
+    tree_.first_subtree = count(trees_.subtrees);
+    tree_.root = count(trees_.nodes);
+    if (root == element(tree).end) {
+      report_.at(place, fmt::format("the tree '{}' is empty", brief(id)), "put one node into it");
+      CheckedNode nothing;
+      nothing.end = count(trees_.nodes) + 1;
+      trees_.nodes.push_back(nothing);
+    } else {
+      if (const std::uint32_t second = element(root).end; second != element(tree).end) {
+        report_.at(element(second).place,
+                   fmt::format("the tree '{}' has more than one root node", brief(id)),
+                   "put them into a Sequence, a Fallback or a parallel node");
+      }
+      read_node(root, 0, 0);
+    }
+    tree_.subtrees = count(trees_.subtrees) - tree_.first_subtree;
+    if (!id.empty()) enter_tree(id, place);
+  }
+
+  // A later one replaces an earlier one.
+  void enter_tree(std::string_view id, Place place) {
+    trees_.trees[id] = tree_;
+    const auto [first, is_new] = places_.try_emplace(id, place);
+    if (is_new) return;
+    report_.at(place, fmt::format("this tree '{}' replaces another one", brief(id)),
+               fmt::format("the other one is at {}",
+                           to_text(project_.sources.locate(std::exchange(first->second, place)))),
+               Severity::Warning);
+  }
+
+  // `path_size`: bytes of the path of its parent.
+  void read_node(std::uint32_t index, std::uint32_t depth, std::uint64_t path_size) {
+    const std::uint32_t self = count(trees_.nodes);
+    trees_.nodes.emplace_back();
+    CheckedNode node;
+    node.place = element(index).place;
+    for ([[maybe_unused]] const auto child : children_in(elements_, index)) ++node.children;
+    const bool is_explicit = is_explicit_tag(element(index).tag);
+    node.type = is_explicit ? find_explicit_type(index) : find_compact_type(index);
+    if (node.type != nullptr) {
+      check_arity({elements_, index}, node, report_);
+      read_content({node.place, attributes(index), is_explicit}, self, node);
+    }
+    path_size += node.name.size() + 1;
+    tree_.paths_size += path_size;
+    tree_.depth = std::max(tree_.depth, depth + 1);
+    if (is_subtree(node)) {
+      trees_.subtrees.back().depth = depth;
+      trees_.subtrees.back().path_size = path_size;
+    }
+    for (const std::uint32_t child : children_in(elements_, index)) {
+      read_node(child, depth + 1, path_size);
+    }
+    node.end = count(trees_.nodes);
+    trees_.nodes[self] = node;
+  }
+
+  static bool is_subtree(const CheckedNode& node) {
+    return node.type != nullptr && node.type->category == NodeCategory::SubTree;
+  }
+
+  // What the attributes of a node say.
+  void read_content(const NodeElement& element, std::uint32_t self, CheckedNode& node) {
+    const Attribute* name = find_attribute(element.attributes, "name");
+    node.name = name != nullptr && !name->value.empty() ? name->value : node.type->id;
+    if (is_subtree(node)) {
+      CheckedSubTree subtree{.node = self};
+      read_subtree_attributes(element, report_, node, subtree, trees_);
+      if (name == nullptr || name->value.empty()) node.name = subtree.id;
+      node.first = count(trees_.subtrees);
+      trees_.subtrees.push_back(subtree);
+    } else {
+      read_attributes(element, report_, node, trees_);
+    }
+    keep_written(element, node, trees_);
+  }
+
+  template <class T>
+  static std::uint32_t count(const std::vector<T>& all) {
+    return static_cast<std::uint32_t>(all.size());
+  }
+
+  const NodeType* find_compact_type(std::uint32_t index) const {
+    const std::string_view tag = element(index).tag;
+    const NodeType* type = catalog_.find(tag);
+    if (type == nullptr) {
+      unknown(index, tag, nullptr);
+    } else if (const Attribute* id = find_attribute(attributes(index), "ID");
+               id != nullptr && type->category != NodeCategory::SubTree) {
+      report_.at(id->place, fmt::format("'{}' cannot have an ID", brief(tag)),
+                 fmt::format("write name=\"{}\", or <{} ID=\"{}\">", brief(id->value),
+                             explicit_tag(type->category), brief(tag)));
+    }
+    return type;
+  }
+
+  const NodeType* find_explicit_type(std::uint32_t index) const {
+    const std::string_view tag = element(index).tag;
+    const Attribute* id = find_attribute(attributes(index), "ID");
+    if (id == nullptr || id->value.empty()) {
+      report_.at(element(index).place, fmt::format("'{}' needs the attribute 'ID'", tag),
+                 fmt::format("write <{} ID=\"…\"/> with the ID of a node", tag));
+      return nullptr;
+    }
+    const NodeType* type = catalog_.find(id->value);
+    if (type == nullptr) {
+      unknown(index, id->value, id);
+    } else if (tag != explicit_tag(type->category)) {
+      report_.at_value(id->place,
+                       fmt::format("'{}' is not of the kind '{}'", brief(id->value), tag),
+                       fmt::format("it is a kind of {}: write <{}>", to_string(type->category),
+                                   explicit_tag(type->category)),
+                       Severity::Warning);
+    }
+    return type;
+  }
+
+  void unknown(std::uint32_t index, std::string_view id, const Attribute* attribute) const {
+    if (report_.counted_only(Severity::Error)) return;
+    std::string hint = did_you_mean(id, catalog_.ids());
+    if (hint.empty()) {
+      hint =
+          "if a plugin provides it, give that with --plugin, or name it with <plugin name=\"…\"/>";
+    }
+    const std::string message = fmt::format("unknown node '{}'", brief(id));
+    if (attribute == nullptr) {
+      report_.at(element(index).place, message, hint);
+    } else {
+      report_.at_value(attribute->place, message, hint);
+    }
+  }
+
+  const Project& project_;
+  const Catalog& catalog_;
+  const Reporter report_;
+  CheckedTrees trees_;
+  CheckedTree tree_;                          // that is being read
+  std::map<std::string_view, Place> places_;  // of the trees, by ID
+  const Document* document_ = nullptr;
+  std::span<const Element> elements_;  // of the document
+  std::uint32_t trees_here_ = 0;       // how many BehaviorTrees it has
+};
+
+}  // namespace
+
+CheckedTrees read_trees(const Project& project, const Catalog& catalog, Diagnostics& diagnostics) {
+  return TreeReader(project, catalog, diagnostics).read();
+}
+
+}  // namespace lockstep::btcpp

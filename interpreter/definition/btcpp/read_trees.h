@@ -1,0 +1,14 @@
+// The documents of a project for BehaviorTree.CPP as checked trees.
+#pragma once
+
+#include "core/diagnostics.h"
+#include "definition/catalog.h"
+#include "definition/checked_tree.h"
+#include "document/project.h"
+
+namespace lockstep::btcpp {
+
+// Checks every BehaviorTree of the project, used or not.
+CheckedTrees read_trees(const Project& project, const Catalog& catalog, Diagnostics& diagnostics);
+
+}  // namespace lockstep::btcpp
