@@ -4,6 +4,7 @@
 
 #include <string>
 #include <tl/expected.hpp>
+#include <utility>
 
 namespace lockstep {
 
@@ -14,5 +15,9 @@ struct Problem {
 
 template <class T>
 using Result = tl::expected<T, Problem>;
+
+inline tl::unexpected<Problem> problem(std::string message, std::string hint = {}) {
+  return tl::unexpected(Problem{std::move(message), std::move(hint)});
+}
 
 }  // namespace lockstep

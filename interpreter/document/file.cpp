@@ -14,16 +14,15 @@ namespace lockstep {
 namespace {
 
 tl::unexpected<Problem> failed(int error) {
-  return tl::unexpected(Problem{std::generic_category().message(error)});
+  return problem(std::generic_category().message(error));
 }
 
 Result<void> check_kind(const struct stat& status, FileKinds kinds) {
   if (S_ISREG(status.st_mode)) return {};
   if (S_ISFIFO(status.st_mode) && kinds == FileKinds::RegularOrPipe) return {};
   if (S_ISDIR(status.st_mode)) return failed(EISDIR);
-  return tl::unexpected(Problem{kinds == FileKinds::Regular
-                                    ? "it is not a regular file"
-                                    : "it is neither a regular file nor a pipe"});
+  return problem(kinds == FileKinds::Regular ? "it is not a regular file"
+                                             : "it is neither a regular file nor a pipe");
 }
 
 Result<std::string> read_all(int file, const struct stat& status, std::size_t limit) {

@@ -9,10 +9,6 @@
 namespace lockstep {
 namespace {
 
-tl::unexpected<Problem> fail(std::string message) {
-  return tl::unexpected(Problem{std::move(message)});
-}
-
 std::string quoted(std::string_view text) {
   return std::string("'").append(text).append("'");
 }
@@ -57,11 +53,11 @@ Result<MeasureSpec> parse_measure(std::string_view text) {
   const std::string_view name = text.substr(0, text.find_first_of(":["));
   const auto measures = all_measures();
   const auto found = std::ranges::find(measures, name, &Measure::name);
-  if (found == measures.end()) return fail(unknown_measure(name));
+  if (found == measures.end()) return problem(unknown_measure(name));
   MeasureSpec spec{.measure = *found};
   const auto parse = spec.measure->parse != nullptr ? spec.measure->parse : parse_name;
   std::string wrong = parse(text.substr(name.size()), spec);
-  if (!wrong.empty()) return fail(std::move(wrong));
+  if (!wrong.empty()) return problem(std::move(wrong));
   return spec;
 }
 
@@ -99,8 +95,8 @@ Result<std::size_t> find_path(std::span<const std::string> paths, std::string_vi
     if (paths[index] == name) return index;
     if (!paths[index].ends_with(tail)) continue;
     if (found) {
-      return fail(quoted(name) + " is " + quoted(paths[*found]) + " as well as " +
-                  quoted(paths[index]));
+      return problem(quoted(name) + " is " + quoted(paths[*found]) + " as well as " +
+                     quoted(paths[index]));
     }
     found = index;
   }
@@ -108,7 +104,7 @@ Result<std::size_t> find_path(std::span<const std::string> paths, std::string_vi
   std::string error = "no " + std::string(what) + " " + quoted(name);
   const std::string hint = suggest_path(paths, name);
   if (!hint.empty()) error += ", " + hint;
-  return fail(std::move(error));
+  return problem(std::move(error));
 }
 
 std::string last_segment(std::string_view path) {

@@ -51,21 +51,20 @@ Result<std::string> find_plugin_file(std::string_view name,
     if (fs::exists(path, error)) return path;
   }
   if (directories.empty()) {
-    return tl::unexpected(Problem{"is not found: there is no directory to search", kAddDirectory});
+    return problem("is not found: there is no directory to search", kAddDirectory);
   }
   const std::string message =
       fmt::format("is not found: '{}.so' is not in {}", brief(name), fmt::join(directories, ", "));
   if (const std::string file = with_prefix(name, directories); !file.empty()) {
-    return tl::unexpected(
-        Problem{message, fmt::format("'{0}' exists: rename it to '{1}.so' (in CMake: "
-                                     "lockstep_add_plugin, or PREFIX \"\")",
-                                     file, name)});
+    return problem(message, fmt::format("'{0}' exists: rename it to '{1}.so' (in CMake: "
+                                        "lockstep_add_plugin, or PREFIX \"\")",
+                                        file, name));
   }
   const std::vector<std::string> names = available(directories);
   const std::vector<std::string_view> candidates(names.begin(), names.end());
   std::string hint = did_you_mean(name, candidates);
   if (hint.empty()) hint = kAddDirectory;
-  return tl::unexpected(Problem{message, std::move(hint)});
+  return problem(message, std::move(hint));
 }
 
 }  // namespace lockstep

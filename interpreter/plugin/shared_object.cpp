@@ -68,15 +68,14 @@ Result<SharedObject> open_shared_object(const std::string& path) {
     return object;
   }
   const std::string error = linker_error(file);
-  return tl::unexpected(Problem{fmt::format("cannot be loaded: {}", error), hint_for(error)});
+  return problem(fmt::format("cannot be loaded: {}", error), hint_for(error));
 }
 
 Result<ExportedConstant> find_constant(const SharedObject& object, const char* symbol) {
   ExportedConstant found{.address = dlsym(object.handle, symbol)};
   if (found.address == nullptr) {
-    return tl::unexpected(
-        Problem{fmt::format("does not export '{}'", symbol),
-                "is it a lockstep plugin? docs/plugins.md shows how one is built"});
+    return problem(fmt::format("does not export '{}'", symbol),
+                   "is it a lockstep plugin? docs/plugins.md shows how one is built");
   }
   Dl_info info{};
   void* extra = nullptr;
@@ -85,8 +84,8 @@ Result<ExportedConstant> find_constant(const SharedObject& object, const char* s
   }
   const auto& entry = *static_cast<const ElfW(Sym)*>(extra);
   if (ELF64_ST_TYPE(entry.st_info) == STT_FUNC) {
-    return tl::unexpected(Problem{fmt::format("exports '{}' as a function", symbol),
-                                  "define it as a constant of type lockstep_plugin"});
+    return problem(fmt::format("exports '{}' as a function", symbol),
+                   "define it as a constant of type lockstep_plugin");
   }
   found.size = entry.st_size;
   return found;

@@ -25,8 +25,7 @@ Result<std::pair<Columns, Columns>> read_cells(const std::string& path, const St
     Columns& side = cell == cells.first ? columns.first : columns.second;
     for (std::size_t i = 0; i < side.size(); ++i) side[i].push_back(reader.row().values[i]);
   }
-  if (auto error = reader.incomplete(); !error.empty())
-    return tl::unexpected(Problem{std::move(error)});
+  if (auto error = reader.incomplete(); !error.empty()) return problem(std::move(error));
   return columns;
 }
 

@@ -35,13 +35,8 @@ std::string StudyFolder::file(std::string_view name) const {
   return path_ + '/' + std::string(name);
 }
 
-bool StudyFolder::fail(std::string what) {
-  error_ = std::move(what);
-  return false;
-}
-
-bool StudyFolder::fail_to_write(std::string_view name, int reason) {
-  return fail(fmt::format("cannot write '{}': {}", file(name), std::strerror(reason)));
+tl::unexpected<Problem> StudyFolder::cannot_write(std::string_view name, int reason) const {
+  return problem(fmt::format("cannot write '{}': {}", file(name), std::strerror(reason)));
 }
 
 bool StudyFolder::is_there() const {
@@ -50,44 +45,46 @@ bool StudyFolder::is_there() const {
 }
 
 // Nothing in it but, perhaps, what a kill leaves before study.json has its name.
-bool StudyFolder::is_free() {
+Result<void> StudyFolder::check_free() const {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(path_, error)) {
     const auto name = entry.path().filename();
     std::error_code unknown;
     if (name == "study.json.new" || (name == "runs.csv" && entry.file_size(unknown) == 0)) continue;
-    return fail(fmt::format("'{}' is not empty and not a study, expected a new directory", path_));
+    return problem(
+        fmt::format("'{}' is not empty and not a study, expected a new directory", path_));
   }
-  return !error || fail(fmt::format("cannot read '{}': {}", path_, error.message()));
+  if (error) return problem(fmt::format("cannot read '{}': {}", path_, error.message()));
+  return {};
 }
 
 // Before it nothing is written: what is seen there may be the beginning of another process.
-bool StudyFolder::lock() {
+Result<void> StudyFolder::lock() {
   const std::string path = file("runs.csv");
   constexpr int kNew = O_RDWR | O_CREAT | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
   runs_ = FileDescriptor(open(path.c_str(), kNew, 0666));
   struct stat status {};
   if (runs_.number() < 0 || fstat(runs_.number(), &status) != 0)
-    return fail_to_write("runs.csv", errno);
+    return cannot_write("runs.csv", errno);
   if (!S_ISREG(status.st_mode))
-    return fail(fmt::format("cannot write '{}': it is not a regular file", path));
+    return problem(fmt::format("cannot write '{}': it is not a regular file", path));
   // A file system without locks is taken as it is.
-  if (flock(runs_.number(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return true;
-  return fail(fmt::format("another process is writing the study in '{}'", path_));
+  if (flock(runs_.number(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return {};
+  return problem(fmt::format("another process is writing the study in '{}'", path_));
 }
 
 // A kill leaves the old file or the new one, never a half.
-bool StudyFolder::write_whole(const std::string& name, std::string_view text) {
+Result<void> StudyFolder::write_whole(const std::string& name, std::string_view text) const {
   const std::string path = file(name), fresh = path + ".new";
   unlink(fresh.c_str());  // of a process that was killed, or a link that leads elsewhere
   int reason = write_new(fresh, text);
   if (reason == 0 && rename(fresh.c_str(), path.c_str()) != 0) reason = errno;
-  if (reason == 0) return true;
+  if (reason == 0) return {};
   unlink(fresh.c_str());
-  return fail_to_write(name, reason);
+  return cannot_write(name, reason);
 }
 
-std::optional<StudyPlan> StudyFolder::read_plan() {
+Result<StudyPlan> StudyFolder::read_plan() const {
   constexpr std::uintmax_t kLargest = std::uintmax_t{512} << 20u;
   const std::string path = file("study.json");
   std::error_code error;
@@ -95,57 +92,55 @@ std::optional<StudyPlan> StudyFolder::read_plan() {
   std::ifstream in(readable ? path : std::string(), std::ios::binary);
   std::ostringstream text;
   if (!readable || !(text << in.rdbuf())) {
-    fail(fmt::format("'{}' is not a study: it has no study.json that can be read", path_));
-    return std::nullopt;
+    return problem(
+        fmt::format("'{}' is not a study: it has no study.json that can be read", path_));
   }
   auto plan = plan_from_json(text.str());
-  if (plan) return std::move(*plan);
-  fail(fmt::format("'{}' is not a study's: {}", path, plan.error().message));
-  return std::nullopt;
+  if (plan) return plan;
+  return problem(fmt::format("'{}' is not a study's: {}", path, plan.error().message));
 }
 
-bool StudyFolder::make(const StudyPlan& plan) {
-  return is_free() && write_whole("study.json", to_json(plan)) && append(row_header(plan));
+Result<RowSequence> StudyFolder::make(const StudyPlan& plan) {
+  return check_free()
+      .and_then([&] { return write_whole("study.json", to_json(plan)); })
+      .and_then([&] { return append(row_header(plan)); })
+      .map([&] { return RowSequence(plan); });
 }
 
-std::optional<RowSequence> StudyFolder::take_over(const StudyPlan& plan) {
+Result<RowSequence> StudyFolder::take_over(const StudyPlan& plan) {
   const auto there = read_plan();
-  if (!there) return std::nullopt;
+  if (!there) return tl::unexpected(there.error());
   if (const auto key = first_difference(plan, *there, true); !key.empty()) {
-    fail(fmt::format("the study in '{}' is another one: its '{}' differs", path_, key));
-    return std::nullopt;
+    return problem(fmt::format("the study in '{}' is another one: its '{}' differs", path_, key));
   }
   RowReader reader(file("runs.csv"), plan);
   while (!reader.next().empty()) continue;
-  if (!reader.error().empty()) {
-    fail(reader.error());
-  } else if (ftruncate(runs_.number(), static_cast<off_t>(reader.bytes())) != 0) {
-    fail_to_write("runs.csv", errno);
-  } else if (reader.bytes() != 0 || append(row_header(plan))) {
-    return reader.rows();
+  if (!reader.error().empty()) return problem(reader.error());
+  if (ftruncate(runs_.number(), static_cast<off_t>(reader.bytes())) != 0) {
+    return cannot_write("runs.csv", errno);
   }
-  return std::nullopt;
+  if (reader.bytes() != 0) return reader.rows();
+  return append(row_header(plan)).map([&] { return reader.rows(); });
 }
 
-std::optional<RowSequence> StudyFolder::begin(const StudyPlan& plan, bool resume) {
+Result<RowSequence> StudyFolder::begin(const StudyPlan& plan, bool resume) {
   std::error_code error;
   made_directory_ = fs::create_directories(path_, error);
   if (error) {
-    fail(fmt::format("cannot create the directory '{}': {}", path_, error.message()));
-    return std::nullopt;
+    return problem(fmt::format("cannot create the directory '{}': {}", path_, error.message()));
   }
   // Not even an empty file is left in a directory of something else.
-  if (!is_there() && !is_free()) return std::nullopt;
+  const auto free = is_there() ? Result<void>() : check_free();
+  if (!free) return tl::unexpected(free.error());
   if (resume || !is_there()) {
-    if (!lock()) return std::nullopt;
-    if (!is_there()) return make(plan) ? std::optional<RowSequence>(plan) : std::nullopt;
+    if (const auto locked = lock(); !locked) return tl::unexpected(locked.error());
+    if (!is_there()) return make(plan);
     if (resume) return take_over(plan);
   }
-  fail(fmt::format(
+  return problem(fmt::format(
       "there is a study in '{}' already; continue it with --resume, or choose another directory "
       "by --out",
       path_));
-  return std::nullopt;
 }
 
 void StudyFolder::discard() {
@@ -153,19 +148,15 @@ void StudyFolder::discard() {
   if (made_directory_) rmdir(path_.c_str());
 }
 
-bool StudyFolder::append(std::string_view lines) {
-  if (write_all(runs_.number(), lines)) return true;
-  return fail_to_write("runs.csv", errno);
+Result<void> StudyFolder::append(std::string_view lines) {
+  if (write_all(runs_.number(), lines)) return {};
+  return cannot_write("runs.csv", errno);
 }
 
-std::optional<std::vector<SummaryRow>> StudyFolder::finish(const StudyPlan& plan) {
+Result<std::vector<SummaryRow>> StudyFolder::finish(const StudyPlan& plan) {
   auto rows = summarize_runs(file("runs.csv"), plan);
-  if (!rows) {
-    fail(rows.error().message);
-    return std::nullopt;
-  }
-  if (!write_whole("summary.csv", summary_csv(plan, *rows))) return std::nullopt;
-  return std::move(*rows);
+  if (!rows) return rows;
+  return write_whole("summary.csv", summary_csv(plan, *rows)).map([&] { return std::move(*rows); });
 }
 
 }  // namespace lockstep

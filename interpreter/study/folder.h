@@ -3,12 +3,12 @@
 // through a symbolic link.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/file_descriptor.h"
+#include "core/problem.h"
 #include "study/plan.h"
 #include "study/row_sequence.h"
 #include "study/table.h"
@@ -20,35 +20,31 @@ class StudyFolder {
   explicit StudyFolder(std::string path) : path_(std::move(path)) {}
 
   // Makes the directory or, with `resume`, continues in one with this plan, which must outlive what
-  // this returns: the rows that are there. On failure error() has the reason. Then the directory is
-  // locked.
-  std::optional<RowSequence> begin(const StudyPlan& plan, bool resume);
-  bool append(std::string_view lines);
+  // this returns: the rows that are there. Then the directory is locked.
+  Result<RowSequence> begin(const StudyPlan& plan, bool resume);
+  Result<void> append(std::string_view lines);
   // Writes the summary, once all rows are there, and returns it.
-  std::optional<std::vector<SummaryRow>> finish(const StudyPlan& plan);
+  Result<std::vector<SummaryRow>> finish(const StudyPlan& plan);
   // Removes what begin() has created and append() has added.
   void discard();
 
   // The plan of a study that is there.
-  std::optional<StudyPlan> read_plan();
+  Result<StudyPlan> read_plan() const;
 
   std::string file(std::string_view name) const;
-  const std::string& error() const { return error_; }
 
  private:
-  bool fail(std::string what);
-  bool fail_to_write(std::string_view name, int reason);
+  tl::unexpected<Problem> cannot_write(std::string_view name, int reason) const;
   bool is_there() const;
-  bool is_free();
-  bool lock();
-  bool make(const StudyPlan& plan);
-  std::optional<RowSequence> take_over(const StudyPlan& plan);
-  bool write_whole(const std::string& name, std::string_view text);
+  Result<void> check_free() const;
+  Result<void> lock();
+  Result<RowSequence> make(const StudyPlan& plan);
+  Result<RowSequence> take_over(const StudyPlan& plan);
+  Result<void> write_whole(const std::string& name, std::string_view text) const;
 
   std::string path_;
   bool made_directory_ = false;
   FileDescriptor runs_;  // runs.csv; it carries the lock
-  std::string error_;
 };
 
 }  // namespace lockstep

@@ -22,10 +22,6 @@ Texts split(std::string_view text, char separator) {
   }
 }
 
-tl::unexpected<Problem> fail(std::string message, std::string hint = {}) {
-  return tl::unexpected(Problem{std::move(message), std::move(hint)});
-}
-
 // A decimal number is exact: it is digits / 10^decimals.
 struct Decimal {
   std::int64_t digits = 0;
@@ -95,8 +91,8 @@ std::optional<Range> range_of(const Texts& parts) {
 Result<Texts> values_of(std::string_view name, const Texts& parts) {
   const auto range = range_of(parts);
   const auto wrong = [&](std::string_view why) {
-    return fail(fmt::format("--grid {}: {}", name, why),
-                "a range is first:last:step, as 0:1:0.1 or 1:0:-0.1");
+    return problem(fmt::format("--grid {}: {}", name, why),
+                   "a range is first:last:step, as 0:1:0.1 or 1:0:-0.1");
   };
   if (!range) return wrong("the numbers of the range have too many digits");
   if (range->step == 0) return wrong("the step of the range is 0");
@@ -130,9 +126,10 @@ Result<std::vector<GridAxis>> several_axes(std::string_view all, const Texts& na
   for (const std::string& together : split(text, ',')) {
     const Texts values = split(together, ':');
     if (values.size() != axes.size()) {
-      return fail(fmt::format("--grid {}: '{}' has {} of {} values", all, together, values.size(),
-                              axes.size()),
-                  "a value for each name, with ':' between them, as speed,delta=0.1:0.2,0.2:0.1");
+      return problem(
+          fmt::format("--grid {}: '{}' has {} of {} values", all, together, values.size(),
+                      axes.size()),
+          "a value for each name, with ':' between them, as speed,delta=0.1:0.2,0.2:0.1");
     }
     for (std::size_t i = 0; i < axes.size(); ++i) axes[i].values.push_back(values[i]);
   }
@@ -146,11 +143,11 @@ Result<std::vector<GridAxis>> parse_grid(std::string_view text) {
   const std::string_view name = text.substr(0, equals);
   const Texts names = split(name, ',');
   if (equals + 1 >= text.size() || std::ranges::find(names, "") != names.end())
-    return fail(fmt::format("--grid {}: expected name=value,value,…", text));
+    return problem(fmt::format("--grid {}: expected name=value,value,…", text));
   const std::string_view values = text.substr(equals + 1);
   if (names.size() == 1) return one_axis(name, values);
   if (std::set<std::string>(names.begin(), names.end()).size() != names.size())
-    return fail(fmt::format("--grid {}: a name is given twice", name));
+    return problem(fmt::format("--grid {}: a name is given twice", name));
   return several_axes(name, names, values);
 }
 

@@ -181,7 +181,7 @@ Result<StudyPlan> plan_from_json(std::string text) {
   }
   // Keys that are not known, or are in another order.
   if (error.empty() && to_json(plan) != text) error = kNotOurs;
-  if (!error.empty()) return tl::unexpected(Problem{std::move(error)});
+  if (!error.empty()) return problem(std::move(error));
   return plan;
 }
 

@@ -60,8 +60,7 @@ Result<std::vector<SummaryRow>> summarize_runs(const std::string& path, const St
     values.add(reader.row());
   }
   append_rows(plan, cell, values, rows);
-  if (auto error = reader.incomplete(); !error.empty())
-    return tl::unexpected(Problem{std::move(error)});
+  if (auto error = reader.incomplete(); !error.empty()) return problem(std::move(error));
   return rows;
 }
 

@@ -105,13 +105,14 @@ bool would_overwrite_input(const std::string& directory, const LoadedStudy& stud
   });
 }
 
-// Until all rows are there, a leaf has a fault, the folder an error or a signal comes.
-std::optional<StudyFault> make_rows(const StudyCommandOptions& options, const LoadedStudy& study,
-                                    StudyFolder& folder, RowSequence& rows,
-                                    StudyOutOfRangeCount& out_of_range) {
+// Until all rows are there, a leaf has a fault, a row cannot be written or a signal comes.
+Result<std::optional<StudyFault>> make_rows(const StudyCommandOptions& options,
+                                            const LoadedStudy& study, StudyFolder& folder,
+                                            RowSequence& rows, StudyOutOfRangeCount& out_of_range) {
   StudyProgress progress(rows);
   std::optional<StudyFault> fault;
-  while (rows.next() && !fault && folder.error().empty() && StopSignals::received() == 0) {
+  Result<void> written;
+  while (rows.next() && !fault && written && StopSignals::received() == 0) {
     fault = do_work({.plan = study.plan,
                      .cells = study.cells,
                      .measures = study.measures,
@@ -123,19 +124,20 @@ std::optional<StudyFault> make_rows(const StudyCommandOptions& options, const Lo
                      .write =
                          [&](std::string_view lines, std::span<const RowResult> made) {
                            for (const RowResult& row : made) rows.add(row);
-                           return folder.append(lines);
+                           written = folder.append(lines);
+                           return written.has_value();
                          },
                      .out_of_range = [&](const StudyOutOfRange& it) { out_of_range.add(it); },
                      .idle = [&] { progress.show(); }});
   }
-  return fault;
+  return written.map([&] { return fault; });
 }
 
 int make_study(const StudyCommandOptions& options, const LoadedStudy& study) {
   const StudyPlan& plan = study.plan;
   StudyFolder folder(out_directory(options));
   auto made = folder.begin(plan, options.resume);
-  if (!made) return fail(folder.error());
+  if (!made) return fail(made.error().message);
   StopSignals::install();
   const Outlet::Thread messages_thread(messages());
   StudyOutOfRangeCount out_of_range(study);
@@ -143,17 +145,17 @@ int make_study(const StudyCommandOptions& options, const LoadedStudy& study) {
   Diagnostics warnings;
   out_of_range.add_to(warnings);
   print_diagnostics(warnings, Severity::Warning);
-  if (!folder.error().empty()) return fail(folder.error());
-  if (fault) {
-    print_error(fault_text(*fault, study),
-                "to repeat it: " + run_command(options.study, study.plan, *fault));
+  if (!fault) return fail(fault.error().message);
+  if (const auto& of_leaf = *fault) {
+    print_error(fault_text(*of_leaf, study),
+                "to repeat it: " + run_command(options.study, study.plan, *of_leaf));
     return kExitLeafFault;
   }
   if (const int signal = StopSignals::received(); signal != 0) {
     return fail("interrupted; continue with the same command and --resume", kExitSignal + signal);
   }
   const auto rows = folder.finish(plan);
-  return rows ? finish(options, folder, plan, *rows) : fail(folder.error());
+  return rows ? finish(options, folder, plan, *rows) : fail(rows.error().message);
 }
 
 int run(const StudyCommandOptions& options) {

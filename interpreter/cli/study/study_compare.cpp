@@ -109,9 +109,9 @@ int refuse(std::string_view message, std::string_view hint = {}) {
 }
 
 int compare(const CompareOptions& options) {
-  StudyFolder folder(options.directory);
+  const StudyFolder folder(options.directory);
   const auto plan = folder.read_plan();
-  if (!plan) return refuse(folder.error());
+  if (!plan) return refuse(plan.error().message);
   const CellPair cells{options.cells.front(), options.cells.back()};
   if (cells.first == cells.second) return refuse("--cells: expected two different cells");
   for (const std::uint64_t cell : options.cells) {

@@ -90,7 +90,7 @@ Result<std::vector<MeasuredValue>> measure_recording(RecordingReader& reader,
                                                      std::span<const MeasureSpec> measures) {
   const RecordingHeader& header = reader.header();
   Measuring measuring(measured_tree(header), measures);
-  if (!measuring.error().empty()) return tl::unexpected(Problem{measuring.error()});
+  if (!measuring.error().empty()) return problem(measuring.error());
   RecordedTicks ticks(header, measuring);
   EndView end{.rate = header.rate_hz, .real_time = header.clock != "virtual"};
   while (const auto tick = reader.next()) {
