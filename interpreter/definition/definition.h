@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/entry.h"
 #include "core/hook.h"
 #include "core/node_type.h"
 #include "core/place.h"
@@ -57,6 +58,8 @@ struct BlackboardEntry {
   Place first_use = {};                // of the attribute that names it first
   const ObjectType* object = nullptr;  // of type Object: which
   bool is_declared = false;            // a port names it, or it has a start value
+  Typing typing = Typing::Strict;
+  bool is_present = true;  // from the beginning; false: until something makes it
 };
 
 // A script, with the entry of each name that it uses.

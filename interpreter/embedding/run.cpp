@@ -72,10 +72,6 @@ bool get(lockstep_run* run, const char* key, T* value) {
   });
 }
 
-const Slot& slot_of(lockstep_run* run, const Entry& entry) {
-  return tree_of(*run).slots[&entry - run->run.blackboard().entries.data()];
-}
-
 bool write(Entry& entry, Value value) {
   entry.value = std::move(value);
   ++entry.writes;
@@ -87,9 +83,8 @@ bool set(lockstep_run* run, const char* key, T value) {
   return guarded([&] {
     Entry* const entry = find_entry(run, key);
     if (entry == nullptr) return false;
-    const ValueType expected = slot_of(run, *entry).type;
-    if (!holds(Value(value), expected)) {
-      return fail(fmt::format("the entry '{}' is of type {}", key, to_string(expected)));
+    if (!holds(Value(value), entry->type)) {
+      return fail(fmt::format("the entry '{}' is of type {}", key, to_string(entry->type)));
     }
     if constexpr (std::is_same_v<T, double>) {
       if (!std::isfinite(value)) return fail("a number must be finite");
@@ -291,11 +286,11 @@ bool lockstep_run_set_text(lockstep_run* run, const char* key, const char* text)
     if (text == nullptr) return fail("an argument is NULL");
     Entry* const entry = find_entry(run, key);
     if (entry == nullptr) return false;
-    const auto& [name, type, initial, object] = slot_of(run, *entry);
-    auto value = parse_value(type, object, text);
+    auto value = parse_value(entry->type, entry->object, text);
     if (!value) {
       return fail(fmt::format("the entry '{}' is of type {}: expected {}", key,
-                              type_name(type, object), expected_text(type, object)));
+                              type_name(entry->type, entry->object),
+                              expected_text(entry->type, entry->object)));
     }
     return write(*entry, std::move(*value));
   });

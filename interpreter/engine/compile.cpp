@@ -65,7 +65,8 @@ class Compiler {
     find_guards();
     list_children();
     for (const BlackboardEntry& entry : definition_.entries) {
-      tree_.slots.push_back({entry.name, entry.type, entry.initial, entry.object});
+      tree_.slots.push_back(
+          {entry.name, entry.type, entry.initial, entry.object, entry.typing, entry.is_present});
     }
     add_labels();
     return std::move(tree_);

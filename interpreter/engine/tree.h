@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/value.h"
+#include "core/entry.h"
 #include "engine/node_kind.h"
 
 namespace lockstep {
@@ -65,6 +65,8 @@ struct Slot {
   ValueType type;
   Value initial;
   const ObjectType* object = nullptr;  // of type Object: which
+  Typing typing = Typing::Strict;
+  bool is_present = true;  // from the beginning
 };
 
 struct NodeLabel {

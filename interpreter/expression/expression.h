@@ -1,15 +1,23 @@
 // A compiled script: an expression over the entries of a blackboard, or several in a row, which may
-// assign. docs/language.md has the grammar.
+// assign. docs/expressions.md has the grammar. expression/evaluator.h runs it.
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "expression/program.h"
+
 namespace lockstep {
+
+// Words that stand for numbers.
+using ScriptEnums = std::map<std::string, double, std::less<>>;
 
 class Expression {
  public:
@@ -18,13 +26,35 @@ class Expression {
     std::string hint;
     std::size_t offset;  // bytes into the text
   };
-  static tl::expected<Expression, Error> parse(std::string_view text);
+  // What a script does with an entry.
+  struct Use {
+    bool is_read = false;
+    bool is_assigned = false;
+    bool is_made = false;    // by ':=', if it does not exist
+    std::size_t offset = 0;  // of its name, at the first place
+  };
+  // Texts that are compared with numbers may be words of `enums`, too; null: there are none.
+  static tl::expected<Expression, Error> parse(std::string_view text,
+                                               std::shared_ptr<const ScriptEnums> enums = nullptr);
 
   // The entries that it reads or assigns, each once, as they are written; "@k" with its '@'.
   std::span<const std::string> names() const { return names_; }
+  // Of each of them.
+  std::span<const Use> uses() const { return uses_; }
+  // What fails when it is reached: an assignment to what is not a name.
+  std::span<const Error> remarks() const { return remarks_; }
+
+  const Program& program() const { return program_; }
+  const ScriptEnums* enums() const { return enums_.get(); }
 
  private:
+  friend class ExpressionParser;
+
+  Program program_;
   std::vector<std::string> names_;
+  std::vector<Use> uses_;
+  std::vector<Error> remarks_;
+  std::shared_ptr<const ScriptEnums> enums_;
 };
 
 }  // namespace lockstep

@@ -1,0 +1,59 @@
+// What a running script computes with: a view of a value. Texts and others belong to the program,
+// to an entry, or to the evaluator.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/value.h"
+
+namespace lockstep {
+
+struct Operand {
+  enum class Kind : std::uint8_t { Empty, Whole, Real, Text, Other };
+
+  static Operand of(const Value& value) {
+    if (const auto* real = std::get_if<double>(&value)) return of(*real);
+    if (const auto* whole = std::get_if<std::int64_t>(&value)) return of(*whole);
+    if (const auto* flag = std::get_if<bool>(&value)) return of(std::int64_t{*flag ? 1 : 0});
+    if (const auto* text = std::get_if<std::string>(&value)) return of(text);
+    if (std::holds_alternative<NoValue>(value)) return {};
+    Operand it;
+    it.kind = Kind::Other;
+    it.other = &value;
+    return it;
+  }
+  static Operand of(double real) {
+    Operand it;
+    it.kind = Kind::Real;
+    it.real = real;
+    return it;
+  }
+  static Operand of(std::int64_t whole) {
+    Operand it;
+    it.kind = Kind::Whole;
+    it.whole = whole;
+    return it;
+  }
+  static Operand of(const std::string* text) {
+    Operand it;
+    it.kind = Kind::Text;
+    it.text = text;
+    return it;
+  }
+
+  bool is_number() const { return kind == Kind::Whole || kind == Kind::Real; }
+  Value value() const;
+  // For messages: "5", "the text 'abc'", "an empty entry", "a list of double".
+  std::string shown() const;
+
+  Kind kind = Kind::Empty;
+  union {
+    std::int64_t whole = 0;
+    double real;
+    const std::string* text;
+    const Value* other;
+  };
+};
+
+}  // namespace lockstep

@@ -1,0 +1,65 @@
+// The compiled form of an expression: flat, for a machine with a stack of operands.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace lockstep {
+
+enum class Operation : std::uint8_t {
+  // Push a constant, or the value of an entry.
+  Real,
+  Whole,
+  Text,
+  Load,
+  LoadCopy,  // a text is copied: the entry may be assigned before it is used
+  // Replace two operands by their result.
+  Add,
+  Subtract,
+  Multiply,
+  Divide,
+  Join,
+  BitAnd,
+  BitOr,
+  BitXor,
+  And,
+  Or,
+  Compare,
+  CompareNext,  // leaves the right operand; or, if it does not hold, 0, and goes to `argument`
+  // Replace one.
+  Negate,
+  Complement,
+  Not,
+  // Assignments: before the right side is evaluated, and after it.
+  Make,  // the entry `argument`, if it does not exist
+  Need,  // an error if it does not exist
+  Store,
+  AddTo,
+  SubtractFrom,
+  MultiplyBy,
+  DivideBy,
+  NoTarget,  // an error: the left side is not a name
+  JumpIfZero,
+  Jump,
+  Pop,
+  End
+};
+
+enum class Relation : std::uint8_t { Equal, NotEqual, Less, LessEqual, Greater, GreaterEqual };
+
+struct Instruction {
+  Operation operation;
+  Relation relation = {};
+  std::uint32_t argument = 0;  // a constant, a name, or the instruction to go to
+};
+
+struct Program {
+  std::vector<Instruction> code;
+  std::vector<double> reals;
+  std::vector<std::int64_t> wholes;
+  std::vector<std::string> texts;
+  std::uint32_t stack = 0;  // how many operands there are at most
+};
+
+}  // namespace lockstep
