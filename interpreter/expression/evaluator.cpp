@@ -438,7 +438,7 @@ class Machine {
   }
 
   const Expression& expression_;
-  const Program& program_;
+  const ScriptProgram& program_;
   const std::span<Entry* const> entries_;
   Operand* const stack_;
   std::string* const texts_;

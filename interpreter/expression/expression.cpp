@@ -373,7 +373,7 @@ class ExpressionParser {
     }
   }
 
-  Program& program() { return result_.program_; }
+  ScriptProgram& program() { return result_.program_; }
   std::vector<Instruction>& code() { return result_.program_.code; }
 
   std::string_view script_;

@@ -44,13 +44,13 @@ class Expression {
   // What fails when it is reached: an assignment to what is not a name.
   std::span<const Error> remarks() const { return remarks_; }
 
-  const Program& program() const { return program_; }
+  const ScriptProgram& program() const { return program_; }
   const ScriptEnums* enums() const { return enums_.get(); }
 
  private:
   friend class ExpressionParser;
 
-  Program program_;
+  ScriptProgram program_;
   std::vector<std::string> names_;
   std::vector<Use> uses_;
   std::vector<Error> remarks_;

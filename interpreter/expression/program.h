@@ -54,7 +54,7 @@ struct Instruction {
   std::uint32_t argument = 0;  // a constant, a name, or the instruction to go to
 };
 
-struct Program {
+struct ScriptProgram {
   std::vector<Instruction> code;
   std::vector<double> reals;
   std::vector<std::int64_t> wholes;

@@ -85,7 +85,7 @@ TEST_CASE(":= makes a missing entry without a type, others need it") {
   check(rows);
 }
 
-TEST_CASE("an entry keeps its kind; one without a type may become real") {
+TEST_CASE("an entry keeps its kind, and one without a type may become real") {
   const Row rows[] = {
       {any(std::int64_t{1}), "x = 7", "7*1"},
       {any(std::int64_t{1}), "x = 7.0", "7*1"},
