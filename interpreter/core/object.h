@@ -7,6 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "core/problem.h"
+
 namespace lockstep {
 
 class Object;
@@ -25,6 +27,13 @@ class ObjectType {
   virtual void append_text(const void* object, std::string& out) const = 0;
   virtual bool has_from_text() const = 0;
   virtual std::optional<Object> from_text(std::string_view text) const = 0;
+  // Whether its objects can leave their process, as bytes.
+  virtual bool has_bytes() const = 0;
+  // A failure begins with the name of the function.
+  virtual Result<std::string> to_bytes(const void* object) const = 0;
+  virtual Result<Object> from_bytes(std::string_view bytes) const = 0;
+  // Whether its objects are the bytes of objects of another process: PackedType.
+  virtual bool is_packed() const { return false; }
 
  private:
   std::string name_;

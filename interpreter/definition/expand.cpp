@@ -224,8 +224,14 @@ class Expander {
                        fmt::format("'{{{}}}' is {} for '{}', but {} elsewhere", brief(port.key),
                                    with_article(parameter.type, parameter.object), parameter.name,
                                    with_article(entry.type, entry.object)),
-                       fmt::format("the other use is at {}",
-                                   to_text(report_.sources().locate(entry.first_use))));
+                       other_use(entry));
+    } else if (!can_cross(parameter, entry)) {
+      report_.at_value(
+          port.place,
+          fmt::format("'{{{}}}' carries a {} between processes, but the plugin of one of its uses "
+                      "has no to_bytes and from_bytes for it",
+                      brief(port.key), entry.object->name()),
+          other_use(entry));
     }
     return index;
   }
@@ -253,6 +259,18 @@ class Expander {
     if (parameter.type == ValueType::Number && is_number(entry.type)) return true;
     if (parameter.type != entry.type) return false;
     return parameter.type != ValueType::Object || parameter.object->name() == entry.object->name();
+  }
+
+  // An object of another process is bytes in this one.
+  static bool can_cross(const Parameter& parameter, const BlackboardEntry& entry) {
+    if (parameter.object == nullptr) return true;
+    return parameter.object->is_packed() == entry.object->is_packed() ||
+           (parameter.object->has_bytes() && entry.object->has_bytes());
+  }
+
+  std::string other_use(const BlackboardEntry& entry) const {
+    return fmt::format("the other use is at {}",
+                       to_text(report_.sources().locate(entry.first_use)));
   }
 
   static bool is_number(ValueType type) {

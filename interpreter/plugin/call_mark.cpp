@@ -16,26 +16,31 @@ static_assert(std::atomic<const CallSite*>::is_always_lock_free &&
 
 struct Less {
   bool operator()(const CallSite& a, const CallSite& b) const {
-    return std::tie(a.plugin, a.leaf) < std::tie(b.plugin, b.leaf);
+    const std::string_view kind_of_a = a.kind;
+    const std::string_view kind_of_b = b.kind;
+    return std::tie(a.plugin, a.leaf, kind_of_a, a.is_local) <
+           std::tie(b.plugin, b.leaf, kind_of_b, b.is_local);
   }
 };
 
 }  // namespace
 
 const char* name_of(PluginFunction function) {
-  static constexpr std::array kNames{
-      "none",  "load",   "init",     "create_run", "create",  "start",       "tick",   "halt",
-      "pause", "resume", "progress", "run",        "destroy", "destroy_run", "deinit", "end"};
+  static constexpr std::array kNames{"none",       "load",    "init",    "create_run",  "create",
+                                     "start",      "tick",    "halt",    "pause",       "resume",
+                                     "progress",   "run",     "destroy", "destroy_run", "deinit",
+                                     "retain",     "release", "to_text", "from_text",   "to_bytes",
+                                     "from_bytes", "end"};
   static_assert(kNames.size() == static_cast<std::size_t>(PluginFunction::End) + 1);
   return kNames[static_cast<std::size_t>(function)];
 }
 
-const CallSite& CallSite::of(std::string leaf, std::string plugin) {
+const CallSite& CallSite::of(CallSite site) {
   // Never destroyed: threads outlive the end of main.
   static auto& mutex = *new std::mutex;
   static auto& sites = *new std::set<CallSite, Less>;
   const std::lock_guard lock(mutex);
-  return *sites.insert({std::move(leaf), std::move(plugin)}).first;
+  return *sites.insert(std::move(site)).first;
 }
 
 // What was read between two equal looks at `call_` belongs to that call.

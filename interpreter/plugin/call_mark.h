@@ -27,6 +27,12 @@ enum class PluginFunction : std::uint8_t {
   Destroy,
   DestroyRun,
   Deinit,
+  Retain,  // of objects
+  Release,
+  ToText,
+  FromText,
+  ToBytes,
+  FromBytes,
   End,  // of a thread or the process: destructors of static objects, and what atexit was given
 };
 
@@ -36,10 +42,20 @@ const char* name_of(PluginFunction function);
 // Who is called, in words for a message. One that `of` gave lives until the process ends, because a
 // watchdog may look at it whenever it likes; the same words give the same one.
 struct CallSite {
+  static constexpr const char* kLeaf = "leaf";
+  static constexpr const char* kControlNode = "control node";
+  static constexpr const char* kDecorator = "decorator";
+  static constexpr const char* kObjectType = "object type";
+
   std::string leaf;    // "'Main/arm' (Advance of plugin 'motion')"; "": a function of the plugin
   std::string plugin;  // its name
+  const char* kind = kLeaf;  // what `leaf` is
+  bool is_local = false;     // the plugin cannot be isolated
 
-  static const CallSite& of(std::string leaf, std::string plugin);
+  static const CallSite& of(CallSite site);
+  static const CallSite& of(std::string leaf, std::string plugin) {
+    return of(CallSite{std::move(leaf), std::move(plugin)});
+  }
 };
 
 // One for each thread; see this_thread().

@@ -100,7 +100,7 @@ std::optional<Problem> read_descriptors(const lockstep_plugin& entry, std::size_
   if (auto refusal = check_plugin(plugin)) return refusal;
   for (std::uint32_t index = 0; index < plugin.leaf_type_count; ++index) {
     auto leaf = std::make_unique<Descriptors::Leaf>();
-    if (auto refusal = read_leaf(plugin.leaf_types[index], *leaf)) {
+    if (auto refusal = read_leaf(plugin.leaf_types[index], plugin.name, *leaf)) {
       return Problem{fmt::format("is malformed: leaf type {} {}", index, refusal->message),
                      std::move(refusal->hint)};
     }

@@ -19,6 +19,7 @@ class IsolatedPlugin;
 
 struct HostedPlugin : lockstep_plugin {
   IsolatedPlugin* isolated = nullptr;  // null: its functions are the plugin's own
+  bool is_local = false;               // it cannot be isolated
 };
 
 struct Descriptors {

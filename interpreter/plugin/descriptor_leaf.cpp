@@ -69,12 +69,14 @@ std::optional<Problem> check_leaf(const lockstep_leaf_type& leaf) {
   return std::nullopt;
 }
 
-std::optional<Problem> read_ports(const lockstep_leaf_type& leaf, Descriptors::Leaf& into) {
+std::optional<Problem> read_ports(const lockstep_leaf_type& leaf, std::string_view plugin,
+                                  Descriptors::Leaf& into) {
   std::vector<Parameter>& ports = into.parameters;
   ports.reserve(leaf.port_count);
   for (std::uint32_t index = 0; index < leaf.port_count; ++index) {
     Parameter port{};
-    if (auto refusal = read_port(leaf.ports[index], ports, into.choices.emplace_back(), port)) {
+    if (auto refusal =
+            read_port(leaf.ports[index], plugin, ports, into.choices.emplace_back(), port)) {
       return Problem{fmt::format("('{}'): port {} {}", leaf.id, index, refusal->message),
                      std::move(refusal->hint)};
     }
@@ -85,7 +87,8 @@ std::optional<Problem> read_ports(const lockstep_leaf_type& leaf, Descriptors::L
 
 }  // namespace
 
-std::optional<Problem> read_leaf(const lockstep_leaf_type* from, Descriptors::Leaf& leaf) {
+std::optional<Problem> read_leaf(const lockstep_leaf_type* from, std::string_view plugin,
+                                 Descriptors::Leaf& leaf) {
   if (from == nullptr) return Problem{"is NULL", "list leaf_type_count leaf types"};
   if (from->struct_size < kLeafSizeIn10) {
     return Problem{
@@ -94,7 +97,7 @@ std::optional<Problem> read_leaf(const lockstep_leaf_type* from, Descriptors::Le
   }
   leaf.type = covered_copy(from, from->struct_size);
   if (auto refusal = check_leaf(leaf.type)) return refusal;
-  return read_ports(leaf.type, leaf);
+  return read_ports(leaf.type, plugin, leaf);
 }
 
 }  // namespace lockstep

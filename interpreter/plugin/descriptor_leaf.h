@@ -7,7 +7,9 @@
 
 namespace lockstep {
 
-// The message says what is wrong with "it". Leaves `node_type` alone.
-std::optional<Problem> read_leaf(const lockstep_leaf_type* from, Descriptors::Leaf& leaf);
+// `plugin` is the name of its plugin. The message says what is wrong with "it". Leaves `node_type`
+// alone.
+std::optional<Problem> read_leaf(const lockstep_leaf_type* from, std::string_view plugin,
+                                 Descriptors::Leaf& leaf);
 
 }  // namespace lockstep

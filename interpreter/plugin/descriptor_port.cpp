@@ -150,7 +150,8 @@ bool is_plugin_name(std::string_view name) {
   });
 }
 
-std::optional<Problem> read_port(const lockstep_port* from, std::span<const Parameter> others,
+std::optional<Problem> read_port(const lockstep_port* from, std::string_view plugin,
+                                 std::span<const Parameter> others,
                                  std::vector<std::string_view>& choices, Parameter& port) {
   if (from == nullptr) return Problem{"is NULL", "list port_count ports"};
   if (from->struct_size < kSizeIn10) {
@@ -162,7 +163,7 @@ std::optional<Problem> read_port(const lockstep_port* from, std::span<const Para
   if (auto refusal = check(copy, others)) return refusal;
   const ObjectType* object = nullptr;
   if (copy.type == LOCKSTEP_OBJECT) {
-    auto found = read_object_type(copy.object);
+    auto found = read_object_type(copy.object, plugin);
     if (!found) {
       return Problem{fmt::format("('{}') {}", copy.name, found.error().message),
                      found.error().hint};

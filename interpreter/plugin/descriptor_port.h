@@ -16,9 +16,10 @@ inline constexpr std::uint32_t kMaxDescriptorCount = 4096;  // of leaves, and of
 // A letter, then letters, digits, '_': ids of leaves and names of ports.
 bool is_attribute_name(std::string_view text);
 
-// `others` are the ports before it. The message says what is wrong with "it".
-// The words that it may be are put into `choices`, and the port refers to them.
-std::optional<Problem> read_port(const lockstep_port* from, std::span<const Parameter> others,
+// `plugin` is the name of its plugin, `others` are the ports before it. The message says what is
+// wrong with "it". The words that it may be are put into `choices`, and the port refers to them.
+std::optional<Problem> read_port(const lockstep_port* from, std::string_view plugin,
+                                 std::span<const Parameter> others,
                                  std::vector<std::string_view>& choices, Parameter& port);
 
 }  // namespace lockstep

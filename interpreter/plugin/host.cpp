@@ -13,6 +13,7 @@
 #include "core/utf8.h"
 #include "core/wording.h"
 #include "plugin/held.h"
+#include "plugin/packed_object.h"
 #include "plugin/workers.h"
 
 namespace lockstep {
@@ -217,11 +218,42 @@ bool set_string_list(const lockstep_caller* caller, std::uint32_t port, const lo
   return true;
 }
 
+// An object of another process as one of the port's own type; null after an error.
+const Object* unpacked(lockstep_caller& caller, BoundPort& port, const Object& packed) {
+  if (port.packed == packed) return &port.unpacked;
+  auto made = port.object->from_bytes(PackedType::get(packed).bytes);
+  if (!made) {
+    take_error(caller,
+               Shortened(fmt::format("cannot read '{}': {}", port.name, made.error().message)));
+    return nullptr;
+  }
+  port.unpacked = *std::move(made);
+  port.packed = packed;
+  return &port.unpacked;
+}
+
 bool get_object(const lockstep_caller* caller, std::uint32_t port, void** object) {
   const auto* found = readable<Object>(caller, port);
   if (found == nullptr) return false;
-  *object = found->get();
-  return true;
+  try {
+    if (found->type()->is_packed()) {
+      found = unpacked(mine(caller), mine(caller).ports[port], *found);
+    }
+  } catch (const std::exception&) {
+    return false;
+  }
+  if (found != nullptr) *object = found->get();
+  return found != nullptr;
+}
+
+// In a process that only mirrors the entries, an object is set as bytes. Nothing after an error.
+std::optional<Object> settable(const lockstep_caller& caller, std::uint32_t port, Object object) {
+  if (caller.written == nullptr) return object;
+  auto packed = pack(object, WithText::Yes);
+  if (packed) return *std::move(packed);
+  take_error(caller, Shortened(fmt::format("cannot set '{}': {}", caller.ports[port].name,
+                                           packed.error().message)));
+  return std::nullopt;
 }
 
 bool set_object(const lockstep_caller* caller, std::uint32_t port, void* object) {
@@ -230,8 +262,14 @@ bool set_object(const lockstep_caller* caller, std::uint32_t port, void* object)
   if (target == nullptr) return false;
   const ObjectType& type = *caller->ports[port].object;
   type.retain(object);
-  // What the entry had is released at the end: its release finds the entry as it will be.
-  const Value before = std::exchange(*target, Object(type, object));
+  try {
+    auto held = settable(*caller, port, Object(type, object));
+    if (!held) return false;
+    // What the entry had is released at the end: its release finds the entry as it will be.
+    const Value before = std::exchange(*target, *std::move(held));
+  } catch (const std::exception&) {
+    return false;
+  }
   return true;
 }
 

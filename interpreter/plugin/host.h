@@ -30,6 +30,7 @@ struct BoundPort {
   std::string_view name = {};
   std::string_view entry = {};
   std::vector<lockstep_text> texts = {};  // the list of strings that was handed out last
+  Object packed = {}, unpacked = {};      // an object of another process, and what it was made into
 };
 
 }  // namespace lockstep

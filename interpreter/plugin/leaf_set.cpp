@@ -25,10 +25,22 @@ std::string call_plugin(const CallSite& site, PluginFunction function, Call call
   return thrown_by(call);
 }
 
+const char* kind_of(NodeCategory category) {
+  if (category == NodeCategory::Control) return CallSite::kControlNode;
+  return category == NodeCategory::Decorator ? CallSite::kDecorator : CallSite::kLeaf;
+}
+
+bool is_local(const NodeType& type) {
+  return static_cast<const HostedPlugin*>(type.origin)->is_local;
+}
+
 const CallSite& site_of(const Tree& tree, const LeafNode& leaf) {
-  return CallSite::of(fmt::format("'{}' ({} of plugin '{}')", printable(tree.path(leaf.node)),
-                                  leaf.type->id, leaf.type->plugin),
-                      std::string(leaf.type->plugin));
+  return CallSite::of(
+      {.leaf = fmt::format("'{}' ({} of plugin '{}')", printable(tree.path(leaf.node)),
+                           leaf.type->id, leaf.type->plugin),
+       .plugin = std::string(leaf.type->plugin),
+       .kind = kind_of(leaf.type->category),
+       .is_local = is_local(*leaf.type)});
 }
 
 }  // namespace
@@ -119,8 +131,12 @@ LeafSet::Implementation::Implementation(const Tree& tree, Blackboard& blackboard
   for (const LeafNode& leaf : tree.leaves) {
     if (find_context(leaf.type->origin) == nullptr) {
       const lockstep_plugin* const plugin = leaf.type->origin;
-      contexts_.push_back(std::make_unique<Context>(
-          Context{plugin, leaf.node, nullptr, &CallSite::of("", plugin->name), {}}));
+      contexts_.push_back(std::make_unique<Context>(Context{
+          plugin,
+          leaf.node,
+          nullptr,
+          &CallSite::of({.leaf = "", .plugin = plugin->name, .is_local = is_local(*leaf.type)}),
+          {}}));
       contexts_.back()->caller = make_caller(plugin->name, contexts_.back()->slot);
       contexts_.back()->caller->plugin = plugin;
     }
@@ -145,6 +161,9 @@ void LeafSet::Implementation::destroy_all() {
   // While what the leaves of a run share is still there.
   for (Entry& entry : blackboard_.entries) {
     if (std::holds_alternative<Object>(entry.value)) entry.value = NoValue();
+  }
+  for (const auto& caller : callers_) {
+    for (BoundPort& port : caller->ports) port.packed = port.unpacked = Object();
   }
   for (std::size_t index = contexts_.size(); index-- > 0;) {
     Context& context = *contexts_[index];

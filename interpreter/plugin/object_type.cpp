@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
 
+#include "core/plugin_exception.h"
+#include "plugin/call_mark.h"
 #include "plugin/descriptor.h"
 
 namespace lockstep {
@@ -15,49 +18,115 @@ namespace {
 constexpr std::size_t kSizeIn11 =
     offsetof(lockstep_object_type, from_text) + sizeof(lockstep_object_type::from_text);
 
+// What to_text and to_bytes fill: called with some room, and again if that was not enough. Returns
+// the length that they have given last.
+template <class Fill>
+std::size_t fill(std::string& out, std::size_t room, std::size_t most, Fill function) {
+  const std::size_t before = out.size();
+  const auto call = [&] {
+    out.resize(before + room);
+    return function(out.data() + before, room);
+  };
+  std::size_t length = call();
+  if (length > room && length <= most) {
+    room = length;
+    length = call();
+  }
+  out.resize(before + std::min(length, room));
+  return length;
+}
+
 class PluginObjectType final : public ObjectType {
  public:
-  explicit PluginObjectType(const lockstep_object_type& declared)
-      : ObjectType(declared.name), it_(declared) {}
+  PluginObjectType(const lockstep_object_type& declared, std::string_view plugin)
+      : ObjectType(declared.name),
+        it_(declared),
+        site_(CallSite::of({.leaf = fmt::format("'{}' (of plugin '{}')", declared.name, plugin),
+                            .plugin = std::string(plugin),
+                            .kind = CallSite::kObjectType,
+                            .is_local = !has_both(declared)})) {}
 
   // The contract forbids exceptions; one that comes nevertheless is lost.
   void retain(void* object) const noexcept override {
-    guarded([&] { it_.retain(object); });
+    guarded(PluginFunction::Retain, [&] { it_.retain(object); });
   }
   void release(void* object) const noexcept override {
-    guarded([&] { it_.release(object); });
+    guarded(PluginFunction::Release, [&] { it_.release(object); });
   }
   void append_text(const void* object, std::string& out) const override {
-    const std::size_t before = out.size();
-    std::size_t room = 128;
-    std::size_t length = 0;
-    for (int round = 0; it_.to_text != nullptr && round < 2; ++round) {
-      out.resize(before + room);
-      guarded([&] { length = it_.to_text(object, out.data() + before, room); });
-      if (length <= room) break;
-      room = length;
+    if (it_.to_text == nullptr) {
+      out.append("(").append(name()).append(")");
+      return;
     }
-    out.resize(before + std::min(length, room));
-    if (it_.to_text == nullptr) out.append("(").append(name()).append(")");
+    const std::size_t before = out.size();
+    const std::string thrown = guarded(PluginFunction::ToText, [&] {
+      fill(out, 128, kMostText,
+           [&](char* text, std::size_t room) { return it_.to_text(object, text, room); });
+    });
+    if (!thrown.empty()) out.resize(before);
   }
   bool has_from_text() const override { return it_.from_text != nullptr; }
   std::optional<Object> from_text(std::string_view text) const override {
     void* object = nullptr;
-    guarded([&] { object = it_.from_text(text.data(), text.size()); });
+    guarded(PluginFunction::FromText, [&] { object = it_.from_text(text.data(), text.size()); });
     if (object == nullptr) return std::nullopt;
     return Object(*this, object);
   }
 
- private:
-  template <class Call>
-  static void guarded(Call call) noexcept {
-    try {
-      call();
-    } catch (...) {  // NOLINT(bugprone-empty-catch)
+  bool has_bytes() const override { return has_both(it_); }
+  Result<std::string> to_bytes(const void* object) const override {
+    std::string bytes;
+    std::size_t length = 0;
+    const std::string thrown = guarded(PluginFunction::ToBytes, [&] {
+      length = fill(bytes, 4096, kMostBytes,
+                    [&](char* data, std::size_t room) { return it_.to_bytes(object, data, room); });
+    });
+    if (!thrown.empty()) return failure("to_bytes", thrown);
+    if (length == SIZE_MAX) return failure("to_bytes", "has failed");
+    if (length > kMostBytes) {
+      return failure("to_bytes", fmt::format("has {} bytes, at most {} MiB can leave a process",
+                                             length, kMostBytes >> 20));
     }
+    if (length != bytes.size()) {
+      return failure("to_bytes",
+                     fmt::format("has {} bytes, after {} a moment before", length, bytes.size()));
+    }
+    return bytes;
+  }
+  Result<Object> from_bytes(std::string_view bytes) const override {
+    if (!has_bytes()) return failure("from_bytes", "does not exist");
+    void* object = nullptr;
+    const std::string thrown = guarded(
+        PluginFunction::FromBytes, [&] { object = it_.from_bytes(bytes.data(), bytes.size()); });
+    if (!thrown.empty()) return failure("from_bytes", thrown);
+    if (object == nullptr) {
+      return failure("from_bytes", fmt::format("finds no object in {} bytes", bytes.size()));
+    }
+    return Object(*this, object);
+  }
+
+ private:
+  // Longer ones are cut off.
+  static constexpr std::size_t kMostText = std::size_t{1} << 30;
+  static constexpr std::size_t kMostBytes = std::size_t{64} << 20;
+
+  static bool has_both(const lockstep_object_type& declared) {
+    return declared.to_bytes != nullptr && declared.from_bytes != nullptr;
+  }
+
+  // Returns the description of what it threw, or "".
+  template <class Call>
+  std::string guarded(PluginFunction function, Call call) const noexcept {
+    const MarkedCall mark(site_, function);
+    return thrown_by(call);
+  }
+
+  tl::unexpected<Problem> failure(std::string_view function, std::string_view what) const {
+    return tl::unexpected(Problem{fmt::format("{} of '{}' {}", function, name(), what)});
   }
 
   lockstep_object_type it_;
+  const CallSite& site_;
 };
 
 bool is_type_name(std::string_view name) {
@@ -86,13 +155,25 @@ std::optional<Problem> check(const lockstep_object_type* declared) {
         fmt::format("has a type of objects, '{}', without retain and release", declared->name),
         "set both"};
   }
+  const lockstep_object_type whole = covered_copy(declared, declared->struct_size);
+  if ((whole.to_bytes == nullptr) != (whole.from_bytes == nullptr)) {
+    const bool has_one = whole.to_bytes != nullptr;
+    return Problem{
+        fmt::format("has a type of objects, '{}', with {} without {}", declared->name,
+                    has_one ? "to_bytes" : "from_bytes", has_one ? "from_bytes" : "to_bytes"),
+        "set both or none"};
+  }
   return std::nullopt;
 }
 
 }  // namespace
 
-Result<const ObjectType*> read_object_type(const lockstep_object_type* declared) {
+Result<const ObjectType*> read_object_type(const lockstep_object_type* declared,
+                                           std::string_view plugin) {
   if (auto problem = check(declared)) return tl::unexpected(std::move(*problem));
+  if (declared->retain == HostedObjectType::mark) {
+    return static_cast<const HostedObjectType*>(declared)->type;
+  }
   static std::mutex mutex;
   // Never destroyed: the program may keep objects until its end.
   static auto& types =
@@ -100,7 +181,8 @@ Result<const ObjectType*> read_object_type(const lockstep_object_type* declared)
   const std::lock_guard lock(mutex);
   auto& type = types[declared];
   if (type == nullptr) {
-    type = std::make_unique<PluginObjectType>(covered_copy(declared, declared->struct_size));
+    type =
+        std::make_unique<PluginObjectType>(covered_copy(declared, declared->struct_size), plugin);
   }
   return type.get();
 }

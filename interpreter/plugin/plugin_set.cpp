@@ -12,6 +12,7 @@
 #include "plugin/descriptor.h"
 #include "plugin/initialize.h"
 #include "plugin/isolated/isolated_plugin.h"
+#include "plugin/isolated/refusal.h"
 #include "plugin/plugin_path.h"
 #include "plugin/shared_object.h"
 #include "plugin/trust.h"
@@ -51,6 +52,12 @@ struct PluginSet::Plugin {
   std::string_view name() const { return descriptors.plugin.name; }
   std::string initialize() const {
     return isolated != nullptr ? isolated->initialize() : initialize_plugin(descriptors.plugin);
+  }
+
+  std::optional<Problem> check_isolation() {
+    auto refusal = refuse_isolation(descriptors);
+    descriptors.plugin.is_local = refusal.has_value();
+    return isolated != nullptr ? std::move(refusal) : std::nullopt;
   }
 
   // What keeps two plugins from living in one set.
@@ -158,6 +165,7 @@ bool PluginSet::accept(std::unique_ptr<Plugin> plugin, std::size_t size, const R
     return true;
   }
   auto refusal = read_descriptors(entry, size, plugin->descriptors);
+  if (!refusal) refusal = plugin->check_isolation();
   if (!refusal) refusal = check_expected_name(plugin->name(), request.expected_name);
   for (const auto& other : plugins_) {
     if (!refusal) refusal = Plugin::check_against(*plugin, *other);

@@ -41,7 +41,7 @@ TEST_CASE("isolated: a plugin with control nodes is refused") {
                           "without isolation, or move its leaves into another plugin");
 }
 
-TEST_CASE("isolated: a plugin that carries objects is refused") {
+TEST_CASE("isolated: a plugin that carries objects without bytes is refused") {
   const std::string path = plugin_path("carries");
   PluginSet plugins;
   Diagnostics diagnostics;
@@ -49,8 +49,9 @@ TEST_CASE("isolated: a plugin that carries objects is refused") {
   const Strings refused = refusal(path, Isolation::Isolated);
   REQUIRE(refused.size() == 1);
   CHECK(refused[0] == "plugin '" + path +
-                          "' cannot be isolated: the port 'ticks' of 'Probe' carries objects | "
-                          "load it without isolation: an object cannot leave its process");
+                          "' cannot be isolated: the port 'ticks' of 'Probe' carries objects, and "
+                          "the type 'nav.Path' has no to_bytes and from_bytes | load it without "
+                          "isolation, or give the type both functions");
 }
 
 TEST_CASE("isolated: values of every type go in and out, also large ones") {

@@ -29,13 +29,15 @@ MEMBER_AT(lockstep_port, min, 56);
 MEMBER_AT(lockstep_port, max, 64);
 MEMBER_AT(lockstep_port, object, 72);
 
-SIZE_IS(lockstep_object_type, 48);
+SIZE_IS(lockstep_object_type, 64);
 MEMBER_AT(lockstep_object_type, struct_size, 0);
 MEMBER_AT(lockstep_object_type, name, 8);
 MEMBER_AT(lockstep_object_type, retain, 16);
 MEMBER_AT(lockstep_object_type, release, 24);
 MEMBER_AT(lockstep_object_type, to_text, 32);
 MEMBER_AT(lockstep_object_type, from_text, 40);
+MEMBER_AT(lockstep_object_type, to_bytes, 48);
+MEMBER_AT(lockstep_object_type, from_bytes, 56);
 
 SIZE_IS(lockstep_text, 16);
 MEMBER_AT(lockstep_text, text, 0);

@@ -64,6 +64,7 @@ const Case kCases[] = {
   {"number_out", "is malformed: leaf type 0 ('Probe'): port 0 ('ticks') is an output of type LOCKSTEP_NUMBER", "an output is an int or a double, so that others know what they read"},
   {"object_without_type", "is malformed: leaf type 0 ('Probe'): port 0 ('ticks') carries objects of no type", "set lockstep_port::object"},
   {"object_without_release", "is malformed: leaf type 0 ('Probe'): port 0 ('ticks') has a type of objects, 'nav.Path', without retain and release", "set both"},
+  {"object_with_half_bytes", "is malformed: leaf type 0 ('Probe'): port 0 ('ticks') has a type of objects, 'nav.Path', with to_bytes without from_bytes", "set both or none"},
   {"bad_port_type", "is malformed: leaf type 0 ('Probe'): port 0 ('ticks') has type 10", "use LOCKSTEP_NUMBER or one of the types 1 to 9"},
   {"bad_port_direction", "is malformed: leaf type 0 ('Probe'): port 0 ('ticks') has direction 0", "use LOCKSTEP_INPUT, LOCKSTEP_OUTPUT or LOCKSTEP_INOUT, 1 to 3"},
   {"bad_default", "is malformed: leaf type 0 ('Probe'): port 0 ('ticks') has the default 'two', expected a whole number", "a default is a constant, written as in a tree"},

@@ -6,7 +6,16 @@ namespace {
 // Both are checked again, against the same limit, by read_descriptors.
 constexpr std::uint32_t kMostDescriptors = 4096;
 
-void write_port(const lockstep_port& declared, MessageWriter& message) {
+// Which functions a type of objects has that are called in the plugin's process.
+constexpr std::uint8_t kHasFromText = 1, kHasBytes = 2;
+
+void write_object_type(const ObjectType& type, MessageWriter& message) {
+  message.put_text(type.name());
+  message.put(static_cast<std::uint8_t>((type.has_from_text() ? kHasFromText : 0) |
+                                        (type.has_bytes() ? kHasBytes : 0)));
+}
+
+void write_port(const lockstep_port& declared, const ObjectType* object, MessageWriter& message) {
   const lockstep_port port = covered_copy(&declared, declared.struct_size);
   message.put(port.type);
   message.put(port.direction);
@@ -15,6 +24,7 @@ void write_port(const lockstep_port& declared, MessageWriter& message) {
   }
   message.put(port.min);
   message.put(port.max);
+  if (object != nullptr) write_object_type(*object, message);
 }
 
 // Which of the optional functions there are, a bit for each.
@@ -49,7 +59,7 @@ void write_descriptors(const Descriptors& descriptors, MessageWriter& message) {
     message.put_text_or_null(leaf->type.doc);
     message.put(leaf->type.port_count);
     for (std::uint32_t port = 0; port < leaf->type.port_count; ++port) {
-      write_port(*leaf->type.ports[port], message);
+      write_port(*leaf->type.ports[port], leaf->parameters[port].object, message);
     }
   }
 }
@@ -57,6 +67,19 @@ void write_descriptors(const Descriptors& descriptors, MessageWriter& message) {
 const char* OwnedDescriptors::read_text(MessageReader& message) {
   if (!message.has_text()) return nullptr;
   return texts_.emplace_back(message.text()).c_str();
+}
+
+const lockstep_object_type* OwnedDescriptors::read_object_type(MessageReader& message) {
+  const std::string& name = texts_.emplace_back(message.text());
+  const auto functions = message.get<std::uint8_t>();
+  const bool has_from_text = (functions & kHasFromText) != 0;
+  HostedObjectType& hosted = hosted_types_.emplace_back();
+  hosted.struct_size = sizeof(lockstep_object_type);
+  hosted.name = name.c_str();
+  hosted.retain = hosted.release = HostedObjectType::mark;
+  hosted.type = &object_types_.emplace_back(name, (functions & kHasBytes) != 0,
+                                            has_from_text ? from_text_ : nullptr);
+  return &hosted;
 }
 
 void OwnedDescriptors::read_port(MessageReader& message) {
@@ -70,6 +93,7 @@ void OwnedDescriptors::read_port(MessageReader& message) {
   }
   port.min = message.get<double>();
   port.max = message.get<double>();
+  if (port.type == LOCKSTEP_OBJECT) port.object = read_object_type(message);
   port_lists_.back().push_back(&ports_.emplace_back(port));
 }
 
@@ -93,7 +117,9 @@ bool OwnedDescriptors::read_leaf(MessageReader& message, const lockstep_leaf_typ
 }
 
 bool OwnedDescriptors::read(MessageReader& message, const lockstep_plugin& plugin_functions,
-                            const lockstep_leaf_type& leaf_functions) {
+                            const lockstep_leaf_type& leaf_functions,
+                            RemoteObjectType::FromText from_text) {
+  from_text_ = std::move(from_text);
   plugin = plugin_functions;
   plugin.abi_major = LOCKSTEP_ABI_MAJOR;
   plugin.abi_minor = LOCKSTEP_ABI_MINOR;

@@ -9,6 +9,8 @@
 #include "lockstep/leaf.h"
 #include "plugin/descriptor.h"
 #include "plugin/isolated/message.h"
+#include "plugin/isolated/remote_object_type.h"
+#include "plugin/object_type.h"
 
 namespace lockstep {
 
@@ -19,16 +21,21 @@ void write_descriptors(const Descriptors& descriptors, MessageWriter& message);
 struct OwnedDescriptors {
   lockstep_plugin plugin{};
 
-  // Returns false if the message is invalid.
+  // Returns false if the message is invalid. `from_text` is what types of objects have that have
+  // texts.
   bool read(MessageReader& message, const lockstep_plugin& plugin_functions,
-            const lockstep_leaf_type& leaf_functions);
+            const lockstep_leaf_type& leaf_functions, RemoteObjectType::FromText from_text);
 
  private:
   const char* read_text(MessageReader& message);
+  const lockstep_object_type* read_object_type(MessageReader& message);
   void read_port(MessageReader& message);
   bool read_leaf(MessageReader& message, const lockstep_leaf_type& functions);
 
   std::deque<std::string> texts_;  // elements do not move when one is added
+  RemoteObjectType::FromText from_text_;
+  std::deque<RemoteObjectType> object_types_;
+  std::deque<HostedObjectType> hosted_types_;
   std::deque<lockstep_port> ports_;
   std::deque<std::vector<const lockstep_port*>> port_lists_;
   std::deque<lockstep_leaf_type> leaves_;

@@ -25,24 +25,6 @@ std::string initialize_in(Session& session) {
   return "does not survive its init: " + words(session);
 }
 
-// The children of a control node are leaves of other processes, or of this one.
-std::optional<Problem> refuse_what_is_local(const lockstep_plugin& plugin) {
-  for (std::uint32_t index = 0; index < plugin.leaf_type_count; ++index) {
-    const lockstep_leaf_type& type = *plugin.leaf_types[index];
-    for (std::uint32_t port = 0; port < type.port_count; ++port) {
-      if (type.ports[port]->type != LOCKSTEP_OBJECT) continue;
-      return Problem{fmt::format("cannot be isolated: the port '{}' of '{}' carries objects",
-                                 type.ports[port]->name, type.id),
-                     "load it without isolation: an object cannot leave its process"};
-    }
-    if (type.kind != LOCKSTEP_CONTROL && type.kind != LOCKSTEP_DECORATOR) continue;
-    return Problem{fmt::format("cannot be isolated: '{}' is a {}", type.id,
-                               type.kind == LOCKSTEP_CONTROL ? "control node" : "decorator"),
-                   "load it without isolation, or move its leaves into another plugin"};
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 IsolatedPlugin::IsolatedPlugin(std::string path, IsolationOptions options)
@@ -89,8 +71,11 @@ std::optional<Problem> IsolatedPlugin::describe(MessageReader description) {
     return Problem{"has changed since it was loaded", "start lockstep again"};
   }
   description_.assign(bytes.begin(), bytes.end());
-  if (descriptors_.read(description, remote_plugin(), remote_leaf_type())) {
-    return refuse_what_is_local(entry());
+  const auto read_text = [this](const PackedType& type, std::string_view text) {
+    return from_text(type, text);
+  };
+  if (descriptors_.read(description, remote_plugin(), remote_leaf_type(), read_text)) {
+    return std::nullopt;
   }
   return Problem{"cannot be loaded: its process sent an invalid answer",
                  "is lockstep-leafhost of the same build as lockstep?"};
@@ -107,15 +92,40 @@ std::string IsolatedPlugin::initialize() {
   return idle_.empty() ? "" : initialize_in(*idle_.front());
 }
 
-std::unique_ptr<Session> IsolatedPlugin::acquire(std::string& failure) {
-  {
-    const std::lock_guard lock(mutex_);
-    while (!idle_.empty()) {
-      auto session = std::move(idle_.back());
-      idle_.pop_back();
-      if (!session->is_gone()) return session;
-    }
+// Null when all are used.
+std::unique_ptr<Session> IsolatedPlugin::take_idle() {
+  const std::lock_guard lock(mutex_);
+  while (!idle_.empty()) {
+    auto session = std::move(idle_.back());
+    idle_.pop_back();
+    if (!session->is_gone()) return session;
   }
+  return nullptr;
+}
+
+// A process that was started for this ends with it: init has not been called in it.
+std::optional<Object> IsolatedPlugin::from_text(const PackedType& type, std::string_view text) {
+  auto session = take_idle();
+  const bool is_new = session == nullptr;
+  if (is_new) {
+    session = std::make_unique<Session>();
+    if (start(*session)) return std::nullopt;
+  }
+  MessageWriter& request = session->begin_request(PluginFunction::FromText);
+  request.put_text(type.name());
+  request.put_text(text);
+  Value value;
+  if (session->request_fits() && session->call({})) {
+    MessageReader answer = session->answer();
+    if (!answer.value_into(value, &type)) session->reject_answer();
+  }
+  is_new ? session->end() : release(std::move(session));
+  auto* const object = std::get_if<Object>(&value);
+  return object == nullptr ? std::nullopt : std::optional(std::move(*object));
+}
+
+std::unique_ptr<Session> IsolatedPlugin::acquire(std::string& failure) {
+  if (auto idle = take_idle()) return idle;
   auto session = std::make_unique<Session>();
   if (auto refusal = start(*session)) {
     failure = refusal->message;

@@ -43,6 +43,8 @@ class IsolatedPlugin {
   IsolatedPlugin(std::string path, IsolationOptions options);
   std::optional<Problem> start(Session& session);
   std::optional<Problem> describe(MessageReader description);
+  std::unique_ptr<Session> take_idle();
+  std::optional<Object> from_text(const PackedType& type, std::string_view text);
 
   std::string path_;
   IsolationOptions options_;

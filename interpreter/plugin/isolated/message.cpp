@@ -34,7 +34,11 @@ class ValueWriter {
   explicit ValueWriter(MessageWriter& message) : message_(message) {}
 
   void operator()(NoValue) const {}
-  void operator()(const Object&) const {}  // a plugin that carries them is not isolated
+  void operator()(const Object& object) const {
+    const PackedObject& packed = PackedType::get(object);
+    message_.put_text(packed.bytes);
+    message_.put_text(packed.text);
+  }
   void operator()(bool flag) const { message_.put(static_cast<std::uint8_t>(flag)); }
   void operator()(Flag flag) const { (*this)(flag.is_set); }
   void operator()(std::int64_t number) const { message_.put(number); }
@@ -57,10 +61,17 @@ class ValueWriter {
 // True if there was a value.
 class ValueReader {
  public:
-  explicit ValueReader(MessageReader& message) : message_(message) {}
+  ValueReader(MessageReader& message, const PackedType* objects)
+      : message_(message), objects_(objects) {}
 
   bool operator()(NoValue&) const { return true; }
-  bool operator()(Object&) const { return false; }
+  bool operator()(Object& object) const {
+    const std::string_view bytes = message_.text();
+    const std::string_view text = message_.text();
+    if (objects_ == nullptr || !message_.good()) return false;
+    object = objects_->make({std::string(bytes), std::string(text)});
+    return true;
+  }
   bool operator()(bool& flag) const {
     flag = message_.get<std::uint8_t>() != 0;
     return message_.good();
@@ -95,13 +106,13 @@ class ValueReader {
 
  private:
   MessageReader& message_;
+  const PackedType* objects_;
 };
 
 // Reads the alternative of this number.
 template <std::size_t... kIndices>
-bool read_alternative(MessageReader& message, std::size_t index, Value& value,
+bool read_alternative(const ValueReader& read, std::size_t index, Value& value,
                       std::index_sequence<kIndices...>) {
-  const ValueReader read(message);
   return ((index == kIndices && read(held<std::variant_alternative_t<kIndices, Value>>(value))) ||
           ...);
 }
@@ -140,11 +151,11 @@ bool MessageReader::has_text() {
   return get<std::uint8_t>() != 0;
 }
 
-bool MessageReader::value_into(Value& value) {
+bool MessageReader::value_into(Value& value, const PackedType* objects) {
   const auto index = get<std::uint8_t>();
   if (!good_) return false;
   constexpr auto kAll = std::make_index_sequence<std::variant_size_v<Value>>();
-  return read_alternative(*this, index, value, kAll) || fail();
+  return read_alternative(ValueReader(*this, objects), index, value, kAll) || fail();
 }
 
 }  // namespace lockstep

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/value.h"
+#include "plugin/packed_object.h"
 
 namespace lockstep {
 
@@ -25,6 +26,7 @@ class MessageWriter {
   void put_text(std::string_view text);
   // A text that may be absent, as in the descriptors.
   void put_text_or_null(const char* text);
+  // An object must be packed.
   void put_value(const Value& value);
   void append(const void* data, std::size_t size);
   std::span<const std::byte> bytes() const { return bytes_; }
@@ -47,7 +49,8 @@ class MessageReader {
   std::string_view text();
   bool has_text();  // what put_text_or_null wrote before the text
   // Reads into `value` and reuses its memory. Returns false if it is not a value of any type.
-  bool value_into(Value& value);
+  // Objects are made to be of `objects`; null: there are none.
+  bool value_into(Value& value, const PackedType* objects = nullptr);
   const std::byte* take(std::size_t size);  // null: there are not so many
   std::span<const std::byte> rest() const { return rest_; }
   bool good() const { return good_; }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -20,10 +21,11 @@ class RemoteEntries {
   // Ports of one entry have one number. The port must be bound.
   std::uint32_t number_of(const BoundPort& port);
   // The entries of these ports (kNone is skipped) whose values the other side does not have.
-  void write(std::span<const std::uint32_t> ports, MessageWriter& message);
+  // Returns "", or why an object of one cannot be sent: the other side finds no value there.
+  std::string write(std::span<const std::uint32_t> ports, MessageWriter& message);
   // Stores what the other side has set. Returns false if the message is invalid.
   bool read(MessageReader& message);
-  // Forgets which values the other side has.
+  // Forgets which values the other side has, and releases them.
   void forget();
 
  private:
@@ -31,6 +33,7 @@ class RemoteEntries {
     const Value* read;
     lockstep::Entry* write;  // null: the other side may not set it
     ValueType type;
+    const PackedType* objects;  // null: its values are none
     bool known = false;
     Value last = {};  // what the other side knows
   };

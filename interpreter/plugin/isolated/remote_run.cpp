@@ -32,7 +32,14 @@ class RemoteRun {
   const lockstep_caller& caller() const { return caller_; }
   Session& session() { return *session_; }
   RemoteEntries& entries() { return entries_; }
-  std::uint32_t next_number() { return ++last_number_; }
+  std::uint32_t add_leaf() {
+    ++leaves_;
+    return ++last_number_;
+  }
+  // What the entries have of other plugins does not outlive the leaves.
+  void remove_leaf() {
+    if (--leaves_ == 0) entries_.forget();
+  }
 
  private:
   IsolatedPlugin& plugin_;
@@ -40,11 +47,12 @@ class RemoteRun {
   const lockstep_caller& caller_;
   RemoteEntries entries_;
   std::uint32_t last_number_ = 0;  // of a leaf; 0 is the run itself
+  std::uint32_t leaves_ = 0;
 };
 
 struct RemoteLeaf {
   RemoteLeaf(RemoteRun& its_run, const lockstep_caller& its_caller)
-      : run(its_run), caller(its_caller), number(its_run.next_number()) {
+      : run(its_run), caller(its_caller), number(its_run.add_leaf()) {
     for (const BoundPort& port : caller.ports) {
       ports.push_back(port.read == nullptr ? RemoteEntries::kNone : run.entries().number_of(port));
       ports.push_back(port.fallback == nullptr
@@ -53,6 +61,7 @@ struct RemoteLeaf {
     }
     run.session().add_listener(number, caller);
   }
+  ~RemoteLeaf() { run.remove_leaf(); }
   RemoteLeaf(const RemoteLeaf&) = delete;
   RemoteLeaf& operator=(const RemoteLeaf&) = delete;
 
@@ -105,7 +114,8 @@ std::uint64_t take_answer(RemoteRun& run, const lockstep_caller& caller) {
 std::uint64_t finish(RemoteRun& run, const lockstep_caller& caller,
                      std::span<const std::uint32_t> ports) {
   Session& session = run.session();
-  run.entries().write(ports, session.request());
+  const std::string reason = run.entries().write(ports, session.request());
+  if (!reason.empty()) fail(caller, "cannot be sent an object: " + reason);
   if (!session.request_fits()) {
     run.entries().forget();
     fail_too_large(caller);

@@ -89,6 +89,9 @@ class Server {
       case PluginFunction::Init:
         answer_init();
         break;
+      case PluginFunction::FromText:
+        if (!answer_from_text(request)) answer_.clear();
+        break;
       case PluginFunction::Deinit:
         answer_deinit();
         break;
@@ -112,6 +115,30 @@ class Server {
     const std::string failure = initialize_plugin(descriptors_.plugin);
     initialized_ = failure.empty();
     answer_.put_text(failure);
+  }
+
+  // No value when the text is none. False: there is no such type, or no text of the host's.
+  bool answer_from_text(MessageReader& request) {
+    const ObjectType* const type = find_object_type(request.text());
+    const std::string_view text = request.text();
+    if (type == nullptr || !request.good()) return false;
+    const auto object = type->from_text(text);
+    if (!object) {
+      answer_.put_value(Value());
+      return true;
+    }
+    const auto packed = pack(*object, WithText::Yes);
+    answer_.put_value(packed ? Value(*packed) : Value());
+    return true;
+  }
+
+  const ObjectType* find_object_type(std::string_view name) const {
+    for (const auto& leaf : descriptors_.leaves) {
+      for (const Parameter& port : leaf->parameters) {
+        if (port.object != nullptr && port.object->name() == name) return port.object;
+      }
+    }
+    return nullptr;
   }
 
   void answer_deinit() {

@@ -52,7 +52,7 @@ ServedRun::Object* ServedRun::create_run(MessageReader& request) {
   return (objects_[0] = std::move(run)).get();
 }
 
-Entry* ServedRun::entry(std::uint32_t number) {
+ServedRun::Mirror* ServedRun::entry(std::uint32_t number) {
   if (number >= kMostEntries) return nullptr;
   while (number >= entries_.size()) {
     numbers_.emplace(&entries_.emplace_back(), static_cast<std::uint32_t>(numbers_.size()));
@@ -70,6 +70,7 @@ bool ServedRun::read_ports(MessageReader& request, Object& leaf,
     port.type = request.get<ValueType>();
     port.name = declared[index].name;
     port.limits = limits_of(declared[index]);
+    port.object = declared[index].object;
     const bool is_writable = request.get<std::uint8_t>() != 0;
     const auto number = request.get<std::uint32_t>();
     const auto fallback = request.get<std::uint32_t>();
@@ -80,8 +81,9 @@ bool ServedRun::read_ports(MessageReader& request, Object& leaf,
       port.fallback = &held->value;
     }
     if (number == RemoteEntries::kNone) continue;
-    Entry* const bound = entry(number);
+    Mirror* const bound = entry(number);
     if (bound == nullptr) return false;
+    if (port.object != nullptr) bound->objects = &PackedType::of(port.object->name());
     port.read = &bound->value;
     if (is_writable) port.write = bound;
   }
@@ -111,8 +113,8 @@ ServedRun::Object* ServedRun::find(std::uint32_t number) {
 bool ServedRun::read_entries(MessageReader& request) {
   for (auto number = request.get<std::uint32_t>(); number != RemoteEntries::kNone;
        number = request.get<std::uint32_t>()) {
-    Entry* const known = entry(number);
-    if (known == nullptr || !request.value_into(known->value)) return false;
+    Mirror* const known = entry(number);
+    if (known == nullptr || !request.value_into(known->value, known->objects)) return false;
   }
   return request.good();
 }

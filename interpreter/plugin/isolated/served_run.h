@@ -42,7 +42,11 @@ class ServedRun {
   Object* find(std::uint32_t number);
   bool read_ports(MessageReader& request, Object& leaf, std::span<const Parameter> declared);
   bool read_entries(MessageReader& request);
-  Entry* entry(std::uint32_t number);
+  // An entry of the host.
+  struct Mirror : Entry {
+    const PackedType* objects = nullptr;  // null: its values are none
+  };
+  Mirror* entry(std::uint32_t number);
   // Returns the description of what it threw, or "" if it returned.
   std::string call(Object& object, PluginFunction function, std::uint64_t& result);
   std::uint64_t create(Object& object);
@@ -56,7 +60,7 @@ class ServedRun {
   Workers workers_;
   LeafTime time_;
   std::unordered_map<std::uint32_t, std::unique_ptr<Object>> objects_;
-  std::deque<Entry> entries_;  // none of them moves
+  std::deque<Mirror> entries_;  // none of them moves
   std::unordered_map<const Entry*, std::uint32_t> numbers_;
   std::vector<Entry*> written_;  // in this call
 };

@@ -115,6 +115,14 @@ typedef struct lockstep_object_type {
    * text is none. It must not need init: `lockstep check` calls it too. Such an object belongs to
    * the tree, whose runs share it, and is released when the tree is. */
   void* (*from_text)(const char* text, size_t length);
+
+  /* [any] (optional, both or none) For plugins in separate processes, which exchange bytes. Writes
+   * at most `size` bytes and returns how many the whole object has, at most 64 MiB; SIZE_MAX when
+   * it cannot tell. */
+  size_t (*to_bytes)(const void* object, void* bytes, size_t size);
+  /* A new object with one reference, or NULL when the bytes are none. Another process has written
+   * them, which may run another version of the plugin: check them. */
+  void* (*from_bytes)(const void* bytes, size_t length);
 } lockstep_object_type;
 
 /* A port: an XML attribute of the leaf, constant or bound to a blackboard entry. */

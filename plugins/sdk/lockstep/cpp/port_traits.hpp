@@ -221,7 +221,19 @@ template <class T>
 inline constexpr bool has_from_text<T, std::void_t<decltype(static_cast<bool>(from_text(
                                            std::string_view(), std::declval<T&>())))>> = true;
 
-// The functions of the C table. A to_text or from_text that throws gives no text or no object.
+template <class T, class = void>
+inline constexpr bool has_to_bytes = false;
+template <class T>
+inline constexpr bool
+    has_to_bytes<T, std::void_t<decltype(std::string(to_bytes(std::declval<const T&>())))>> = true;
+
+template <class T, class = void>
+inline constexpr bool has_from_bytes = false;
+template <class T>
+inline constexpr bool has_from_bytes<T, std::void_t<decltype(static_cast<bool>(from_bytes(
+                                            std::string_view(), std::declval<T&>())))>> = true;
+
+// The functions of the C table. One that throws gives no text, no bytes or no object.
 template <class T>
 struct ObjectFunctions {
   using Holder = ObjectHolder<T>;
@@ -243,12 +255,31 @@ struct ObjectFunctions {
     return length;
   }
   static void* make(const char* text, std::size_t length) {
+    return made_by([&](T& value) { return from_text(std::string_view(text, length), value); });
+  }
+  static std::size_t bytes_of(const void* object, void* bytes, std::size_t size) {
+    std::size_t length = SIZE_MAX;
+    catching(
+        [&] {
+          const std::string whole(to_bytes(*static_cast<const Holder*>(object)->value));
+          whole.copy(static_cast<char*>(bytes), size);
+          length = whole.size();
+        },
+        [](const char*) {});
+    return length;
+  }
+  static void* unpack(const void* bytes, std::size_t length) {
+    const std::string_view whole(static_cast<const char*>(bytes), length);
+    return made_by([&](T& value) { return from_bytes(whole, value); });
+  }
+
+  template <class Fill>
+  static void* made_by(Fill fill) {
     Holder* made = nullptr;
     catching(
         [&] {
           auto value = std::make_shared<T>();
-          if (!from_text(std::string_view(text, length), *value)) return;
-          made = new Holder{std::move(value)};
+          if (fill(*value)) made = new Holder{std::move(value)};
         },
         [](const char*) {});
     return made;
@@ -262,6 +293,12 @@ struct ObjectFunctions {
     type.release = release;
     if constexpr (has_to_text<T>) type.to_text = text_of;
     if constexpr (has_from_text<T>) type.from_text = make;
+    static_assert(has_to_bytes<T> == has_from_bytes<T>,
+                  "a type of objects has to_bytes and from_bytes, or neither");
+    if constexpr (has_to_bytes<T> && has_from_bytes<T>) {
+      type.to_bytes = bytes_of;
+      type.from_bytes = unpack;
+    }
     return type;
   }
 };
@@ -385,6 +422,8 @@ T from_view(StringListView value) {
 // after those of these functions in the namespace of Type that there are:
 //   std::string to_text(const Path&);         // for recordings and views
 //   bool from_text(std::string_view, Path&);  // for constants in trees; false: the text is none
+//   std::string to_bytes(const Path&);         // both or none: for plugins in separate processes
+//   bool from_bytes(std::string_view, Path&);  // false: the bytes are none
 #define LOCKSTEP_OBJECT_TYPE(Type, name)       \
   template <>                                  \
   struct lockstep::ObjectName<Type> {          \

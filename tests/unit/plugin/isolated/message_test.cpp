@@ -86,6 +86,21 @@ TEST_CASE("message: sizes beyond the message are not believed") {
   }
 }
 
+TEST_CASE("message: an object is its bytes and its text, where objects are expected") {
+  const PackedType& type = PackedType::of("test.Path");
+  MessageWriter message;
+  message.put_value(Value(type.make({std::string("a\0b", 3), "a to b"})));
+  Value value;
+  REQUIRE(MessageReader(message.bytes()).value_into(value, &type));
+  const auto& object = std::get<Object>(value);
+  CHECK((object.type()->name() == "test.Path" && to_text(value) == "a to b"));
+  CHECK(PackedType::get(object).bytes == std::string("a\0b", 3));
+  CHECK_FALSE(MessageReader(message.bytes()).value_into(value));
+  for (std::size_t size = 0; size < message.bytes().size(); ++size) {
+    CHECK_FALSE(MessageReader(message.bytes().first(size)).value_into(value, &type));
+  }
+}
+
 TEST_CASE("message: damaged bytes give values or nothing, never harm") {
   RandomStream random(1, 1);
   const MessageWriter message = written();
