@@ -13,7 +13,7 @@ void put_site(const CallSite& site, SignalText& text) {
   if (site.leaf.empty()) {
     text << "the plugin '" << site.plugin << "'";
   } else {
-    text << "the leaf " << site.leaf;
+    text << "the " << site.kind << " " << site.leaf;
   }
 }
 
@@ -149,8 +149,12 @@ void put_hints(const Crash& crash, SignalText& text) {
     text << kForAuthor;
     return;
   }
+  const bool is_local = crash.call.site != nullptr && crash.call.site->is_local;
   if (is_inside_call(crash) || crash.is_foreign_thread || crash.kind == CrashKind::Hang) {
-    text << "  hint: with --isolate, the run survives a crash of this plugin\n" << kForAuthor;
+    if (!is_local || crash.is_foreign_thread) {
+      text << "  hint: with --isolate, the run survives a crash of this plugin\n";
+    }
+    text << kForAuthor;
     return;
   }
   text << "  hint: a plugin may have overwritten memory: with --isolate it cannot\n"

@@ -63,8 +63,8 @@ WatchdogOptions RunWatch::watchdog_options() {
                            .on_long_halt = {},
                            .on_hang = {}};
   watchdog.on_long_halt = [this](const CallMark::Look& call, Nanoseconds lasts) {
-    print_(fmt::format("the leaf {} has not returned from halt for {:.1f} s", call.site->leaf,
-                       to_seconds(lasts)));
+    print_(fmt::format("the {} {} has not returned from halt for {:.1f} s", call.site->kind,
+                       call.site->leaf, to_seconds(lasts)));
   };
   return watchdog;
 }

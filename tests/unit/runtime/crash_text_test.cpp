@@ -48,6 +48,24 @@ TEST_CASE("a crash is told with the function it was in") {
         "lockstep: error: the plugin 'motion' crashed in the loading of its shared object" + end);
 }
 
+TEST_CASE("a crash names what it was in, and isolation only where it would help") {
+  const auto said = [](const CallSite& site) {
+    SignalText text;
+    describe(segv(in(site, PluginFunction::Tick)), text);
+    return std::string(text.text());
+  };
+  const CallSite& node = CallSite::of({.leaf = "'Main/retry' (RecoveryNode of plugin 'nav')",
+                                       .plugin = "nav",
+                                       .kind = CallSite::kControlNode,
+                                       .is_local = true});
+  CHECK(said(node).starts_with("lockstep: error: the control node 'Main/retry' (RecoveryNode of "));
+  CHECK(said(node).find("--isolate") == std::string::npos);
+  CHECK(said(node).find("the author of the plugin needs the backtrace") != std::string::npos);
+  CHECK(said(kLeaf).find("with --isolate, the run survives") != std::string::npos);
+  const CallSite& leaf = CallSite::of({.leaf = kLeaf.leaf, .plugin = "motion", .is_local = true});
+  CHECK(said(leaf).find("--isolate") == std::string::npos);
+}
+
 TEST_CASE("a crash outside of all calls is somebody else's") {
   Crash crash = segv({});
   const std::string end = " crashed: SIGSEGV, invalid memory reference (address 0x1f)";
