@@ -29,8 +29,9 @@ struct lockstep_run {
   std::shared_ptr<const lockstep::Program> program;
   lockstep::Run run;
   std::vector<Watcher> watchers;
-  lockstep::Nanoseconds last{0};  // when it was ticked last
-  std::string text;               // of the last get_text or fault
+  lockstep::Nanoseconds last{0};     // when it was ticked last
+  std::string text;                  // of the last get_text or fault
+  std::vector<lockstep_text> texts;  // of the last get_text_list
 };
 
 namespace lockstep::embedding {
@@ -55,19 +56,60 @@ Entry* find_entry(lockstep_run* run, const char* key) {
   return nullptr;
 }
 
+bool fail_to_read(const Entry& entry, const char* key) {
+  return fail(std::holds_alternative<NoValue>(entry.value)
+                  ? fmt::format("nothing has written the entry '{}'", key)
+                  : fmt::format("the entry '{}' has another type", key));
+}
+
+// The value of the entry, if it is one of type T; else there is an error.
+template <class T>
+const T* find_value(lockstep_run* run, const char* key) {
+  const Entry* const entry = find_entry(run, key);
+  if (entry == nullptr) return nullptr;
+  const T* const found = std::get_if<T>(&entry->value);
+  if (found == nullptr) fail_to_read(*entry, key);
+  return found;
+}
+
 template <class T>
 bool get(lockstep_run* run, const char* key, T* value) {
   return guarded([&] {
     if (value == nullptr) return fail("an argument is NULL");
+    const T* const found = find_value<T>(run, key);
+    if (found != nullptr) *value = *found;
+    return found != nullptr;
+  });
+}
+
+// An entry that is "int or double" may have an int.
+bool get_number(lockstep_run* run, const char* key, double* value) {
+  return guarded([&] {
+    if (value == nullptr) return fail("an argument is NULL");
     const Entry* const entry = find_entry(run, key);
     if (entry == nullptr) return false;
-    const T* const found = std::get_if<T>(&entry->value);
-    if (found == nullptr) {
-      return fail(std::holds_alternative<NoValue>(entry->value)
-                      ? fmt::format("nothing has written the entry '{}'", key)
-                      : fmt::format("the entry '{}' has another type", key));
+    const auto* const whole = std::get_if<std::int64_t>(&entry->value);
+    if (whole != nullptr && entry->type == ValueType::Number) {
+      *value = static_cast<double>(*whole);
+      return true;
     }
-    *value = *found;
+    const auto* const number = std::get_if<double>(&entry->value);
+    if (number == nullptr) return fail_to_read(*entry, key);
+    *value = *number;
+    return true;
+  });
+}
+
+// Of the items of T and of the interface, which look the same in memory.
+template <class T, class Item>
+bool get_list(lockstep_run* run, const char* key, const Item** items, std::size_t* count) {
+  static_assert(sizeof(T) == sizeof(Item));
+  return guarded([&] {
+    if (items == nullptr || count == nullptr) return fail("an argument is NULL");
+    const auto* const found = find_value<std::vector<T>>(run, key);
+    if (found == nullptr) return false;
+    *items = reinterpret_cast<const Item*>(found->data());
+    *count = found->size();
     return true;
   });
 }
@@ -79,17 +121,37 @@ bool write(Entry& entry, Value value) {
 }
 
 template <class T>
+bool is_finite(const T& /*no double*/) {
+  return true;
+}
+bool is_finite(double value) {
+  return std::isfinite(value);
+}
+bool is_finite(const std::vector<double>& values) {
+  return std::ranges::all_of(values, [](double it) { return std::isfinite(it); });
+}
+
+template <class T>
 bool set(lockstep_run* run, const char* key, T value) {
   return guarded([&] {
     Entry* const entry = find_entry(run, key);
     if (entry == nullptr) return false;
     if (!holds(Value(value), entry->type)) {
-      return fail(fmt::format("the entry '{}' is of type {}", key, to_string(entry->type)));
+      return fail(fmt::format("the entry '{}' is of type {}", key,
+                              type_name(entry->type, entry->object)));
     }
-    if constexpr (std::is_same_v<T, double>) {
-      if (!std::isfinite(value)) return fail("a number must be finite");
-    }
-    return write(*entry, Value(value));
+    if (!is_finite(value)) return fail("a number must be finite");
+    return write(*entry, Value(std::move(value)));
+  });
+}
+
+template <class T, class Item>
+bool set_list(lockstep_run* run, const char* key, const Item* items, std::size_t count) {
+  static_assert(sizeof(T) == sizeof(Item));
+  return guarded([&] {
+    if (items == nullptr && count != 0) return fail("an argument is NULL");
+    const auto* const first = reinterpret_cast<const T*>(items);
+    return set(run, key, std::vector<T>(first, first + count));
   });
 }
 
@@ -278,7 +340,32 @@ bool lockstep_run_get_int(lockstep_run* run, const char* key, int64_t* value) {
   return get(run, key, value);
 }
 bool lockstep_run_get_double(lockstep_run* run, const char* key, double* value) {
-  return get(run, key, value);
+  return get_number(run, key, value);
+}
+bool lockstep_run_get_bool_list(lockstep_run* run, const char* key, const bool** values,
+                                size_t* count) {
+  return get_list<Flag>(run, key, values, count);
+}
+bool lockstep_run_get_int_list(lockstep_run* run, const char* key, const int64_t** values,
+                               size_t* count) {
+  return get_list<std::int64_t>(run, key, values, count);
+}
+bool lockstep_run_get_double_list(lockstep_run* run, const char* key, const double** values,
+                                  size_t* count) {
+  return get_list<double>(run, key, values, count);
+}
+bool lockstep_run_get_text_list(lockstep_run* run, const char* key, const lockstep_text** values,
+                                size_t* count) {
+  return guarded([&] {
+    if (values == nullptr || count == nullptr) return fail("an argument is NULL");
+    const auto* const found = find_value<std::vector<std::string>>(run, key);
+    if (found == nullptr) return false;
+    run->texts.clear();
+    for (const std::string& text : *found) run->texts.push_back({text.c_str(), text.size()});
+    *values = run->texts.data();
+    *count = run->texts.size();
+    return true;
+  });
 }
 
 bool lockstep_run_set_text(lockstep_run* run, const char* key, const char* text) {
@@ -303,6 +390,30 @@ bool lockstep_run_set_int(lockstep_run* run, const char* key, int64_t value) {
 }
 bool lockstep_run_set_double(lockstep_run* run, const char* key, double value) {
   return set(run, key, value);
+}
+bool lockstep_run_set_bool_list(lockstep_run* run, const char* key, const bool* values,
+                                size_t count) {
+  return set_list<Flag>(run, key, values, count);
+}
+bool lockstep_run_set_int_list(lockstep_run* run, const char* key, const int64_t* values,
+                               size_t count) {
+  return set_list<std::int64_t>(run, key, values, count);
+}
+bool lockstep_run_set_double_list(lockstep_run* run, const char* key, const double* values,
+                                  size_t count) {
+  return set_list<double>(run, key, values, count);
+}
+bool lockstep_run_set_text_list(lockstep_run* run, const char* key, const lockstep_text* values,
+                                size_t count) {
+  return guarded([&] {
+    if (values == nullptr && count != 0) return fail("an argument is NULL");
+    std::vector<std::string> texts;
+    for (size_t i = 0; i < count; ++i) {
+      if (values[i].text == nullptr && values[i].length != 0) return fail("a text is NULL");
+      texts.emplace_back(values[i].length == 0 ? "" : values[i].text, values[i].length);
+    }
+    return set(run, key, std::move(texts));
+  });
 }
 
 bool lockstep_run_observe(lockstep_run* run, lockstep_observe observe, void* user) {

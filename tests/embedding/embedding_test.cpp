@@ -3,6 +3,7 @@
 
 #include <array>
 #include <catch2/catch.hpp>
+#include <cstdio>
 #include <lockstep/runtime.hpp>
 #include <thread>
 
@@ -46,6 +47,53 @@ class Counts : public lockstep::Condition<> {
   bool check() override {
     log("user " + std::to_string(++context<Shared>().users));
     return true;
+  }
+};
+
+struct Pose {
+  double x = 0, y = 0;
+};
+std::string to_text(const Pose& pose) {
+  return std::to_string(static_cast<int>(pose.x)) + ";" + std::to_string(static_cast<int>(pose.y));
+}
+bool from_text(std::string_view text, Pose& pose) {
+  return std::sscanf(std::string(text).c_str(), "%lf;%lf", &pose.x, &pose.y) == 2;
+}
+
+}  // namespace
+
+LOCKSTEP_OBJECT_TYPE(Pose, "test.Pose");
+
+namespace {
+
+struct CarryPorts : lockstep::Ports {
+  InOut<std::vector<bool>> flags{this, "flags", "", "flags"};
+  InOut<std::vector<std::int64_t>> counts{this, "counts", "", "counts"};
+  InOut<std::vector<double>> points{this, "points", "", "points"};
+  InOut<std::vector<std::string>> words{this, "words", "", "words"};
+  Input<lockstep::Number> number{this, "number", "0", "an int or a double"};
+  Input<std::shared_ptr<const Pose>> from{this, "from", required, "a pose"};
+  Output<std::shared_ptr<const Pose>> to{this, "to", "twice as far"};
+};
+
+// Adds something to each of its ports.
+class Carry : public lockstep::Action<CarryPorts> {
+ public:
+  Status tick() override {
+    append(flags, true);
+    append(counts, std::int64_t{7});
+    append(points, double{number.get()});
+    append(words, std::string("a;b"));
+    to.set(std::make_shared<Pose>(Pose{2 * from.get()->x, 2 * from.get()->y}));
+    return Status::Success;
+  }
+
+ private:
+  template <class Port, class Item>
+  static void append(Port& port, Item item) {
+    auto list = port.get();
+    list.push_back(item);
+    port.set(list);
   }
 };
 
@@ -166,6 +214,58 @@ TEST_CASE("entries are read and written by key") {
         "the entry 'n' is of type int: expected a whole number");
   CHECK(error_of([&] { run.get<bool>("n"); }) == "the entry 'n' has another type");
   CHECK(error_of([&] { run.set("step", 1.0 / 0.0); }) == "a number must be finite");
+}
+
+TEST_CASE("entries that are lists, numbers of either kind and objects") {
+  runtime::Project project;
+  project.add_leaf<Carry>("Carry", "Adds something to each of its ports");
+  project.load_text(
+      tree(R"(<Carry flags="{flags}" counts="{counts}" points="{points}" words="{words}"
+                number="{number}" from="{from}" to="{to}"/>)"));
+  runtime::Run run(project);
+  CHECK(error_of([&] { run.get<std::vector<double>>("points"); }) ==
+        "nothing has written the entry 'points'");
+  run.set("flags", std::vector<bool>{false, true});
+  run.set("counts", std::vector<std::int64_t>{-1});
+  run.set("points", std::vector<double>{0.5});
+  run.set("words", Strings{"", std::string("x\0y", 3)});
+  run.set("number", 3);
+  run.set("from", "1;2");
+  CHECK(run.get<double>("number") == 3);
+  CHECK(run.get<std::int64_t>("number") == 3);
+  CHECK(run.tick(0) == Status::Success);
+  CHECK(run.get<std::vector<bool>>("flags") == std::vector<bool>{false, true, true});
+  CHECK(run.get<std::vector<std::int64_t>>("counts") == std::vector<std::int64_t>{-1, 7});
+  CHECK(run.get<std::vector<double>>("points") == std::vector<double>{0.5, 3});
+  CHECK(run.get<Strings>("words") == Strings{"", std::string("x\0y", 3), "a;b"});
+  CHECK(run.get<std::string>("to") == "2;4");
+  run.set("number", 0.25);
+  CHECK(run.get<double>("number") == 0.25);
+  CHECK(error_of([&] { run.get<std::int64_t>("number"); }) ==
+        "the entry 'number' has another type");
+  run.set("points", std::vector<double>{});
+  CHECK(run.get<std::vector<double>>("points").empty());
+}
+
+TEST_CASE("lists and objects that do not fit their entry are errors") {
+  runtime::Project project;
+  project.add_leaf<Carry>("Carry", "Adds something to each of its ports");
+  project.load_text(tree(R"(<Carry points="{points}" words="{words}" from="{from}"/>)"));
+  runtime::Run run(project);
+  CHECK(error_of([&] { run.set("points", std::vector<double>{1.0 / 0.0}); }) ==
+        "a number must be finite");
+  CHECK(error_of([&] { run.set("points", std::vector<bool>{}); }) ==
+        "the entry 'points' is of type list of double");
+  CHECK(error_of([&] {
+          run.set("from", std::vector<double>{1, 2});
+        }) == "the entry 'from' is of type test.Pose");
+  CHECK(error_of([&] { run.set("from", "home"); }) ==
+        "the entry 'from' is of type test.Pose: expected the text of a test.Pose");
+  CHECK_FALSE(lockstep_run_set_double_list(run.get(), "points", nullptr, 1));
+  CHECK_FALSE(lockstep_run_get_double_list(run.get(), "points", nullptr, nullptr));
+  const lockstep_text none{nullptr, 3};
+  CHECK_FALSE(lockstep_run_set_text_list(run.get(), "words", &none, 1));
+  CHECK(std::string(lockstep_last_error()) == "a text is NULL");
 }
 
 TEST_CASE("a fault of a leaf is an error with everything halted, or a failure") {

@@ -167,9 +167,10 @@ LOCKSTEP_EXPORT bool lockstep_run_node(lockstep_run* run, uint32_t node,
                                        lockstep_node_state* state);
 
 /* Blackboard entries, between ticks, by key: "height", or "Deliver/height" in a SubTree. get fails
- * while nothing has written the entry. Numbers and flags need an entry of their type; text is
- * written as in XML and works for all. What get_text gives is valid until the next call for this
- * run. */
+ * while nothing has written the entry. Numbers, flags and lists need an entry of their type; one
+ * that is "int or double" is for both, and get_double reads whichever it is. Text is written as in
+ * XML and works for all, also for objects whose type has texts. A text or list that get gives is
+ * valid until the next call for this run; set copies. */
 LOCKSTEP_EXPORT const char* lockstep_run_get_text(lockstep_run* run, const char* key);
 LOCKSTEP_EXPORT bool lockstep_run_get_bool(lockstep_run* run, const char* key, bool* value);
 LOCKSTEP_EXPORT bool lockstep_run_get_int(lockstep_run* run, const char* key, int64_t* value);
@@ -178,6 +179,22 @@ LOCKSTEP_EXPORT bool lockstep_run_set_text(lockstep_run* run, const char* key, c
 LOCKSTEP_EXPORT bool lockstep_run_set_bool(lockstep_run* run, const char* key, bool value);
 LOCKSTEP_EXPORT bool lockstep_run_set_int(lockstep_run* run, const char* key, int64_t value);
 LOCKSTEP_EXPORT bool lockstep_run_set_double(lockstep_run* run, const char* key, double value);
+LOCKSTEP_EXPORT bool lockstep_run_get_bool_list(lockstep_run* run, const char* key,
+                                                const bool** values, size_t* count);
+LOCKSTEP_EXPORT bool lockstep_run_get_int_list(lockstep_run* run, const char* key,
+                                               const int64_t** values, size_t* count);
+LOCKSTEP_EXPORT bool lockstep_run_get_double_list(lockstep_run* run, const char* key,
+                                                  const double** values, size_t* count);
+LOCKSTEP_EXPORT bool lockstep_run_get_text_list(lockstep_run* run, const char* key,
+                                                const lockstep_text** values, size_t* count);
+LOCKSTEP_EXPORT bool lockstep_run_set_bool_list(lockstep_run* run, const char* key,
+                                                const bool* values, size_t count);
+LOCKSTEP_EXPORT bool lockstep_run_set_int_list(lockstep_run* run, const char* key,
+                                               const int64_t* values, size_t count);
+LOCKSTEP_EXPORT bool lockstep_run_set_double_list(lockstep_run* run, const char* key,
+                                                  const double* values, size_t count);
+LOCKSTEP_EXPORT bool lockstep_run_set_text_list(lockstep_run* run, const char* key,
+                                                const lockstep_text* values, size_t count);
 
 /* Called after each tick, also of the loop, in the thread that ticks. It may read the run, and must
  * not tick, halt or free it. Several may observe; NULL as `observe` removes those of this `user`.

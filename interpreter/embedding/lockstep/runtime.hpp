@@ -13,6 +13,7 @@
 
 #include <lockstep/runtime.h>
 
+#include <algorithm>
 #include <exception>
 #include <functional>
 #include <lockstep/leaf.hpp>
@@ -297,7 +298,9 @@ class Run {
   }
 
   // The entry `key` of the blackboard, "height" or "Deliver/height": a bool, std::int64_t, double,
-  // or as text, which works for every type. get throws while nothing has written the entry.
+  // a std::vector of one of these or of std::string, or as text (std::string), which works for
+  // every type, also for objects whose type has texts. get throws while nothing has written the
+  // entry. A double is also what an entry that is "int or double" has.
   template <class T>
   T get(const std::string& key) const;
   void set(const std::string& key, bool value) {
@@ -314,6 +317,24 @@ class Run {
     detail::require(lockstep_run_set_text(it_.get(), key.c_str(), text.c_str()));
   }
   void set(const std::string& key, const char* text) { set(key, std::string(text)); }
+  void set(const std::string& key, const std::vector<bool>& values) {
+    const std::unique_ptr<bool[]> flags(new bool[values.size()]);  // NOLINT: std::vector has none
+    std::copy(values.begin(), values.end(), flags.get());
+    detail::require(lockstep_run_set_bool_list(it_.get(), key.c_str(), flags.get(), values.size()));
+  }
+  void set(const std::string& key, const std::vector<std::int64_t>& values) {
+    detail::require(
+        lockstep_run_set_int_list(it_.get(), key.c_str(), values.data(), values.size()));
+  }
+  void set(const std::string& key, const std::vector<double>& values) {
+    detail::require(
+        lockstep_run_set_double_list(it_.get(), key.c_str(), values.data(), values.size()));
+  }
+  void set(const std::string& key, const std::vector<std::string>& values) {
+    std::vector<lockstep_text> texts;
+    for (const std::string& text : values) texts.push_back({text.data(), text.size()});
+    detail::require(lockstep_run_set_text_list(it_.get(), key.c_str(), texts.data(), texts.size()));
+  }
 
   // Called after each tick, also of the loop, with the tick's number from 0, its time and the
   // status of the root. It may read the run, and must not tick or halt it.
@@ -393,6 +414,37 @@ inline std::string Run::get<std::string>(const std::string& key) const {
   const char* const text = lockstep_run_get_text(it_.get(), key.c_str());
   detail::require(text != nullptr);
   return text;
+}
+
+template <>
+inline std::vector<bool> Run::get<std::vector<bool>>(const std::string& key) const {
+  const bool* values = nullptr;
+  std::size_t count = 0;
+  detail::require(lockstep_run_get_bool_list(it_.get(), key.c_str(), &values, &count));
+  return std::vector<bool>(values, values + count);
+}
+template <>
+inline std::vector<std::int64_t> Run::get<std::vector<std::int64_t>>(const std::string& key) const {
+  const std::int64_t* values = nullptr;
+  std::size_t count = 0;
+  detail::require(lockstep_run_get_int_list(it_.get(), key.c_str(), &values, &count));
+  return std::vector<std::int64_t>(values, values + count);
+}
+template <>
+inline std::vector<double> Run::get<std::vector<double>>(const std::string& key) const {
+  const double* values = nullptr;
+  std::size_t count = 0;
+  detail::require(lockstep_run_get_double_list(it_.get(), key.c_str(), &values, &count));
+  return std::vector<double>(values, values + count);
+}
+template <>
+inline std::vector<std::string> Run::get<std::vector<std::string>>(const std::string& key) const {
+  const lockstep_text* values = nullptr;
+  std::size_t count = 0;
+  detail::require(lockstep_run_get_text_list(it_.get(), key.c_str(), &values, &count));
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < count; ++i) texts.emplace_back(values[i].text, values[i].length);
+  return texts;
 }
 
 }  // namespace lockstep::runtime
