@@ -218,6 +218,11 @@ bool set_string_list(const lockstep_caller* caller, std::uint32_t port, const lo
   return true;
 }
 
+// An entry without a declared type may hold an object of any type.
+bool is_of_type(const Object& object, const ObjectType* type) {
+  return object.type() == type || (type != nullptr && object.type()->name() == type->name());
+}
+
 // An object of another process as one of the port's own type; null after an error.
 const Object* unpacked(lockstep_caller& caller, BoundPort& port, const Object& packed) {
   if (port.packed == packed) return &port.unpacked;
@@ -234,7 +239,7 @@ const Object* unpacked(lockstep_caller& caller, BoundPort& port, const Object& p
 
 bool get_object(const lockstep_caller* caller, std::uint32_t port, void** object) {
   const auto* found = readable<Object>(caller, port);
-  if (found == nullptr) return false;
+  if (found == nullptr || !is_of_type(*found, caller->ports[port].object)) return false;
   try {
     if (found->type()->is_packed()) {
       found = unpacked(mine(caller), mine(caller).ports[port], *found);
