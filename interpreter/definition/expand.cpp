@@ -40,10 +40,20 @@ class Expander {
     add(trees_.trees.at(main).root, 0, scope);
     add_groups(scope);
     check_set_keys(scope);
+    if (!is_ours()) leave_out_undeclared();
     return std::move(definition_);
   }
 
  private:
+  // An entry that only scripts name does not exist before one of them makes it.
+  void leave_out_undeclared() {
+    for (BlackboardEntry& entry : definition_.entries) {
+      if (entry.is_declared) continue;
+      entry.typing = Typing::Any;
+      entry.is_present = false;
+    }
+  }
+
   void add(std::uint32_t from, std::uint32_t parent, Scope& scope) {
     const CheckedNode& checked = trees_.nodes[from];
     if (checked.type == nullptr) return;  // reported already
@@ -203,6 +213,7 @@ class Expander {
     entry.type = btcpp::literal_type(found.text);
     entry.initial = *btcpp::read_literal(entry.type, nullptr, found.text);
     entry.is_declared = true;
+    if (!is_ours()) entry.typing = Typing::Declared;
     literals_.emplace(found.entry, found.text);
     return found.entry;
   }
@@ -242,8 +253,9 @@ class Expander {
     return !is_generic(parameter) && (is_ours() || entry.type != ValueType::String);
   }
 
-  static void set_type(Place place, const Parameter& parameter, BlackboardEntry& entry) {
+  void set_type(Place place, const Parameter& parameter, BlackboardEntry& entry) const {
     entry.is_declared = true;
+    if (!is_ours()) entry.typing = is_generic(parameter) ? Typing::Any : Typing::Declared;
     entry.type = parameter.type;
     entry.object = parameter.object;
     entry.first_use = place;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/conversion.h"
 #include "core/parameter_value.h"
 #include "core/resource_set.h"
 #include "core/suggest.h"
@@ -43,8 +44,10 @@ bool BoundParameters::is_current(const BoundNode& node, const Values& values) co
   if (!values.known) return false;
   for (std::size_t i = 0; i < values.seen.size(); ++i) {
     const std::uint32_t slot = tree_.ports[node.first_port + i].slot;
-    if (slot != PortBinding::kUnbound && board_.entries[slot].writes != values.seen[i])
-      return false;
+    if (slot == PortBinding::kUnbound) continue;
+    const Entry& entry = board_.entries[slot];
+    // One that is not strict may have been removed and made again.
+    if (entry.typing != Typing::Strict || entry.writes != values.seen[i]) return false;
   }
   return true;
 }
@@ -57,13 +60,15 @@ std::string BoundParameters::take_values(const BoundNode& node, Values& values) 
     const bool written = entry != nullptr && !std::holds_alternative<NoValue>(entry->value);
     if (entry != nullptr) values.seen[i] = entry->writes;
     if (written) {
-      if (const auto why = refuse_value(type.parameters[i], entry->value)) {
+      if (!take_value(type.parameters[i], entry->value, values.values[i])) {
+        return unreadable(node, i);
+      }
+      if (const auto why = refuse_value(type.parameters[i], values.values[i])) {
         return refusal(node, i, *why);
       }
-      if (const auto why = refuse_resources(node, type.parameters[i], entry->value)) {
+      if (const auto why = refuse_resources(node, type.parameters[i], values.values[i])) {
         return refusal(node, i, *why);
       }
-      values.values[i] = entry->value;
     } else if (port.constant != PortBinding::kUnbound) {
       values.values[i] = tree_.constants[port.constant];
     } else {
@@ -79,6 +84,23 @@ std::string BoundParameters::take_values(const BoundNode& node, Values& values) 
       type.rule({.values = values.values, .children = tree_.nodes[node.node].children});
   if (!broken) return {};
   return refusal(node, static_cast<unsigned>(broken->parameter), *broken);
+}
+
+// As a value of the parameter's type. False: it has none.
+bool BoundParameters::take_value(const Parameter& parameter, const Value& from, Value& value) {
+  if (holds(from, parameter.type)) {
+    value = from;
+    return true;
+  }
+  auto converted = convert_value(from, parameter.type, parameter.object);
+  if (converted) value = std::move(*converted);
+  return converted.has_value();
+}
+
+std::string BoundParameters::unreadable(const BoundNode& node, unsigned parameter) const {
+  const Parameter& it = node.kind->type.parameters[parameter];
+  return refusal(node, parameter,
+                 {.message = "expected " + expected_text(it.type, it.object), .hint = {}});
 }
 
 // What the pool of a member does not have.

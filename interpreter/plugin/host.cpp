@@ -8,6 +8,7 @@
 #include <new>
 #include <utility>
 
+#include "core/conversion.h"
 #include "core/fork_guard.h"
 #include "core/parameter_value.h"
 #include "core/utf8.h"
@@ -25,9 +26,9 @@ lockstep_caller& mine(const lockstep_caller* caller) {
 }
 
 // False: the entry has a value that the port does not take, which is an error of the caller.
-bool may_be_read(const lockstep_caller& caller, const BoundPort& port) {
-  const auto why = refuse_value(*port.limits, *port.read);
-  if (why) take_error(caller, Shortened(refusal_text(*why, port.name, *port.read, port.entry)));
+bool may_be_read(const lockstep_caller& caller, const BoundPort& port, const Value& value) {
+  const auto why = refuse_value(*port.limits, value);
+  if (why) take_error(caller, Shortened(refusal_text(*why, port.name, value, port.entry)));
   return !why;
 }
 
@@ -40,16 +41,44 @@ bool may_be_set(const lockstep_caller& caller, std::uint32_t port, const Value& 
   return !why;
 }
 
+// The type whose values are of type T.
+template <class T, std::size_t kIndex = 1>
+constexpr ValueType type_of() {
+  if constexpr (std::is_same_v<T, std::variant_alternative_t<kIndex, Value>>) {
+    return static_cast<ValueType>(kIndex);
+  } else {
+    return type_of<T, kIndex + 1>();
+  }
+}
+
+// The value of an entry that has another type than the port, as one of the port's; or null. Another
+// type than the port's is no conversion, but an error of the caller.
+const Value* converted(const lockstep_caller* caller, std::uint32_t port, ValueType type) {
+  BoundPort& it = mine(caller).ports[port];
+  const bool is_number = type == ValueType::Int || type == ValueType::Double;
+  if (it.type != type && !(it.type == ValueType::Number && is_number)) return nullptr;
+  auto value = convert_value(*it.read, type, it.object);
+  if (!value) return nullptr;
+  if (it.converted == nullptr) it.converted = std::make_unique<Value>();
+  *it.converted = std::move(*value);
+  return it.converted.get();
+}
+
 // The port's value when it has one of this type.
 template <class T>
 const T* readable(const lockstep_caller* caller, std::uint32_t port) {
   if (caller->is_foreign() || port >= caller->ports.size()) return nullptr;
   const BoundPort& it = caller->ports[port];
   if (it.read == nullptr) return nullptr;
-  const T* const found = std::get_if<T>(it.read);
-  if (found != nullptr && it.limits != nullptr && !may_be_read(*caller, it)) return nullptr;
-  if (found != nullptr || it.fallback == nullptr) return found;
-  return std::holds_alternative<NoValue>(*it.read) ? std::get_if<T>(it.fallback) : nullptr;
+  const Value* value = it.read;
+  if (!std::holds_alternative<T>(*value)) {
+    const bool is_empty = std::holds_alternative<NoValue>(*value);
+    if (is_empty) return it.fallback == nullptr ? nullptr : std::get_if<T>(it.fallback);
+    value = converted(caller, port, type_of<T>());
+    if (value == nullptr) return nullptr;
+  }
+  if (it.limits != nullptr && !may_be_read(*caller, it, *value)) return nullptr;
+  return std::get_if<T>(value);
 }
 
 template <class T>
@@ -68,11 +97,23 @@ bool get_string(const lockstep_caller* caller, std::uint32_t port, const char** 
   return true;
 }
 
+// Whether what a port of numbers reads is an int: its value, or its default.
+bool has_whole(const BoundPort& port) {
+  const bool is_empty = std::holds_alternative<NoValue>(*port.read);
+  const Value* const value = is_empty && port.fallback != nullptr ? port.fallback : port.read;
+  return std::holds_alternative<std::int64_t>(*value);
+}
+
 // A number is an int when the port is bound to an entry that is one, or has such a constant.
 bool get_double(const lockstep_caller* caller, std::uint32_t port, double* value) {
-  if (get(caller, port, value)) return true;
+  const bool is_known = !caller->is_foreign() && port < caller->ports.size();
+  const Value* const read = is_known ? caller->ports[port].read : nullptr;
+  if (read == nullptr || caller->ports[port].type != ValueType::Number ||
+      !has_whole(caller->ports[port])) {
+    return get(caller, port, value);
+  }
   const auto* whole = readable<std::int64_t>(caller, port);
-  if (whole == nullptr || caller->ports[port].type != ValueType::Number) return false;
+  if (whole == nullptr) return false;
   *value = static_cast<double>(*whole);
   return true;
 }
@@ -120,21 +161,24 @@ Value* writable(const lockstep_caller* caller, std::uint32_t port, ValueType typ
   return &entry->value;
 }
 
-// The type whose values are of type T.
-template <class T, std::size_t kIndex = 1>
-constexpr ValueType type_of() {
-  if constexpr (std::is_same_v<T, std::variant_alternative_t<kIndex, Value>>) {
-    return static_cast<ValueType>(kIndex);
-  } else {
-    return type_of<T, kIndex + 1>();
-  }
-}
-
 // What the caller sets there is to be checked first.
 bool has_limits(const lockstep_caller* caller, std::uint32_t port) {
   if (caller->is_foreign() || port >= caller->ports.size()) return false;
   const Parameter* const limits = caller->ports[port].limits;
   return limits != nullptr && limits->direction != Direction::Input;
+}
+
+// The port is bound to an entry whose type may be another, or none.
+bool is_loose(const lockstep_caller* caller, std::uint32_t port, ValueType type) {
+  if (caller->is_foreign() || port >= caller->ports.size()) return false;
+  const BoundPort& it = caller->ports[port];
+  return it.type == type && it.write != nullptr && it.write->typing != Typing::Strict;
+}
+
+// Sets such an entry.
+bool set_loose(const lockstep_caller* caller, std::uint32_t port, Value value) {
+  const BoundPort& it = caller->ports[port];
+  return write_entry(*it.write, it.type, it.object, std::move(value));
 }
 
 template <class T>
@@ -143,6 +187,7 @@ bool set(const lockstep_caller* caller, std::uint32_t port, T value) {
     if (!std::isfinite(value)) return false;
   }
   if (has_limits(caller, port) && !may_be_set(*caller, port, Value(value))) return false;
+  if (is_loose(caller, port, type_of<T>())) return set_loose(caller, port, value);
   Value* const target = writable(caller, port, type_of<T>());
   if (target != nullptr) target->emplace<T>(value);
   return target != nullptr;
@@ -155,6 +200,9 @@ bool set_string(const lockstep_caller* caller, std::uint32_t port, const char* t
     const bool is_limited = has_limits(caller, port);
     if (is_limited && !may_be_set(*caller, port, std::string(length == 0 ? "" : text, length))) {
       return false;
+    }
+    if (is_loose(caller, port, ValueType::String)) {
+      return set_loose(caller, port, std::string(length == 0 ? "" : text, length));
     }
     Value* const target = writable(caller, port, ValueType::String);
     if (target == nullptr) return false;
@@ -182,6 +230,9 @@ bool set_list(const lockstep_caller* caller, std::uint32_t port, const Item* ite
         !may_be_set(*caller, port, std::vector<T>(values, values + count))) {
       return false;
     }
+    if (is_loose(caller, port, type_of<std::vector<T>>())) {
+      return set_loose(caller, port, std::vector<T>(values, values + count));
+    }
     Value* const target = writable(caller, port, type_of<std::vector<T>>());
     if (target == nullptr) return false;
     auto& list = held<std::vector<T>>(*target);
@@ -203,14 +254,16 @@ bool set_string_list(const lockstep_caller* caller, std::uint32_t port, const lo
   if (items == nullptr && count != 0) return false;
   const auto is_text = [](const lockstep_text& it) { return it.text != nullptr || it.length == 0; };
   if (!std::all_of(items, items + count, is_text)) return false;
-  Value* const target = writable(caller, port, ValueType::StringList);
-  if (target == nullptr) return false;
+  const bool loose = is_loose(caller, port, ValueType::StringList);
+  Value* const target = loose ? nullptr : writable(caller, port, ValueType::StringList);
+  if (!loose && target == nullptr) return false;
   try {
     std::vector<std::string> list;  // the items may be texts of this very list
     list.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
       list.emplace_back(items[i].length == 0 ? "" : items[i].text, items[i].length);
     }
+    if (loose) return set_loose(caller, port, std::move(list));
     *target = std::move(list);
   } catch (const std::exception&) {
     return false;
@@ -263,13 +316,15 @@ std::optional<Object> settable(const lockstep_caller& caller, std::uint32_t port
 
 bool set_object(const lockstep_caller* caller, std::uint32_t port, void* object) {
   if (object == nullptr) return false;
-  Value* const target = writable(caller, port, ValueType::Object);
-  if (target == nullptr) return false;
+  const bool loose = is_loose(caller, port, ValueType::Object);
+  Value* const target = loose ? nullptr : writable(caller, port, ValueType::Object);
+  if (!loose && target == nullptr) return false;
   const ObjectType& type = *caller->ports[port].object;
   type.retain(object);
   try {
     auto held = settable(*caller, port, Object(type, object));
     if (!held) return false;
+    if (loose) return set_loose(caller, port, *std::move(held));
     // What the entry had is released at the end: its release finds the entry as it will be.
     const Value before = std::exchange(*target, *std::move(held));
   } catch (const std::exception&) {
@@ -320,12 +375,18 @@ const void* get_extension(const char* id) {
 // made complete.
 Shortened with_entry(const lockstep_caller& caller, const Shortened& message) {
   for (const BoundPort& port : caller.ports) {
-    const bool is_unwritten = !port.entry.empty() && std::holds_alternative<NoValue>(*port.read);
-    if (!is_unwritten || message.text() != fmt::format("port '{}' has no value", port.name)) {
+    if (port.entry.empty() || message.text() != fmt::format("port '{}' has no value", port.name)) {
       continue;
     }
-    return Shortened(fmt::format("{}: nothing has written the entry '{{{}}}'", message.text(),
-                                 brief(port.entry)));
+    if (std::holds_alternative<NoValue>(*port.read)) {
+      return Shortened(fmt::format("{}: nothing has written the entry '{{{}}}'", message.text(),
+                                   brief(port.entry)));
+    }
+    if (!convert_value(*port.read, port.type, port.object)) {
+      return Shortened(fmt::format("{}: the entry '{{{}}}' has '{}', which is not {}",
+                                   message.text(), brief(port.entry), brief(to_text(*port.read)),
+                                   expected_text(port.type, port.object)));
+    }
   }
   return message;
 }

@@ -2,6 +2,7 @@
 // within plugin/. Getters and setters neither lock nor look up a name.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,10 +28,13 @@ struct BoundPort {
   const Value* fallback = nullptr;     // the default, while the entry has no value
   const Parameter* limits = nullptr;   // null: it takes every value of its type
   const ObjectType* object = nullptr;  // of type Object: which
+  bool is_strict = true;               // the entry holds values of its type only
   std::string_view name = {};
   std::string_view entry = {};
   std::vector<lockstep_text> texts = {};  // the list of strings that was handed out last
   Object packed = {}, unpacked = {};      // an object of another process, and what it was made into
+  // What the entry has, as a value of the port's type: it may have another in trees that say so.
+  std::unique_ptr<Value> converted = {};
 };
 
 }  // namespace lockstep

@@ -60,13 +60,14 @@ std::vector<BoundPort> bind_ports(const Tree& tree, const LeafNode& leaf, Blackb
     if (binding.slot != PortBinding::kUnbound) {
       Entry& entry = blackboard.entries[binding.slot];
       port.read = &entry.value;
+      port.is_strict = tree.slots[binding.slot].typing == Typing::Strict;
       if (parameter.direction != Direction::Input) port.write = &entry;
       port.fallback = constant;
       port.entry = tree.slots[binding.slot].name;
     } else {
       port.read = constant;
     }
-    ports.push_back(port);
+    ports.push_back(std::move(port));
   }
   return ports;
 }

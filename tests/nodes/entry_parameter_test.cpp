@@ -144,6 +144,19 @@ TEST_CASE("entry parameter: a value that the node cannot take is a fault that sa
         "from the entry '{it}'; it must be one of 'wait', 'tick'");
 }
 
+TEST_CASE("entry parameter: a text or another number is converted to the parameter's type") {
+  ScriptedRun run("Repeat[times={it}](a)", "a=S...");
+  run.set("it", std::string("2x"));
+  CHECK(run.tick(at(0)) == Status::Running);
+  CHECK(run.tick(at(0.1)) == Status::Success);
+  run.set("it", 1.0);
+  CHECK(run.tick(at(0.2)) == Status::Success);
+  CHECK(refused("Repeat[times={it}](a)", "a=S", std::string("two")) ==
+        "Test/Repeat: expected a whole number: 'times' is 'two', from the entry '{it}'");
+  CHECK(refused("Repeat[times={it}](a)", "a=S", 1.5) ==
+        "Test/Repeat: expected a whole number: 'times' is '1.5', from the entry '{it}'");
+}
+
 TEST_CASE("entry parameter: a refused value is a Failure under the policy that goes on") {
   ScriptedRun run("Fallback(ParallelRelative[delta={it}](a b) c)", "a=R.1... b=R.2... c=S",
                   FaultPolicy::Fail);

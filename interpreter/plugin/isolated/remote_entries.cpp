@@ -1,5 +1,9 @@
 #include "plugin/isolated/remote_entries.h"
 
+#include <cmath>
+
+#include "core/conversion.h"
+
 namespace lockstep {
 namespace {
 
@@ -15,15 +19,28 @@ std::string put_packed(const Value& value, MessageWriter& message) {
   return packed ? "" : packed.error().message;
 }
 
+// What a port of that type can read; none: nothing.
+Value readable_value(const Value& value, ValueType type, const ObjectType* object) {
+  auto converted = convert_value(value, type, object);
+  const auto* number = converted ? std::get_if<double>(&*converted) : nullptr;
+  if (!converted || (number != nullptr && !std::isfinite(*number))) return {};
+  return std::move(*converted);
+}
+
 }  // namespace
 
 std::uint32_t RemoteEntries::number_of(const BoundPort& port) {
-  const auto [found, is_new] =
-      numbers_.emplace(port.read, static_cast<std::uint32_t>(entries_.size()));
+  const std::pair key(port.read, port.is_strict ? ValueType::Number : port.type);
+  const auto [found, is_new] = numbers_.emplace(key, static_cast<std::uint32_t>(entries_.size()));
   if (is_new) {
     const PackedType* const objects =
         port.object == nullptr ? nullptr : &PackedType::of(port.object->name());
-    entries_.push_back(Entry{port.read, nullptr, port.type, objects});
+    entries_.push_back({.read = port.read,
+                        .write = nullptr,
+                        .type = port.type,
+                        .objects = objects,
+                        .object = port.object,
+                        .is_strict = port.is_strict});
   }
   Entry& entry = entries_[found->second];
   if (port.write != nullptr) entry.write = port.write;
@@ -35,27 +52,34 @@ std::string RemoteEntries::write(std::span<const std::uint32_t> ports, MessageWr
   for (const std::uint32_t number : ports) {
     if (number == kNone) continue;
     Entry& entry = entries_[number];
-    if (entry.known && entry.last == *entry.read) continue;
+    Value converted;
+    if (!entry.is_strict) converted = readable_value(*entry.read, entry.type, entry.object);
+    const Value& value = entry.is_strict ? *entry.read : converted;
+    if (entry.known && entry.last == value) continue;
     message.put(number);
-    std::string reason = put_packed(*entry.read, message);
+    std::string reason = put_packed(value, message);
     entry.known = reason.empty();
-    entry.last = entry.known ? *entry.read : Value();
+    entry.last = entry.known ? value : Value();
     if (failure.empty()) failure = std::move(reason);
   }
   message.put(kNone);
   return failure;
 }
 
-bool RemoteEntries::read(MessageReader& message) {
+bool RemoteEntries::read(MessageReader& message, bool& refused) {
   for (auto number = message.get<std::uint32_t>(); number != kNone;
        number = message.get<std::uint32_t>()) {
     if (number >= entries_.size() || entries_[number].write == nullptr) return false;
     Entry& entry = entries_[number];
     if (!message.value_into(entry.last, entry.objects)) return false;
     if (!holds(entry.last, entry.type)) return false;
-    entry.write->value = entry.last;
-    ++entry.write->writes;
     entry.known = true;
+    if (entry.is_strict) {
+      entry.write->value = entry.last;
+      ++entry.write->writes;
+    } else if (!write_entry(*entry.write, entry.type, entry.object, entry.last)) {
+      refused = true;
+    }
   }
   return message.good();
 }

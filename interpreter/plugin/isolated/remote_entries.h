@@ -3,9 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "core/value.h"
@@ -23,8 +24,9 @@ class RemoteEntries {
   // The entries of these ports (kNone is skipped) whose values the other side does not have.
   // Returns "", or why an object of one cannot be sent: the other side finds no value there.
   std::string write(std::span<const std::uint32_t> ports, MessageWriter& message);
-  // Stores what the other side has set. Returns false if the message is invalid.
-  bool read(MessageReader& message);
+  // Stores what the other side has set. Returns false if the message is invalid. `refused`: an
+  // entry did not take its value.
+  bool read(MessageReader& message, bool& refused);
   // Forgets which values the other side has, and releases them.
   void forget();
 
@@ -34,11 +36,14 @@ class RemoteEntries {
     lockstep::Entry* write;  // null: the other side may not set it
     ValueType type;
     const PackedType* objects;  // null: its values are none
+    const ObjectType* object;
+    bool is_strict;
     bool known = false;
     Value last = {};  // what the other side knows
   };
   std::vector<Entry> entries_;
-  std::unordered_map<const Value*, std::uint32_t> numbers_;
+  // Ports of different types may read one entry whose type is not strict: each has a number.
+  std::map<std::pair<const Value*, ValueType>, std::uint32_t> numbers_;
 };
 
 }  // namespace lockstep

@@ -95,7 +95,8 @@ void fail_too_large(const lockstep_caller& caller) {
 std::uint64_t take_answer(RemoteRun& run, const lockstep_caller& caller) {
   MessageReader message = run.session().answer();
   Answer answer;
-  if (!read_answer(message, answer) || !run.entries().read(message)) {
+  bool refused = false;
+  if (!read_answer(message, answer) || !run.entries().read(message, refused)) {
     run.session().reject_answer();
     fail(caller, run.session().last_words());
     return 0;
@@ -104,6 +105,7 @@ std::uint64_t take_answer(RemoteRun& run, const lockstep_caller& caller) {
     run.entries().forget();
     fail_too_large(caller);
   }
+  if (refused) fail(caller, "an entry has a type that does not take what it set");
   if (!answer.error.empty()) take_error(caller, Shortened::as_it_is(answer.error));
   if (answer.outcome == Outcome::Threw) throw PluginException(answer.thrown);
   return answer.result;
