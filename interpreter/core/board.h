@@ -1,0 +1,45 @@
+// The names of a run's entries. Each tree has a board of its own: the main tree, and each use of a
+// SubTree. Nearly all keys are resolved when a tree is loaded; these are for those that are known
+// only while it runs.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace lockstep {
+
+struct Board {
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t parent = kNone;  // of a SubTree: the board outside
+  std::uint32_t node = 0;        // the SubTree
+  bool autoremap = false;
+  std::map<std::string, std::string, std::less<>> remapped = {};  // to a key outside
+  std::set<std::string, std::less<>> own = {};  // keys that have a start value here
+  std::map<std::string, std::uint32_t, std::less<>> entries = {};  // of keys that are at home here
+};
+
+// The board where a key is at home, and its name there. "@key" is one of the main tree, board 0.
+struct Home {
+  std::uint32_t board;
+  std::string_view key;
+};
+
+inline Home home_of(std::span<const Board> boards, std::uint32_t board, std::string_view key) {
+  while (true) {
+    if (key.size() > 1 && key.starts_with('@')) return {0, key.substr(1)};
+    const Board& it = boards[board];
+    if (it.parent == Board::kNone || it.own.contains(key)) return {board, key};
+    const auto remapped = it.remapped.find(key);
+    const bool passes_on = it.autoremap && !key.starts_with('_');
+    if (remapped == it.remapped.end() && !passes_on) return {board, key};
+    if (remapped != it.remapped.end()) key = remapped->second;
+    board = it.parent;
+  }
+}
+
+}  // namespace lockstep

@@ -1,0 +1,22 @@
+#include "engine/named_entries.h"
+
+namespace lockstep {
+
+Entry& NamedEntries::at(std::uint32_t board, std::string_view key) {
+  const Home home = home_of(boards_, board, key);
+  const auto& known = boards_[home.board].entries;
+  if (const auto slot = known.find(home.key); slot != known.end()) return slots_[slot->second];
+  auto& made = made_[home.board];
+  if (const auto found = made.find(home.key); found != made.end()) return found->second;
+  Entry& entry = made[std::string(home.key)];
+  unset_entry(entry);
+  return entry;
+}
+
+void NamedEntries::reset() {
+  for (auto& made : made_) {
+    for (auto& [key, entry] : made) unset_entry(entry);
+  }
+}
+
+}  // namespace lockstep

@@ -1,0 +1,35 @@
+// Entries of a run by names that are known only while it runs. A name that nothing in the tree uses
+// gets an entry here, which stays where it is until the run's end.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/board.h"
+#include "core/entry.h"
+
+namespace lockstep {
+
+class NamedEntries {
+ public:
+  // `boards` and `slots`, the entries of the tree, must outlive this and stay where they are.
+  NamedEntries(std::span<const Board> boards, std::span<Entry> slots)
+      : boards_(boards), slots_(slots), made_(boards.size()) {}
+
+  // The entry that `key` means on a board; it may be one that is not present. Allocates for a name
+  // that is new.
+  Entry& at(std::uint32_t board, std::string_view key);
+  // As new, for the next run: those that were made here are not present.
+  void reset();
+
+ private:
+  std::span<const Board> boards_;
+  std::span<Entry> slots_;
+  std::vector<std::map<std::string, Entry, std::less<>>> made_;  // of each board; none moves
+};
+
+}  // namespace lockstep
