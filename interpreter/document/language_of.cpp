@@ -8,7 +8,7 @@ Language language_of(std::string_view text) {
   Scanner scanner(text, Grammar::Lenient);
   bool is_ours = false, is_theirs = false;
   while (true) {
-    const Token token = scanner.next();
+    const XmlToken token = scanner.next();
     switch (token.kind) {
       case TokenKind::OpenTag:
         if (token.name != "root") return Language::Lockstep;

@@ -25,12 +25,12 @@ constexpr bool counts_in_value(char c) {
 
 }  // namespace
 
-Token Scanner::next() {
+XmlToken Scanner::next() {
   if (fault_) return {TokenKind::Fault, fault_->offset};
   return tag_.empty() ? content() : inside_tag();
 }
 
-Token Scanner::content() {
+XmlToken Scanner::content() {
   const auto begin = at_.position();
   at_.skip_blanks();
   if (rest().empty()) return {TokenKind::End, at_.position()};
@@ -40,7 +40,7 @@ Token Scanner::content() {
   return {TokenKind::Text, begin, {}, text_.substr(begin, end - begin)};
 }
 
-Token Scanner::markup() {
+XmlToken Scanner::markup() {
   const auto begin = at_.position();
   const char second = begin + 1 < text_.size() ? text_[begin + 1] : '\0';
   if (second == '/') return close_tag();
@@ -52,7 +52,7 @@ Token Scanner::markup() {
   return {TokenKind::OpenTag, begin, tag_};
 }
 
-Token Scanner::declaration() {
+XmlToken Scanner::declaration() {
   if (rest().starts_with("<!--")) return comment();
   if (rest().starts_with("<![CDATA[")) return character_data();
   if (is_lenient_) {
@@ -64,11 +64,11 @@ Token Scanner::declaration() {
   return no_tag(at_.position());
 }
 
-Token Scanner::no_tag(std::size_t offset) {
+XmlToken Scanner::no_tag(std::size_t offset) {
   return fail(offset, "'<' does not begin a tag", "write '&lt;' for the character itself");
 }
 
-Token Scanner::inside_tag() {
+XmlToken Scanner::inside_tag() {
   const bool blanks = at_.skip_blanks();
   const auto begin = at_.position();
   if (rest().starts_with('>') || rest().starts_with("/>")) {
@@ -89,7 +89,7 @@ Token Scanner::inside_tag() {
   return attribute(begin, name);
 }
 
-Token Scanner::attribute(std::size_t begin, std::string_view name) {
+XmlToken Scanner::attribute(std::size_t begin, std::string_view name) {
   at_.skip_blanks();
   if (!at_.skip("="))
     return fail(begin, fmt::format("attribute '{}' has no value", brief(name)),
@@ -116,7 +116,7 @@ Token Scanner::attribute(std::size_t begin, std::string_view name) {
   return fail(open, fmt::format("the quote of '{}' is not closed", brief(name)));
 }
 
-Token Scanner::close_tag() {
+XmlToken Scanner::close_tag() {
   const auto begin = at_.position();
   at_.skip("</");
   const auto name = at_.take_name();
@@ -126,7 +126,7 @@ Token Scanner::close_tag() {
   return {TokenKind::CloseTag, begin, name};
 }
 
-Token Scanner::comment() {
+XmlToken Scanner::comment() {
   const auto begin = at_.position();
   at_.skip("<!--");
   const auto end = text_.find("--", at_.position());
@@ -137,7 +137,7 @@ Token Scanner::comment() {
   return {TokenKind::Comment, begin};
 }
 
-Token Scanner::character_data() {
+XmlToken Scanner::character_data() {
   const auto begin = at_.position();
   at_.skip("<![CDATA[");
   const auto inside = at_.position();
@@ -148,14 +148,14 @@ Token Scanner::character_data() {
   return {TokenKind::Text, begin, {}, text_.substr(inside, end - inside)};
 }
 
-Token Scanner::skipped(TokenKind kind, std::optional<XmlFault> (*skip)(Cursor&)) {
+XmlToken Scanner::skipped(TokenKind kind, std::optional<XmlFault> (*skip)(Cursor&)) {
   const auto begin = at_.position();
   if (auto fault = skip(at_))
     return fail(fault->offset, std::move(fault->message), std::move(fault->hint));
   return {kind, begin, {}, text_.substr(begin, at_.position() - begin)};
 }
 
-Token Scanner::skipped(TokenKind kind, std::string_view end) {
+XmlToken Scanner::skipped(TokenKind kind, std::string_view end) {
   const auto begin = at_.position();
   const auto found = text_.find(end, begin);
   if (found == std::string_view::npos)
@@ -165,7 +165,7 @@ Token Scanner::skipped(TokenKind kind, std::string_view end) {
   return {kind, begin, {}, text_.substr(begin, at_.position() - begin)};
 }
 
-Token Scanner::fail(std::size_t offset, std::string message, std::string hint) {
+XmlToken Scanner::fail(std::size_t offset, std::string message, std::string hint) {
   fault_ = XmlFault{offset, std::move(message), std::move(hint)};
   return {TokenKind::Fault, offset};
 }

@@ -30,7 +30,7 @@ enum class TokenKind {
   Fault,
 };
 
-struct Token {
+struct XmlToken {
   TokenKind kind = TokenKind::End;
   std::size_t begin = 0;       // its first byte
   std::string_view name = {};  // of a tag or an attribute
@@ -45,27 +45,27 @@ class Scanner {
       : text_(text), at_(text), is_lenient_(grammar == Grammar::Lenient) {}
 
   // The next token. After End or Fault, that one again.
-  Token next();
+  XmlToken next();
   const std::optional<XmlFault>& fault() const { return fault_; }
   std::size_t offset_of(std::string_view part) const {
     return static_cast<std::size_t>(part.data() - text_.data());
   }
 
  private:
-  Token content();
-  Token inside_tag();
-  Token markup();
-  Token declaration();
-  Token no_tag(std::size_t offset);
-  Token attribute(std::size_t begin, std::string_view name);
-  Token close_tag();
-  Token comment();
-  Token character_data();
+  XmlToken content();
+  XmlToken inside_tag();
+  XmlToken markup();
+  XmlToken declaration();
+  XmlToken no_tag(std::size_t offset);
+  XmlToken attribute(std::size_t begin, std::string_view name);
+  XmlToken close_tag();
+  XmlToken comment();
+  XmlToken character_data();
   // `skip` moves behind it.
-  Token skipped(TokenKind kind, std::optional<XmlFault> (*skip)(Cursor&));
+  XmlToken skipped(TokenKind kind, std::optional<XmlFault> (*skip)(Cursor&));
   // The same for what ends at `end`, whatever is inside.
-  Token skipped(TokenKind kind, std::string_view end);
-  Token fail(std::size_t offset, std::string message, std::string hint = {});
+  XmlToken skipped(TokenKind kind, std::string_view end);
+  XmlToken fail(std::size_t offset, std::string message, std::string hint = {});
   std::string_view rest() const { return at_.rest(); }
 
   std::string_view text_;

@@ -42,7 +42,7 @@ class Checker {
   }
 
  private:
-  void check(const Token& token) {
+  void check(const XmlToken& token) {
     switch (token.kind) {
       case TokenKind::OpenTag:
         return open(token);
@@ -71,7 +71,7 @@ class Checker {
     }
   }
 
-  void open(const Token& token) {
+  void open(const XmlToken& token) {
     if (open_.empty() && has_root()) {
       if (!is_lenient_) return stop({token.begin, "a second root element"});
       warn({token.begin, "a second root element is ignored"});
@@ -85,7 +85,7 @@ class Checker {
     prolog_ = false;
   }
 
-  void attribute(const Token& token) {
+  void attribute(const XmlToken& token) {
     auto& element = result_.elements.back();
     if (element.attribute_count == kMaxAttributes)
       return stop({token.begin, fmt::format("'{}' has more than {} attributes", brief(element.tag),
@@ -110,7 +110,7 @@ class Checker {
     std::erase_if(result_.coded, [&](std::uint32_t coded) { return coded >= attribute; });
   }
 
-  void references(const Token& token) {
+  void references(const XmlToken& token) {
     for (auto at = token.value.find('&'); at != std::string_view::npos;
          at = token.value.find('&', at + 1)) {
       if (read_reference(token.value.substr(at))) continue;
@@ -146,7 +146,7 @@ class Checker {
     open_.pop_back();
   }
 
-  void close(const Token& token) {
+  void close(const XmlToken& token) {
     if (open_.empty())
       return stop({token.begin, fmt::format("'</{}>' closes no element", brief(token.name))});
     if (const auto tag = innermost(); tag != token.name)
@@ -156,7 +156,7 @@ class Checker {
     end_element();
   }
 
-  void text(const Token& token) {
+  void text(const XmlToken& token) {
     // Only a CDATA section is blank here, and XML has none outside of the root.
     const auto* first = std::find_if_not(token.value.begin(), token.value.end(), is_xml_blank);
     const bool blank = first == token.value.end();
@@ -171,7 +171,7 @@ class Checker {
     add({offset, "text is not part of the language", "put it into a comment: <!-- … -->"});
   }
 
-  void doctype(const Token& token) {
+  void doctype(const XmlToken& token) {
     if (is_lenient_) return;
     if (has_root()) return stop({token.begin, "a DOCTYPE must be before the root element"});
     if (has_doctype_) return stop({token.begin, "a second DOCTYPE"});
@@ -179,7 +179,7 @@ class Checker {
     prolog_ = false;
   }
 
-  void end(const Token& token) {
+  void end(const XmlToken& token) {
     if (!open_.empty()) {
       const auto tag = innermost();
       return stop({scanner_.offset_of(tag) - 1, fmt::format("'<{}>' is not closed", brief(tag)),
@@ -228,7 +228,7 @@ class Checker {
     return 1 + static_cast<std::size_t>(std::count(text_.begin(), text_.begin() + offset, '\n'));
   }
 
-  Place place(const Token& token) const {
+  Place place(const XmlToken& token) const {
     return {first_.byte + static_cast<std::uint32_t>(token.begin)};
   }
 
