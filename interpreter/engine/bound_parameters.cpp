@@ -74,9 +74,10 @@ std::string BoundParameters::take_values(const BoundNode& node, Values& values) 
     } else {
       values.values[i] = {};
       if (entry == nullptr || !type.parameters[i].required) continue;
-      return "'" + std::string(type.parameters[i].name) +
-             "' has no value: nothing has written the entry '{" + tree_.slots[port.slot].name +
-             "}'";
+      std::string text = "'";  // g++ 12 warns falsely of "'" + std::string(…)
+      text.append(type.parameters[i].name)
+          .append("' has no value: nothing has written the entry '{");
+      return text.append(tree_.slots[port.slot].name).append("}'");
     }
   }
   if (type.rule == nullptr) return {};

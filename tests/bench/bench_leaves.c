@@ -44,44 +44,24 @@ static double progress(void* leaf) {
   return *(double*)leaf;
 }
 
-#define LEAF(variable, name, function)                                    \
-  static const lockstep_leaf_type variable = {sizeof(lockstep_leaf_type), \
-                                              LOCKSTEP_ACTION,            \
-                                              name,                       \
-                                              NULL,                       \
-                                              0,                          \
-                                              NULL,                       \
-                                              create,                     \
-                                              destroy,                    \
-                                              NULL,                       \
-                                              function,                   \
-                                              NULL,                       \
-                                              NULL,                       \
-                                              NULL,                       \
-                                              half,                       \
-                                              NULL,                       \
-                                              0}
+#define LEAF(variable, name, function)                                                   \
+  static const lockstep_leaf_type variable = {.struct_size = sizeof(lockstep_leaf_type), \
+                                              .kind = LOCKSTEP_ACTION,                   \
+                                              .id = name,                                \
+                                              .create = create,                          \
+                                              .destroy = destroy,                        \
+                                              .tick = function,                          \
+                                              .progress = half}
 LEAF(kSucceed, "BenchSuccess", succeed);
 LEAF(kFail, "BenchFailure", fail);
 LEAF(kRun, "BenchRunning", run);
-static const lockstep_leaf_type kAdvance = {sizeof(lockstep_leaf_type),
-                                            LOCKSTEP_ACTION,
-                                            "BenchAdvance",
-                                            NULL,
-                                            0,
-                                            NULL,
-                                            create_counter,
-                                            free,
-                                            NULL,
-                                            advance,
-                                            NULL,
-                                            NULL,
-                                            NULL,
-                                            progress,
-                                            NULL,
-                                            0,
-                                            0,
-                                            0};
+static const lockstep_leaf_type kAdvance = {.struct_size = sizeof(lockstep_leaf_type),
+                                            .kind = LOCKSTEP_ACTION,
+                                            .id = "BenchAdvance",
+                                            .create = create_counter,
+                                            .destroy = free,
+                                            .tick = advance,
+                                            .progress = progress};
 
 /* One that reads the first `reads` of its four inputs in each tick. */
 typedef struct reader {
@@ -120,24 +100,14 @@ static const lockstep_port kInputs[] = {
     INPUT(LOCKSTEP_INT, "reads", "0")};
 static const lockstep_port* const kInputList[] = {&kInputs[0], &kInputs[1], &kInputs[2],
                                                   &kInputs[3], &kInputs[4]};
-static const lockstep_leaf_type kRead = {sizeof(lockstep_leaf_type),
-                                         LOCKSTEP_ACTION,
-                                         "BenchRead",
-                                         NULL,
-                                         5,
-                                         kInputList,
-                                         create_reader,
-                                         free,
-                                         NULL,
-                                         read_ports,
-                                         NULL,
-                                         NULL,
-                                         NULL,
-                                         NULL,
-                                         NULL,
-                                         0,
-                                         0,
-                                         0};
+static const lockstep_leaf_type kRead = {.struct_size = sizeof(lockstep_leaf_type),
+                                         .kind = LOCKSTEP_ACTION,
+                                         .id = "BenchRead",
+                                         .port_count = 5,
+                                         .ports = kInputList,
+                                         .create = create_reader,
+                                         .destroy = free,
+                                         .tick = read_ports};
 
 static const lockstep_leaf_type* const kLeaves[] = {&kSucceed, &kFail, &kRun, &kAdvance, &kRead};
 
