@@ -7,7 +7,7 @@ namespace lockstep {
 namespace {
 
 // So that what a plugin says of itself stays text.
-std::string escaped(std::string_view text) {
+std::string table_text(std::string_view text) {
   std::string safe;
   for (const char c : printable(text)) {
     if (std::string_view("\\`*_{}[]<>#|&").find(c) != std::string_view::npos) safe += '\\';
@@ -19,17 +19,18 @@ std::string escaped(std::string_view text) {
 std::string table_rows(const NodeType& type) {
   std::string text;
   for (const Parameter& it : type.parameters) {
-    text += fmt::format("| `{}` | {} | {} |\n", it.name, escaped(facts_text(it)), escaped(it.doc));
+    text += fmt::format("| `{}` | {} | {} |\n", it.name, table_text(facts_text(it)),
+                        table_text(it.doc));
   }
   if (type.category != NodeCategory::SubTree) return text;
   for (const CommonAttribute& it : subtree_attributes()) {
-    text += fmt::format("| `{}` | | {} |\n", it.name, escaped(it.doc));
+    text += fmt::format("| `{}` | | {} |\n", it.name, table_text(it.doc));
   }
   return text;
 }
 
 std::string section(const NodeType& type) {
-  std::string text = fmt::format("### {}\n\n{}\n\n", type.id, escaped(type.doc));
+  std::string text = fmt::format("### {}\n\n{}\n\n", type.id, table_text(type.doc));
   std::string children = children_text(type);
   text += fmt::format("`{}`: {}", usage_text(type), children);
   if (!type.plugin.empty()) text += fmt::format("; from the plugin `{}`", type.plugin);
@@ -53,7 +54,7 @@ std::string nodes_as_markdown(NodeTypes types) {
       "Every node may have these attributes:\n\n"
       "| Attribute | |\n|---|---|\n";
   for (const CommonAttribute& it : common_attributes()) {
-    text += fmt::format("| `{}` | {} |\n", it.name, escaped(it.doc));
+    text += fmt::format("| `{}` | {} |\n", it.name, table_text(it.doc));
   }
   for (const NodeGroup& group : node_groups()) {
     std::string entries;

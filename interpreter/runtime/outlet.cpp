@@ -24,7 +24,7 @@
 namespace lockstep {
 namespace {
 
-const char* reason_text(int reason) {
+const char* text_of_reason(int reason) {
   return reason == 0 ? "nobody read them" : strerrordesc_np(reason);
 }
 
@@ -84,7 +84,8 @@ bool Outlet::State::tell_gap() {
   std::array<char, 200> note;
   const auto end =
       fmt::format_to_n(note.data(), note.size(), "lockstep: warning: {} {} lost here: {}\n",
-                       gap.lines, gap.lines == 1 ? "line is" : "lines are", reason_text(gap.reason))
+                       gap.lines, gap.lines == 1 ? "line is" : "lines are",
+                       text_of_reason(gap.reason))
           .out;
   if (!write_all(file, {note.data(), static_cast<std::size_t>(end - note.data())})) return false;
   gap = {};

@@ -9,13 +9,13 @@ struct Signs {
   std::string_view done, band, rest, mark;
 };
 
-constexpr Signs kAscii{"#", "=", ".", "|"};
-constexpr Signs kUnicode{"█", "▒", "░", "┃"};
+constexpr Signs kAsciiSigns{"#", "=", ".", "|"};
+constexpr Signs kUnicodeSigns{"█", "▒", "░", "┃"};
 
 }  // namespace
 
 std::string to_text(const ProgressBar& bar, bool unicode) {
-  const Signs& signs = unicode ? kUnicode : kAscii;
+  const Signs& signs = unicode ? kUnicodeSigns : kAsciiSigns;
   constexpr double kEpsilon = 1e-9;
   const auto cell_of = [&](double progress) {
     return static_cast<std::size_t>(progress * static_cast<double>(bar.cells) + kEpsilon);
