@@ -92,6 +92,22 @@ bool is_allowed(const Entry& entry, const Value& value) {
   return holds(value, entry.type) && (real == nullptr || std::isfinite(*real));
 }
 
+// The quick way for what is assigned most: a number that the old one's kind has.
+bool take_number(Entry& entry, const Operand& value) {
+  if (auto* const real = std::get_if<double>(&entry.value)) {
+    const bool is_real = value.kind == Operand::Kind::Real && std::isfinite(value.real);
+    const bool is_whole = value.kind == Operand::Kind::Whole && to_real(value.whole);
+    if (is_real) *real = value.real;
+    if (is_whole) *real = static_cast<double>(value.whole);
+    return is_real || is_whole;
+  }
+  auto* const whole = std::get_if<std::int64_t>(&entry.value);
+  if (whole == nullptr || !value.is_number()) return false;
+  const auto exact = value.kind == Operand::Kind::Real ? to_whole(value.real) : value.whole;
+  if (exact) *whole = *exact;
+  return exact.has_value();
+}
+
 std::string refusal(const Entry& entry, const Operand& value, std::string_view name) {
   std::string what;
   if (value.kind == Operand::Kind::Empty) {
@@ -121,6 +137,10 @@ std::optional<double> number_in_script(std::string_view text, const ScriptEnums*
 
 std::string assign(Entry& entry, const Operand& value, const ScriptEnums* enums,
                    std::string_view name) {
+  if (take_number(entry, value)) {
+    ++entry.writes;
+    return {};
+  }
   auto* const text = std::get_if<std::string>(&entry.value);
   if (text != nullptr && value.kind == Operand::Kind::Text) {
     *text = *value.text;

@@ -127,20 +127,35 @@ std::string_view operands_of(Operation operation) {
   }
 }
 
-std::optional<double> real_of(const Operand& operand) {
-  if (operand.kind == Operand::Kind::Real) return operand.real;
-  if (operand.kind == Operand::Kind::Whole) return to_real(operand.whole);
-  return std::nullopt;
+// The number that an operand has, if it is one and has it exactly.
+bool take(const Operand& operand, double& number) {
+  if (operand.kind == Operand::Kind::Real) {
+    number = operand.real;
+    return true;
+  }
+  const bool is_exact = operand.kind == Operand::Kind::Whole && operand.whole <= kLargestExact &&
+                        operand.whole >= -kLargestExact;
+  if (is_exact) number = static_cast<double>(operand.whole);
+  return is_exact;
 }
 
-std::optional<std::int64_t> whole_of(const Operand& operand) {
-  if (operand.kind == Operand::Kind::Whole) return operand.whole;
-  if (operand.kind == Operand::Kind::Real) return to_whole(operand.real);
-  return std::nullopt;
+bool take(const Operand& operand, std::int64_t& number) {
+  if (operand.kind == Operand::Kind::Real) {
+    const auto whole = to_whole(operand.real);
+    number = whole.value_or(0);
+    return whole.has_value();
+  }
+  number = operand.whole;
+  return operand.kind == Operand::Kind::Whole;
 }
 
-std::optional<bool> condition_of(const Operand& operand) {
-  return operand.is_number() ? to_condition(operand.value()) : std::nullopt;
+bool take(const Operand& operand, bool& holds) {
+  if (operand.kind == Operand::Kind::Real) {
+    holds = operand.real != 0;
+    return !(operand.real < 0);
+  }
+  holds = operand.whole == 1;
+  return operand.kind == Operand::Kind::Whole && (operand.whole == 0 || operand.whole == 1);
 }
 
 // One run of one expression.
@@ -300,9 +315,11 @@ class Machine {
   }
 
   bool calculate() {
-    const auto left = real_of(before_last());
-    const auto right = real_of(last());
-    if (left && right) return replace_two(Operand::of(calculated(*left, it_->operation, *right)));
+    double left = 0;
+    double right = 0;
+    if (take(before_last(), left) && take(last(), right)) {
+      return replace_two(Operand::of(calculated(left, it_->operation, right)));
+    }
     const bool are_texts =
         before_last().kind == Operand::Kind::Text && last().kind == Operand::Kind::Text;
     if (it_->operation == Operation::Add && are_texts) return join_here();
@@ -337,27 +354,28 @@ class Machine {
   }
 
   bool combine_bits() {
-    const auto left = whole_of(before_last());
-    const auto right = whole_of(last());
-    if (!left || !right) return wrong_operands();
-    std::int64_t bits = *left ^ *right;
-    if (it_->operation == Operation::BitAnd) bits = *left & *right;
-    if (it_->operation == Operation::BitOr) bits = *left | *right;
+    std::int64_t left = 0;
+    std::int64_t right = 0;
+    if (!take(before_last(), left) || !take(last(), right)) return wrong_operands();
+    std::int64_t bits = left ^ right;
+    if (it_->operation == Operation::BitAnd) bits = left & right;
+    if (it_->operation == Operation::BitOr) bits = left | right;
     return replace_two(Operand::of(static_cast<double>(bits)));
   }
 
   bool combine_conditions() {
-    const auto left = condition_of(before_last());
-    const auto right = condition_of(last());
-    if (!left || !right) return wrong_operands();
-    const bool both = it_->operation == Operation::And;
-    const bool holds = both ? *left && *right : *left || *right;
+    bool left = false;
+    bool right = false;
+    if (!take(before_last(), left) || !take(last(), right)) return wrong_operands();
+    const bool holds = it_->operation == Operation::And ? left && right : left || right;
     return replace_two(Operand::of(holds ? 1.0 : 0.0));
   }
 
-  std::optional<double> comparable(const Operand& operand) const {
-    if (operand.kind != Operand::Kind::Text) return real_of(operand);
-    return number_in_script(*operand.text, expression_.enums());
+  bool take_comparable(const Operand& operand, double& number) const {
+    if (operand.kind != Operand::Kind::Text) return take(operand, number);
+    const auto found = number_in_script(*operand.text, expression_.enums());
+    number = found.value_or(0);
+    return found.has_value();
   }
 
   bool compare() {
@@ -367,10 +385,12 @@ class Machine {
     if (left.kind == Operand::Kind::Text && right.kind == Operand::Kind::Text) {
       holds = are_related(*left.text, it_->relation, *right.text);
     } else {
-      const auto first = comparable(left);
-      const auto second = comparable(right);
-      if (!first || !second) return wrong_operands();
-      holds = are_related(*first, it_->relation, *second);
+      double first = 0;
+      double second = 0;
+      if (!take_comparable(left, first) || !take_comparable(right, second)) {
+        return wrong_operands();
+      }
+      holds = are_related(first, it_->relation, second);
     }
     if (it_->operation == Operation::Compare || !holds) {
       replace_two(Operand::of(holds ? 1.0 : 0.0));
@@ -391,28 +411,31 @@ class Machine {
   }
 
   bool change_one() {
-    const auto number = real_of(last());
-    if (!number) return wrong_operand(last());
+    double number = 0;
+    if (!take(last(), number)) return wrong_operand(last());
     if (it_->operation == Operation::Complement) {
-      const auto whole = to_whole(std::trunc(*number));
+      const auto whole = to_whole(std::trunc(number));
       if (!whole) return wrong_operand(last());
       last() = Operand::of(static_cast<double>(~*whole));
     } else if (it_->operation == Operation::Not) {
-      last() = Operand::of(*number != 0 ? 0.0 : 1.0);
+      last() = Operand::of(number != 0 ? 0.0 : 1.0);
     } else {
-      last() = Operand::of(-*number);
+      last() = Operand::of(-number);
     }
     return true;
   }
 
   bool branch() {
-    auto number = real_of(last());
+    double number = 0;
+    bool is_number = take(last(), number);
     if (last().kind == Operand::Kind::Text) {
-      if (const auto found = number_from_text(*last().text)) number = found->value;
+      const auto found = number_from_text(*last().text);
+      is_number = found.has_value();
+      if (found) number = found->value;
     }
-    if (!number) return wrong_operand(last());
+    if (!is_number) return wrong_operand(last());
     --top_;
-    return *number != 0 || go_to(it_->argument);
+    return number != 0 || go_to(it_->argument);
   }
 
   // The value of an assignment is what the entry then has.
@@ -426,9 +449,11 @@ class Machine {
   bool store_changed() {
     if (!entry().is_present) return no_entry();
     const Operand old = Operand::of(entry().value);
-    const auto left = real_of(old);
-    const auto right = real_of(last());
-    if (left && right) return store(Operand::of(calculated(*left, it_->operation, *right)));
+    double left = 0;
+    double right = 0;
+    if (take(old, left) && take(last(), right)) {
+      return store(Operand::of(calculated(left, it_->operation, right)));
+    }
     const bool are_texts = old.kind == Operand::Kind::Text && last().kind == Operand::Kind::Text;
     if (it_->operation != Operation::AddTo || !are_texts) return wrong_operands(old, last());
     std::string& joined = text_at(top_);
@@ -454,7 +479,7 @@ std::string Evaluator::evaluate(const Expression& expression, std::span<Entry* c
                                 Value& result) {
   Operand last;
   std::string error = run(expression, entries, last);
-  if (error.empty()) result = last.value();
+  if (error.empty()) last.store(result);
   return error;
 }
 
@@ -463,13 +488,9 @@ std::string Evaluator::test(const Expression& expression, std::span<Entry* const
   Operand last;
   std::string error = run(expression, entries, last);
   if (!error.empty()) return error;
-  const auto condition = condition_of(last);
-  if (!condition) {
-    return fmt::format("a condition is 0, 1 or a number that is not negative and not whole, not {}",
-                       last.shown());
-  }
-  holds = *condition;
-  return {};
+  if (take(last, holds)) return {};
+  return fmt::format("a condition is 0, 1 or a number that is not negative and not whole, not {}",
+                     last.shown());
 }
 
 std::string Evaluator::run(const Expression& expression, std::span<Entry* const> entries,

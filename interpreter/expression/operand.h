@@ -12,6 +12,15 @@ namespace lockstep {
 struct Operand {
   enum class Kind : std::uint8_t { Empty, Whole, Real, Text, Other };
 
+  Operand() = default;
+  // Field by field: a copy of all 16 bytes would wait for both fields to be stored.
+  Operand(const Operand& from) : kind(from.kind), whole(from.whole) {}
+  Operand& operator=(const Operand& from) {
+    kind = from.kind;
+    whole = from.whole;
+    return *this;
+  }
+
   static Operand of(const Value& value) {
     if (const auto* real = std::get_if<double>(&value)) return of(*real);
     if (const auto* whole = std::get_if<std::int64_t>(&value)) return of(*whole);
@@ -44,6 +53,15 @@ struct Operand {
 
   bool is_number() const { return kind == Kind::Whole || kind == Kind::Real; }
   Value value() const;
+  // The same into `out`.
+  void store(Value& out) const {
+    auto* const held = std::get_if<double>(&out);
+    if (held != nullptr && kind == Kind::Real) {
+      *held = real;
+    } else {
+      out = value();
+    }
+  }
   // For messages: "5", "the text 'abc'", "an empty entry", "a list of double".
   std::string shown() const;
 
