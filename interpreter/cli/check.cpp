@@ -52,11 +52,13 @@ void print_checked(const std::string& tree, Diagnostics& diagnostics, int code, 
 int check(const CheckOptions& options) {
   keep_stdout_for_results();
   const CheckWriter write = writer_of(options.format);
+  LoadCommandOptions load = options.load;
+  if (!options.strict) load.unknown = MissingNodes::AreNoted;
   std::vector<Diagnostic> all;
   int worst = kExitSuccess, written = kExitSuccess;
   for (const std::string& tree : options.trees) {
     Diagnostics diagnostics;
-    const auto loaded = load_given(tree, options.load, diagnostics);
+    const auto loaded = load_given(tree, load, diagnostics);
     int code = loaded ? kExitSuccess : exit_code_of(loaded.error());
     const bool doubtful = diagnostics.count(Severity::Warning) > 0;
     if (code == kExitSuccess && options.strict && doubtful) code = kExitInvalidTree;
@@ -76,7 +78,8 @@ std::function<int()> define_check(CLI::App& app) {
   app.add_option("tree", options->trees, "Tree files; - is stdin")
       ->type_name("TREE.xml")
       ->required();
-  app.add_flag("--strict", options->strict, "Treat warnings as errors: exit code 3");
+  app.add_flag("--strict", options->strict,
+               "Treat warnings as errors, and nodes that no plugin has: exit code 3");
   app.add_option("--format", options->format,
                  "text, or on stdout: json (an array of messages), github (annotations of a "
                  "workflow) or sarif (2.1.0)")

@@ -20,9 +20,21 @@ struct NodesOptions {
   std::string format = "text";
 };
 
+// Editors have the built-in nodes of BehaviorTree.CPP.
+std::string models(NodeTypes types) {
+  std::vector<const NodeType*> unknown_there;
+  for (const NodeType* type : types) {
+    const bool is_extension =
+        type->category == NodeCategory::Control && type->synchronization != Synchronization::None;
+    if (is_extension || !type->plugin.empty()) unknown_there.push_back(type);
+  }
+  return nodes_as_models(unknown_there);
+}
+
 std::string as_text(const NodesOptions& options, NodeTypes types) {
   if (options.format == "json") return nodes_as_json(types);
   if (options.format == "markdown") return nodes_as_markdown(types);
+  if (options.format == "btcpp") return models(types);
   return options.id.empty() ? nodes_as_text(types) : node_as_text(*types.front());
 }
 
@@ -47,8 +59,10 @@ int nodes(const NodesOptions& options) {
 std::function<int()> define_nodes(CLI::App& app) {
   const auto options = std::make_shared<NodesOptions>();
   app.add_option("id", options->id, "Only this node")->type_name("ID");
-  app.add_option("--format", options->format, "text, json: an array of objects, or markdown")
-      ->check(one_of({"text", "json", "markdown"}))
+  app.add_option("--format", options->format,
+                 "text, json: an array of objects, markdown, or btcpp: a TreeNodesModel of the "
+                 "nodes that editors for BehaviorTree.CPP do not know")
+      ->check(one_of({"text", "json", "markdown", "btcpp"}))
       ->capture_default_str();
   add_plugin_options(app, options->plugins);
   return [options] { return nodes(*options); };

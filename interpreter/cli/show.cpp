@@ -25,7 +25,9 @@ std::string draw(const Definition& definition, const std::string& format) {
 int show(const ShowOptions& options) {
   keep_stdout_for_results();
   Diagnostics diagnostics;
-  const auto loaded = load_given(options.tree, options.load, diagnostics);
+  LoadCommandOptions load = options.load;
+  load.unknown = MissingNodes::AreNoted;
+  const auto loaded = load_given(options.tree, load, diagnostics);
   print_diagnostics(diagnostics, Severity::Error);
   if (!loaded) return exit_code_of(loaded.error());
   return write_results(draw(loaded->definition, options.format));

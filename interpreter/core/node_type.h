@@ -57,6 +57,7 @@ struct Parameter {
   bool of_pool = false;         // its value names resources of that group: core/resource_set.h
   bool is_script = false;       // a text that is compiled: expression/
   bool names_entry = false;     // "k" is the entry k, as "{k}" is
+  bool is_generic = false;      // takes a value of any type; `type` is String
 };
 
 struct Arity {
@@ -83,6 +84,13 @@ struct ParameterValues {
   }
 };
 
+// What a stand-in for a node that no plugin has does: the result of an action after a time, of a
+// condition at once.
+struct Mock {
+  Status result = Status::Success;
+  double seconds = 1;
+};
+
 struct NodeType {
   std::string_view id;  // the XML tag
   NodeCategory category;
@@ -104,6 +112,7 @@ struct NodeType {
   bool has_progress = true;             // false: an action that reports none, so 0 until Success
   bool reads_ports = false;             // a built-in kind that reads its values as leaves do
   std::string_view plugin = {};         // the plugin it comes from; "" = built in
+  const Mock* mock = nullptr;           // not null: a stand-in
   // Of a leaf of a plugin; both are null for built-ins.
   const lockstep_plugin* origin = nullptr;
   const lockstep_leaf_type* leaf = nullptr;

@@ -174,7 +174,8 @@ class Adviser {
       const std::string& name = definition_.entries[entry].name;
       report_.at_value(definition_.entries[entry].first_use,
                        fmt::format("nothing writes '{{{}}}'", brief(name)),
-                       unwritten_hint(parameter, name, valued), Severity::Warning);
+                       unwritten_hint(parameter, name, definition_.entries[entry].typing, valued),
+                       Severity::Warning);
     });
   }
 
@@ -190,12 +191,12 @@ class Adviser {
     return keys;
   }
 
-  std::string unwritten_hint(const Parameter& parameter, std::string_view name,
+  std::string unwritten_hint(const Parameter& parameter, std::string_view name, Typing typing,
                              const std::vector<bool>& valued) const {
     const std::string_view scope = name.substr(0, name.rfind('/') + 1);
     std::string hint = did_you_mean(name.substr(scope.size()), keys_in(scope, valued));
     if (!hint.empty()) return hint;
-    if (parameter.default_text) {
+    if (parameter.default_text && typing == Typing::Strict) {
       hint = fmt::format("it stays '{}', the default of '{}'; ", *parameter.default_text,
                          parameter.name);
     }

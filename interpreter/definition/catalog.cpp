@@ -9,6 +9,12 @@ void Catalog::add(const NodeType* type) {
   by_id_.emplace(type->id, type);
 }
 
+void Catalog::replace(const NodeType* type) {
+  std::erase_if(types_, [&](const NodeType* it) { return it->id == type->id; });
+  by_id_.erase(type->id);
+  add(type);
+}
+
 const NodeType* Catalog::find(std::string_view id) const {
   const auto it = by_id_.find(id);
   return it == by_id_.end() ? nullptr : it->second;

@@ -14,6 +14,8 @@ class Catalog {
  public:
   // The types must outlive the catalog; ids are distinct.
   void add(const NodeType* type);
+  // Instead of the one with its id, if there is one.
+  void replace(const NodeType* type);
 
   const NodeType* find(std::string_view id) const;
   std::vector<std::string_view> ids() const;                         // sorted

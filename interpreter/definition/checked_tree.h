@@ -3,6 +3,7 @@
 // documents.
 #pragma once
 
+#include <list>
 #include <map>
 #include <memory>
 #include <optional>
@@ -22,7 +23,6 @@ struct CheckedPort {
   std::uint32_t value = Port::kNone;  // in CheckedTrees::values
   Place place = {};                   // of the attribute that has the key, or names a group
   std::string_view key = {};
-  std::uint32_t script = Port::kNone;  // in CheckedTrees::scripts
 };
 
 // A script of a node or, without a hook, of a port.
@@ -49,6 +49,7 @@ struct Remapping {
   std::string_view value;  // the key outside, or the text
   bool is_entry;
   Place place;
+  bool is_written = true;  // in the SubTree; else a model says so
 };
 
 // A SubTree: the tree that it names, its remappings, and its place in the tree that contains it.
@@ -82,10 +83,12 @@ struct CheckedTrees {
   std::vector<CheckedNode> nodes;
   std::vector<Value> values;
   std::vector<CheckedPort> ports;
+  std::map<std::uint32_t, std::uint32_t> port_scripts;  // in `scripts`, of ports that are one
   std::vector<CheckedSubTree> subtrees;
   std::vector<Remapping> remappings;
   std::vector<WrittenAttribute> written;
   std::vector<CheckedScript> scripts;
+  std::list<std::string> texts;                   // that are not as the documents have them
   std::map<std::string_view, CheckedTree> trees;  // by the ID of the BehaviorTree
   std::vector<std::string_view> ids;              // as they stand in the documents
   std::vector<CheckedNode> groups;                // declared beside the trees; names are distinct

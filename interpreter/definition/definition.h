@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <list>
 #include <memory>
 #include <span>
 #include <string>
@@ -20,6 +21,8 @@
 #include "expression/expression.h"
 
 namespace lockstep {
+
+class StandIns;
 
 struct DefinitionNode {
   const NodeType* type;
@@ -57,7 +60,6 @@ struct BlackboardEntry {
   Value initial;                       // monostate: none
   Place first_use = {};                // of the attribute that names it first
   const ObjectType* object = nullptr;  // of type Object: which
-  bool is_declared = false;            // a port names it, or it has a start value
   Typing typing = Typing::Strict;
   bool is_present = true;  // from the beginning; false: until something makes it
 };
@@ -89,6 +91,8 @@ struct Definition {
   std::vector<DefinitionGroup> groups = {};  // in the order of their nodes
   std::vector<NodeHooks> hooks = {};
   std::vector<BoundScript> scripts = {};
+  std::list<std::string> texts = {};               // names that are not as a document has them
+  std::shared_ptr<const StandIns> stand_ins = {};  // the types of some nodes
 
   // A parameter that is a constant; null when it is absent or comes from an entry.
   const Value* constant(const DefinitionNode& node, std::size_t parameter) const {

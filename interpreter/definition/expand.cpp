@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "core/conversion.h"
 #include "core/parameter_value.h"
 #include "core/pre_order.h"
 #include "core/suggest.h"
@@ -31,6 +32,7 @@ class Expander {
     definition_.id = main;
     definition_.values = std::move(trees_.values);
     definition_.written = std::move(trees_.written);
+    definition_.texts = std::move(trees_.texts);
     shared_.assign(trees_.ports.size(), Port::kNone);
     members_.resize(trees_.groups.size());
     for (std::size_t i = 0; i < members_.size(); ++i) groups_.emplace(trees_.groups[i].name, i);
@@ -40,20 +42,10 @@ class Expander {
     add(trees_.trees.at(main).root, 0, scope);
     add_groups(scope);
     check_set_keys(scope);
-    if (!is_ours()) leave_out_undeclared();
     return std::move(definition_);
   }
 
  private:
-  // An entry that only scripts name does not exist before one of them makes it.
-  void leave_out_undeclared() {
-    for (BlackboardEntry& entry : definition_.entries) {
-      if (entry.is_declared) continue;
-      entry.typing = Typing::Any;
-      entry.is_present = false;
-    }
-  }
-
   void add(std::uint32_t from, std::uint32_t parent, Scope& scope) {
     const CheckedNode& checked = trees_.nodes[from];
     if (checked.type == nullptr) return;  // reported already
@@ -93,7 +85,7 @@ class Expander {
     }
     add(tree->second.root, place, scope);
     for (const Remapping& it : remappings) {
-      if (scope.used(it.key) || report_.counted_only(Severity::Warning)) continue;
+      if (!it.is_written || scope.used(it.key) || report_.counted_only(Severity::Warning)) continue;
       report_.at(
           it.place,
           fmt::format("the tree '{}' does not use '{{{}}}'", brief(subtree.id), brief(it.key)),
@@ -173,9 +165,12 @@ class Expander {
       if (!port.key.empty()) {
         constant = false;
         bound.entry = use(port, parameter, scope);
-      } else if (port.script != Port::kNone) {
+      } else if (parameter.is_script) {
         constant = false;
-        bound.script = bind_script(trees_.scripts[port.script], scope);
+        const auto script = trees_.port_scripts.find(checked.first + i);
+        if (script != trees_.port_scripts.end()) {
+          bound.script = bind_script(trees_.scripts[script->second], scope);
+        }
       }
       definition_.ports.push_back(bound);
     }
@@ -211,9 +206,9 @@ class Expander {
     if (!found.has_text) return found.entry;
     BlackboardEntry& entry = definition_.entries[found.entry];
     entry.type = btcpp::literal_type(found.text);
-    entry.initial = *btcpp::read_literal(entry.type, nullptr, found.text);
-    entry.is_declared = true;
-    if (!is_ours()) entry.typing = Typing::Declared;
+    entry.initial = value_from_text(entry.type, nullptr, found.text)->value;
+    entry.typing = Typing::Declared;
+    entry.is_present = true;
     literals_.emplace(found.entry, found.text);
     return found.entry;
   }
@@ -226,7 +221,7 @@ class Expander {
       set_type(port.place, parameter, entry);
       set_initial(port.place, parameter, literal->second, entry);
       literals_.erase(literal);
-    } else if (!entry.is_declared) {
+    } else if (!entry.is_present) {
       set_type(port.place, parameter, entry);
     } else if (entry.type == ValueType::Number && is_number(parameter.type)) {
       narrow(port.place, parameter, entry);
@@ -254,20 +249,27 @@ class Expander {
   }
 
   void set_type(Place place, const Parameter& parameter, BlackboardEntry& entry) const {
-    entry.is_declared = true;
-    if (!is_ours()) entry.typing = is_generic(parameter) ? Typing::Any : Typing::Declared;
+    entry.is_present = true;
+    entry.typing = is_ours()               ? Typing::Strict
+                   : is_generic(parameter) ? Typing::Any
+                                           : Typing::Declared;
     entry.type = parameter.type;
     entry.object = parameter.object;
     entry.first_use = place;
   }
 
   // Takes an entry of any type.
-  static bool is_generic(const Parameter& parameter) { return parameter.names_entry; }
+  static bool is_generic(const Parameter& parameter) {
+    return parameter.names_entry || parameter.is_generic;
+  }
 
   bool is_ours() const { return trees_.language == Language::Lockstep; }
 
   bool fits(const Parameter& parameter, const BlackboardEntry& entry) const {
-    if (!is_ours() && (is_generic(parameter) || entry.type == ValueType::String)) return true;
+    if (!is_ours() &&
+        (is_generic(parameter) || entry.typing == Typing::Any || entry.type == ValueType::String)) {
+      return true;
+    }
     if (parameter.type == ValueType::Number && is_number(entry.type)) return true;
     if (parameter.type != entry.type) return false;
     return parameter.type != ValueType::Object || parameter.object->name() == entry.object->name();
@@ -299,9 +301,8 @@ class Expander {
 
   void set_initial(Place place, const Parameter& parameter, std::string_view text,
                    BlackboardEntry& entry) {
-    const auto value = parse_value(parameter.type, parameter.object, text);
-    if (value) {
-      entry.initial = *value;
+    if (auto value = start_value(parameter, text)) {
+      entry.initial = *std::move(value);
       return;
     }
     report_.at_value(place,
@@ -309,6 +310,13 @@ class Expander {
                                  brief(text), brief(entry.name),
                                  expected_text(parameter.type, parameter.object), parameter.name),
                      "it comes from --set or from an attribute of a SubTree");
+  }
+
+  std::optional<Value> start_value(const Parameter& parameter, std::string_view text) const {
+    if (is_ours()) return parse_value(parameter.type, parameter.object, text);
+    auto read = value_from_text(parameter.type, parameter.object, text);
+    if (!read || read->has_rest) return std::nullopt;
+    return std::move(read->value);
   }
 
   void check_set_keys(const Scope& scope) {

@@ -53,12 +53,17 @@ std::optional<std::string_view> choose_main(const CheckedTrees& trees, std::stri
 std::optional<Definition> resolve(const Project& project, const Catalog& catalog,
                                   const ResolveOptions& options, Diagnostics& diagnostics) {
   const Reporter report(project.sources, diagnostics);
-  CheckedTrees trees = project.language == Language::Lockstep
-                           ? check_trees(project, catalog, diagnostics)
-                           : btcpp::read_trees(project, catalog, diagnostics);
+  const bool is_ours = project.language == Language::Lockstep;
+  const auto models = is_ours ? btcpp::Models() : btcpp::read_models(project, report);
+  Catalog known = catalog;
+  const auto stand_ins =
+      add_stand_ins(project, models, options.unknown, options.mocks, known, report);
+  CheckedTrees trees = is_ours ? check_trees(project, known, diagnostics)
+                               : btcpp::read_trees(project, known, models, diagnostics);
   const auto main = choose_main(trees, options.main_tree, report);
   if (!check_references(trees, report) || !main) return std::nullopt;
   Definition definition = expand(trees, *main, options.values, report);
+  definition.stand_ins = stand_ins;
   resolve_resources(definition, report);
   if (report.has_errors()) return std::nullopt;
   check_groups(definition, report);

@@ -8,6 +8,7 @@
 #include "definition/catalog.h"
 #include "definition/definition.h"
 #include "definition/expand.h"
+#include "definition/stand_ins.h"
 #include "document/project.h"
 
 namespace lockstep {
@@ -15,6 +16,8 @@ namespace lockstep {
 struct ResolveOptions {
   std::string main_tree;  // "": main_tree_to_execute, or the only
   StartValues values;
+  MissingNodes unknown = MissingNodes::AreErrors;
+  Mocks mocks = {};
 };
 
 // Returns nothing if there are errors. Also reports warnings and notes.

@@ -20,7 +20,10 @@ Scope::Found Scope::find(std::string_view key) {
     return found;
   }
   const auto entry = static_cast<std::uint32_t>(entries_.size());
-  entries_.push_back({.name = prefix_ + std::string(key), .type = {}, .initial = {}});
+  entries_.push_back({.name = prefix_ + std::string(key),
+                      .initial = {},
+                      .typing = Typing::Any,
+                      .is_present = false});
   known_[key] = entry;
   const bool has_text = text != texts_.end();
   return {entry, true, has_text ? text->second : std::string_view(), has_text};

@@ -18,6 +18,8 @@ std::string node_as_text(const NodeType& type);
 // An array of objects; docs/cli.md names the members.
 std::string nodes_as_json(NodeTypes types);
 std::string nodes_as_markdown(NodeTypes types);
+// A document for BehaviorTree.CPP with a TreeNodesModel, as its editors read it.
+std::string nodes_as_models(NodeTypes types);
 
 // Shared by the functions above: the categories in the order of the pages, with their headings.
 struct NodeGroup {

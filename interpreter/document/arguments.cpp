@@ -74,6 +74,11 @@ std::optional<std::string> ArgumentTable::expand(const Attribute& attribute) {
   std::size_t done = 0;
   for (auto at = text.find("${"); at != std::string_view::npos; at = text.find("${", done)) {
     const bool literal = at > done && text[at - 1] == '$';
+    if (is_text(text, at)) {
+      out += text.substr(done, at + 2 - done);
+      done = at + 2;
+      continue;
+    }
     out += text.substr(done, at - done - (literal ? 1 : 0));
     done = at + 2;
     if (literal) {
@@ -103,6 +108,12 @@ std::optional<std::string> ArgumentTable::expand(const Attribute& attribute) {
   out += text.substr(done);
   expanded_ += out.size();
   return out;
+}
+
+bool ArgumentTable::is_text(std::string_view text, std::size_t at) const {
+  if (language_ == Language::Lockstep) return false;
+  const auto close = text.find('}', at);
+  return close == std::string_view::npos || find(text.substr(at + 2, close - at - 2)) == nullptr;
 }
 
 bool ArgumentTable::fits(std::size_t bytes, const Attribute& attribute) {

@@ -22,6 +22,8 @@ class ArgumentTable {
  public:
   // `report` is for the texts that elements are in.
   ArgumentTable(const Arguments& given, const Reporter& report) : given_(given), report_(report) {}
+  // In a document for BehaviorTree.CPP, ${name} is only text if no such argument is declared.
+  void set_language(Language language) { language_ = language; }
 
   // `element` is an <arg>. Its attributes may use arguments that are declared before it.
   void declare(Document& document, std::uint32_t element);
@@ -41,11 +43,14 @@ class ArgumentTable {
 
   std::optional<std::string> expand(const Attribute& attribute);
   const Where* find(std::string_view name) const;
+  // Whether the "${" at that byte of `text` is only text.
+  bool is_text(std::string_view text, std::size_t at) const;
   bool fits(std::size_t bytes, const Attribute& attribute);
   std::string list_declared(std::string_view near) const;
 
   const Arguments& given_;
   Reporter report_;
+  Language language_ = Language::Lockstep;
   std::vector<DeclaredArgument> declared_;
   std::map<std::string, Where, std::less<>> by_name_;
   std::size_t expanded_ = 0;  // bytes of all substituted values

@@ -6,9 +6,25 @@
 #include <deque>
 
 #include "document/language_of.h"
+#include "document/references.h"
 #include "document/well_formed.h"
 
 namespace lockstep {
+namespace {
+
+// An '&' that begins none is one of the value.
+void append_with_known_references(std::string_view value, std::string& text) {
+  for (auto at = value.find('&'); at != std::string_view::npos; at = value.find('&')) {
+    text += value.substr(0, at + 1);
+    value.remove_prefix(at);
+    if (!read_reference(value)) text += "amp;";
+    value.remove_prefix(1);
+  }
+  text += value;
+}
+
+}  // namespace
+
 struct Document::Implementation {
   std::shared_ptr<const Source> source;
   Language language = Language::Lockstep;
@@ -57,8 +73,9 @@ bool Document::Implementation::read_coded(Diagnostics& diagnostics) {
   for (const auto index : coded) {
     const std::string_view value = attributes[index].value;
     const char quote = value.data()[-1];
-    (((text += "<a v=") += quote) += value) += quote;
-    text += "/>";
+    (text += "<a v=") += quote;
+    append_with_known_references(value, text);
+    (text += quote) += "/>";
   }
   text += "</r>";
   tinyxml2::XMLDocument xml;

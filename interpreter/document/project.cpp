@@ -34,9 +34,10 @@ bool is_root(const Document& document) {
 
 class Loader {
  public:
-  Loader(const Arguments& given, Diagnostics& diagnostics)
+  Loader(const Arguments& given, const RosPackages& packages, Diagnostics& diagnostics)
       : report_(project_->sources, diagnostics),
         arguments_(given, report_),
+        packages_(packages),
         diagnostics_(diagnostics) {}
 
   std::unique_ptr<Project> load(const std::string& path, std::string text) {
@@ -59,6 +60,8 @@ class Loader {
   bool add(const Reading& file, std::string text);
   void include(Document& document, std::uint32_t element);
   bool check_include(const Document& document, std::uint32_t element);
+  std::optional<fs::path> directory_of(const Document& document, std::uint32_t include,
+                                       const fs::path& written) const;
   void includes(std::uint32_t includer, std::uint32_t included) {
     if (included != kUnreadable) project_->includes[includer].push_back(included);
   }
@@ -71,6 +74,7 @@ class Loader {
   std::unique_ptr<Project> project_ = std::make_unique<Project>();
   Reporter report_;
   ArgumentTable arguments_;
+  const RosPackages& packages_;
   Diagnostics& diagnostics_;
   std::vector<Reading> open_;                  // the chain of includes that is being read
   std::map<std::string, std::uint32_t> read_;  // by identity: its document
@@ -92,7 +96,10 @@ bool Loader::add(const Reading& file, std::string text) {
   project_->sources.add(parsed->source());
   project_->includes.emplace_back();
   auto& document = *project_->documents.emplace_back(std::move(parsed));
-  if (open_.empty()) project_->language = document.language();
+  if (open_.empty()) {
+    project_->language = document.language();
+    arguments_.set_language(document.language());
+  }
   if (!is_root(document)) {
     const Element& first = document.elements()[0];
     report_.at(first.place,
@@ -113,8 +120,9 @@ void Loader::include(Document& document, std::uint32_t element) {
   if (!arguments_.substitute(document, element)) return;
   const Attribute& attribute = *document.find_attribute(element, "path");
   const fs::path written(attribute.value);
-  const auto path =
-      (fs::path(document.source()->path()).parent_path() / written).lexically_normal().string();
+  const auto from = directory_of(document, element, written);
+  if (!from) return;
+  const auto path = (*from / written).lexically_normal().string();
   const auto fail = [&](std::string message) {
     report_.at_value(attribute.place, std::move(message));
   };
@@ -144,6 +152,22 @@ bool Loader::check_include(const Document& document, std::uint32_t element) {
   if (document.find_attribute(element, "path") != nullptr) return true;
   report_.at(document.elements()[element].place, "'include' needs the attribute 'path'");
   return false;
+}
+
+// To which the path of an include is relative; nothing after an error.
+std::optional<fs::path> Loader::directory_of(const Document& document, std::uint32_t include,
+                                             const fs::path& written) const {
+  const Attribute* package = document.find_attribute(include, "ros_pkg");
+  const bool in_package = project_->language == Language::BehaviorTreeCpp && package != nullptr;
+  if (!in_package || written.is_absolute())
+    return fs::path(document.source()->path()).parent_path();
+  if (auto share = packages_.find(package->value)) return share;
+  report_.at_value(package->place,
+                   fmt::format("the ROS package '{}' is not found", brief(package->value)),
+                   fmt::format("it is searched in AMENT_PREFIX_PATH; or give its share directory "
+                               "with --ros-package {}=DIR",
+                               brief(package->value)));
+  return std::nullopt;
 }
 
 std::string Loader::cycle(const Reading& next) const {
@@ -182,7 +206,8 @@ void Loader::substitute(Document& document) {
 }  // namespace
 
 std::unique_ptr<Project> load_project(const std::string& path, const Arguments& arguments,
-                                      Diagnostics& diagnostics, MainFile main) {
+                                      Diagnostics& diagnostics, MainFile main,
+                                      const RosPackages& packages) {
   const bool is_stdin = main == MainFile::MayBePipe && path == "-";
   const auto kinds = main == MainFile::MayBePipe ? FileKinds::RegularOrPipe : FileKinds::Regular;
   auto text =
@@ -193,12 +218,13 @@ std::unique_ptr<Project> load_project(const std::string& path, const Arguments& 
     diagnostics.error({name}, verdict + text.error().message);
     return nullptr;
   }
-  return load_project_text(name, std::move(*text), arguments, diagnostics);
+  return load_project_text(name, std::move(*text), arguments, diagnostics, packages);
 }
 
 std::unique_ptr<Project> load_project_text(const std::string& path, std::string text,
-                                           const Arguments& arguments, Diagnostics& diagnostics) {
-  return Loader(arguments, diagnostics).load(path, std::move(text));
+                                           const Arguments& arguments, Diagnostics& diagnostics,
+                                           const RosPackages& packages) {
+  return Loader(arguments, packages, diagnostics).load(path, std::move(text));
 }
 
 }  // namespace lockstep

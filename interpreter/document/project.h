@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "document/document.h"
+#include "document/ros_packages.h"
 
 namespace lockstep {
 
@@ -43,11 +44,12 @@ enum class MainFile : bool { IsRegular, MayBePipe };
 // file could not be parsed. Unknown names in `arguments` are errors without a place, with a hint
 // that lists the declared.
 std::unique_ptr<Project> load_project(const std::string& path, const Arguments& arguments,
-                                      Diagnostics& diagnostics,
-                                      MainFile main = MainFile::IsRegular);
+                                      Diagnostics& diagnostics, MainFile main = MainFile::IsRegular,
+                                      const RosPackages& packages = {});
 
 // The same from text instead of a main file; includes are relative to `path`.
 std::unique_ptr<Project> load_project_text(const std::string& path, std::string text,
-                                           const Arguments& arguments, Diagnostics& diagnostics);
+                                           const Arguments& arguments, Diagnostics& diagnostics,
+                                           const RosPackages& packages = {});
 
 }  // namespace lockstep

@@ -163,12 +163,17 @@ class Checker {
     if (blank && !open_.empty()) return;
     const auto offset = blank ? token.begin : static_cast<std::size_t>(first - text_.data());
     const bool is_section = text_.substr(token.begin).starts_with("<![CDATA[");
+    if (is_lenient_ && is_in_models()) return;  // what ports are for
     if (is_lenient_ && (is_section || !open_.empty() || !has_root()))
       return warn({offset, "text is ignored", "put it into a comment: <!-- … -->"});
     if (open_.empty())
       return stop(
           {offset, fmt::format("text {} the root element", has_root() ? "after" : "before")});
     add({offset, "text is not part of the language", "put it into a comment: <!-- … -->"});
+  }
+
+  bool is_in_models() const {
+    return open_.size() > 1 && result_.elements[open_[1]].tag == "TreeNodesModel";
   }
 
   void doctype(const XmlToken& token) {

@@ -16,7 +16,14 @@
 namespace lockstep {
 namespace {
 
+const NodeKind* mock_of(NodeCategory category) {
+  if (category == NodeCategory::Action) return &kMockAction;
+  if (category == NodeCategory::Condition) return &kMockCondition;
+  return category == NodeCategory::Control ? &kMockControl : &kMockDecorator;
+}
+
 const NodeKind* kind_of(const NodeType& type) {
+  if (type.mock != nullptr) return mock_of(type.category);
   if (type.leaf != nullptr) {
     if (type.arity.max != 0) return &kPluginControl;
     return type.category == NodeCategory::Condition ? &kPluginCondition : &kPluginAction;
@@ -56,6 +63,7 @@ class Compiler {
 
   Tree compile() {
     tree_.id = definition_.id;
+    tree_.stand_ins = definition_.stand_ins;
     tree_.nodes.reserve(definition_.nodes.size());
     number_members();
     for (const DefinitionNode& node : definition_.nodes) add(node);
@@ -93,7 +101,9 @@ class Compiler {
               .is_latched = false,
               .params = 0,
               .state = static_cast<std::uint32_t>(tree_.state_size)};
-    if (from.type->leaf != nullptr) {
+    if (from.type->mock != nullptr) {
+      node.params = 0;  // it looks at no port
+    } else if (from.type->leaf != nullptr) {
       node.params = add_leaf(from);
     } else if (!numbers_.empty() && numbers_.contains(self)) {
       add_member(from, self, node);

@@ -46,5 +46,7 @@ std::span<const NodeKind* const> built_in_kinds(Language language = Language::Lo
 extern const NodeKind kPluginAction;
 extern const NodeKind kPluginCondition;
 extern const NodeKind kPluginControl;  // also decorators
+// Of stand-ins for them.
+extern const NodeKind kMockAction, kMockCondition, kMockControl, kMockDecorator;
 
 }  // namespace lockstep

@@ -112,6 +112,7 @@ struct Tree {
   std::vector<NodeLabel> labels;  // not touched while ticking
   // What the labels' names point into; a copy of the tree shares it.
   std::shared_ptr<const std::string> names;
+  std::shared_ptr<const void> stand_ins = {};  // the types of some nodes
 
   bool is_group(NodeIndex node) const { return node >= nodes[0].end; }
   const Group& group(NodeIndex node) const { return groups[node - nodes[0].end]; }

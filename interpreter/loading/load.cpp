@@ -1,7 +1,9 @@
 #include "loading/load.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <optional>
+#include <sstream>
 
 #include "engine/compile.h"
 
@@ -17,6 +19,17 @@ std::optional<LoadFailure> failure_of(const Project* project, const Diagnostics&
   return diagnostics.has_errors() ? std::optional(LoadFailure::Options) : std::nullopt;
 }
 
+RosPackages ros_packages(const LoadOptions& options) {
+  RosPackages packages{.given = options.ros_packages, .prefixes = {}};
+  if (const char* path = secure_getenv("AMENT_PREFIX_PATH")) {
+    std::istringstream list(path);
+    for (std::string prefix; std::getline(list, prefix, ':');) {
+      if (!prefix.empty()) packages.prefixes.push_back(prefix);
+    }
+  }
+  return packages;
+}
+
 tl::expected<Loaded, LoadFailure> load(std::unique_ptr<Project> project, const LoadOptions& options,
                                        Diagnostics& diagnostics,
                                        std::shared_ptr<PluginSet> plugins) {
@@ -29,8 +42,9 @@ tl::expected<Loaded, LoadFailure> load(std::unique_ptr<Project> project, const L
   if (!good) return tl::unexpected(failed.value_or(LoadFailure::PluginRefused));
   std::optional<Definition> definition;
   if (project) {
-    definition = resolve(*project, make_catalog(*plugins, project->language),
-                         {options.main_tree, options.values}, diagnostics);
+    definition =
+        resolve(*project, make_catalog(*plugins, project->language),
+                {options.main_tree, options.values, options.unknown, options.mocks}, diagnostics);
   }
   if (const auto wrong = failure_of(project.get(), diagnostics)) return tl::unexpected(*wrong);
   return Loaded{std::move(plugins), std::move(project), std::move(definition).value()};
@@ -41,15 +55,17 @@ tl::expected<Loaded, LoadFailure> load(std::unique_ptr<Project> project, const L
 tl::expected<Loaded, LoadFailure> load(const std::string& path, const LoadOptions& options,
                                        Diagnostics& diagnostics,
                                        std::shared_ptr<PluginSet> plugins) {
-  return load(load_project(path, options.arguments, diagnostics, options.main_file), options,
-              diagnostics, std::move(plugins));
+  return load(
+      load_project(path, options.arguments, diagnostics, options.main_file, ros_packages(options)),
+      options, diagnostics, std::move(plugins));
 }
 
 tl::expected<Loaded, LoadFailure> load_text(const std::string& path, std::string text,
                                             const LoadOptions& options, Diagnostics& diagnostics,
                                             std::shared_ptr<PluginSet> plugins) {
-  return load(load_project_text(path, std::move(text), options.arguments, diagnostics), options,
-              diagnostics, std::move(plugins));
+  return load(load_project_text(path, std::move(text), options.arguments, diagnostics,
+                                ros_packages(options)),
+              options, diagnostics, std::move(plugins));
 }
 
 Runnable make_runnable(Loaded loaded) {

@@ -21,6 +21,9 @@ struct LoadOptions {
   StartValues values;     // of blackboard entries
   std::string main_tree;  // "": the one that the file names, or its only one
   MainFile main_file = MainFile::MayBePipe;
+  Arguments ros_packages = {};  // the share directories of ROS packages, by name
+  MissingNodes unknown = MissingNodes::AreErrors;
+  Mocks mocks = {};
 };
 
 // A definition without errors, and the objects that it refers to.

@@ -109,7 +109,6 @@ TEST_CASE("what check refuses, the schema refuses where it can say it") {
       around("<Unknown><Sequence/></Unknown>"),
       around("<AlwaysSuccess/><AlwaysSuccess/>"),
       around(""),
-      "<root><BehaviorTree ID=\"A\"><AlwaysSuccess/></BehaviorTree></root>",
       "<root lockstep=\"2\"><BehaviorTree ID=\"A\"><AlwaysSuccess/></BehaviorTree></root>",
       "<root lockstep=\"1\" x=\"\"><BehaviorTree ID=\"A\"><AlwaysSuccess/></BehaviorTree></root>",
       "<root lockstep=\"1\"><BehaviorTree><AlwaysSuccess/></BehaviorTree></root>",

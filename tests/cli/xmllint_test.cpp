@@ -7,6 +7,7 @@
 
 #include "cli/program.h"
 #include "document/document.h"
+#include "document/language_of.h"
 
 using namespace lockstep::test;
 
@@ -165,10 +166,12 @@ std::string damaged(Random& random) {
 
 enum class Verdict { Xml, NotXml, NotOurs };
 
-// NotOurs: refused because our language has no use for it, whether it is XML or not.
+// NotOurs: refused because our language has no use for it, whether it is XML or not; or a text for
+// BehaviorTree.CPP, in which more is accepted than XML.
 Verdict verdict_of(const std::string& text) {
   lockstep::Diagnostics diagnostics;
   lockstep::Document::parse("f", text, diagnostics);
+  if (lockstep::language_of(text) != lockstep::Language::Lockstep) return Verdict::NotOurs;
   Verdict verdict = Verdict::Xml;
   for (const auto& it : diagnostics.all()) {
     const bool is_ours = it.message == "text is not part of the language" ||

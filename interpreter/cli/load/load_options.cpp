@@ -8,6 +8,7 @@
 #include "cli/exit_code.h"
 #include "core/clock.h"
 #include "core/freed_memory.h"
+#include "core/value.h"
 #include "runtime/plugin_thread.h"
 
 namespace lockstep {
@@ -26,6 +27,40 @@ Arguments parse_pairs(const std::vector<std::string>& pairs, std::string_view op
     }
   }
   return map;
+}
+
+// "failure" or "failure:2.5"
+std::optional<Mock> parse_mock(std::string_view text) {
+  Mock mock;
+  if (const auto colon = text.find(':'); colon != std::string_view::npos) {
+    const auto seconds = parse_double(text.substr(colon + 1));
+    if (!seconds || *seconds < 0 || *seconds > 1e9) return std::nullopt;
+    mock.seconds = *seconds;
+    text = text.substr(0, colon);
+  }
+  if (text == "success") {
+    mock.result = Status::Success;
+  } else if (text == "failure") {
+    mock.result = Status::Failure;
+  } else if (text == "running") {
+    mock.result = Status::Running;
+  } else {
+    return std::nullopt;
+  }
+  return mock;
+}
+
+Mocks parse_mocks(const LoadCommandOptions& options, Diagnostics& diagnostics) {
+  Mocks mocks;
+  for (const auto& [id, text] : parse_pairs(options.mock_leaves, "--mock-leaf", diagnostics)) {
+    if (const auto mock = parse_mock(text)) {
+      mocks[id] = *mock;
+    } else {
+      diagnostics.error({}, fmt::format("--mock-leaf {}={}: no result", id, text),
+                        "success, failure or running, then perhaps a time: failure:2.5");
+    }
+  }
+  return mocks;
 }
 
 }  // namespace
@@ -62,7 +97,25 @@ void add_load_options(CLI::App& app, LoadCommandOptions& options) {
                  "The start value of a blackboard entry {KEY}; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+  app.add_option(
+         "--ros-package", options.ros_packages,
+         "The share directory of the ROS package NAME, for <include ros_pkg=\"NAME\">; may be "
+         "repeated (default: what AMENT_PREFIX_PATH has)")
+      ->type_name("NAME=DIR")
+      ->allow_extra_args(false);
   add_plugin_options(app, options.plugins);
+}
+
+void add_mock_options(CLI::App& app, LoadCommandOptions& options) {
+  app.add_flag("--mock", options.mock,
+               "Let nodes that no plugin has take part: an action succeeds after a second, a "
+               "condition at once");
+  app.add_option(
+         "--mock-leaf", options.mock_leaves,
+         "With --mock: what the leaf ID returns, success, failure or running, and after how "
+         "many seconds; also instead of a leaf of a plugin; may be repeated")
+      ->type_name("ID=RESULT[:S]")
+      ->allow_extra_args(false);
 }
 
 tl::expected<Loaded, LoadFailure> load_given(const std::string& path,
@@ -76,7 +129,11 @@ tl::expected<Loaded, LoadFailure> load_given(const std::string& path,
                .arguments = parse_pairs(options.arguments, "--arg", diagnostics),
                .values = parse_pairs(options.values, "--set", diagnostics),
                .main_tree = options.main_tree,
-               .main_file = options.main_file},
+               .main_file = options.main_file,
+               .ros_packages = parse_pairs(options.ros_packages, "--ros-package", diagnostics),
+               .unknown = options.mock || !options.mock_leaves.empty() ? MissingNodes::AreMocked
+                                                                       : options.unknown,
+               .mocks = parse_mocks(options, diagnostics)},
               diagnostics, std::move(plugins));
 }
 

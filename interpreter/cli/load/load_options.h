@@ -18,12 +18,19 @@ struct LoadCommandOptions {
   std::vector<std::string> values;     // --set key=value
   std::string main_tree;               // --tree
   MainFile main_file = MainFile::MayBePipe;
+  std::vector<std::string> ros_packages;  // --ros-package name=directory
+  MissingNodes unknown = MissingNodes::AreErrors;
+  bool mock = false;                     // --mock
+  std::vector<std::string> mock_leaves;  // --mock-leaf id=result
 };
 
 // --plugin, --plugin-path, --isolate and --hang-limit.
 void add_plugin_options(CLI::App& app, PluginOptions& options);
-// The plugin options, --arg, --set and --tree.
+// The plugin options, --arg, --set, --tree and --ros-package.
 void add_load_options(CLI::App& app, LoadCommandOptions& options);
+
+// --mock and --mock-leaf.
+void add_mock_options(CLI::App& app, LoadCommandOptions& options);
 
 // Calls load() with them. From now on this thread is watched.
 [[nodiscard]] tl::expected<Loaded, LoadFailure> load_given(

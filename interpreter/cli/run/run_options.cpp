@@ -146,6 +146,7 @@ void define_run_options(CLI::App& app, RunCommandOptions& options) {
                                  "level and what is more urgent");
   app.add_flag("--json", options.json, "Print the summary as JSON");
   add_load_options(app, options.load);
+  add_mock_options(app, options.load);
 }
 
 }  // namespace lockstep

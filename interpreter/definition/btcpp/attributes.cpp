@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "core/conversion.h"
 #include "core/parameter_value.h"
 #include "core/suggest.h"
 #include "core/wording.h"
-#include "definition/btcpp/literal.h"
 #include "definition/btcpp/scripts.h"
 #include "definition/btcpp/words.h"
 
@@ -18,9 +18,8 @@ namespace {
 constexpr std::string_view kOwn[] = {"_failureIf", "_successIf", "_skipIf",
                                      "_while",     "_onSuccess", "_onFailure",
                                      "_post",      "_onHalted",  "_autoremap"};
-constexpr std::string_view kMarks[] = {
-    "_collapsed", "_favorite", "_hardcoded", "_subtreeOnly",        "_description",
-    "_uid",       "_fullpath", "_external",  "__shared_blackboard", "__autoremap"};
+constexpr std::string_view kMarks[] = {"_collapsed",   "_favorite", "_hardcoded", "_subtreeOnly",
+                                       "_description", "_uid",      "_fullpath",  "_external"};
 
 // A word that has no meaning may be a misspelled one that has.
 void check_mark(const Attribute& attribute, const Reporter& report) {
@@ -94,7 +93,7 @@ class PortChecker {
   // What one port is: a value, a key with its default, or nothing. False after an error.
   bool check(const Parameter& parameter, CheckedPort& port, Value& value) {
     const Attribute* attribute = find_attribute(element_.attributes, parameter.name);
-    if (attribute == nullptr) return absent(parameter, value);
+    if (attribute == nullptr) return absent(parameter, port, value);
     port.place = attribute->place;
     port.key = key_of(attribute->value, parameter.name);
     const bool blank_around = without_blanks_around(attribute->value) != attribute->value;
@@ -106,9 +105,14 @@ class PortChecker {
     return !port.key.empty() || refuse_empty(parameter, *attribute);
   }
 
-  bool absent(const Parameter& parameter, Value& value) const {
-    if (parameter.default_text) value = *parse_value(parameter.type, *parameter.default_text);
-    if (!parameter.required || parameter.default_text) return true;
+  bool absent(const Parameter& parameter, CheckedPort& port, Value& value) const {
+    if (parameter.default_text) {
+      port.place = element_.place;
+      port.key = key_of(*parameter.default_text, parameter.name);
+      if (port.key.empty()) value = *parse_value(parameter.type, *parameter.default_text);
+      return true;
+    }
+    if (!parameter.required) return true;
     if (is_misspelled(parameter)) return false;
     report_.at(element_.place,
                fmt::format("'{}' needs the port '{}'", brief(node_.type->id), parameter.name),
@@ -132,7 +136,7 @@ class PortChecker {
 
   // With blanks around its braces, it must also be a literal of the type.
   bool check_blanks(const Parameter& parameter, const Attribute& attribute) const {
-    if (read_literal(parameter.type, parameter.object, attribute.value)) return true;
+    if (value_from_text(parameter.type, parameter.object, attribute.value)) return true;
     report_.at_value(
         attribute.place,
         fmt::format("there are blanks around the entry '{}'",
@@ -148,11 +152,12 @@ class PortChecker {
       if (!code) return false;
       value = std::string(attribute.value);
       if (*code == nullptr) return true;
-      port.script = static_cast<std::uint32_t>(trees_.scripts.size());
+      const auto index = static_cast<std::uint32_t>(&port - trees_.ports.data());
+      trees_.port_scripts[index] = static_cast<std::uint32_t>(trees_.scripts.size());
       trees_.scripts.push_back({.hook = {}, .is_last = true, .code = *std::move(code)});
       return true;
     }
-    auto read = read_literal(parameter.type, parameter.object, attribute.value);
+    auto read = value_from_text(parameter.type, parameter.object, attribute.value);
     if (!read) {
       report_.at_value(
           attribute.place,
@@ -160,7 +165,7 @@ class PortChecker {
                       expected_text(parameter.type, parameter.object), parameter.name));
       return false;
     }
-    warn_of_tail(parameter, attribute);
+    if (read->has_rest) warn_of_rest(parameter, attribute);
     if (parameter.direction == Direction::Output) {
       report_.at_value(
           attribute.place,
@@ -168,20 +173,20 @@ class PortChecker {
           fmt::format("write {}=\"{{key}}\"", parameter.name), Severity::Warning);
       return true;
     }
-    if (const auto refused = refuse_value(parameter, *read)) {
+    if (const auto refused = refuse_value(parameter, read->value)) {
       report_.at_value(attribute.place, refused->message, refused->hint);
       return false;
     }
-    value = *std::move(read);
+    value = std::move(read->value);
     return true;
   }
 
-  void warn_of_tail(const Parameter& parameter, const Attribute& attribute) const {
-    const std::string_view tail = ignored_tail(parameter, attribute.value);
-    if (tail.empty()) return;
-    report_.in_value(attribute.place, attribute.value.size() - tail.size(),
-                     fmt::format("'{}' after the number is ignored", brief(tail)), {},
-                     Severity::Warning);
+  void warn_of_rest(const Parameter& parameter, const Attribute& attribute) const {
+    if (report_.counted_only(Severity::Warning)) return;
+    report_.at_value(attribute.place,
+                     fmt::format("'{}' is only read as far as it is {}", brief(attribute.value),
+                                 expected_text(parameter.type, parameter.object)),
+                     "what comes after that is ignored", Severity::Warning);
   }
 
   const NodeElement& element_;
@@ -198,8 +203,36 @@ void read_attributes(const NodeElement& element, const Reporter& report, Checked
   check_hooks(element, report, node, trees);
 }
 
-void read_subtree_attributes(const NodeElement& element, const Reporter& report, CheckedNode& node,
-                             CheckedSubTree& subtree, CheckedTrees& trees) {
+namespace {
+
+Remapping remapping(std::string_view name, std::string_view value, Place place) {
+  const auto key = key_of(value, name);
+  return {name, key.empty() ? value : key, !key.empty(), place};
+}
+
+// What the model declares and the element does not give.
+void add_defaults(const NodeElement& element, const Model& model, const Reporter& report,
+                  std::string_view id, CheckedTrees& trees) {
+  for (const ModelPort& port : model.ports) {
+    if (find_attribute(element.attributes, port.name) != nullptr) continue;
+    if (port.default_value) {
+      auto& it =
+          trees.remappings.emplace_back(remapping(port.name, *port.default_value, element.place));
+      it.is_written = false;
+    } else if (!report.counted_only(Severity::Error)) {
+      report.at(element.place,
+                fmt::format("the SubTree '{}' needs the port '{}'", brief(id), brief(port.name)),
+                "its model in TreeNodesModel declares it without a default; _autoremap=\"true\" "
+                "takes it from outside");
+    }
+  }
+}
+
+}  // namespace
+
+void read_subtree_attributes(const NodeElement& element, const Models& models,
+                             const Reporter& report, CheckedNode& node, CheckedSubTree& subtree,
+                             CheckedTrees& trees) {
   subtree.first = static_cast<std::uint32_t>(trees.remappings.size());
   for (const Attribute& attribute : element.attributes) {
     const auto& [name, value, place] = attribute;
@@ -208,17 +241,23 @@ void read_subtree_attributes(const NodeElement& element, const Reporter& report,
       subtree.id = value;
       subtree.place = place;
     } else if (name == "_autoremap") {
-      const auto autoremap = read_bool(value);
-      subtree.autoremap = autoremap.value_or(false);
+      const auto autoremap = value_from_text(ValueType::Bool, nullptr, value);
+      subtree.autoremap = autoremap && autoremap->value == Value(true);
       if (!autoremap) {
         report.at_value(place, fmt::format("'{}' is not true or false", brief(value)));
       }
     } else if (is_port_name(name)) {
-      const auto key = key_of(value, name);
-      trees.remappings.push_back({name, key.empty() ? value : key, !key.empty(), place});
+      trees.remappings.push_back(remapping(name, value, place));
+    } else if (name == "__shared_blackboard") {
+      report.at(place, "'__shared_blackboard' is ignored since version 4",
+                "write _autoremap=\"true\"", Severity::Warning);
     } else {
       check_mark(attribute, report);
     }
+  }
+  const auto model = models.subtrees.find(subtree.id);
+  if (model != models.subtrees.end() && !subtree.autoremap) {
+    add_defaults(element, model->second, report, subtree.id, trees);
   }
   subtree.remappings = static_cast<std::uint32_t>(trees.remappings.size()) - subtree.first;
   if (subtree.id.empty()) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "definition/attributes.h"
+#include "definition/btcpp/models.h"
 #include "definition/checked_tree.h"
 #include "document/reporter.h"
 
@@ -12,8 +13,9 @@ namespace lockstep::btcpp {
 void read_attributes(const NodeElement& element, const Reporter& report, CheckedNode& node,
                      CheckedTrees& trees);
 
-// The same for a SubTree, whose attributes are remappings.
-void read_subtree_attributes(const NodeElement& element, const Reporter& report, CheckedNode& node,
-                             CheckedSubTree& subtree, CheckedTrees& trees);
+// The same for a SubTree, whose attributes are remappings. A model of its tree has defaults.
+void read_subtree_attributes(const NodeElement& element, const Models& models,
+                             const Reporter& report, CheckedNode& node, CheckedSubTree& subtree,
+                             CheckedTrees& trees);
 
 }  // namespace lockstep::btcpp

@@ -1,9 +1,6 @@
 #include "definition/btcpp/literal.h"
 
-#include <algorithm>
 #include <charconv>
-
-#include "core/parameter_value.h"
 
 namespace lockstep::btcpp {
 namespace {
@@ -16,22 +13,6 @@ bool is_all(std::string_view text) {
 }
 
 }  // namespace
-
-std::optional<Value> read_literal(ValueType type, const ObjectType* object, std::string_view text) {
-  return parse_value(type, object, text);
-}
-
-std::string_view ignored_tail(const Parameter& /*parameter*/, std::string_view /*text*/) {
-  return {};
-}
-
-std::optional<bool> read_bool(std::string_view text) {
-  constexpr std::string_view kTrue[] = {"1", "true", "TRUE", "True"};
-  constexpr std::string_view kFalse[] = {"0", "false", "FALSE", "False"};
-  if (std::ranges::find(kTrue, text) != std::end(kTrue)) return true;
-  if (std::ranges::find(kFalse, text) != std::end(kFalse)) return false;
-  return std::nullopt;
-}
 
 ValueType literal_type(std::string_view text) {
   if (is_all<std::int64_t>(text)) return ValueType::Int;

@@ -9,6 +9,7 @@
 #include "core/wording.h"
 #include "definition/btcpp/attributes.h"
 #include "definition/btcpp/document_order.h"
+#include "definition/btcpp/version_3.h"
 #include "definition/node_check.h"
 
 namespace lockstep::btcpp {
@@ -17,10 +18,16 @@ namespace {
 // Of the only tree of a file, which needs none.
 constexpr std::string_view kNoId = "BehaviorTree";
 
+constexpr std::uint32_t kMaxLevels = 255;  // of elements below BehaviorTree
+
 class TreeReader {
  public:
-  TreeReader(const Project& project, const Catalog& catalog, Diagnostics& diagnostics)
-      : project_(project), catalog_(catalog), report_(project.sources, diagnostics) {}
+  TreeReader(const Project& project, const Catalog& catalog, const Models& models,
+             Diagnostics& diagnostics)
+      : project_(project),
+        catalog_(catalog),
+        models_(models),
+        report_(project.sources, diagnostics) {}
 
   CheckedTrees read() {
     trees_.language = Language::BehaviorTreeCpp;
@@ -66,8 +73,9 @@ class TreeReader {
                suggest(tag, kKnown, "elements of 'root'"), Severity::Warning);
   }
 
-  void read_root(bool is_main) const {
+  void read_root(bool is_main) {
     const Attribute* format = find_attribute(attributes(0), "BTCPP_format");
+    is_version_3_ = format == nullptr || format->value != "4";
     if (const Attribute* ours = find_attribute(attributes(0), "lockstep")) {
       report_.at(ours->place,
                  is_main ? "this file says that it is in two languages"
@@ -160,7 +168,16 @@ class TreeReader {
     node.type = is_explicit ? find_explicit_type(index) : find_compact_type(index);
     if (node.type != nullptr) {
       check_arity({elements_, index}, node, report_);
-      read_content({node.place, attributes(index), is_explicit}, self, node);
+      NodeElement element{node.place, attributes(index), is_explicit};
+      std::vector<Attribute> since_4;
+      if (is_version_3_) {
+        since_4 = attributes_since_4(element.attributes, *node.type, report_);
+        element.attributes = since_4;
+      }
+      read_content(element, self, node);
+    }
+    if (depth == kMaxLevels) {
+      report_.at(node.place, fmt::format("elements are nested deeper than {} levels", kMaxLevels));
     }
     path_size += node.name.size() + 1;
     tree_.paths_size += path_size;
@@ -183,11 +200,12 @@ class TreeReader {
   // What the attributes of a node say.
   void read_content(const NodeElement& element, std::uint32_t self, CheckedNode& node) {
     const Attribute* name = find_attribute(element.attributes, "name");
-    node.name = name != nullptr && !name->value.empty() ? name->value : node.type->id;
+    const bool is_named = name != nullptr && !name->value.empty();
+    node.name = is_named ? in_path(name->value) : node.type->id;
     if (is_subtree(node)) {
       CheckedSubTree subtree{.node = self};
-      read_subtree_attributes(element, report_, node, subtree, trees_);
-      if (name == nullptr || name->value.empty()) node.name = subtree.id;
+      read_subtree_attributes(element, models_, report_, node, subtree, trees_);
+      if (!is_named) node.name = in_path(subtree.id);
       node.first = count(trees_.subtrees);
       trees_.subtrees.push_back(subtree);
     } else {
@@ -196,14 +214,27 @@ class TreeReader {
     keep_written(element, node, trees_);
   }
 
+  // '/' separates the names in a path.
+  std::string_view in_path(std::string_view name) {
+    if (name.find('/') == std::string_view::npos) return name;
+    std::string& text = trees_.texts.emplace_back();
+    for (const char c : name) c == '/' ? text += "%2F" : text += c;
+    return text;
+  }
+
   template <class T>
   static std::uint32_t count(const std::vector<T>& all) {
     return static_cast<std::uint32_t>(all.size());
   }
 
+  const NodeType* find_type(std::string_view id) const {
+    const NodeType* type = catalog_.find(id);
+    return type == nullptr && is_version_3_ ? catalog_.find(node_since_4(id)) : type;
+  }
+
   const NodeType* find_compact_type(std::uint32_t index) const {
     const std::string_view tag = element(index).tag;
-    const NodeType* type = catalog_.find(tag);
+    const NodeType* type = find_type(tag);
     if (type == nullptr) {
       unknown(index, tag, nullptr);
     } else if (const Attribute* id = find_attribute(attributes(index), "ID");
@@ -223,7 +254,7 @@ class TreeReader {
                  fmt::format("write <{} ID=\"…\"/> with the ID of a node", tag));
       return nullptr;
     }
-    const NodeType* type = catalog_.find(id->value);
+    const NodeType* type = find_type(id->value);
     if (type == nullptr) {
       unknown(index, id->value, id);
     } else if (tag != explicit_tag(type->category)) {
@@ -238,11 +269,7 @@ class TreeReader {
 
   void unknown(std::uint32_t index, std::string_view id, const Attribute* attribute) const {
     if (report_.counted_only(Severity::Error)) return;
-    std::string hint = did_you_mean(id, catalog_.ids());
-    if (hint.empty()) {
-      hint =
-          "if a plugin provides it, give that with --plugin, or name it with <plugin name=\"…\"/>";
-    }
+    const std::string hint = hint_for_unknown(id);
     const std::string message = fmt::format("unknown node '{}'", brief(id));
     if (attribute == nullptr) {
       report_.at(element(index).place, message, hint);
@@ -251,21 +278,48 @@ class TreeReader {
     }
   }
 
+  std::string hint_for_unknown(std::string_view id) const {
+    if (const auto since = node_since_4(id); !since.empty()) {
+      return fmt::format("since version 4 it is called '{}'", since);
+    }
+    if (const auto gone = hint_for_gone(id); !gone.empty()) return std::string(gone);
+    if (is_tree(id))
+      return fmt::format("to use the tree '{0}' write <SubTree ID=\"{0}\"/>", brief(id));
+    std::string hint = did_you_mean(id, catalog_.ids());
+    if (!hint.empty()) return hint;
+    return "if a plugin provides it, give that with --plugin, or name it with <plugin name=\"…\"/>";
+  }
+
+  bool is_tree(std::string_view id) const {
+    return std::ranges::any_of(project_.documents, [&](const auto& document) {
+      const auto elements = document->elements();
+      for (const std::uint32_t child : children_in(elements, 0)) {
+        const Attribute* named = document->find_attribute(child, "ID");
+        const bool is_one = elements[child].tag == "BehaviorTree";
+        if (is_one && named != nullptr && named->value == id) return true;
+      }
+      return false;
+    });
+  }
+
   const Project& project_;
   const Catalog& catalog_;
+  const Models& models_;
   const Reporter report_;
   CheckedTrees trees_;
   CheckedTree tree_;                          // that is being read
   std::map<std::string_view, Place> places_;  // of the trees, by ID
   const Document* document_ = nullptr;
   std::span<const Element> elements_;  // of the document
+  bool is_version_3_ = false;          // or older
   std::uint32_t trees_here_ = 0;       // how many BehaviorTrees it has
 };
 
 }  // namespace
 
-CheckedTrees read_trees(const Project& project, const Catalog& catalog, Diagnostics& diagnostics) {
-  return TreeReader(project, catalog, diagnostics).read();
+CheckedTrees read_trees(const Project& project, const Catalog& catalog, const Models& models,
+                        Diagnostics& diagnostics) {
+  return TreeReader(project, catalog, models, diagnostics).read();
 }
 
 }  // namespace lockstep::btcpp

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/diagnostics.h"
+#include "definition/btcpp/models.h"
 #include "definition/catalog.h"
 #include "definition/checked_tree.h"
 #include "document/project.h"
@@ -9,6 +10,7 @@
 namespace lockstep::btcpp {
 
 // Checks every BehaviorTree of the project, used or not.
-CheckedTrees read_trees(const Project& project, const Catalog& catalog, Diagnostics& diagnostics);
+CheckedTrees read_trees(const Project& project, const Catalog& catalog, const Models& models,
+                        Diagnostics& diagnostics);
 
 }  // namespace lockstep::btcpp

@@ -11,7 +11,13 @@ std::optional<std::shared_ptr<const Expression>> parse_script(const Attribute& a
                                                               EmptyScript empty) {
   if (empty == EmptyScript::DoesNothing && attribute.value.empty()) return nullptr;
   auto code = Expression::parse(attribute.value);
-  if (code) return std::make_shared<const Expression>(*std::move(code));
+  if (code) {
+    for (const auto& remark : code->remarks()) {
+      report.in_value(attribute.place, remark.offset, remark.message, remark.hint,
+                      Severity::Warning);
+    }
+    return std::make_shared<const Expression>(*std::move(code));
+  }
   auto& error = code.error();
   report.in_value(attribute.place, error.offset, std::move(error.message), std::move(error.hint));
   return std::nullopt;

@@ -1,0 +1,24 @@
+// Words of files without BTCPP_format="4": what they are called since, and those that are gone.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/node_type.h"
+#include "document/element.h"
+#include "document/reporter.h"
+
+namespace lockstep::btcpp {
+
+// The node that is called like that since version 4; "" if the name says the same in both.
+std::string_view node_since_4(std::string_view id);
+
+// The attributes of a node as version 4 calls them. Reports what has another meaning there.
+std::vector<Attribute> attributes_since_4(std::span<const Attribute> attributes,
+                                          const NodeType& type, const Reporter& report);
+
+// What to write instead of a node that is gone; "" if it is none.
+std::string_view hint_for_gone(std::string_view id);
+
+}  // namespace lockstep::btcpp

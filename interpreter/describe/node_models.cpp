@@ -1,0 +1,68 @@
+#include <fmt/format.h>
+
+#include "core/diagnostics.h"
+#include "definition/btcpp/models.h"
+#include "definition/node_check.h"
+#include "describe/node_reference.h"
+
+namespace lockstep {
+namespace {
+
+std::string escaped_xml(std::string_view text) {
+  std::string safe;
+  for (const char c : text) {
+    switch (c) {
+      case '<':
+        safe += "&lt;";
+        break;
+      case '>':
+        safe += "&gt;";
+        break;
+      case '&':
+        safe += "&amp;";
+        break;
+      case '"':
+        safe += "&quot;";
+        break;
+      default:
+        safe += c;
+    }
+  }
+  return safe;
+}
+
+std::string_view port_tag(Direction direction) {
+  if (direction == Direction::Input) return "input_port";
+  return direction == Direction::Output ? "output_port" : "inout_port";
+}
+
+std::string cpp_type(const Parameter& it) {
+  if (it.type == ValueType::Object) return std::string(it.object->name());
+  return std::string(btcpp::cpp_type_of(it.type));
+}
+
+std::string port_model(const Parameter& it) {
+  const std::string tag(port_tag(it.direction));
+  std::string text =
+      fmt::format("      <{} name=\"{}\" type=\"{}\"", tag, it.name, escaped_xml(cpp_type(it)));
+  if (it.default_text) {
+    text += fmt::format(" default=\"{}\"", escaped_xml(printable(*it.default_text)));
+  }
+  return text + fmt::format(">{}</{}>\n", escaped_xml(printable(it.doc)), tag);
+}
+
+}  // namespace
+
+std::string nodes_as_models(NodeTypes types) {
+  std::string text = "<root BTCPP_format=\"4\">\n  <TreeNodesModel>\n";
+  for (const NodeType* type : types) {
+    const auto tag = explicit_tag(type->category);
+    if (tag.empty()) continue;
+    text += fmt::format("    <{} ID=\"{}\">\n", tag, type->id);
+    for (const Parameter& it : type->parameters) text += port_model(it);
+    text += fmt::format("    </{}>\n", tag);
+  }
+  return text + "  </TreeNodesModel>\n</root>\n";
+}
+
+}  // namespace lockstep

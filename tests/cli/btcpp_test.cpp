@@ -1,0 +1,120 @@
+// Trees for BehaviorTree.CPP on the command line: without their plugins, and with models.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+
+using namespace lockstep::test;
+
+namespace {
+
+std::string document(const std::string& node) {
+  return "<root BTCPP_format=\"4\">\n<BehaviorTree ID=\"Main tree\">\n" + node +
+         "\n</BehaviorTree></root>\n";
+}
+
+const std::string kNodes =
+    "<ParallelAbsolute barriers=\"0.5\"><Dock goal=\"{pose}\"/><Rate hz=\"2\"><Pick/></Rate>"
+    "<Condition ID=\"IsOpen\"/></ParallelAbsolute>";
+
+Outcome run_mocked(const std::string& tree, std::vector<std::string> more) {
+  std::vector<std::string> arguments{"run",     tree,     "--mock", "--clock",
+                                     "virtual", "--view", "none",   "--json"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return lockstep::test::lockstep(arguments);
+}
+
+}  // namespace
+
+TEST_CASE("check takes a tree without its plugins, and --strict does not") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("tree.xml", document(kNodes));
+  const Outcome noted = lockstep::test::lockstep({"check", tree});
+  CHECK(noted.code == 0);
+  CHECK(noted.out == tree + ": ok\n");
+  for (const char* id : {"Dock", "Rate", "Pick", "IsOpen"}) {
+    CHECK(contains(noted.err, "note: no plugin has '" + std::string(id) + "'"));
+  }
+  const Outcome strict = lockstep::test::lockstep({"check", "--strict", tree});
+  CHECK(strict.code == 3);
+  CHECK(contains(strict.err, "error: unknown node 'Dock'"));
+  CHECK(lockstep::test::lockstep({"show", tree}).code == 0);
+  const Outcome run = lockstep::test::lockstep({"run", tree, "--clock", "virtual"});
+  CHECK(run.code == 3);
+  CHECK(contains(run.err, "error: unknown node 'Dock'"));
+}
+
+TEST_CASE("run --mock runs a tree before its plugins exist") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("tree.xml", document(kNodes));
+  const Outcome outcome = run_mocked(tree, {});
+  CHECK(outcome.code == 0);
+  const auto summary = nlohmann::json::parse(outcome.out);
+  CHECK(summary["result"] == "success");
+  const int ticks = summary["ticks"];
+  CHECK(run_mocked(tree, {"--mock-leaf", "Dock=success:2"}).code == 0);
+  CHECK(nlohmann::json::parse(run_mocked(tree, {"--mock-leaf", "Dock=success:2"}).out)["ticks"] >
+        ticks);
+  CHECK(run_mocked(tree, {"--mock-leaf", "IsOpen=failure"}).code == 1);
+  CHECK(run_mocked(tree, {"--mock-leaf", "Pick=running", "--max-ticks", "50"}).code == 124);
+}
+
+TEST_CASE("run --mock is for lockstep's own trees, too, and for leaves of plugins") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "tree.xml", tree_text("<ParallelAbsolute barriers=\"1\"><Dock/><Advance step=\"0.5\"/>"
+                            "</ParallelAbsolute>"));
+  CHECK(lockstep::test::lockstep({"check", tree}).code == 3);
+  CHECK(run_mocked(tree, {}).code == 0);
+  CHECK(run_mocked(tree, {"--mock-leaf", "Advance=failure"}).code == 1);
+}
+
+TEST_CASE("run --mock-leaf takes a result and a time") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("tree.xml", document(kNodes));
+  for (const char* wrong :
+       {"Dock=maybe", "Dock=success:", "Dock=success:-1", "Dock=failure:1s", "Dock"}) {
+    INFO(wrong);
+    const Outcome outcome = run_mocked(tree, {"--mock-leaf", wrong});
+    CHECK(outcome.code == 2);
+    CHECK(contains(outcome.err, "--mock-leaf"));
+  }
+}
+
+TEST_CASE("files of ROS packages are found in AMENT_PREFIX_PATH, or where --ros-package says") {
+  const TemporaryDirectory directory;
+  directory.file("part.xml", document("<AlwaysSuccess/>"));
+  const std::string tree =
+      directory.file("tree.xml",
+                     "<root BTCPP_format=\"4\" main_tree_to_execute=\"Main tree\">"
+                     "<include ros_pkg=\"arms\" path=\"part.xml\"/></root>");
+  const Outcome missing = run({.arguments = {"check", tree},
+                               .environment = {{"AMENT_PREFIX_PATH", directory.path("none")}}});
+  CHECK(missing.code == 3);
+  CHECK(contains(missing.err, "the ROS package 'arms' is not found"));
+  CHECK(lockstep::test::lockstep({"check", "--ros-package", "arms=" + directory.path("."), tree})
+            .code == 0);
+}
+
+TEST_CASE("nodes --format btcpp is a model of what Groot2 does not know") {
+  const Outcome outcome =
+      lockstep::test::lockstep({"nodes", "--plugin", "motion", "--format", "btcpp"});
+  CHECK(outcome.code == 0);
+  CHECK(contains(outcome.out, "<root BTCPP_format=\"4\">\n  <TreeNodesModel>\n"));
+  CHECK(contains(outcome.out, "    <Control ID=\"ParallelAbsolute\">\n"));
+  CHECK(contains(outcome.out, "    <Action ID=\"Advance\">\n"));
+  CHECK(contains(outcome.out, "<input_port name=\"step\" type=\"double\" default=\"0.01\">"));
+  CHECK(contains(outcome.out, "type=\"std::vector&lt;double&gt;\""));
+  CHECK_FALSE(contains(outcome.out, "\"Sequence\""));
+  // A document with it can be checked without the plugin.
+  const TemporaryDirectory directory;
+  const std::string model = outcome.out.substr(outcome.out.find("  <TreeNodesModel>"));
+  const std::string tree =
+      directory.file("tree.xml",
+                     "<root BTCPP_format=\"4\"><BehaviorTree><ParallelAbsolute barriers=\"1\">\n"
+                     "<Advance step=\"fast\"/></ParallelAbsolute></BehaviorTree>\n" +
+                         model);
+  const Outcome checked = lockstep::test::lockstep({"check", tree});
+  CHECK(checked.code == 3);
+  CHECK(contains(checked.err, "tree.xml:2:16: error: 'fast' is not a number"));
+}
