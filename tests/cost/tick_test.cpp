@@ -19,6 +19,7 @@
 
 #include "definition/resolve.h"
 #include "engine/compile.h"
+#include "expression/evaluator.h"
 #include "measure/entry_changes.h"
 #include "measure/measure_spec.h"
 #include "plugin/plugin_set.h"
@@ -247,6 +248,37 @@ TEST_CASE("a feed takes snapshots and entries that change without allocating or 
   CHECK(feed.newest().entries[0].text == "0.0003;0.6");
   CHECK(g_allocations == 0);
   CHECK(g_locks == 0);
+}
+
+TEST_CASE("a script allocates nothing for numbers, and for texts only when it runs first") {
+  for (const char* const text :
+       {"x > 3 && (y < 2.5 || !x)", "x += 1; y := x / 3; x < y <= 7 ? x : -y",
+        "z := 'a text that is too long to be in its string: ' .. x; x > 1",
+        "z == 'another text' || z .. z == 'a text'"}) {
+    INFO(text);
+    std::vector<Entry> board(3);
+    board[0].value = std::int64_t{5};
+    board[1].value = 1.5;
+    board[2].value = std::string("a text that takes memory, since it is too long for a string");
+    const auto script = Expression::parse(text);
+    REQUIRE(script.has_value());
+    std::vector<Entry*> entries;
+    for (const std::string& name : script->names()) {
+      board[name[0] - 'x'].typing = Typing::Any;
+      entries.push_back(&board[name[0] - 'x']);
+    }
+    Evaluator evaluator;
+    Value value;
+    REQUIRE(evaluator.evaluate(*script, entries, value) == "");
+    std::string error;
+    g_allocations = g_locks = 0;
+    t_counting = true;
+    for (int i = 0; i < 100; ++i) error = evaluator.evaluate(*script, entries, value);
+    t_counting = false;
+    CHECK(error == "");
+    CHECK(g_allocations == 0);
+    CHECK(g_locks == 0);
+  }
 }
 
 TEST_CASE("the counters count") {
