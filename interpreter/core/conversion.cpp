@@ -6,6 +6,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/json_reader.h"
+
 namespace lockstep {
 namespace {
 
@@ -47,9 +49,51 @@ std::optional<FromText<Value>> read_one(std::string_view text) {
   return FromText<Value>{Value(std::move(found->value)), found->has_rest};
 }
 
+bool get_item(JsonValue& item, double& number) {
+  return item.get(number);
+}
+bool get_item(JsonValue& item, std::int64_t& number) {
+  double real = 0;
+  if (!item.get(real)) return false;
+  const auto whole = to_whole(real);
+  number = whole.value_or(0);
+  return whole.has_value();
+}
+bool get_item(JsonValue& item, Flag& flag) {
+  return item.get(flag.is_set);
+}
+bool get_item(JsonValue& item, std::string& text) {
+  std::string_view found;
+  if (!item.get(found)) return false;
+  text = found;
+  return true;
+}
+
+// "[1, 2]"
+template <class T>
+std::optional<FromText<Value>> read_json_list(std::string_view text) {
+  std::string object = fmt::format("{{\"list\":{}}}", text);
+  std::vector<T> list;
+  std::size_t fields = 0;
+  bool good = true;
+  const auto read_items = [&](std::string_view, JsonValue value) {
+    ++fields;
+    value.each_item([&](JsonValue item) { good = get_item(item, list.emplace_back()) && good; });
+  };
+  try {
+    JsonReader().read(object, [&](JsonObject it) { it.each_field(read_items); });
+  } catch (const JsonError&) {
+    return std::nullopt;
+  }
+  if (!good || fields != 1) return std::nullopt;
+  return FromText<Value>{Value(std::move(list)), false};
+}
+
 // Parts between ';'; one at the end is ignored.
 template <class T>
 std::optional<FromText<Value>> read_list(std::string_view text) {
+  constexpr std::string_view kJson = "json:";
+  if (text.starts_with(kJson)) return read_json_list<T>(text.substr(kJson.size()));
   std::vector<T> list;
   bool has_rest = false;
   while (!text.empty()) {

@@ -57,6 +57,9 @@ void JsonValue::fail(std::string_view expected) const {
 bool JsonValue::get(std::string_view& text) {
   return take(value_.get_string(), text);
 }
+bool JsonValue::get(bool& flag) {
+  return take(value_.get_bool(), flag);
+}
 bool JsonValue::get(double& number) {
   return take(value_.get_double(), number);
 }

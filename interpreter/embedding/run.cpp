@@ -136,9 +136,10 @@ bool set(lockstep_run* run, const char* key, T value) {
   return guarded([&] {
     Entry* const entry = find_entry(run, key);
     if (entry == nullptr) return false;
+    if (entry->typing == Typing::Any) return write(*entry, Value(std::move(value)));
     if (!holds(Value(value), entry->type)) {
-      return fail(fmt::format("the entry '{}' is of type {}", key,
-                              type_name(entry->type, entry->object)));
+      return fail(
+          fmt::format("the entry '{}' is of type {}", key, type_name(entry->type, entry->object)));
     }
     if (!is_finite(value)) return fail("a number must be finite");
     return write(*entry, Value(std::move(value)));

@@ -57,7 +57,8 @@ const Value* converted(const lockstep_caller* caller, std::uint32_t port, ValueT
   BoundPort& it = mine(caller).ports[port];
   const bool is_number = type == ValueType::Int || type == ValueType::Double;
   if (it.type != type && !(it.type == ValueType::Number && is_number)) return nullptr;
-  auto value = convert_value(*it.read, type, it.object);
+  if (holds(*it.read, it.type)) return nullptr;  // the other kind of number
+  auto value = convert_value(*it.read, it.type, it.object);
   if (!value) return nullptr;
   if (it.converted == nullptr) it.converted = std::make_unique<Value>();
   *it.converted = std::move(*value);
@@ -97,23 +98,11 @@ bool get_string(const lockstep_caller* caller, std::uint32_t port, const char** 
   return true;
 }
 
-// Whether what a port of numbers reads is an int: its value, or its default.
-bool has_whole(const BoundPort& port) {
-  const bool is_empty = std::holds_alternative<NoValue>(*port.read);
-  const Value* const value = is_empty && port.fallback != nullptr ? port.fallback : port.read;
-  return std::holds_alternative<std::int64_t>(*value);
-}
-
 // A number is an int when the port is bound to an entry that is one, or has such a constant.
 bool get_double(const lockstep_caller* caller, std::uint32_t port, double* value) {
-  const bool is_known = !caller->is_foreign() && port < caller->ports.size();
-  const Value* const read = is_known ? caller->ports[port].read : nullptr;
-  if (read == nullptr || caller->ports[port].type != ValueType::Number ||
-      !has_whole(caller->ports[port])) {
-    return get(caller, port, value);
-  }
+  if (get(caller, port, value)) return true;
   const auto* whole = readable<std::int64_t>(caller, port);
-  if (whole == nullptr) return false;
+  if (whole == nullptr || caller->ports[port].type != ValueType::Number) return false;
   *value = static_cast<double>(*whole);
   return true;
 }

@@ -82,6 +82,18 @@ TEST_CASE("a text is read as a value of a type, and its rest is ignored") {
       {ValueType::BoolList, "yes", std::nullopt},
       {ValueType::StringList, "a; b;", Texts{"a", " b"}},
       {ValueType::StringList, "a;;b", Texts{"a", "", "b"}},
+      {ValueType::DoubleList, "json:[1, 2.5]", Doubles{1, 2.5}},
+      {ValueType::DoubleList, "json:[]", Doubles{}},
+      {ValueType::IntList, "json:[1,-2]", Wholes{1, -2}},
+      {ValueType::IntList, "json:[1.5]", std::nullopt},
+      {ValueType::BoolList, "json:[true,false]", Flags{{true}, {false}}},
+      {ValueType::BoolList, "json:[1]", std::nullopt},
+      {ValueType::StringList, R"(json:["a;b", "\u00e4"])", Texts{"a;b", "ä"}},
+      {ValueType::StringList, "json:[1]", std::nullopt},
+      {ValueType::DoubleList, "json:[1", std::nullopt},
+      {ValueType::DoubleList, "json:{}", std::nullopt},
+      {ValueType::DoubleList, R"(json:[1],"list":[2])", std::nullopt},
+      {ValueType::DoubleList, "json:", std::nullopt},
   };
   for (const Row& row : rows) {
     INFO(to_string(row.type) << " '" << row.text << "'");
