@@ -48,12 +48,13 @@ const std::vector<Layer> kLayers{
     {"interpreter/plots/",
      {"core/", "runtime/", "measure/", "terminal/", "summary/", "recording/", "study/"}},
     {"interpreter/describe/", {"core/", "definition/"}},
+    {"interpreter/convert/", {"core/", "document/", "definition/"}},
     {"interpreter/loading/", {"core/", "document/", "definition/", "engine/", "plugin/"}},
     {"interpreter/embedding/",
      {"core/", "document/", "definition/", "engine/", "plugin/", "loading/", "runtime/"}},
     {"interpreter/cli/",
      {"core/", "document/", "definition/", "engine/", "plugin/", "loading/", "runtime/", "measure/",
-      "terminal/", "summary/", "recording/", "view/", "study/", "plots/", "describe/",
+      "terminal/", "summary/", "recording/", "view/", "study/", "plots/", "describe/", "convert/",
       "lockstep/leaf.h"}},
     {"interpreter/main.cpp", {"core/", "runtime/", "cli/"}},
     {"interpreter/leafhost.cpp", {"core/", "plugin/", "runtime/"}},
@@ -74,7 +75,7 @@ const std::vector<Layer> kThirdParty{
       "interpreter/plugin/", "interpreter/loading/", "interpreter/runtime/",
       "interpreter/embedding/", "interpreter/terminal/", "interpreter/summary/",
       "interpreter/recording/", "interpreter/view/", "interpreter/study/", "interpreter/plots/",
-      "interpreter/describe/", "interpreter/cli/"}},
+      "interpreter/describe/", "interpreter/convert/", "interpreter/cli/"}},
 };
 
 struct Include {

@@ -21,7 +21,7 @@ struct Command {
 };
 
 extern const Command kRunCommand, kCheckCommand, kShowCommand, kNodesCommand, kSchemaCommand,
-    kLogCommand, kReplayCommand, kStudyCommand;
+    kConvertCommand, kLogCommand, kReplayCommand, kStudyCommand;
 
 // All commands, in the order of --help.
 std::span<const Command* const> commands();

@@ -1,0 +1,77 @@
+#include <CLI/CLI.hpp>
+
+#include "cli/checks.h"
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/exit_code.h"
+#include "convert/convert.h"
+#include "document/file.h"
+#include "loading/plugins.h"
+
+namespace lockstep {
+namespace {
+
+struct ConvertOptions {
+  std::string tree;
+  std::string to;
+};
+
+std::optional<std::string> converted(const ConvertOptions& options, Diagnostics& diagnostics) {
+  const bool is_stdin = options.tree == "-";
+  auto text = is_stdin ? read_stdin(Document::kMaxBytes)
+                       : read_file(options.tree, Document::kMaxBytes, FileKinds::RegularOrPipe);
+  const std::string name = is_stdin ? "stdin" : options.tree;
+  if (!text) {
+    diagnostics.error({name}, "cannot be read: " + text.error().message);
+    return std::nullopt;
+  }
+  const auto document = Document::parse(name, std::move(*text), diagnostics);
+  if (!document || diagnostics.has_errors()) return std::nullopt;
+  const Language from = document->language();
+  const Language other =
+      from == Language::Lockstep ? Language::BehaviorTreeCpp : Language::Lockstep;
+  const Language to = options.to.empty()         ? other
+                      : options.to == "lockstep" ? Language::Lockstep
+                                                 : Language::BehaviorTreeCpp;
+  if (to == from) {
+    diagnostics.error({name}, "is in that language already");
+    return std::nullopt;
+  }
+  const PluginSet none;
+  const Catalog from_nodes = make_catalog(none, from), to_nodes = make_catalog(none, to);
+  Sources sources;
+  sources.add(document->source());
+  return convert(*document, {to, from_nodes, to_nodes}, Reporter(sources, diagnostics));
+}
+
+int convert_file(const ConvertOptions& options) {
+  keep_stdout_for_results();
+  Diagnostics diagnostics;
+  const auto text = converted(options, diagnostics);
+  print_diagnostics(diagnostics, Severity::Note);
+  if (!text) return kExitInvalidTree;
+  return write_results(*text);
+}
+
+std::function<int()> define_convert(CLI::App& app) {
+  const auto options = std::make_shared<ConvertOptions>();
+  app.add_option("tree", options->tree, "Tree file; - is stdin")->type_name("TREE.xml")->required();
+  app.add_option("--to", options->to, "lockstep or btcpp4 (default: the one that it is not in)")
+      ->check(one_of({"lockstep", "btcpp4"}));
+  return [options] { return convert_file(*options); };
+}
+
+}  // namespace
+
+const Command kConvertCommand{
+    "convert", "Print a tree file in the other language: lockstep's, or that of BehaviorTree.CPP",
+    "Comments, blanks and order stay. What cannot be said in the other language is an error.\n"
+    "Files that it includes are converted one by one. Nodes of plugins are copied.\n"
+    "Exit code: 0 printed, 2 usage, 3 the file cannot be read or converted.\n"
+    "\n"
+    "Examples:\n"
+    "  lockstep convert dock.xml > dock_lockstep.xml\n"
+    "  lockstep convert --to btcpp4 trees/door_pulling.xml > door_pulling.xml",
+    define_convert};
+
+}  // namespace lockstep

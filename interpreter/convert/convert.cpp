@@ -1,0 +1,383 @@
+#include "convert/convert.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "convert/node_pairs.h"
+#include "convert/text_edits.h"
+#include "core/identifier.h"
+#include "core/wording.h"
+#include "definition/btcpp/version_3.h"
+#include "definition/btcpp/words.h"
+#include "definition/node_check.h"
+#include "document/scanner.h"
+
+namespace lockstep {
+namespace {
+
+std::string quoted_xml(std::string_view value) {
+  std::string text = "\"";
+  for (const char c : value) {
+    switch (c) {
+      case '<':
+        text += "&lt;";
+        break;
+      case '&':
+        text += "&amp;";
+        break;
+      case '"':
+        text += "&quot;";
+        break;
+      case '\n':
+        text += "&#10;";
+        break;
+      default:
+        text += c;
+    }
+  }
+  return text + '"';
+}
+
+class Converter {
+ public:
+  Converter(const Document& document, const Conversion& conversion, const Reporter& report)
+      : document_(document),
+        conversion_(conversion),
+        report_(report),
+        text_(document.source()->text()),
+        scanner_(text_, to_ours() ? Grammar::Lenient : Grammar::Strict) {}
+
+  std::optional<std::string> convert() {
+    bool before_end = true;
+    while (before_end) {
+      const XmlToken token = scanner_.next();
+      before_end = token.kind != TokenKind::End && token.kind != TokenKind::Fault;
+      convert(token);
+    }
+    if (report_.has_errors()) return std::nullopt;
+    return edits_.apply(text_);
+  }
+
+ private:
+  bool to_ours() const { return conversion_.to == Language::Lockstep; }
+  std::string_view other_language() const {
+    return to_ours() ? "lockstep's language" : "BehaviorTree.CPP";
+  }
+
+  // What a part of the text has become.
+  struct Open {
+    std::uint32_t element;
+    std::size_t begin;
+    std::string tag;
+    bool is_left_out = false;
+  };
+
+  void convert(const XmlToken& token) {
+    switch (token.kind) {
+      case TokenKind::OpenTag:
+        return open(token);
+      case TokenKind::Attribute:
+        return attribute(token);
+      case TokenKind::EmptyTagEnd:
+        return close(token.begin + 2);
+      case TokenKind::CloseTag:
+        return close_tag(token);
+      case TokenKind::Text:
+        if (to_ours() && !is_left_out()) leave_out_text(token);
+        return;
+      case TokenKind::Comment:
+        return comment(token);
+      default:
+        return;
+    }
+  }
+
+  bool is_left_out() const {
+    return std::ranges::any_of(open_, [](const Open& it) { return it.is_left_out; });
+  }
+
+  void open(const XmlToken& token) {
+    const std::uint32_t element = next_++;
+    open_.push_back({element, token.begin, std::string(token.name)});
+    pair_ = nullptr;
+    if (element >= document_.elements().size()) {  // a second root
+      open_.back().is_left_out = true;
+    } else if (open_.size() > 2 && !is_left_out()) {
+      convert_node(element, token);
+    } else if (open_.size() == 2) {
+      convert_child_of_root(element);
+    } else if (open_.size() == 1) {
+      convert_root(element, token);
+    }
+    if (open_.back().tag != token.name) rename(token.begin + 1, token.name);
+  }
+
+  void rename(std::size_t at, std::string_view name) {
+    edits_.replace(at, at + name.size(), open_.back().tag);
+  }
+
+  void convert_root(std::uint32_t root, const XmlToken& token) {
+    const bool has_format = document_.find_attribute(root, "BTCPP_format") != nullptr;
+    if (to_ours() && !has_format) add_attribute(token, "lockstep", "1");
+  }
+
+  void add_attribute(const XmlToken& tag, std::string_view name, std::string_view value) {
+    edits_.insert(tag.begin + 1 + tag.name.size(), fmt::format(" {}={}", name, quoted_xml(value)));
+  }
+
+  void convert_child_of_root(std::uint32_t element) {
+    const std::string_view tag = document_.elements()[element].tag;
+    const Place place = place_of(element);
+    constexpr std::string_view kBoth[] = {"BehaviorTree", "include", "plugin", "arg"};
+    if (std::ranges::find(kBoth, tag) != std::end(kBoth)) {
+      if (to_ours() && tag == "BehaviorTree") check_tree(element);
+      return;
+    }
+    if (to_ours()) {
+      open_.back().is_left_out = true;
+      report_.at(place, fmt::format("'{}' is left out", brief(tag)),
+                 "lockstep's language does not have it; it has no effect on a run", Severity::Note);
+    } else {
+      cannot(place, fmt::format("'{}'", brief(tag)));
+    }
+  }
+
+  void check_tree(std::uint32_t tree) const {
+    const Attribute* id = document_.find_attribute(tree, "ID");
+    const Place place = document_.elements()[tree].place;
+    if (id == nullptr || id->value.empty()) {
+      report_.at(place, "a BehaviorTree without 'ID'", "give it one");
+    } else if (id->value.find('/') != std::string_view::npos) {
+      report_.at_value(id->place, fmt::format("the ID '{}' contains '/'", brief(id->value)),
+                       "in lockstep's language '/' separates the names in a path");
+    }
+  }
+
+  void cannot(Place place, std::string_view what, std::string hint = {}) const {
+    if (report_.counted_only(Severity::Error)) return;
+    report_.at(place, fmt::format("{} cannot be said in {}", what, other_language()),
+               std::move(hint));
+  }
+
+  void convert_node(std::uint32_t element, const XmlToken& token) {
+    const bool is_explicit = is_explicit_tag(token.name);
+    const Attribute* id = is_explicit ? document_.find_attribute(element, "ID") : nullptr;
+    std::string_view type = id != nullptr ? id->value : token.name;
+    if (is_explicit && id == nullptr) return cannot(place_of(element), "a node without 'ID'");
+    if (to_ours() && conversion_.from_nodes.find(type) == nullptr) {
+      if (const auto since = btcpp::node_since_4(type); !since.empty()) type = since;
+    }
+    if (conversion_.from_nodes.find(type) == nullptr) {
+      if (conversion_.to_nodes.find(type) == nullptr) return;
+      return cannot(place_of(element), fmt::format("a leaf called '{}'", brief(type)),
+                    "there it is the name of a built-in node");
+    }
+    pair_ = find_pair(element, type);
+    if (pair_ == nullptr) {
+      return cannot(place_of(element), fmt::format("this '{}'", brief(type)), hint_of(type));
+    }
+    open_.back().tag = to_ours() ? pair_->ours : pair_->theirs;
+    const FixedAttribute& fixed = to_ours() ? pair_->in_ours : pair_->in_theirs;
+    if (!fixed.name.empty() && !fixed.is_default) add_attribute(token, fixed.name, fixed.value);
+  }
+
+  Place place_of(std::uint32_t element) const { return document_.elements()[element].place; }
+
+  const NodePair* find_pair(std::uint32_t element, std::string_view type) const {
+    for (const NodePair& pair : node_pairs()) {
+      if ((to_ours() ? pair.theirs : pair.ours) != type) continue;
+      const FixedAttribute& fixed = to_ours() ? pair.in_theirs : pair.in_ours;
+      if (fixed.name.empty()) return &pair;
+      const Attribute* given = document_.find_attribute(element, fixed.name);
+      if (given == nullptr ? fixed.is_default : given->value == fixed.value) return &pair;
+    }
+    return nullptr;
+  }
+
+  // If one with another attribute can be said.
+  std::string hint_of(std::string_view type) const {
+    for (const NodePair& pair : node_pairs()) {
+      if ((to_ours() ? pair.theirs : pair.ours) != type) continue;
+      const FixedAttribute& fixed = to_ours() ? pair.in_theirs : pair.in_ours;
+      return fmt::format("one with {}=\"{}\" can", fixed.name, fixed.value);
+    }
+    return {};
+  }
+
+  void attribute(const XmlToken& token) {
+    if (is_left_out()) return;
+    const std::uint32_t element = open_.back().element;
+    const Attribute* found = document_.find_attribute(element, token.name);
+    if (found == nullptr) return;
+    if (open_.size() == 1) return root_attribute(token, *found);
+    if (open_.size() == 2) return tree_attribute(token, *found);
+    node_attribute(token, *found);
+  }
+
+  void root_attribute(const XmlToken& token, const Attribute& attribute) {
+    const std::string_view own = to_ours() ? "BTCPP_format" : "lockstep";
+    if (attribute.name == own) {
+      replace(token, to_ours() ? "lockstep" : "BTCPP_format", to_ours() ? "1" : "4");
+    } else if (to_ours() && attribute.name != "main_tree_to_execute" &&
+               attribute.name != "xmlns:xsi" && attribute.name != "xsi:noNamespaceSchemaLocation") {
+      leave_out(token, attribute);
+    } else {
+      keep(token, attribute);
+    }
+  }
+
+  // Of an element of root.
+  void tree_attribute(const XmlToken& token, const Attribute& attribute) {
+    const bool is_tree = open_.back().tag == "BehaviorTree";
+    if (to_ours() && open_.back().tag == "include" && attribute.name == "ros_pkg") {
+      return cannot(attribute.place, "'ros_pkg'", "give the path of the file");
+    }
+    const bool is_known = attribute.name == "ID" || attribute.name == "_description";
+    if (to_ours() && is_tree && !is_known) return leave_out(token, attribute);
+    keep(token, attribute);
+  }
+
+  void node_attribute(const XmlToken& token, const Attribute& attribute) {
+    const std::string_view name = attribute.name;
+    if (pair_ != nullptr && is_fixed(name)) return remove(token);
+    if (pair_ != nullptr && !pair_->milliseconds.empty() &&
+        name == (to_ours() ? pair_->milliseconds : "seconds")) {
+      return convert_time(token, attribute);
+    }
+    if (name == "ID" && is_explicit_tag(open_.back().tag)) return keep(token, attribute);
+    if (name == "ID" && pair_ != nullptr && pair_->ours != "SubTree") return remove(token);
+    to_ours() ? to_our_attribute(token, attribute) : keep(token, attribute);
+  }
+
+  bool is_fixed(std::string_view name) const {
+    const FixedAttribute& fixed = to_ours() ? pair_->in_theirs : pair_->in_ours;
+    return !fixed.name.empty() && fixed.name == name;
+  }
+
+  void convert_time(const XmlToken& token, const Attribute& attribute) {
+    const std::string value =
+        to_ours() ? seconds_of(attribute.value) : milliseconds_of(attribute.value);
+    if (value.empty()) {
+      return cannot(attribute.place,
+                    fmt::format("{}=\"{}\"", attribute.name, brief(attribute.value)),
+                    "only a positive number of whole milliseconds can");
+    }
+    replace(token, to_ours() ? "seconds" : pair_->milliseconds, value);
+  }
+
+  void to_our_attribute(const XmlToken& token, const Attribute& attribute) {
+    const std::string_view name = attribute.name, value = attribute.value;
+    if (name == "__shared_blackboard") return replace(token, "_autoremap", value);
+    if (btcpp::hook_of(name)) return cannot(attribute.place, fmt::format("'{}'", name));
+    if (name == "_autoremap" || name == "_description") return keep(token, attribute);
+    if (!btcpp::is_port_name(name)) return leave_out(token, attribute);
+    if (name == "name") return convert_name(token, attribute);
+    const std::string_view key = btcpp::key_of(value, name);
+    if (key.empty()) return keep(token, attribute);
+    if (!is_identifier(key)) {
+      return cannot(attribute.place, fmt::format("the key '{}'", brief(key)),
+                    fmt::format("a key is {}", kIdentifierRule));
+    }
+    if (value == fmt::format("{{{}}}", key)) return keep(token, attribute);
+    replace(token, name, fmt::format("{{{}}}", key));
+  }
+
+  void convert_name(const XmlToken& token, const Attribute& attribute) {
+    if (attribute.value.empty()) return remove(token);
+    if (attribute.value.find('/') == std::string_view::npos) return keep(token, attribute);
+    cannot(attribute.place, fmt::format("the name '{}'", brief(attribute.value)),
+           "'/' separates the names in a path");
+  }
+
+  std::size_t end_of(const XmlToken& token) const {
+    return scanner_.offset_of(token.value) + token.value.size() + 1;
+  }
+
+  void replace(const XmlToken& token, std::string_view name, std::string_view value) {
+    edits_.replace(token.begin, end_of(token), fmt::format("{}={}", name, quoted_xml(value)));
+  }
+
+  // With the blanks before it.
+  void remove(const XmlToken& token) {
+    std::size_t begin = token.begin;
+    while (begin > 0 && is_xml_blank(text_[begin - 1])) --begin;
+    edits_.remove(begin, end_of(token));
+  }
+
+  void leave_out(const XmlToken& token, const Attribute& attribute) {
+    remove(token);
+    if (report_.counted_only(Severity::Note)) return;
+    report_.at(attribute.place, fmt::format("'{}' is left out", brief(attribute.name)),
+               "it is for editors", Severity::Note);
+  }
+
+  // What only the lenient grammar takes is written as XML.
+  void keep(const XmlToken& token, const Attribute& attribute) {
+    const bool is_glued = !is_xml_blank(text_[token.begin - 1]);
+    if (to_ours() && is_glued) edits_.insert(token.begin, " ");
+    if (!to_ours() || token.value.find_first_of("<&") == std::string_view::npos) return;
+    const auto begin = scanner_.offset_of(token.value) - 1;
+    edits_.replace(begin, end_of(token), quoted_xml(attribute.value));
+  }
+
+  void close_tag(const XmlToken& token) {
+    if (open_.empty()) return;
+    const bool is_renamed = open_.back().tag != token.name && !is_left_out();
+    if (is_renamed) rename(token.begin + 2, token.name);
+    close(text_.find('>', token.begin) + 1);
+  }
+
+  void close(std::size_t end) {
+    if (open_.empty()) return;
+    const bool inside = open_.size() > 1 && open_[open_.size() - 2].is_left_out;
+    if (open_.back().is_left_out && !inside) {
+      std::size_t begin = open_.back().begin;
+      while (begin > 0 && is_xml_blank(text_[begin - 1])) --begin;
+      edits_.remove(begin, end);
+    }
+    open_.pop_back();
+  }
+
+  void leave_out_text(const XmlToken& token) {
+    auto end = std::min(text_.find('<', token.begin + 1), text_.size());
+    while (end > token.begin && is_xml_blank(text_[end - 1])) --end;
+    const bool is_section = text_.substr(token.begin).starts_with("<![CDATA[");
+    const auto section = text_.find("]]>", token.begin);
+    edits_.remove(token.begin, is_section ? section + 3 : end);
+  }
+
+  void comment(const XmlToken& token) {
+    const auto end = text_.find("-->", token.begin + 4);
+    const std::string_view inside = text_.substr(token.begin + 4, end - token.begin - 4);
+    if (!to_ours() || (inside.find("--") == std::string_view::npos && !inside.ends_with('-')))
+      return;
+    std::string text;
+    for (const char c : inside) {
+      if (c == '-' && text.ends_with('-')) text += ' ';
+      text += c;
+    }
+    if (text.ends_with('-')) text += ' ';
+    edits_.replace(token.begin + 4, end, text);
+  }
+
+  const Document& document_;
+  const Conversion& conversion_;
+  const Reporter& report_;
+  std::string_view text_;
+  Scanner scanner_;
+  TextEdits edits_;
+  std::vector<Open> open_;
+  std::uint32_t next_ = 0;          // element
+  const NodePair* pair_ = nullptr;  // of the innermost element
+};
+
+}  // namespace
+
+std::optional<std::string> convert(const Document& document, const Conversion& conversion,
+                                   const Reporter& report) {
+  return Converter(document, conversion, report).convert();
+}
+
+}  // namespace lockstep

@@ -1,0 +1,25 @@
+// A tree file in the other language: the same trees, with its comments, blanks and order.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/language.h"
+#include "definition/catalog.h"
+#include "document/document.h"
+#include "document/reporter.h"
+
+namespace lockstep {
+
+struct Conversion {
+  Language to;
+  const Catalog& from_nodes;  // the built-in nodes of the language of the document
+  const Catalog& to_nodes;    // and of the other one
+};
+
+// Nothing, with errors, if something in it cannot be said in the other language. What only editors
+// read is left out, with a note. Nodes that are not built in are copied as they are.
+std::optional<std::string> convert(const Document& document, const Conversion& conversion,
+                                   const Reporter& report);
+
+}  // namespace lockstep

@@ -1,0 +1,137 @@
+// lockstep convert: the same tree in the other language.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+
+using namespace lockstep::test;
+
+namespace {
+
+const std::string kTheirs = R"(<?xml version="1.0"?>
+<!-- the whole -- in two parts -->
+<root BTCPP_format="4"main_tree_to_execute="Main tree">
+  <plugin name="motion"/>
+  <BehaviorTree ID="Main tree">
+    <!-- both -->
+    <ParallelAbsolute name="a < b"   _uid="3" barriers="0.5;1">
+      <Advance step="{=}" />
+      <Decorator ID="ForceSuccess"><Advance step='{step}'/></Decorator>
+      <SubTree ID="Part" step="0.5"/> text
+    </ParallelAbsolute>
+  </BehaviorTree>
+  <BehaviorTree ID="Part"><Inverter><Inverter><Advance step="{step}"/></Inverter></Inverter>
+  </BehaviorTree>
+  <TreeNodesModel><Action ID="Advance"/></TreeNodesModel>
+</root>
+)";
+
+const std::string kOurs = R"(<?xml version="1.0"?>
+<!-- the whole - - in two parts -->
+<root lockstep="1" main_tree_to_execute="Main tree">
+  <plugin name="motion"/>
+  <BehaviorTree ID="Main tree">
+    <!-- both -->
+    <ParallelAbsolute name="a &lt; b" barriers="0.5;1">
+      <Advance step="{step}" />
+      <ForceSuccess><Advance step='{step}'/></ForceSuccess>
+      <SubTree ID="Part" step="0.5"/>
+    </ParallelAbsolute>
+  </BehaviorTree>
+  <BehaviorTree ID="Part"><Inverter><Inverter><Advance step="{step}"/></Inverter></Inverter>
+  </BehaviorTree>
+</root>
+)";
+
+std::string ticks(const std::string& tree) {
+  const Outcome outcome = lockstep::test::lockstep(
+      {"run", tree, "--clock", "virtual", "--view", "none", "--json", "--set", "step=0.25"});
+  INFO(outcome.err);
+  REQUIRE(!outcome.out.empty());
+  const auto summary = nlohmann::json::parse(outcome.out);
+  return summary["result"].get<std::string>() + " " + summary["ticks"].dump();
+}
+
+struct Row {
+  std::string node;
+  std::string message;
+};
+
+std::string around(const std::string& root, const std::string& node) {
+  return "<root " + root + ">\n<BehaviorTree ID=\"Main\">\n" + node + "\n</BehaviorTree></root>\n";
+}
+
+}  // namespace
+
+TEST_CASE("convert keeps comments and order, and writes XML") {
+  const TemporaryDirectory directory;
+  const std::string theirs = directory.file("theirs.xml", kTheirs);
+  const Outcome outcome = lockstep::test::lockstep({"convert", theirs});
+  CHECK(outcome.code == 0);
+  CHECK(outcome.out == kOurs);
+  CHECK(contains(outcome.err, "note: '_uid' is left out"));
+  CHECK(contains(outcome.err, "note: 'TreeNodesModel' is left out"));
+  CHECK(ticks(directory.file("ours.xml", outcome.out)) == ticks(theirs));
+}
+
+TEST_CASE("converted there and back, a tree runs as before") {
+  const TemporaryDirectory directory;
+  const std::string ours = directory.file("ours.xml", kOurs);
+  const Outcome there = lockstep::test::lockstep({"convert", "--to", "btcpp4", ours});
+  CHECK(there.code == 0);
+  CHECK(there.err.empty());
+  CHECK(contains(there.out, "<root BTCPP_format=\"4\" main"));
+  const std::string theirs = directory.file("theirs.xml", there.out);
+  CHECK(ticks(theirs) == ticks(ours));
+  const Outcome back = lockstep::test::lockstep({"convert", theirs});
+  CHECK(back.code == 0);
+  CHECK(ticks(directory.file("back.xml", back.out)) == ticks(ours));
+}
+
+TEST_CASE("what lockstep's language cannot say is an error at its place") {
+  const TemporaryDirectory directory;
+  const Row rows[] = {
+      {"<A _skipIf=\"x\"/>", "3:4: error: '_skipIf' cannot"},
+      {"<Wait/>", "3:1: error: a leaf called 'Wait' cannot"},
+      {"<A x=\"{a.b}\"/>", "3:4: error: the key 'a.b' cannot"},
+      {"<A name=\"a/b\"/>", "3:4: error: the name 'a/b' cannot"},
+  };
+  for (const Row& row : rows) {
+    INFO(row.node);
+    const std::string tree = directory.file("tree.xml", around("BTCPP_format=\"4\"", row.node));
+    const Outcome outcome = lockstep::test::lockstep({"convert", tree});
+    CHECK(outcome.code == 3);
+    CHECK(outcome.out.empty());
+    INFO(outcome.err);
+    CHECK(contains(outcome.err, row.message));
+  }
+}
+
+TEST_CASE("what BehaviorTree.CPP cannot say is an error at its place") {
+  const TemporaryDirectory directory;
+  const Row rows[] = {
+      {"<Repeat times=\"3\"><A/></Repeat>", "3:1: error: this 'Repeat' cannot"},
+      {"<Timeout seconds=\"1\"><A/></Timeout>", "hint: one with clock=\"wall\" can"},
+      {"<Wait seconds=\"0.0005\"/>", "3:7: error: seconds=\"0.0005\" cannot"},
+  };
+  for (const Row& row : rows) {
+    INFO(row.node);
+    const std::string tree = directory.file("tree.xml", around("lockstep=\"1\"", row.node));
+    const Outcome outcome = lockstep::test::lockstep({"convert", tree});
+    CHECK(outcome.code == 3);
+    INFO(outcome.err);
+    CHECK(contains(outcome.err, row.message));
+  }
+}
+
+TEST_CASE("convert says what is wrong with its file") {
+  const TemporaryDirectory directory;
+  const std::string ours = directory.file("ours.xml", kOurs);
+  const Outcome same = lockstep::test::lockstep({"convert", "--to", "lockstep", ours});
+  CHECK(same.code == 3);
+  CHECK(contains(same.err, "is in that language already"));
+  CHECK(contains(lockstep::test::lockstep({"convert", directory.path("none.xml")}).err,
+                 "cannot be read"));
+  const std::string broken = directory.file("broken.xml", "<root>\n<A");
+  CHECK(contains(lockstep::test::lockstep({"convert", broken}).err, "2:1: error: "));
+}
