@@ -6,6 +6,7 @@
 #include "core/wording.h"
 #include "definition/advise.h"
 #include "definition/btcpp/read_trees.h"
+#include "definition/btcpp/unused_trees.h"
 #include "definition/check_trees.h"
 #include "definition/groups.h"
 #include "definition/references.h"
@@ -64,6 +65,7 @@ std::optional<Definition> resolve(const Project& project, const Catalog& catalog
   if (!check_references(trees, report) || !main) return std::nullopt;
   Definition definition = expand(trees, *main, options.values, report);
   definition.stand_ins = stand_ins;
+  if (!is_ours) btcpp::check_unused(trees, *main, report);
   resolve_resources(definition, report);
   if (report.has_errors()) return std::nullopt;
   check_groups(definition, report);

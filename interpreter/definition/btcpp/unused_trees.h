@@ -1,0 +1,14 @@
+// Trees that the main tree does not use.
+#pragma once
+
+#include <string_view>
+
+#include "definition/checked_tree.h"
+#include "document/reporter.h"
+
+namespace lockstep::btcpp {
+
+// Checks the entries of each of them as if it were the main tree. After expand().
+void check_unused(CheckedTrees& trees, std::string_view main, const Reporter& report);
+
+}  // namespace lockstep::btcpp
