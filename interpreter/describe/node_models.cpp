@@ -4,32 +4,10 @@
 #include "definition/btcpp/models.h"
 #include "definition/node_check.h"
 #include "describe/node_reference.h"
+#include "describe/xsd.h"
 
 namespace lockstep {
 namespace {
-
-std::string escaped_xml(std::string_view text) {
-  std::string safe;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '&':
-        safe += "&amp;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += c;
-    }
-  }
-  return safe;
-}
 
 std::string_view port_tag(Direction direction) {
   if (direction == Direction::Input) return "input_port";
@@ -44,11 +22,11 @@ std::string cpp_type(const Parameter& it) {
 std::string port_model(const Parameter& it) {
   const std::string tag(port_tag(it.direction));
   std::string text =
-      fmt::format("      <{} name=\"{}\" type=\"{}\"", tag, it.name, escaped_xml(cpp_type(it)));
+      fmt::format("      <{} name=\"{}\" type=\"{}\"", tag, it.name, xsd_escaped(cpp_type(it)));
   if (it.default_text) {
-    text += fmt::format(" default=\"{}\"", escaped_xml(printable(*it.default_text)));
+    text += fmt::format(" default=\"{}\"", xsd_escaped(printable(*it.default_text)));
   }
-  return text + fmt::format(">{}</{}>\n", escaped_xml(printable(it.doc)), tag);
+  return text + fmt::format(">{}</{}>\n", xsd_escaped(printable(it.doc)), tag);
 }
 
 }  // namespace

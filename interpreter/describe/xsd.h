@@ -21,6 +21,7 @@ std::string make_xsd(std::span<const NodeType* const> types,
 
 // The xs:simpleType of a parameter, for attributes that are named `name`. Only within xsd*.cpp.
 std::string xsd_type(const Parameter& parameter);
+// For attributes and texts of XML.
 std::string xsd_escaped(std::string_view text);
 
 }  // namespace lockstep
