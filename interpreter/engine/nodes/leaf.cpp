@@ -94,6 +94,14 @@ void prepare(Ticker& ticker, NodeIndex self, LeafSlot& leaf) {
   }
 }
 
+// Out of line, so that what each tick checks stays inline.
+[[gnu::cold, gnu::noinline]] void refuse(Ticker& ticker, NodeIndex self, lockstep_status result) {
+  ticker.set_fault(self, result == LOCKSTEP_RUNNING
+                             ? std::string("is a condition and returned running")
+                             : "returned status " + std::to_string(result) +
+                                   ", expected one of lockstep/leaf.h");
+}
+
 // Running when the leaf is out.
 template <Kind kKind>
 Status checked(Ticker& ticker, NodeIndex self, LeafSlot& leaf, lockstep_status result) {
@@ -106,9 +114,7 @@ Status checked(Ticker& ticker, NodeIndex self, LeafSlot& leaf, lockstep_status r
   if (is_status && (kKind != Kind::Condition || result != LOCKSTEP_RUNNING)) [[likely]] {
     return static_cast<Status>(result);
   }
-  ticker.set_fault(self, is_status ? std::string("is a condition and returned running")
-                                   : "returned status " + std::to_string(result) +
-                                         ", expected one of lockstep/leaf.h");
+  refuse(ticker, self, result);
   return Status::Running;
 }
 
