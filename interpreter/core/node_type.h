@@ -58,6 +58,8 @@ struct Parameter {
   bool is_script = false;       // a text that is compiled: expression/
   bool names_entry = false;     // "k" is the entry k, as "{k}" is
   bool is_generic = false;      // takes a value of any type; `type` is String
+  bool is_key = false;          // "k" is the entry k; "{k}" is the entry that has its name
+  bool own_only = false;        // of an is_key: only an entry of this tree, not of an outer one
 };
 
 struct Arity {

@@ -12,8 +12,9 @@
 namespace lockstep {
 
 // The numbers are those of lockstep/leaf.h.
-enum class Status : std::uint8_t { Idle = 0, Running = 1, Success = 2, Failure = 3 };
-inline constexpr Status kLastStatus = Status::Failure;
+// Skipped: as if the node were not there in this tick.
+enum class Status : std::uint8_t { Idle = 0, Running = 1, Success = 2, Failure = 3, Skipped = 4 };
+inline constexpr Status kLastStatus = Status::Skipped;
 
 // All that recordings, messages and views need to know of a status.
 struct StatusRow {
@@ -29,6 +30,7 @@ inline constexpr std::array kStatuses = {
     StatusRow{Status::Running, "running", "running", "▶", ">", Style::Active},
     StatusRow{Status::Success, "success", "succeeded", "✓", "+", Style::Good},
     StatusRow{Status::Failure, "failure", "failed", "✗", "x", Style::Bad},
+    StatusRow{Status::Skipped, "skipped", "skipped", "»", "~", Style::Dim},
 };
 
 constexpr std::size_t index_of(Status status) {

@@ -20,9 +20,14 @@ namespace lockstep {
 
 // A parameter of a node: a constant, a {key} with its default, or absent.
 struct CheckedPort {
-  std::uint32_t value = Port::kNone;  // in CheckedTrees::values
+  std::uint32_t value = Port::kNone;  // in CheckedTrees::values; of a script, in scripts
   Place place = {};                   // of the attribute that has the key, or names a group
   std::string_view key = {};
+
+  // The key was written as a text, and makes no entry.
+  bool is_name(const Parameter& parameter) const {
+    return parameter.is_key && value != Port::kNone && !key.empty();
+  }
 };
 
 // A script of a node or, without a hook, of a port.
@@ -83,7 +88,6 @@ struct CheckedTrees {
   std::vector<CheckedNode> nodes;
   std::vector<Value> values;
   std::vector<CheckedPort> ports;
-  std::map<std::uint32_t, std::uint32_t> port_scripts;  // in `scripts`, of ports that are one
   std::vector<CheckedSubTree> subtrees;
   std::vector<Remapping> remappings;
   std::vector<WrittenAttribute> written;

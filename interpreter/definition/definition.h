@@ -83,6 +83,7 @@ struct DefinitionGroup {
 
 struct Definition {
   std::string_view id;
+  Language language = Language::Lockstep;
   std::vector<DefinitionNode> nodes;  // the root and its subtree, then one for each group
   std::vector<Value> values;
   std::vector<Port> ports;

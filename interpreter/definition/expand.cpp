@@ -30,6 +30,7 @@ class Expander {
 
   Definition expand(std::string_view main) {
     definition_.id = main;
+    definition_.language = trees_.language;
     definition_.values = std::move(trees_.values);
     definition_.written = std::move(trees_.written);
     definition_.texts = std::move(trees_.texts);
@@ -164,13 +165,12 @@ class Expander {
       Port bound{.value = port.value};
       if (!port.key.empty()) {
         constant = false;
-        bound.entry = use(port, parameter, scope);
-      } else if (parameter.is_script) {
+        const bool is_none =
+            parameter.own_only && port.is_name(parameter) && !scope.is_own(port.key);
+        if (!is_none) bound.entry = use(port, parameter, scope);
+      } else if (parameter.is_script && port.value != Port::kNone) {
         constant = false;
-        const auto script = trees_.port_scripts.find(checked.first + i);
-        if (script != trees_.port_scripts.end()) {
-          bound.script = bind_script(trees_.scripts[script->second], scope);
-        }
+        bound = {.script = bind_script(trees_.scripts[port.value], scope)};
       }
       definition_.ports.push_back(bound);
     }
@@ -215,6 +215,7 @@ class Expander {
 
   std::uint32_t use(const CheckedPort& port, const Parameter& parameter, Scope& scope) {
     const std::uint32_t index = find(port.key, scope);
+    if (port.is_name(parameter)) return index;
     BlackboardEntry& entry = definition_.entries[index];
     const auto literal = literals_.find(index);
     if (literal != literals_.end() && takes_type(parameter, entry)) {

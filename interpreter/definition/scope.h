@@ -42,6 +42,11 @@ class Scope {
   // The entry that `key` means here; created if it does not exist. For BehaviorTree.CPP, "@key" is
   // one of the main tree, and a key with '_' in front is passed on only by a remapping.
   Found find(std::string_view key);
+  // Whether that entry belongs to this tree, not to an outer one.
+  bool is_own(std::string_view key) const {
+    return outer_ == nullptr || texts_.contains(key) ||
+           (!remapped_.contains(key) && !passes_on(key) && !key.starts_with('@'));
+  }
   // The name in the project of the group that `name` means here.
   std::string_view group(std::string_view name);
   bool used(std::string_view key) const { return known_.contains(key) || groups_.contains(key); }

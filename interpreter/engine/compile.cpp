@@ -22,16 +22,19 @@ const NodeKind* mock_of(NodeCategory category) {
   return category == NodeCategory::Control ? &kMockControl : &kMockDecorator;
 }
 
-const NodeKind* kind_of(const NodeType& type) {
+// In BehaviorTree.CPP, a condition may be Running.
+const NodeKind* kind_of(const NodeType& type, Language language) {
   if (type.mock != nullptr) return mock_of(type.category);
   if (type.leaf != nullptr) {
     if (type.arity.max != 0) return &kPluginControl;
-    return type.category == NodeCategory::Condition ? &kPluginCondition : &kPluginAction;
+    const bool is_at_once =
+        type.category == NodeCategory::Condition && language == Language::Lockstep;
+    return is_at_once ? &kPluginCondition : &kPluginAction;
   }
   static const auto by_type = [] {
     std::unordered_map<const NodeType*, const NodeKind*> map;
-    for (const Language language : {Language::Lockstep, Language::BehaviorTreeCpp}) {
-      for (const NodeKind* kind : built_in_kinds(language)) map.emplace(&kind->type, kind);
+    for (const Language each : {Language::Lockstep, Language::BehaviorTreeCpp}) {
+      for (const NodeKind* kind : built_in_kinds(each)) map.emplace(&kind->type, kind);
     }
     return map;
   }();
@@ -46,7 +49,31 @@ const NodeKind* bound_kind_of(const NodeKind* kind) {
       for (const NodeKind* it : built_in_kinds(language)) {
         NodeKind bound = *it;
         bound.tick = [](Ticker& ticker, NodeIndex self) { return ticker.tick_bound(self); };
+        bound.reads_entries = true;
         map.emplace(it, bound);
+      }
+    }
+    return map;
+  }();
+  return &by_kind.at(kind);
+}
+
+// The same kind with a tick that runs the scripts of the node, too.
+const NodeKind* hooked_kind_of(const NodeKind* kind) {
+  static const auto by_kind = [] {
+    std::unordered_map<const NodeKind*, NodeKind> map;
+    const auto add = [&map](const NodeKind* it) {
+      NodeKind& hooked = map.emplace(it, *it).first->second;
+      hooked.tick = [](Ticker& ticker, NodeIndex self) { return ticker.tick_hooked(self); };
+    };
+    for (const NodeKind* leaf : {&kPluginAction, &kPluginCondition, &kPluginControl, &kMockAction,
+                                 &kMockCondition, &kMockControl, &kMockDecorator}) {
+      add(leaf);
+    }
+    for (const Language language : {Language::Lockstep, Language::BehaviorTreeCpp}) {
+      for (const NodeKind* it : built_in_kinds(language)) {
+        add(it);
+        add(bound_kind_of(it));
       }
     }
     return map;
@@ -64,9 +91,12 @@ class Compiler {
   Tree compile() {
     tree_.id = definition_.id;
     tree_.stand_ins = definition_.stand_ins;
+    tree_.language = definition_.language;
     tree_.nodes.reserve(definition_.nodes.size());
     number_members();
     for (const DefinitionNode& node : definition_.nodes) add(node);
+    add_scripts();
+    add_hooks();
     add_groups();
     order_groups();
     find_gates();
@@ -86,7 +116,7 @@ class Compiler {
   const NodeKind* kind(const NodeType& type) {
     if (&type != last_type_) {
       last_type_ = &type;
-      last_kind_ = kind_of(type);
+      last_kind_ = kind_of(type, definition_.language);
     }
     return last_kind_;
   }
@@ -101,10 +131,13 @@ class Compiler {
               .is_latched = false,
               .params = 0,
               .state = static_cast<std::uint32_t>(tree_.state_size)};
+    tree_.keeps_over_skips |= node.kind->forget != nullptr;
     if (from.type->mock != nullptr) {
       node.params = 0;  // it looks at no port
     } else if (from.type->leaf != nullptr) {
       node.params = add_leaf(from);
+    } else if (from.type->reads_ports) {
+      node.params = add_ports(from);
     } else if (!numbers_.empty() && numbers_.contains(self)) {
       add_member(from, self, node);
     } else if (is_bound(from)) {
@@ -116,6 +149,26 @@ class Compiler {
         node.kind->state_size + std::size_t{node.kind->state_per_child} * node.children;
     tree_.state_size += (size + 7) / 8 * 8;
     tree_.nodes.push_back(node);
+  }
+
+  void add_scripts() {
+    for (const BoundScript& script : definition_.scripts) {
+      tree_.scripts.push_back({script.code, script.entries});
+    }
+  }
+
+  void add_hooks() {
+    if (definition_.hooks.empty()) return;
+    tree_.hooks.assign(tree_.nodes.size(), HookedNode::kNoScript);
+    for (NodeIndex node = 0; node < tree_.nodes.size(); ++node) {
+      const std::uint32_t hooks = definition_.nodes[node].hooks;
+      if (hooks == Port::kNone) continue;
+      const NodeKind*& kind = tree_.nodes[node].kind;
+      tree_.hooks[node] = static_cast<std::uint32_t>(tree_.hooked.size());
+      tree_.hooked.push_back({node, kind, definition_.hooks[hooks]});
+      tree_.has_halt_hooks |= tree_.hooked.back().script(Hook::OnHalted) != HookedNode::kNoScript;
+      kind = hooked_kind_of(kind);
+    }
   }
 
   // Of a group: its members.
@@ -284,8 +337,13 @@ class Compiler {
     const auto first = static_cast<std::uint32_t>(tree_.cells.size());
     for (std::size_t i = 0; i < from.type->parameters.size(); ++i) {
       const Value* value = definition_.constant(from, i);
-      tree_.cells.push_back(value != nullptr ? cell(from.type->parameters[i], *value)
-                                             : Cell{.integer = 0});
+      const std::uint32_t script = definition_.ports[from.first + i].script;
+      if (from.type->parameters[i].is_script) {
+        tree_.cells.push_back({.integer = script});
+      } else {
+        tree_.cells.push_back(value != nullptr ? cell(from.type->parameters[i], *value)
+                                               : Cell{.integer = 0});
+      }
     }
     return first;
   }

@@ -23,8 +23,8 @@ struct Round {
 
 struct NodeKind {
   NodeType type;
-  // One tick. Returns any status but Idle. Does not allocate; does not throw itself. Of a
-  // group: before the root is ticked, in every tick; it is Idle when it begins again.
+  // One tick. Returns Running, Success, Failure or Skipped. Does not allocate; does not throw
+  // itself. Of a group: before the root is ticked, in every tick; it is Idle when it begins again.
   Status (*tick)(Ticker& ticker, NodeIndex self);
   // Called only while the node is Running; idle and failed nodes have 0, successful ones 1. In
   // [0,1].
@@ -35,6 +35,10 @@ struct NodeKind {
   // held is Activity::Paused in its next tick.
   void (*halt)(Ticker& ticker, NodeIndex self) = nullptr;
   void (*pause)(Ticker& ticker, NodeIndex self) = nullptr;
+  // May be null. What the node keeps while it is skipped is over: its parent begins again, or was
+  // halted.
+  void (*forget)(Ticker& ticker, NodeIndex self) = nullptr;
+  bool reads_entries = false;  // before each tick: its parameters are Tree::bound
   // For views. Null if the child runs once. Called only while the node is Running.
   Round (*round)(Ticker& ticker, NodeIndex self) = nullptr;
 };

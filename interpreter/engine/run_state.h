@@ -20,6 +20,7 @@ enum class Activity : std::uint8_t {
   Running = 1,
   Success = 2,
   Failure = 3,
+  Skipped = 4,
   Paused = kWithheld | 1,  // Running, where a synchronized parallel withholds the ticks
 };
 

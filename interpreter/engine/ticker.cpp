@@ -16,9 +16,19 @@ bool has_no_idle(const Activity* first) {
 
 }  // namespace
 
-Ticker::Ticker(const Tree& tree, std::span<LeafSlot> leaves, const Blackboard& board,
-               FaultPolicy policy)
-    : tree_(tree), leaves_(leaves), parameters_(tree, board), state_(tree), policy_(policy) {}
+Ticker::Ticker(const Tree& tree, std::span<LeafSlot> leaves, Blackboard& board, FaultPolicy policy)
+    : tree_(tree),
+      leaves_(leaves),
+      board_(board),
+      parameters_(tree, board),
+      state_(tree),
+      policy_(policy) {
+  if (tree.has_halt_hooks) halting_.reserve(tree.hooked.size());
+  for (const Script& script : tree.scripts) {
+    std::vector<Entry*>& entries = script_entries_.emplace_back();
+    for (const std::uint32_t slot : script.slots) entries.push_back(&board.entries[slot]);
+  }
+}
 
 Status Ticker::tick_root(Nanoseconds now) {
   set_now(now);
@@ -26,6 +36,15 @@ Status Ticker::tick_root(Nanoseconds now) {
   if (tree_.groups.empty()) [[likely]]
     return tick(0);
   return tick_with_groups();
+}
+
+Status Ticker::tick_root_again() {
+  return tick(0);
+}
+
+std::optional<NodeIndex> Ticker::take_request() {
+  const std::uint32_t node = std::exchange(asked_by_, 0);
+  return node == 0 ? std::nullopt : std::optional(node - 1);
 }
 
 // A group is idle when its common ancestor does not run: the ancestor's next tick begins an
@@ -57,6 +76,16 @@ bool Ticker::refresh(NodeIndex node) {
   return parameters_.read(bound).empty();
 }
 
+bool Ticker::reread(NodeIndex node) {
+  if (!tree_.nodes[node].kind->reads_entries) return true;
+  const auto bound =
+      static_cast<std::uint32_t>(parameters_.cells()[tree_.nodes[node].params - 1].integer);
+  std::string wrong = parameters_.read(bound);
+  if (wrong.empty()) return true;
+  set_fault(node, std::move(wrong));
+  return false;
+}
+
 Status Ticker::tick_bound(NodeIndex node) {
   const auto bound =
       static_cast<std::uint32_t>(parameters_.cells()[tree_.nodes[node].params - 1].integer);
@@ -69,8 +98,12 @@ Status Ticker::tick_bound(NodeIndex node) {
 }
 
 // A subtree that was not reached costs nothing, however large it is: below an idle node all are
-// idle. Where all are active, eight nodes at a time.
+// idle. Where all are active, eight nodes at a time. What a skipped node keeps is over when its
+// parent has completed, not when that was skipped too.
 void Ticker::forget_descendants(NodeIndex node) {
+  if (tree_.keeps_over_skips && state_.activity[node] != Activity::Skipped) {
+    forget_skipped(node + 1, tree_.nodes[node].end);
+  }
   constexpr NodeIndex kBlock = sizeof(std::uint64_t);
   Activity* const all = state_.activity.data();
   const NodeIndex end = tree_.nodes[node].end;
@@ -86,24 +119,36 @@ void Ticker::forget_descendants(NodeIndex node) {
   }
 }
 
+void Ticker::forget_skipped(NodeIndex first, NodeIndex last) {
+  for (NodeIndex node = first; node < last; ++node) {
+    const auto forget = tree_.nodes[node].kind->forget;
+    if (state_.activity[node] == Activity::Skipped && forget != nullptr) forget(*this, node);
+  }
+}
+
 // Returns the next node that may not be idle.
 NodeIndex Ticker::end_activation(NodeIndex node) {
   Activity& activity = state_.activity[node];
   if (activity == Activity::Idle) return tree_.nodes[node].end;
   const bool running = status_of(activity) == Status::Running;
+  const NodeKind& kind = *tree_.nodes[node].kind;
+  if (activity == Activity::Skipped && kind.forget != nullptr) kind.forget(*this, node);
   activity = Activity::Idle;
-  const auto halt = tree_.nodes[node].kind->halt;
-  if (running && halt != nullptr) halt(*this, node);
+  if (running && tree_.has_halt_hooks) note_halt(node);
+  if (running && kind.halt != nullptr) kind.halt(*this, node);
   return node + 1;
 }
 
+// The scripts of halted nodes run from the left, those of children before those of their parent.
 void Ticker::halt_range(NodeIndex first, NodeIndex last) {
-  if (in_last_halt_) {
-    for (NodeIndex node = first; node < last;) node = end_activation(node);
-    return;
-  }
+  const std::size_t hooks = halting_.size();
   // After a fault all halts are halt_all's, so that they come in one order.
-  for (NodeIndex node = first; node < last && !faulted_;) node = end_activation(node);
+  for (NodeIndex node = first; node < last && (!faulted_ || in_last_halt_);) {
+    run_halt_hooks(hooks, node);
+    node = end_activation(node);
+  }
+  run_halt_hooks(hooks, last);
+  if (in_last_halt_) return;
   // A fault of a leaf's halt: its siblings may still run, so the nodes around them do too.
   if (faulted_) [[unlikely]]
     keep_ancestors_running(fault_.node);
@@ -163,6 +208,8 @@ void Ticker::reset() {
   parameters_.reset();
   now_ = Nanoseconds(0);
   tick_number_ = 0;
+  asked_by_ = 0;
+  kept_values_.clear();
   faulted_ = false;
   fault_ = {};
   tolerated_.clear();

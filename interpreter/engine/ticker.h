@@ -4,8 +4,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -15,6 +18,7 @@
 #include "engine/leaf_slot.h"
 #include "engine/run_state.h"
 #include "engine/tree.h"
+#include "expression/evaluator.h"
 
 namespace lockstep {
 
@@ -40,7 +44,7 @@ enum class FaultPolicy : std::uint8_t {
 class Ticker {
  public:
   // `tree`, `leaves` (one for each Tree::leaves, in order) and `board` must outlive the ticker.
-  Ticker(const Tree& tree, std::span<LeafSlot> leaves, const Blackboard& board,
+  Ticker(const Tree& tree, std::span<LeafSlot> leaves, Blackboard& board,
          FaultPolicy policy = FaultPolicy::Stop);
 
   // --- for node kinds, inside a tick -------------------------------------------------------------
@@ -59,6 +63,18 @@ class Ticker {
     activity = static_cast<Activity>(status);
     state_.last_tick[node] = tick_number_;
     return status;
+  }
+
+  // Ticks a child that has completed in this activation of its parent and was not reset: its
+  // pre-conditions are not asked, and an action that takes time answers as before.
+  Status tick_unreset(NodeIndex node);
+
+  // The tree is ticked again in this period, if the root is Running then.
+  void ask_for_another_tick(NodeIndex node) { asked_by_ = node + 1; }
+
+  // The nodes of a range that were skipped begin anew in their next tick.
+  void forget_range(NodeIndex first, NodeIndex last) {
+    if (tree_.keeps_over_skips) forget_skipped(first, last);
   }
 
   // Ends the activation of every running node in the subtree; all of it is idle then. After a fault
@@ -104,9 +120,38 @@ class Ticker {
   // Ticks a node of Tree::bound with the current values of its entries. A value that the node does
   // not accept is a fault.
   Status tick_bound(NodeIndex node);
+  // Ticks a node of Tree::hooked with its scripts.
+  Status tick_hooked(NodeIndex node);
   // For the group of a member that runs: reads its entries. False if it does not accept a value;
   // its tick reports that.
   bool refresh(NodeIndex node);
+  // Of a node that may be bound: reads its entries in the middle of its tick. A value that it does
+  // not accept is a fault, and the result is false.
+  bool reread(NodeIndex node);
+
+  // The script that a parameter has; for run_script and holds.
+  std::uint32_t script(NodeIndex node, unsigned index) const {
+    return static_cast<std::uint32_t>(parameter(node, index).integer);
+  }
+  // Runs a script; none is fine. An error is a fault of the node, which names the attribute, and
+  // the result is false, or nothing.
+  bool run_script(NodeIndex node, std::uint32_t script, std::string_view attribute);
+  std::optional<bool> holds(NodeIndex node, std::uint32_t script, std::string_view attribute);
+
+  // What a kind keeps beside its state, until the run begins again.
+  Value& kept_value(NodeIndex node) { return kept_values_[node]; }
+
+  // Of a kind that reads ports (NodeType::reads_ports).
+  const PortBinding& port(NodeIndex node, unsigned index) const {
+    return tree_.ports[tree_.nodes[node].params + index];
+  }
+  Entry* port_entry(NodeIndex node, unsigned index) {  // null: no {key}
+    const std::uint32_t slot = port(node, index).slot;
+    return slot == PortBinding::kUnbound ? nullptr : &board_.entries[slot];
+  }
+  // Null: it has no value.
+  const Value* port_value(NodeIndex node, unsigned index) const;
+
   // Of a node whose kind has a parameter that names a group.
   const Member& membership(NodeIndex node) const { return tree_.membership(node); }
   // A member was ticked: its group counts as ticked in this tick.
@@ -125,7 +170,7 @@ class Ticker {
   // --- for both ----------------------------------------------------------------------------------
 
   const Tree& tree() const { return tree_; }
-  const Blackboard& blackboard() const { return parameters_.board(); }
+  const Blackboard& blackboard() const { return board_; }
   const Node& node(NodeIndex node) const { return tree_.nodes[node]; }
   NodeIndex end_of(NodeIndex node) const { return tree_.nodes[node].end; }
   bool is_guard(NodeIndex node) const { return tree_.nodes[node].is_guard != 0; }
@@ -142,6 +187,11 @@ class Ticker {
 
   // Ticks the root once. The result is Running while the tree runs, and after a fault.
   Status tick_root(Nanoseconds now);
+
+  // Ticks it once more in the same tick, for a node that has asked for it.
+  Status tick_root_again();
+  // The node that has asked since the last call, if any.
+  std::optional<NodeIndex> take_request();
 
   // Halts every running leaf. A leaf with a fault in this halt may not have stopped, so the fault
   // becomes that of the run, whatever the policy. If the run already has a fault, tolerated() has
@@ -167,6 +217,12 @@ class Ticker {
 
  private:
   Status tick_with_groups();
+  std::optional<Status> ask_hooks(NodeIndex node, const HookedNode& hooked);
+  Status finish(NodeIndex node, const HookedNode& hooked, Status status);
+  void fail_script(NodeIndex node, std::string_view attribute, std::string_view wrong);
+  void note_halt(NodeIndex node);
+  void run_halt_hooks(std::size_t from, NodeIndex before);
+  void forget_skipped(NodeIndex first, NodeIndex last);
   void forget_descendants(NodeIndex node);
   NodeIndex end_activation(NodeIndex node);
   void keep_ancestors_running(NodeIndex node);
@@ -174,14 +230,21 @@ class Ticker {
 
   const Tree& tree_;
   std::span<LeafSlot> leaves_;
+  Blackboard& board_;
   BoundParameters parameters_;
   RunState state_;
+  Evaluator evaluator_;
+  std::vector<std::vector<Entry*>> script_entries_;  // of each Tree::scripts
+  Value script_value_;                               // of the last script
   Nanoseconds now_{0};
   std::uint32_t tick_number_ = 0;
   const FaultPolicy policy_;
+  std::uint32_t asked_by_ = 0;           // a node and 1 more; 0: nobody
+  std::vector<NodeIndex> halting_ = {};  // that were halted and have a script for it
   bool in_last_halt_ = false;
   bool faulted_ = false;
   Fault fault_;
+  std::unordered_map<NodeIndex, Value> kept_values_;
   std::vector<Fault> tolerated_;
   std::vector<OutOfRange> out_of_range_;
 };

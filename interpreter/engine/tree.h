@@ -3,6 +3,7 @@
 // Everything that changes during a run is in RunState and in the leaves.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -11,7 +12,9 @@
 #include <vector>
 
 #include "core/entry.h"
+#include "core/hook.h"
 #include "engine/node_kind.h"
+#include "expression/expression.h"
 
 namespace lockstep {
 
@@ -60,6 +63,22 @@ struct BoundNode {
   std::uint32_t first_port;  // in Tree::ports, one for each parameter
 };
 
+// A compiled script and the entry of each name in it.
+struct Script {
+  std::shared_ptr<const Expression> code;
+  std::vector<std::uint32_t> slots;
+};
+
+// A node with scripts around its ticks. Its kind in Tree::nodes runs them and ticks like this kind.
+struct HookedNode {
+  NodeIndex node;
+  const NodeKind* kind;
+  std::array<std::uint32_t, kHooks> scripts;  // in Tree::scripts; or kNoScript
+
+  static constexpr std::uint32_t kNoScript = 0xffffffff;
+  std::uint32_t script(Hook hook) const { return scripts[static_cast<std::size_t>(hook)]; }
+};
+
 struct Slot {
   std::string name;  // the key, after the path of its SubTree
   ValueType type;
@@ -100,14 +119,20 @@ struct Tree {
   std::vector<LeafNode> leaves;
   std::vector<NodeIndex> children;  // of the control nodes of plugins
   std::vector<BoundNode> bound;
-  std::vector<Group> groups;    // in the order of their nodes
-  std::vector<Member> members;  // of each group, in pre-order
+  std::vector<Script> scripts;
+  std::vector<HookedNode> hooked;
+  std::vector<std::uint32_t> hooks;  // of each node, in `hooked`; empty when no node has scripts
+  bool has_halt_hooks = false;
+  bool keeps_over_skips = false;  // some kind has NodeKind::forget
+  std::vector<Group> groups;      // in the order of their nodes
+  std::vector<Member> members;    // of each group, in pre-order
   std::vector<NodeIndex> gates;
   std::vector<std::uint32_t> group_order;  // in which they are ticked
   std::vector<PortBinding> ports;  // of leaves and bound nodes, each type's parameters in order
   std::vector<Value> constants;
   std::vector<Slot> slots;
-  std::size_t state_size = 0;     // bytes of all node states
+  std::size_t state_size = 0;  // bytes of all node states
+  Language language = Language::Lockstep;
   std::string id;                 // of the main BehaviorTree
   std::vector<NodeLabel> labels;  // not touched while ticking
   // What the labels' names point into; a copy of the tree shares it.

@@ -47,7 +47,8 @@ enum class RunResult : std::uint8_t {
   Success,  // of the root
   Failure,  // of the root
   Stopped,  // while the root was still running
-  Fault     // a leaf failed as a program
+  Fault,    // a leaf failed as a program
+  Skipped,  // the root was
 };
 
 struct RunEnd {
@@ -64,6 +65,7 @@ struct RunEnd {
   RunResult result() const {
     if (reason == StopReason::Fault) return RunResult::Fault;
     if (reason != StopReason::Completed) return RunResult::Stopped;
+    if (status == Status::Skipped) return RunResult::Skipped;
     return status == Status::Success ? RunResult::Success : RunResult::Failure;
   }
 };

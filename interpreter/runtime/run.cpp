@@ -1,9 +1,12 @@
 #include "runtime/run.h"
 
+#include <fmt/format.h>
+
 namespace lockstep {
 
 Run::Run(const Tree& tree, const RunOptions& options)
     : blackboard_(tree),
+      exactly_once_(options.exactly_once),
       time_{.now = Nanoseconds(0),
             .period = options.period,
             .thread = this_thread_id(),
@@ -46,9 +49,23 @@ void Run::set_now(Nanoseconds now) {
 Status Run::tick(Nanoseconds now) {
   set_now(now);
   if (watch_ != nullptr) watch_->begin_tick(ticker_.tick_number());  // which counts from 1
-  const Status status = ticker_.tick_root(now);
+  const Status status = tick_again_if_asked(ticker_.tick_root(now));
   workers_.give_turns(to_seconds(now));
   return status;
+}
+
+Status Run::tick_again_if_asked(Status status) {
+  for (int count = 1;; ++count) {
+    const auto node = ticker_.take_request();
+    if (!node || exactly_once_ || status != Status::Running || ticker_.faulted()) return status;
+    if (count == kMostTicksAtOnce) {
+      ticker_.set_fault(*node, fmt::format("asked for another tick {} times in one period: what it "
+                                           "repeats completes at once",
+                                           count));
+      return status;
+    }
+    status = ticker_.tick_root_again();
+  }
 }
 
 const Fault* Run::fault() const {

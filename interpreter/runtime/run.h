@@ -17,12 +17,15 @@ struct RunOptions {
   Nanoseconds period = std::chrono::milliseconds(10);
   LeafLog log = {};
   FaultPolicy on_fault = FaultPolicy::Stop;
+  bool exactly_once = false;   // ticks the root once, also when a node asks for another tick
   bool virtual_time = false;   // time jumps, so ticks wait for the threads of leaves
   LeafWatch* watch = nullptr;  // must outlive the run; null: nothing is watched and nothing costs
 };
 
 class Run {
  public:
+  static constexpr int kMostTicksAtOnce = 10'000;
+
   // `tree` must outlive the run. Several runs may share one tree, each on a separate thread.
   Run(const Tree& tree, const RunOptions& options);
   // Halts the running leaves, then destroys all leaves.
@@ -37,7 +40,8 @@ class Run {
   // The time of the next tick, counted from the start of the run; for observers that look at the
   // run just before it.
   void set_now(Nanoseconds now);
-  // One tick of the root at `now`; see Ticker::tick_root.
+  // One tick of the root at `now`; see Ticker::tick_root. While it is Running and a node asks for
+  // another tick, it gets one at once, at most kMostTicksAtOnce.
   Status tick(Nanoseconds now);
   // Halts every running leaf, in order.
   void halt();
@@ -52,9 +56,11 @@ class Run {
 
  private:
   void adopt_thread();
+  Status tick_again_if_asked(Status status);
 
   Blackboard blackboard_;
   Workers workers_;
+  const bool exactly_once_;
   LeafTime time_;
   LeafWatch* watch_;
   LeafSet leaves_;

@@ -104,13 +104,14 @@ void write_deciding(const DecidingSummary& node, std::size_t indent, std::string
 }  // namespace
 
 std::string_view to_string(RunResult result) {
-  constexpr std::string_view kNames[] = {"success", "failure", "stopped", "fault"};
+  constexpr std::string_view kNames[] = {"success", "failure", "stopped", "fault", "skipped"};
   return kNames[static_cast<unsigned>(result)];
 }
 
 Style style_of(RunResult result) {
   if (result == RunResult::Success) return Style::Good;
-  return result == RunResult::Stopped ? Style::Warning : Style::Bad;
+  const bool is_bad = result == RunResult::Failure || result == RunResult::Fault;
+  return is_bad ? Style::Bad : Style::Warning;
 }
 
 std::string_view to_string(StopReason reason) {

@@ -16,7 +16,7 @@
 
 namespace lockstep {
 
-// "success", "failure", "stopped" or "fault".
+// "success", "failure", "stopped", "fault" or "skipped".
 std::string_view to_string(RunResult result);
 Style style_of(RunResult result);
 // "completed", "fault", "timeout", "max_ticks", "signal", "overrun" or "recording", as recordings

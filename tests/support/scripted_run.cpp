@@ -23,8 +23,9 @@ std::map<std::string, LeafScript> scripts(std::string_view text) {
 
 }  // namespace
 
-ScriptedRun::ScriptedRun(std::string_view tree, std::string_view leaves, FaultPolicy policy)
-    : tree_(tree_from_text(tree)),
+ScriptedRun::ScriptedRun(std::string_view tree, std::string_view leaves, FaultPolicy policy,
+                         Language language)
+    : tree_(tree_from_text(tree, language)),
       board_(tree_),
       slots_(tree_.leaves.size()),
       plugin_nodes_(tree_, board_, slots_),
@@ -60,7 +61,9 @@ void ScriptedRun::set(std::string_view key, Value value) {
 Status ScriptedRun::tick_root(Nanoseconds now) {
   ++tree_tick_;
   plugin_nodes_.time.now = now;
-  return ticker_.tick_root(now);
+  Status status = ticker_.tick_root(now);
+  while (ticker_.take_request() && status == Status::Running) status = ticker_.tick_root_again();
+  return status;
 }
 
 Status ScriptedRun::tick(Nanoseconds now) {

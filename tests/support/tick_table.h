@@ -1,6 +1,8 @@
 // Tables of laws. A row is a tree text, a script for each leaf, and what must come of it, tick by
 // tick:
-//   R[a b] S[a] halt[b]    a tick that returns Running and ticks a, then b; a tick that returns
+//   R[a b] S[a] halt[b]    a tick that returns Running (S Success, F Failure, K Skipped) and ticks
+//   a, then
+//                          b; a tick that returns
 //                          Success, ticks a and halts b. Halts, pauses and resumes are always
 //                          compared, in their order; starts are not.
 //   R{start a, tick a}     a tick with everything that its leaves were told, in order.
@@ -26,6 +28,7 @@ struct TickRow {
 };
 
 // Fails the Catch test for each row that does not hold, showing law, tree, expected and got.
-void check_rows(std::span<const TickRow> rows, FaultPolicy policy = FaultPolicy::Stop);
+void check_rows(std::span<const TickRow> rows, FaultPolicy policy = FaultPolicy::Stop,
+                Language language = Language::Lockstep);
 
 }  // namespace lockstep::test

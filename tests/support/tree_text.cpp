@@ -43,7 +43,8 @@ bool is_choice(const Parameter& parameter, const Value& value) {
 
 class Builder {
  public:
-  explicit Builder(std::string_view text) : all_(text), rest_(text) {}
+  Builder(std::string_view text, Language language)
+      : all_(text), rest_(text), language_(language) {}
 
   Definition build() {
     node(0);
@@ -93,8 +94,9 @@ class Builder {
     const auto self = static_cast<std::uint32_t>(definition_.nodes.size());
     definition_.nodes.emplace_back();
     const bool built_in = std::isupper(static_cast<unsigned char>(name[0])) != 0;
+    auto given = built_in || rest_.starts_with("[_") ? attributes() : std::vector<Attribute>();
+    const std::uint32_t hooks = take_hooks(given);
     const NodeType& type = built_in ? built_in_type(name) : scripted_type();
-    const auto given = built_in ? attributes() : std::vector<Attribute>();
     join(type, given, self);
     const std::uint32_t children = take('(') ? nodes_until_end(self) : 0;
     if (children < type.arity.min || children > type.arity.max) {
@@ -107,7 +109,36 @@ class Builder {
     it.name = name;
     it.children = children;
     it.first = first;
+    it.hooks = hooks;
     it.end = static_cast<std::uint32_t>(definition_.nodes.size());
+  }
+
+  // Takes those that are scripts out of `given`.
+  std::uint32_t take_hooks(std::vector<Attribute>& given) {
+    constexpr std::string_view kNames[] = {"_failureIf", "_successIf", "_skipIf", "_while",
+                                           "_onSuccess", "_onFailure", "_post",   "_onHalted"};
+    NodeHooks hooks;
+    hooks.fill(Port::kNone);
+    for (std::size_t hook = 0; hook < kHooks; ++hook) {
+      const auto it = std::ranges::find(given, kNames[hook], &Attribute::name);
+      if (it == given.end()) continue;
+      hooks[hook] = script(it->value);
+      given.erase(it);
+    }
+    if (std::ranges::count(hooks, Port::kNone) == kHooks) return Port::kNone;
+    definition_.hooks.push_back(hooks);
+    return static_cast<std::uint32_t>(definition_.hooks.size() - 1);
+  }
+
+  std::uint32_t script(std::string_view text) {
+    auto code = Expression::parse(text);
+    if (!code) fail(code.error().message);
+    BoundScript& bound = definition_.scripts.emplace_back();
+    bound.code = std::make_shared<const Expression>(std::move(*code));
+    for (const std::string& name : bound.code->names()) {
+      bound.entries.push_back(entry(name, std::nullopt));
+    }
+    return static_cast<std::uint32_t>(definition_.scripts.size() - 1);
   }
 
   void resolve_resources() {
@@ -161,7 +192,7 @@ class Builder {
   }
 
   const NodeType& built_in_type(std::string_view name) const {
-    for (const NodeKind* kind : built_in_kinds()) {
+    for (const NodeKind* kind : built_in_kinds(language_)) {
       if (kind->type.id == name) return kind->type;
     }
     if (const NodeType* type = plugin_node_type(name)) return *type;
@@ -182,7 +213,12 @@ class Builder {
       for (const Attribute& attribute : given) {
         if (attribute.name != parameter.name) continue;
         ++used;
-        if (attribute.value.starts_with('{')) {
+        if (parameter.is_script) {
+          port.script = script(attribute.value);
+          text = attribute.value;
+        } else if (parameter.names_entry) {
+          port.entry = entry(attribute.value, std::nullopt);
+        } else if (attribute.value.starts_with('{')) {
           port.entry = entry(attribute.value.substr(1, attribute.value.size() - 2), parameter.type);
           all.from_entry |= std::uint64_t{1} << values.size();
         } else {
@@ -212,23 +248,30 @@ class Builder {
     return first;
   }
 
-  std::uint32_t entry(std::string_view key, ValueType type) {
+  // Without a type: one that is not there until it is written.
+  std::uint32_t entry(std::string_view key, std::optional<ValueType> type) {
     for (std::uint32_t i = 0; i < definition_.entries.size(); ++i) {
       if (definition_.entries[i].name == key) return i;
     }
-    definition_.entries.push_back({std::string(key), type, {}});
+    definition_.entries.push_back({std::string(key), type.value_or(ValueType::String), {}});
+    if (language_ == Language::BehaviorTreeCpp) {
+      BlackboardEntry& it = definition_.entries.back();
+      it.typing = type ? Typing::Declared : Typing::Any;
+      it.is_present = type.has_value();
+    }
     return static_cast<std::uint32_t>(definition_.entries.size() - 1);
   }
 
   std::map<std::string, std::vector<std::uint32_t>> members_;  // of the groups, by name
   std::string_view all_, rest_;
+  Language language_;
   Definition definition_;
 };
 
 }  // namespace
 
-Tree tree_from_text(std::string_view text) {
-  return compile(Builder(text).build());
+Tree tree_from_text(std::string_view text, Language language) {
+  return compile(Builder(text, language).build());
 }
 
 }  // namespace lockstep::test

@@ -148,6 +148,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
             .period = deadline_of(1, options_.rate),
             .log = leaf_log(),
             .on_fault = options_.on_fault,
+            .exactly_once = options_.exactly_once,
             .virtual_time = !options_.is_wall(),
             .watch = &watch_.leaves()};
   }

@@ -68,6 +68,10 @@ void define_time_options(CLI::App& app, RunCommandOptions& options) {
                              {"fail", OverrunPolicy::Fail}},
                             "When a tick ends after the next deadline: skip the missed "
                             "deadlines, run the missed ticks at once, or end the run");
+  add_choice<bool>(
+      app, "--tick", options.exactly_once, {{"once", false}, {"exactly-once", true}},
+      "When a node of a tree for BehaviorTree.CPP asks for another tick: tick the tree "
+      "again at once, or in the next period");
   app.add_option("--tick-budget", options.tick_budget_ms,
                  "Report a leaf that takes longer than MS milliseconds; 0 = do not time leaves "
                  "(default: the period)")

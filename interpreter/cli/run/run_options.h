@@ -23,6 +23,7 @@ struct RunCommandOptions {
   double stall = 5;
 
   OverrunPolicy overrun = OverrunPolicy::Skip;
+  bool exactly_once = false;  // a tick of the tree in each period, also when a node asks for more
   std::optional<double> tick_budget_ms;  // none: the period; 0: no budget
   RealtimeOptions realtime;
   FaultPolicy on_fault = FaultPolicy::Stop;

@@ -98,6 +98,11 @@ class PortChecker {
     port.key = key_of(attribute->value, parameter.name);
     const bool blank_around = without_blanks_around(attribute->value) != attribute->value;
     if (!port.key.empty()) return !blank_around || check_blanks(parameter, *attribute);
+    if (parameter.is_key && !attribute->value.empty()) {
+      port.key = attribute->value;
+      value = std::string(attribute->value);
+      return true;
+    }
     if (parameter.constant || !parameter.names_entry) {
       return literal(parameter, *attribute, port, value);
     }
@@ -150,10 +155,8 @@ class PortChecker {
     if (parameter.is_script) {
       auto code = parse_script(attribute, report_, EmptyScript::DoesNothing);
       if (!code) return false;
-      value = std::string(attribute.value);
       if (*code == nullptr) return true;
-      const auto index = static_cast<std::uint32_t>(&port - trees_.ports.data());
-      trees_.port_scripts[index] = static_cast<std::uint32_t>(trees_.scripts.size());
+      port.value = static_cast<std::uint32_t>(trees_.scripts.size());
       trees_.scripts.push_back({.hook = {}, .is_last = true, .code = *std::move(code)});
       return true;
     }

@@ -10,16 +10,8 @@
 
 namespace lockstep::btcpp {
 
-// The attribute of each Hook.
-inline constexpr std::string_view kHookNames[kHooks] = {"_failureIf", "_successIf", "_skipIf",
-                                                        "_while",     "_onSuccess", "_onFailure",
-                                                        "_post",      "_onHalted"};
-
 constexpr std::optional<Hook> hook_of(std::string_view attribute) {
-  if (!attribute.starts_with('_')) return std::nullopt;
-  const auto* const name = std::ranges::find(kHookNames, attribute);
-  if (name == std::end(kHookNames)) return std::nullopt;
-  return static_cast<Hook>(name - std::begin(kHookNames));
+  return hook_named(attribute, Language::BehaviorTreeCpp);
 }
 
 // Whether an attribute of that name is a port; all others only mark the node for editors.

@@ -2,14 +2,6 @@
 #include "engine/nodes/ordered.h"
 
 namespace lockstep {
-namespace {
-
-double progress(Ticker& ticker, NodeIndex self) {
-  return ticker.progress(ticker.state<ordered::State>(self).current);
-}
-
-}  // namespace
-
 const NodeKind kFallback{
     .type = {.id = "Fallback",
              .category = NodeCategory::Control,
@@ -20,7 +12,7 @@ const NodeKind kFallback{
              .sign = "?",
              .goes_on_after = Status::Failure},
     .tick = ordered::tick<Status::Failure>,
-    .progress = progress,
+    .progress = ordered::progress_of_fallback,
     .state_size = sizeof(ordered::State)};
 
 }  // namespace lockstep

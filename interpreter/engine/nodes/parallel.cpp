@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <functional>
-
 #include "engine/nodes/kinds.h"
 #include "engine/nodes/parallel_rule.h"
 
@@ -25,19 +22,9 @@ Status tick(Ticker& ticker, NodeIndex self) {
   return parallel::judge(ticker, self, kPlaces, tally);
 }
 
-// The M-th largest of the children: the point at which M of them will have arrived.
 double progress(Ticker& ticker, NodeIndex self) {
-  const auto sorted = ticker.child_numbers(self);
-  NodeIndex child = self + 1;
-  for (double& number : sorted) {
-    number = ticker.progress(child);
-    child = ticker.end_of(child);
-  }
-  const auto wanted = sorted.begin() + (ticker.parameter(self, kPlaces.success_count).integer - 1);
-  std::nth_element(sorted.begin(), wanted, sorted.end(), std::greater<>());
-  const double reached = *wanted;
-  std::fill(sorted.begin(), sorted.end(), 0.0);  // asking must not change the state
-  return reached;
+  return parallel::progress_of_mth(ticker, self,
+                                   ticker.parameter(self, kPlaces.success_count).integer);
 }
 
 }  // namespace

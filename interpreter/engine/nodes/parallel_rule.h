@@ -1,6 +1,8 @@
 // What the three parallels share: which children are ticked again, and when the node ends.
 #pragma once
 
+#include <algorithm>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -41,12 +43,28 @@ inline std::optional<RuleBreak> check_counts(const ParameterValues& given, const
     const auto* count = std::get_if<std::int64_t>(&given.values[place]);
     if (count == nullptr || *count <= all) continue;
     const std::string most = std::to_string(all);
-    return RuleBreak{
-        static_cast<int>(place),
-        "'" + std::string(parameter->name) + "' is more than the " + most + " children of the node",
-        "give at most " + most};
+    return RuleBreak{static_cast<int>(place),
+                     std::string("'").append(parameter->name) + "' is more than the " + most +
+                         " children of the node",
+                     "give at most " + most};
   }
   return std::nullopt;
+}
+
+// The progress of the child that is the M-th when the farthest is the first: where M children will
+// have arrived. Uses child_numbers, which asking must not change.
+inline double progress_of_mth(Ticker& ticker, NodeIndex self, std::int64_t m) {
+  const auto sorted = ticker.child_numbers(self);
+  NodeIndex child = self + 1;
+  for (double& number : sorted) {
+    number = ticker.progress(child);
+    child = ticker.end_of(child);
+  }
+  const auto wanted = sorted.begin() + (m - 1);
+  std::nth_element(sorted.begin(), wanted, sorted.end(), std::greater<>());
+  const double reached = *wanted;
+  std::fill(sorted.begin(), sorted.end(), 0.0);
+  return reached;
 }
 
 // A guard is ticked in every tick.
@@ -56,20 +74,24 @@ inline bool is_over(const Ticker& ticker, NodeIndex child) {
 
 // How many children have succeeded, failed, …
 struct Tally {
-  std::int64_t succeeded = 0, failed = 0;
+  std::int64_t succeeded = 0, failed = 0, skipped = 0;
 
   void add(Status status) {
     succeeded += status == Status::Success;
     failed += status == Status::Failure;
+    skipped += status == Status::Skipped;
   }
 };
 
-// Success is checked first. Children that still run are halted when the node ends.
+// Success is checked first. Children that still run are halted when the node ends. A child that was
+// skipped in this tick counts as not there.
 inline Status judge(Ticker& ticker, NodeIndex self, const Places& places, const Tally& tally) {
-  const std::int64_t wanted = ticker.parameter(self, places.success_count).integer;
+  const std::int64_t there = ticker.node(self).children - tally.skipped;
+  if (there == 0) return Status::Skipped;
+  const std::int64_t wanted = std::min(ticker.parameter(self, places.success_count).integer, there);
   const bool success = tally.succeeded >= wanted;
   const bool failure = tally.failed >= ticker.parameter(self, places.failure_count).integer ||
-                       ticker.node(self).children - tally.failed < wanted;
+                       there - tally.failed < wanted;
   if (!success && !failure) return Status::Running;
   ticker.halt_running_children(self);
   return success ? Status::Success : Status::Failure;

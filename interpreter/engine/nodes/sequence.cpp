@@ -2,15 +2,6 @@
 #include "engine/nodes/ordered.h"
 
 namespace lockstep {
-namespace {
-
-double progress(Ticker& ticker, NodeIndex self) {
-  const auto& state = ticker.state<ordered::State>(self);
-  return (state.done + ticker.progress(state.current)) / ticker.node(self).children;
-}
-
-}  // namespace
-
 const NodeKind kSequence{
     .type = {.id = "Sequence",
              .category = NodeCategory::Control,
@@ -21,7 +12,7 @@ const NodeKind kSequence{
              .sign = "→",
              .goes_on_after = Status::Success},
     .tick = ordered::tick<Status::Success>,
-    .progress = progress,
+    .progress = ordered::progress_of_sequence,
     .state_size = sizeof(ordered::State)};
 
 }  // namespace lockstep

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
 #include "engine/nodes/parallel_rule.h"
 #include "engine/synchronized.h"
@@ -18,13 +19,17 @@ inline double reached(Ticker& ticker, NodeIndex child) {
   return ticker.progress(child);
 }
 
-// One snapshot before any child is ticked; returns its minimum.
+// What stands for the progress of a child that was skipped in the last tick.
+inline constexpr double kLeftOut = std::numeric_limits<double>::quiet_NaN();
+
+// One snapshot before any child is ticked; returns its minimum. A child that was skipped is left
+// out: no other waits for it, and it is not held.
 inline double take_snapshot(Ticker& ticker, NodeIndex self) {
   double least = 1.0;
   NodeIndex child = self + 1;
   for (double& number : ticker.child_numbers(self)) {
-    number = reached(ticker, child);
-    least = std::min(least, number);
+    number = ticker.activity(child) == Activity::Skipped ? kLeftOut : reached(ticker, child);
+    if (number < least) least = number;
     child = ticker.end_of(child);
   }
   return least;
@@ -62,6 +67,7 @@ Status tick_children(Ticker& ticker, NodeIndex self, const parallel::Places& pla
 inline double least_progress(Ticker& ticker, NodeIndex self) {
   double least = 1.0;
   for (NodeIndex child = self + 1; child != ticker.end_of(self); child = ticker.end_of(child)) {
+    if (ticker.activity(child) == Activity::Skipped) continue;
     least = std::min(least, reached(ticker, child));
   }
   return least;

@@ -1,0 +1,132 @@
+// LoopInt, LoopBool, LoopDouble and LoopString: tick the child once for each item of a list.
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "core/conversion.h"
+#include "engine/nodes/decorator.h"
+
+namespace lockstep::btcpp {
+namespace {
+
+constexpr unsigned kQueue = 0, kValue = 1, kIfEmpty = 2;
+
+// Those that a node may return, in the order of Status.
+constexpr std::string_view kResults[] = {"RUNNING", "SUCCESS", "FAILURE", "SKIPPED"};
+
+constexpr std::array<Parameter, 3> parameters_of(ValueType list, ValueType item) {
+  return {Parameter{.name = "queue",
+                    .type = list,
+                    .doc = "The items; an entry is copied when the node begins.",
+                    .required = true,
+                    .direction = Direction::InOut},
+          Parameter{.name = "value",
+                    .type = item,
+                    .doc = "The entry that gets the item.",
+                    .direction = Direction::Output},
+          Parameter{.name = "if_empty",
+                    .type = ValueType::String,
+                    .doc = "The result when no item is left.",
+                    .default_text = "SUCCESS",
+                    .choices = kResults}};
+}
+
+template <ValueType kList, ValueType kItem>
+constexpr auto kParameters = parameters_of(kList, kItem);
+
+struct State {
+  std::uint32_t next;  // item
+};
+
+template <class T>
+std::optional<Value> item_of(const Value& list, std::size_t index) {
+  const auto* items = std::get_if<std::vector<T>>(&list);
+  if (items == nullptr || index >= items->size()) return std::nullopt;
+  if constexpr (std::is_same_v<T, Flag>) {
+    return Value((*items)[index].is_set);
+  } else {
+    return Value((*items)[index]);
+  }
+}
+
+// False: there is no list, which is a fault.
+template <ValueType kList>
+bool begin(Ticker& ticker, NodeIndex self) {
+  ticker.state<State>(self).next = 0;
+  const Value* queue = ticker.port_value(self, kQueue);
+  auto list = queue == nullptr ? std::nullopt : convert_value(*queue, kList, nullptr);
+  if (list) {
+    ticker.kept_value(self) = std::move(*list);
+    return true;
+  }
+  ticker.set_fault(self, queue == nullptr ? "its queue has no value"
+                                          : "its queue holds no " + std::string(to_string(kList)));
+  return false;
+}
+
+Status if_empty(Ticker& ticker, NodeIndex self) {
+  const Value* word = ticker.port_value(self, kIfEmpty);
+  const auto* text = word == nullptr ? nullptr : std::get_if<std::string>(word);
+  const auto* const it = text == nullptr ? std::end(kResults) : std::ranges::find(kResults, *text);
+  if (it != std::end(kResults)) return static_cast<Status>(it - std::begin(kResults) + 1);
+  ticker.set_fault(self, "'if_empty' is none of RUNNING, SUCCESS, FAILURE, SKIPPED");
+  return Status::Failure;
+}
+
+template <class T, ValueType kList, ValueType kItem>
+Status tick(Ticker& ticker, NodeIndex self) {
+  if (ticker.first_tick(self) && !begin<kList>(ticker, self)) return Status::Failure;
+  if (ticker.status(self + 1) != Status::Running) {
+    State& state = ticker.state<State>(self);
+    auto item = item_of<T>(ticker.kept_value(self), state.next);
+    if (!item) return if_empty(ticker, self);
+    ++state.next;
+    Entry* const entry = ticker.port_entry(self, kValue);
+    if (entry != nullptr && !write_entry(*entry, kItem, nullptr, *std::move(item))) {
+      ticker.set_fault(self, "the item does not fit the entry of 'value'");
+      return Status::Failure;
+    }
+  }
+  return ticker.tick(self + 1) == Status::Failure ? Status::Failure : Status::Running;
+}
+
+template <class T>
+std::size_t count_of(const Value& list) {
+  const auto* items = std::get_if<std::vector<T>>(&list);
+  return items == nullptr ? 0 : items->size();
+}
+
+template <class T>
+double progress(Ticker& ticker, NodeIndex self) {
+  const auto all = static_cast<double>(count_of<T>(ticker.kept_value(self)));
+  if (all == 0) return 0.0;
+  const bool runs = ticker.status(self + 1) == Status::Running;
+  const double done = ticker.state<State>(self).next - (runs ? 1.0 : 0.0);
+  return (done + (runs ? ticker.progress(self + 1) : 0.0)) / all;
+}
+
+template <class T, ValueType kList, ValueType kItem>
+constexpr NodeKind kind_of(std::string_view id) {
+  return {.type = {.id = id,
+                   .category = NodeCategory::Decorator,
+                   .doc = "Ticks its child once for each item of a list, one after the other; "
+                          "Failure as soon as it fails.",
+                   .arity = {1, 1},
+                   .parameters = kParameters<kList, kItem>,
+                   .can_run = true,
+                   .reads_ports = true},
+          .tick = tick<T, kList, kItem>,
+          .progress = progress<T>,
+          .state_size = sizeof(State)};
+}
+
+}  // namespace
+
+const NodeKind kLoopInt = kind_of<std::int64_t, ValueType::IntList, ValueType::Int>("LoopInt");
+const NodeKind kLoopBool = kind_of<Flag, ValueType::BoolList, ValueType::Bool>("LoopBool");
+const NodeKind kLoopDouble =
+    kind_of<double, ValueType::DoubleList, ValueType::Double>("LoopDouble");
+const NodeKind kLoopString =
+    kind_of<std::string, ValueType::StringList, ValueType::String>("LoopString");
+
+}  // namespace lockstep::btcpp

@@ -1,0 +1,65 @@
+#include "engine/nodes/decorator.h"
+
+namespace lockstep::btcpp {
+namespace {
+
+constexpr unsigned kIf = 0, kElse = 1;
+
+// Those that a node may return, in the order of Status.
+constexpr std::string_view kResults[] = {"RUNNING", "SUCCESS", "FAILURE", "SKIPPED"};
+
+constexpr Parameter kParameters[] = {
+    {.name = "if",
+     .type = ValueType::String,
+     .doc = "The script that decides, in each tick until the child is started.",
+     .required = true,
+     .is_script = true},
+    {.name = "else",
+     .type = ValueType::String,
+     .doc = "The result as long as the script is false.",
+     .default_text = "FAILURE",
+     .choices = kResults},
+};
+
+struct State {
+  bool is_open;  // the script was true, and the child has not completed since
+};
+
+Status otherwise(const Ticker& ticker, NodeIndex self) {
+  return static_cast<Status>(ticker.parameter(self, kElse).integer + 1);
+}
+
+Status tick(Ticker& ticker, NodeIndex self) {
+  State& state = ticker.state<State>(self);
+  if (!state.is_open) {
+    const auto holds = ticker.holds(self, ticker.script(self, kIf), "if");
+    if (!holds) return Status::Failure;
+    if (!*holds) return otherwise(ticker, self);
+  }
+  state.is_open = true;
+  const Status status = ticker.tick(self + 1);
+  if (is_complete(status)) state.is_open = false;
+  return status;
+}
+
+void forget(Ticker& ticker, NodeIndex self) {
+  ticker.state<State>(self).is_open = false;
+}
+
+}  // namespace
+
+const NodeKind kPrecondition{
+    .type = {.id = "Precondition",
+             .category = NodeCategory::Decorator,
+             .doc = "Ticks its child to its end once a script is true; before that the result is "
+                    "'else'.",
+             .arity = {1, 1},
+             .parameters = kParameters,
+             .can_run = true},
+    .tick = tick,
+    .progress = decorator::child_progress,
+    .state_size = sizeof(State),
+    .halt = forget,
+    .forget = forget};
+
+}  // namespace lockstep::btcpp

@@ -1,0 +1,104 @@
+// Repeat and RetryUntilSuccessful of BehaviorTree.CPP.
+#include <algorithm>
+
+#include "engine/nodes/decorator.h"
+
+namespace lockstep::btcpp {
+namespace {
+
+constexpr std::int64_t kEndless = -1;
+
+constexpr Parameter kRepeatParameters[] = {
+    {.name = "num_cycles",
+     .type = ValueType::Int,
+     .doc = "How often the child must succeed; -1: for ever.",
+     .required = true}};
+constexpr Parameter kRetryParameters[] = {
+    {.name = "num_attempts",
+     .type = ValueType::Int,
+     .doc = "How often the child may fail before the node fails; -1: for ever.",
+     .required = true}};
+
+// The rounds that are over. Kept while the child is skipped, so not cleared by a first tick.
+struct State {
+  std::int64_t done;
+};
+
+// A child that completed at once lets the tree be ticked again; another one is ticked again here.
+template <Status kGoOn>
+Status tick(Ticker& ticker, NodeIndex self) {
+  State& state = ticker.state<State>(self);
+  const auto has_more = [&] {
+    const std::int64_t times = ticker.parameter(self, 0).integer;
+    return times == kEndless || state.done < times;
+  };
+  while (has_more()) {
+    const bool was_idle = ticker.first_tick(self + 1);
+    const Status status = ticker.tick(self + 1);
+    if (status == Status::Skipped) ticker.forget_range(self + 1, ticker.end_of(self));
+    if (status == Status::Running || status == Status::Skipped) return status;
+    if (status != kGoOn) {
+      state.done = 0;
+      return status;
+    }
+    ++state.done;
+    if (kGoOn == Status::Failure && !ticker.reread(self)) return Status::Failure;
+    if (was_idle && has_more()) {
+      ticker.ask_for_another_tick(self);
+      return Status::Running;
+    }
+  }
+  state.done = 0;
+  return kGoOn;
+}
+
+void forget(Ticker& ticker, NodeIndex self) {
+  ticker.state<State>(self).done = 0;
+}
+
+double progress(Ticker& ticker, NodeIndex self) {
+  const std::int64_t times = ticker.parameter(self, 0).integer;
+  const double child = ticker.status(self + 1) == Status::Running ? ticker.progress(self + 1) : 0.0;
+  if (times <= 0) return child;
+  const auto done = static_cast<double>(ticker.state<State>(self).done);
+  return std::min(1.0, (done + child) / static_cast<double>(times));
+}
+
+Round round(Ticker& ticker, NodeIndex self) {
+  const std::int64_t times = ticker.parameter(self, 0).integer;
+  return {ticker.state<State>(self).done + 1, std::max(times, std::int64_t{0})};
+}
+
+}  // namespace
+
+const NodeKind kRepeat{
+    .type = {.id = "Repeat",
+             .category = NodeCategory::Decorator,
+             .doc = "Ticks its child until it has succeeded num_cycles times; Failure as soon as "
+                    "it fails.",
+             .arity = {1, 1},
+             .parameters = kRepeatParameters,
+             .can_run = true},
+    .tick = tick<Status::Success>,
+    .progress = progress,
+    .state_size = sizeof(State),
+    .halt = forget,
+    .forget = forget,
+    .round = round};
+
+const NodeKind kRetryUntilSuccessful{
+    .type = {.id = "RetryUntilSuccessful",
+             .category = NodeCategory::Decorator,
+             .doc = "Ticks its child until it succeeds; Failure when it has failed num_attempts "
+                    "times.",
+             .arity = {1, 1},
+             .parameters = kRetryParameters,
+             .can_run = true},
+    .tick = tick<Status::Failure>,
+    .progress = progress,
+    .state_size = sizeof(State),
+    .halt = forget,
+    .forget = forget,
+    .round = round};
+
+}  // namespace lockstep::btcpp

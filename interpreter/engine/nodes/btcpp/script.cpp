@@ -1,0 +1,53 @@
+// Script and ScriptCondition: leaves that run a script.
+#include "engine/nodes/kinds.h"
+#include "engine/ticker.h"
+
+namespace lockstep::btcpp {
+namespace {
+
+constexpr unsigned kCode = 0;
+
+constexpr Parameter kScriptParameters[] = {{.name = "code",
+                                            .type = ValueType::String,
+                                            .doc = "What to run; its value does not count.",
+                                            .required = true,
+                                            .is_script = true}};
+constexpr Parameter kConditionParameters[] = {{.name = "code",
+                                               .type = ValueType::String,
+                                               .doc = "What decides between Success and Failure.",
+                                               .required = true,
+                                               .is_script = true}};
+
+Status tick_script(Ticker& ticker, NodeIndex self) {
+  const bool good = ticker.run_script(self, ticker.script(self, kCode), "code");
+  return good ? Status::Success : Status::Failure;
+}
+
+Status tick_condition(Ticker& ticker, NodeIndex self) {
+  const auto holds = ticker.holds(self, ticker.script(self, kCode), "code");
+  return holds.value_or(false) ? Status::Success : Status::Failure;
+}
+
+double no_progress(Ticker&, NodeIndex) {
+  return 0.0;
+}
+
+}  // namespace
+
+const NodeKind kScript{.type = {.id = "Script",
+                                .category = NodeCategory::Action,
+                                .doc = "Runs a script over the entries, and succeeds.",
+                                .arity = {0, 0},
+                                .parameters = kScriptParameters},
+                       .tick = tick_script,
+                       .progress = no_progress};
+
+const NodeKind kScriptCondition{.type = {.id = "ScriptCondition",
+                                         .category = NodeCategory::Condition,
+                                         .doc = "Success when its script is true, else Failure.",
+                                         .arity = {0, 0},
+                                         .parameters = kConditionParameters},
+                                .tick = tick_condition,
+                                .progress = no_progress};
+
+}  // namespace lockstep::btcpp

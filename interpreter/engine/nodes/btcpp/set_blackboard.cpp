@@ -1,0 +1,93 @@
+// SetBlackboard and UnsetBlackboard: write an entry, or remove it.
+#include "core/conversion.h"
+#include "core/wording.h"
+#include "engine/nodes/kinds.h"
+#include "engine/ticker.h"
+
+namespace lockstep::btcpp {
+namespace {
+
+constexpr unsigned kValue = 0, kOutputKey = 1;
+constexpr unsigned kKey = 0;
+
+constexpr Parameter kSetParameters[] = {{.name = "value",
+                                         .type = ValueType::String,
+                                         .doc = "A text, or the entry to copy.",
+                                         .required = true,
+                                         .is_generic = true},
+                                        {.name = "output_key",
+                                         .type = ValueType::String,
+                                         .doc = "The name of the entry to write.",
+                                         .required = true,
+                                         .is_key = true}};
+constexpr Parameter kUnsetParameters[] = {{.name = "key",
+                                           .type = ValueType::String,
+                                           .doc = "The name of the entry to remove.",
+                                           .required = true,
+                                           .is_key = true,
+                                           .own_only = true}};
+
+// A text is converted when the entry has a type of its own.
+bool store_text(Ticker& ticker, NodeIndex self, Entry& target, const Value& text) {
+  if (!target.is_present) make_entry(target, Typing::Declared, ValueType::String);
+  if (target.typing == Typing::Any) {
+    target.value = text;
+    return true;
+  }
+  auto converted = convert_value(text, target.type, target.object);
+  if (converted) {
+    target.value = std::move(*converted);
+    return true;
+  }
+  ticker.set_fault(self, "cannot write '" + brief(std::get<std::string>(text)) +
+                             "' to an entry that holds " + std::string(expected_text(target.type)));
+  return false;
+}
+
+Status tick_set(Ticker& ticker, NodeIndex self) {
+  Entry* const target = ticker.port_entry(self, kOutputKey);
+  if (target == nullptr) return Status::Failure;
+  const Value* const value = ticker.port_value(self, kValue);
+  if (value == nullptr) return Status::Failure;
+  if (const Entry* source = ticker.port_entry(self, kValue)) {
+    if (source == target) return Status::Success;
+    if (!target->is_present) make_entry(*target, source->typing, source->type, source->object);
+    target->value = *value;
+  } else if (!store_text(ticker, self, *target, *value)) {
+    return Status::Failure;
+  }
+  ++target->writes;
+  return Status::Success;
+}
+
+Status tick_unset(Ticker& ticker, NodeIndex self) {
+  if (Entry* entry = ticker.port_entry(self, kKey)) unset_entry(*entry);
+  return Status::Success;
+}
+
+double no_progress(Ticker&, NodeIndex) {
+  return 0.0;
+}
+
+}  // namespace
+
+const NodeKind kSetBlackboard{.type = {.id = "SetBlackboard",
+                                       .category = NodeCategory::Action,
+                                       .doc = "Writes a text, or a copy of another entry, to an "
+                                              "entry.",
+                                       .arity = {0, 0},
+                                       .parameters = kSetParameters,
+                                       .reads_ports = true},
+                              .tick = tick_set,
+                              .progress = no_progress};
+
+const NodeKind kUnsetBlackboard{.type = {.id = "UnsetBlackboard",
+                                         .category = NodeCategory::Action,
+                                         .doc = "Removes an entry of this tree.",
+                                         .arity = {0, 0},
+                                         .parameters = kUnsetParameters,
+                                         .reads_ports = true},
+                                .tick = tick_unset,
+                                .progress = no_progress};
+
+}  // namespace lockstep::btcpp

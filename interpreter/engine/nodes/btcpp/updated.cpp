@@ -1,0 +1,90 @@
+// SkipUnlessUpdated, WaitValueUpdate and WasEntryUpdated: whether an entry was written, also with
+// the value that it had, since the node looked last.
+#include "engine/nodes/decorator.h"
+
+namespace lockstep::btcpp {
+namespace {
+
+constexpr unsigned kEntry = 0;
+
+constexpr Parameter kParameters[] = {{.name = "entry",
+                                      .type = ValueType::String,
+                                      .doc = "The entry to look at.",
+                                      .required = true,
+                                      .names_entry = true}};
+
+struct State {
+  std::uint32_t seen;  // Entry::writes
+  bool runs;           // the child was ticked and has not completed
+};
+
+bool was_written(Ticker& ticker, NodeIndex self, State& state) {
+  const Entry* entry = ticker.port_entry(self, kEntry);
+  if (entry == nullptr || !entry->is_present || entry->writes == state.seen) return false;
+  state.seen = entry->writes;
+  return true;
+}
+
+template <Status kElse>
+Status tick(Ticker& ticker, NodeIndex self) {
+  State& state = ticker.state<State>(self);
+  if (!state.runs && !was_written(ticker, self, state)) return kElse;
+  const Status status = ticker.tick(self + 1);
+  state.runs = status == Status::Running;
+  return status;
+}
+
+void halt(Ticker& ticker, NodeIndex self) {
+  ticker.state<State>(self).runs = false;
+}
+
+Status tick_condition(Ticker& ticker, NodeIndex self) {
+  const bool written = was_written(ticker, self, ticker.state<State>(self));
+  return written ? Status::Success : Status::Failure;
+}
+
+double no_progress(Ticker&, NodeIndex) {
+  return 0.0;
+}
+
+}  // namespace
+
+const NodeKind kSkipUnlessUpdated{
+    .type = {.id = "SkipUnlessUpdated",
+             .category = NodeCategory::Decorator,
+             .doc = "Ticks its child when the entry was written since the last time; else it is "
+                    "skipped.",
+             .arity = {1, 1},
+             .parameters = kParameters,
+             .reads_ports = true},
+    .tick = tick<Status::Skipped>,
+    .progress = decorator::child_progress,
+    .state_size = sizeof(State),
+    .halt = halt};
+
+const NodeKind kWaitValueUpdate{
+    .type = {.id = "WaitValueUpdate",
+             .category = NodeCategory::Decorator,
+             .doc = "Ticks its child when the entry was written since the last time; Running until "
+                    "then.",
+             .arity = {1, 1},
+             .parameters = kParameters,
+             .can_run = true,
+             .reads_ports = true},
+    .tick = tick<Status::Running>,
+    .progress = decorator::child_progress,
+    .state_size = sizeof(State),
+    .halt = halt};
+
+const NodeKind kWasEntryUpdated{
+    .type = {.id = "WasEntryUpdated",
+             .category = NodeCategory::Condition,
+             .doc = "Success when the entry was written since this node asked last.",
+             .arity = {0, 0},
+             .parameters = kParameters,
+             .reads_ports = true},
+    .tick = tick_condition,
+    .progress = no_progress,
+    .state_size = sizeof(State)};
+
+}  // namespace lockstep::btcpp

@@ -1,0 +1,96 @@
+// AsyncSequence, AsyncFallback and SequenceWithMemory: after a child that completed at once, they
+// let the tree be ticked again before they go on.
+#include "engine/nodes/kinds.h"
+#include "engine/ticker.h"
+
+namespace lockstep::btcpp {
+namespace {
+
+struct State {
+  NodeIndex current;  // the child at which the last tick stopped; 0: the first
+  std::uint32_t done;
+  std::uint32_t skipped;
+};
+
+// What stays when an activation ends without Success, or is halted.
+enum class Place : bool { Forgotten, Kept };
+
+void begin(Ticker& ticker, NodeIndex self, State& state, Place place) {
+  if (!ticker.first_tick(self)) return;
+  if (place == Place::Forgotten || state.current == 0) state = {self + 1, 0, 0};
+  state.skipped = 0;
+}
+
+template <Status kGoOn, Place kPlace>
+Status tick(Ticker& ticker, NodeIndex self) {
+  State& state = ticker.state<State>(self);
+  begin(ticker, self, state, kPlace);
+  while (state.current != ticker.end_of(self)) {
+    const bool was_idle = ticker.first_tick(state.current);
+    const Status status = ticker.tick(state.current);
+    if (status != kGoOn && status != Status::Skipped) return status;
+    if (status == Status::Skipped) ++state.skipped;
+    state.current = ticker.end_of(state.current);
+    ++state.done;
+    if (status == kGoOn && was_idle && state.current != ticker.end_of(self)) {
+      ticker.ask_for_another_tick(self);
+      return Status::Running;
+    }
+  }
+  const bool all_skipped = state.skipped == ticker.node(self).children;
+  state = {};
+  if (all_skipped) ticker.forget_range(self + 1, ticker.end_of(self));
+  return all_skipped ? Status::Skipped : kGoOn;
+}
+
+double progress_of_sequence(Ticker& ticker, NodeIndex self) {
+  const auto& state = ticker.state<State>(self);
+  return (state.done + ticker.progress(state.current)) / ticker.node(self).children;
+}
+
+double progress_of_fallback(Ticker& ticker, NodeIndex self) {
+  return ticker.progress(ticker.state<State>(self).current);
+}
+
+}  // namespace
+
+const NodeKind kAsyncSequence{
+    .type = {.id = "AsyncSequence",
+             .category = NodeCategory::Control,
+             .doc = "A Sequence that lets the tree be ticked again after a child that succeeds at "
+                    "once.",
+             .arity = {1},
+             .sign = "→",
+             .goes_on_after = Status::Success,
+             .can_run = true},
+    .tick = tick<Status::Success, Place::Forgotten>,
+    .progress = progress_of_sequence,
+    .state_size = sizeof(State)};
+
+const NodeKind kAsyncFallback{
+    .type = {.id = "AsyncFallback",
+             .category = NodeCategory::Control,
+             .doc = "A Fallback that lets the tree be ticked again after a child that fails at "
+                    "once.",
+             .arity = {1},
+             .sign = "?",
+             .goes_on_after = Status::Failure,
+             .can_run = true},
+    .tick = tick<Status::Failure, Place::Forgotten>,
+    .progress = progress_of_fallback,
+    .state_size = sizeof(State)};
+
+const NodeKind kSequenceWithMemory{
+    .type = {.id = "SequenceWithMemory",
+             .category = NodeCategory::Control,
+             .doc = "An AsyncSequence that goes on with the child that failed, or was halted, when "
+                    "it is ticked again.",
+             .arity = {1},
+             .sign = "→",
+             .goes_on_after = Status::Success,
+             .can_run = true},
+    .tick = tick<Status::Success, Place::Kept>,
+    .progress = progress_of_sequence,
+    .state_size = sizeof(State)};
+
+}  // namespace lockstep::btcpp
