@@ -97,6 +97,7 @@ class PortChecker {
     port.place = attribute->place;
     port.key = key_of(attribute->value, parameter.name);
     const bool blank_around = without_blanks_around(attribute->value) != attribute->value;
+    if (!port.key.empty() && !may_be_entry(parameter, *attribute)) return false;
     if (!port.key.empty()) return !blank_around || check_blanks(parameter, *attribute);
     if (parameter.is_key && !attribute->value.empty()) {
       port.key = attribute->value;
@@ -108,6 +109,19 @@ class PortChecker {
     }
     port.key = attribute->value;
     return !port.key.empty() || refuse_empty(parameter, *attribute);
+  }
+
+  // Scripts and names of entries are bound when the tree is loaded.
+  bool may_be_entry(const Parameter& parameter, const Attribute& attribute) const {
+    if (!parameter.is_script && !parameter.is_key) return true;
+    report_.at_value(
+        attribute.place,
+        fmt::format("{} in an entry is not supported", parameter.is_script ? "a script" : "a name"),
+        parameter.is_script ? "write the script here"
+                            : fmt::format("to write the entry itself, leave out the braces: "
+                                          "{}=\"{}\"",
+                                          parameter.name, key_of(attribute.value, parameter.name)));
+    return false;
   }
 
   bool absent(const Parameter& parameter, CheckedPort& port, Value& value) const {
