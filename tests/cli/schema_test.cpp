@@ -21,10 +21,13 @@ std::string around(const std::string& node) {
   return "<root lockstep=\"1\"><BehaviorTree ID=\"A\">" + node + "</BehaviorTree></root>";
 }
 
+// Those in our language.
 std::vector<std::string> trees_below(const std::string& directory) {
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(directory)) {
-    if (entry.path().extension() == ".xml") files.push_back(entry.path().string());
+    const std::string file = entry.path().string();
+    if (!file.ends_with(".xml") || contains(read_file(file), "<root BTCPP_format")) continue;
+    files.push_back(file);
   }
   return files;
 }
