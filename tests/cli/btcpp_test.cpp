@@ -118,3 +118,35 @@ TEST_CASE("nodes --format btcpp is a model of what Groot2 does not know") {
   CHECK(checked.code == 3);
   CHECK(contains(checked.err, "tree.xml:2:16: error: 'fast' is not a number"));
 }
+
+TEST_CASE("a root that is skipped ends the run, not with Success") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("tree.xml", document("<Dock _skipIf=\"true\"/>"));
+  const Outcome outcome = run_mocked(tree, {});
+  CHECK(outcome.code == 1);
+  CHECK(nlohmann::json::parse(outcome.out)["result"] == "skipped");
+}
+
+TEST_CASE("what asks for another tick for ever is a fault, unless a period is one tick") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "tree.xml", document("<RetryUntilSuccessful num_attempts=\"-1\"><AlwaysFailure/>"
+                           "</RetryUntilSuccessful>"));
+  const Outcome endless = run_mocked(tree, {});
+  CHECK(endless.code == 5);
+  CHECK(contains(endless.err, "'Main tree/RetryUntilSuccessful'"));
+  CHECK(contains(endless.err, "asked for another tick 10000 times in one period"));
+  CHECK(run_mocked(tree, {"--tick", "exactly-once", "--max-ticks", "5"}).code == 124);
+}
+
+TEST_CASE("a start value of a SubTree counts as written, once") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "tree.xml",
+      "<root BTCPP_format=\"4\" main_tree_to_execute=\"A\"><BehaviorTree ID=\"A\">"
+      "<SubTree ID=\"B\" goal=\"dock\"/></BehaviorTree><BehaviorTree ID=\"B\"><Sequence>"
+      "<WasEntryUpdated entry=\"{goal}\"/><Inverter><Repeat num_cycles=\"2\">"
+      "<WasEntryUpdated name=\"again\" entry=\"{goal}\"/></Repeat></Inverter>"
+      "</Sequence></BehaviorTree></root>");
+  CHECK(run_mocked(tree, {}).code == 0);
+}
