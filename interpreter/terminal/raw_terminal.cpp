@@ -1,5 +1,6 @@
 #include "terminal/raw_terminal.h"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <termios.h>
 #include <unistd.h>
@@ -7,6 +8,7 @@
 #include <atomic>
 #include <cerrno>
 #include <ctime>
+#include <utility>
 
 #include "core/signal_mask.h"
 #include "terminal/screen.h"
@@ -17,7 +19,9 @@ namespace {
 // Of the one terminal that a process has; a signal handler cannot ask an object.
 termios g_before{};
 int g_keys = -1, g_screen = -1;
-std::atomic<bool> g_is_taken{false};
+int g_typed = -1;                        // reads g_keys, and never waits
+std::atomic<bool> g_is_taken{false};     // its modes and its cursor may be ours
+std::atomic<bool> g_was_another{false};  // others may have used it since
 std::atomic<bool> g_is_being_taken{false};
 std::atomic<bool> g_is_stopping{false};  // by Ctrl-Z
 std::atomic<bool> g_is_ending{false};
@@ -41,9 +45,10 @@ void on_stop(int number) {
   errno = error;
 }
 
-// After SIGSTOP, which nobody can handle, the terminal is the shell's.
+// After SIGSTOP, which nobody can handle, the terminal may have been the shell's. Or not: a shell
+// also continues what runs.
 void on_continue(int) {
-  g_is_taken = false;
+  g_was_another = true;
 }
 
 void handle(int number, void (*handler)(int)) {
@@ -71,7 +76,7 @@ bool is_in_foreground() {
 void make_raw() {
   termios raw = g_before;
   raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO | IEXTEN);
-  raw.c_cc[VMIN] = 0;  // a shell may take a key between our poll and our read
+  raw.c_cc[VMIN] = 1;
   raw.c_cc[VTIME] = 0;
   tcsetattr(g_keys, TCSANOW, &raw);
 }
@@ -98,7 +103,7 @@ class Taking {
 
 void restore() {
   Taking::wait_for_end();
-  if (!g_is_taken.exchange(false)) return;
+  if (!g_is_taken.exchange(false) || !is_in_foreground()) return;
   if (g_keys >= 0) tcsetattr(g_keys, TCSANOW, &g_before);
   show_cursor(g_screen);
 }
@@ -107,11 +112,19 @@ bool is_away() {
   return g_is_stopping || g_is_ending || !is_in_foreground();
 }
 
+// A shell may take a key between our poll and our read, which then must not wait. O_NONBLOCK is set
+// on a file of ours: the one we were given is the shell's too.
+int open_typed(int keys) {
+  if (keys < 0 || tcgetsid(keys) != getsid(0)) return -1;
+  return open("/dev/tty", O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+}
+
 }  // namespace
 
 RawTerminal::RawTerminal(int keys, int screen) {
   if (keys >= 0) tcgetattr(keys, &g_before);
   g_keys = keys;
+  g_typed = open_typed(keys);
   g_screen = screen;
   handle(SIGTSTP, on_stop);
   handle(SIGCONT, on_continue);
@@ -121,13 +134,16 @@ RawTerminal::~RawTerminal() {
   restore();
   leave(SIGTSTP, on_stop);
   leave(SIGCONT, on_continue);
+  if (g_typed >= 0) close(std::exchange(g_typed, -1));
 }
 
 RawTerminal::State RawTerminal::take() {
+  if (!is_in_foreground()) g_was_another = true;
   if (is_away()) return State::Away;
-  if (g_is_taken) return State::Kept;
+  if (g_is_taken && !g_was_another) return State::Kept;
   const Taking taking;
   if (is_away()) return State::Away;
+  g_was_another = false;
   g_is_taken = true;  // before it is, so that whatever happens from here on restores it
   if (g_keys >= 0) make_raw();
   hide_cursor(g_screen);
@@ -139,7 +155,7 @@ RawTerminal::State RawTerminal::take() {
 std::optional<std::string> RawTerminal::read_keys() {
   if (is_away()) return "";
   char bytes[64];
-  const ssize_t count = read(g_keys, bytes, sizeof bytes);
+  const ssize_t count = read(g_typed >= 0 ? g_typed : g_keys, bytes, sizeof bytes);
   if (count > 0) return std::string(bytes, static_cast<std::size_t>(count));
   pollfd keys{g_keys, POLLIN, 0};
   if (poll(&keys, 1, 0) > 0 && (keys.revents & ~POLLIN) != 0) return std::nullopt;

@@ -81,4 +81,24 @@ TEST_CASE("raw terminal: a program that ends leaves the terminal as it was, whoe
   close(master);
 }
 
+// A shell's "fg" continues also what runs.
+TEST_CASE("raw terminal: a program that is continued and ends leaves the terminal as it was") {
+  int master = -1, terminal = -1;
+  REQUIRE(openpty(&master, &terminal, nullptr, nullptr, nullptr) == 0);
+  const pid_t program = fork();
+  if (program == 0) {
+    RawTerminal raw(terminal, terminal);
+    if (raw.take() != RawTerminal::State::Taken || !is_raw(terminal)) _exit(1);
+    raise(SIGCONT);
+    RawTerminal::restore_for_good();
+    _exit(is_raw(terminal) ? 2 : 0);
+  }
+  int status = 0;
+  waitpid(program, &status, 0);
+  CHECK(status == 0);
+  CHECK_FALSE(is_raw(terminal));
+  close(terminal);
+  close(master);
+}
+
 }  // namespace lockstep
