@@ -93,7 +93,8 @@ double progress(const lockstep_caller* caller, std::uint32_t child) {
 static_assert(static_cast<int>(Status::Idle) == LOCKSTEP_IDLE &&
               static_cast<int>(Status::Running) == LOCKSTEP_RUNNING &&
               static_cast<int>(Status::Success) == LOCKSTEP_SUCCESS &&
-              static_cast<int>(Status::Failure) == LOCKSTEP_FAILURE);
+              static_cast<int>(Status::Failure) == LOCKSTEP_FAILURE &&
+              static_cast<int>(Status::Skipped) == LOCKSTEP_SKIPPED);
 
 }  // namespace
 

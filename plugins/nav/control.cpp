@@ -20,13 +20,15 @@ Status RecoveryNode::tick() {
 Status RecoveryNode::recover() {
   const Status status = tick_child(kRecovery);
   recovering_ = status == Status::Running;
-  if (status == Status::Failure) return status;
+  const bool none = status == Status::Failure || status == Status::Skipped;
+  if (none) return Status::Failure;
   if (status == Status::Success) ++retries_;
   return Status::Running;  // the action is tried again in the next tick
 }
 
 // A child that runs again, behind which others have been reached already, does not stop those.
 Status PipelineSequence::tick() {
+  bool skips = true;
   for (std::uint32_t child = 0; child < child_count(); ++child) {
     const Status status = tick_child(child);
     if (status == Status::Failure) return status;
@@ -34,8 +36,9 @@ Status PipelineSequence::tick() {
       furthest_ = child;
       return status;
     }
+    skips = skips && status == Status::Skipped;
   }
-  return Status::Success;
+  return skips ? Status::Skipped : Status::Success;
 }
 
 // Of the furthest child, as that of a Sequence with memory.
@@ -50,14 +53,16 @@ Status RoundRobin::tick() {
     ++current_;
     if (wrap_around.get()) current_ %= child_count();
     if (status == Status::Success) return status;
-    ++failed_;
+    skipped_ += status == Status::Skipped;
+    ++passed_;
   }
   current_ = 0;
-  return Status::Failure;
+  const bool skips = passed_ > 0 && skipped_ == passed_;
+  return skips ? Status::Skipped : Status::Failure;
 }
 
 bool RoundRobin::is_exhausted() const {
-  return current_ >= child_count() || failed_ >= child_count();
+  return current_ >= child_count() || passed_ >= child_count();
 }
 
 // The period goes on when the child has completed, also into the next activation, so that a

@@ -48,7 +48,10 @@ struct RoundRobinPorts : lockstep::Ports {
 
 class RoundRobin : public lockstep::Control<RoundRobinPorts> {
  public:
-  void start() override { failed_ = 0; }
+  void start() override {
+    passed_ = 0;
+    skipped_ = 0;
+  }
   Status tick() override;
   void halt() override { current_ = 0; }
 
@@ -56,7 +59,8 @@ class RoundRobin : public lockstep::Control<RoundRobinPorts> {
   bool is_exhausted() const;
 
   std::uint32_t current_ = 0;  // stays after a Success, so that the next activation goes on
-  std::uint32_t failed_ = 0;   // in this activation
+  std::uint32_t passed_ = 0;   // children that failed or were skipped, in this activation
+  std::uint32_t skipped_ = 0;  // of those
 };
 
 struct RatePorts : lockstep::Ports {

@@ -40,6 +40,9 @@ constexpr TickRow kRows[] = {
    "Parallel(a b)", "a=R b=x", "X{start a, tick a, start b, halt a}=b"},
   {"an exception in start: the leaf is neither ticked nor halted",
    "Parallel(a b)", "a=R b=t", "X{start a, tick a, start b, halt a}=b"},
+  {"a leaf or a condition may be skipped: its activation ends, and it is not halted",
+   "Fallback(c? a)", "c=FK a=RK", "R{start c, tick c, start a, tick a} K{start c, tick c, tick a} "
+   "K{start c, tick c, start a, tick a}"},
   {"a status out of range is a fault",
    "a", "a=B", "X{start a, tick a, halt a}=a"},
   {"idle is no status that a leaf may return",

@@ -34,6 +34,8 @@ constexpr TickRow kRecoveryNode[] = {
    "Sequence(c? RecoveryNode(a b))", "c=SSF a=F b=R", "R[c a b] R[c b] F[c] halt[b]"},
   {"begins with its first child after a halt",
    "Sequence(c? RecoveryNode(a b))", "c=SFS a=FR b=R", "R[c a b] F[c] halt[b] R[c a]"},
+  {"is skipped when its first child is, and fails when the second one is",
+   "RecoveryNode(a b)", "a=KF b=K", "K[a] F[a b]"},
   {"has the progress of its first child",
    "RecoveryNode(a b)", "a=R.3F b=R.9", "R[a]=.3 R[a b]=0"},
 };
@@ -55,11 +57,15 @@ constexpr TickRow kPipelineSequence[] = {
    "PipelineSequence(a b c)", "a=SSF b=R c=R", "R[a b] R[a b] F[a] halt[b]"},
   {"forgets how far it was when it completes",
    "PipelineSequence(a b)", "a=SFR b=RR", "R[a b] F[a] halt[b] R[a]"},
+  {"goes on behind a child that is skipped, and is skipped when all are",
+   "PipelineSequence(a b)", "a=K b=RSK", "R[a b] S[a b] K[a b]"},
   {"has the progress of the furthest child, and of those before it",
    "PipelineSequence(a b)", "a=SR.1 b=R.5", "R[a b]=.75 R[a b]=.75"},
 };
 
 constexpr TickRow kRoundRobin[] = {
+  {"goes on behind a child that is skipped, and is skipped when all are",
+   "RoundRobin(a b)", "a=KKF b=RSK", "R[a b] S[b] F[] K[a b] F[a b]"},
   {"returns the success of its first child",
    "RoundRobin(a b)", "a=S b=S", "S[a]"},
   {"goes on with the next child in its next activation",

@@ -50,7 +50,7 @@ class Leaf : protected Services {
 // report that the leaf is broken, throw: the run ends in order, with the message as its reason.
 class ActionFunctions : public Leaf {
  public:
-  // Once per tick, from start until it returns Success or Failure.
+  // Once per tick, from start until it returns Success, Failure or Skipped.
   virtual Status tick() = 0;
   // The first tick of an activation is about to come. The object may have been active before.
   virtual void start() {}

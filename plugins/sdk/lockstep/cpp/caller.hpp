@@ -15,7 +15,8 @@ inline namespace sdk1 {
 enum class Status : std::int32_t {
   Running = LOCKSTEP_RUNNING,
   Success = LOCKSTEP_SUCCESS,
-  Failure = LOCKSTEP_FAILURE
+  Failure = LOCKSTEP_FAILURE,
+  Skipped = LOCKSTEP_SKIPPED  // as if the node were not there in this tick
 };
 
 enum class LogLevel : std::int32_t {
