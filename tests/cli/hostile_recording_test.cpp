@@ -16,7 +16,7 @@ constexpr double kMaxSeconds = 60, kMaxTimes = 100;
 #else
 constexpr double kMaxSeconds = 5, kMaxTimes = 17;
 #endif
-constexpr double kAlways = 32;  // MB, whatever is read
+constexpr double kAlways = 30;  // MB, whatever is read
 constexpr std::size_t kMegabytes = 8;
 
 const std::string kHead =

@@ -79,8 +79,10 @@ void RecordedProbe::leave_out(std::size_t child, const RecordedTick& tick) {
 
 std::vector<RecordedMeasure> measures_of(const RecordingHeader& header) {
   auto children = children_of(header);
+  const std::vector<NodeIndex> nodes = synchronized_nodes(header);
   std::vector<RecordedMeasure> measures;
-  for (const NodeIndex node : synchronized_nodes(header)) {
+  measures.reserve(nodes.size());
+  for (const NodeIndex node : nodes) {
     const std::size_t count = children[node].size();
     measures.push_back({RecordedProbe(header, node, std::move(children[node])),
                         SynchronizedMeasure(count, header.nodes[node].synchronization)});

@@ -24,6 +24,8 @@ std::string text_of(double value) {
 MeasuredTree measured_tree(const RecordingHeader& header) {
   MeasuredTree tree{.id = header.tree, .paths = {}, .nodes = {}, .entries = {}, .entry_types = {}};
   auto children = children_of(header);
+  tree.paths.reserve(header.nodes.size());
+  tree.nodes.reserve(header.nodes.size());
   for (NodeIndex index = 0; index < header.nodes.size(); ++index) {
     const RecordedNode& node = header.nodes[index];
     tree.paths.push_back(node.path);
@@ -54,6 +56,7 @@ class RecordedTicks {
         numbers_(header.entries.size(), kNoValue),
         measured_numbers_(measuring.entries().size()) {
     auto children = children_of(header);
+    parallels_.reserve(measuring.parallels().size());
     for (const NodeIndex node : measuring.parallels()) {
       parallels_.emplace_back(header, node, std::move(children[node]));
     }
