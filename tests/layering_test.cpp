@@ -71,11 +71,11 @@ const std::vector<Layer> kThirdParty{
     {"utf8proc.h", {"interpreter/core/utf8.cpp"}},
     {"boost/", {"interpreter/study/distributions.cpp"}},
     {"fmt/",
-     {"interpreter/core/", "interpreter/document/", "interpreter/expression/", "interpreter/definition/",
-      "interpreter/plugin/", "interpreter/loading/", "interpreter/runtime/",
-      "interpreter/embedding/", "interpreter/terminal/", "interpreter/summary/",
-      "interpreter/recording/", "interpreter/view/", "interpreter/study/", "interpreter/plots/",
-      "interpreter/describe/", "interpreter/convert/", "interpreter/cli/"}},
+     {"interpreter/core/", "interpreter/document/", "interpreter/expression/",
+      "interpreter/definition/", "interpreter/plugin/", "interpreter/loading/",
+      "interpreter/runtime/", "interpreter/embedding/", "interpreter/terminal/",
+      "interpreter/summary/", "interpreter/recording/", "interpreter/view/", "interpreter/study/",
+      "interpreter/plots/", "interpreter/describe/", "interpreter/convert/", "interpreter/cli/"}},
 };
 
 struct Include {

@@ -30,8 +30,8 @@ std::string where(const ReplayPlayer& player) {
 }
 
 RunResult result_of(const RecordedEnd& end) {
-  for (const RunResult result : {RunResult::Success, RunResult::Failure, RunResult::Fault,
-                                 RunResult::Skipped}) {
+  for (const RunResult result :
+       {RunResult::Success, RunResult::Failure, RunResult::Fault, RunResult::Skipped}) {
     if (end.result == to_string(result)) return result;
   }
   return RunResult::Stopped;

@@ -48,7 +48,7 @@ extern "C" {
 /* The result of a tick. Any other number is a fault of the leaf. A condition never runs. */
 typedef int32_t lockstep_status;
 enum { LOCKSTEP_RUNNING = 1, LOCKSTEP_SUCCESS = 2, LOCKSTEP_FAILURE = 3 };
-/* Since 1.1: the node is as if it were not there in this tick. It is idle then, and is not halted. */
+/* Since 1.1: as if the node were not there in this tick. It is idle then, and is not halted. */
 enum { LOCKSTEP_SKIPPED = 4 };
 /* Since 1.1: of a child that is not active. No result of a tick. */
 enum { LOCKSTEP_IDLE = 0 };
@@ -291,11 +291,11 @@ typedef struct lockstep_workers {
 /* A type of leaf. Functions marked (optional) may be NULL.
  *
  * An activation: start, then tick once per tick of the tree until it returns success, failure or
- * skipped; or halt, when the tree moves on first. Then, perhaps, start again, on the same object. pause is
- * called when a synchronized node begins to withhold ticks from a running leaf, resume just before
- * the next tick; halt may come while paused. When start sets an error, tick and halt do not follow;
- * after an error in tick, pause, resume or progress, halt does.
- * Every function must return quickly: all leaves of a run share its tick. */
+ * skipped; or halt, when the tree moves on first. Then, perhaps, start again, on the same object.
+ * pause is called when a synchronized node begins to withhold ticks from a running leaf, resume
+ * just before the next tick; halt may come while paused. When start sets an error, tick and halt do
+ * not follow; after an error in tick, pause, resume or progress, halt does. Every function must
+ * return quickly: all leaves of a run share its tick. */
 typedef struct lockstep_leaf_type {
   uint32_t struct_size; /* sizeof(lockstep_leaf_type) as the plugin knew it */
   lockstep_leaf_kind kind;

@@ -85,7 +85,7 @@ TEST_CASE("a leaf reads what an entry of another type has, converted") {
   CHECK_FALSE(host.get_int(fixture.leaf(), kSpeed, &whole));  // another type than the port's
   unset_entry(fixture.entry(0));
   CHECK_FALSE(read_int(fixture));
-  CHECK(fixture.entry(0).writes == 0);  // unset
+  CHECK(fixture.entry(0).writes == 0);                                      // unset
   for (std::size_t i = 1; i < 4; ++i) CHECK(fixture.entry(i).writes == 1);  // the start value
 }
 
