@@ -31,7 +31,9 @@ class Adviser {
       if (!compares_progress(at(group.node).type->synchronization)) continue;
       for (const std::uint32_t member : group.members) without_progress(member, group.node);
     }
+    if (!definition_.boards.empty()) return;  // any entry may be made while the tree runs
     unwritten_entries();
+    missing_names();
   }
 
  private:
@@ -161,11 +163,12 @@ class Adviser {
       valued[i] = !std::holds_alternative<NoValue>(definition_.entries[i].initial);
     }
     for_each_port([&](const Parameter& parameter, std::uint32_t entry) {
-      if (parameter.direction != Direction::Input) valued[entry] = true;
+      const bool is_target = parameter.is_key && !parameter.own_only;
+      if (parameter.direction != Direction::Input || is_target) valued[entry] = true;
     });
-    for (const BoundScript& script : definition_.scripts) {
-      for (const std::uint32_t entry : script.entries) valued[entry] = true;
-    }
+    for_each_name([&](const BoundScript& script, std::size_t name) {
+      if (script.code->uses()[name].is_assigned) valued[script.entries[name]] = true;
+    });
     std::vector<bool> told = valued;  // one warning an entry
     for_each_port([&](const Parameter& parameter, std::uint32_t entry) {
       if (told[entry]) return;
@@ -177,6 +180,44 @@ class Adviser {
                        unwritten_hint(parameter, name, definition_.entries[entry].typing, valued),
                        Severity::Warning);
     });
+  }
+
+  // Names in scripts that no port declares and nothing makes: each script that needs one fails.
+  void missing_names() const {
+    std::vector<bool> there(definition_.entries.size());
+    for (std::size_t i = 0; i < there.size(); ++i) there[i] = definition_.entries[i].is_present;
+    for_each_port([&](const Parameter& parameter, std::uint32_t entry) {
+      if (parameter.is_key && !parameter.own_only) there[entry] = true;
+    });
+    for_each_name([&](const BoundScript& script, std::size_t name) {
+      if (script.code->uses()[name].is_made) there[script.entries[name]] = true;
+    });
+    std::vector<bool> told = there;  // one warning an entry
+    for_each_name([&](const BoundScript& script, std::size_t name) {
+      const std::uint32_t entry = script.entries[name];
+      if (told[entry]) return;
+      told[entry] = true;
+      if (report_.counted_only(Severity::Warning)) return;
+      const std::string& key = definition_.entries[entry].name;
+      const std::string_view scope = std::string_view(key).substr(0, key.rfind('/') + 1);
+      std::string hint =
+          did_you_mean(std::string_view(key).substr(scope.size()), keys_in(scope, there));
+      if (hint.empty())
+        hint = fmt::format("'{} := …' makes it; so does a port that names it",
+                           script.code->names()[name]);
+      report_.in_value(script.place, script.code->uses()[name].offset,
+                       fmt::format("nothing makes the entry '{}'", brief(key)), std::move(hint),
+                       Severity::Warning);
+    });
+  }
+
+  // Of each script whose text is in the tree.
+  template <class Visit>
+  void for_each_name(Visit visit) const {
+    for (const BoundScript& script : definition_.scripts) {
+      if (script.code == nullptr) continue;
+      for (std::size_t name = 0; name < script.entries.size(); ++name) visit(script, name);
+    }
   }
 
   // The keys of entries in `scope` that have a value at some time.

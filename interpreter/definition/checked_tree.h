@@ -26,13 +26,15 @@ struct CheckedPort {
 
   // The key was written as a text, and makes no entry.
   bool is_name(const Parameter& parameter) const {
-    return parameter.is_key && value != Port::kNone && !key.empty();
+    const bool takes_names = parameter.is_key || parameter.names_entry;
+    return takes_names && value != Port::kNone && !key.empty();
   }
 };
 
 // A script of a node or, without a hook, of a port.
 struct CheckedScript {
   Hook hook;
+  Place place;           // of its attribute
   bool is_last = false;  // of its node
   std::shared_ptr<const Expression> code;
 };
@@ -96,6 +98,7 @@ struct CheckedTrees {
   std::map<std::string_view, CheckedTree> trees;  // by the ID of the BehaviorTree
   std::vector<std::string_view> ids;              // as they stand in the documents
   std::vector<CheckedNode> groups;                // declared beside the trees; names are distinct
+  bool names_at_run_time = false;                 // names of entries, or scripts, are in entries
   std::optional<CheckedMain> main;                // none: it is no tree file
 };
 

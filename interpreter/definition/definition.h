@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/board.h"
 #include "core/entry.h"
 #include "core/hook.h"
 #include "core/node_type.h"
@@ -66,8 +67,10 @@ struct BlackboardEntry {
 
 // A script, with the entry of each name that it uses.
 struct BoundScript {
-  std::shared_ptr<const Expression> code;
-  std::vector<std::uint32_t> entries;  // of each of Expression::names()
+  std::shared_ptr<const Expression> code = nullptr;  // null: it is in an entry
+  std::vector<std::uint32_t> entries =
+      {};            // of each of Expression::names(); or the one that has it
+  Place place = {};  // of its attribute
 };
 
 // The scripts of a node, in Definition::scripts; Port::kNone where it has none.
@@ -92,6 +95,8 @@ struct Definition {
   std::vector<DefinitionGroup> groups = {};  // in the order of their nodes
   std::vector<NodeHooks> hooks = {};
   std::vector<BoundScript> scripts = {};
+  std::vector<Board> boards =
+      {};  // if names are looked up at run time; in the order of their nodes
   std::list<std::string> texts = {};               // names that are not as a document has them
   std::shared_ptr<const StandIns> stand_ins = {};  // the types of some nodes
 

@@ -40,8 +40,10 @@ class Expander {
     definition_.nodes.reserve(trees_.nodes.size());  // without subtrees, all that will be needed
     Scope scope(definition_.entries, trees_.language);
     for (const auto& [key, text] : values_) scope.set_text(key, text);
+    if (trees_.names_at_run_time) definition_.boards.emplace_back();
     add(trees_.trees.at(main).root, 0, scope);
     add_groups(scope);
+    keep_board(0, scope);
     check_set_keys(scope);
     return std::move(definition_);
   }
@@ -84,14 +86,41 @@ class Expander {
     for (const Remapping& it : remappings) {
       it.is_entry ? scope.remap(it.key, it.value) : scope.set_text(it.key, it.value);
     }
-    add(tree->second.root, place, scope);
+    add_inner(tree->second.root, place, scope);
     for (const Remapping& it : remappings) {
-      if (!it.is_written || scope.used(it.key) || report_.counted_only(Severity::Warning)) continue;
+      const bool may_be_used = trees_.names_at_run_time || scope.used(it.key);
+      if (!it.is_written || may_be_used || report_.counted_only(Severity::Warning)) continue;
       report_.at(
           it.place,
           fmt::format("the tree '{}' does not use '{{{}}}'", brief(subtree.id), brief(it.key)),
           suggest(it.key, scope.open_keys(), "it also uses"), Severity::Warning);
     }
+  }
+
+  // The tree of the SubTree at `place`, with a board for it.
+  void add_inner(std::uint32_t root, std::uint32_t place, Scope& scope) {
+    const std::uint32_t outside = std::exchange(board_, count(definition_.boards));
+    if (trees_.names_at_run_time) {
+      definition_.boards.push_back({.parent = outside, .node = place});
+    }
+    add(root, place, scope);
+    keep_board(board_, scope);
+    board_ = outside;
+  }
+
+  // When all of its entries are known.
+  void keep_board(std::uint32_t number, const Scope& scope) {
+    if (!trees_.names_at_run_time) return;
+    Board& board = definition_.boards[number];
+    Board kept = scope.board();
+    kept.parent = board.parent;
+    kept.node = board.node;
+    board = std::move(kept);
+  }
+
+  template <class T>
+  static std::uint32_t count(const std::vector<T>& all) {
+    return static_cast<std::uint32_t>(all.size());
   }
 
   // The groups that have members, each with its parameters in the scope of the main tree.
@@ -167,7 +196,11 @@ class Expander {
         constant = false;
         const bool is_none =
             parameter.own_only && port.is_name(parameter) && !scope.is_own(port.key);
-        if (!is_none) bound.entry = use(port, parameter, scope);
+        if (parameter.is_script) {
+          bound = {.script = add_script({.entries = {use(port, parameter, scope)}})};
+        } else if (!is_none) {
+          bound.entry = use(port, parameter, scope);
+        }
       } else if (parameter.is_script && port.value != Port::kNone) {
         constant = false;
         bound = {.script = bind_script(trees_.scripts[port.value], scope)};
@@ -192,11 +225,15 @@ class Expander {
   }
 
   std::uint32_t bind_script(const CheckedScript& script, Scope& scope) {
-    BoundScript bound{.code = script.code, .entries = {}};
+    BoundScript bound{.code = script.code, .place = script.place};
     for (const std::string& name : script.code->names()) {
       bound.entries.push_back(find(name, scope));
     }
-    definition_.scripts.push_back(std::move(bound));
+    return add_script(std::move(bound));
+  }
+
+  std::uint32_t add_script(BoundScript script) {
+    definition_.scripts.push_back(std::move(script));
     return static_cast<std::uint32_t>(definition_.scripts.size() - 1);
   }
 
@@ -340,6 +377,7 @@ class Expander {
   std::vector<std::vector<std::uint32_t>> members_;  // of each of them
   std::set<std::pair<std::uint32_t, std::string_view>> unknown_groups_;  // reported: where, name
   std::map<std::uint32_t, std::string_view> literals_;  // start values whose type no port gave yet
+  std::uint32_t board_ = 0;            // of the tree that is being added, when boards are kept
   std::vector<std::uint32_t> shared_;  // of each first checked port: its ports, made already
 };
 

@@ -29,6 +29,16 @@ Scope::Found Scope::find(std::string_view key) {
   return {entry, true, has_text ? text->second : std::string_view(), has_text};
 }
 
+Board Scope::board() const {
+  Board board{.autoremap = autoremap_};
+  for (const auto& [inner, outer] : remapped_) board.remapped.emplace(inner, outer);
+  for (const auto& [key, text] : texts_) board.own.emplace(key);
+  for (const auto& [key, entry] : known_) {
+    if (is_own(key)) board.entries.emplace(key, entry);
+  }
+  return board;
+}
+
 std::string_view Scope::group(std::string_view name) {
   if (outer_ == nullptr) return name;
   groups_.insert(name);

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/board.h"
 #include "core/language.h"
 #include "definition/definition.h"
 
@@ -44,9 +45,11 @@ class Scope {
   Found find(std::string_view key);
   // Whether that entry belongs to this tree, not to an outer one.
   bool is_own(std::string_view key) const {
-    return outer_ == nullptr || texts_.contains(key) ||
-           (!remapped_.contains(key) && !passes_on(key) && !key.starts_with('@'));
+    return !key.starts_with('@') && (outer_ == nullptr || texts_.contains(key) ||
+                                     (!remapped_.contains(key) && !passes_on(key)));
   }
+  // For names that are known only at run time: what names mean here. Not its place among boards.
+  Board board() const;
   // The name in the project of the group that `name` means here.
   std::string_view group(std::string_view name);
   bool used(std::string_view key) const { return known_.contains(key) || groups_.contains(key); }

@@ -136,6 +136,7 @@ void BoundParameters::set_cells(const BoundNode& node, Values& values) {
   Cell* const cells = own_cells_.data() + tree_.nodes[node.node].params;
   const auto& parameters = node.kind->type.parameters;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (parameters[i].is_script) continue;
     const auto* list = std::get_if<std::vector<double>>(&values.values[i]);
     if (parameters[i].of_pool) {
       cells[i] = resource_cell(pool_of(node), values.values[i]);

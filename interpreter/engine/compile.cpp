@@ -92,6 +92,7 @@ class Compiler {
     tree_.id = definition_.id;
     tree_.stand_ins = definition_.stand_ins;
     tree_.language = definition_.language;
+    tree_.boards = definition_.boards;
     tree_.nodes.reserve(definition_.nodes.size());
     number_members();
     for (const DefinitionNode& node : definition_.nodes) add(node);
@@ -311,8 +312,7 @@ class Compiler {
                            .kind = node.kind,
                            .first_port = add_ports(from)});
     node.kind = bound_kind_of(node.kind);
-    node.params = static_cast<std::uint32_t>(tree_.cells.size());
-    tree_.cells.insert(tree_.cells.end(), from.type->parameters.size(), {.integer = 0});
+    node.params = append_parameters(from);
   }
 
   // Subtrees that are used often share their constants.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/conversion.h"
 #include "engine/ticker.h"
 
 namespace lockstep {
@@ -86,8 +87,7 @@ void Ticker::run_halt_hooks(std::size_t from, NodeIndex next) {
 
 bool Ticker::run_script(NodeIndex node, std::uint32_t script, std::string_view attribute) {
   if (script == HookedNode::kNoScript) return true;
-  std::string wrong =
-      evaluator_.evaluate(*tree_.scripts[script].code, script_entries_[script], script_value_);
+  std::string wrong = scripts_.evaluate(node, script);
   if (wrong.empty()) return true;
   fail_script(node, attribute, wrong);
   return false;
@@ -96,7 +96,7 @@ bool Ticker::run_script(NodeIndex node, std::uint32_t script, std::string_view a
 std::optional<bool> Ticker::holds(NodeIndex node, std::uint32_t script,
                                   std::string_view attribute) {
   bool holds = false;
-  std::string wrong = evaluator_.test(*tree_.scripts[script].code, script_entries_[script], holds);
+  std::string wrong = scripts_.test(node, script, holds);
   if (wrong.empty()) return holds;
   fail_script(node, attribute, wrong);
   return std::nullopt;
@@ -118,6 +118,25 @@ const Value* Ticker::port_value(NodeIndex node, unsigned index) const {
     if (entry.is_present && !std::holds_alternative<NoValue>(entry.value)) return &entry.value;
   }
   return it.constant != PortBinding::kUnbound ? &tree_.constants[it.constant] : nullptr;
+}
+
+Entry* Ticker::named_entry(NodeIndex node, unsigned index) {
+  const PortBinding& it = port(node, index);
+  if (it.slot == PortBinding::kUnbound) return nullptr;
+  Entry& entry = board_.entries[it.slot];
+  if (it.constant != PortBinding::kUnbound) return &entry;  // its name is in the tree
+  const Parameter& parameter = tree_.labels[node].type->parameters[index];
+  const auto name =
+      entry.is_present ? convert_value(entry.value, ValueType::String, nullptr) : std::nullopt;
+  if (!name) {
+    std::string message = "'";
+    message.append(parameter.name).append("' has no value: nothing has written the entry '{");
+    set_fault(node, message.append(tree_.slots[it.slot].name).append("}'"));
+    return nullptr;
+  }
+  const std::uint32_t board = tree_.board_of(node);
+  const auto& key = std::get<std::string>(*name);
+  return parameter.own_only ? names_.own(board, key) : &names_.at(board, key);
 }
 
 }  // namespace lockstep

@@ -13,6 +13,11 @@ Entry& NamedEntries::at(std::uint32_t board, std::string_view key) {
   return entry;
 }
 
+Entry* NamedEntries::own(std::uint32_t board, std::string_view key) {
+  const bool is_own = !key.starts_with('@') && home_of(boards_, board, key).board == board;
+  return is_own ? &at(board, key) : nullptr;
+}
+
 void NamedEntries::reset() {
   for (auto& made : made_) {
     for (auto& [key, entry] : made) unset_entry(entry);

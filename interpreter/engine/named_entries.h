@@ -23,6 +23,8 @@ class NamedEntries {
   // The entry that `key` means on a board; it may be one that is not present. Allocates for a name
   // that is new.
   Entry& at(std::uint32_t board, std::string_view key);
+  // The same, if it belongs to that board; else null.
+  Entry* own(std::uint32_t board, std::string_view key);
   // As new, for the next run: those that were made here are not present.
   void reset();
 

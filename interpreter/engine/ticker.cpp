@@ -22,12 +22,10 @@ Ticker::Ticker(const Tree& tree, std::span<LeafSlot> leaves, Blackboard& board, 
       board_(board),
       parameters_(tree, board),
       state_(tree),
+      names_(tree.boards, board.entries),
+      scripts_(tree, board, names_),
       policy_(policy) {
   if (tree.has_halt_hooks) halting_.reserve(tree.hooked.size());
-  for (const Script& script : tree.scripts) {
-    std::vector<Entry*>& entries = script_entries_.emplace_back();
-    for (const std::uint32_t slot : script.slots) entries.push_back(&board.entries[slot]);
-  }
 }
 
 Status Ticker::tick_root(Nanoseconds now) {
@@ -206,6 +204,8 @@ void Ticker::note_out_of_range(NodeIndex node, double reported) {
 void Ticker::reset() {
   state_.reset();
   parameters_.reset();
+  names_.reset();
+  scripts_.reset();
   now_ = Nanoseconds(0);
   tick_number_ = 0;
   asked_by_ = 0;

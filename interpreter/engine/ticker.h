@@ -15,10 +15,11 @@
 #include "core/clock.h"
 #include "engine/blackboard.h"
 #include "engine/bound_parameters.h"
+#include "engine/bound_scripts.h"
 #include "engine/leaf_slot.h"
+#include "engine/named_entries.h"
 #include "engine/run_state.h"
 #include "engine/tree.h"
-#include "expression/evaluator.h"
 
 namespace lockstep {
 
@@ -151,6 +152,9 @@ class Ticker {
   }
   // Null: it has no value.
   const Value* port_value(NodeIndex node, unsigned index) const;
+  // Of a port that names an entry (Parameter::is_key), which may not be present. Null: there is no
+  // such entry in this tree, or the name has no value, which is a fault.
+  Entry* named_entry(NodeIndex node, unsigned index);
 
   // Of a node whose kind has a parameter that names a group.
   const Member& membership(NodeIndex node) const { return tree_.membership(node); }
@@ -233,9 +237,8 @@ class Ticker {
   Blackboard& board_;
   BoundParameters parameters_;
   RunState state_;
-  Evaluator evaluator_;
-  std::vector<std::vector<Entry*>> script_entries_;  // of each Tree::scripts
-  Value script_value_;                               // of the last script
+  NamedEntries names_;
+  BoundScripts scripts_;
   Nanoseconds now_{0};
   std::uint32_t tick_number_ = 0;
   const FaultPolicy policy_;

@@ -23,6 +23,14 @@ Cell resource_cell(std::span<const std::string> names, const Value& value) {
   return {.integer = static_cast<std::int64_t>(resource_list(*list, names).set)};
 }
 
+std::uint32_t Tree::board_of(NodeIndex node) const {
+  const auto next =
+      std::ranges::lower_bound(boards.begin() + 1, boards.end(), node, {}, &Board::node);
+  auto board = static_cast<std::uint32_t>(next - boards.begin()) - 1;
+  while (board != 0 && nodes[boards[board].node].end <= node) board = boards[board].parent;
+  return board;
+}
+
 std::string Tree::segment(NodeIndex node) const {
   const NodeLabel& label = labels[node];
   std::string segment(label.name);

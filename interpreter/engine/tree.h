@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/board.h"
 #include "core/entry.h"
 #include "core/hook.h"
 #include "engine/node_kind.h"
@@ -63,7 +64,7 @@ struct BoundNode {
   std::uint32_t first_port;  // in Tree::ports, one for each parameter
 };
 
-// A compiled script and the entry of each name in it.
+// A compiled script and the entry of each name in it. Without code: the entry that has its text.
 struct Script {
   std::shared_ptr<const Expression> code;
   std::vector<std::uint32_t> slots;
@@ -131,6 +132,7 @@ struct Tree {
   std::vector<PortBinding> ports;  // of leaves and bound nodes, each type's parameters in order
   std::vector<Value> constants;
   std::vector<Slot> slots;
+  std::vector<Board> boards;   // if names are looked up at run time; in the order of their nodes
   std::size_t state_size = 0;  // bytes of all node states
   Language language = Language::Lockstep;
   std::string id;                 // of the main BehaviorTree
@@ -152,6 +154,9 @@ struct Tree {
   std::span<const NodeIndex> gates_of(const Member& member) const {
     return std::span(gates).subspan(member.first_gate, member.gates);
   }
+
+  // Of the innermost SubTree that a node is in; 0: the main tree.
+  std::uint32_t board_of(NodeIndex node) const;
 
   // A node's part of the path: its name, or "name#2" for the second sibling of that name.
   std::string segment(NodeIndex node) const;

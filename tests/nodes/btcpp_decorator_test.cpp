@@ -114,6 +114,65 @@ constexpr TickRow kDecorators[] = {
    "Script[code=n:=m]", "", "X[]=Script"},
 };
 
+constexpr TickRow kNames[] = {
+  {"SetBlackboard: output_key={k} is the entry whose name is in k",
+   "Sequence(Script[code=k:='x'] SetBlackboard[value=5 output_key={k}] ScriptCondition[code=x==5&&k=='x'])",
+   "", "S[]"},
+  {"SetBlackboard: and what it names may change",
+   "Sequence(Script[code=k:='x';x:='';y:=''] Repeat[num_cycles=2](Sequence(SetBlackboard[value=1 output_key={k}] Script[code=k:='y']))"
+   " ScriptCondition[code=x==1&&y==1])",
+   "", "S[]"},
+  {"SetBlackboard: a number is a name, too",
+   "Sequence(Script[code=k:=7] SetBlackboard[value=1 output_key={k}] a)", "a=S", "S[a]"},
+  {"SetBlackboard: an entry that only names mean at run time",
+   "Sequence(Script[code=k:='a.b'] SetBlackboard[value=1 output_key={k}]"
+   " SetBlackboard[value={a.b} output_key=c] ScriptCondition[code=c==1])",
+   "", "S[]"},
+  {"SetBlackboard: without a name it is a fault",
+   "SetBlackboard[value=5 output_key={k}]", "", "X[]=SetBlackboard"},
+  {"UnsetBlackboard: key={k} removes the entry whose name is in k",
+   "Sequence(Script[code=k:='x';x:=1] UnsetBlackboard[key={k}] a Script[code=x=2])", "a=S", "X[a]=Script"},
+  {"UnsetBlackboard: without a name it is a fault",
+   "UnsetBlackboard[key={k}]", "", "X[]=UnsetBlackboard"},
+  {"UnsetBlackboard: @k is not an entry of this tree",
+   "Sequence(Script[code=x:=1] UnsetBlackboard[key=@x] ScriptCondition[code=x==1])", "", "S[]"},
+
+  {"Script: code={k} is the script in k, compiled again when it changes",
+   "Sequence(Script[code=n:=0;k:='n+=1'] Script[code={k}] Script[code={k}] Script[code=k:='n*=2']"
+   " Script[code={k}] ScriptCondition[code=n==4])",
+   "", "S[]"},
+  {"Script: an empty one does nothing",
+   "Sequence(Script[code=k:=''] Script[code={k}] Script[code=] a)", "a=S", "S[a]"},
+  {"Script: code={k} may change its own text",
+   "Sequence(Script[code=n:=0] SetBlackboard[value=n:=1;k:='n:=2' output_key=k] Script[code={k}]"
+   " Script[code={k}] ScriptCondition[code=n==2])",
+   "", "S[]"},
+  {"Script: code={k} makes entries that nothing else names",
+   "Sequence(SetBlackboard[value=fresh:=1 output_key=k] Script[code={k}]"
+   " SetBlackboard[value=fresh==1 output_key=k] ScriptCondition[code={k}])",
+   "", "S[]"},
+  {"Script: code={k} without a value, or that does not parse, is a fault",
+   "Sequence(a Script[code={k}])", "a=S", "X[a]=Script"},
+  {"Script: code={k} that does not parse is a fault",
+   "Sequence(Script[code=k:='n:='] a Script[code={k}])", "a=S", "X[a]=Script"},
+  {"ScriptCondition: code={k} is a condition, and not empty",
+   "Sequence(Script[code=k:='1'] ScriptCondition[code={k}] a Script[code=k:=''] ScriptCondition[code={k}])",
+   "a=S", "X[a]=ScriptCondition"},
+  {"Precondition: if={k} and else={e}",
+   "Sequence(Script[code=k:='n==1';e:='SUCCESS';n:=0] Precondition[if={k} else={e}](a)"
+   " Script[code=n:=1] Precondition[if={k} else={e}](b))",
+   "a=F b=S", "S[b]"},
+  {"Precondition: only else is an entry",
+   "Sequence(Script[code=n:=2;e:='SUCCESS'] Precondition[if=n==1 else={e}](a))", "a=F", "S[]"},
+  {"names: a run that begins again has none of the last one",
+   "Sequence(SetBlackboard[value=x output_key=k] Inverter(WasEntryUpdated[entry={x}]) SetBlackboard[value=1 output_key={k}] a)",
+   "a=R", "R[a]"},
+  {"WasEntryUpdated: entry=n is only a name, and makes no entry",
+   "Sequence(Inverter(WasEntryUpdated[entry=n]) Script[code=n=1])", "", "X[]=Script"},
+  {"WasEntryUpdated: entry={n} makes it",
+   "Sequence(Inverter(WasEntryUpdated[entry={n}]) Script[code=n=1] WasEntryUpdated[entry=n])", "", "S[]"},
+};
+
 constexpr TickRow kHooks[] = {
   {"_failureIf, _successIf and _skipIf give the result without a tick, asked in this order",
    "Sequence(a[_skipIf=1 _successIf=1] Inverter(b[_successIf=1 _failureIf=1 _skipIf=1]) c[_skipIf=1] d)",
@@ -166,6 +225,10 @@ constexpr TickRow kTolerated[] = {
 
 TEST_CASE("BehaviorTree.CPP: decorators and leaves") {
   check_rows(kDecorators, FaultPolicy::Stop, Language::BehaviorTreeCpp);
+}
+
+TEST_CASE("BehaviorTree.CPP: names and scripts that are in entries") {
+  check_rows(kNames, FaultPolicy::Stop, Language::BehaviorTreeCpp);
 }
 
 TEST_CASE("BehaviorTree.CPP: scripts around a node") {

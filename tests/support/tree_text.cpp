@@ -51,6 +51,7 @@ class Builder {
     for (skip_blanks(); !rest_.empty(); skip_blanks()) group();
     if (!members_.empty()) fail("no group '" + members_.begin()->first + "'");
     definition_.id = "Test";
+    if (names_at_run_time_) keep_board();
     resolve_resources();
     return std::move(definition_);
   }
@@ -131,6 +132,12 @@ class Builder {
   }
 
   std::uint32_t script(std::string_view text) {
+    if (text.empty()) return Port::kNone;
+    if (text.starts_with('{')) {
+      names_at_run_time_ = true;
+      definition_.scripts.push_back({.entries = {entry(key_in(text), ValueType::String)}});
+      return static_cast<std::uint32_t>(definition_.scripts.size() - 1);
+    }
     auto code = Expression::parse(text);
     if (!code) fail(code.error().message);
     BoundScript& bound = definition_.scripts.emplace_back();
@@ -139,6 +146,16 @@ class Builder {
       bound.entries.push_back(entry(name, std::nullopt));
     }
     return static_cast<std::uint32_t>(definition_.scripts.size() - 1);
+  }
+
+  static std::string_view key_in(std::string_view text) { return text.substr(1, text.size() - 2); }
+
+  // Of the main tree, which is the only one.
+  void keep_board() {
+    Board& board = definition_.boards.emplace_back();
+    for (std::uint32_t i = 0; i < definition_.entries.size(); ++i) {
+      board.entries.emplace(definition_.entries[i].name, i);
+    }
   }
 
   void resolve_resources() {
@@ -216,11 +233,14 @@ class Builder {
         if (parameter.is_script) {
           port.script = script(attribute.value);
           text = attribute.value;
-        } else if (parameter.names_entry) {
-          port.entry = entry(attribute.value, std::nullopt);
         } else if (attribute.value.starts_with('{')) {
-          port.entry = entry(attribute.value.substr(1, attribute.value.size() - 2), parameter.type);
+          names_at_run_time_ |= parameter.is_key;
+          port.entry = entry(key_in(attribute.value), parameter.type);
           all.from_entry |= std::uint64_t{1} << values.size();
+        } else if (parameter.names_entry || parameter.is_key) {
+          text = attribute.value;
+          const bool is_none = parameter.own_only && attribute.value.starts_with('@');
+          if (!is_none) port.entry = entry(attribute.value, std::nullopt);
         } else {
           text = attribute.value;
         }
@@ -265,6 +285,7 @@ class Builder {
   std::map<std::string, std::vector<std::uint32_t>> members_;  // of the groups, by name
   std::string_view all_, rest_;
   Language language_;
+  bool names_at_run_time_ = false;
   Definition definition_;
 };
 

@@ -97,31 +97,17 @@ class PortChecker {
     port.place = attribute->place;
     port.key = key_of(attribute->value, parameter.name);
     const bool blank_around = without_blanks_around(attribute->value) != attribute->value;
-    if (!port.key.empty() && !may_be_entry(parameter, *attribute)) return false;
-    if (!port.key.empty()) return !blank_around || check_blanks(parameter, *attribute);
-    if (parameter.is_key && !attribute->value.empty()) {
-      port.key = attribute->value;
-      value = std::string(attribute->value);
-      return true;
+    if (!port.key.empty()) {
+      trees_.names_at_run_time |= parameter.is_script || parameter.is_key;
+      return !blank_around || check_blanks(parameter, *attribute);
     }
-    if (parameter.constant || !parameter.names_entry) {
+    if (!parameter.is_key && !parameter.names_entry) {
       return literal(parameter, *attribute, port, value);
     }
+    if (attribute->value.empty()) return refuse_empty(parameter, *attribute);
     port.key = attribute->value;
-    return !port.key.empty() || refuse_empty(parameter, *attribute);
-  }
-
-  // Scripts and names of entries are bound when the tree is loaded.
-  bool may_be_entry(const Parameter& parameter, const Attribute& attribute) const {
-    if (!parameter.is_script && !parameter.is_key) return true;
-    report_.at_value(
-        attribute.place,
-        fmt::format("{} in an entry is not supported", parameter.is_script ? "a script" : "a name"),
-        parameter.is_script ? "write the script here"
-                            : fmt::format("to write the entry itself, leave out the braces: "
-                                          "{}=\"{}\"",
-                                          parameter.name, key_of(attribute.value, parameter.name)));
-    return false;
+    value = std::string(attribute->value);
+    return true;
   }
 
   bool absent(const Parameter& parameter, CheckedPort& port, Value& value) const {
@@ -149,7 +135,8 @@ class PortChecker {
 
   bool refuse_empty(const Parameter& parameter, const Attribute& attribute) const {
     report_.at_value(attribute.place, fmt::format("'{}' names no entry", parameter.name),
-                     fmt::format("write {}=\"{{key}}\"", parameter.name));
+                     parameter.is_key ? fmt::format("write {}=\"key\"", parameter.name)
+                                      : fmt::format("write {}=\"{{key}}\"", parameter.name));
     return false;
   }
 
@@ -167,11 +154,14 @@ class PortChecker {
   bool literal(const Parameter& parameter, const Attribute& attribute, CheckedPort& port,
                Value& value) {
     if (parameter.is_script) {
-      auto code = parse_script(attribute, report_, EmptyScript::DoesNothing);
+      const bool decides = node_.type->category != NodeCategory::Action;
+      auto code = parse_script(attribute, report_,
+                               decides ? EmptyScript::IsRefused : EmptyScript::DoesNothing);
       if (!code) return false;
       if (*code == nullptr) return true;
       port.value = static_cast<std::uint32_t>(trees_.scripts.size());
-      trees_.scripts.push_back({.hook = {}, .is_last = true, .code = *std::move(code)});
+      trees_.scripts.push_back(
+          {.hook = {}, .place = attribute.place, .is_last = true, .code = *std::move(code)});
       return true;
     }
     auto read = value_from_text(parameter.type, parameter.object, attribute.value);

@@ -30,7 +30,8 @@ void check_hooks(const NodeElement& element, const Reporter& report, CheckedNode
     const auto hook = hook_of(attribute.name);
     if (!hook) continue;
     auto code = parse_script(attribute, report, EmptyScript::IsRefused);
-    if (code) trees.scripts.push_back({.hook = *hook, .code = *std::move(code)});
+    if (!code) continue;
+    trees.scripts.push_back({.hook = *hook, .place = attribute.place, .code = *std::move(code)});
   }
   if (trees.scripts.size() == first) return;
   trees.scripts.back().is_last = true;

@@ -19,6 +19,7 @@ constexpr Parameter kSetParameters[] = {{.name = "value",
                                          .type = ValueType::String,
                                          .doc = "The name of the entry to write.",
                                          .required = true,
+                                         .is_generic = true,
                                          .is_key = true}};
 constexpr Parameter kUnsetParameters[] = {{.name = "key",
                                            .type = ValueType::String,
@@ -45,7 +46,7 @@ bool store_text(Ticker& ticker, NodeIndex self, Entry& target, const Value& text
 }
 
 Status tick_set(Ticker& ticker, NodeIndex self) {
-  Entry* const target = ticker.port_entry(self, kOutputKey);
+  Entry* const target = ticker.named_entry(self, kOutputKey);
   if (target == nullptr) return Status::Failure;
   const Value* const value = ticker.port_value(self, kValue);
   if (value == nullptr) return Status::Failure;
@@ -61,7 +62,7 @@ Status tick_set(Ticker& ticker, NodeIndex self) {
 }
 
 Status tick_unset(Ticker& ticker, NodeIndex self) {
-  if (Entry* entry = ticker.port_entry(self, kKey)) unset_entry(*entry);
+  if (Entry* entry = ticker.named_entry(self, kKey)) unset_entry(*entry);
   return Status::Success;
 }
 
