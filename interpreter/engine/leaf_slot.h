@@ -3,29 +3,24 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 
 struct lockstep_leaf_type;
 
 namespace lockstep {
 
-class Ticker;
-
 // What a control node of a plugin may do with its children at this moment.
 enum class ChildAccess : std::uint8_t { None, Look, Tick };
 
+// Read in every tick, so it is small: two of them are in one line of the cache.
 struct LeafSlot {
   const lockstep_leaf_type* type = nullptr;
   void* self = nullptr;
+  const char* error = nullptr;  // set by the host's set_error: the reason, valid until taken
   bool started = false;         // the activation began, so it has to be halted
   bool failed = false;          // a tolerated fault in this activation, which ends in a Failure
   bool out_of_range = false;    // it has reported a progress outside [0, 1] in this run
-  const char* error = nullptr;  // set by the host's set_error: the reason, valid until taken
-  // Of a control node or decorator.
-  ChildAccess access = ChildAccess::None;
-  Ticker* ticker = nullptr;  // while `access` is not None
-  std::uint32_t node = 0;
-  std::span<const std::uint32_t> children = {};  // their nodes, in order
+  ChildAccess access = ChildAccess::None;  // of a control node or decorator
 };
+static_assert(sizeof(LeafSlot) <= 32);
 
 }  // namespace lockstep

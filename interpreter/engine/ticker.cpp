@@ -18,6 +18,7 @@ bool has_no_idle(const Activity* first) {
 
 Ticker::Ticker(const Tree& tree, std::span<LeafSlot> leaves, Blackboard& board, FaultPolicy policy)
     : tree_(tree),
+      nodes_(tree.nodes.data()),
       leaves_(leaves),
       board_(board),
       parameters_(tree, board),
@@ -40,11 +41,6 @@ Status Ticker::tick_root_again() {
   return tick(0);
 }
 
-std::optional<NodeIndex> Ticker::take_request() {
-  const std::uint32_t node = std::exchange(asked_by_, 0);
-  return node == 0 ? std::nullopt : std::optional(node - 1);
-}
-
 // A group is idle when its common ancestor does not run: the ancestor's next tick begins an
 // activation, and the group begins again with it. Whether the tick reached the group, its members
 // say.
@@ -56,7 +52,7 @@ Status Ticker::tick_with_groups() {
     const Group& group = tree_.groups[number];
     Activity& activity = state_.activity[group.node];
     if (rests(group)) activity = Activity::Idle;
-    const Status status = tree_.nodes[group.node].kind->tick(*this, group.node);
+    const Status status = nodes_[group.node].kind->tick(*this, group.node);
     activity = static_cast<Activity>(faulted_ ? Status::Running : status);
   }
   const Status result = tick(0);
@@ -69,15 +65,15 @@ Status Ticker::tick_with_groups() {
 
 bool Ticker::refresh(NodeIndex node) {
   const auto bound =
-      static_cast<std::uint32_t>(parameters_.cells()[tree_.nodes[node].params - 1].integer);
+      static_cast<std::uint32_t>(parameters_.cells()[nodes_[node].params - 1].integer);
   if (bound >= tree_.bound.size() || tree_.bound[bound].node != node) return true;
   return parameters_.read(bound).empty();
 }
 
 bool Ticker::reread(NodeIndex node) {
-  if (!tree_.nodes[node].kind->reads_entries) return true;
+  if (!nodes_[node].kind->reads_entries) return true;
   const auto bound =
-      static_cast<std::uint32_t>(parameters_.cells()[tree_.nodes[node].params - 1].integer);
+      static_cast<std::uint32_t>(parameters_.cells()[nodes_[node].params - 1].integer);
   std::string wrong = parameters_.read(bound);
   if (wrong.empty()) return true;
   set_fault(node, std::move(wrong));
@@ -86,7 +82,7 @@ bool Ticker::reread(NodeIndex node) {
 
 Status Ticker::tick_bound(NodeIndex node) {
   const auto bound =
-      static_cast<std::uint32_t>(parameters_.cells()[tree_.nodes[node].params - 1].integer);
+      static_cast<std::uint32_t>(parameters_.cells()[nodes_[node].params - 1].integer);
   std::string wrong = parameters_.read(bound);
   if (wrong.empty()) return tree_.bound[bound].kind->tick(*this, node);
   set_fault(node, std::move(wrong));
@@ -100,14 +96,14 @@ Status Ticker::tick_bound(NodeIndex node) {
 // parent has completed, not when that was skipped too.
 void Ticker::forget_descendants(NodeIndex node) {
   if (tree_.keeps_over_skips && state_.activity[node] != Activity::Skipped) {
-    forget_skipped(node + 1, tree_.nodes[node].end);
+    forget_skipped(node + 1, nodes_[node].end);
   }
   constexpr NodeIndex kBlock = sizeof(std::uint64_t);
   Activity* const all = state_.activity.data();
-  const NodeIndex end = tree_.nodes[node].end;
+  const NodeIndex end = nodes_[node].end;
   for (NodeIndex at = node + 1; at < end;) {
     if (all[at] == Activity::Idle) {
-      at = tree_.nodes[at].end;
+      at = nodes_[at].end;
     } else if (end - at >= kBlock && has_no_idle(all + at)) {
       std::memset(all + at, 0, kBlock);
       at += kBlock;
@@ -119,7 +115,7 @@ void Ticker::forget_descendants(NodeIndex node) {
 
 void Ticker::forget_skipped(NodeIndex first, NodeIndex last) {
   for (NodeIndex node = first; node < last; ++node) {
-    const auto forget = tree_.nodes[node].kind->forget;
+    const auto forget = nodes_[node].kind->forget;
     if (state_.activity[node] == Activity::Skipped && forget != nullptr) forget(*this, node);
   }
 }
@@ -127,9 +123,9 @@ void Ticker::forget_skipped(NodeIndex first, NodeIndex last) {
 // Returns the next node that may not be idle.
 NodeIndex Ticker::end_activation(NodeIndex node) {
   Activity& activity = state_.activity[node];
-  if (activity == Activity::Idle) return tree_.nodes[node].end;
+  if (activity == Activity::Idle) return nodes_[node].end;
   const bool running = status_of(activity) == Status::Running;
-  const NodeKind& kind = *tree_.nodes[node].kind;
+  const NodeKind& kind = *nodes_[node].kind;
   if (activity == Activity::Skipped && kind.forget != nullptr) kind.forget(*this, node);
   activity = Activity::Idle;
   if (running && tree_.has_halt_hooks) note_halt(node);
@@ -142,10 +138,10 @@ void Ticker::halt_range(NodeIndex first, NodeIndex last) {
   const std::size_t hooks = halting_.size();
   // After a fault all halts are halt_all's, so that they come in one order.
   for (NodeIndex node = first; node < last && (!faulted_ || in_last_halt_);) {
-    run_halt_hooks(hooks, node);
+    if (halting_.size() > hooks) run_halt_hooks(hooks, node);
     node = end_activation(node);
   }
-  run_halt_hooks(hooks, last);
+  if (halting_.size() > hooks) run_halt_hooks(hooks, last);
   if (in_last_halt_) return;
   // A fault of a leaf's halt: its siblings may still run, so the nodes around them do too.
   if (faulted_) [[unlikely]]
@@ -165,8 +161,8 @@ void Ticker::halt_running_children(NodeIndex node) {
 }
 
 void Ticker::pause(NodeIndex node) {
-  for (NodeIndex at = node; at < tree_.nodes[node].end && !faulted_;) {
-    const Node& it = tree_.nodes[at];
+  for (NodeIndex at = node; at < nodes_[node].end && !faulted_;) {
+    const Node& it = nodes_[at];
     if (state_.activity[at] != Activity::Running) {  // so nothing below it needs a call either
       at = it.end;
       continue;

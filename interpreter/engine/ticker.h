@@ -56,7 +56,7 @@ class Ticker {
   Status tick(NodeIndex node) {
     if (faulted_) return Status::Running;
     Activity& activity = state_.activity[node];
-    const Node& it = tree_.nodes[node];
+    const Node& it = nodes_[node];
     if (has_ended(status_of(activity)) && it.children != 0) forget_descendants(node);
     Status status = it.kind->tick(*this, node);
     if (faulted_) [[unlikely]]
@@ -80,7 +80,7 @@ class Ticker {
 
   // Ends the activation of every running node in the subtree; all of it is idle then. After a fault
   // it does nothing.
-  void halt(NodeIndex node) { halt_range(node, tree_.nodes[node].end); }
+  void halt(NodeIndex node) { halt_range(node, nodes_[node].end); }
   void halt_range(NodeIndex first, NodeIndex last);
   // Of a node's children, those that run; the others keep their status.
   void halt_running_children(NodeIndex node);
@@ -94,7 +94,7 @@ class Ticker {
   // In [0, 1]: 1 on Success, 0 when idle or failed.
   double progress(NodeIndex node) {
     const Status now = status(node);
-    if (now == Status::Running) return tree_.nodes[node].kind->progress(*this, node);
+    if (now == Status::Running) return nodes_[node].kind->progress(*this, node);
     return now == Status::Success ? 1.0 : 0.0;
   }
 
@@ -103,17 +103,17 @@ class Ticker {
 
   template <class State>
   State& state(NodeIndex node) {
-    return *reinterpret_cast<State*>(state_bytes() + tree_.nodes[node].state);
+    return *reinterpret_cast<State*>(state_bytes() + nodes_[node].state);
   }
   // What a kind with state_per_child keeps behind its state, one for each child.
   template <class T>
   std::span<T> child_states(NodeIndex node) {
-    const Node& it = tree_.nodes[node];
+    const Node& it = nodes_[node];
     return {reinterpret_cast<T*>(state_bytes() + it.state + it.kind->state_size), it.children};
   }
   std::span<double> child_numbers(NodeIndex node) { return child_states<double>(node); }
   const Cell& parameter(NodeIndex node, unsigned index) const {
-    return parameters_.cells()[tree_.nodes[node].params + index];
+    return parameters_.cells()[nodes_[node].params + index];
   }
   std::span<const double> numbers(const Cell& cell) const {
     return {parameters_.numbers() + cell.list.first, cell.list.count};
@@ -144,7 +144,7 @@ class Ticker {
 
   // Of a kind that reads ports (NodeType::reads_ports).
   const PortBinding& port(NodeIndex node, unsigned index) const {
-    return tree_.ports[tree_.nodes[node].params + index];
+    return tree_.ports[nodes_[node].params + index];
   }
   Entry* port_entry(NodeIndex node, unsigned index) {  // null: no {key}
     const std::uint32_t slot = port(node, index).slot;
@@ -162,7 +162,7 @@ class Ticker {
   void reach(NodeIndex group) { state_.last_tick[group] = tick_number_; }
   // Of a group: Success, until the common ancestor of its members begins an activation.
   void complete(NodeIndex group) { state_.activity[group] = Activity::Success; }
-  LeafSlot& leaf(NodeIndex node) { return leaves_[tree_.nodes[node].params]; }
+  LeafSlot& leaf(NodeIndex node) { return leaves_[nodes_[node].params]; }
 
   // Under FaultPolicy::Fail the fault is noted in tolerated(), and a leaf's slot is marked failed:
   // its tick, or the next one, returns Failure.
@@ -175,10 +175,10 @@ class Ticker {
 
   const Tree& tree() const { return tree_; }
   const Blackboard& blackboard() const { return board_; }
-  const Node& node(NodeIndex node) const { return tree_.nodes[node]; }
-  NodeIndex end_of(NodeIndex node) const { return tree_.nodes[node].end; }
-  bool is_guard(NodeIndex node) const { return tree_.nodes[node].is_guard != 0; }
-  bool is_latched(NodeIndex node) const { return tree_.nodes[node].is_latched != 0; }
+  const Node& node(NodeIndex node) const { return nodes_[node]; }
+  NodeIndex end_of(NodeIndex node) const { return nodes_[node].end; }
+  bool is_guard(NodeIndex node) const { return nodes_[node].is_guard != 0; }
+  bool is_latched(NodeIndex node) const { return nodes_[node].is_latched != 0; }
   Activity activity(NodeIndex node) const { return state_.activity[node]; }
   Status status(NodeIndex node) const { return status_of(state_.activity[node]); }
   Nanoseconds now() const { return now_; }  // of this tick, since the run began
@@ -194,8 +194,12 @@ class Ticker {
 
   // Ticks it once more in the same tick, for a node that has asked for it.
   Status tick_root_again();
+  bool is_asked() const { return asked_by_ != 0; }
   // The node that has asked since the last call, if any.
-  std::optional<NodeIndex> take_request();
+  std::optional<NodeIndex> take_request() {
+    const std::uint32_t node = std::exchange(asked_by_, 0);
+    return node == 0 ? std::nullopt : std::optional(node - 1);
+  }
 
   // Halts every running leaf. A leaf with a fault in this halt may not have stopped, so the fault
   // becomes that of the run, whatever the policy. If the run already has a fault, tolerated() has
@@ -233,7 +237,8 @@ class Ticker {
   std::byte* state_bytes() { return reinterpret_cast<std::byte*>(state_.bytes.data()); }
 
   const Tree& tree_;
-  std::span<LeafSlot> leaves_;
+  const Node* const nodes_;  // of the tree
+  const std::span<LeafSlot> leaves_;
   Blackboard& board_;
   BoundParameters parameters_;
   RunState state_;

@@ -17,8 +17,8 @@ bool may(const lockstep_caller* caller, ChildAccess access, std::string_view wha
   if (caller->is_foreign()) return false;
   const LeafSlot& slot = *caller->slot;
   if (slot.access >= access) [[likely]]
-    return slot.error == nullptr && !slot.failed && !slot.ticker->faulted();
-  if (slot.children.empty()) {
+    return slot.error == nullptr && !slot.failed && !caller->ticker->faulted();
+  if (caller->children.empty()) {
     breach(caller, fmt::format("{} a child, but has none", what));
   } else if (access == ChildAccess::Tick) {
     breach(caller, fmt::format("{} a child outside of its tick", what));
@@ -32,7 +32,7 @@ bool may(const lockstep_caller* caller, ChildAccess access, std::string_view wha
 bool may(const lockstep_caller* caller, ChildAccess access, std::string_view what,
          std::uint32_t child) {
   if (!may(caller, access, what)) return false;
-  const std::size_t count = caller->slot->children.size();
+  const std::size_t count = caller->children.size();
   if (child < count) [[likely]]
     return true;
   breach(caller, fmt::format("{} child {}, but has {} {}, counted from 0", what, child, count,
@@ -41,20 +41,20 @@ bool may(const lockstep_caller* caller, ChildAccess access, std::string_view wha
 }
 
 std::uint32_t count(const lockstep_caller* caller) {
-  return caller->is_foreign() ? 0 : static_cast<std::uint32_t>(caller->slot->children.size());
+  return caller->is_foreign() ? 0 : static_cast<std::uint32_t>(caller->children.size());
 }
 
 lockstep_status tick(const lockstep_caller* caller, std::uint32_t child) {
   if (!may(caller, ChildAccess::Tick, "ticks", child)) return LOCKSTEP_RUNNING;
   LeafSlot& slot = *caller->slot;
-  const NodeIndex node = slot.children[child];
-  if (slot.ticker->ticked(node)) {
+  const NodeIndex node = caller->children[child];
+  if (caller->ticker->ticked(node)) {
     breach(caller, fmt::format("ticks child {} twice in one tick", child));
     return LOCKSTEP_RUNNING;
   }
   // Code of the child that knows this caller must not use it.
   slot.access = ChildAccess::None;
-  const Status status = slot.ticker->tick(node);
+  const Status status = caller->ticker->tick(node);
   slot.access = ChildAccess::Tick;
   return static_cast<lockstep_status>(status);
 }
@@ -63,7 +63,7 @@ void halt(const lockstep_caller* caller, std::uint32_t child) {
   if (!may(caller, ChildAccess::Tick, "halts", child)) return;
   LeafSlot& slot = *caller->slot;
   slot.access = ChildAccess::None;
-  slot.ticker->halt(slot.children[child]);
+  caller->ticker->halt(caller->children[child]);
   slot.access = ChildAccess::Tick;
 }
 
@@ -71,21 +71,20 @@ void pause(const lockstep_caller* caller, std::uint32_t child) {
   if (!may(caller, ChildAccess::Tick, "pauses", child)) return;
   LeafSlot& slot = *caller->slot;
   slot.access = ChildAccess::None;
-  slot.ticker->pause(slot.children[child]);
+  caller->ticker->pause(caller->children[child]);
   slot.access = ChildAccess::Tick;
 }
 
 lockstep_status status(const lockstep_caller* caller, std::uint32_t child) {
   if (!may(caller, ChildAccess::Look, "asks for", child)) return LOCKSTEP_RUNNING;
-  const LeafSlot& slot = *caller->slot;
-  return static_cast<lockstep_status>(slot.ticker->status(slot.children[child]));
+  return static_cast<lockstep_status>(caller->ticker->status(caller->children[child]));
 }
 
 double progress(const lockstep_caller* caller, std::uint32_t child) {
   if (!may(caller, ChildAccess::Look, "asks for", child)) return 0;
   LeafSlot& slot = *caller->slot;
   const ChildAccess access = std::exchange(slot.access, ChildAccess::None);
-  const double value = slot.ticker->progress(slot.children[child]);
+  const double value = caller->ticker->progress(caller->children[child]);
   slot.access = access;
   return value;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,6 +48,8 @@ struct lockstep_caller {
   const lockstep::LeafTime* time;
   const lockstep::LeafLog* log;
   lockstep::LeafSlot* slot;                 // set_error sets its `error`
+  lockstep::Ticker* ticker = nullptr;       // while the slot gives access to children
+  std::span<const lockstep::NodeIndex> children = {};  // of a control node or decorator, in order
   const lockstep_plugin* plugin = nullptr;  // of a run: whose run context it is
   const lockstep::CallSite* site = nullptr;
   // Collects the entries that are set, for a process that only mirrors them; null: not collected.

@@ -143,10 +143,10 @@ LeafSet::Implementation::Implementation(const Tree& tree, Blackboard& blackboard
     }
     LeafSlot& slot = slots_[callers_.size()];
     slot.type = leaf.type->leaf;
-    slot.children = children_of(tree, leaf);
     callers_.push_back(make_caller(tree.path(leaf.node), slot));
     sites_.push_back(&site_of(tree, leaf));
     callers_.back()->site = sites_.back();
+    callers_.back()->children = children_of(tree, leaf);
     callers_.back()->ports = bind_ports(tree, leaf, blackboard);
   }
 }
@@ -157,7 +157,7 @@ void LeafSet::Implementation::destroy_all() {
   for (std::size_t index = slots_.size(); index-- > 0;) {
     LeafSlot& slot = slots_[index];
     if (slot.self != nullptr) destroy_leaf(index);
-    slot = LeafSlot{.type = slot.type, .children = slot.children};
+    slot = LeafSlot{.type = slot.type};
   }
   // While what the leaves of a run share is still there.
   for (Entry& entry : blackboard_.entries) {
@@ -282,6 +282,9 @@ void LeafSet::create_all(std::uint64_t seed) {
 }
 std::span<LeafSlot> LeafSet::slots() {
   return it_->slots_;
+}
+void LeafSet::set_ticker(Ticker& ticker) {
+  for (const auto& caller : it_->callers_) caller->ticker = &ticker;
 }
 const std::optional<Fault>& LeafSet::fault() const {
   return it_->fault_;

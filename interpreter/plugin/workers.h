@@ -8,6 +8,7 @@
 #include <mutex>
 #include <vector>
 
+#include "core/clock.h"
 #include "lockstep/leaf.h"
 #include "plugin/call_mark.h"
 
@@ -20,10 +21,10 @@ class Workers {
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
 
-  // For the thread of the run. All turns that are due at this time, in seconds since the run began,
+  // For the thread of the run. All turns that are due at this time, counted since the run began,
   // each at most once. Nothing if there is no worker.
-  void give_turns(double now) {
-    if (!all_.empty()) give_all(now);
+  void give_turns(Nanoseconds now) {
+    if (!all_.empty()) give_all(to_seconds(now));
   }
 
   lockstep_worker* begin(const CallSite& site, double now);

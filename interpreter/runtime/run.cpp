@@ -13,7 +13,9 @@ Run::Run(const Tree& tree, const RunOptions& options)
             .workers = options.virtual_time ? &workers_ : nullptr},
       watch_(options.watch),
       leaves_(tree, blackboard_, time_, options.seed, options.log, options.watch),
-      ticker_(tree, leaves_.slots(), blackboard_, options.on_fault) {}
+      ticker_(tree, leaves_.slots(), blackboard_, options.on_fault) {
+  leaves_.set_ticker(ticker_);
+}
 
 Run::~Run() {
   halt();
@@ -43,14 +45,15 @@ void Run::set_now(Nanoseconds now) {
   adopt_thread();
   time_.now = now;
   ticker_.set_now(now);
-  workers_.give_turns(to_seconds(now));
+  workers_.give_turns(now);
 }
 
 Status Run::tick(Nanoseconds now) {
   set_now(now);
   if (watch_ != nullptr) watch_->begin_tick(ticker_.tick_number());  // which counts from 1
-  const Status status = tick_again_if_asked(ticker_.tick_root(now));
-  workers_.give_turns(to_seconds(now));
+  Status status = ticker_.tick_root(now);
+  if (ticker_.is_asked()) status = tick_again_if_asked(status);
+  workers_.give_turns(now);
   return status;
 }
 

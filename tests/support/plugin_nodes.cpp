@@ -30,7 +30,8 @@ const NodeType* plugin_node_type(std::string_view id) {
   return nullptr;
 }
 
-PluginNodes::PluginNodes(const Tree& tree, Blackboard& board, std::vector<LeafSlot>& slots)
+PluginNodes::PluginNodes(const Tree& tree, Blackboard& board, std::vector<LeafSlot>& slots,
+                         Ticker& ticker)
     : time{.period = std::chrono::milliseconds(100), .thread = this_thread_id()},
       tree_(tree),
       slots_(slots) {
@@ -39,14 +40,15 @@ PluginNodes::PluginNodes(const Tree& tree, Blackboard& board, std::vector<LeafSl
     callers_.emplace_back();
     if (node.type->origin == nullptr) continue;
     slots_[index].type = node.type->leaf;
-    slots_[index].children = children_of(tree, node);
     callers_.back() =
         std::make_unique<lockstep_caller>(lockstep_caller{.who = tree.path(node.node),
                                                           .ports = bind_ports(tree, node, board),
                                                           .random = RandomStream(0, index + 1),
                                                           .time = &time,
                                                           .log = &log_,
-                                                          .slot = &slots_[index]});
+                                                          .slot = &slots_[index],
+                                                          .ticker = &ticker,
+                                                          .children = children_of(tree, node)});
   }
   create_all();
 }

@@ -21,7 +21,8 @@ const NodeType* plugin_node_type(std::string_view id);
 // The nodes of plugins in one run.
 class PluginNodes {
  public:
-  PluginNodes(const Tree& tree, Blackboard& board, std::vector<LeafSlot>& slots);
+  // `ticker` ticks them; it may be constructed later.
+  PluginNodes(const Tree& tree, Blackboard& board, std::vector<LeafSlot>& slots, Ticker& ticker);
   ~PluginNodes();
   PluginNodes(const PluginNodes&) = delete;
   PluginNodes& operator=(const PluginNodes&) = delete;

@@ -28,7 +28,7 @@ ScriptedRun::ScriptedRun(std::string_view tree, std::string_view leaves, FaultPo
     : tree_(tree_from_text(tree, language)),
       board_(tree_),
       slots_(tree_.leaves.size()),
-      plugin_nodes_(tree_, board_, slots_),
+      plugin_nodes_(tree_, board_, slots_, ticker_),
       ticker_(tree_, slots_, board_, policy) {
   const auto by_name = scripts(leaves);
   for (std::uint32_t number = 0; number < slots_.size(); ++number) {

@@ -18,11 +18,7 @@ enum class Kind { Action, Condition, Control };
 // Gives a control node access to its children during a call.
 class Reach {
  public:
-  Reach(Ticker& ticker, NodeIndex self, ChildAccess access) : leaf_(ticker.leaf(self)) {
-    leaf_.ticker = &ticker;
-    leaf_.node = self;
-    leaf_.access = access;
-  }
+  Reach(LeafSlot& leaf, ChildAccess access) : leaf_(leaf) { leaf_.access = access; }
   ~Reach() { leaf_.access = ChildAccess::None; }
   Reach(const Reach&) = delete;
   Reach& operator=(const Reach&) = delete;
@@ -51,7 +47,7 @@ bool take_error(Ticker& ticker, NodeIndex self, LeafSlot& leaf) {
 
 void call(Ticker& ticker, NodeIndex self, void (*function)(void*)) {
   LeafSlot& leaf = ticker.leaf(self);
-  const Reach reach(ticker, self, ChildAccess::Look);
+  const Reach reach(leaf, ChildAccess::Look);
   if (function != nullptr) guarded(ticker, self, [&] { function(leaf.self); });
   take_error(ticker, self, leaf);
 }
@@ -81,65 +77,69 @@ Status out(Ticker& ticker, NodeIndex self) {
   return Status::Failure;
 }
 
-// The first tick of an activation, or the first after a pause.
-void prepare(Ticker& ticker, NodeIndex self, LeafSlot& leaf) {
-  if (ticker.activity(self) == Activity::Paused) {
-    if (!leaf.failed) call(ticker, self, leaf.type->resume);
+[[gnu::noinline]] void start(Ticker& ticker, NodeIndex self, LeafSlot& leaf) {
+  leaf.started = false;
+  call(ticker, self, leaf.type->start);
+  leaf.started = !is_out(ticker, leaf);
+}
+
+[[gnu::noinline]] void resume(Ticker& ticker, NodeIndex self, LeafSlot& leaf) {
+  if (!leaf.failed) call(ticker, self, leaf.type->resume);
+}
+
+// The first tick of an activation, or the first after a pause. False: the leaf is out.
+bool prepare(Ticker& ticker, NodeIndex self, LeafSlot& leaf) {
+  const Activity before = ticker.activity(self);
+  if (before == Activity::Running) return !leaf.failed;
+  if (before == Activity::Paused) {
+    resume(ticker, self, leaf);
   } else if (leaf.type->start == nullptr) {
     leaf.started = true;
   } else {
-    leaf.started = false;
-    call(ticker, self, leaf.type->start);
-    leaf.started = !is_out(ticker, leaf);
+    start(ticker, self, leaf);
   }
+  return !is_out(ticker, leaf);
 }
 
-// Out of line, so that what each tick checks stays inline.
-[[gnu::cold, gnu::noinline]] void refuse(Ticker& ticker, NodeIndex self, lockstep_status result) {
-  ticker.set_fault(self, result == LOCKSTEP_RUNNING
-                             ? std::string("is a condition and returned running")
-                             : "returned status " + std::to_string(result) +
-                                   ", expected one of lockstep/leaf.h");
-}
-
-// Running when the leaf is out.
 template <Kind kKind>
-Status checked(Ticker& ticker, NodeIndex self, LeafSlot& leaf, lockstep_status result) {
-  if (leaf.error != nullptr) [[unlikely]] {
-    take_error(ticker, self, leaf);
-    return Status::Running;
+bool is_result(lockstep_status status) {
+  if (kKind == Kind::Condition && status == LOCKSTEP_RUNNING) return false;
+  return status > LOCKSTEP_IDLE && status <= static_cast<int>(kLastStatus);
+}
+
+// What a tick returns that did not go well. Out of line, so that what each tick checks is inline.
+template <Kind kKind>
+[[gnu::cold, gnu::noinline]] Status spoiled(Ticker& ticker, NodeIndex self, LeafSlot& leaf,
+                                            lockstep_status result) {
+  if (!take_error(ticker, self, leaf) && !is_out(ticker, leaf)) {
+    ticker.set_fault(self, result == LOCKSTEP_RUNNING
+                               ? std::string("is a condition and returned running")
+                               : "returned status " + std::to_string(result) +
+                                     ", expected one of lockstep/leaf.h");
   }
-  if (is_out(ticker, leaf)) return Status::Running;
-  const bool is_status = result > LOCKSTEP_IDLE && result <= static_cast<int>(kLastStatus);
-  if (is_status && (kKind != Kind::Condition || result != LOCKSTEP_RUNNING)) [[likely]] {
-    return static_cast<Status>(result);
-  }
-  refuse(ticker, self, result);
-  return Status::Running;
+  return leaf.failed ? out<kKind>(ticker, self) : Status::Running;
 }
 
 template <Kind kKind>
 Status tick(Ticker& ticker, NodeIndex self) {
   LeafSlot& leaf = ticker.leaf(self);
-  if (ticker.activity(self) != Activity::Running) prepare(ticker, self, leaf);
-  if (is_out(ticker, leaf)) return out<kKind>(ticker, self);
+  if (!prepare(ticker, self, leaf)) [[unlikely]]
+    return out<kKind>(ticker, self);
   lockstep_status result = LOCKSTEP_RUNNING;
-  guarded(ticker, self, [&] { result = leaf.type->tick(leaf.self); });
-  const Status status = checked<kKind>(ticker, self, leaf, result);
-  return leaf.failed ? out<kKind>(ticker, self) : status;
+  if constexpr (kKind == Kind::Control) {
+    const Reach reach(leaf, ChildAccess::Tick);
+    guarded(ticker, self, [&] { result = leaf.type->tick(leaf.self); });
+  } else {
+    guarded(ticker, self, [&] { result = leaf.type->tick(leaf.self); });
+  }
+  if (leaf.error == nullptr && !is_out(ticker, leaf) && is_result<kKind>(result)) [[likely]] {
+    return static_cast<Status>(result);
+  }
+  return spoiled<kKind>(ticker, self, leaf, result);
 }
 
 Status tick_control(Ticker& ticker, NodeIndex self) {
-  LeafSlot& leaf = ticker.leaf(self);
-  if (ticker.activity(self) != Activity::Running) prepare(ticker, self, leaf);
-  if (is_out(ticker, leaf)) return out<Kind::Control>(ticker, self);
-  lockstep_status result = LOCKSTEP_RUNNING;
-  {
-    const Reach reach(ticker, self, ChildAccess::Tick);
-    guarded(ticker, self, [&] { result = leaf.type->tick(leaf.self); });
-  }
-  const Status status = checked<Kind::Control>(ticker, self, leaf, result);
-  if (leaf.failed) return out<Kind::Control>(ticker, self);
+  const Status status = tick<Kind::Control>(ticker, self);
   if (status != Status::Running) ticker.halt_running_children(self);
   return status;
 }
@@ -150,7 +150,9 @@ void pause(Ticker& ticker, NodeIndex self) {
 }
 
 void pause_control(Ticker& ticker, NodeIndex self) {
-  for (const NodeIndex child : ticker.leaf(self).children) ticker.pause(child);
+  for (NodeIndex child = self + 1; child != ticker.end_of(self); child = ticker.end_of(child)) {
+    ticker.pause(child);
+  }
   if (!ticker.faulted()) pause(ticker, self);
 }
 
@@ -175,10 +177,10 @@ double progress(Ticker& ticker, NodeIndex self) {
   return corrected(ticker, self, leaf, reported);
 }
 
-double progress_of_children(Ticker& ticker, const LeafSlot& leaf) {
+double progress_of_children(Ticker& ticker, NodeIndex self) {
   double least = 1.0;
   bool any = false;
-  for (const NodeIndex child : leaf.children) {
+  for (NodeIndex child = self + 1; child != ticker.end_of(self); child = ticker.end_of(child)) {
     if (ticker.status(child) != Status::Running) continue;
     least = std::min(least, ticker.progress(child));
     any = true;
@@ -187,10 +189,10 @@ double progress_of_children(Ticker& ticker, const LeafSlot& leaf) {
 }
 
 double progress_of_control(Ticker& ticker, NodeIndex self) {
-  const LeafSlot& leaf = ticker.leaf(self);
+  LeafSlot& leaf = ticker.leaf(self);
   if (leaf.failed) return 0.0;
-  if (leaf.type->progress == nullptr) return progress_of_children(ticker, leaf);
-  const Reach reach(ticker, self, ChildAccess::Look);
+  if (leaf.type->progress == nullptr) return progress_of_children(ticker, self);
+  const Reach reach(leaf, ChildAccess::Look);
   return progress(ticker, self);
 }
 

@@ -213,9 +213,9 @@ bool ServedRun::answer(PluginFunction function, MessageReader& request, MessageW
                          : function == PluginFunction::Create  ? create_leaf(number, request)
                                                                : find(number);
   if (object == nullptr || !read_entries(request)) return false;
-  workers_.give_turns(to_seconds(time_.now));
+  workers_.give_turns(time_.now);
   perform(*object, function, answer);
-  workers_.give_turns(to_seconds(time_.now));
+  workers_.give_turns(time_.now);
   return true;
 }
 
