@@ -25,7 +25,10 @@ std::map<std::string, LeafScript> scripts(std::string_view text) {
 
 ScriptedRun::ScriptedRun(std::string_view tree, std::string_view leaves, FaultPolicy policy,
                          Language language)
-    : tree_(tree_from_text(tree, language)),
+    : ScriptedRun(tree_from_text(tree, language), leaves, policy) {}
+
+ScriptedRun::ScriptedRun(Tree tree, std::string_view leaves, FaultPolicy policy)
+    : tree_(std::move(tree)),
       board_(tree_),
       slots_(tree_.leaves.size()),
       plugin_nodes_(tree_, board_, slots_, ticker_),

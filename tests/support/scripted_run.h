@@ -18,6 +18,7 @@ class ScriptedRun {
   // std::invalid_argument.
   ScriptedRun(std::string_view tree, std::string_view leaves,
               FaultPolicy policy = FaultPolicy::Stop, Language language = Language::Lockstep);
+  ScriptedRun(Tree tree, std::string_view leaves, FaultPolicy policy = FaultPolicy::Stop);
   ScriptedRun(const ScriptedRun&) = delete;
   ScriptedRun& operator=(const ScriptedRun&) = delete;
 

@@ -1,0 +1,627 @@
+#include "property/btcpp_reference.h"
+
+#include <cmath>
+#include <functional>
+#include <set>
+#include <stdexcept>
+
+namespace lockstep::test::law {
+
+// Ends the run.
+struct Failed : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct Board {
+  Board* parent = nullptr;
+  std::string prefix = {};
+  std::map<std::string, std::string> remapped = {};
+  std::set<std::string> literals = {};
+  bool autoremap = false;
+  std::map<std::string, Entry> entries = {};
+
+  Board& main() { return parent == nullptr ? *this : parent->main(); }
+
+  // Where a key is, or would be made.
+  std::pair<Board*, std::string> home(const std::string& key) {
+    if (key[0] == '@') return {&main(), key.substr(1)};
+    if (parent == nullptr || literals.contains(key)) return {this, key};
+    if (const auto it = remapped.find(key); it != remapped.end()) return parent->home(it->second);
+    if (autoremap && key[0] != '_') return parent->home(key);
+    return {this, key};
+  }
+  Entry* find(const std::string& key) {
+    const auto [board, name] = home(key);
+    const auto it = board->entries.find(name);
+    return it == board->entries.end() ? nullptr : &it->second;
+  }
+  Entry& make(const std::string& key) {
+    const auto [board, name] = home(key);
+    return board->entries[name];
+  }
+};
+
+struct World {
+  const Document& document;
+  std::vector<std::unique_ptr<Board>> boards = {};
+  EventLog events = {};
+  std::uint32_t leaves = 0;
+  int time = 0;           // milliseconds
+  bool is_asked = false;  // for another tick
+};
+
+// A value as an attribute names it.
+std::optional<std::string> key_in(const std::string& text) {
+  if (text.size() < 3 || text.front() != '{') return std::nullopt;
+  return text.substr(1, text.size() - 2);
+}
+
+class Node {
+ public:
+  Node(const Element& element, Board& board, World& world)
+      : element_(element), board_(&board), world_(world) {
+    if (element.tag == "Act" || element.tag == "Cond") number_ = world.leaves++;
+    for (const auto& [name, value] : element.attributes) declare(name, value);
+    if (element.tag == "SubTree") enter();
+    for (const Element& child : element.children) {
+      children_.push_back(std::make_unique<Node>(child, board, world));
+    }
+  }
+
+  Status execute() {
+    const Status result = decide().value_or(Status::Idle);
+    Status it = result == Status::Idle ? tick() : result;
+    if (it == Status::Success || it == Status::Failure) {
+      run(it == Status::Success ? "_onSuccess" : "_onFailure");
+      run("_post");
+    }
+    status_ = it == Status::Skipped ? Status::Idle : it;
+    return it;
+  }
+
+  void halt() {
+    if (element_.tag == "Act") world_.events.push_back({Call::Halt, number_});
+    if (element_.tag == "TryCatch") catch_halt();
+    reset_children();
+    forget(Ended::Halted);
+    status_ = Status::Idle;
+    run("_onHalted");
+  }
+
+  void reset() {
+    if (status_ == Status::Running) {
+      halt();
+    } else {  // it, or what is in it, may have been skipped and keep something
+      reset_children();
+      forget(Ended::Reset);
+    }
+    status_ = Status::Idle;
+  }
+
+ private:
+  enum class Ended { Halted, Reset };
+  using Children = std::vector<std::unique_ptr<Node>>;
+
+  void declare(const std::string& name, const std::string& value) {
+    const auto key = key_in(value);
+    if (!key || element_.tag == "SubTree") return;
+    const bool is_new = board_->find(*key) == nullptr;
+    Entry& entry = board_->make(*key);
+    const bool is_int = name == "num_cycles" || name == "num_attempts" || name == "success_count" ||
+                        (name == "value" && element_.tag == "LoopInt");
+    if (is_new) entry.is_int = is_int;
+  }
+
+  void enter() {
+    Board& inner = *world_.boards.emplace_back(std::make_unique<Board>());
+    inner.parent = board_;
+    inner.prefix = board_->prefix + element_.attributes.at("name") + "/";
+    for (const auto& [name, value] : element_.attributes) {
+      if (name == "ID" || name == "name") continue;
+      if (name == "_autoremap") {
+        inner.autoremap = value == "true";
+      } else if (value == "{=}") {
+        inner.remapped[name] = name;
+      } else if (const auto key = key_in(value)) {
+        inner.remapped[name] = *key;
+      } else {
+        const bool is_number = value.find_first_not_of("0123456789") == std::string::npos;
+        inner.literals.insert(name);
+        literals_.push_back(
+            {name, is_number ? Entry{std::stod(value), 1, true} : Entry{value, 1, false}});
+      }
+    }
+    for (const auto& [name, entry] : literals_) inner.entries[name] = entry;
+    const Element& root = world_.document.at(element_.attributes.at("ID"));
+    children_.push_back(std::make_unique<Node>(root, inner, world_));
+  }
+
+  // --- scripts ---
+
+  const Entry& need(const std::string& name) const {
+    const Entry* entry = board_->find(name);
+    if (entry == nullptr) throw Failed("no " + name);
+    if (entry->value.index() == 0) throw Failed("empty " + name);
+    return *entry;
+  }
+
+  using Operand = std::variant<std::monostate, double, std::string>;
+  Operand operand(const Script& script) const {
+    if (!script.other.empty()) return need(script.other).value;
+    if (const auto* text = std::get_if<std::string>(&script.value)) return *text;
+    return std::get<double>(script.value);
+  }
+
+  bool holds(const Script& script) const {
+    if (script.name.empty()) return std::get<double>(script.value) != 0;
+    const Operand left = need(script.name).value, right = operand(script);
+    if (left.index() != right.index()) throw Failed("a text and a number");
+    if (script.op == "==") return left == right;
+    if (script.op == "!=") return left != right;
+    return script.op == "<" ? left < right : left > right;
+  }
+
+  void assign(const Script& script) {
+    Entry* entry = script.op == ":=" ? &board_->make(script.name) : board_->find(script.name);
+    if (entry == nullptr) throw Failed("no " + script.name);
+    Operand value = operand(script);
+    if (script.op == "+=") {
+      if (entry->value.index() == 0) throw Failed("empty " + script.name);
+      value = std::get<double>(entry->value) + std::get<double>(value);
+    }
+    entry->value = value;
+    ++entry->writes;
+  }
+
+  void run(const std::string& attribute) {
+    const auto it = element_.scripts.find(attribute);
+    if (it != element_.scripts.end()) assign(it->second);
+  }
+  std::optional<bool> ask(const std::string& attribute) const {
+    const auto it = element_.scripts.find(attribute);
+    return it == element_.scripts.end() ? std::nullopt : std::optional(holds(it->second));
+  }
+
+  // The result without a tick.
+  std::optional<Status> decide() {
+    if (status_ == Status::Success || status_ == Status::Failure) return std::nullopt;
+    if (status_ == Status::Idle) {
+      if (ask("_failureIf").value_or(false)) return Status::Failure;
+      if (ask("_successIf").value_or(false)) return Status::Success;
+      if (ask("_skipIf").value_or(false)) return Status::Skipped;
+    }
+    if (ask("_while").value_or(true)) return std::nullopt;
+    if (status_ == Status::Running) halt();
+    return Status::Skipped;
+  }
+
+  // --- parameters ---
+
+  std::string text(const std::string& name) const {
+    const auto it = element_.attributes.find(name);
+    return it == element_.attributes.end() ? "" : it->second;
+  }
+  int number(const std::string& name, int otherwise = 0) const {
+    const std::string value = text(name);
+    if (value.empty()) return otherwise;
+    const auto key = key_in(value);
+    if (!key) return std::stoi(value);
+    const Entry* entry = board_->find(*key);
+    const auto* held = entry == nullptr ? nullptr : std::get_if<double>(&entry->value);
+    if (held == nullptr && otherwise != 0) return otherwise;
+    if (held == nullptr) throw Failed(name + " has no value");
+    return static_cast<int>(*held);
+  }
+
+  // --- nodes ---
+
+  Status tick() {
+    const std::string& tag = element_.tag;
+    if (tag == "Act") return act();
+    if (tag == "Cond") return leaf();
+    if (tag == "Script") return run("code"), Status::Success;
+    if (tag == "ScriptCondition") return *ask("code") ? Status::Success : Status::Failure;
+    if (tag == "AlwaysSuccess") return Status::Success;
+    if (tag == "AlwaysFailure") return Status::Failure;
+    if (tag == "Sleep") return sleep();
+    if (tag == "SetBlackboard") return set();
+    if (tag == "UnsetBlackboard") return unset();
+    if (tag == "WasEntryUpdated") return was_updated() ? Status::Success : Status::Failure;
+    if (tag == "Sequence" || tag == "AsyncSequence" || tag == "SequenceWithMemory") {
+      return ordered(Status::Success);
+    }
+    if (tag == "Fallback" || tag == "AsyncFallback") return ordered(Status::Failure);
+    if (tag == "ReactiveSequence") return reactive(Status::Success);
+    if (tag == "ReactiveFallback") return reactive(Status::Failure);
+    if (tag == "Parallel") return parallel();
+    if (tag == "ParallelAll") return parallel_all();
+    if (tag == "IfThenElse") return if_then_else();
+    if (tag == "WhileDoElse") return while_do_else();
+    if (tag == "Switch2") return choose();
+    if (tag == "TryCatch") return try_catch();
+    if (tag == "SubTree") return pass(children_[0]->execute());
+    return decorate();
+  }
+
+  Status leaf() {
+    if (status_ != Status::Running) world_.events.push_back({Call::Start, number_});
+    world_.events.push_back({Call::Tick, number_});
+    const char letter = element_.letters[std::min(ticks_++, element_.letters.size() - 1)];
+    return letter == 'R'   ? Status::Running
+           : letter == 'S' ? Status::Success
+           : letter == 'F' ? Status::Failure
+                           : Status::Skipped;
+  }
+  Status act() {
+    if (status_ == Status::Success || status_ == Status::Failure) return status_;
+    return leaf();
+  }
+
+  Status sleep() {
+    if (status_ == Status::Success || status_ == Status::Failure) return status_;
+    if (status_ == Status::Idle) since_ = world_.time;
+    return world_.time - *since_ >= number("msec") ? Status::Success : Status::Running;
+  }
+
+  Status set() {
+    const std::string value = text("value");
+    if (const auto key = key_in(value)) {
+      const Entry* from = board_->find(*key);
+      if (from == nullptr || from->value.index() == 0) return Status::Failure;
+      if (from == board_->find(text("output_key"))) return Status::Success;
+      const auto copied = from->value;
+      Entry& to = board_->make(text("output_key"));
+      to.value = copied;
+      ++to.writes;
+      return Status::Success;
+    }
+    Entry& to = board_->make(text("output_key"));
+    to.value = value;
+    ++to.writes;
+    return Status::Success;
+  }
+
+  Status unset() {
+    const auto [board, key] = board_->home(text("key"));
+    if (board == board_ && text("key")[0] != '@') board->entries.erase(key);
+    return Status::Success;
+  }
+
+  bool was_updated() {
+    const Entry* entry = board_->find(key_in(text("entry")).value_or(text("entry")));
+    if (entry == nullptr || entry->writes == seen_) return false;
+    seen_ = entry->writes;
+    return true;
+  }
+
+  Status end(Status result) {
+    reset_children();
+    at_ = 0;
+    skipped_ = 0;
+    return result;
+  }
+
+  // A child, and whether the root is to be ticked again after it.
+  bool completes_at_once(Node& child, Status& result) {
+    const bool was_idle = child.status_ == Status::Idle;
+    result = child.execute();
+    return was_idle && (result == Status::Success || result == Status::Failure);
+  }
+
+  Status ordered(Status goes_on) {
+    const bool yields = element_.tag.starts_with("Async") || element_.tag == "SequenceWithMemory";
+    const bool keeps = element_.tag == "SequenceWithMemory";
+    if (status_ != Status::Running) {
+      skipped_ = 0;
+      if (!keeps) at_ = 0;
+    }
+    while (at_ < children_.size()) {
+      Status result{};
+      const bool at_once = completes_at_once(*children_[at_], result);
+      if (result == Status::Running) return result;
+      if (result != goes_on && result != Status::Skipped) {
+        const std::size_t place = at_;
+        end(result);
+        if (keeps) at_ = place;
+        return result;
+      }
+      if (result == Status::Skipped) ++skipped_;
+      ++at_;
+      if (yields && at_once && at_ < children_.size()) {
+        world_.is_asked = true;
+        return Status::Running;
+      }
+    }
+    return end(skipped_ == children_.size() ? Status::Skipped : goes_on);
+  }
+
+  Status reactive(Status goes_on) {
+    std::size_t skipped = 0;
+    for (const auto& child : children_) {
+      const Status result = child->execute();
+      if (result == goes_on) continue;
+      if (result == Status::Skipped) {
+        child->reset();
+        ++skipped;
+        continue;
+      }
+      if (result != Status::Running) return end(result);
+      for (const auto& other : children_) {
+        if (other != child) other->reset();
+      }
+      return result;
+    }
+    return end(skipped == children_.size() ? Status::Skipped : goes_on);
+  }
+
+  int count(int given) const {
+    const int all = static_cast<int>(children_.size());
+    return given >= 0 ? given : std::max(all + given + 1, 0);
+  }
+
+  Status parallel() {
+    const int all = static_cast<int>(children_.size());
+    const int given = number("success_count", -1);
+    const int wanted = count(given), failures = count(number("failure_count", 1));
+    int skipped = 0;
+    for (const auto& child : children_) {
+      if (!done_.contains(child.get())) {
+        const Status result = child->execute();
+        if (result == Status::Skipped) ++skipped;
+        if (result == Status::Success) done_[child.get()] = true;
+        if (result == Status::Failure) done_[child.get()] = false;
+      }
+      int succeeded = 0, failed = 0;
+      for (const auto& [node, success] : done_) ++(success ? succeeded : failed);
+      if (succeeded + (given < 0 ? skipped : 0) >= wanted) return end_parallel(Status::Success);
+      if (all - failed < wanted || failed == failures) return end_parallel(Status::Failure);
+    }
+    return skipped == all ? pass(Status::Skipped) : Status::Running;
+  }
+  Status end_parallel(Status result) {
+    done_.clear();
+    return end(result);
+  }
+
+  Status parallel_all() {
+    std::size_t skipped = 0;
+    int failed = 0;
+    for (const auto& child : children_) {
+      if (!done_.contains(child.get())) {
+        const Status result = child->execute();
+        if (result == Status::Skipped) ++skipped;
+        if (result == Status::Success) done_[child.get()] = true;
+        if (result == Status::Failure) done_[child.get()] = false;
+      }
+    }
+    for (const auto& [node, success] : done_) failed += success ? 0 : 1;
+    if (skipped == children_.size()) return Status::Skipped;
+    if (done_.size() + skipped < children_.size()) return Status::Running;
+    return end_parallel(failed >= count(number("max_failures", 1)) ? Status::Failure
+                                                                   : Status::Success);
+  }
+
+  Status if_then_else() {
+    if (status_ != Status::Running) at_ = 0;
+    if (at_ == 0) {
+      const Status condition = children_[0]->execute();
+      if (condition == Status::Running) return condition;
+      if (condition == Status::Skipped) throw Failed("a condition was skipped");
+      at_ = condition == Status::Success ? 1 : 2;
+    }
+    if (at_ == children_.size()) return end(Status::Failure);
+    const Status result = children_[at_]->execute();
+    return result == Status::Running ? result : end(result);
+  }
+
+  Status while_do_else() {
+    const Status condition = children_[0]->execute();
+    if (condition == Status::Running) return condition;
+    if (condition == Status::Skipped) throw Failed("a condition was skipped");
+    const std::size_t branch = condition == Status::Success ? 1 : 2, other = 3 - branch;
+    if (other < children_.size()) children_[other]->reset();
+    if (branch == children_.size()) return end(Status::Failure);
+    const Status result = children_[branch]->execute();
+    return result == Status::Running ? result : end(result);
+  }
+
+  // The cases are texts here.
+  Status choose() {
+    std::size_t chosen = 2;
+    const Entry* entry = board_->find(*key_in(text("variable")));
+    const auto* held = entry == nullptr ? nullptr : std::get_if<std::string>(&entry->value);
+    if (held != nullptr && *held == text("case_2")) chosen = 1;
+    if (held != nullptr && *held == text("case_1")) chosen = 0;
+    if (status_ == Status::Running && at_ != chosen) children_[at_]->reset();
+    at_ = chosen;
+    const Status result = children_[chosen]->execute();
+    if (result == Status::Success || result == Status::Failure) reset_children();
+    return result;
+  }
+
+  Status try_catch() {
+    if (status_ != Status::Running) at_ = skipped_ = 0;
+    const std::size_t last = children_.size() - 1;
+    while (at_ < last) {
+      const Status result = children_[at_]->execute();
+      if (result == Status::Running) return result;
+      if (result == Status::Failure) {
+        reset_children();
+        at_ = last;
+        break;
+      }
+      if (result == Status::Skipped) ++skipped_;
+      if (++at_ == last) return end(skipped_ == last ? Status::Skipped : Status::Success);
+    }
+    const Status result = children_[last]->execute();
+    return result == Status::Running ? result : end(Status::Failure);
+  }
+  void catch_halt() {
+    const std::size_t last = children_.size() - 1;
+    if (at_ == last || text("catch_on_halt") != "true") return;
+    for (std::size_t i = 0; i < last; ++i) children_[i]->reset();
+    if (children_[last]->execute() == Status::Running) children_[last]->halt();
+  }
+
+  // A child that has completed is reset.
+  Status pass(Status result) {
+    if (result == Status::Success || result == Status::Failure) children_[0]->reset();
+    return result;
+  }
+
+  Status decorate() {
+    const std::string& tag = element_.tag;
+    Node& child = *children_[0];
+    if (tag == "Repeat") return repeat(Status::Success, "num_cycles");
+    if (tag == "RetryUntilSuccessful") return repeat(Status::Failure, "num_attempts");
+    if (tag == "Delay") {
+      if (!since_) since_ = world_.time;
+      if (!is_over_ && world_.time - *since_ < number("delay_msec")) return Status::Running;
+      is_over_ = true;
+    }
+    if (tag == "Timeout") {
+      if (!since_) since_ = world_.time;
+      if (!is_over_ && number("msec") > 0 && world_.time - *since_ >= number("msec")) {
+        is_over_ = true;
+        if (child.status_ == Status::Running) {
+          child.halt();
+          forget(Ended::Reset);
+          return Status::Failure;
+        }
+      }
+    }
+    if (tag == "RunOnce" && once_) {
+      return text("then_skip") == "false" ? *once_ : Status::Skipped;
+    }
+    if (tag == "Precondition" && !is_open_) {
+      if (!*ask("if")) return word(text("else"));
+      is_open_ = true;
+    }
+    if (tag == "LoopInt") return loop();
+    const bool waits = tag == "SkipUnlessUpdated" || tag == "WaitValueUpdate";
+    if (waits && child.status_ != Status::Running && !was_updated()) {
+      return tag == "WaitValueUpdate" ? Status::Running : Status::Skipped;
+    }
+    return decorated(tag, pass(child.execute()));
+  }
+
+  Status decorated(const std::string& tag, Status result) {
+    if (tag == "KeepRunningUntilFailure") {
+      return result == Status::Failure ? result : Status::Running;
+    }
+    if (result == Status::Running || result == Status::Skipped) return result;
+    forget(Ended::Reset);
+    if (tag == "RunOnce") once_ = result;
+    if (tag == "Inverter") {
+      return result == Status::Success ? Status::Failure : Status::Success;
+    }
+    if (tag == "ForceSuccess") return Status::Success;
+    return tag == "ForceFailure" ? Status::Failure : result;
+  }
+
+  Status repeat(Status goes_on, const std::string& port) {
+    Node& child = *children_[0];
+    while (rounds_ < number(port)) {
+      Status result{};
+      const bool at_once = completes_at_once(child, result);
+      if (result == Status::Running) return result;
+      child.reset();
+      if (result == Status::Skipped) return result;
+      if (result != goes_on) {
+        rounds_ = 0;
+        return result;
+      }
+      ++rounds_;
+      if (at_once && rounds_ < number(port)) {
+        world_.is_asked = true;
+        return Status::Running;
+      }
+    }
+    rounds_ = 0;
+    return goes_on;
+  }
+
+  // Over the items 1, 2 and 3.
+  Status loop() {
+    if (status_ != Status::Running) rounds_ = 0;
+    if (children_[0]->status_ != Status::Running) {
+      if (rounds_ == 3) return word(text("if_empty"));
+      Entry& entry = board_->make(*key_in(text("value")));
+      entry.value = static_cast<double>(++rounds_);
+      ++entry.writes;
+    }
+    return pass(children_[0]->execute()) == Status::Failure ? Status::Failure : Status::Running;
+  }
+
+  static Status word(const std::string& text) {
+    return text == "SUCCESS"   ? Status::Success
+           : text == "RUNNING" ? Status::Running
+           : text == "SKIPPED" ? Status::Skipped
+                               : Status::Failure;
+  }
+
+  void reset_children() {
+    for (const auto& child : children_) child->reset();
+  }
+
+  // What ends with an activation. RunOnce, and what was seen of an entry, stay.
+  void forget(Ended how) {
+    since_.reset();
+    is_over_ = is_open_ = false;
+    rounds_ = 0;
+    done_.clear();
+    if (how == Ended::Halted && element_.tag != "SequenceWithMemory") at_ = 0;
+  }
+
+  const Element& element_;
+  Board* board_;
+  World& world_;
+  Children children_;
+  Status status_ = Status::Idle;
+  std::uint32_t number_ = 0;
+  std::vector<std::pair<std::string, Entry>> literals_;
+  std::size_t ticks_ = 0, at_ = 0, skipped_ = 0;
+  unsigned seen_ = 0;
+  int rounds_ = 0;
+  std::optional<int> since_;
+  bool is_over_ = false, is_open_ = false;
+  std::optional<Status> once_;
+  std::map<const Node*, bool> done_;  // whether it succeeded
+};
+
+Reference::Reference(const Document& document) : world_(new World{.document = document}) {
+  Board& main = *world_->boards.emplace_back(std::make_unique<Board>());
+  root_ = std::make_unique<Node>(document.at("Main"), main, *world_);
+}
+Reference::~Reference() = default;
+
+std::optional<Status> Reference::tick() {
+  try {
+    Status result = Status::Running;
+    int ticks = 0;
+    do {
+      if (ticks++ == kMostTicksAtOnce) throw Failed("endless");
+      world_->is_asked = false;
+      result = root_->execute();
+    } while (result == Status::Running && world_->is_asked);
+    if (result == Status::Success || result == Status::Failure) root_->reset();
+    world_->time += 100;
+    return result;
+  } catch (const Failed&) {
+    return std::nullopt;
+  }
+}
+
+EventLog& Reference::events() {
+  return world_->events;
+}
+
+std::map<std::string, Entry> Reference::entries() const {
+  std::map<std::string, Entry> all;
+  for (const auto& board : world_->boards) {
+    for (const auto& [key, entry] : board->entries) all[board->prefix + key] = entry;
+  }
+  return all;
+}
+
+}  // namespace lockstep::test::law

@@ -1,0 +1,64 @@
+// The law of trees for BehaviorTree.CPP once more, slow and obvious: it walks the document, an
+// object for each node, and looks every key up by its name. It shares nothing with engine/.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/status.h"
+#include "support/event_log.h"
+
+namespace lockstep::test::law {
+
+// "name op operand", or a constant without a name. `op`: == != < > for conditions, := = += else.
+struct Script {
+  std::string name = {}, op = {};
+  std::string other = {};  // a name, if there is one
+  std::variant<double, std::string> value = 0.0;
+};
+
+struct Element {
+  std::string tag;  // "Act" and "Cond" are scripted leaves
+  std::map<std::string, std::string> attributes = {};
+  std::map<std::string, Script> scripts = {};  // _skipIf, …, code, if
+  std::vector<Element> children = {};
+  std::string letters = {};  // of a leaf: what it returns, tick by tick; the last one stays
+};
+
+// A period with more of them is a fault.
+inline constexpr int kMostTicksAtOnce = 100;
+
+// The trees by their IDs.
+using Document = std::map<std::string, Element>;
+
+struct Entry {
+  std::variant<std::monostate, double, std::string> value = {};
+  unsigned writes = 0;
+  bool is_int = false;  // else any, or a text
+};
+
+class Node;
+struct World;
+
+class Reference {
+ public:
+  // Runs the tree "Main". The document must outlive this.
+  explicit Reference(const Document& document);
+  ~Reference();
+
+  // The result of one period, a tenth of a second after the last one; nothing after a fault.
+  std::optional<Status> tick();
+  EventLog& events();
+  // By "sub/key", as the engine names them.
+  std::map<std::string, Entry> entries() const;
+
+ private:
+  std::unique_ptr<World> world_;
+  std::unique_ptr<Node> root_;
+};
+
+}  // namespace lockstep::test::law
