@@ -125,7 +125,7 @@ class Search {
     std::vector<Vertex> way;
     for (; step != stack_.end(); ++step) way.push_back(step->vertex);
     const auto is_group = [](const Vertex& vertex) { return vertex.kind == Group; };
-    std::ranges::rotate(way, std::ranges::find_if(way, is_group));
+    std::rotate(way.begin(), std::ranges::find_if(way, is_group), way.end());
     std::vector<WaitingLink> links;
     for (const Vertex& vertex : way) {
       if (is_group(vertex)) links.push_back({definition_.groups[vertex.index].node, 0, 0});

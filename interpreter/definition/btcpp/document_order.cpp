@@ -1,7 +1,6 @@
 #include "definition/btcpp/document_order.h"
 
 #include <algorithm>
-#include <ranges>
 
 namespace lockstep::btcpp {
 namespace {
@@ -12,8 +11,9 @@ void visit(const Project& project, std::uint32_t document, std::vector<bool>& se
   if (seen[document]) return;
   seen[document] = true;
   order.push_back(document);
-  for (const std::uint32_t included : std::views::reverse(project.includes[document])) {
-    visit(project, included, seen, order);
+  const auto& includes = project.includes[document];
+  for (auto included = includes.rbegin(); included != includes.rend(); ++included) {
+    visit(project, *included, seen, order);
   }
 }
 
