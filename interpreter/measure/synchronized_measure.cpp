@@ -1,6 +1,7 @@
 #include "measure/synchronized_measure.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
@@ -115,11 +116,16 @@ SynchronizedProbe::SynchronizedProbe(const Tree& tree, NodeIndex node, bool with
   }
 }
 
-// A node that does not run will start again: none of its children has progress then.
+// A node that does not run will start again: none of its children has progress then. A child that
+// was skipped is left out.
 void SynchronizedProbe::before_tick(Ticker& ticker) {
   const bool runs = ticker.status(node_) == Status::Running;
   for (std::size_t child = 0; child < progress_.size(); ++child) {
-    progress_[child] = runs ? ticker.progress(children_[child]) : 0;
+    const NodeIndex node = children_[child];
+    const bool skipped = runs && ticker.activity(node) == Activity::Skipped;
+    progress_[child] = skipped ? std::numeric_limits<double>::quiet_NaN()
+                       : runs  ? ticker.progress(node)
+                               : 0;
   }
 }
 

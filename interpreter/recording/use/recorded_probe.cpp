@@ -41,7 +41,7 @@ RecordedProbe::RecordedProbe(const RecordingHeader& header, NodeIndex node,
     if (!it.members.empty()) members_.push_back(held.parent.value_or(0));
   }
   if (!it.members.empty()) names_ = names_of(names_);
-  was_idle_.resize(children_.size(), true);
+  last_.resize(children_.size(), Status::Idle);
   progress_.resize(children_.size());
 }
 
@@ -51,7 +51,8 @@ SynchronizedTick RecordedProbe::read(const RecordedTick& tick) {
     // A parallel that does not synchronize is judged by what was there before its tick, and none of
     // its children has progress when it starts again.
     progress_[child] = synchronizes_ || runs_ ? state.progress : 0;
-    if (ignores_idle_) leave_out(child, tick);
+    if (is_left_out(child)) progress_[child] = std::numeric_limits<double>::quiet_NaN();
+    last_[child] = tick.nodes[(members_.empty() ? children_ : members_)[child]].status;
     if (is_pool_) {
       const RecordedState& member = tick.nodes[members_[child]];
       held_.set(child, member.ticked && waits(member.limit));
@@ -70,11 +71,11 @@ SynchronizedTick RecordedProbe::read(const RecordedTick& tick) {
           .held = {held_.data(), children_.size()}};
 }
 
-// A member that did not run, and had not succeeded, when the tick began.
-void RecordedProbe::leave_out(std::size_t child, const RecordedTick& tick) {
-  const bool idle = !runs_ || was_idle_[child];
-  if (idle && progress_[child] == 0) progress_[child] = std::numeric_limits<double>::quiet_NaN();
-  was_idle_[child] = tick.nodes[members_[child]].status == Status::Idle;
+// Who was skipped in the last tick; of some groups also a member that did not run, and had not
+// succeeded, when the tick began.
+bool RecordedProbe::is_left_out(std::size_t child) const {
+  if (runs_ && last_[child] == Status::Skipped) return true;
+  return ignores_idle_ && progress_[child] == 0 && (!runs_ || last_[child] == Status::Idle);
 }
 
 std::vector<RecordedMeasure> measures_of(const RecordingHeader& header) {

@@ -26,7 +26,7 @@ class RecordedProbe {
   const std::vector<std::string>& names() const { return names_; }
 
  private:
-  void leave_out(std::size_t child, const RecordedTick& tick);
+  bool is_left_out(std::size_t child) const;
 
   NodeIndex node_;
   std::vector<NodeIndex> children_;
@@ -36,8 +36,8 @@ class RecordedProbe {
   HeldChildren held_;
   bool synchronizes_;
   bool ignores_idle_ = false, is_pool_ = false;
-  std::vector<bool> was_idle_;  // each member, after the last tick
-  bool runs_ = false;           // after the last tick
+  std::vector<Status> last_;  // of each child, or member, after the last tick
+  bool runs_ = false;         // after the last tick
 };
 
 // A synchronized node and its measures.

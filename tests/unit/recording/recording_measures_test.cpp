@@ -42,6 +42,11 @@ constexpr Case kCases[] = {
     {"a node that is held, and a plain parallel beside it",
      "Sequence[memory=true](ParallelAbsolute[barriers=.5;1](a b) Parallel(c d))",
      "a+.1 b+.3 c+.5 d+.2"},
+    {"a child that is skipped, at first and later, and begins again",
+     "Repeat[times=2](ParallelAbsolute[barriers=.3;1](a b c))", "a+.2 b+.5 c=KKR.3KR.8SKKS"},
+    {"the same in a plain parallel",
+     "Sequence[memory=true](ParallelAbsolute[barriers=.5](b) Repeat[times=2](Parallel(a c)))",
+     "a+.2 b+.5 c=KKR.3KR.8SKKS"},
 };
 
 }  // namespace
