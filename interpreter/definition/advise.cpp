@@ -177,8 +177,23 @@ class Adviser {
       const std::string& name = definition_.entries[entry].name;
       report_.at_value(definition_.entries[entry].first_use,
                        fmt::format("nothing writes '{{{}}}'", brief(name)),
-                       unwritten_hint(parameter, name, definition_.entries[entry].typing, valued),
+                       unwritten_hint(&parameter, name, definition_.entries[entry].typing, valued),
                        Severity::Warning);
+    });
+    if (definition_.language == Language::Lockstep) unwritten_in_scripts(valued, told);
+  }
+
+  // Entries that a script reads.
+  void unwritten_in_scripts(const std::vector<bool>& valued, std::vector<bool>& told) const {
+    for_each_name([&](const BoundScript& script, std::size_t use) {
+      const std::uint32_t entry = script.entries[use];
+      if (told[entry]) return;
+      told[entry] = true;
+      if (report_.counted_only(Severity::Warning)) return;
+      const std::string& name = definition_.entries[entry].name;
+      report_.in_value(script.place, script.code->uses()[use].offset,
+                       fmt::format("nothing writes '{}'", brief(name)),
+                       unwritten_hint(nullptr, name, Typing::Strict, valued), Severity::Warning);
     });
   }
 
@@ -232,14 +247,15 @@ class Adviser {
     return keys;
   }
 
-  std::string unwritten_hint(const Parameter& parameter, std::string_view name, Typing typing,
+  // `parameter`: what reads it; null: a script.
+  std::string unwritten_hint(const Parameter* parameter, std::string_view name, Typing typing,
                              const std::vector<bool>& valued) const {
     const std::string_view scope = name.substr(0, name.rfind('/') + 1);
     std::string hint = did_you_mean(name.substr(scope.size()), keys_in(scope, valued));
     if (!hint.empty()) return hint;
-    if (parameter.default_text && typing == Typing::Strict) {
-      hint = fmt::format("it stays '{}', the default of '{}'; ", *parameter.default_text,
-                         parameter.name);
+    if (parameter != nullptr && parameter->default_text && typing == Typing::Strict) {
+      hint = fmt::format("it stays '{}', the default of '{}'; ", *parameter->default_text,
+                         parameter->name);
     }
     return hint + (scope.empty() ? fmt::format("give it a value with --set {}=…", brief(name))
                                  : "give it a value by an attribute of the SubTree");

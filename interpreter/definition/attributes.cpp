@@ -10,6 +10,7 @@
 #include "core/suggest.h"
 #include "core/wording.h"
 #include "definition/foreign_nodes.h"
+#include "definition/scripts.h"
 
 namespace lockstep {
 namespace {
@@ -43,7 +44,7 @@ class AttributeChecker {
     for (const Attribute& attribute : element_.attributes) {
       const std::string_view name = attribute.name;
       const bool names_type = element_.is_explicit && name == "ID";
-      if (is_common_attribute(name) || names_type || parameter(name)) continue;
+      if (is_common_attribute(name) || names_type || parameter(name) || is_hook(name)) continue;
       if (report_.counted_only(Severity::Error)) continue;
       report_.at(attribute.place,
                  fmt::format("'{}' has no parameter '{}'", node_.type->id, brief(name)),
@@ -97,7 +98,10 @@ class AttributeChecker {
   // An unknown attribute means this parameter: one error is enough.
   bool is_misspelled(const Parameter& missing) const {
     return std::ranges::any_of(element_.attributes, [&](const Attribute& attribute) {
-      if (is_common_attribute(attribute.name) || parameter(attribute.name)) return false;
+      if (is_common_attribute(attribute.name) || parameter(attribute.name) ||
+          is_hook(attribute.name)) {
+        return false;
+      }
       return foreign_attribute_name(foreign_tag(), attribute.name) == missing.name ||
              nearest(attribute.name, names()) == missing.name;
     });
@@ -110,9 +114,19 @@ class AttributeChecker {
     return nullptr;
   }
 
+  // What is declared beside the trees is never ticked.
+  bool has_hooks() const { return node_.type->category != NodeCategory::Group; }
+  bool is_hook(std::string_view name) const {
+    return has_hooks() && hook_named(name, Language::Lockstep).has_value();
+  }
+
   std::vector<std::string_view> names() const {
     std::vector<std::string_view> names{"name"};
     for (const Parameter& it : node_.type->parameters) names.push_back(it.name);
+    if (!has_hooks()) return names;
+    for (std::size_t hook = 0; hook < kHooks; ++hook) {
+      names.push_back(attribute_of(static_cast<Hook>(hook), Language::Lockstep));
+    }
     return names;
   }
 
@@ -183,8 +197,12 @@ void check_parameters(const NodeElement& element, const Reporter& report,
   const auto values = std::span(trees.values).subspan(first_value);
   bool good = true;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    good &=
-        check_parameter(element, report, checker, *node.type, parameters[i], ports[i], values[i]);
+    const Attribute* script =
+        parameters[i].is_script ? find_attribute(element.attributes, parameters[i].name) : nullptr;
+    good &= script != nullptr
+                ? read_script(*script, report, EmptyScript::IsRefused, ports[i], trees)
+                : check_parameter(element, report, checker, *node.type, parameters[i], ports[i],
+                                  values[i]);
   }
   if (good) check_rule(element, report, node, ports, values);
   for (std::size_t i = 0; i < parameters.size(); ++i) {
@@ -232,14 +250,16 @@ void check_attributes(const NodeElement& element, const Reporter& report, Checke
   check_name(element, report);
   checker.find_unknown();
   check_parameters(element, report, checker, node, trees);
+  if (node.type->category != NodeCategory::Group) check_hooks(element, report, node, trees);
 }
 
-void check_subtree_attributes(const NodeElement& element, const Reporter& report,
+void check_subtree_attributes(const NodeElement& element, const Reporter& report, CheckedNode& node,
                               CheckedSubTree& subtree, CheckedTrees& trees) {
   check_name(element, report);
+  check_hooks(element, report, node, trees);
   subtree.first = static_cast<std::uint32_t>(trees.remappings.size());
   for (const auto& [name, value, place] : element.attributes) {
-    if (is_common_attribute(name)) continue;
+    if (is_common_attribute(name) || hook_named(name, Language::Lockstep)) continue;
     if (name == "ID") {
       subtree.id = value;
       subtree.place = place;

@@ -27,7 +27,7 @@ void check_rule(const NodeElement& element, const Reporter& report, const Checke
                 std::span<const CheckedPort> ports, std::span<Value> values);
 
 // The same for a SubTree, whose attributes are remappings.
-void check_subtree_attributes(const NodeElement& element, const Reporter& report,
+void check_subtree_attributes(const NodeElement& element, const Reporter& report, CheckedNode& node,
                               CheckedSubTree& subtree, CheckedTrees& trees);
 
 // Appends the attributes as written to `trees`, for drawings.

@@ -236,7 +236,7 @@ class TreeChecker {
     node.name = name != nullptr ? name->value : node.type->id;
     if (node.type->category == NodeCategory::SubTree) {
       CheckedSubTree subtree{.node = self};
-      check_subtree_attributes(element, report_, subtree, trees_);
+      check_subtree_attributes(element, report_, node, subtree, trees_);
       if (name == nullptr) node.name = subtree.id;
       node.first = count(trees_.subtrees);
       trees_.subtrees.push_back(subtree);

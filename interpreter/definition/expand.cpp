@@ -14,6 +14,7 @@
 #include "core/wording.h"
 #include "definition/btcpp/literal.h"
 #include "definition/scope.h"
+#include "definition/script_entries.h"
 
 namespace lockstep {
 namespace {
@@ -44,6 +45,7 @@ class Expander {
     add(trees_.trees.at(main).root, 0, scope);
     add_groups(scope);
     keep_board(0, scope);
+    if (is_ours()) declare_entries(definition_, literals_, report_);
     check_set_keys(scope);
     return std::move(definition_);
   }
@@ -237,16 +239,17 @@ class Expander {
     return static_cast<std::uint32_t>(definition_.scripts.size() - 1);
   }
 
-  // A start value has a type by itself until a port has another one.
+  // For BehaviorTree.CPP, a start value has a type by itself until a port has another one.
   std::uint32_t find(std::string_view key, Scope& scope) {
     const Scope::Found found = scope.find(key);
     if (!found.has_text) return found.entry;
+    literals_.emplace(found.entry, found.text);
+    if (is_ours()) return found.entry;
     BlackboardEntry& entry = definition_.entries[found.entry];
     entry.type = btcpp::literal_type(found.text);
     entry.initial = value_from_text(entry.type, nullptr, found.text)->value;
     entry.typing = Typing::Declared;
     entry.is_present = true;
-    literals_.emplace(found.entry, found.text);
     return found.entry;
   }
 
@@ -376,7 +379,7 @@ class Expander {
   std::map<std::string_view, std::size_t> groups_;   // by name: its place in trees_.groups
   std::vector<std::vector<std::uint32_t>> members_;  // of each of them
   std::set<std::pair<std::uint32_t, std::string_view>> unknown_groups_;  // reported: where, name
-  std::map<std::uint32_t, std::string_view> literals_;  // start values whose type no port gave yet
+  StartTexts literals_;                // those whose type no port gave yet
   std::uint32_t board_ = 0;            // of the tree that is being added, when boards are kept
   std::vector<std::uint32_t> shared_;  // of each first checked port: its ports, made already
 };

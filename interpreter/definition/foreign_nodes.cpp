@@ -24,17 +24,16 @@ constexpr ForeignAttribute kParallel[] = {{"success_threshold", "success_count",
 constexpr ForeignAttribute kParallelAll[] = {{"max_failures", "failure_count", FromOne}};
 constexpr ForeignAttribute kSubTree[] = {
     {"ID", "ID"}, {"__autoremap", "_autoremap"}, {"__shared_blackboard", "_autoremap"}};
-constexpr ForeignAttribute kScripts[] = {{"_skipIf", ""},    {"_successIf", ""}, {"_failureIf", ""},
-                                         {"_while", ""},     {"_onHalted", ""},  {"_onFailure", ""},
-                                         {"_onSuccess", ""}, {"_post", ""}};
+constexpr ForeignAttribute kCheck[] = {{"code", "code"}};
+constexpr ForeignAttribute kScripts[] = {{"_skipIf", "skip_if"},       {"_successIf", "success_if"},
+                                         {"_failureIf", "failure_if"}, {"_while", "while"},
+                                         {"_onHalted", "on_halt"},     {"_onFailure", "on_failure"},
+                                         {"_onSuccess", "on_success"}, {"_post", "on_end"}};
 constexpr ForeignAttribute kMarks[] = {{"_uid", ""},        {"_fullpath", ""},  {"_collapsed", ""},
                                        {"_favorite", ""},   {"_hardcoded", ""}, {"_external", ""},
                                        {"_subtreeOnly", ""}};
 
 constexpr std::string_view kAgain = "after a Failure it begins with the first child";
-constexpr std::string_view kBranches =
-    "write a <Fallback> of <Sequence>condition, then</Sequence> and "
-    "<Sequence><Inverter>condition</Inverter>, else</Sequence>";
 constexpr std::string_view kCases =
     "write a <Fallback> of a <Sequence>condition, child</Sequence> each";
 constexpr std::string_view kTry =
@@ -42,10 +41,10 @@ constexpr std::string_view kTry =
 constexpr std::string_view kAttempts =
     "one attempt in each tick; for ever: a <Repeat> between two <Inverter>";
 constexpr std::string_view kNav = "the plugin nav has it: add <plugin name=\"nav\"/>";
-constexpr std::string_view kAsk = "put a condition before it, in a Sequence";
+constexpr std::string_view kAsk = "put a <Check> before it, in a Sequence";
 constexpr std::string_view kAskNot = "put a condition before it, in a Fallback";
 constexpr std::string_view kOften = "let the leaf return its last result until it is time";
-constexpr std::string_view kNoScripts = "there are no scripts: let a leaf compute it";
+constexpr std::string_view kCompare = "write <Check code=\"key == 'value'\"/>";
 constexpr std::string_view kNoQueues = "there are no queues: let a leaf take the next item";
 constexpr std::string_view kStart =
     "give the entry a start value with --set, or as an attribute of the SubTree";
@@ -64,8 +63,6 @@ constexpr ForeignNode kNodes[] = {
     {"SequenceStar", "Sequence memory=\"true\"", {}, kAgain},
     {"Parallel", "Parallel", kParallel, "counts are 1 or more"},
     {"ParallelAll", "Parallel", kParallelAll, "it ends with the decisive failure"},
-    {"IfThenElse", "", {}, kBranches},
-    {"WhileDoElse", "", {}, kBranches},
     {"Switch2", "", {}, kCases},
     {"Switch3", "", {}, kCases},
     {"Switch4", "", {}, kCases},
@@ -88,12 +85,11 @@ constexpr ForeignNode kNodes[] = {
     {"LoopBool", "", {}, kNoQueues},
     {"LoopDouble", "", {}, kNoQueues},
     {"LoopString", "", {}, kNoQueues},
-    {"Script", "", {}, kNoScripts},
-    {"ScriptCondition", "", {}, kNoScripts},
-    {"BlackboardCheckInt", "", {}, kNoScripts},
-    {"BlackboardCheckDouble", "", {}, kNoScripts},
-    {"BlackboardCheckBool", "", {}, kNoScripts},
-    {"BlackboardCheckString", "", {}, kNoScripts},
+    {"ScriptCondition", "Check", kCheck},
+    {"BlackboardCheckInt", "", {}, kCompare},
+    {"BlackboardCheckDouble", "", {}, kCompare},
+    {"BlackboardCheckBool", "", {}, kCompare},
+    {"BlackboardCheckString", "", {}, kCompare},
     {"SetBlackboard", "", {}, kStart},
     {"UnsetBlackboard", "", {}, kWriter},
     {"WasEntryUpdated", "", {}, kWriter},
@@ -111,7 +107,7 @@ constexpr ForeignNode kNodes[] = {
     {"GoalUpdatedController", "", {}, kAskNot},
     {"PathLongerOnApproach", "", {}, kAskNot},
     {"Wait", "Wait", kWait},
-    {"", "", kScripts, kNoScripts},
+    {"", "", kScripts},
     {"", "", kMarks, "a mark of an editor"},
 };
 
@@ -126,9 +122,20 @@ const ForeignAttribute* find_of(const ForeignNode& node, std::string_view tag,
   return node.tag.empty() || node.tag == tag ? find(node.attributes, attribute) : nullptr;
 }
 
+// As it is written in an attribute.
+std::string escaped(std::string_view text) {
+  std::string safe;
+  for (const char c : brief(text)) {
+    if (c == '&') safe += "&amp;";
+    if (c == '<') safe += "&lt;";
+    if (c != '&' && c != '<') safe += c;
+  }
+  return safe;
+}
+
 // "…" if it is unknown.
 std::string translated(ForeignValue kind, std::string_view text) {
-  if (kind == Same) return brief(text);
+  if (kind == Same) return escaped(text);
   const auto number = parse_double(text);
   const bool is_count = kind == OrEndless || kind == FromOne;
   if (!number || (is_count && *number < 1)) return "…";

@@ -102,7 +102,7 @@ class Builder {
            btcpp::node_since_4(id).empty() && btcpp::hint_for_gone(id).empty();
   }
 
-  static void note_use(const Document& document, std::uint32_t node, Use& use) {
+  void note_use(const Document& document, std::uint32_t node, Use& use) const {
     const auto elements = document.elements();
     const Element& element = elements[node];
     std::uint32_t children = 0;
@@ -113,7 +113,8 @@ class Builder {
       if (element.tag == explicit_tag(category)) use.category = category;
     }
     for (const Attribute& attribute : document.attributes(node)) {
-      const bool is_own = attribute.name == "name" || attribute.name == "ID";
+      const bool is_own = attribute.name == "name" || attribute.name == "ID" ||
+                          hook_named(attribute.name, project_.language).has_value();
       if (!is_own && btcpp::is_port_name(attribute.name)) use.attributes.insert(attribute.name);
     }
   }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/hook.h"
 #include "core/parameter_value.h"
 #include "core/wording.h"
 #include "describe/node_reference.h"
@@ -24,6 +25,21 @@ std::span<const CommonAttribute> common_attributes() {
   return kCommon;
 }
 
+std::span<const CommonAttribute> script_attributes() {
+  static constexpr CommonAttribute kScripts[] = {
+      {"failure_if",
+       "A script that is asked when an activation begins. True: a Failure, without a tick."},
+      {"success_if", "The same; true: a Success."},
+      {"skip_if", "The same; true: skipped, as if the node were not there in this tick."},
+      {"while", "A script that is asked before each tick. False: the node is halted and skipped."},
+      {"on_success", "A script that runs when the node has succeeded."},
+      {"on_failure", "A script that runs when it has failed."},
+      {"on_end", "A script that runs when it has succeeded or failed, after those."},
+      {"on_halt", "A script that runs when it was halted."}};
+  static_assert(std::size(kScripts) == kHooks);
+  return kScripts;
+}
+
 std::span<const CommonAttribute> subtree_attributes() {
   static constexpr CommonAttribute kSubTree[] = {
       {"ID", "The BehaviorTree to insert here; required."},
@@ -42,7 +58,7 @@ std::string children_text(const NodeType& type) {
 }
 
 std::string facts_text(const Parameter& parameter) {
-  std::string text(type_name(parameter.type, parameter.object));
+  std::string text(parameter.is_script ? "script" : type_name(parameter.type, parameter.object));
   if (!parameter.group.empty()) text = fmt::format("the name of a {}", parameter.name);
   if (!parameter.unit.empty()) text += fmt::format(" in {}", parameter.unit);
   if (parameter.direction != Direction::Input) {
@@ -57,7 +73,7 @@ std::string facts_text(const Parameter& parameter) {
   } else {
     text += parameter.required ? ", required" : ", optional";
   }
-  if (parameter.constant) text += ", never a {key}";
+  if (parameter.constant || parameter.is_script) text += ", never a {key}";
   return text;
 }
 

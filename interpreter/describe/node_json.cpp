@@ -17,14 +17,14 @@ Json range_json(const Range& range) {
 
 Json parameter_json(const Parameter& parameter) {
   Json json{{"name", parameter.name},
-            {"type", type_name(parameter.type, parameter.object)},
+            {"type", parameter.is_script ? "script" : type_name(parameter.type, parameter.object)},
             {"direction", to_string(parameter.direction)},
             {"default", nullptr},
             {"required", parameter.required},
             {"unit", parameter.unit},
             {"range", range_json(parameter.range)},
             {"choices", Json::array({parameter.choices.begin(), parameter.choices.end()})},
-            {"blackboard", !parameter.constant},
+            {"blackboard", !parameter.constant && !parameter.is_script},
             {"doc", parameter.doc}};
   if (parameter.default_text) json["default"] = *parameter.default_text;
   return json;

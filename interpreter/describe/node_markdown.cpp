@@ -16,6 +16,14 @@ std::string table_text(std::string_view text) {
   return safe;
 }
 
+std::string table_rows(std::span<const CommonAttribute> attributes) {
+  std::string text;
+  for (const CommonAttribute& it : attributes) {
+    text += fmt::format("| `{}` | {} |\n", it.name, table_text(it.doc));
+  }
+  return text;
+}
+
 std::string table_rows(const NodeType& type) {
   std::string text;
   for (const Parameter& it : type.parameters) {
@@ -53,9 +61,7 @@ std::string nodes_as_markdown(NodeTypes types) {
       "[language.md](language.md) explains the terms.\n\n"
       "Every node may have these attributes:\n\n"
       "| Attribute | |\n|---|---|\n";
-  for (const CommonAttribute& it : common_attributes()) {
-    text += fmt::format("| `{}` | {} |\n", it.name, table_text(it.doc));
-  }
+  text += table_rows(common_attributes()) + table_rows(script_attributes());
   for (const NodeGroup& group : node_groups()) {
     std::string entries;
     for (const NodeType* type : types) {

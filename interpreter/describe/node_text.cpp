@@ -87,6 +87,7 @@ std::string nodes_as_text(NodeTypes types) {
   }
   std::vector<Row> common;
   for (const CommonAttribute& it : common_attributes()) common.push_back({it.name, "", it.doc});
+  for (const CommonAttribute& it : script_attributes()) common.push_back({it.name, "", it.doc});
   return text + "Attributes of every node\n\n" + table(common, 2);
 }
 

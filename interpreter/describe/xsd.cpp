@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/diagnostics.h"
+#include "describe/node_reference.h"
 
 namespace lockstep {
 namespace {
-
-using NodeTypes = std::span<const NodeType* const>;
 
 // What every schema begins with. XSD cannot keep a node from being the first element, but it can
 // keep the elements of 'root' out of trees: an abstract element is never valid.
@@ -70,7 +71,7 @@ constexpr std::string_view kPrologueEnd = R"xsd(  <xs:simpleType name="boolean">
             <xs:group ref="nothing"/>
             <xs:attribute name="name" type="nodeName" use="required"/>
             <xs:attribute name="isolate" type="boolean">
-              <xs:annotation><xs:documentation>true: the plugin runs in a process of its own, so that it cannot bring down the run.</xs:documentation></xs:annotation>
+              <xs:annotation><xs:documentation>true: the plugin runs in a separate process, so that it cannot bring down the run.</xs:documentation></xs:annotation>
             </xs:attribute>
           </xs:complexType>
         </xs:element>
@@ -160,11 +161,40 @@ std::string attribute(const Parameter& parameter) {
       xsd_type(parameter));
 }
 
-std::string element(std::string_view name, std::string_view doc, std::string_view content) {
+std::string script_attribute(const CommonAttribute& it) {
   return fmt::format(
-      "\n  <xs:element name=\"{}\">\n    {}\n    <xs:complexType>\n{}      <xs:attributeGroup "
-      "ref=\"common\"/>\n",
-      name, annotation(doc), content);
+      "    <xs:attribute name=\"{}\" type=\"word\">\n      {}\n    </xs:attribute>\n", it.name,
+      annotation(it.doc));
+}
+
+std::string script_group() {
+  std::string text = "\n  <xs:attributeGroup name=\"scripts\">\n";
+  for (const CommonAttribute& it : script_attributes()) text += script_attribute(it);
+  return text + "  </xs:attributeGroup>\n";
+}
+
+// The scripts around the ticks of a node. A parameter of such a name comes first.
+std::string scripts_of(std::span<const Parameter> parameters) {
+  const auto is_taken = [&](const CommonAttribute& it) {
+    return std::ranges::find(parameters, it.name, &Parameter::name) != parameters.end();
+  };
+  if (std::ranges::none_of(script_attributes(), is_taken)) {
+    return "      <xs:attributeGroup ref=\"scripts\"/>\n";
+  }
+  std::string text;
+  for (const CommonAttribute& it : script_attributes()) {
+    if (!is_taken(it)) text += script_attribute(it);
+  }
+  return text;
+}
+
+std::string element(std::string_view name, std::string_view doc, std::string_view content,
+                    std::span<const Parameter> parameters = {}) {
+  return fmt::format(
+             "\n  <xs:element name=\"{}\">\n    {}\n    <xs:complexType>\n{}      "
+             "<xs:attributeGroup ref=\"common\"/>\n",
+             name, annotation(doc), content) +
+         scripts_of(parameters);
 }
 
 constexpr std::string_view kElementEnd = "    </xs:complexType>\n  </xs:element>\n";
@@ -221,7 +251,7 @@ std::string node(const NodeType& type) {
     return open_element(type.id, type.doc, {0, 0},
                         "      <xs:attribute name=\"_autoremap\" type=\"boolean\"/>\n");
   }
-  std::string text = element(type.id, type.doc, children(type.arity));
+  std::string text = element(type.id, type.doc, children(type.arity), type.parameters);
   for (const Parameter& parameter : type.parameters) text += attribute(parameter);
   return text + std::string(kElementEnd);
 }
@@ -261,6 +291,7 @@ std::string make_xsd(NodeTypes types, UnknownNodes unknown) {
   std::string text(kPrologue);
   text += value_types();
   text += kPrologueEnd;
+  text += script_group();
   for (const NodeType* type : types) {
     if (type->category == NodeCategory::Group) add_group(*type, text);
   }

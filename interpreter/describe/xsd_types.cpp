@@ -53,6 +53,9 @@ std::string facets(const Parameter& parameter) {
 }  // namespace
 
 std::string xsd_type(const Parameter& parameter) {
+  if (parameter.is_script) {
+    return "<xs:simpleType><xs:restriction base=\"word\"/></xs:simpleType>";
+  }
   const bool has_text = parameter.object == nullptr || parameter.object->has_from_text();
   if (parameter.direction != Direction::Input || !has_text) {
     return "<xs:simpleType><xs:union memberTypes=\"substituted key\"/></xs:simpleType>";

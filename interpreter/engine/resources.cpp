@@ -63,4 +63,11 @@ void keep(Ticker& ticker, NodeIndex node) {
   answer(ticker, ticker.membership(node), ticker.state<ResourceUse>(node).owned, Grant::Owned);
 }
 
+void give_back(Ticker& ticker, NodeIndex node) {
+  auto& use = ticker.state<ResourceUse>(node);
+  ticker.state<ResourcePool>(ticker.membership(node).group).owned &= ~use.owned;
+  use.owned = 0;
+  use.limit = 0.0;
+}
+
 }  // namespace lockstep::resources

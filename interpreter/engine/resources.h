@@ -70,6 +70,8 @@ inline bool has_asked(const Ticker& ticker, const ResourceUse& use) {
 void ask(Ticker& ticker, NodeIndex member);
 // The same for one that goes on with what it owns.
 void keep(Ticker& ticker, NodeIndex member);
+// The child of a member was skipped, so others may have its resources in this tick.
+void give_back(Ticker& ticker, NodeIndex member);
 
 }  // namespace resources
 

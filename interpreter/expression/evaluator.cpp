@@ -120,6 +120,8 @@ class Machine {
         return push(Operand::of(program_.wholes[it_->argument]));
       case Operation::Text:
         return push(Operand::of(&program_.texts[it_->argument]));
+      case Operation::Truth:
+        return push(Operand::of(static_cast<double>(it_->argument)));
       case Operation::Load:
         return load();
       case Operation::LoadCopy:

@@ -322,7 +322,9 @@ class ExpressionParser {
     operand.name = token.text;
     if (token.text == "true" || token.text == "false") {
       operand.name = {};
-      return push(Operation::Real, program().reals, token.text == "true" ? 1.0 : 0.0);
+      emit(Operation::Truth, token.text == "true" ? 1 : 0);
+      grow();
+      return true;
     }
     const ScriptEnums* const enums = result_.enums();
     if (enums != nullptr) {

@@ -12,6 +12,7 @@ enum class Operation : std::uint8_t {
   Real,
   Whole,
   Text,
+  Truth,  // true or false: the real number `argument`
   Load,
   LoadCopy,  // a text is copied: the entry may be assigned before it is used
   // Replace two operands by their result.

@@ -82,7 +82,8 @@ TEST_CASE("nodes of other libraries: what to write instead") {
       {R"(<Action ID="Sleep" msec="20"/>)", "write <Wait seconds=\"0.02\">"},
       {R"(<ReactiveSequence><AlwaysSuccess/></ReactiveSequence>)", "write <Sequence>"},
       {R"(<FallbackStar><AlwaysSuccess/></FallbackStar>)", "write <Fallback memory=\"true\">"},
-      {R"(<Script code="a:=1"/>)", "there are no scripts: let a leaf compute it"},
+      {R"(<ScriptCondition code="a &lt; 1"/>)", "write <Check code=\"a &lt; 1\">"},
+      {R"(<BlackboardCheckInt value_A="{a}"/>)", "write <Check code=\"key == 'value'\"/>"},
       {R"(<SubTreePlus ID="T" __autoremap="true"/>)",
        "write <SubTree ID=\"T\" _autoremap=\"true\">"},
       {R"(<RecoveryNode number_of_retries="6"><AlwaysSuccess/><AlwaysSuccess/></RecoveryNode>)",
@@ -95,8 +96,8 @@ TEST_CASE("nodes of other libraries: what to write instead") {
       {R"(<Delay seconds="1" delay_msec="5"><AlwaysSuccess/></Delay>)", "write seconds=\"0.005\""},
       {R"(<Parallel success_threshold="2"><AlwaysSuccess/><AlwaysSuccess/></Parallel>)",
        "write success_count=\"2\"; counts are 1 or more"},
-      {R"(<AlwaysSuccess _skipIf="x"/>)",
-       "leave it out; there are no scripts: let a leaf compute it"},
+      {R"(<AlwaysSuccess _skipIf="x &amp;&amp; y"/>)", "write skip_if=\"x &amp;&amp; y\""},
+      {R"(<SubTree ID="T" _onHalted="x := 1"/>)", "write on_halt=\"x := 1\""},
       {R"(<GoTo target="x" _uid="3"/>)", "leave it out; a mark of an editor"},
       {"<root lockstep=\"1\"><TreeNodesModel/><BehaviorTree "
        "ID=\"T\"><AlwaysSuccess/></BehaviorTree>"

@@ -168,6 +168,10 @@ std::string foreign_table() {
   const auto same = [](const ForeignNode& a, const ForeignNode& b) {
     return a.ours == b.ours && a.remark == b.remark && a.attributes.data() == b.attributes.data();
   };
+  const auto here = [&](const ForeignNode& node, bool has_attributes) -> std::string {
+    if (!node.ours.empty()) return in_code(node.ours);
+    return has_attributes ? "any node" : "none";
+  };
   const auto note = [](ForeignValue value) -> std::string_view {
     if (value == ForeignValue::Milliseconds) return " (not milliseconds)";
     return value == ForeignValue::OrEndless ? " (left out = for ever)" : "";
@@ -185,11 +189,10 @@ std::string foreign_table() {
       if (!it.ours.empty()) ours.push_back(in_code(it.ours).append(note(it.value)));
     }
     const std::regex tag("((?:<[^>]+>)+)");
-    table +=
-        fmt::format("| {}{}{} | {}{}{} | {} |\n", fmt::join(tags, ", "), theirs.empty() ? "" : ": ",
-                    fmt::join(theirs, ", "), node.ours.empty() ? "none" : in_code(node.ours),
-                    ours.empty() ? "" : ": ", fmt::join(ours, ", "),
-                    std::regex_replace(std::string(node.remark), tag, "`$1`"));
+    table += fmt::format("| {}{}{} | {}{}{} | {} |\n", fmt::join(tags, ", "),
+                         theirs.empty() ? "" : ": ", fmt::join(theirs, ", "),
+                         here(node, !ours.empty()), ours.empty() ? "" : ": ", fmt::join(ours, ", "),
+                         std::regex_replace(std::string(node.remark), tag, "`$1`"));
   }
   return table;
 }

@@ -36,12 +36,14 @@ std::string parameters(const Plan& plan) {
     add("seconds", plan.seconds);
   }
   if (plan.wall_clock) add("clock", "wall");
+  if (!plan.code.empty()) add("code", plan.code);
+  for (const auto& [attribute, script] : plan.hooks) add(attribute, script);
   return text.empty() ? text : "[" + text + "]";
 }
 
 std::string node_text(const Plan& plan) {
-  if (plan.kind == "action") return plan.name;
-  if (plan.kind == "condition") return plan.name + "?";
+  if (plan.kind == "action") return plan.name + parameters(plan);
+  if (plan.kind == "condition") return plan.name + parameters(plan) + "?";
   if (plan.kind == "bare") return plan.name + "[bare]";
   std::string text = plan.kind + parameters(plan);
   if (plan.children.empty()) return text;
@@ -89,7 +91,7 @@ std::string leaves_text(const Plan& plan) {
 }
 
 bool is_guard(const Plan& plan) {
-  if (plan.children.empty()) return plan.kind == "condition";
+  if (plan.children.empty()) return plan.kind == "condition" || plan.kind == "Check";
   return std::ranges::all_of(plan.children, is_guard);
 }
 

@@ -2,6 +2,7 @@
 // reference interpreter is built from.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -30,9 +31,14 @@ struct Plan {
   bool wall_clock = false;   // Timeout, Delay
   std::string barrier = {};  // SyncProgress: the name of one of the root's
 
+  std::string code = {};  // Script, Check
+
   std::string pool = {};  // UseResources: likewise
   std::string resources = {};
   bool keep = false;
+
+  // Of any node: its scripts around ticks, by attribute.
+  std::map<std::string, std::string> hooks = {};
 
   // Of the root: the barriers and pools beside the tree, by name. A barrier has a delta if it has
   // no list.

@@ -37,8 +37,10 @@ class Generator : Random {
   Trial trial() {
     Trial trial;
     budget_ = between(1, one_in(4) ? 40 : 14);
-    faults_ = one_in(8);
-    trial.plan = node(1);
+    faults_ = one_in(3);
+    skips_ = one_in(2);
+    scripts_ = one_in(2);
+    trial.plan = scripts_ ? with_entries(node(1)) : node(1);
     trial.plan.beside = {barrier("g0"), barrier("g1"), pool("p"), pool("q")};
     trial.period = pick(std::array{.1, .05, .13, 1.0});
     trial.ticks = between(5, 60);
@@ -50,10 +52,46 @@ class Generator : Random {
  private:
   double fraction() { return pick(kFractions); }
 
+  // The entries of all scripts have a value first.
+  static Plan with_entries(Plan plan) {
+    return Plan{.kind = "Sequence",
+                .children = {Plan{.kind = "Script", .code = "x:=0;y:=1"}, std::move(plan)},
+                .memory = true};
+  }
+
   Plan node(int depth) {
+    Plan plan = bare_node(depth);
+    if (scripts_ && plan.kind != "bare") add_hooks(plan);
+    return plan;
+  }
+
+  std::string condition() {
+    return pick(std::array{"x>0", "x<2", "x==y", "y!=1", "x>=y", "x<3", "y<4"});
+  }
+  std::string assignment() {
+    return pick(std::array{"x+=1", "x:=0", "y:=1", "y:=x", "x:=1-x", "y:=3-y", "y+=1", "x:=y-x"});
+  }
+
+  void add_hooks(Plan& plan) {
+    // These have a result that only a script gives.
+    const bool needs_it = plan.kind == "AlwaysRunning" || plan.kind.starts_with("Force") ||
+                          plan.kind == "KeepRunningUntilFailure";
+    for (const char* hook : {"failure_if", "success_if", "skip_if", "while"}) {
+      if (one_in(needs_it ? 3 : 10)) plan.hooks[hook] = condition();
+    }
+    for (const char* hook : {"on_success", "on_failure", "on_end", "on_halt"}) {
+      if (one_in(10)) plan.hooks[hook] = assignment();
+    }
+  }
+
+  Plan bare_node(int depth) {
     --budget_;
     if (depth == kMaxDepth || budget_ <= 0 || (depth > 1 && one_in(4))) return leaf();
-    switch (between(0, 9)) {
+    switch (between(0, 11)) {
+      case 10:
+        return branches("IfThenElse", depth);
+      case 11:
+        return branches("WhileDoElse", depth);
       case 0:
       case 1:
         return control("Sequence", depth);
@@ -91,9 +129,17 @@ class Generator : Random {
     return plan;
   }
 
+  Plan branches(std::string kind, int depth) {
+    Plan plan{.kind = std::move(kind)};
+    plan.children.push_back(one_in(3) ? node(depth + 1) : guard(depth + 1));
+    for (int i = between(1, 2); i > 0; --i) plan.children.push_back(node(depth + 1));
+    return plan;
+  }
+
   // A subtree without actions.
   Plan guard(int depth) {
     --budget_;
+    if (scripts_ && one_in(3)) return Plan{.kind = "Check", .code = condition()};
     if (depth >= kMaxDepth || !one_in(3)) return scripted("condition");
     Plan plan{.kind = pick(std::array{"Sequence", "Fallback", "Parallel", "Inverter", "Delay",
                                       "Repeat", "SubTree"})};
@@ -166,6 +212,10 @@ class Generator : Random {
   }
 
   Plan leaf() {
+    if (scripts_ && one_in(5)) {
+      return one_in(2) ? Plan{.kind = "Script", .code = assignment()}
+                       : Plan{.kind = "Check", .code = condition()};
+    }
     switch (between(0, 19)) {
       case 0:
         return Plan{.kind = "AlwaysSuccess"};
@@ -184,8 +234,8 @@ class Generator : Random {
     }
   }
 
-  // The letters of the results that end an activation. In our language no leaf is skipped.
-  static std::string results() { return "SF"; }
+  // The letters of the results that end an activation.
+  std::string results() const { return skips_ ? "SSFFK" : "SF"; }
 
   Plan scripted(std::string kind) {
     const std::string name = fmt::format("a{}", leaves_++);
@@ -240,14 +290,21 @@ class Generator : Random {
   int budget_ = 0;
   int leaves_ = 0;
   bool faults_ = false;
+  bool skips_ = false;    // leaves may return Skipped
+  bool scripts_ = false;  // there are scripts
   bool inside_p_ = false, inside_q_ = false;
 };
 
 // Each plan that comes from taking a child away or putting a child in its parent's place.
 void add_smaller_plans(const Plan& plan, std::vector<Plan>& plans) {
+  for (const auto& [attribute, script] : plan.hooks) {
+    plans.push_back(plan);
+    plans.back().hooks.erase(attribute);
+  }
   for (std::size_t i = 0; i < plan.children.size(); ++i) {
     plans.push_back(plan.children[i]);
-    if (plan.children.size() > 1) {
+    const bool has_branches = plan.kind == "IfThenElse" || plan.kind == "WhileDoElse";
+    if (plan.children.size() > (has_branches ? 2 : 1)) {
       Plan fewer = plan;
       fewer.children.erase(fewer.children.begin() + static_cast<std::ptrdiff_t>(i));
       const int left = static_cast<int>(fewer.children.size());

@@ -1,6 +1,7 @@
 #include "property/reference.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -15,6 +16,7 @@ namespace lockstep::test {
 namespace {
 
 constexpr double kEpsilon = 1e-9;
+constexpr double kLeftOut = std::numeric_limits<double>::quiet_NaN();
 
 // Thrown where a leaf breaks its contract: nothing else happens in that tick.
 struct LeafFault {
@@ -25,12 +27,63 @@ struct LeafFault {
 
 class ReferenceBarrier;
 
+namespace {
+
+// The few forms of scripts in random trees: "x>=y", "x:=1-x;y+=2".
+class MiniScript {
+ public:
+  MiniScript(std::map<std::string, double>& entries, std::size_t node)
+      : entries_(entries), node_(node) {}
+
+  bool holds(const std::string& text) const {
+    for (const std::string sign : {">=", "==", "!=", "<", ">"}) {
+      const auto at = text.find(sign);
+      if (at == std::string::npos) continue;
+      const double left = value(text.substr(0, at)), right = value(text.substr(at + sign.size()));
+      if (sign == ">=") return left >= right;
+      if (sign == "==") return left == right;
+      if (sign == "!=") return left != right;
+      return sign == "<" ? left < right : left > right;
+    }
+    throw std::logic_error("what is the condition " + text);
+  }
+
+  void run(const std::string& text) const {
+    std::istringstream statements(text);
+    for (std::string it; std::getline(statements, it, ';');) {
+      const bool adds = it[1] == '+';
+      const double right = sum(it.substr(3));
+      const std::string name = it.substr(0, 1);
+      entries_[name] = adds ? value(name) + right : right;
+    }
+  }
+
+ private:
+  double sum(const std::string& text) const {
+    const auto minus = text.find('-');
+    if (minus == std::string::npos) return value(text);
+    return value(text.substr(0, minus)) - value(text.substr(minus + 1));
+  }
+  double value(const std::string& text) const {
+    if (std::isdigit(static_cast<unsigned char>(text[0])) != 0) return std::stod(text);
+    const auto entry = entries_.find(text);
+    if (entry == entries_.end()) throw LeafFault{node_};
+    return entry->second;
+  }
+
+  std::map<std::string, double>& entries_;
+  std::size_t node_;
+};
+
+}  // namespace
+
 struct Reference::World {
   Nanoseconds now{0};
   std::uint32_t tick = 0;
   std::optional<std::size_t> fault;
   std::uint32_t leaves = 0;
   std::map<std::string, ReferenceGroup*> groups;  // by name
+  std::map<std::string, double> entries;
 };
 
 class ReferenceNode {
@@ -52,11 +105,38 @@ class ReferenceNode {
     if (has_ended(status)) {
       for (auto& child : children) child->make_idle();
     }
-    status = on_tick(status != Status::Running);
+    status = tick_with_scripts();
     paused = false;
     last_tick = world.tick;
     return status;
   }
+
+  Status tick_with_scripts() {
+    const bool first = status != Status::Running;
+    if (first && asks("failure_if", false)) return ended(Status::Failure);
+    if (first && asks("success_if", false)) return ended(Status::Success);
+    if (first && asks("skip_if", false)) return Status::Skipped;
+    if (asks("while", true)) return ended(on_tick(first));
+    make_idle();
+    return Status::Skipped;
+  }
+
+  Status ended(Status result) {
+    if (!is_complete(result)) return result;
+    run(result == Status::Success ? "on_success" : "on_failure");
+    run("on_end");
+    return result;
+  }
+
+  bool asks(const char* hook, bool otherwise) const {
+    const auto script = plan.hooks.find(hook);
+    return script == plan.hooks.end() ? otherwise : this->script().holds(script->second);
+  }
+  void run(const char* hook) const {
+    const auto script = plan.hooks.find(hook);
+    if (script != plan.hooks.end()) this->script().run(script->second);
+  }
+  MiniScript script() const { return {world.entries, number}; }
 
   // Halts what runs; all of the subtree is idle then.
   void make_idle() {
@@ -65,6 +145,7 @@ class ReferenceNode {
     paused = false;
     if (was_running) on_halt();
     for (auto& child : children) child->make_idle();
+    if (was_running) run("on_halt");
   }
 
   void pause() {
@@ -114,6 +195,7 @@ std::optional<double> next_barrier(const Plan& plan, double least) {
 
 // By the parameters of a synchronized parallel, or of a barrier beside the tree.
 bool is_held(const Plan& plan, double progress, double least) {
+  if (std::isnan(progress)) return false;
   if (!plan.has_barriers && plan.barrier_count < 0) return progress > least + plan.delta + kEpsilon;
   const auto barrier = next_barrier(plan, least);
   if (!barrier) return false;
@@ -182,6 +264,47 @@ class Constant : public ReferenceNode {
   double on_progress() override { return 0; }
 };
 
+class Script : public ReferenceNode {  // and Check
+ public:
+  using ReferenceNode::ReferenceNode;
+  Status on_tick(bool) override {
+    if (plan.kind == "Check") {
+      return script().holds(plan.code) ? Status::Success : Status::Failure;
+    }
+    script().run(plan.code);
+    return Status::Success;
+  }
+  double on_progress() override { throw std::logic_error("a script that runs"); }
+};
+
+// IfThenElse, WhileDoElse.
+class Branches : public ReferenceNode {
+ public:
+  using ReferenceNode::ReferenceNode;
+  Status on_tick(bool first) override {
+    if (first) branch_ = nullptr;
+    if (plan.kind == "WhileDoElse" || branch_ == nullptr) {
+      const Status condition = child().tick();
+      if (!is_complete(condition)) {
+        leave(nullptr);
+        return condition;
+      }
+      const std::size_t chosen = condition == Status::Success ? 1 : 2;
+      leave(chosen < children.size() ? children[chosen].get() : nullptr);
+      if (branch_ == nullptr) return Status::Failure;
+    }
+    return branch_->tick();
+  }
+  double on_progress() override { return branch_ == nullptr ? 0 : branch_->progress(); }
+
+ private:
+  void leave(ReferenceNode* next) {
+    if (branch_ != nullptr && branch_ != next) branch_->make_idle();
+    branch_ = next;
+  }
+  ReferenceNode* branch_ = nullptr;
+};
+
 class Wait : public ReferenceNode {
  public:
   using ReferenceNode::ReferenceNode;
@@ -213,15 +336,18 @@ class Ordered : public ReferenceNode {
   Status on_tick(bool) override {
     const Status go_on = plan.kind == "Sequence" ? Status::Success : Status::Failure;
     for (std::size_t i = 0; i < children.size(); ++i) {
-      if (plan.memory && children[i]->status == go_on) continue;
+      const Status before = children[i]->status;
+      if (plan.memory && (before == go_on || before == Status::Skipped)) continue;
       const Status result = children[i]->tick();
-      if (result == go_on) continue;
+      if (result == go_on || result == Status::Skipped) continue;
       for (std::size_t later = i + 1; later < children.size(); ++later) {
         children[later]->make_idle();
       }
       return result;
     }
-    return go_on;
+    const bool none = std::ranges::all_of(
+        children, [](const auto& child) { return child->status == Status::Skipped; });
+    return none ? Status::Skipped : go_on;
   }
 
   double on_progress() override {
@@ -257,16 +383,19 @@ class Parallel : public ReferenceNode {
 
   Status judge() {
     const int succeeded = count(Status::Success), failed = count(Status::Failure);
+    if (there() == 0) return Status::Skipped;
     if (succeeded >= wanted()) return finish(Status::Success);
     if (failed >= (plan.failure_count < 0 ? 1 : plan.failure_count)) return finish(Status::Failure);
-    if (static_cast<int>(children.size()) - failed < wanted()) return finish(Status::Failure);
+    if (there() - failed < wanted()) return finish(Status::Failure);
     return Status::Running;
   }
 
  public:
   double on_progress() override {
     std::vector<double> all;
-    for (auto& child : children) all.push_back(child->progress());
+    for (auto& child : children) {
+      if (child->status != Status::Skipped) all.push_back(child->progress());
+    }
     std::sort(all.begin(), all.end(), std::greater<>());
     return all[static_cast<std::size_t>(wanted() - 1)];
   }
@@ -285,8 +414,10 @@ class Parallel : public ReferenceNode {
   }
 
  private:
+  // A skipped child is not.
+  int there() const { return static_cast<int>(children.size()) - count(Status::Skipped); }
   int wanted() const {
-    return plan.success_count < 0 ? static_cast<int>(children.size()) : plan.success_count;
+    return plan.success_count < 0 ? there() : std::min(plan.success_count, there());
   }
 };
 
@@ -297,8 +428,8 @@ class Synchronized : public Parallel {
     snapshot.clear();
     double least = 1;
     for (auto& child : children) {
-      snapshot.push_back(reached(*child));
-      least = std::min(least, snapshot.back());
+      snapshot.push_back(child->status == Status::Skipped ? kLeftOut : reached(*child));
+      if (!std::isnan(snapshot.back())) least = std::min(least, snapshot.back());
     }
     for (std::size_t i = 0; i < children.size(); ++i) {
       if (!may_be_ticked(*children[i])) continue;
@@ -313,7 +444,9 @@ class Synchronized : public Parallel {
 
   double on_progress() override {
     double least = 1;
-    for (auto& child : children) least = std::min(least, reached(*child));
+    for (auto& child : children) {
+      if (child->status != Status::Skipped) least = std::min(least, reached(*child));
+    }
     return least;
   }
 
@@ -342,7 +475,8 @@ class Result : public ReferenceNode {
   using ReferenceNode::ReferenceNode;
   Status on_tick(bool) override {
     const Status result = child().tick();
-    if (result == Status::Running) return result;
+    if (plan.kind == "KeepRunningUntilFailure" && result == Status::Skipped) return Status::Running;
+    if (!is_complete(result)) return result;
     const bool success = result == Status::Success;
     if (plan.kind == "Inverter") return success ? Status::Failure : Status::Success;
     if (plan.kind == "ForceSuccess") return Status::Success;
@@ -529,9 +663,10 @@ class ReferenceBarrier : public ReferenceGroup {
   double reached(std::size_t i, bool begins) {
     ReferenceNode& member = *members[i];
     if (begins || (!succeeded[i] && member.status == Status::Idle)) {
-      return plan.ignores_idle ? std::numeric_limits<double>::quiet_NaN() : 0;
+      return plan.ignores_idle ? kLeftOut : 0;
     }
     if (succeeded[i] && !is_guard(member.plan)) return 1;
+    if (member.status == Status::Skipped) return kLeftOut;
     if (member.status == Status::Failure && is_over(i)) return 1;
     return member.progress();
   }
@@ -586,7 +721,11 @@ class UseResources : public ReferenceNode {
   Status on_tick(bool) override {
     pool().last_tick = world.tick;
     if (asked_ != world.tick) ask();
-    if (owns_) return child().tick();
+    if (owns_) {
+      const Status result = child().tick();
+      if (result == Status::Skipped) give_back();
+      return result;
+    }
     if (is_open()) priority += pool().plan.increment;
     if (child().status == Status::Running && !child().paused) child().pause();
     return Status::Running;
@@ -632,6 +771,10 @@ class UseResources : public ReferenceNode {
     priority = 0;
   }
 
+  void give_back() {
+    for (const std::string& name : names()) pool().owned.erase(name);
+  }
+
   // No barrier and no other pool withholds ticks, as far as is known before the tick.
   bool is_open() const {
     for (const ReferenceNode* node = parent; node != nullptr; node = node->parent) {
@@ -672,6 +815,8 @@ void ReferencePool::before_tick() {
 std::unique_ptr<ReferenceNode> ReferenceNode::make(Reference& tree, const Plan& plan) {
   const std::string& kind = plan.kind;
   if (!plan.script.empty()) return std::make_unique<Leaf>(tree, plan, tree.world_->leaves++);
+  if (kind == "Script" || kind == "Check") return node<Script>(tree, plan);
+  if (kind == "IfThenElse" || kind == "WhileDoElse") return node<Branches>(tree, plan);
   if (kind.starts_with("Always")) return node<Constant>(tree, plan);
   if (kind == "Wait") return node<Wait>(tree, plan);
   if (kind == "Sequence" || kind == "Fallback") return node<Ordered>(tree, plan);
@@ -716,8 +861,9 @@ Status Reference::tick(Nanoseconds now) {
 }
 
 void Reference::halt() {
+  std::vector<bool> ran;
   for (ReferenceNode* node : nodes_) {
-    const bool was_running = node->status == Status::Running;
+    const bool was_running = ran.emplace_back(node->status == Status::Running);
     node->status = Status::Idle;
     node->paused = false;
     try {
@@ -726,6 +872,12 @@ void Reference::halt() {
       if (!world_->fault) world_->fault = fault.node;
     }
   }
+  run_halt_scripts(*root_, ran);
+}
+
+void Reference::run_halt_scripts(const ReferenceNode& node, const std::vector<bool>& ran) {
+  for (const auto& child : node.children) run_halt_scripts(*child, ran);
+  if (ran[node.number] && !world_->fault) node.run("on_halt");
 }
 
 Status Reference::status(std::size_t node) const {

@@ -43,6 +43,9 @@ class Reference {
 
  private:
   friend class ReferenceNode;
+  // After a halt, of the nodes that ran: those of children before those of their parents.
+  void run_halt_scripts(const ReferenceNode& node, const std::vector<bool>& ran);
+
   std::unique_ptr<World> world_;
   std::vector<ReferenceNode*> nodes_;
   std::unique_ptr<ReferenceNode> root_;

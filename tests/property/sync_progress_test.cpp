@@ -30,6 +30,7 @@ const Plan* synchronized_in(const Plan& plan) {
 
 Plan across(const Plan& parallel) {
   Plan plan{.kind = "Parallel"};
+  plan.hooks = parallel.hooks;
   plan.success_count = parallel.success_count;
   plan.failure_count = parallel.failure_count;
   for (const Plan& child : parallel.children) {
@@ -45,6 +46,14 @@ Plan across(const Plan& parallel) {
   return plan;
 }
 
+// Of scripts; the tree is its last child.
+Plan with_entries(Plan plan) {
+  Plan root{.kind = "Sequence", .memory = true};
+  root.beside = std::move(plan.beside);
+  root.children = {Plan{.kind = "Script", .code = "x:=0;y:=1"}, std::move(plan)};
+  return root;
+}
+
 // Of a run, all nodes but the members of the barrier and what is behind the root.
 std::vector<Activity> activities(ScriptedRun& run) {
   std::vector<Activity> list;
@@ -57,15 +66,18 @@ std::vector<Activity> activities(ScriptedRun& run) {
 
 std::vector<double> snapshot(ScriptedRun& run) {
   const Tree& tree = run.tree();
-  const NodeIndex node = tree.groups.empty() ? 0 : tree.groups[0].node;
-  const auto progress = child_progress(run.ticker(), node);
-  return {progress.begin(), progress.end()};
+  const NodeIndex node = tree.groups.empty() ? 2 : tree.groups[0].node;
+  std::vector<double> progress;
+  for (const double one : child_progress(run.ticker(), node)) {
+    progress.push_back(is_left_out(one) ? -1 : one);
+  }
+  return progress;
 }
 
 // Whether the two could be compared: a run with a fault asks nobody else after it.
 bool compare(const Trial& trial, const Plan& parallel) {
-  const Plan other = across(parallel);
-  ScriptedRun one(tree_text(parallel), leaves_text(parallel));
+  const Plan own = with_entries(parallel), other = with_entries(across(parallel));
+  ScriptedRun one(tree_text(own), leaves_text(own));
   ScriptedRun two(tree_text(other), leaves_text(other));
   INFO(tree_text(parallel) << ", " << leaves_text(parallel));
   for (int tick = 0; tick < trial.ticks; ++tick) {

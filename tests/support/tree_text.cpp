@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "definition/resources.h"
+#include "definition/script_entries.h"
 #include "engine/compile.h"
 #include "support/plugin_nodes.h"
 #include "support/scripted_leaf.h"
@@ -52,7 +53,7 @@ class Builder {
     if (!members_.empty()) fail("no group '" + members_.begin()->first + "'");
     definition_.id = "Test";
     if (names_at_run_time_) keep_board();
-    resolve_resources();
+    check();
     return std::move(definition_);
   }
 
@@ -95,7 +96,8 @@ class Builder {
     const auto self = static_cast<std::uint32_t>(definition_.nodes.size());
     definition_.nodes.emplace_back();
     const bool built_in = std::isupper(static_cast<unsigned char>(name[0])) != 0;
-    auto given = built_in || rest_.starts_with("[_") ? attributes() : std::vector<Attribute>();
+    const bool has_scripts = rest_.starts_with('[') && !rest_.starts_with("[bare]");
+    auto given = built_in || has_scripts ? attributes() : std::vector<Attribute>();
     const std::uint32_t hooks = take_hooks(given);
     const NodeType& type = built_in ? built_in_type(name) : scripted_type();
     join(type, given, self);
@@ -116,12 +118,11 @@ class Builder {
 
   // Takes those that are scripts out of `given`.
   std::uint32_t take_hooks(std::vector<Attribute>& given) {
-    constexpr std::string_view kNames[] = {"_failureIf", "_successIf", "_skipIf", "_while",
-                                           "_onSuccess", "_onFailure", "_post",   "_onHalted"};
     NodeHooks hooks;
     hooks.fill(Port::kNone);
     for (std::size_t hook = 0; hook < kHooks; ++hook) {
-      const auto it = std::ranges::find(given, kNames[hook], &Attribute::name);
+      const std::string_view name = attribute_of(static_cast<Hook>(hook), language_);
+      const auto it = std::ranges::find(given, name, &Attribute::name);
       if (it == given.end()) continue;
       hooks[hook] = script(it->value);
       given.erase(it);
@@ -158,10 +159,13 @@ class Builder {
     }
   }
 
-  void resolve_resources() {
+  // What the language's reader does after it has expanded the trees.
+  void check() {
     const Sources sources;
     Diagnostics diagnostics;
-    lockstep::resolve_resources(definition_, Reporter(sources, diagnostics));
+    const Reporter reporter(sources, diagnostics);
+    if (language_ == Language::Lockstep) declare_entries(definition_, {}, reporter);
+    resolve_resources(definition_, reporter);
   }
 
   // "barrier[name=g delta=.1]", behind the tree.
@@ -271,13 +275,19 @@ class Builder {
   // Without a type: one that is not there until it is written.
   std::uint32_t entry(std::string_view key, std::optional<ValueType> type) {
     for (std::uint32_t i = 0; i < definition_.entries.size(); ++i) {
-      if (definition_.entries[i].name == key) return i;
+      BlackboardEntry& it = definition_.entries[i];
+      if (it.name != key) continue;
+      if (type && !it.is_present && language_ == Language::Lockstep) {
+        it.type = *type;
+        it.is_present = true;
+      }
+      return i;
     }
     definition_.entries.push_back({std::string(key), type.value_or(ValueType::String), {}});
+    BlackboardEntry& it = definition_.entries.back();
+    it.is_present = type.has_value();
     if (language_ == Language::BehaviorTreeCpp) {
-      BlackboardEntry& it = definition_.entries.back();
       it.typing = type ? Typing::Declared : Typing::Any;
-      it.is_present = type.has_value();
     }
     return static_cast<std::uint32_t>(definition_.entries.size() - 1);
   }

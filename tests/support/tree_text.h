@@ -2,8 +2,8 @@
 //   Sequence(a Inverter(b))   Parallel[success_count=1](a b)   ParallelAbsolute[barriers=.5;1](a b)
 // A name with a capital is a built-in kind, or a node of a known plugin. Any other is a scripted
 // action, with '?' behind it a scripted condition, with [bare] an action that has no function but
-// tick. Wait[seconds={pause}] takes its parameter from the entry 'pause'. a[_skipIf=n>1] has a
-// script.
+// tick. Wait[seconds={pause}] takes its parameter from the entry 'pause'. a[skip_if=n>1] has a
+// script; for BehaviorTree.CPP it is a[_skipIf=n>1].
 #pragma once
 
 #include <string_view>

@@ -8,8 +8,8 @@
 #include "core/parameter_value.h"
 #include "core/suggest.h"
 #include "core/wording.h"
-#include "definition/btcpp/scripts.h"
 #include "definition/btcpp/words.h"
+#include "definition/scripts.h"
 
 namespace lockstep::btcpp {
 namespace {
@@ -155,14 +155,8 @@ class PortChecker {
                Value& value) {
     if (parameter.is_script) {
       const bool decides = node_.type->category != NodeCategory::Action;
-      auto code = parse_script(attribute, report_,
-                               decides ? EmptyScript::IsRefused : EmptyScript::DoesNothing);
-      if (!code) return false;
-      if (*code == nullptr) return true;
-      port.value = static_cast<std::uint32_t>(trees_.scripts.size());
-      trees_.scripts.push_back(
-          {.hook = {}, .place = attribute.place, .is_last = true, .code = *std::move(code)});
-      return true;
+      return read_script(attribute, report_,
+                         decides ? EmptyScript::IsRefused : EmptyScript::DoesNothing, port, trees_);
     }
     auto read = value_from_text(parameter.type, parameter.object, attribute.value);
     if (!read) {

@@ -1,6 +1,6 @@
 // AlwaysSuccess, AlwaysFailure, AlwaysRunning: leaves with one answer.
+#include "engine/nodes/at_once.h"
 #include "engine/nodes/kinds.h"
-#include "engine/ticker.h"
 
 namespace lockstep {
 namespace {
@@ -8,10 +8,6 @@ namespace {
 template <Status kStatus>
 Status tick(Ticker&, NodeIndex) {
   return kStatus;
-}
-
-double no_progress(Ticker&, NodeIndex) {
-  return 0.0;
 }
 
 }  // namespace

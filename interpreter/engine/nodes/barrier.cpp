@@ -70,9 +70,11 @@ bool is_over(const Ticker& ticker, NodeIndex node, NodeIndex ancestor) {
   return false;
 }
 
-// A member that has failed for good is waited for by nobody, like such a child of a parallel.
+// A member that has failed for good is waited for by nobody, like such a child of a parallel, and
+// one that was skipped in its last tick is left out.
 double reached(Ticker& ticker, NodeIndex member, const Place& place, const Group& group) {
   if (place.succeeded && !ticker.is_guard(member)) return 1.0;
+  if (ticker.activity(member) == Activity::Skipped) return kLeftOut;
   if (ticker.status(member) == Status::Failure && is_over(ticker, member, group.ancestor)) {
     return 1.0;
   }

@@ -5,21 +5,23 @@
 
 namespace lockstep {
 
-extern const NodeKind kSequence, kFallback, kParallel, kParallelAbsolute, kParallelRelative;
+extern const NodeKind kSequence, kFallback, kParallel, kParallelAbsolute, kParallelRelative,
+    kIfThenElse, kWhileDoElse;
 extern const NodeKind kInverter, kForceSuccess, kForceFailure, kRepeat, kRetry, kTimeout, kDelay,
     kRunOnce, kKeepRunningUntilFailure, kSubTree;
 extern const NodeKind kBarrier, kSyncProgress, kResources, kUseResources;
-extern const NodeKind kAlwaysSuccess, kAlwaysFailure, kAlwaysRunning, kWait;
+extern const NodeKind kAlwaysSuccess, kAlwaysFailure, kAlwaysRunning, kWait, kScript, kCheck;
 
 // In the order in which they are documented.
 inline constexpr const NodeKind* kBuiltInKinds[] = {
     // Control nodes
-    &kSequence, &kFallback, &kParallel, &kParallelAbsolute, &kParallelRelative,
+    &kSequence, &kFallback, &kParallel, &kParallelAbsolute, &kParallelRelative, &kIfThenElse,
+    &kWhileDoElse,
     // Decorators
     &kInverter, &kForceSuccess, &kForceFailure, &kRepeat, &kRetry, &kTimeout, &kDelay, &kRunOnce,
     &kKeepRunningUntilFailure, &kSyncProgress, &kUseResources, &kSubTree,
     // Leaves
-    &kAlwaysSuccess, &kAlwaysFailure, &kAlwaysRunning, &kWait,
+    &kAlwaysSuccess, &kAlwaysFailure, &kAlwaysRunning, &kWait, &kScript, &kCheck,
     // Beside the trees
     &kBarrier, &kResources};
 
@@ -29,8 +31,7 @@ extern const NodeKind kSequence, kFallback, kReactiveSequence, kReactiveFallback
     kSwitch2, kSwitch3, kSwitch4, kSwitch5, kSwitch6, kTryCatch;
 extern const NodeKind kRepeat, kRetryUntilSuccessful, kRunOnce, kDelay, kTimeout, kPrecondition,
     kSkipUnlessUpdated, kWaitValueUpdate, kLoopInt, kLoopBool, kLoopDouble, kLoopString;
-extern const NodeKind kSleep, kScript, kScriptCondition, kSetBlackboard, kUnsetBlackboard,
-    kWasEntryUpdated;
+extern const NodeKind kSleep, kScriptCondition, kSetBlackboard, kUnsetBlackboard, kWasEntryUpdated;
 }  // namespace btcpp
 
 // Of trees for BehaviorTree.CPP. A kind that means the same is in both lists.
@@ -47,7 +48,7 @@ inline constexpr const NodeKind* kBehaviorTreeCppKinds[] = {
     &btcpp::kPrecondition, &btcpp::kSkipUnlessUpdated, &btcpp::kWaitValueUpdate, &btcpp::kLoopInt,
     &btcpp::kLoopBool, &btcpp::kLoopDouble, &btcpp::kLoopString, &kSubTree,
     // Leaves
-    &kAlwaysSuccess, &kAlwaysFailure, &btcpp::kSleep, &btcpp::kScript, &btcpp::kScriptCondition,
+    &kAlwaysSuccess, &kAlwaysFailure, &btcpp::kSleep, &kScript, &btcpp::kScriptCondition,
     &btcpp::kSetBlackboard, &btcpp::kUnsetBlackboard, &btcpp::kWasEntryUpdated};
 
 }  // namespace lockstep

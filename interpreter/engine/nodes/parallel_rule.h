@@ -52,15 +52,17 @@ inline std::optional<RuleBreak> check_counts(const ParameterValues& given, const
 }
 
 // The progress of the child that is the M-th when the farthest is the first: where M children will
-// have arrived. Uses child_numbers, which asking must not change.
+// have arrived. One that was skipped is not there. Uses child_numbers, which asking must not
+// change.
 inline double progress_of_mth(Ticker& ticker, NodeIndex self, std::int64_t m) {
-  const auto sorted = ticker.child_numbers(self);
-  NodeIndex child = self + 1;
-  for (double& number : sorted) {
-    number = ticker.progress(child);
-    child = ticker.end_of(child);
+  const auto numbers = ticker.child_numbers(self);
+  std::size_t count = 0;
+  for (NodeIndex child = self + 1; child != ticker.end_of(self); child = ticker.end_of(child)) {
+    if (ticker.activity(child) != Activity::Skipped) numbers[count++] = ticker.progress(child);
   }
-  const auto wanted = sorted.begin() + (m - 1);
+  if (count == 0) return 0.0;
+  const auto sorted = numbers.first(count);
+  const auto wanted = sorted.begin() + (std::min(m, static_cast<std::int64_t>(count)) - 1);
   std::nth_element(sorted.begin(), wanted, sorted.end(), std::greater<>());
   const double reached = *wanted;
   std::fill(sorted.begin(), sorted.end(), 0.0);

@@ -35,7 +35,11 @@ std::int64_t increment(const Ticker& ticker, NodeIndex self) {
 
 Status tick_child(Ticker& ticker, NodeIndex self) {
   auto& use = ticker.state<ResourceUse>(self);
-  if (use.grant == Grant::Owned) return ticker.tick(self + 1);
+  if (use.grant == Grant::Owned) {
+    const Status status = ticker.tick(self + 1);
+    if (status == Status::Skipped) resources::give_back(ticker, self);
+    return status;
+  }
   if (use.grant == Grant::Denied) use.priority += increment(ticker, self);
   if (ticker.activity(self + 1) == Activity::Running) ticker.pause(self + 1);
   return Status::Running;

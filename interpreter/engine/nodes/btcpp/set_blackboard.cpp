@@ -1,6 +1,7 @@
 // SetBlackboard and UnsetBlackboard: write an entry, or remove it.
 #include "core/conversion.h"
 #include "core/wording.h"
+#include "engine/nodes/at_once.h"
 #include "engine/nodes/kinds.h"
 #include "engine/ticker.h"
 
@@ -28,7 +29,7 @@ constexpr Parameter kUnsetParameters[] = {{.name = "key",
                                            .is_key = true,
                                            .own_only = true}};
 
-// A text is converted when the entry has a type of its own.
+// A text is converted to the type of the entry, if it has one.
 bool store_text(Ticker& ticker, NodeIndex self, Entry& target, const Value& text) {
   if (!target.is_present) make_entry(target, Typing::Declared, ValueType::String);
   if (target.typing == Typing::Any) {
@@ -64,10 +65,6 @@ Status tick_set(Ticker& ticker, NodeIndex self) {
 Status tick_unset(Ticker& ticker, NodeIndex self) {
   if (Entry* entry = ticker.named_entry(self, kKey)) unset_entry(*entry);
   return Status::Success;
-}
-
-double no_progress(Ticker&, NodeIndex) {
-  return 0.0;
 }
 
 }  // namespace

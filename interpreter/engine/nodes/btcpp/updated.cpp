@@ -1,5 +1,6 @@
 // SkipUnlessUpdated, WaitValueUpdate and WasEntryUpdated: whether an entry was written, also with
 // the value that it had, since the node looked last.
+#include "engine/nodes/at_once.h"
 #include "engine/nodes/decorator.h"
 
 namespace lockstep::btcpp {
@@ -41,10 +42,6 @@ void halt(Ticker& ticker, NodeIndex self) {
 Status tick_condition(Ticker& ticker, NodeIndex self) {
   const bool written = was_written(ticker, self, ticker.state<State>(self));
   return written ? Status::Success : Status::Failure;
-}
-
-double no_progress(Ticker&, NodeIndex) {
-  return 0.0;
 }
 
 }  // namespace

@@ -1,8 +1,9 @@
-// Script and ScriptCondition: leaves that run a script.
+// Script, Check and, for BehaviorTree.CPP, ScriptCondition: leaves that run a script.
+#include "engine/nodes/at_once.h"
 #include "engine/nodes/kinds.h"
 #include "engine/ticker.h"
 
-namespace lockstep::btcpp {
+namespace lockstep {
 namespace {
 
 constexpr unsigned kCode = 0;
@@ -12,24 +13,30 @@ constexpr Parameter kScriptParameters[] = {{.name = "code",
                                             .doc = "What to run; its value does not count.",
                                             .required = true,
                                             .is_script = true}};
-constexpr Parameter kConditionParameters[] = {{.name = "code",
-                                               .type = ValueType::String,
-                                               .doc = "What decides between Success and Failure.",
-                                               .required = true,
-                                               .is_script = true}};
+constexpr Parameter kCheckParameters[] = {{.name = "code",
+                                           .type = ValueType::String,
+                                           .doc = "What decides between Success and Failure.",
+                                           .required = true,
+                                           .is_script = true}};
 
 Status tick_script(Ticker& ticker, NodeIndex self) {
   const bool good = ticker.run_script(self, ticker.script(self, kCode), "code");
   return good ? Status::Success : Status::Failure;
 }
 
-Status tick_condition(Ticker& ticker, NodeIndex self) {
+Status tick_check(Ticker& ticker, NodeIndex self) {
   const auto holds = ticker.holds(self, ticker.script(self, kCode), "code");
   return holds.value_or(false) ? Status::Success : Status::Failure;
 }
 
-double no_progress(Ticker&, NodeIndex) {
-  return 0.0;
+constexpr NodeKind check_kind(std::string_view id) {
+  return {.type = {.id = id,
+                   .category = NodeCategory::Condition,
+                   .doc = "Success when its script is true, else Failure.",
+                   .arity = {0, 0},
+                   .parameters = kCheckParameters},
+          .tick = tick_check,
+          .progress = no_progress};
 }
 
 }  // namespace
@@ -42,12 +49,7 @@ const NodeKind kScript{.type = {.id = "Script",
                        .tick = tick_script,
                        .progress = no_progress};
 
-const NodeKind kScriptCondition{.type = {.id = "ScriptCondition",
-                                         .category = NodeCategory::Condition,
-                                         .doc = "Success when its script is true, else Failure.",
-                                         .arity = {0, 0},
-                                         .parameters = kConditionParameters},
-                                .tick = tick_condition,
-                                .progress = no_progress};
+const NodeKind kCheck = check_kind("Check");
+const NodeKind btcpp::kScriptCondition = check_kind("ScriptCondition");
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep

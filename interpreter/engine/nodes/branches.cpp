@@ -1,8 +1,9 @@
-// IfThenElse and WhileDoElse: the first child is a condition that chooses one of the others.
+// IfThenElse and WhileDoElse: the first child is a condition that chooses one of the others. The
+// two languages differ in a condition that is skipped, and in one that goes on to be asked.
 #include "engine/nodes/kinds.h"
 #include "engine/ticker.h"
 
-namespace lockstep::btcpp {
+namespace lockstep {
 namespace {
 
 struct State {
@@ -28,18 +29,23 @@ NodeIndex else_of(Ticker& ticker, NodeIndex self) {
   return branch == ticker.end_of(self) ? 0 : branch;
 }
 
+// Without an answer there is no branch.
+template <Language kLanguage>
 Status skipped_condition(Ticker& ticker, NodeIndex self) {
+  ticker.halt_running_children(self);
+  if (kLanguage == Language::Lockstep) return Status::Skipped;
   ticker.set_fault(self, "its condition was skipped, so no branch can be chosen");
   return Status::Failure;
 }
 
+template <Language kLanguage>
 Status tick_if(Ticker& ticker, NodeIndex self) {
   State& state = ticker.state<State>(self);
   if (ticker.first_tick(self)) state.branch = 0;
   if (state.branch == 0) {
     const Status condition = ticker.tick(condition_of(self));
     if (condition == Status::Running) return condition;
-    if (condition == Status::Skipped) return skipped_condition(ticker, self);
+    if (condition == Status::Skipped) return skipped_condition<kLanguage>(ticker, self);
     const bool holds = condition == Status::Success;
     state.branch = holds ? then_of(ticker, self) : else_of(ticker, self);
     if (state.branch == 0) return Status::Failure;
@@ -47,22 +53,25 @@ Status tick_if(Ticker& ticker, NodeIndex self) {
   return tick_branch(ticker, self, state.branch);
 }
 
-// The condition is asked in every tick, and not reset while a branch runs.
+// The condition is asked in every tick; for BehaviorTree.CPP, it is not reset while a branch runs.
+template <Language kLanguage>
 Status ask(Ticker& ticker, NodeIndex self) {
   const NodeIndex condition = condition_of(self);
-  const bool goes_on = !ticker.first_tick(self) && is_complete(ticker.status(condition));
-  return goes_on ? ticker.tick_unreset(condition) : ticker.tick(condition);
+  const bool is_kept = kLanguage == Language::BehaviorTreeCpp && !ticker.first_tick(self) &&
+                       is_complete(ticker.status(condition));
+  return is_kept ? ticker.tick_unreset(condition) : ticker.tick(condition);
 }
 
+template <Language kLanguage>
 Status tick_while(Ticker& ticker, NodeIndex self) {
   State& state = ticker.state<State>(self);
   if (ticker.first_tick(self)) state.branch = 0;
-  const Status condition = ask(ticker, self);
-  if (condition == Status::Running) return condition;
-  if (condition == Status::Skipped) {
-    ticker.halt_running_children(self);
-    return skipped_condition(ticker, self);
+  const Status condition = ask<kLanguage>(ticker, self);
+  if (condition == Status::Running) {
+    if (kLanguage == Language::Lockstep && state.branch != 0) ticker.halt(state.branch);
+    return condition;
   }
+  if (condition == Status::Skipped) return skipped_condition<kLanguage>(ticker, self);
   const bool holds = condition == Status::Success;
   const NodeIndex branch = holds ? then_of(ticker, self) : else_of(ticker, self);
   if (state.branch != 0 && state.branch != branch) ticker.halt(state.branch);
@@ -75,28 +84,35 @@ double progress(Ticker& ticker, NodeIndex self) {
   return branch == 0 ? 0.0 : ticker.progress(branch);
 }
 
-}  // namespace
-
-const NodeKind kIfThenElse{
+template <Language kLanguage>
+constexpr NodeKind kIf{
     .type = {.id = "IfThenElse",
              .category = NodeCategory::Control,
              .doc = "Ticks its first child until it completes, then the second if it succeeded, "
                     "else the third. The result is that of the branch; Failure without a third "
                     "child.",
              .arity = {2, 3}},
-    .tick = tick_if,
+    .tick = tick_if<kLanguage>,
     .progress = progress,
     .state_size = sizeof(State)};
 
-const NodeKind kWhileDoElse{
+template <Language kLanguage>
+constexpr NodeKind kWhile{
     .type = {.id = "WhileDoElse",
              .category = NodeCategory::Control,
              .doc = "Asks its first child in every tick: while it succeeds, ticks the second "
                     "child, else the third. The branch that is left is halted. Failure without a "
                     "third child.",
              .arity = {2, 3}},
-    .tick = tick_while,
+    .tick = tick_while<kLanguage>,
     .progress = progress,
     .state_size = sizeof(State)};
 
-}  // namespace lockstep::btcpp
+}  // namespace
+
+const NodeKind kIfThenElse = kIf<Language::Lockstep>;
+const NodeKind kWhileDoElse = kWhile<Language::Lockstep>;
+const NodeKind btcpp::kIfThenElse = kIf<Language::BehaviorTreeCpp>;
+const NodeKind btcpp::kWhileDoElse = kWhile<Language::BehaviorTreeCpp>;
+
+}  // namespace lockstep

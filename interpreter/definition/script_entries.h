@@ -1,0 +1,21 @@
+// Entries of lockstep's own language in scripts: each has a type, from the ports that use it, from
+// a
+// ':=', or from its start value.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string_view>
+
+#include "definition/definition.h"
+#include "document/reporter.h"
+
+namespace lockstep {
+
+// Of entries that no port uses: the start value as written.
+using StartTexts = std::map<std::uint32_t, std::string_view>;
+
+// Gives the entries that only scripts use their types. One that nothing declares is an error.
+void declare_entries(Definition& definition, const StartTexts& starts, const Reporter& report);
+
+}  // namespace lockstep
