@@ -27,7 +27,9 @@ struct Commands {
   // A study begins anew, whatever became of the one before.
   Outcome run_one(Strings arguments, std::map<std::string, std::string> environment) const {
     std::filesystem::remove_all(directory.path("study"));
-    arguments.insert(arguments.end(), {"--plugin", plugin, "--hang-limit", "0.2"});
+    std::string how;
+    for (const auto& [name, value] : environment) how += value;
+    arguments.insert(arguments.end(), {"--plugin", plugin, "--hang-limit", hang_limit(how)});
     return run({.arguments = arguments, .environment = std::move(environment)});
   }
 };
@@ -73,7 +75,7 @@ TEST_CASE(
     for (const std::string how : {"segv", "hang", "exit", "_exit"}) {
       INFO(where << " " << how);
       const std::map<std::string, std::string> environment = {{"HOSTILE_END", where + " " + how}};
-      const Strings options = {"--clock", "virtual", "--hang-limit", "0.2", "--json"};
+      const Strings options = {"--clock", "virtual", "--hang-limit", hang_limit(how), "--json"};
       const Outcome in_process = run_hostile({""}, Where::InProcess, options, environment);
       INFO(in_process.err);
       CHECK(in_process.code == 6);

@@ -24,6 +24,11 @@ enum class Where { InProcess, Isolated };
 Outcome run_hostile(const Misdeed& misdeed, Where where, std::vector<std::string> options = {},
                     std::map<std::string, std::string> environment = {});
 
+// For --hang-limit: short for a plugin that hangs, else longer than a busy machine takes.
+inline std::string hang_limit(const std::string& how) {
+  return contains(how, "hang") ? "0.3" : "30";
+}
+
 // The processes that have this text in their command line, by their ids.
 std::vector<pid_t> processes_with(const std::string& text);
 

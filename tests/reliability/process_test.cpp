@@ -196,8 +196,8 @@ TEST_CASE("an isolated plugin leaves no process behind, however its run ends") {
   for (const std::string how : {"", "segv", "hang", "leave a thread", "kill"}) {
     INFO(how);
     const Outcome outcome = run_hostile({how}, Where::Isolated,
-                                        {"--clock", "virtual", "--hang-limit", "0.2", "--plugin",
-                                         plugin.directory() + "hostile.so"});
+                                        {"--clock", "virtual", "--hang-limit", hang_limit(how),
+                                         "--plugin", plugin.directory() + "hostile.so"});
     CHECK(outcome.code == (how.empty() || how == "leave a thread" ? 0 : 5));
     CHECK_FALSE(plugin.has_processes());
   }
@@ -235,7 +235,7 @@ TEST_CASE("after a crash in this process, the recording is whole up to the last 
                            how + "\" ticks=\"100\"/></BehaviorTree></root>");
     const Outcome outcome =
         lockstep({"run", tree, "--plugin-path", LOCKSTEP_HOSTILE_DIRECTORY, "--record", file,
-                  "--clock", "virtual", "--hang-limit", "0.2"});
+                  "--clock", "virtual", "--hang-limit", hang_limit(how)});
     INFO(outcome.err);
     CHECK(outcome.code == 6);
     CHECK(contains(outcome.err, "tick 7"));

@@ -59,7 +59,7 @@ TEST_CASE("unread: a fault, a crash and a hang have their codes") {
     const TemporaryDirectory directory;
     const std::string tree = directory.file("tree.xml", hostile_tree({how}));
     CHECK(run(unread(stuck, {"run", tree, "--plugin-path", LOCKSTEP_HOSTILE_DIRECTORY,
-                             "--hang-limit", "0.3"}))
+                             "--hang-limit", hang_limit(how)}))
               .code == code);
   }
 }
