@@ -46,6 +46,7 @@ struct Parameter {
   ValueType type;
   std::string_view doc;
   std::optional<std::string_view> default_text = {};  // as it would be written in the tree
+  std::string_view default_key = {};  // the entry that it is bound to where it is left out
   bool required = false;
   Direction direction = Direction::Input;
   std::string_view unit = {};                      // "s", "" for none
@@ -112,6 +113,7 @@ struct NodeType {
   bool acts_again = true;               // false: after it completed once, a tick of it does nothing
   bool real_time = false;               // an action that continues to work between ticks
   bool has_progress = true;             // false: an action that reports none, so 0 until Success
+  bool opens_entries = false;           // a leaf that uses entries that no port names
   bool reads_ports = false;             // a built-in kind that reads its values as leaves do
   std::string_view plugin = {};         // the plugin it comes from; "" = built in
   const Mock* mock = nullptr;           // not null: a stand-in

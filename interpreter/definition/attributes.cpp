@@ -172,6 +172,11 @@ bool check_parameter(const NodeElement& element, const Reporter& report,
     if (parameter.default_text) value = *parse_value(parameter.type, *parameter.default_text);
     return !port.key.empty();
   }
+  if (attribute == nullptr && !parameter.default_key.empty()) {
+    port.place = element.place;
+    port.key = parameter.default_key;
+    return true;
+  }
   if (attribute != nullptr && !parameter.group.empty()) port.place = attribute->place;
   if (attribute != nullptr && parameter.direction != Direction::Input) {
     report.at_value(

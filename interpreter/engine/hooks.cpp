@@ -53,8 +53,7 @@ Status Ticker::tick_unreset(NodeIndex node) {
   const HookedNode* const hooks = hooked ? &tree_.hooked[tree_.hooks[node]] : nullptr;
   const NodeType& type = *tree_.labels[node].type;
   Status result = status(node);
-  const bool takes_time =
-      type.category == NodeCategory::Action && (type.leaf != nullptr || type.can_run);
+  const bool takes_time = type.category == NodeCategory::Action && type.can_run;
   if (!takes_time) {
     if (it.children != 0) forget_descendants(node);
     state_.activity[node] = Activity::Idle;

@@ -155,6 +155,14 @@ class Ticker {
   // Of a port that names an entry (Parameter::is_key), which may not be present. Null: there is no
   // such entry in this tree, or the name has no value, which is a fault.
   Entry* named_entry(NodeIndex node, unsigned index);
+  // Of a tree with boards: what `key` means where the node is; and null if it belongs to an outer
+  // tree. Allocates.
+  Entry& entry_at(NodeIndex node, std::string_view key) {
+    return names_.at(tree_.board_of(node), key);
+  }
+  Entry* own_entry_at(NodeIndex node, std::string_view key) {
+    return names_.own(tree_.board_of(node), key);
+  }
 
   // Of a node whose kind has a parameter that names a group.
   const Member& membership(NodeIndex node) const { return tree_.membership(node); }

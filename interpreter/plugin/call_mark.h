@@ -14,6 +14,7 @@ namespace lockstep {
 enum class PluginFunction : std::uint8_t {
   None,  // in the host's own code
   Load,  // dlopen: the constructors of the shared object
+  Describe,
   Init,
   CreateRun,
   Create,

@@ -44,19 +44,34 @@ std::uint32_t count(const lockstep_caller* caller) {
   return caller->is_foreign() ? 0 : static_cast<std::uint32_t>(caller->children.size());
 }
 
-lockstep_status tick(const lockstep_caller* caller, std::uint32_t child) {
+// Ticks a child in the way that `function` does.
+template <class Function>
+lockstep_status tick_by(const lockstep_caller* caller, std::uint32_t child, Function function) {
   if (!may(caller, ChildAccess::Tick, "ticks", child)) return LOCKSTEP_RUNNING;
   LeafSlot& slot = *caller->slot;
   const NodeIndex node = caller->children[child];
-  if (caller->ticker->ticked(node)) {
+  const bool at_most_once = caller->ticker->tree().language == Language::Lockstep;
+  if (at_most_once && caller->ticker->ticked(node)) {
     breach(caller, fmt::format("ticks child {} twice in one tick", child));
     return LOCKSTEP_RUNNING;
   }
   // Code of the child that knows this caller must not use it.
   slot.access = ChildAccess::None;
-  const Status status = caller->ticker->tick(node);
+  const Status status = function(*caller->ticker, node);
   slot.access = ChildAccess::Tick;
   return static_cast<lockstep_status>(status);
+}
+
+lockstep_status tick(const lockstep_caller* caller, std::uint32_t child) {
+  return tick_by(caller, child, [](Ticker& ticker, NodeIndex node) { return ticker.tick(node); });
+}
+
+lockstep_status tick_unreset(const lockstep_caller* caller, std::uint32_t child) {
+  return tick_by(caller, child, [](Ticker& ticker, NodeIndex node) {
+    const Status before = ticker.status(node);
+    const bool has_completed = before == Status::Success || before == Status::Failure;
+    return has_completed ? ticker.tick_unreset(node) : ticker.tick(node);
+  });
 }
 
 void halt(const lockstep_caller* caller, std::uint32_t child) {
@@ -104,7 +119,8 @@ const lockstep_children& children_table() {
                                             .halt = halt,
                                             .pause = pause,
                                             .status = status,
-                                            .progress = progress};
+                                            .progress = progress,
+                                            .tick_unreset = tick_unreset};
   return kTable;
 }
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/plugin_exception.h"
+#include "plugin/call_mark.h"
 #include "plugin/descriptor_leaf.h"
 #include "plugin/descriptor_port.h"
 
@@ -34,6 +36,26 @@ std::optional<Problem> check_handshake(const lockstep_plugin& entry, std::size_t
                     too_long ? "at most" : "at least", too_long ? exported_size : kPluginSizeIn10),
         "set it to sizeof(lockstep_plugin)"};
   }
+  return std::nullopt;
+}
+
+// The table that the plugin makes itself, in the place of its constant.
+std::optional<Problem> describe(lockstep_plugin& plugin) {
+  if (plugin.describe == nullptr) return std::nullopt;
+  const char* why = nullptr;
+  const lockstep_plugin* described = nullptr;
+  const char* const name = plugin.name == nullptr ? "" : plugin.name;
+  const MarkedCall mark(CallSite::of("", name), PluginFunction::Describe);
+  const std::string thrown = thrown_by([&] { described = plugin.describe(&why); });
+  constexpr const char* kHint = "ask the author of the plugin what it needs";
+  if (!thrown.empty()) return Problem{"cannot be used: its describe " + thrown, kHint};
+  if (described == nullptr) {
+    return Problem{fmt::format("cannot be used: {}", why == nullptr ? "it gives no reason" : why),
+                   kHint};
+  }
+  if (auto refusal = check_handshake(*described, 0)) return refusal;
+  plugin = covered_copy(described, described->struct_size);
+  plugin.describe = nullptr;
   return std::nullopt;
 }
 
@@ -75,6 +97,12 @@ Arity arity_of(const lockstep_leaf_type& leaf) {
   return arity;
 }
 
+// Whether running may be its own result.
+bool can_run(const lockstep_leaf_type& leaf) {
+  if (leaf.kind == LOCKSTEP_CONDITION) return (leaf.flags & LOCKSTEP_MAY_RUN) != 0;
+  return (leaf.flags & LOCKSTEP_AT_ONCE) == 0;
+}
+
 NodeType node_type(const lockstep_plugin& plugin, const Descriptors::Leaf& leaf) {
   const bool is_action = leaf.type.kind == LOCKSTEP_ACTION;
   return NodeType{.id = leaf.type.id,
@@ -82,9 +110,10 @@ NodeType node_type(const lockstep_plugin& plugin, const Descriptors::Leaf& leaf)
                   .doc = leaf.type.doc == nullptr ? "" : leaf.type.doc,
                   .arity = arity_of(leaf.type),
                   .parameters = leaf.parameters,
-                  .can_run = leaf.type.kind != LOCKSTEP_CONDITION,
+                  .can_run = can_run(leaf.type),
                   .real_time = (leaf.type.flags & LOCKSTEP_REAL_TIME) != 0,
                   .has_progress = !is_action || leaf.type.progress != nullptr,
+                  .opens_entries = (leaf.type.flags & LOCKSTEP_OPENS) != 0,
                   .plugin = plugin.name,
                   .origin = &plugin,
                   .leaf = &leaf.type};
@@ -97,6 +126,7 @@ std::optional<Problem> read_descriptors(const lockstep_plugin& entry, std::size_
   if (auto refusal = check_handshake(entry, exported_size)) return refusal;
   lockstep_plugin& plugin = descriptors.plugin;  // what else there is in it stays
   plugin = covered_copy(&entry, entry.struct_size);
+  if (auto refusal = describe(plugin)) return refusal;
   if (auto refusal = check_plugin(plugin)) return refusal;
   for (std::uint32_t index = 0; index < plugin.leaf_type_count; ++index) {
     auto leaf = std::make_unique<Descriptors::Leaf>();

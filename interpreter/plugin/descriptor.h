@@ -1,5 +1,6 @@
 // The descriptors of a plugin: checked against the rules of lockstep/leaf.h, copied to the full
-// size that this host knows, and translated to node types. Calls no function of the plugin.
+// size that this host knows, and translated to node types. Calls no function of the plugin but
+// describe.
 #pragma once
 
 #include <cstdint>

@@ -28,7 +28,7 @@ std::optional<Problem> check_id(const char* id) {
   if (id == nullptr) return Problem{"has no id", "set lockstep_leaf_type::id"};
   if (!is_attribute_name(id)) {
     return Problem{fmt::format("has the id '{}'", id),
-                   "an id is a letter, then letters, digits and '_'"};
+                   "an id is a letter, then letters, digits, '_' and '-'"};
   }
   if (is_taken(id)) {
     return Problem{fmt::format("has the id '{}', which is a tag of the tree language", id),

@@ -20,6 +20,7 @@ constexpr lockstep_type kTypeCount = std::variant_size_v<Value> - 1;
 // The types of the contract have the numbers of ours.
 std::optional<ValueType> type_of(lockstep_type type) {
   if (type == LOCKSTEP_NUMBER) return ValueType::Number;
+  if (type == LOCKSTEP_ANY) return ValueType::String;
   if (type < 1 || type > kTypeCount) return std::nullopt;
   return static_cast<ValueType>(type);
 }
@@ -40,7 +41,7 @@ std::optional<Problem> check_name(const lockstep_port& port, std::span<const Par
   const std::string_view name = port.name;
   if (!is_attribute_name(name)) {
     return Problem{fmt::format("is named '{}'", name),
-                   "a port's name is a letter, then letters, digits and '_'"};
+                   "a port's name is a letter, then letters, digits, '_' and '-'"};
   }
   if (name == "name" || name == "ID") {
     return Problem{fmt::format("is named '{}', an attribute that every node has", name),
@@ -50,6 +51,22 @@ std::optional<Problem> check_name(const lockstep_port& port, std::span<const Par
     return Problem{fmt::format("is named '{}', as a port before it", name),
                    "give each port of a leaf its own name"};
   }
+  return std::nullopt;
+}
+
+bool has_default_entry(const lockstep_port& port) {
+  return port.default_value != nullptr && (port.flags & LOCKSTEP_DEFAULT_ENTRY) != 0;
+}
+
+std::optional<Problem> read_default_entry(const lockstep_port& port, Parameter& parameter) {
+  const std::string_view text = port.default_value;
+  const bool is_key = text.size() > 2 && text.front() == '{' && text.back() == '}';
+  if (!is_key) {
+    return Problem{
+        fmt::format("('{}') has the default '{}', expected an entry", port.name, printable(text)),
+        "write {key}, or {=} for the entry of the port's name"};
+  }
+  parameter.default_key = text == "{=}" ? parameter.name : text.substr(1, text.size() - 2);
   return std::nullopt;
 }
 
@@ -124,8 +141,9 @@ std::optional<Problem> check(const lockstep_port& port, std::span<const Paramete
   if (auto refusal = check_name(port, others)) return refusal;
   const auto type = type_of(port.type);
   if (!type) {
-    return Problem{fmt::format("('{}') has type {}", port.name, port.type),
-                   fmt::format("use LOCKSTEP_NUMBER or one of the types 1 to {}", kTypeCount)};
+    return Problem{
+        fmt::format("('{}') has type {}", port.name, port.type),
+        fmt::format("use LOCKSTEP_NUMBER, LOCKSTEP_ANY or one of the types 1 to {}", kTypeCount)};
   }
   if (port.direction < LOCKSTEP_INPUT || port.direction > LOCKSTEP_INOUT) {
     return Problem{fmt::format("('{}') has direction {}", port.name, port.direction),
@@ -141,7 +159,11 @@ std::optional<Problem> check(const lockstep_port& port, std::span<const Paramete
 }  // namespace
 
 bool is_attribute_name(std::string_view text) {
-  return is_identifier(text) && text.front() != '_';
+  const auto is_other = [](char c) { return c == '-' || static_cast<unsigned char>(c) >= 0x80; };
+  std::string plain(text);
+  std::replace_if(plain.begin(), plain.end(), is_other, 'x');
+  return is_identifier(plain) && text.front() != '_' && text.front() != '-' &&
+         printable(text) == text;
 }
 
 bool is_plugin_name(std::string_view name) {
@@ -168,7 +190,7 @@ std::optional<Problem> read_port(const lockstep_port* from, std::string_view plu
       return Problem{fmt::format("('{}') {}", copy.name, found.error().message),
                      found.error().hint};
     }
-    if (copy.default_value != nullptr) {
+    if (copy.default_value != nullptr && !has_default_entry(copy)) {
       return Problem{fmt::format("('{}') has a default, but carries objects", copy.name),
                      "an object has no default"};
     }
@@ -179,12 +201,15 @@ std::optional<Problem> read_port(const lockstep_port* from, std::string_view plu
   port = Parameter{.name = copy.name,
                    .type = *type_of(copy.type),
                    .doc = text_or_empty(copy.doc),
-                   .required = copy.default_value == nullptr && copy.direction != LOCKSTEP_OUTPUT,
+                   .required = copy.default_value == nullptr && copy.direction != LOCKSTEP_OUTPUT &&
+                               (copy.flags & LOCKSTEP_OPTIONAL) == 0,
                    .direction = static_cast<Direction>(copy.direction - 1),
                    .unit = text_or_empty(copy.unit),
                    .choices = choices,
-                   .object = object};
+                   .object = object,
+                   .is_generic = copy.type == LOCKSTEP_ANY};
   if (has_range(copy)) port.range = {.min = copy.min, .max = copy.max};
+  if (has_default_entry(copy)) return read_default_entry(copy, port);
   if (copy.default_value != nullptr) port.default_text = copy.default_value;
   return check_default(copy, port);
 }

@@ -20,11 +20,6 @@
 namespace lockstep {
 namespace {
 
-// The contract hands out constant callers, so that plugins keep their hands off.
-lockstep_caller& mine(const lockstep_caller* caller) {
-  return const_cast<lockstep_caller&>(*caller);  // NOLINT: every caller is made non-constant
-}
-
 // False: the entry has a value that the port does not take, which is an error of the caller.
 bool may_be_read(const lockstep_caller& caller, const BoundPort& port, const Value& value) {
   const auto why = refuse_value(*port.limits, value);
@@ -55,6 +50,7 @@ constexpr ValueType type_of() {
 // type than the port's is no conversion, but an error of the caller.
 const Value* converted(const lockstep_caller* caller, std::uint32_t port, ValueType type) {
   BoundPort& it = mine(caller).ports[port];
+  if (it.is_generic) return nullptr;
   const bool is_number = type == ValueType::Int || type == ValueType::Double;
   if (it.type != type && !(it.type == ValueType::Number && is_number)) return nullptr;
   if (holds(*it.read, it.type)) return nullptr;  // the other kind of number
@@ -142,9 +138,9 @@ void note_written(std::vector<Entry*>& written, Entry* entry) {
 // What the caller is about to write; counted as written.
 Value* writable(const lockstep_caller* caller, std::uint32_t port, ValueType type) {
   if (caller->is_foreign() || port >= caller->ports.size()) return nullptr;
-  if (caller->ports[port].type != type) return nullptr;
-  Entry* const entry = caller->ports[port].write;
-  if (entry == nullptr) return nullptr;
+  const BoundPort& it = caller->ports[port];
+  Entry* const entry = it.write;
+  if (entry == nullptr || (it.is_generic ? entry->type : it.type) != type) return nullptr;
   ++entry->writes;
   if (caller->written != nullptr) note_written(*caller->written, entry);
   return &entry->value;
@@ -161,22 +157,25 @@ bool has_limits(const lockstep_caller* caller, std::uint32_t port) {
 bool is_loose(const lockstep_caller* caller, std::uint32_t port, ValueType type) {
   if (caller->is_foreign() || port >= caller->ports.size()) return false;
   const BoundPort& it = caller->ports[port];
-  return it.type == type && it.write != nullptr && it.write->typing != Typing::Strict;
+  if (it.write == nullptr || it.write->typing == Typing::Strict) return false;
+  return it.is_generic ? type != ValueType::Object : it.type == type;
 }
 
-// Sets such an entry.
-bool set_loose(const lockstep_caller* caller, std::uint32_t port, Value value) {
+// Sets such an entry to a value of this type.
+bool set_loose(const lockstep_caller* caller, std::uint32_t port, ValueType type, Value value) {
   const BoundPort& it = caller->ports[port];
-  return write_entry(*it.write, it.type, it.object, std::move(value));
+  if (!write_entry(*it.write, type, it.object, std::move(value))) return false;
+  if (caller->written != nullptr) note_written(*caller->written, it.write);
+  return true;
 }
 
 template <class T>
 bool set(const lockstep_caller* caller, std::uint32_t port, T value) {
   if constexpr (std::is_same_v<T, double>) {
-    if (!std::isfinite(value)) return false;
+    if (!std::isfinite(value) && !is_loose(caller, port, ValueType::Double)) return false;
   }
   if (has_limits(caller, port) && !may_be_set(*caller, port, Value(value))) return false;
-  if (is_loose(caller, port, type_of<T>())) return set_loose(caller, port, value);
+  if (is_loose(caller, port, type_of<T>())) return set_loose(caller, port, type_of<T>(), value);
   Value* const target = writable(caller, port, type_of<T>());
   if (target != nullptr) target->emplace<T>(value);
   return target != nullptr;
@@ -191,7 +190,8 @@ bool set_string(const lockstep_caller* caller, std::uint32_t port, const char* t
       return false;
     }
     if (is_loose(caller, port, ValueType::String)) {
-      return set_loose(caller, port, std::string(length == 0 ? "" : text, length));
+      return set_loose(caller, port, ValueType::String,
+                       std::string(length == 0 ? "" : text, length));
     }
     Value* const target = writable(caller, port, ValueType::String);
     if (target == nullptr) return false;
@@ -220,7 +220,8 @@ bool set_list(const lockstep_caller* caller, std::uint32_t port, const Item* ite
       return false;
     }
     if (is_loose(caller, port, type_of<std::vector<T>>())) {
-      return set_loose(caller, port, std::vector<T>(values, values + count));
+      return set_loose(caller, port, type_of<std::vector<T>>(),
+                       std::vector<T>(values, values + count));
     }
     Value* const target = writable(caller, port, type_of<std::vector<T>>());
     if (target == nullptr) return false;
@@ -252,7 +253,7 @@ bool set_string_list(const lockstep_caller* caller, std::uint32_t port, const lo
     for (std::size_t i = 0; i < count; ++i) {
       list.emplace_back(items[i].length == 0 ? "" : items[i].text, items[i].length);
     }
-    if (loose) return set_loose(caller, port, std::move(list));
+    if (loose) return set_loose(caller, port, ValueType::StringList, std::move(list));
     *target = std::move(list);
   } catch (const std::exception&) {
     return false;
@@ -304,7 +305,9 @@ std::optional<Object> settable(const lockstep_caller& caller, std::uint32_t port
 }
 
 bool set_object(const lockstep_caller* caller, std::uint32_t port, void* object) {
-  if (object == nullptr) return false;
+  if (object == nullptr || port >= caller->ports.size() || caller->ports[port].object == nullptr) {
+    return false;
+  }
   const bool loose = is_loose(caller, port, ValueType::Object);
   Value* const target = loose ? nullptr : writable(caller, port, ValueType::Object);
   if (!loose && target == nullptr) return false;
@@ -313,7 +316,7 @@ bool set_object(const lockstep_caller* caller, std::uint32_t port, void* object)
   try {
     auto held = settable(*caller, port, Object(type, object));
     if (!held) return false;
-    if (loose) return set_loose(caller, port, *std::move(held));
+    if (loose) return set_loose(caller, port, ValueType::Object, *std::move(held));
     // What the entry had is released at the end: its release finds the entry as it will be.
     const Value before = std::exchange(*target, *std::move(held));
   } catch (const std::exception&) {
@@ -357,6 +360,7 @@ const void* get_extension(const char* id) {
   const std::string_view wanted = id == nullptr ? "" : id;
   if (wanted == LOCKSTEP_CHILDREN) return &children_table();
   if (wanted == LOCKSTEP_WORKERS) return &workers_table();
+  if (wanted == LOCKSTEP_PLACE) return &place_table();
   return nullptr;
 }
 

@@ -2,6 +2,7 @@
 // within plugin/. Getters and setters neither lock nor look up a name.
 #pragma once
 
+#include <list>
 #include <memory>
 #include <span>
 #include <string>
@@ -30,12 +31,19 @@ struct BoundPort {
   const Parameter* limits = nullptr;   // null: it takes every value of its type
   const ObjectType* object = nullptr;  // of type Object: which
   bool is_strict = true;               // the entry holds values of its type only
+  bool is_generic = false;             // takes values of any type; `type` is String
   std::string_view name = {};
   std::string_view entry = {};
   std::vector<lockstep_text> texts = {};  // the list of strings that was handed out last
   Object packed = {}, unpacked = {};      // an object of another process, and what it was made into
   // What the entry has, as a value of the port's type: it may have another in trees that say so.
   std::unique_ptr<Value> converted = {};
+  std::string given = {};  // what lockstep_place's `given` has handed out
+};
+
+// A child of a control node, as the node sees it.
+struct ChildLabel {
+  std::string id, name;
 };
 
 }  // namespace lockstep
@@ -47,14 +55,20 @@ struct lockstep_caller {
   lockstep::RandomStream random;
   const lockstep::LeafTime* time;
   const lockstep::LeafLog* log;
-  lockstep::LeafSlot* slot;                 // set_error sets its `error`
-  lockstep::Ticker* ticker = nullptr;       // while the slot gives access to children
+  lockstep::LeafSlot* slot;                            // set_error sets its `error`
+  lockstep::Ticker* ticker = nullptr;                  // null while leaves are made
   std::span<const lockstep::NodeIndex> children = {};  // of a control node or decorator, in order
-  const lockstep_plugin* plugin = nullptr;  // of a run: whose run context it is
+  const lockstep_plugin* plugin = nullptr;             // of a run: whose run context it is
   const lockstep::CallSite* site = nullptr;
   // Collects the entries that are set, for a process that only mirrors them; null: not collected.
   std::vector<lockstep::Entry*>* written = nullptr;
   lockstep::Shortened error = {};
+  lockstep::NodeIndex node = 0;        // in the tree of its ticker
+  std::string name = {}, id = {};      // of the node, and of its type
+  std::string_view plugin_name = {};   // of its type
+  bool opens_entries = false;          // lockstep_place::open
+  std::list<std::string> opened = {};  // the keys of the ports behind those of its type
+  std::vector<lockstep::ChildLabel> labels = {};
 
   // The calling thread is not the run's: it may only call log, so that it finds nothing to read or
   // to change while a tick goes on.
@@ -64,6 +78,11 @@ struct lockstep_caller {
 };
 
 namespace lockstep {
+
+// The contract hands out constant callers, so that plugins keep their hands off.
+inline lockstep_caller& mine(const lockstep_caller* caller) {
+  return const_cast<lockstep_caller&>(*caller);  // NOLINT: every caller is made non-constant
+}
 
 // What set_error does after shortening the message; the first error of a call is kept.
 void take_error(const lockstep_caller& caller, const Shortened& message);
@@ -77,5 +96,7 @@ std::span<const NodeIndex> children_of(const Tree& tree, const LeafNode& node);
 
 // For control nodes of plugins.
 const lockstep_children& children_table();
+// For all nodes of plugins.
+const lockstep_place& place_table();
 
 }  // namespace lockstep

@@ -54,6 +54,7 @@ std::vector<BoundPort> bind_ports(const Tree& tree, const LeafNode& leaf, Blackb
     BoundPort port{.type = parameter.type,
                    .limits = limits_of(parameter),
                    .object = parameter.object,
+                   .is_generic = parameter.is_generic,
                    .name = parameter.name};
     const Value* const constant =
         binding.constant != PortBinding::kUnbound ? &tree.constants[binding.constant] : nullptr;
@@ -70,6 +71,19 @@ std::vector<BoundPort> bind_ports(const Tree& tree, const LeafNode& leaf, Blackb
     ports.push_back(std::move(port));
   }
   return ports;
+}
+
+// What lockstep_place knows of it.
+void name_place(const Tree& tree, const LeafNode& leaf, lockstep_caller& caller) {
+  caller.node = leaf.node;
+  caller.name = tree.labels[leaf.node].name;
+  caller.id = leaf.type->id;
+  caller.plugin_name = leaf.type->plugin;
+  caller.opens_entries = leaf.type->opens_entries && !tree.boards.empty();
+  for (const NodeIndex child : children_of(tree, leaf)) {
+    const NodeLabel& label = tree.labels[child];
+    caller.labels.push_back({std::string(label.type->id), std::string(label.name)});
+  }
 }
 
 std::span<const NodeIndex> children_of(const Tree& tree, const LeafNode& node) {
@@ -148,6 +162,7 @@ LeafSet::Implementation::Implementation(const Tree& tree, Blackboard& blackboard
     callers_.back()->site = sites_.back();
     callers_.back()->children = children_of(tree, leaf);
     callers_.back()->ports = bind_ports(tree, leaf, blackboard);
+    name_place(tree, leaf, *callers_.back());
   }
 }
 
@@ -164,7 +179,13 @@ void LeafSet::Implementation::destroy_all() {
     if (std::holds_alternative<Object>(entry.value)) entry.value = NoValue();
   }
   for (const auto& caller : callers_) {
-    for (BoundPort& port : caller->ports) port.packed = port.unpacked = Object();
+    for (BoundPort& port : caller->ports) {
+      port.packed = port.unpacked = Object();
+      const bool is_opened = port.is_generic && port.write != nullptr;
+      if (is_opened && std::holds_alternative<Object>(port.write->value)) {
+        port.write->value = NoValue();
+      }
+    }
   }
   for (std::size_t index = contexts_.size(); index-- > 0;) {
     Context& context = *contexts_[index];

@@ -16,7 +16,7 @@ SIZE_IS(lockstep_type, 4);
 SIZE_IS(lockstep_direction, 4);
 SIZE_IS(lockstep_log_level, 4);
 
-SIZE_IS(lockstep_port, 80);
+SIZE_IS(lockstep_port, 88);
 MEMBER_AT(lockstep_port, struct_size, 0);
 MEMBER_AT(lockstep_port, type, 4);
 MEMBER_AT(lockstep_port, direction, 8);
@@ -28,6 +28,7 @@ MEMBER_AT(lockstep_port, choices, 48);
 MEMBER_AT(lockstep_port, min, 56);
 MEMBER_AT(lockstep_port, max, 64);
 MEMBER_AT(lockstep_port, object, 72);
+MEMBER_AT(lockstep_port, flags, 80);
 
 SIZE_IS(lockstep_object_type, 64);
 MEMBER_AT(lockstep_object_type, struct_size, 0);
@@ -105,7 +106,7 @@ MEMBER_AT(lockstep_workers, end, 40);
 MEMBER_AT(lockstep_workers, now, 48);
 MEMBER_AT(lockstep_workers, wake, 56);
 
-SIZE_IS(lockstep_children, 56);
+SIZE_IS(lockstep_children, 64);
 MEMBER_AT(lockstep_children, struct_size, 0);
 MEMBER_AT(lockstep_children, count, 8);
 MEMBER_AT(lockstep_children, tick, 16);
@@ -113,8 +114,24 @@ MEMBER_AT(lockstep_children, halt, 24);
 MEMBER_AT(lockstep_children, pause, 32);
 MEMBER_AT(lockstep_children, status, 40);
 MEMBER_AT(lockstep_children, progress, 48);
+MEMBER_AT(lockstep_children, tick_unreset, 56);
 
-SIZE_IS(lockstep_plugin, 96);
+SIZE_IS(lockstep_place, 104);
+MEMBER_AT(lockstep_place, struct_size, 0);
+MEMBER_AT(lockstep_place, name, 8);
+MEMBER_AT(lockstep_place, path, 16);
+MEMBER_AT(lockstep_place, id, 24);
+MEMBER_AT(lockstep_place, child_id, 32);
+MEMBER_AT(lockstep_place, child_name, 40);
+MEMBER_AT(lockstep_place, given, 48);
+MEMBER_AT(lockstep_place, value_type, 56);
+MEMBER_AT(lockstep_place, get_object, 64);
+MEMBER_AT(lockstep_place, set_object, 72);
+MEMBER_AT(lockstep_place, open, 80);
+MEMBER_AT(lockstep_place, unset, 88);
+MEMBER_AT(lockstep_place, ask_for_tick, 96);
+
+SIZE_IS(lockstep_plugin, 104);
 MEMBER_AT(lockstep_plugin, abi_major, 0);
 MEMBER_AT(lockstep_plugin, abi_minor, 4);
 MEMBER_AT(lockstep_plugin, struct_size, 8);
@@ -128,6 +145,7 @@ MEMBER_AT(lockstep_plugin, deinit, 64);
 MEMBER_AT(lockstep_plugin, create_run, 72);
 MEMBER_AT(lockstep_plugin, destroy_run, 80);
 MEMBER_AT(lockstep_plugin, get_extension, 88);
+MEMBER_AT(lockstep_plugin, describe, 96);
 
 #endif
 
@@ -136,11 +154,13 @@ static_assert(LOCKSTEP_RUNNING == 1 && LOCKSTEP_SUCCESS == 2 && LOCKSTEP_FAILURE
 static_assert(LOCKSTEP_IDLE == 0);
 static_assert(LOCKSTEP_ACTION == 1 && LOCKSTEP_CONDITION == 2);
 static_assert(LOCKSTEP_CONTROL == 3 && LOCKSTEP_DECORATOR == 4);
-static_assert(LOCKSTEP_REAL_TIME == 1);
+static_assert(LOCKSTEP_REAL_TIME == 1 && LOCKSTEP_MAY_RUN == 2 && LOCKSTEP_OPENS == 4 &&
+              LOCKSTEP_AT_ONCE == 8);
 static_assert(LOCKSTEP_BOOL == 1 && LOCKSTEP_INT == 2 && LOCKSTEP_DOUBLE == 3);
 static_assert(LOCKSTEP_STRING == 4 && LOCKSTEP_DOUBLE_LIST == 5);
 static_assert(LOCKSTEP_INT_LIST == 6 && LOCKSTEP_BOOL_LIST == 7 && LOCKSTEP_STRING_LIST == 8);
 static_assert(LOCKSTEP_OBJECT == 9);
-static_assert(LOCKSTEP_NUMBER == 100);
+static_assert(LOCKSTEP_NUMBER == 100 && LOCKSTEP_ANY == 101);
+static_assert(LOCKSTEP_OPTIONAL == 1 && LOCKSTEP_DEFAULT_ENTRY == 2);
 static_assert(LOCKSTEP_INPUT == 1 && LOCKSTEP_OUTPUT == 2 && LOCKSTEP_INOUT == 3);
 static_assert(LOCKSTEP_LOG_DEBUG == 0 && LOCKSTEP_LOG_INFO == 1 && LOCKSTEP_LOG_WARNING == 2);

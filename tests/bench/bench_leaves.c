@@ -123,4 +123,5 @@ LOCKSTEP_EXPORT const lockstep_plugin lockstep_plugin_entry = {LOCKSTEP_ABI_MAJO
                                                                NULL,
                                                                NULL,
                                                                NULL,
+                                                               NULL,
                                                                NULL};

@@ -187,7 +187,8 @@ constexpr lockstep_port kScriptPort = {sizeof(lockstep_port),
                                        nullptr,
                                        0,
                                        0,
-                                       nullptr};
+                                       nullptr,
+                                       0};
 constexpr lockstep_port kOutPort = {sizeof(lockstep_port),
                                     LOCKSTEP_DOUBLE,
                                     LOCKSTEP_OUTPUT,
@@ -198,7 +199,8 @@ constexpr lockstep_port kOutPort = {sizeof(lockstep_port),
                                     nullptr,
                                     0,
                                     0,
-                                    nullptr};
+                                    nullptr,
+                                    0};
 constexpr const lockstep_port* kPorts[] = {&kScriptPort, &kOutPort};
 
 constexpr lockstep_leaf_type leaf_type(const char* id, lockstep_leaf_kind kind) {
@@ -243,6 +245,7 @@ const lockstep_plugin kMockPlugin = {LOCKSTEP_ABI_MAJOR,
                                      nullptr,
                                      3,
                                      kLeaves,
+                                     nullptr,
                                      nullptr,
                                      nullptr,
                                      nullptr,

@@ -306,7 +306,8 @@ constexpr lockstep_port port(lockstep_type type, lockstep_direction direction, c
           nullptr,
           0,
           0,
-          nullptr};
+          nullptr,
+          0};
 }
 constexpr lockstep_port kHowPort = port(LOCKSTEP_STRING, LOCKSTEP_INPUT, "how", "");
 constexpr lockstep_port kWherePort = port(LOCKSTEP_STRING, LOCKSTEP_INPUT, "where", "tick");
@@ -349,6 +350,7 @@ extern "C" LOCKSTEP_EXPORT const lockstep_plugin lockstep_plugin_entry = {LOCKST
                                                                           kLeaves,
                                                                           init,
                                                                           deinit,
+                                                                          nullptr,
                                                                           nullptr,
                                                                           nullptr,
                                                                           nullptr};

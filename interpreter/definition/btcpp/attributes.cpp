@@ -111,6 +111,11 @@ class PortChecker {
   }
 
   bool absent(const Parameter& parameter, CheckedPort& port, Value& value) const {
+    if (!parameter.default_key.empty()) {
+      port.place = element_.place;
+      port.key = parameter.default_key;
+      return true;
+    }
     if (parameter.default_text) {
       port.place = element_.place;
       port.key = key_of(*parameter.default_text, parameter.name);
@@ -201,6 +206,7 @@ class PortChecker {
 void read_attributes(const NodeElement& element, const Reporter& report, CheckedNode& node,
                      CheckedTrees& trees) {
   PortChecker(element, report, node, trees).check();
+  trees.names_at_run_time |= node.type->opens_entries;
   check_hooks(element, report, node, trees);
 }
 

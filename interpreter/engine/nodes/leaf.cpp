@@ -107,11 +107,16 @@ bool is_result(lockstep_status status) {
   return status > LOCKSTEP_IDLE && status <= static_cast<int>(kLastStatus);
 }
 
+// Of a condition.
+bool may_run(const LeafSlot& leaf, lockstep_status result) {
+  return result == LOCKSTEP_RUNNING && (leaf.type->flags & LOCKSTEP_MAY_RUN) != 0;
+}
+
 // What a tick returns that did not go well. Out of line, so that what each tick checks is inline.
 template <Kind kKind>
 [[gnu::cold, gnu::noinline]] Status spoiled(Ticker& ticker, NodeIndex self, LeafSlot& leaf,
                                             lockstep_status result) {
-  if (!take_error(ticker, self, leaf) && !is_out(ticker, leaf)) {
+  if (!take_error(ticker, self, leaf) && !is_out(ticker, leaf) && !may_run(leaf, result)) {
     ticker.set_fault(self, result == LOCKSTEP_RUNNING
                                ? std::string("is a condition and returned running")
                                : "returned status " + std::to_string(result) +

@@ -24,6 +24,7 @@ void write_port(const lockstep_port& declared, const ObjectType* object, Message
   }
   message.put(port.min);
   message.put(port.max);
+  message.put(port.flags);
   if (object != nullptr) write_object_type(*object, message);
 }
 
@@ -93,6 +94,7 @@ void OwnedDescriptors::read_port(MessageReader& message) {
   }
   port.min = message.get<double>();
   port.max = message.get<double>();
+  port.flags = message.get<std::uint64_t>();
   if (port.type == LOCKSTEP_OBJECT) port.object = read_object_type(message);
   port_lists_.back().push_back(&ports_.emplace_back(port));
 }

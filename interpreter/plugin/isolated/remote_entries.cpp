@@ -27,10 +27,26 @@ Value readable_value(const Value& value, ValueType type, const ObjectType* objec
   return std::move(*converted);
 }
 
+// As a port of type LOCKSTEP_ANY sets it.
+bool write_generic(Entry& entry, const Value& value) {
+  if (entry.typing != Typing::Strict) {
+    return write_entry(entry, static_cast<ValueType>(value.index()), nullptr, value);
+  }
+  if (!holds(value, entry.type)) return false;
+  entry.value = value;
+  ++entry.writes;
+  return true;
+}
+
+// Of a port that takes a value of any type.
+constexpr auto kAnyType = static_cast<ValueType>(0xff);
+
 }  // namespace
 
 std::uint32_t RemoteEntries::number_of(const BoundPort& port) {
-  const std::pair key(port.read, port.is_strict ? ValueType::Number : port.type);
+  const std::pair key(port.read, port.is_generic  ? kAnyType
+                                 : port.is_strict ? ValueType::Number
+                                                  : port.type);
   const auto [found, is_new] = numbers_.emplace(key, static_cast<std::uint32_t>(entries_.size()));
   if (is_new) {
     const PackedType* const objects =
@@ -40,7 +56,8 @@ std::uint32_t RemoteEntries::number_of(const BoundPort& port) {
                         .type = port.type,
                         .objects = objects,
                         .object = port.object,
-                        .is_strict = port.is_strict});
+                        .is_strict = port.is_strict,
+                        .is_generic = port.is_generic});
   }
   Entry& entry = entries_[found->second];
   if (port.write != nullptr) entry.write = port.write;
@@ -53,8 +70,12 @@ std::string RemoteEntries::write(std::span<const std::uint32_t> ports, MessageWr
     if (number == kNone) continue;
     Entry& entry = entries_[number];
     Value converted;
-    if (!entry.is_strict) converted = readable_value(*entry.read, entry.type, entry.object);
-    const Value& value = entry.is_strict ? *entry.read : converted;
+    if (entry.is_generic) {
+      if (!std::holds_alternative<Object>(*entry.read)) converted = *entry.read;
+    } else if (!entry.is_strict) {
+      converted = readable_value(*entry.read, entry.type, entry.object);
+    }
+    const Value& value = entry.is_strict && !entry.is_generic ? *entry.read : converted;
     if (entry.known && entry.last == value) continue;
     message.put(number);
     std::string reason = put_packed(value, message);
@@ -72,9 +93,11 @@ bool RemoteEntries::read(MessageReader& message, bool& refused) {
     if (number >= entries_.size() || entries_[number].write == nullptr) return false;
     Entry& entry = entries_[number];
     if (!message.value_into(entry.last, entry.objects)) return false;
-    if (!holds(entry.last, entry.type)) return false;
+    if (entry.is_generic ? !entry.last.index() : !holds(entry.last, entry.type)) return false;
     entry.known = true;
-    if (entry.is_strict) {
+    if (entry.is_generic) {
+      refused |= !write_generic(*entry.write, entry.last);
+    } else if (entry.is_strict) {
       entry.write->value = entry.last;
       ++entry.write->writes;
     } else if (!write_entry(*entry.write, entry.type, entry.object, entry.last)) {

@@ -38,6 +38,7 @@ class RemoteEntries {
     const PackedType* objects;  // null: its values are none
     const ObjectType* object;
     bool is_strict;
+    bool is_generic;
     bool known = false;
     Value last = {};  // what the other side knows
   };

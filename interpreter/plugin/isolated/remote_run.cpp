@@ -169,6 +169,7 @@ void write_creation(const RemoteLeaf& leaf, std::uint32_t type, MessageWriter& r
   request.put(leaf.caller.random);
   request.put(type);
   request.put_text(leaf.caller.who);
+  request.put_text(leaf.caller.name);
   request.put(static_cast<std::uint32_t>(leaf.caller.ports.size()));
   for (std::size_t index = 0; index < leaf.caller.ports.size(); ++index) {
     const BoundPort& port = leaf.caller.ports[index];
@@ -231,7 +232,8 @@ const lockstep_plugin& remote_plugin() {
                                            .deinit = nullptr,
                                            .create_run = create_run,
                                            .destroy_run = destroy_run,
-                                           .get_extension = nullptr};
+                                           .get_extension = nullptr,
+                                           .describe = nullptr};
   return kPlugin;
 }
 

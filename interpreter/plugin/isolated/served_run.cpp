@@ -71,6 +71,7 @@ bool ServedRun::read_ports(MessageReader& request, Object& leaf,
     port.name = declared[index].name;
     port.limits = limits_of(declared[index]);
     port.object = declared[index].object;
+    port.is_generic = declared[index].is_generic;
     const bool is_writable = request.get<std::uint8_t>() != 0;
     const auto number = request.get<std::uint32_t>();
     const auto fallback = request.get<std::uint32_t>();
@@ -86,6 +87,7 @@ bool ServedRun::read_ports(MessageReader& request, Object& leaf,
     if (port.object != nullptr) bound->objects = &PackedType::of(port.object->name());
     port.read = &bound->value;
     if (is_writable) port.write = bound;
+    if (port.is_generic) bound->typing = Typing::Any;
   }
   return request.good();
 }
@@ -94,9 +96,12 @@ ServedRun::Object* ServedRun::create_leaf(std::uint32_t number, MessageReader& r
   const auto random = request.get<std::uint64_t>();
   const auto type = request.get<std::uint32_t>();
   std::string who(request.text());
+  std::string name(request.text());
   if (type >= descriptors_.leaves.size() || number == 0) return nullptr;
   auto leaf = make_object(number, std::move(who), std::bit_cast<RandomStream>(random));
+  leaf->caller->name = std::move(name);
   leaf->type = &descriptors_.leaves[type]->type;
+  leaf->caller->id = leaf->type->id;
   leaf->site = &CallSite::of(fmt::format("'{}' ({} of plugin '{}')", printable(leaf->caller->who),
                                          leaf->type->id, descriptors_.plugin.name),
                              descriptors_.plugin.name);

@@ -67,7 +67,13 @@ enum {
 enum {
   /* The leaf works in real time, whether ticks come or not: in a thread, with a device. On a
    * virtual clock, where ticks do not wait for it, the host warns of it. */
-  LOCKSTEP_REAL_TIME = 1
+  LOCKSTEP_REAL_TIME = 1,
+  /* Since 1.1: a condition that may also return running. */
+  LOCKSTEP_MAY_RUN = 2,
+  /* Since 1.1: the node uses entries that no port names: lockstep_place::open. */
+  LOCKSTEP_OPENS = 4,
+  /* Since 1.1: an action that never returns running. */
+  LOCKSTEP_AT_ONCE = 8
 };
 
 typedef int32_t lockstep_type;
@@ -82,7 +88,8 @@ enum {
   LOCKSTEP_BOOL_LIST = 7,   /* "true;false" */
   LOCKSTEP_STRING_LIST = 8, /* "front door;back door"; a backslash before ';' or '\\' keeps it */
   LOCKSTEP_OBJECT = 9,      /* carried by reference count: lockstep_object_type */
-  LOCKSTEP_NUMBER = 100     /* of an input: a constant or an entry, int or double */
+  LOCKSTEP_NUMBER = 100,    /* of an input: a constant or an entry, int or double */
+  LOCKSTEP_ANY = 101        /* any of the above; a constant is a string: lockstep_place */
 };
 
 /* A text that is an item of a list. It need not end in a NUL; one that the host hands out does, and
@@ -127,13 +134,23 @@ typedef struct lockstep_object_type {
   void* (*from_bytes)(const void* bytes, size_t length);
 } lockstep_object_type;
 
+/* Bits of lockstep_port::flags, since 1.1. A host ignores those that it does not know. */
+enum {
+  /* The tree may leave the port out though it has no default: it has no value then. */
+  LOCKSTEP_OPTIONAL = 1,
+  /* default_value is "{key}", the entry that the port is bound to where the tree leaves it out; "{=}"
+   * is the entry of the port's name. An output may have such a default, too. */
+  LOCKSTEP_DEFAULT_ENTRY = 2
+};
+
 /* A port: an XML attribute of the leaf, constant or bound to a blackboard entry. */
 typedef struct lockstep_port {
   uint32_t struct_size; /* sizeof(lockstep_port) as the plugin knew it */
   lockstep_type type;
   lockstep_direction direction;
-  const char* name;          /* the XML attribute: a letter, then letters, digits, '_'; each port of
-                                a leaf has its own; 'name' and 'ID' are taken */
+  const char* name;          /* the XML attribute: a letter, then letters, digits, '_' (since 1.1 also
+                                '-' and UTF-8); each port of a leaf has its own; 'name' and 'ID' are
+                                taken */
   const char* default_value; /* a constant, as written in XML; NULL: an input or inout must be given
                                 in the tree, an output (which has no default) may be left out */
   const char* unit;          /* "s", "m/s"; NULL or "" for none */
@@ -144,6 +161,7 @@ typedef struct lockstep_port {
   const char* choices; /* of a string: the words that it may be, "soft;firm"; NULL for any text */
   double min, max;     /* of numbers, also in lists; both 0 for any, HUGE_VAL for no upper end */
   const lockstep_object_type* object; /* of a LOCKSTEP_OBJECT, which has no default; else NULL */
+  uint64_t flags;
 } lockstep_port;
 
 /* Who is calling: one leaf of one run, or one run (in create_run). Given by the host at create or
@@ -227,8 +245,8 @@ typedef struct lockstep_host {
  *
  * tick, halt and pause are called inside the node's own tick only; count, status and progress
  * inside any function of the node but create and destroy. It is a fault of the node to call them
- * elsewhere, to name a child that it does not have, or to tick a child twice in one tick. After a
- * fault, also one of a leaf below, they do nothing, tick and status return LOCKSTEP_RUNNING, and
+ * elsewhere, to name a child that it does not have, or (in lockstep's own language) to tick a child
+ * twice in one tick. After a fault, also one of a leaf below, they do nothing, tick and status return LOCKSTEP_RUNNING, and
  * what the node returns does not count.
  *
  * The host keeps the rest in order. When the node completes, children that still run are halted.
@@ -249,6 +267,9 @@ typedef struct lockstep_children {
   lockstep_status (*status)(const lockstep_caller* caller, uint32_t child);
   /* [run] In [0, 1]: 1 after success, 0 when it failed or is idle. */
   double (*progress)(const lockstep_caller* caller, uint32_t child);
+  /* [run] Ticks a child that may have completed before, as tick does; but an action that takes time
+   * and has completed does not begin again, and gives the same result. */
+  lockstep_status (*tick_unreset)(const lockstep_caller* caller, uint32_t child);
 } lockstep_children;
 
 #define LOCKSTEP_CHILDREN "lockstep.children"
@@ -288,6 +309,49 @@ typedef struct lockstep_workers {
 
 #define LOCKSTEP_WORKERS "lockstep.workers"
 
+/* Since 1.1: what a node may know about its place in the tree, and ports of type LOCKSTEP_ANY. Found
+ * with get_extension(LOCKSTEP_PLACE). Texts are valid until destroy returns. */
+typedef struct lockstep_place {
+  uint32_t struct_size;
+
+  /* [any] The name of the node in the tree, which is its id unless the tree gives another; and all
+   * names from the root down to it, unique in the tree. */
+  const char* (*name)(const lockstep_caller* caller);
+  const char* (*path)(const lockstep_caller* caller);
+  /* [any] The id of its type, for those whose types share a `create`. */
+  const char* (*id)(const lockstep_caller* caller);
+  /* [any] The id and the name of a child, by its index; NULL when there is none. */
+  const char* (*child_id)(const lockstep_caller* caller, uint32_t child);
+  const char* (*child_name)(const lockstep_caller* caller, uint32_t child);
+
+  /* [run] What the tree gives to a port: "{key}", or the text of a constant; NULL when it is left
+   * out and has no default. */
+  const char* (*given)(const lockstep_caller* caller, uint32_t port);
+  /* [run] The type of the value that a port has now, of which the get of that type returns it; 0
+   * when there is none. */
+  lockstep_type (*value_type)(const lockstep_caller* caller, uint32_t port);
+  /* [run] get_object and set_object for a LOCKSTEP_ANY: false when it has an object of another
+   * type, or none. The type must be one that a port of the plugin could have. */
+  bool (*get_object)(const lockstep_caller* caller, uint32_t port, const lockstep_object_type* type,
+                     void** object);
+  bool (*set_object)(const lockstep_caller* caller, uint32_t port, const lockstep_object_type* type,
+                     void* object);
+
+  /* [run] The index of a port beyond those of the type: of type LOCKSTEP_ANY, an inout, bound to the
+   * entry that `key` means where the node is in the tree. The same key gives the same index.
+   * UINT32_MAX: the type has not LOCKSTEP_OPENS, it is create that runs, or the tree is in a
+   * language without such entries. */
+  uint32_t (*open)(const lockstep_caller* caller, const char* key, size_t length);
+  /* [run] Removes the entry of a port that was opened, if it belongs to the node's own tree. */
+  void (*unset)(const lockstep_caller* caller, uint32_t port);
+
+  /* [run] In tick: where the tree is in a language whose nodes ask for it, it is ticked once more
+   * in this period if its root runs then. */
+  void (*ask_for_tick)(const lockstep_caller* caller);
+} lockstep_place;
+
+#define LOCKSTEP_PLACE "lockstep.place"
+
 /* A type of leaf. Functions marked (optional) may be NULL.
  *
  * An activation: start, then tick once per tick of the tree until it returns success, failure or
@@ -299,7 +363,8 @@ typedef struct lockstep_workers {
 typedef struct lockstep_leaf_type {
   uint32_t struct_size; /* sizeof(lockstep_leaf_type) as the plugin knew it */
   lockstep_leaf_kind kind;
-  const char* id;  /* the XML tag: a letter, then letters, digits, '_'; no tag of the language */
+  const char* id;  /* the XML tag: a letter, then letters, digits, '_' (since 1.1 also '-' and UTF-8);
+                      no tag of the language */
   const char* doc; /* one or two sentences; NULL for none */
   uint32_t port_count;               /* at most 4096 */
   const lockstep_port* const* ports; /* port_count pointers, none NULL */
@@ -358,6 +423,12 @@ typedef struct lockstep_plugin {
 
   /* [any] (optional) */
   const void* (*get_extension)(const char* id);
+
+  /* Since 1.1. [load] (optional) For a plugin that finds out only when it is opened what it has:
+   * called before anything else, also by `lockstep check`, which calls no other function. Returns
+   * the table that counts in place of this one, of which only the version, the size and describe
+   * are looked at; or NULL, and in *why what is wrong. */
+  const struct lockstep_plugin* (*describe)(const char** why);
 } lockstep_plugin;
 
 /* The plugin defines it, once: const lockstep_plugin lockstep_plugin_entry = {...}; */

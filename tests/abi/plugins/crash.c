@@ -97,7 +97,8 @@ static double progress(void* leaf) {
                                          NULL,                  \
                                          0,                     \
                                          0,                     \
-                                         NULL}
+                                         NULL,                  \
+                                         0}
 PORT(where_port, "where");
 PORT(how_port, "how");
 static const lockstep_port* const ports[] = {&where_port, &how_port};
@@ -129,6 +130,7 @@ const lockstep_plugin lockstep_plugin_entry = {LOCKSTEP_ABI_MAJOR,
                                                NULL,
                                                1,
                                                leaf_types,
+                                               NULL,
                                                NULL,
                                                NULL,
                                                NULL,

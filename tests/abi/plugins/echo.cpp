@@ -134,7 +134,8 @@ constexpr lockstep_port port(lockstep_type type, lockstep_direction direction, c
           nullptr,
           0,
           0,
-          nullptr};
+          nullptr,
+          0};
 }
 
 constexpr lockstep_port limited(lockstep_port port, double min, double max) {
@@ -204,6 +205,7 @@ extern "C" const lockstep_plugin lockstep_plugin_entry = {LOCKSTEP_ABI_MAJOR,
                                                           nullptr,
                                                           1,
                                                           kTypes,
+                                                          nullptr,
                                                           nullptr,
                                                           nullptr,
                                                           nullptr,

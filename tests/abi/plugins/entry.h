@@ -20,6 +20,9 @@
 #ifndef PLUGIN_CREATE_RUN
 #define PLUGIN_CREATE_RUN NULL
 #endif
+#ifndef PLUGIN_DESCRIBE
+#define PLUGIN_DESCRIBE NULL
+#endif
 #ifndef PLUGIN_DESTROY_RUN
 #define PLUGIN_DESTROY_RUN NULL
 #endif
@@ -93,6 +96,9 @@
 #ifndef PORT_CHOICES
 #define PORT_CHOICES NULL
 #endif
+#ifndef PORT_FLAGS
+#define PORT_FLAGS 0
+#endif
 #ifndef PORT_OBJECT
 #define PORT_OBJECT NULL
 #endif
@@ -116,7 +122,8 @@ static const lockstep_port the_port = {PORT_SIZE,
                                        PORT_CHOICES,
                                        PORT_MIN,
                                        PORT_MAX,
-                                       PORT_OBJECT};
+                                       PORT_OBJECT,
+                                       PORT_FLAGS};
 MAYBE_UNUSED static const lockstep_port* const the_ports[] = {&the_port, &the_port};
 
 static const lockstep_leaf_type the_leaf_type = {
@@ -127,6 +134,6 @@ MAYBE_UNUSED static const lockstep_leaf_type* const the_leaf_types[] = {&the_lea
                                                                         &the_leaf_type};
 
 const lockstep_plugin lockstep_plugin_entry = {
-    ABI_MAJOR,         ABI_MINOR,          PLUGIN_SIZE, PLUGIN_NAME, "1.0.0",
-    "for tests",       LEAF_COUNT,         LEAF_LIST,   PLUGIN_INIT, NULL,
-    PLUGIN_CREATE_RUN, PLUGIN_DESTROY_RUN, NULL};
+    ABI_MAJOR,         ABI_MINOR,          PLUGIN_SIZE, PLUGIN_NAME,    "1.0.0",
+    "for tests",       LEAF_COUNT,         LEAF_LIST,   PLUGIN_INIT,    NULL,
+    PLUGIN_CREATE_RUN, PLUGIN_DESTROY_RUN, NULL,        PLUGIN_DESCRIBE};

@@ -21,7 +21,8 @@ static void more(void* leaf) {
 }
 
 static const newer_port port = {
-    {sizeof(newer_port), LOCKSTEP_INT, LOCKSTEP_INPUT, "ticks", "2", NULL, NULL, NULL, 0, 0, NULL},
+    {sizeof(newer_port), LOCKSTEP_INT, LOCKSTEP_INPUT, "ticks", "2", NULL, NULL, NULL, 0, 0, NULL,
+     0},
     "more"};
 static const lockstep_port* const ports[] = {&port.base};
 static const newer_leaf_type leaf_type = {
@@ -33,5 +34,5 @@ static const lockstep_leaf_type* const leaf_types[] = {&leaf_type.base};
 extern LOCKSTEP_EXPORT const newer_plugin lockstep_plugin_entry;
 const newer_plugin lockstep_plugin_entry = {
     {LOCKSTEP_ABI_MAJOR, LOCKSTEP_ABI_MINOR + 1, sizeof(newer_plugin), "newer_minor", NULL, NULL, 1,
-     leaf_types, NULL, NULL, NULL, NULL, NULL},
+     leaf_types, NULL, NULL, NULL, NULL, NULL, NULL},
     "more"};

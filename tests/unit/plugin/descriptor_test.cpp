@@ -73,7 +73,7 @@ struct Crowd {
     for (std::uint32_t i = 0; i < ports_of_each; ++i) {
       const char* const name = names.emplace_back("p" + std::to_string(i)).c_str();
       ports.push_back({sizeof(lockstep_port), LOCKSTEP_BOOL, LOCKSTEP_INPUT, name, "true", nullptr,
-                       nullptr, nullptr, 0, 0, nullptr});
+                       nullptr, nullptr, 0, 0, nullptr, 0});
     }
     for (const lockstep_port& port : ports) port_list.push_back(&port);
     for (std::uint32_t i = 0; i < leaves; ++i) {
@@ -134,7 +134,8 @@ TEST_CASE("of a struct that is shorter than ours only what is there is read") {
                             nullptr,
                             0,
                             0,
-                            nullptr};
+                            nullptr,
+                            0};
 
   const auto* const from = static_cast<const LongerPort*>(place);
   const LongerPort copy = covered_copy(from, from->base.struct_size);

@@ -55,7 +55,8 @@ constexpr lockstep_port port(const char* name, lockstep_type type, lockstep_dire
           nullptr,
           0,
           0,
-          nullptr};
+          nullptr,
+          0};
 }
 
 const lockstep_port kPorts[] = {
@@ -100,6 +101,7 @@ const lockstep_plugin kPlugin = {LOCKSTEP_ABI_MAJOR,
                                  deinit,
                                  create_run,
                                  destroy_run,
+                                 nullptr,
                                  nullptr};
 
 }  // namespace

@@ -58,6 +58,7 @@ const lockstep_plugin kPlugin = {LOCKSTEP_ABI_MAJOR,
                                  nullptr,
                                  nullptr,
                                  nullptr,
+                                 nullptr,
                                  nullptr};
 
 const NodeType& parallel() {

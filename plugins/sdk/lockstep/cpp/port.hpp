@@ -137,8 +137,8 @@ constexpr lockstep_port describe(lockstep_direction direction, const char* name,
                                  const char* unit, Limits limits) {
   limits = all_limits<T>(limits);
   return {
-      sizeof(lockstep_port), PortTraits<T>::kType, direction,  name,          nullptr, unit, doc,
-      limits.choices,        limits.min,           limits.max, object_of<T>()};
+      sizeof(lockstep_port), PortTraits<T>::kType, direction,  name,           nullptr, unit, doc,
+      limits.choices,        limits.min,           limits.max, object_of<T>(), 0};
 }
 
 template <class T>
