@@ -59,6 +59,7 @@ const std::vector<Layer> kLayers{
     {"interpreter/main.cpp", {"core/", "runtime/", "cli/"}},
     {"interpreter/leafhost.cpp", {"core/", "plugin/", "runtime/"}},
     {"plugins/", {"lockstep/"}},
+    {"plugins/sdk/btcpp/", {"behaviortree_cpp/"}},
 };
 
 // What is not ours, by the beginning of its name, and the only places that may see it.

@@ -1,14 +1,24 @@
 # lockstep_add_plugin(name source…) builds the plugin name.so, in C or C++, with everything hidden
 # but lockstep_plugin_entry. Used by the plugins of this repository and, installed, by all others.
 # A project that chooses no build type would run its leaves unoptimized: then it is Release.
+# With BTCPP among the sources, these are written for BehaviorTree.CPP: docs/btcpp.md.
 function(lockstep_add_plugin name)
   get_property(several_configurations GLOBAL PROPERTY GENERATOR_IS_MULTI_CONFIG)
   if(NOT CMAKE_BUILD_TYPE AND NOT several_configurations)
     message(STATUS "lockstep: no CMAKE_BUILD_TYPE is given, so it is Release")
     set(CMAKE_BUILD_TYPE Release CACHE STRING "Release, RelWithDebInfo, Debug or MinSizeRel" FORCE)
   endif()
-  add_library(${name} MODULE ${ARGN})
-  target_link_libraries(${name} PRIVATE lockstep::sdk)
+  set(sources ${ARGN})
+  set(sdk lockstep::sdk)
+  if("BTCPP" IN_LIST sources)
+    list(REMOVE_ITEM sources BTCPP)
+    set(sdk lockstep::btcpp)
+  endif()
+  add_library(${name} MODULE ${sources})
+  target_link_libraries(${name} PRIVATE ${sdk})
+  if(sdk STREQUAL "lockstep::btcpp")
+    target_compile_definitions(${name} PRIVATE BT_PLUGIN_EXPORT)
+  endif()
   get_property(languages GLOBAL PROPERTY ENABLED_LANGUAGES)
   if("CXX" IN_LIST languages)
     target_compile_features(${name} PRIVATE cxx_std_17)

@@ -1,0 +1,84 @@
+// Nodes that do something.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+
+#include "behaviortree_cpp/leaf_node.h"
+
+namespace BT {
+
+class ActionNodeBase : public LeafNode {
+ public:
+  ActionNodeBase(const std::string& name, const NodeConfig& config) : LeafNode(name, config) {}
+  NodeType type() const final { return NodeType::ACTION; }
+};
+
+// Done in one tick.
+class SyncActionNode : public ActionNodeBase {
+ public:
+  SyncActionNode(const std::string& name, const NodeConfig& config)
+      : ActionNodeBase(name, config) {}
+
+  NodeStatus executeTick() override {
+    const NodeStatus status = ActionNodeBase::executeTick();
+    if (status == NodeStatus::RUNNING) {
+      throw LogicError("node '", name(),
+                       "' is a SyncActionNode and has returned RUNNING; derive "
+                       "it from StatefulActionNode");
+    }
+    return status;
+  }
+  void halt() final { resetStatus(); }
+};
+
+class SimpleActionNode : public SyncActionNode {
+ public:
+  using TickFunctor = std::function<NodeStatus(TreeNode&)>;
+  SimpleActionNode(const std::string& name, TickFunctor function, const NodeConfig& config)
+      : SyncActionNode(name, config), function_(std::move(function)) {}
+
+ protected:
+  NodeStatus tick() final { return function_(*this); }
+
+ private:
+  TickFunctor function_;
+};
+
+// Takes several ticks.
+class StatefulActionNode : public ActionNodeBase {
+ public:
+  StatefulActionNode(const std::string& name, const NodeConfig& config)
+      : ActionNodeBase(name, config) {}
+
+  // The first tick of an activation.
+  virtual NodeStatus onStart() = 0;
+  // Each tick after that, while it runs.
+  virtual NodeStatus onRunning() = 0;
+  // It runs and must stop now.
+  virtual void onHalted() = 0;
+
+  // True after the first halt, for ever.
+  bool isHaltRequested() const { return is_halt_requested_; }
+
+ protected:
+  NodeStatus tick() final {
+    const NodeStatus before = status();
+    if (isStatusCompleted(before)) return before;
+    return before == NodeStatus::RUNNING ? onRunning() : onStart();
+  }
+  void halt() final {
+    is_halt_requested_ = true;
+    if (status() == NodeStatus::RUNNING) onHalted();
+    resetStatus();
+  }
+
+ private:
+  std::atomic<bool> is_halt_requested_{false};
+};
+
+}  // namespace BT
+
+#include "behaviortree_cpp/coro_action.h"      // IWYU pragma: export
+#include "behaviortree_cpp/threaded_action.h"  // IWYU pragma: export

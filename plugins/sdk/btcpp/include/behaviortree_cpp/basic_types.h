@@ -1,0 +1,240 @@
+// Statuses, texts as values, results, and what a node declares about its ports.
+#pragma once
+
+#include <charconv>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <iostream>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "behaviortree_cpp/contrib/expected.hpp"
+#include "behaviortree_cpp/exceptions.h"
+#include "behaviortree_cpp/lockstep/json_functions.h"
+#include "behaviortree_cpp/utils/demangle_util.h"
+#include "behaviortree_cpp/utils/safe_any.hpp"
+
+namespace BT {
+
+enum class NodeType { UNDEFINED = 0, ACTION, CONDITION, CONTROL, DECORATOR, SUBTREE };
+enum class NodeStatus { IDLE = 0, RUNNING = 1, SUCCESS = 2, FAILURE = 3, SKIPPED = 4 };
+enum class PortDirection { INPUT, OUTPUT, INOUT };
+
+inline bool isStatusActive(const NodeStatus& status) {
+  return status != NodeStatus::IDLE && status != NodeStatus::SKIPPED;
+}
+inline bool isStatusCompleted(const NodeStatus& status) {
+  return status == NodeStatus::SUCCESS || status == NodeStatus::FAILURE;
+}
+
+using StringView = std::string_view;
+using KeyValueVector = std::vector<std::pair<std::string, std::string>>;
+
+template <class T>
+using Expected = nonstd::expected<T, std::string>;
+template <class T>
+using Optional = nonstd::expected<T, std::string>;
+using Result = Expected<std::monostate>;
+
+using TimePoint = std::chrono::high_resolution_clock::time_point;
+using Duration = std::chrono::high_resolution_clock::duration;
+
+struct Timestamp {
+  std::uint64_t seq = 0;  // how often the entry was written
+  std::chrono::nanoseconds time{0};
+};
+
+// The type of a port that takes values of any type.
+struct AnyTypeAllowed {};
+
+inline bool StartWith(StringView text, StringView prefix) {
+  return text.substr(0, prefix.size()) == prefix;
+}
+inline bool StartWith(StringView text, char prefix) {
+  return !text.empty() && text.front() == prefix;
+}
+
+// The parts between the separators; one at the end gives no part.
+inline std::vector<StringView> splitString(const StringView& text, char separator) {
+  std::vector<StringView> parts;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(separator, at), text.size());
+    parts.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return parts;
+}
+
+namespace detail {
+
+[[noreturn]] inline void refuse_text(StringView text, const std::string& wanted) {
+  throw RuntimeError("'", text, "' is not ", wanted);
+}
+
+// What a text begins with; the rest is ignored.
+template <class T>
+T number_from(StringView text) {
+  T number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  static_cast<void>(end);
+  if (error == std::errc::result_out_of_range) {
+    refuse_text(text, "in the range of " + demangle(typeid(T)));
+  }
+  if (error != std::errc()) refuse_text(text, "a number");
+  return number;
+}
+
+// Thrown by the convertFromString of a type that has none.
+class NoConversion : public LogicError {
+ public:
+  using LogicError::LogicError;
+};
+
+template <class T>
+struct TextReader {
+  static T read(StringView text) {
+    if constexpr (std::is_same_v<T, bool>) {
+      for (const StringView word : {"1", "true", "TRUE", "True"}) {
+        if (text == word) return true;
+      }
+      for (const StringView word : {"0", "false", "FALSE", "False"}) {
+        if (text == word) return false;
+      }
+      refuse_text(text, "true or false");
+    } else if constexpr (std::is_arithmetic_v<T>) {
+      return number_from<T>(text);
+    } else if constexpr (is_text_v<T>) {
+      return T(text.data(), text.size());
+    } else {
+      if (StartWith(text, "json:")) {
+        Any value;
+        if (read_json(typeid(T), text.substr(5), value)) return value.cast<T>();
+      }
+      throw NoConversion("there is no conversion from a text to ", demangle(typeid(T)),
+                         "; specialize BT::convertFromString for it");
+    }
+  }
+};
+template <>
+inline const char* TextReader<const char*>::read(StringView text) {
+  return text.data();
+}
+
+}  // namespace detail
+
+// A text as a value; throws when it is none. Specialize it for the types of your ports.
+template <typename T>
+inline T convertFromString(StringView text) {
+  return detail::TextReader<T>::read(text);
+}
+
+namespace detail {
+
+template <class Item>
+struct TextReader<std::vector<Item>> {
+  static std::vector<Item> read(StringView text) {
+    if (StartWith(text, "json:")) {
+      Any value;
+      if (read_json(typeid(std::vector<Item>), text.substr(5), value)) {
+        return value.cast<std::vector<Item>>();
+      }
+    }
+    std::vector<Item> items;
+    for (const StringView part : splitString(text, ';')) {
+      items.push_back(convertFromString<Item>(part));
+    }
+    return items;
+  }
+};
+
+template <class Enum, std::size_t kCount>
+Enum named_value(StringView text, const char* const (&names)[kCount]) {
+  for (std::size_t i = 0; i < kCount; ++i) {
+    if (text == names[i]) return static_cast<Enum>(i);
+  }
+  refuse_text(text, demangle(typeid(Enum)));
+}
+
+inline constexpr const char* kStatusNames[] = {"IDLE", "RUNNING", "SUCCESS", "FAILURE", "SKIPPED"};
+inline constexpr const char* kTypeNames[] = {"Undefined", "Action",    "Condition",
+                                             "Control",   "Decorator", "SubTree"};
+inline constexpr const char* kDirectionNames[] = {"Input", "Output", "InOut"};
+
+}  // namespace detail
+
+template <>
+inline NodeStatus convertFromString<NodeStatus>(StringView text) {
+  return detail::named_value<NodeStatus>(text, detail::kStatusNames);
+}
+template <>
+inline NodeType convertFromString<NodeType>(StringView text) {
+  return detail::named_value<NodeType>(text, detail::kTypeNames);
+}
+template <>
+inline PortDirection convertFromString<PortDirection>(StringView text) {
+  for (const StringView word : {"Input", "INPUT", "Output", "OUTPUT", "InOut", "INOUT"}) {
+    if (text == word) {
+      return word.front() == 'O'                           ? PortDirection::OUTPUT
+             : word.size() == 5 && (word[2] & 0x5f) == 'P' ? PortDirection::INPUT
+                                                           : PortDirection::INOUT;
+    }
+  }
+  detail::refuse_text(text, "a direction");
+}
+
+inline std::string toStr(const std::string& value) {
+  return value;
+}
+inline std::string toStr(const NodeStatus& status) {
+  return detail::kStatusNames[static_cast<int>(status)];
+}
+// With colors for a terminal.
+inline std::string toStr(NodeStatus status, bool colored) {
+  if (!colored) return toStr(status);
+  constexpr const char* kColors[] = {"36", "33", "32", "31", "34"};
+  return StrCat("\x1b[", kColors[static_cast<int>(status)], "m", toStr(status), "\x1b[0m");
+}
+inline std::string toStr(const NodeType& type) {
+  return detail::kTypeNames[static_cast<int>(type)];
+}
+inline std::string toStr(const PortDirection& direction) {
+  return detail::kDirectionNames[static_cast<int>(direction)];
+}
+template <typename T>
+[[nodiscard]] std::string toStr(const T& value) {
+  if constexpr (std::is_convertible_v<T, std::string>) {
+    return static_cast<std::string>(value);
+  } else if constexpr (std::is_same_v<T, bool>) {
+    return value ? "true" : "false";
+  } else if constexpr (std::is_arithmetic_v<T>) {
+    return std::to_string(value);
+  } else if constexpr (std::is_same_v<T, std::string_view>) {
+    return std::string(value);
+  } else {
+    std::string text;
+    if (detail::write_json(typeid(T), &value, text)) return text;
+    throw LogicError("there is no text for a value of type ", demangle(typeid(T)),
+                     "; overload BT::toStr, or register it for JSON");
+  }
+}
+
+inline std::ostream& operator<<(std::ostream& out, const NodeStatus& status) {
+  return out << toStr(status);
+}
+inline std::ostream& operator<<(std::ostream& out, const NodeType& type) {
+  return out << toStr(type);
+}
+inline std::ostream& operator<<(std::ostream& out, const PortDirection& direction) {
+  return out << toStr(direction);
+}
+
+using StringConverter = std::function<Any(StringView)>;
+
+}  // namespace BT
+
+#include "behaviortree_cpp/lockstep/ports.h"  // IWYU pragma: export

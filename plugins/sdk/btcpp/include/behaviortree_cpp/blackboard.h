@@ -1,0 +1,154 @@
+// The entries of a tree, by name. In a tree they are those of lockstep: a leaf reads and writes
+// them in the thread that ticks it. A Blackboard that a program makes holds its values itself.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "behaviortree_cpp/basic_types.h"
+#include "behaviortree_cpp/lockstep/opened_entry.h"
+#include "behaviortree_cpp/utils/locked_reference.hpp"
+
+namespace BT {
+
+template <class T>
+struct StampedValue {
+  T value;
+  Timestamp stamp;
+};
+
+class Blackboard {
+ public:
+  using Ptr = std::shared_ptr<Blackboard>;
+  static Ptr create(Ptr parent = {}) { return Ptr(new Blackboard(std::move(parent))); }
+  Blackboard(const Blackboard&) = delete;
+  Blackboard& operator=(const Blackboard&) = delete;
+
+  // Throws when there is no entry, no value, or one of another type.
+  template <class T>
+  [[nodiscard]] T get(const std::string& key) const {
+    auto value = read<T>(key);
+    if (!value) throw RuntimeError("Blackboard::get: ", value.error());
+    return std::move(*value);
+  }
+  template <class T>
+  Expected<StampedValue<T>> getStamped(const std::string& key) const {
+    auto value = read<T>(key);
+    if (!value) return nonstd::make_unexpected(value.error());
+    return StampedValue<T>{std::move(*value), {}};
+  }
+  template <class T>
+  Expected<Timestamp> getStamped(const std::string& key, T& value) const {
+    auto read_value = read<T>(key);
+    if (!read_value) return nonstd::make_unexpected(read_value.error());
+    value = std::move(*read_value);
+    return Timestamp{};
+  }
+  // False when there is no value; throws when it has another type.
+  template <class T>
+  bool get(const std::string& key, T& value) const {
+    if (!has_value(key)) return false;
+    value = get<T>(key);
+    return true;
+  }
+  template <class T>
+  void set(const std::string& key, const T& value) {
+    using Value = std::decay_t<const T>;
+    if (place_ != nullptr) {
+      detail::OpenedEntry(*place_, prefix_ + key).template set<Value>(value);
+    } else if constexpr (std::is_same_v<Value, Any>) {
+      values_[key] = value;
+    } else {
+      values_[key] = Any(value);
+    }
+  }
+  template <class Key = std::string>
+  void unset(const Key& key) {
+    if (place_ != nullptr) {
+      detail::OpenedEntry(*place_, prefix_ + key).unset();
+    } else {
+      values_.erase(std::string(key));
+    }
+  }
+
+  // The value, which may be changed in place; false when there is none.
+  template <class Key = std::string>
+  [[nodiscard]] AnyPtrLocked getAnyLocked(const Key& key) const {
+    Any value;
+    if (place_ != nullptr) {
+      const detail::OpenedEntry entry(*place_, prefix_ + key);
+      if (!entry.get(value)) return {};
+      return {std::move(value), [entry](const Any& changed) { entry.set(changed); }};
+    }
+    if (!find(key, value)) return {};
+    auto* const self = const_cast<Blackboard*>(this);  // NOLINT: as getAnyLocked promises
+    return {std::move(value), [self, key](const Any& changed) { self->values_[key] = changed; }};
+  }
+
+  // The one of the main tree, and the one outside.
+  Blackboard* rootBlackboard() {
+    return place_ != nullptr ? root_.get() : parent_ != nullptr ? parent_->rootBlackboard() : this;
+  }
+  const Blackboard* rootBlackboard() const {
+    return const_cast<Blackboard*>(this)->rootBlackboard();  // NOLINT
+  }
+  Ptr parent() const { return parent_; }
+
+  // Of a Blackboard that a program has made.
+  std::vector<StringView> getKeys() const {
+    std::vector<StringView> keys;
+    for (const auto& [key, value] : values_) keys.push_back(key);
+    return keys;
+  }
+  const std::map<std::string, Any>& values() const { return values_; }
+
+  // For the node that has it.
+  static Ptr at(detail::Place& place) {
+    auto root = Ptr(new Blackboard({}));
+    root->place_ = &place;
+    root->prefix_ = "@";
+    auto board = Ptr(new Blackboard({}));
+    board->place_ = &place;
+    board->root_ = std::move(root);
+    return board;
+  }
+
+ private:
+  explicit Blackboard(Ptr parent) : parent_(std::move(parent)) {}
+
+  template <class T>
+  Expected<T> read(const std::string& key) const {
+    if (place_ != nullptr) return detail::OpenedEntry(*place_, prefix_ + key).template get<T>();
+    Any value;
+    if (!find(key, value)) {
+      return nonstd::make_unexpected(StrCat("there is no entry '", key, "'"));
+    }
+    if constexpr (!std::is_same_v<T, std::string> && !std::is_same_v<T, Any>) {
+      if (value.isString()) return detail::parse<T>(value.cast<std::string>());
+    }
+    return value.tryCast<T>();
+  }
+  template <class Key>
+  bool has_value(const Key& key) const {
+    Any value;
+    if (place_ != nullptr) return detail::OpenedEntry(*place_, prefix_ + key).has_value();
+    return find(key, value);
+  }
+  bool find(const std::string& key, Any& value) const {
+    const auto found = values_.find(key);
+    if (found == values_.end()) return parent_ != nullptr && parent_->find(key, value);
+    value = found->second;
+    return true;
+  }
+
+  Ptr parent_, root_;
+  std::string prefix_;
+  detail::Place* place_ = nullptr;
+  std::map<std::string, Any> values_;
+};
+
+}  // namespace BT

@@ -1,0 +1,111 @@
+// Registers the nodes of a plugin.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <unordered_map>
+#include <utility>
+
+#include "behaviortree_cpp/behavior_tree.h"
+#include "behaviortree_cpp/lockstep/plugin_table.h"
+
+namespace BT {
+
+template <class T, class... Arguments>
+NodeBuilder CreateBuilder(Arguments... arguments) {
+  return [=](const std::string& name, const NodeConfig& config) {
+    return TreeNode::Instantiate<T>(name, config, arguments...);
+  };
+}
+
+template <class T>
+TreeNodeManifest CreateManifest(const std::string& ID, PortsList ports = getProvidedPorts<T>()) {
+  TreeNodeManifest manifest{getType<T>(), ID, std::move(ports), {}, detail::hooks_of<T>()};
+  if constexpr (has_static_method_metadata<T>::value) manifest.metadata = T::metadata();
+  return manifest;
+}
+
+class BehaviorTreeFactory {
+ public:
+  BehaviorTreeFactory() = default;
+  BehaviorTreeFactory(const BehaviorTreeFactory&) = delete;
+  BehaviorTreeFactory& operator=(const BehaviorTreeFactory&) = delete;
+
+  // A class of nodes by its ID; `arguments` go to the end of its constructor.
+  template <class T, class... Arguments>
+  void registerNodeType(const std::string& ID, const PortsList& ports, Arguments... arguments) {
+    check_class<T, Arguments...>();
+    registerBuilder(CreateManifest<T>(ID, ports), CreateBuilder<T>(arguments...));
+  }
+  template <class T, class... Arguments>
+  void registerNodeType(const std::string& ID, Arguments... arguments) {
+    constexpr bool kTakesConfig =
+        std::is_constructible_v<T, const std::string&, const NodeConfig&, Arguments...>;
+    static_assert(!kTakesConfig || has_static_method_providedPorts<T>::value,
+                  "a class whose constructor takes a NodeConfig needs a public function: static "
+                  "BT::PortsList providedPorts()");
+    static_assert(kTakesConfig || !has_static_method_providedPorts<T>::value,
+                  "a class with providedPorts() needs a public constructor (const std::string& "
+                  "name, const BT::NodeConfig& config), then the arguments of registerNodeType");
+    check_class<T, Arguments...>();
+    registerBuilder(CreateManifest<T>(ID), CreateBuilder<T>(arguments...));
+  }
+
+  void registerBuilder(const TreeNodeManifest& manifest, const NodeBuilder& builder) {
+    plugin_.add(manifest, builder);
+  }
+  template <class T>
+  void registerBuilder(const std::string& ID, const NodeBuilder& builder) {
+    registerBuilder(CreateManifest<T>(ID), builder);
+  }
+
+  void registerSimpleAction(const std::string& ID, const SimpleActionNode::TickFunctor& function,
+                            PortsList ports = {}) {
+    add_simple<SimpleActionNode>(NodeType::ACTION, ID, function, std::move(ports));
+  }
+  void registerSimpleCondition(const std::string& ID,
+                               const SimpleConditionNode::TickFunctor& function,
+                               PortsList ports = {}) {
+    add_simple<SimpleConditionNode>(NodeType::CONDITION, ID, function, std::move(ports));
+  }
+
+  void registerSimpleDecorator(const std::string& ID,
+                               const SimpleDecoratorNode::TickFunctor& function,
+                               PortsList ports = {}) {
+    add_simple<SimpleDecoratorNode>(NodeType::DECORATOR, ID, function, std::move(ports));
+  }
+
+  // For the plugin's own table.
+  detail::PluginTable& plugin() { return plugin_; }
+
+ private:
+  template <class T, class... Arguments>
+  static constexpr void check_class() {
+    static_assert(std::is_base_of_v<TreeNode, T>,
+                  "a class of nodes derives from a node of BT, such as BT::SyncActionNode");
+    static_assert(!std::is_abstract_v<T>,
+                  "this class is abstract: it lacks a function that its base asks for, such as "
+                  "tick(), or onStart(), onRunning() and onHalted()");
+    static_assert(std::is_constructible_v<T, const std::string&, const NodeConfig&, Arguments...> ||
+                      std::is_constructible_v<T, const std::string&, Arguments...>,
+                  "a class of nodes has a public constructor (const std::string& name, const "
+                  "BT::NodeConfig& config) or (const std::string& name), then the arguments of "
+                  "registerNodeType");
+  }
+
+  template <class Node, class Function>
+  void add_simple(NodeType type, const std::string& id, const Function& function, PortsList ports) {
+    registerBuilder(TreeNodeManifest{type, id, std::move(ports), {}, detail::hooks_of<Node>()},
+                    [function](const std::string& name, const NodeConfig& config) {
+                      return std::make_unique<Node>(name, function, config);
+                    });
+  }
+
+  detail::PluginTable plugin_;
+};
+
+}  // namespace BT
+
+#include "behaviortree_cpp/lockstep/plugin_entry.h"  // IWYU pragma: export

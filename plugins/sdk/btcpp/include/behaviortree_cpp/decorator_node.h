@@ -1,0 +1,72 @@
+// A node with one child.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "behaviortree_cpp/lockstep/child.h"
+#include "behaviortree_cpp/tree_node.h"
+
+namespace BT {
+
+class DecoratorNode : public TreeNode {
+ public:
+  DecoratorNode(const std::string& name, const NodeConfig& config) : TreeNode(name, config) {}
+
+  const TreeNode* child() const { return child_node_; }
+  TreeNode* child() { return child_node_; }
+
+  void halt() override {
+    resetChild();
+    resetStatus();
+  }
+  void haltChild() { resetChild(); }
+  // Halts it if it runs; it is idle then.
+  void resetChild() {
+    if (child_node_ == nullptr) return;
+    if (child_node_->status() == NodeStatus::RUNNING) child_node_->haltNode();
+    child_node_->resetStatus();
+  }
+
+  // A child that has completed in it begins anew.
+  NodeStatus executeTick() override {
+    const NodeStatus status = TreeNode::executeTick();
+    if (child_node_ != nullptr && isStatusCompleted(child_node_->status())) {
+      child_node_->resetStatus();
+    }
+    return status;
+  }
+
+  NodeType type() const override { return NodeType::DECORATOR; }
+
+ protected:
+  TreeNode* child_node_ = nullptr;
+
+ private:
+  void find_children(detail::Place& place) override {
+    auto children = detail::children_at(place);
+    if (children.empty()) return;
+    owned_ = std::move(children.front());
+    child_node_ = owned_.get();
+  }
+
+  std::unique_ptr<TreeNode> owned_;
+};
+
+// What the child returns becomes what the function makes of it.
+class SimpleDecoratorNode : public DecoratorNode {
+ public:
+  using TickFunctor = std::function<NodeStatus(NodeStatus, TreeNode&)>;
+  SimpleDecoratorNode(const std::string& name, TickFunctor function, const NodeConfig& config)
+      : DecoratorNode(name, config), function_(std::move(function)) {}
+
+ protected:
+  NodeStatus tick() override { return function_(child_node_->executeTick(), *this); }
+
+ private:
+  TickFunctor function_;
+};
+
+}  // namespace BT

@@ -1,0 +1,63 @@
+// A child of a control node or decorator: any node of the tree, which the host ticks.
+#pragma once
+
+#include <lockstep/leaf.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "behaviortree_cpp/tree_node.h"
+
+namespace BT::detail {
+
+class Child final : public TreeNode {
+ public:
+  Child(Place& parent, std::uint32_t index)
+      : TreeNode(parent.node->child_name(parent.caller, index), {}),
+        parent_(parent),
+        index_(index) {
+    setRegistrationID(parent.node->child_id(parent.caller, index));
+  }
+
+  NodeType type() const override { return NodeType::UNDEFINED; }
+
+  // One that has completed and was not reset goes on from there.
+  NodeStatus executeTick() override {
+    const bool begins = std::exchange(is_reset_, false);
+    const lockstep_children& children = *parent_.children;
+    return static_cast<NodeStatus>(begins ? children.tick(parent_.caller, index_)
+                                          : children.tick_unreset(parent_.caller, index_));
+  }
+
+ private:
+  NodeStatus tick() override { return executeTick(); }
+  // Outside of the parent's tick the host has halted it.
+  void halt() override {
+    if (parent_.is_in_tick && host_status() == NodeStatus::RUNNING) {
+      parent_.children->halt(parent_.caller, index_);
+    }
+  }
+  NodeStatus host_status() const {
+    const auto status = static_cast<NodeStatus>(parent_.children->status(parent_.caller, index_));
+    return status == NodeStatus::SKIPPED ? NodeStatus::IDLE : status;
+  }
+  NodeStatus shown_status() const override { return is_reset_ ? NodeStatus::IDLE : host_status(); }
+  void forget_status() override { is_reset_ = true; }
+
+  Place& parent_;
+  std::uint32_t index_;
+  bool is_reset_ = true;
+};
+
+// The children of a node that was made in a tree, in order.
+inline std::vector<std::unique_ptr<TreeNode>> children_at(Place& place) {
+  std::vector<std::unique_ptr<TreeNode>> children;
+  for (std::uint32_t i = 0; place.node->child_id(place.caller, i) != nullptr; ++i) {
+    children.push_back(std::make_unique<Child>(place, i));
+  }
+  return children;
+}
+
+}  // namespace BT::detail

@@ -1,0 +1,124 @@
+// The functions of the contract for all nodes of a plugin.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "behaviortree_cpp/behavior_tree.h"
+#include "behaviortree_cpp/lockstep/registration.h"
+
+namespace BT::detail {
+
+// The type of that id; null: none.
+[[gnu::visibility("hidden")]] const Registration* find_registration(const std::string& id);
+[[gnu::visibility("hidden")]] const std::shared_ptr<ScriptingEnumsRegistry>& registered_enums();
+
+struct Leaf {
+  Place place;
+  std::unique_ptr<TreeNode> node;
+
+  static void* create(const lockstep_host* host, const lockstep_caller* id, void* /*context*/) {
+    return lockstep::detail::guarded({host, id}, static_cast<void*>(nullptr), [&]() -> void* {
+      auto leaf = std::make_unique<Leaf>();
+      leaf->make(*host, id);
+      return leaf.release();
+    });
+  }
+  static void destroy(void* self) {
+    const std::unique_ptr<Leaf> leaf(static_cast<Leaf*>(self));
+    lockstep::detail::guarded_end(leaf->caller(), [&] { leaf->node.reset(); });
+  }
+  static void start(void* self) { static_cast<Leaf*>(self)->node->forget_status(); }
+  static lockstep_status tick(void* self) {
+    Leaf& leaf = *static_cast<Leaf*>(self);
+    return lockstep::detail::guarded(leaf.caller(), lockstep_status{LOCKSTEP_FAILURE}, [&] {
+      const InTick scope(leaf.place);
+      return static_cast<lockstep_status>(leaf.node->executeTick());
+    });
+  }
+  static void halt(void* self) {
+    static_cast<Leaf*>(self)->call([](TreeNode& node, const ClassHooks&) { node.haltNode(); });
+  }
+  static void pause(void* self) {
+    static_cast<Leaf*>(self)->call([](TreeNode& node, const ClassHooks& it) { it.pause(node); });
+  }
+  static void resume(void* self) {
+    static_cast<Leaf*>(self)->call([](TreeNode& node, const ClassHooks& it) { it.resume(node); });
+  }
+  static double progress(void* self) {
+    const Leaf& leaf = *static_cast<const Leaf*>(self);
+    return lockstep::detail::guarded(leaf.caller(), 0.0,
+                                     [&] { return leaf.hooks().progress(*leaf.node); });
+  }
+
+ private:
+  // Marks a tick.
+  class InTick {
+   public:
+    explicit InTick(Place& place) : place_(place) { place_.is_in_tick = true; }
+    ~InTick() { place_.is_in_tick = false; }
+    InTick(const InTick&) = delete;
+    InTick& operator=(const InTick&) = delete;
+
+   private:
+    Place& place_;
+  };
+
+  lockstep::detail::Caller caller() const { return {place.host, place.caller}; }
+  const ClassHooks& hooks() const { return place.registration->manifest->hooks; }
+
+  template <class Call>
+  void call(Call function) {
+    lockstep::detail::guarded(caller(), true, [&] {
+      function(*node, hooks());
+      return true;
+    });
+  }
+
+  void make(const lockstep_host& host, const lockstep_caller* id) {
+    place.host = &host;
+    place.caller = id;
+    place.node = static_cast<const lockstep_place*>(host.get_extension(LOCKSTEP_PLACE));
+    if (place.node == nullptr) throw RuntimeError("this lockstep is too old for the plugin");
+    place.registration = find_registration(place.node->id(id));
+    const NodeConfig config = make_config();
+    creating = &place;
+    try {
+      node = place.registration->build(place.node->name(id), config);
+    } catch (...) {
+      creating = nullptr;
+      throw;
+    }
+    creating = nullptr;
+    if (node == nullptr) throw RuntimeError("its builder returned no node");
+    node->place_ = &place;
+    find_children(host);
+    node->registration_name_ = place.registration->manifest->registration_ID;
+  }
+
+  void find_children(const lockstep_host& host) {
+    if (node->type() != NodeType::CONTROL && node->type() != NodeType::DECORATOR) return;
+    place.children = static_cast<const lockstep_children*>(host.get_extension(LOCKSTEP_CHILDREN));
+    if (place.children == nullptr) throw RuntimeError("this lockstep has no control nodes");
+    node->find_children(place);
+  }
+
+  NodeConfig make_config() {
+    NodeConfig config;
+    config.blackboard = Blackboard::at(place);
+    config.enums = registered_enums();
+    config.manifest = place.registration->manifest.get();
+    config.path = place.node->path(place.caller);
+    for (const PortEntry& port : place.registration->ports) {
+      const char* const given = place.node->given(place.caller, port.index);
+      if (given == nullptr) continue;
+      const PortDirection direction = port.info.direction();
+      if (direction != PortDirection::OUTPUT) config.input_ports[port.name] = given;
+      if (direction != PortDirection::INPUT) config.output_ports[port.name] = given;
+    }
+    return config;
+  }
+};
+
+}  // namespace BT::detail

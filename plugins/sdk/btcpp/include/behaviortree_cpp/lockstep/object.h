@@ -1,0 +1,131 @@
+// Values of a user's types as objects of the contract: shared, counted, and known by name.
+#pragma once
+
+#include <lockstep/leaf.h>
+#include <lockstep/cpp/port_traits.hpp>
+
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <string_view>
+#include <typeinfo>
+#include <vector>
+
+#include "behaviortree_cpp/basic_types.h"
+
+namespace BT::detail {
+
+// As it is written, without what the contract does not take in a name: what replaces that is made
+// unique by a number.
+inline std::string object_name(const std::type_info& type) {
+  std::string name = demangle(type);
+  bool is_plain = name.size() <= 100;
+  std::uint64_t hash = 14695981039346656037u;  // FNV-1a
+  for (char& c : name) {
+    hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
+    const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    if (is_letter || (c >= '0' && c <= '9') ||
+        std::string_view("._:/-").find(c) != std::string::npos) {
+      continue;
+    }
+    is_plain = false;
+    c = '-';
+  }
+  if (is_plain) return name;
+  char number[20];
+  std::snprintf(number, sizeof number, ".%016llx", static_cast<unsigned long long>(hash));
+  return name.substr(0, 80) + number;
+}
+
+template <class T>
+struct ObjectCalls {
+  using Holder = lockstep::detail::ObjectHolder<T>;
+  using Common = lockstep::detail::ObjectFunctions<T>;
+
+  static std::size_t copy(const std::string& text, void* room, std::size_t size) {
+    text.copy(static_cast<char*>(room), size);
+    return text.size();
+  }
+  static std::string json_of(const void* object) {
+    std::string text;
+    write_json(typeid(T), static_cast<const Holder*>(object)->value.get(), text);
+    return text;
+  }
+  static void* made_from(T value) {
+    return new Holder{std::make_shared<const T>(std::move(value))};
+  }
+
+  static std::size_t to_text(const void* object, char* text, std::size_t size) {
+    std::size_t length = 0;
+    lockstep::detail::catching([&] { length = copy(json_of(object), text, size); },
+                               [](const char*) {});
+    return length;
+  }
+  static std::size_t to_bytes(const void* object, void* bytes, std::size_t size) {
+    std::size_t length = SIZE_MAX;
+    lockstep::detail::catching([&] { length = copy(json_of(object), bytes, size); },
+                               [](const char*) {});
+    return length;
+  }
+  static void* from_text(const char* text, std::size_t length) {
+    void* object = nullptr;
+    lockstep::detail::catching(
+        [&] { object = made_from(convertFromString<T>(StringView(text, length))); },
+        [](const char*) {});
+    return object;
+  }
+  static void* from_bytes(const void* bytes, std::size_t length) {
+    void* object = nullptr;
+    lockstep::detail::catching(
+        [&] {
+          Any value;
+          if (read_json(typeid(T), {static_cast<const char*>(bytes), length}, value)) {
+            object = made_from(value.cast<T>());
+          }
+        },
+        [](const char*) {});
+    return object;
+  }
+};
+
+// The types of objects that this shared object knows.
+struct KnownObject {
+  const lockstep_object_type* type;
+  Any (*value)(const void* object);
+};
+[[gnu::visibility("hidden")]] inline std::vector<KnownObject>& known_objects() {
+  static std::vector<KnownObject> all;
+  return all;
+}
+
+// Made when it is first asked for: when the plugin has registered its types for JSON.
+template <class T>
+const lockstep_object_type* object_type() {
+  static const std::string name = object_name(typeid(T));
+  static const lockstep_object_type table = [] {
+    using Calls = ObjectCalls<T>;
+    lockstep_object_type type{};
+    type.struct_size = sizeof type;
+    type.name = name.c_str();
+    type.retain = Calls::Common::retain;
+    type.release = Calls::Common::release;
+    type.from_text = Calls::from_text;
+    if (find_json(typeid(T)) != nullptr) {
+      type.to_text = Calls::to_text;
+      type.to_bytes = Calls::to_bytes;
+      type.from_bytes = Calls::from_bytes;
+    }
+    return type;
+  }();
+  static const bool is_known = [] {
+    known_objects().push_back({&table, [](const void* object) {
+                                 using Holder = typename ObjectCalls<T>::Holder;
+                                 return Any(*static_cast<const Holder*>(object)->value);
+                               }});
+    return true;
+  }();
+  static_cast<void>(is_known);
+  return &table;
+}
+
+}  // namespace BT::detail

@@ -1,0 +1,86 @@
+// The entry of a plugin: what BT_REGISTER_NODES registers, as the host reads it. Included by
+// bt_factory.h.
+#pragma once
+
+#include <dlfcn.h>
+#include <lockstep/leaf.h>
+
+#include <memory>
+#include <string>
+
+#include "behaviortree_cpp/bt_factory.h"
+
+namespace BT::detail {
+
+// One for each shared object; it lives until the process ends.
+[[gnu::visibility("hidden")]] inline BehaviorTreeFactory& plugin_factory() {
+  static auto& factory = *new BehaviorTreeFactory;
+  return factory;
+}
+
+inline const Registration* find_registration(const std::string& id) {
+  return plugin_factory().plugin().find(id);
+}
+
+inline const std::shared_ptr<ScriptingEnumsRegistry>& registered_enums() {
+  static const auto enums = std::make_shared<ScriptingEnumsRegistry>();
+  return enums;
+}
+
+// The name of the file without "lib" in front and what is behind the first point.
+inline std::string plugin_name(const void* in_plugin) {
+  Dl_info info{};
+  if (dladdr(in_plugin, &info) == 0 || info.dli_fname == nullptr) return "plugin";
+  std::string name = info.dli_fname;
+  name.erase(0, name.rfind('/') + 1);
+  name.erase(std::min(name.find('.'), name.size()));
+  return StartWith(name, "lib") ? name.substr(3) : name;
+}
+
+// Runs the body of BT_REGISTER_NODES, once.
+template <void (*Register)(BehaviorTreeFactory&)>
+[[gnu::visibility("hidden")]] const lockstep_plugin* describe(const char** why) {
+  static std::string error;
+  static const lockstep_plugin* const plugin = []() -> const lockstep_plugin* {
+    const lockstep_plugin* described = nullptr;
+    lockstep::detail::catching(
+        [&] {
+          Register(plugin_factory());
+          const auto* const here = reinterpret_cast<const void*>(&describe<Register>);
+          described = &plugin_factory().plugin().describe(plugin_name(here));
+        },
+        [](const char* message) { error = message; });
+    return described;
+  }();
+  *why = error.c_str();
+  return plugin;
+}
+
+template <void (*Register)(BehaviorTreeFactory&)>
+constexpr lockstep_plugin plugin_entry() {
+  lockstep_plugin plugin{};
+  plugin.abi_major = LOCKSTEP_ABI_MAJOR;
+  plugin.abi_minor = LOCKSTEP_ABI_MINOR;
+  plugin.struct_size = sizeof plugin;
+  plugin.describe = &describe<Register>;
+  return plugin;
+}
+
+}  // namespace BT::detail
+
+// Registers nodes: BT_REGISTER_NODES(factory) { factory.registerNodeType<Move>("Move"); }. With
+// BT_PLUGIN_EXPORT it makes the shared object a plugin; without, it is a function of this file.
+#ifdef BT_PLUGIN_EXPORT
+#define BT_REGISTER_NODES(factory)                                                   \
+  extern "C" __attribute__((visibility("default"))) void BT_RegisterNodesFromPlugin( \
+      BT::BehaviorTreeFactory&);                                                     \
+  extern "C" {                                                                       \
+  constexpr lockstep_plugin lockstep_plugin_entry =                                  \
+      BT::detail::plugin_entry<&BT_RegisterNodesFromPlugin>();                       \
+  }                                                                                  \
+  void BT_RegisterNodesFromPlugin([[maybe_unused]] BT::BehaviorTreeFactory& factory)
+#else
+#define BT_REGISTER_NODES(factory)                         \
+  [[maybe_unused]] static void BT_RegisterNodesFromPlugin( \
+      [[maybe_unused]] BT::BehaviorTreeFactory& factory)
+#endif

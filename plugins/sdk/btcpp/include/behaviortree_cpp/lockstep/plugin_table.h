@@ -1,0 +1,140 @@
+// The registered nodes as the table that the host reads.
+#pragma once
+
+#include <lockstep/leaf.h>
+
+#include <algorithm>
+#include <list>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "behaviortree_cpp/lockstep/leaf.h"
+
+namespace BT::detail {
+
+class PluginTable {
+ public:
+  void add(const TreeNodeManifest& manifest, const NodeBuilder& build) {
+    const std::string& id = manifest.registration_ID;
+    auto registration = std::make_unique<Registration>();
+    registration->manifest = std::make_unique<TreeNodeManifest>(manifest);
+    registration->build = build;
+    if (!types_.emplace(id, std::move(registration)).second) {
+      throw BehaviorTreeException("ID [", id, "] is registered already");
+    }
+  }
+
+  const Registration* find(const std::string& id) const {
+    const auto found = types_.find(id);
+    return found == types_.end() ? nullptr : found->second.get();
+  }
+
+  // The table, valid as long as this; `name` is that of the plugin.
+  const lockstep_plugin& describe(std::string name) {
+    name_ = std::move(name);
+    listed_.clear();
+    for (auto& [id, registration] : types_) {
+      describe(*registration);
+      listed_.push_back(&registration->type);
+    }
+    plugin_ = {};
+    plugin_.abi_major = LOCKSTEP_ABI_MAJOR;
+    plugin_.abi_minor = LOCKSTEP_ABI_MINOR;
+    plugin_.struct_size = sizeof plugin_;
+    plugin_.name = name_.c_str();
+    plugin_.doc = "Nodes written for BehaviorTree.CPP";
+    plugin_.leaf_type_count = static_cast<std::uint32_t>(listed_.size());
+    plugin_.leaf_types = listed_.data();
+    return plugin_;
+  }
+
+ private:
+  static const char* keep(Registration& registration, std::string text) {
+    return registration.texts.emplace_back(std::move(text)).c_str();
+  }
+
+  static void describe(Registration& registration) {
+    const TreeNodeManifest& manifest = *registration.manifest;
+    registration.ports.clear();
+    for (const auto& [name, info] : manifest.ports) registration.ports.push_back({name, info, 0});
+    std::sort(registration.ports.begin(), registration.ports.end(),
+              [](const PortEntry& a, const PortEntry& b) { return a.name < b.name; });
+    for (PortEntry& port : registration.ports) {
+      port.index = static_cast<std::uint32_t>(registration.listed.size());
+      registration.listed.push_back(
+          &registration.described.emplace_back(described_port(registration, port)));
+    }
+    lockstep_leaf_type& type = registration.type;
+    type.struct_size = sizeof type;
+    type.kind = kind_of(manifest.type);
+    type.id = manifest.registration_ID.c_str();
+    for (const auto& [key, value] : manifest.metadata) {
+      if (key == "description") type.doc = keep(registration, value);
+    }
+    type.port_count = static_cast<std::uint32_t>(registration.listed.size());
+    type.ports = registration.listed.data();
+    type.create = Leaf::create;
+    type.destroy = Leaf::destroy;
+    type.start = Leaf::start;
+    type.tick = Leaf::tick;
+    type.halt = Leaf::halt;
+    if (manifest.hooks.pause != nullptr) type.pause = Leaf::pause;
+    if (manifest.hooks.resume != nullptr) type.resume = Leaf::resume;
+    if (manifest.hooks.progress != nullptr) type.progress = Leaf::progress;
+    if (manifest.type == NodeType::CONDITION) type.flags |= LOCKSTEP_MAY_RUN;
+    if (manifest.hooks.is_at_once) type.flags |= LOCKSTEP_AT_ONCE;
+    if (opens_entries()) type.flags |= LOCKSTEP_OPENS;
+  }
+
+  static lockstep_leaf_kind kind_of(NodeType type) {
+    switch (type) {
+      case NodeType::CONDITION:
+        return LOCKSTEP_CONDITION;
+      case NodeType::CONTROL:
+        return LOCKSTEP_CONTROL;
+      case NodeType::DECORATOR:
+        return LOCKSTEP_DECORATOR;
+      default:
+        return LOCKSTEP_ACTION;
+    }
+  }
+
+  static lockstep_port described_port(Registration& registration, const PortEntry& entry) {
+    constexpr lockstep_direction kDirections[] = {LOCKSTEP_INPUT, LOCKSTEP_OUTPUT, LOCKSTEP_INOUT};
+    const PortInfo& info = entry.info;
+    lockstep_port port{};
+    port.struct_size = sizeof port;
+    port.type = info.values().type;
+    port.direction = kDirections[static_cast<int>(info.direction())];
+    port.name = entry.name.c_str();
+    port.doc = keep(registration, info.description());
+    port.object = info.values().object();
+    port.flags = LOCKSTEP_OPTIONAL;
+    describe_default(registration, info, port);
+    return port;
+  }
+
+  // A default that the host cannot read is taken by getInput.
+  static void describe_default(Registration& registration, const PortInfo& info,
+                               lockstep_port& port) {
+    const std::string& text = info.defaultValueString();
+    if (text == "=" || TreeNode::isBlackboardPointer(text)) {
+      port.default_value = keep(registration, text == "=" ? "{=}" : text);
+      port.flags |= LOCKSTEP_DEFAULT_ENTRY;
+    } else if (port.type != LOCKSTEP_OBJECT && port.type != LOCKSTEP_ANY &&
+               info.defaultValue().isType<std::string>() == (port.type == LOCKSTEP_STRING) &&
+               !info.defaultValue().empty() && (!text.empty() || port.type == LOCKSTEP_STRING)) {
+      port.default_value = keep(registration, text);
+    }
+  }
+
+  std::map<std::string, std::unique_ptr<Registration>> types_;
+  std::string name_;
+  std::vector<const lockstep_leaf_type*> listed_;
+  lockstep_plugin plugin_{};
+};
+
+}  // namespace BT::detail

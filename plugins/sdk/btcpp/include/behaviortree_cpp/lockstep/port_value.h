@@ -1,0 +1,303 @@
+// Values of ports, as the host has them and as a C++ type has them. Included by basic_types.h.
+#pragma once
+
+#include <charconv>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "behaviortree_cpp/basic_types.h"
+#include "behaviortree_cpp/lockstep/object.h"
+#include "behaviortree_cpp/lockstep/place.h"
+
+namespace BT {
+struct AnyTypeAllowed;
+}
+
+namespace BT::detail {
+
+// How the host has values of type T. An enum may be a number or a name, so its ports take both.
+template <class T>
+constexpr lockstep_type port_type() {
+  if constexpr (std::is_same_v<T, bool>) {
+    return LOCKSTEP_BOOL;
+  } else if constexpr (std::is_enum_v<T> || std::is_same_v<T, AnyTypeAllowed> ||
+                       std::is_same_v<T, Any>) {
+    return LOCKSTEP_ANY;
+  } else if constexpr (std::is_integral_v<T>) {
+    return LOCKSTEP_INT;
+  } else if constexpr (std::is_floating_point_v<T>) {
+    return LOCKSTEP_DOUBLE;
+  } else if constexpr (is_text_v<T>) {
+    return LOCKSTEP_STRING;
+  } else if constexpr (std::is_same_v<T, std::vector<double>>) {
+    return LOCKSTEP_DOUBLE_LIST;
+  } else if constexpr (std::is_same_v<T, std::vector<int>>) {
+    return LOCKSTEP_INT_LIST;
+  } else if constexpr (std::is_same_v<T, std::vector<bool>>) {
+    return LOCKSTEP_BOOL_LIST;
+  } else if constexpr (std::is_same_v<T, std::vector<std::string>>) {
+    return LOCKSTEP_STRING_LIST;
+  } else {
+    return LOCKSTEP_OBJECT;
+  }
+}
+
+// A number as the host reads it back.
+template <class T>
+std::string constant_text(T value) {
+  if constexpr (std::is_same_v<T, bool>) {
+    return value ? "true" : "false";
+  } else {
+    char text[64];
+    const auto [end, error] = std::to_chars(text, text + sizeof text, value);
+    return error == std::errc() ? std::string(text, end) : std::string();
+  }
+}
+
+template <class T>
+const lockstep_object_type* object_type_of() {
+  if constexpr (port_type<T>() == LOCKSTEP_OBJECT) {
+    return object_type<T>();
+  } else {
+    return nullptr;
+  }
+}
+
+template <class Item, class T, class Get>
+bool get_list(const Place& place, std::uint32_t port, T& value, Get get) {
+  const Item* items = nullptr;
+  std::size_t count = 0;
+  if (!get(place.caller, port, &items, &count)) return false;
+  value.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    if constexpr (std::is_same_v<Item, lockstep_text>) {
+      value.emplace_back(items[i].text, items[i].length);
+    } else {
+      value.push_back(static_cast<typename T::value_type>(items[i]));
+    }
+  }
+  return true;
+}
+
+// The value of a port that the host has as a T; false: it has none.
+template <class T>
+bool get(const Place& place, std::uint32_t port, T& value) {
+  constexpr lockstep_type kType = port_type<T>();
+  const lockstep_host& host = *place.host;
+  if constexpr (kType == LOCKSTEP_BOOL) {
+    return host.get_bool(place.caller, port, &value);
+  } else if constexpr (kType == LOCKSTEP_INT) {
+    std::int64_t whole = 0;
+    return host.get_int(place.caller, port, &whole) && convert_number(whole, value);
+  } else if constexpr (kType == LOCKSTEP_DOUBLE) {
+    double number = 0;
+    if (!host.get_double(place.caller, port, &number)) return false;
+    value = static_cast<T>(number);
+    return true;
+  } else if constexpr (kType == LOCKSTEP_STRING) {
+    const char* text = nullptr;
+    std::size_t length = 0;
+    if (!host.get_string(place.caller, port, &text, &length)) return false;
+    if constexpr (std::is_pointer_v<T>) {
+      value = text;
+    } else {
+      value = T(text, length);
+    }
+    return true;
+  } else if constexpr (kType == LOCKSTEP_DOUBLE_LIST) {
+    return get_list<double>(place, port, value, host.get_double_list);
+  } else if constexpr (kType == LOCKSTEP_INT_LIST) {
+    return get_list<std::int64_t>(place, port, value, host.get_int_list);
+  } else if constexpr (kType == LOCKSTEP_BOOL_LIST) {
+    return get_list<bool>(place, port, value, host.get_bool_list);
+  } else if constexpr (kType == LOCKSTEP_STRING_LIST) {
+    return get_list<lockstep_text>(place, port, value, host.get_string_list);
+  } else if constexpr (kType == LOCKSTEP_OBJECT) {
+    void* object = nullptr;
+    if (!host.get_object(place.caller, port, &object) &&
+        !place.node->get_object(place.caller, port, object_type<T>(), &object)) {
+      return false;
+    }
+    value = *static_cast<const lockstep::detail::ObjectHolder<T>*>(object)->value;
+    return true;
+  } else {
+    return false;
+  }
+}
+
+// False: the host does not take it.
+template <class T>
+bool set(const Place& place, std::uint32_t port, const T& value) {
+  constexpr lockstep_type kType = port_type<T>();
+  const lockstep_host& host = *place.host;
+  if constexpr (kType == LOCKSTEP_BOOL) {
+    return host.set_bool(place.caller, port, value);
+  } else if constexpr (kType == LOCKSTEP_INT || std::is_enum_v<T>) {
+    std::int64_t whole = 0;
+    if constexpr (std::is_enum_v<T>) {
+      whole = static_cast<std::int64_t>(value);
+    } else if (!convert_number(value, whole)) {
+      return false;
+    }
+    return host.set_int(place.caller, port, whole);
+  } else if constexpr (kType == LOCKSTEP_DOUBLE) {
+    return host.set_double(place.caller, port, static_cast<double>(value));
+  } else if constexpr (kType == LOCKSTEP_STRING) {
+    const std::string_view text(value);
+    return host.set_string(place.caller, port, text.data(), text.size());
+  } else if constexpr (kType == LOCKSTEP_DOUBLE_LIST) {
+    return host.set_double_list(place.caller, port, value.data(), value.size());
+  } else if constexpr (kType == LOCKSTEP_INT_LIST) {
+    const std::vector<std::int64_t> items(value.begin(), value.end());
+    return host.set_int_list(place.caller, port, items.data(), items.size());
+  } else if constexpr (kType == LOCKSTEP_BOOL_LIST) {
+    return lockstep::detail::PortTraits<std::vector<bool>>::set({place.host, place.caller}, port,
+                                                                value);
+  } else if constexpr (kType == LOCKSTEP_STRING_LIST) {
+    return lockstep::detail::PortTraits<std::vector<std::string>>::set({place.host, place.caller},
+                                                                       port, value);
+  } else if constexpr (kType == LOCKSTEP_OBJECT) {
+    void* const object = ObjectCalls<T>::made_from(value);
+    const bool is_set = host.set_object(place.caller, port, object) ||
+                        place.node->set_object(place.caller, port, object_type<T>(), object);
+    ObjectCalls<T>::Common::release(object);
+    return is_set;
+  } else {
+    return false;
+  }
+}
+
+template <class T>
+bool store_object(const Place& place, std::uint32_t port, const void* value) {
+  return set(place, port, *static_cast<const T*>(value));
+}
+
+// A text as a T.
+template <class T>
+Expected<T> parse(StringView text) {
+  try {
+    return convertFromString<T>(text);
+  } catch (const std::exception& error) {
+    return nonstd::make_unexpected(std::string(error.what()));
+  }
+}
+
+// The same of an enum: a name that the plugin has registered, or a number, comes first.
+template <class T>
+Expected<T> parse_with(StringView text, const std::unordered_map<std::string, int>* enums) {
+  if constexpr (std::is_same_v<T, Any>) {
+    return Any(text);
+  } else if constexpr (std::is_enum_v<T> && !std::is_same_v<T, NodeStatus>) {
+    if (enums != nullptr) {
+      const auto found = enums->find(std::string(text));
+      if (found != enums->end()) return static_cast<T>(found->second);
+    }
+    int number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error == std::errc() && end == text.data() + text.size()) return static_cast<T>(number);
+    return parse<T>(text);
+  } else {
+    return parse<T>(text);
+  }
+}
+
+// An object of a type that this shared object knows.
+inline bool get_any_object(const Place& place, std::uint32_t port, Any& value) {
+  for (const KnownObject& known : known_objects()) {
+    void* object = nullptr;
+    if (!place.node->get_object(place.caller, port, known.type, &object)) continue;
+    value = known.value(object);
+    return true;
+  }
+  return false;
+}
+
+// A value that is no text, as its type says.
+inline bool get_any(const Place& place, std::uint32_t port, lockstep_type type, Any& value) {
+  const auto read = [&](auto held) {
+    if (!get(place, port, held)) return false;
+    value = Any(held);
+    return true;
+  };
+  switch (type) {
+    case LOCKSTEP_BOOL:
+      return read(false);
+    case LOCKSTEP_INT:
+      return read(std::int64_t{});
+    case LOCKSTEP_DOUBLE:
+      return read(double{});
+    case LOCKSTEP_DOUBLE_LIST:
+      return read(std::vector<double>());
+    case LOCKSTEP_INT_LIST:
+      return read(std::vector<int>());
+    case LOCKSTEP_BOOL_LIST:
+      return read(std::vector<bool>());
+    case LOCKSTEP_STRING_LIST:
+      return read(std::vector<std::string>());
+    case LOCKSTEP_OBJECT:
+      return get_any_object(place, port, value);
+    default:
+      return false;
+  }
+}
+
+// What is done with the values of a port whose type is known by its declaration only.
+struct PortValues {
+  lockstep_type type;
+  const lockstep_object_type* (*object)();
+  Any (*parse)(StringView text);
+  bool (*get)(const Place& place, std::uint32_t port, Any& value);
+  bool (*set)(const Place& place, std::uint32_t port, const Any& value);
+};
+
+template <class T>
+struct PortValue {
+  static Any parse(StringView text) {
+    if constexpr (std::is_same_v<T, AnyTypeAllowed> || std::is_same_v<T, Any>) {
+      return Any(std::string(text));
+    } else {
+      try {
+        return Any(convertFromString<T>(text));
+      } catch (const NoConversion&) {
+        return Any();
+      }
+    }
+  }
+  static bool get(const Place& place, std::uint32_t port, Any& any) {
+    if constexpr (port_type<T>() == LOCKSTEP_ANY) {
+      return false;
+    } else {
+      T value{};
+      if (!detail::get(place, port, value)) return false;
+      any = Any(value);
+      return true;
+    }
+  }
+  static bool set(const Place& place, std::uint32_t port, const Any& any) {
+    if constexpr (std::is_same_v<T, AnyTypeAllowed> || std::is_same_v<T, Any>) {
+      return set_any(place, port, any);
+    } else {
+      const auto value = any.tryCast<std::conditional_t<is_text_v<T>, std::string, T>>();
+      return value && detail::set(place, port, *value);
+    }
+  }
+  static constexpr PortValues kTable{port_type<T>(), object_type_of<T>, parse, get, set};
+
+ private:
+  // As the type that is inside.
+  static bool set_any(const Place& place, std::uint32_t port, const Any& any) {
+    if (any.isType<bool>()) return detail::set(place, port, any.cast<bool>());
+    if (any.isString()) return detail::set(place, port, any.cast<std::string>());
+    if (any.isIntegral()) {
+      const auto whole = any.tryCast<std::int64_t>();
+      return whole && detail::set(place, port, *whole);
+    }
+    if (any.isNumber()) return detail::set(place, port, any.cast<double>());
+    return any.store_object(place, port);
+  }
+};
+
+}  // namespace BT::detail

@@ -1,0 +1,90 @@
+// What a plugin has registered: the types of its nodes, as the host reads them.
+#pragma once
+
+#include <lockstep/leaf.h>
+
+#include <deque>
+#include <functional>
+#include <list>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "behaviortree_cpp/basic_types.h"
+#include "behaviortree_cpp/lockstep/place.h"
+
+namespace BT {
+class TreeNode;
+class SyncActionNode;
+struct NodeConfig;
+struct TreeNodeManifest;
+using NodeBuilder = std::function<std::unique_ptr<TreeNode>(const std::string&, const NodeConfig&)>;
+}  // namespace BT
+
+namespace BT::detail {
+
+struct Leaf;
+class Child;
+class NodeThread;
+
+// What a class of nodes has beyond the library: lockstep uses it.
+struct ClassHooks {
+  bool is_at_once = false;  // it never returns RUNNING
+  double (*progress)(const TreeNode&) = nullptr;
+  void (*pause)(TreeNode&) = nullptr;
+  void (*resume)(TreeNode&) = nullptr;
+};
+
+template <class T, class = void>
+inline constexpr bool has_progress = false;
+template <class T>
+inline constexpr bool has_progress<T, std::enable_if_t<std::is_convertible_v<
+                                          decltype(std::declval<const T&>().progress()), double>>> =
+    true;
+template <class T, class = void>
+inline constexpr bool has_on_paused = false;
+template <class T>
+inline constexpr bool has_on_paused<T, std::void_t<decltype(std::declval<T&>().onPaused())>> = true;
+template <class T, class = void>
+inline constexpr bool has_on_resumed = false;
+template <class T>
+inline constexpr bool has_on_resumed<T, std::void_t<decltype(std::declval<T&>().onResumed())>> =
+    true;
+
+template <class T>
+ClassHooks hooks_of() {
+  ClassHooks hooks;
+  hooks.is_at_once = std::is_base_of_v<SyncActionNode, T>;
+  if constexpr (has_progress<T>) {
+    hooks.progress = [](const TreeNode& node) -> double {
+      return static_cast<const T&>(node).progress();
+    };
+  }
+  if constexpr (has_on_paused<T>) {
+    hooks.pause = [](TreeNode& node) { static_cast<T&>(node).onPaused(); };
+  }
+  if constexpr (has_on_resumed<T>) {
+    hooks.resume = [](TreeNode& node) { static_cast<T&>(node).onResumed(); };
+  }
+  return hooks;
+}
+
+struct PortEntry {
+  std::string name;
+  PortInfo info;
+  std::uint32_t index;  // for the host
+};
+
+// One type of node.
+struct Registration {
+  std::unique_ptr<TreeNodeManifest> manifest;
+  NodeBuilder build;
+  std::vector<PortEntry> ports;  // by name
+  std::list<lockstep_port> described = {};
+  std::vector<const lockstep_port*> listed = {};
+  std::list<std::string> texts = {};  // that the descriptors point to
+  lockstep_leaf_type type = {};
+};
+
+}  // namespace BT::detail

@@ -1,0 +1,153 @@
+// A node, as its own class sees it.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "behaviortree_cpp/basic_types.h"
+#include "behaviortree_cpp/blackboard.h"
+#include "behaviortree_cpp/lockstep/registration.h"
+
+namespace BT {
+
+struct TreeNodeManifest {
+  NodeType type = NodeType::UNDEFINED;
+  std::string registration_ID;
+  PortsList ports;
+  KeyValueVector metadata;
+  detail::ClassHooks hooks = {};
+};
+
+using PortsRemapping = std::unordered_map<std::string, std::string>;
+using NonPortAttributes = std::unordered_map<std::string, std::string>;
+using ScriptingEnumsRegistry = std::unordered_map<std::string, int>;
+
+enum class PreCond { FAILURE_IF = 0, SUCCESS_IF, SKIP_IF, WHILE_TRUE, COUNT_ };
+enum class PostCond { ON_HALTED = 0, ON_FAILURE, ON_SUCCESS, ALWAYS, COUNT_ };
+
+struct NodeConfig {
+  Blackboard::Ptr blackboard;
+  std::shared_ptr<ScriptingEnumsRegistry> enums;
+  // What the tree gives to each port: a text, or "{entry}".
+  PortsRemapping input_ports;
+  PortsRemapping output_ports;
+  NonPortAttributes other_attributes;
+  const TreeNodeManifest* manifest = nullptr;
+  std::uint16_t uid = 0;
+  std::string path;
+};
+using NodeConfiguration = NodeConfig;
+
+class TreeNode {
+ public:
+  using Ptr = std::shared_ptr<TreeNode>;
+
+  TreeNode(std::string name, NodeConfig config);
+  virtual ~TreeNode() = default;
+  TreeNode(const TreeNode&) = delete;
+  TreeNode& operator=(const TreeNode&) = delete;
+
+  // One tick with what belongs to it. A control node calls it on its children.
+  virtual NodeStatus executeTick();
+  void haltNode() {
+    halt();
+    resetStatus();
+  }
+
+  virtual NodeType type() const = 0;
+  NodeStatus status() const { return shown_status(); }
+  bool isHalted() const { return status() == NodeStatus::IDLE; }
+  const std::string& name() const { return name_; }
+  const std::string& fullPath() const { return config_.path; }
+  const std::string& registrationName() const { return registration_name_; }
+  std::uint16_t UID() const { return config_.uid; }
+  const NodeConfig& config() const { return config_; }
+
+  // Of an input: the value, or why there is none.
+  template <class T>
+  [[nodiscard]] Expected<T> getInput(StringView port) const;
+  // The same; `value` stays as it is if there is none.
+  template <class T>
+  Result getInput(StringView port, T& value) const;
+  // Of an output; an error when the tree gives it no entry, or the entry does not take the value.
+  template <class T>
+  Result setOutput(StringView port, const T& value);
+  // The same as getInput; how often the entry was written is not known here.
+  template <class T>
+  Expected<Timestamp> getInputStamped(StringView port, T& value) const;
+  template <class T>
+  Expected<StampedValue<T>> getInputStamped(StringView port) const;
+
+  // The value of the port's entry, which may be changed in place; false when it has no entry.
+  [[nodiscard]] AnyPtrLocked getLockedPortContent(const std::string& port);
+
+  // As the tree has it.
+  StringView getRawPortValue(const std::string& port) const;
+
+  static bool isBlackboardPointer(StringView text, StringView* stripped = nullptr);
+  static StringView stripBlackboardPointer(StringView text);
+  static Expected<StringView> getRemappedKey(StringView port, StringView given);
+
+  // The tree is ticked once more in this period, if it runs then. Only in a tick.
+  void emitWakeUpSignal();
+  bool requiresWakeUp() const { return true; }
+
+  // A node of class T, with the constructor that it has.
+  template <class T, class... Arguments>
+  static std::unique_ptr<TreeNode> Instantiate(const std::string& name, const NodeConfig& config,
+                                               Arguments... arguments);
+
+ protected:
+  // Around a thread that runs tick(): what getInput gives in it, and what setOutput sets.
+  void begin_thread();
+  void end_thread();
+
+  virtual NodeStatus tick() = 0;
+  virtual void halt() = 0;
+  void setStatus(NodeStatus status) { status_ = status; }
+  void resetStatus() { forget_status(); }
+  NodeConfig& config() { return config_; }
+  void setRegistrationID(StringView id) { registration_name_ = id; }
+
+ private:
+  friend class BehaviorTreeFactory;
+  friend class ControlNode;
+  friend class DecoratorNode;
+  friend struct detail::Leaf;
+  friend class detail::Child;
+  friend class detail::NodeThread;
+
+  virtual NodeStatus shown_status() const { return status_; }
+  virtual void forget_status() { status_ = NodeStatus::IDLE; }
+  virtual void find_children(detail::Place&) {}
+
+  template <class T>
+  Expected<T> read_other(const detail::PortEntry& port) const;
+  template <class T>
+  Expected<T> read_default(const detail::PortEntry& port) const;
+  Expected<Any> read_any(const detail::PortEntry& port) const;
+  const detail::PortEntry* find(StringView port) const;
+  std::string no_port(StringView port) const;
+
+  std::string name_;
+  NodeConfig config_;
+  std::string registration_name_;
+  std::atomic<NodeStatus> status_{NodeStatus::IDLE};
+  detail::Place* place_ = nullptr;  // null: it is not in a tree
+
+  struct ThreadPorts {
+    std::vector<Expected<Any>> inputs;  // of each port
+    std::vector<std::pair<const detail::PortEntry*, Any>> outputs;
+  };
+  std::unique_ptr<ThreadPorts> thread_;  // while a thread runs its tick
+};
+
+}  // namespace BT
+
+#include "behaviortree_cpp/lockstep/tree_node_functions.h"  // IWYU pragma: export
