@@ -282,7 +282,14 @@ class Machine {
       append(left, joined);
     }
     append(last(), joined);
-    return replace_two(Operand::of(&joined));
+    return check_length(joined) && replace_two(Operand::of(&joined));
+  }
+
+  // A tree that appends in every tick must not fill the memory.
+  bool check_length(const std::string& joined) {
+    if (joined.size() <= Evaluator::kLongestText) return true;
+    return fail(fmt::format("'{}' makes a text of more than {} bytes",
+                            sign_of(it_->operation, it_->relation), Evaluator::kLongestText));
   }
 
   bool combine_bits() {
@@ -391,7 +398,7 @@ class Machine {
     std::string& joined = text_at(top_);
     joined = *old.text;
     joined += *last().text;
-    return store(Operand::of(&joined));
+    return check_length(joined) && store(Operand::of(&joined));
   }
 
   const Expression& expression_;

@@ -219,3 +219,19 @@ TEST_CASE("a strict entry holds values of its type only") {
   };
   check(rows);
 }
+
+TEST_CASE("a script makes no text of more than a megabyte") {
+  const std::string half(Evaluator::kLongestText / 2, 'a');
+  const std::string error = " makes a text of more than 1048576 bytes";
+  const Row rows[] = {
+      {any(half + "a"), "x := x .. x", "'..'" + error},
+      {any(half + "a"), "x := x + x", "'+'" + error},
+      {any(half + "a"), "x += x", "'+='" + error},
+      {any(half + "a"), "x := x .. x .. 'b' == 'c'", "'..'" + error},
+  };
+  check(rows);
+  ScriptBoard board;
+  board.any("x", half);
+  CHECK(board.run("x += x").error == "");
+  CHECK(std::get<std::string>(board.at("x").value).size() == Evaluator::kLongestText);
+}
