@@ -1,4 +1,4 @@
-// The names of a run's entries. Each tree has a board of its own: the main tree, and each use of a
+// The names of a run's entries. Each tree has a separate board: the main tree, and each use of a
 // SubTree. Nearly all keys are resolved when a tree is loaded; these are for those that are known
 // only while it runs.
 #pragma once

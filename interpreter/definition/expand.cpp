@@ -15,14 +15,10 @@
 #include "definition/btcpp/literal.h"
 #include "definition/scope.h"
 #include "definition/script_entries.h"
+#include "definition/type_words.h"
 
 namespace lockstep {
 namespace {
-
-std::string with_article(ValueType type, const ObjectType* object) {
-  const std::string_view name = type_name(type, object);
-  return fmt::format("{} {}", name.starts_with('i') ? "an" : "a", name);
-}
 
 class Expander {
  public:

@@ -24,6 +24,7 @@ constexpr ForeignAttribute kParallel[] = {{"success_threshold", "success_count",
 constexpr ForeignAttribute kParallelAll[] = {{"max_failures", "failure_count", FromOne}};
 constexpr ForeignAttribute kSubTree[] = {
     {"ID", "ID"}, {"__autoremap", "_autoremap"}, {"__shared_blackboard", "_autoremap"}};
+constexpr ForeignAttribute kSwitch[] = {{"variable", "on", WithoutBraces}};
 constexpr ForeignAttribute kCheck[] = {{"code", "code"}};
 constexpr ForeignAttribute kScripts[] = {{"_skipIf", "skip_if"},       {"_successIf", "success_if"},
                                          {"_failureIf", "failure_if"}, {"_while", "while"},
@@ -34,8 +35,7 @@ constexpr ForeignAttribute kMarks[] = {{"_uid", ""},        {"_fullpath", ""},  
                                        {"_subtreeOnly", ""}};
 
 constexpr std::string_view kAgain = "after a Failure it begins with the first child";
-constexpr std::string_view kCases =
-    "write a <Fallback> of a <Sequence>condition, child</Sequence> each";
+constexpr std::string_view kCases = "its cases are one list: cases=\"dock;drive\"";
 constexpr std::string_view kTry =
     "write <Fallback memory=\"true\"> of a Sequence of the others and <ForceFailure> of the last";
 constexpr std::string_view kAttempts =
@@ -43,7 +43,7 @@ constexpr std::string_view kAttempts =
 constexpr std::string_view kNav = "the plugin nav has it: add <plugin name=\"nav\"/>";
 constexpr std::string_view kAsk = "put a <Check> before it, in a Sequence";
 constexpr std::string_view kAskNot = "put a condition before it, in a Fallback";
-constexpr std::string_view kOften = "let the leaf return its last result until it is time";
+constexpr std::string_view kOften = "<Rate seconds=\"…\"> starts its child at most so often";
 constexpr std::string_view kCompare = "write <Check code=\"key == 'value'\"/>";
 constexpr std::string_view kNoQueues = "there are no queues: let a leaf take the next item";
 constexpr std::string_view kStart =
@@ -63,11 +63,11 @@ constexpr ForeignNode kNodes[] = {
     {"SequenceStar", "Sequence memory=\"true\"", {}, kAgain},
     {"Parallel", "Parallel", kParallel, "counts are 1 or more"},
     {"ParallelAll", "Parallel", kParallelAll, "it ends with the decisive failure"},
-    {"Switch2", "", {}, kCases},
-    {"Switch3", "", {}, kCases},
-    {"Switch4", "", {}, kCases},
-    {"Switch5", "", {}, kCases},
-    {"Switch6", "", {}, kCases},
+    {"Switch2", "Switch", kSwitch, kCases},
+    {"Switch3", "Switch", kSwitch, kCases},
+    {"Switch4", "Switch", kSwitch, kCases},
+    {"Switch5", "Switch", kSwitch, kCases},
+    {"Switch6", "Switch", kSwitch, kCases},
     {"TryCatch", "", {}, kTry},
     {"Repeat", "Repeat", kRepeat, "one iteration in each tick"},
     {"RetryUntilSuccessful", "Retry", kRetry, kAttempts},
@@ -136,6 +136,8 @@ std::string escaped(std::string_view text) {
 // "…" if it is unknown.
 std::string translated(ForeignValue kind, std::string_view text) {
   if (kind == Same) return escaped(text);
+  const bool is_key = text.size() > 2 && text.front() == '{' && text.back() == '}';
+  if (kind == WithoutBraces) return is_key ? escaped(text.substr(1, text.size() - 2)) : "…";
   const auto number = parse_double(text);
   const bool is_count = kind == OrEndless || kind == FromOne;
   if (!number || (is_count && *number < 1)) return "…";

@@ -13,9 +13,10 @@ namespace lockstep {
 // How the value of an attribute is converted.
 enum class ForeignValue : unsigned char {
   Same,
-  FromOne,       // less than 1 has a meaning there, and none here
-  Milliseconds,  // is in seconds here
-  OrEndless,     // -1 is for ever, for which the attribute is left out here
+  FromOne,        // less than 1 has a meaning there, and none here
+  Milliseconds,   // is in seconds here
+  WithoutBraces,  // a {key} there, its name here
+  OrEndless,      // -1 is for ever, for which the attribute is left out here
 };
 
 struct ForeignAttribute {

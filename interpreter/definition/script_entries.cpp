@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "core/parameter_value.h"
@@ -9,6 +11,7 @@
 #include "core/wording.h"
 #include "definition/btcpp/literal.h"
 #include "definition/script_types.h"
+#include "definition/type_words.h"
 
 namespace lockstep {
 namespace {
@@ -22,7 +25,12 @@ class Declarer {
     declare_made();
     for (const auto& [entry, text] : starts_) declare_started(definition_.entries[entry], text);
     declare_made();
-    for (const BoundScript& script : definition_.scripts) find_undeclared(script);
+    const std::vector<bool> conditions = find_conditions();
+    types_.resize(definition_.scripts.size());
+    for (std::size_t i = 0; i < definition_.scripts.size(); ++i) {
+      if (!find_undeclared(definition_.scripts[i])) check_types(i, conditions[i]);
+    }
+    for (const DefinitionNode& node : definition_.nodes) check_cases(node);
   }
 
  private:
@@ -37,22 +45,30 @@ class Declarer {
   }
 
   void declare_made(const BoundScript& script) {
-    std::vector<StaticType> types;
+    std::vector<StaticType> types = types_of(script);
     bool has_open = false;  // one that is declared here, perhaps
     for (std::size_t i = 0; i < script.entries.size(); ++i) {
-      const BlackboardEntry& it = entry(script, i);
-      types.push_back(it.is_present ? StaticType{it.type, it.object} : StaticType{});
-      has_open |= !it.is_present && script.code->uses()[i].is_made;
+      has_open |= !entry(script, i).is_present && script.code->uses()[i].is_made;
     }
     if (!has_open) return;
-    find_assignments(*script.code, types, [&](std::uint32_t name, const StaticType& type) {
+    const auto assigned = [&](std::uint32_t name, const StaticType& type) {
       BlackboardEntry& it = entry(script, name);
       if (it.is_present || !type.type || !script.code->uses()[name].is_made) return;
       make(it, *type.type, type.object);
       it.first_use = script.place;
       types[name] = type;
       set_start(script, name);
-    });
+    };
+    infer_types(*script.code, types, {.assigned = assigned, .wrong = [](auto&&...) {}});
+  }
+
+  std::vector<StaticType> types_of(const BoundScript& script) const {
+    std::vector<StaticType> types;
+    for (std::size_t i = 0; i < script.entries.size(); ++i) {
+      const BlackboardEntry& it = entry(script, i);
+      types.push_back(it.is_present ? StaticType{it.type, it.object} : StaticType{});
+    }
+    return types;
   }
 
   static void make(BlackboardEntry& it, ValueType type, const ObjectType* object) {
@@ -92,13 +108,15 @@ class Declarer {
     it.initial = *std::move(value);
   }
 
-  void find_undeclared(const BoundScript& script) const {
+  // Whether there is one.
+  bool find_undeclared(const BoundScript& script) const {
+    bool found = false;
     for (std::size_t i = 0; i < script.entries.size(); ++i) {
       const std::string_view key = script.code->names()[i];
       const bool is_outer = key.starts_with('@');
-      if ((!is_outer && entry(script, i).is_present) || report_.counted_only(Severity::Error)) {
-        continue;
-      }
+      if (!is_outer && entry(script, i).is_present) continue;
+      found = true;
+      if (report_.counted_only(Severity::Error)) continue;
       report_.in_value(
           script.place, script.code->uses()[i].offset,
           is_outer ? fmt::format("'{}' is not a key", brief(key))
@@ -107,6 +125,66 @@ class Declarer {
                                  "{0}=\"{{{0}}}\"",
                                  brief(key.substr(1)))
                    : hint_for_undeclared(key, entry(script, i)));
+    }
+    return found;
+  }
+
+  // Of each script: whether its value is a yes or a no.
+  std::vector<bool> find_conditions() const {
+    std::vector<bool> conditions(definition_.scripts.size());
+    const auto add = [&](std::uint32_t script) {
+      if (script != Port::kNone) conditions[script] = true;
+    };
+    for (const NodeHooks& hooks : definition_.hooks) {
+      for (const Hook hook : {Hook::FailureIf, Hook::SuccessIf, Hook::SkipIf, Hook::While}) {
+        add(hooks[static_cast<std::size_t>(hook)]);
+      }
+    }
+    for (const DefinitionNode& node : definition_.nodes) {
+      if (node.type->category != NodeCategory::Condition) continue;
+      for (std::size_t i = 0; i < node.type->parameters.size(); ++i) {
+        add(definition_.ports[node.first + i].script);
+      }
+    }
+    return conditions;
+  }
+
+  void check_types(std::size_t number, bool is_condition) {
+    const BoundScript& script = definition_.scripts[number];
+    const auto wrong = [&](std::size_t offset, std::string message) {
+      report_.in_value(script.place, offset, std::move(message), {});
+    };
+    const std::vector<StaticType> types = types_of(script);
+    types_[number] =
+        infer_types(*script.code, types, {.assigned = [](auto&&...) {}, .wrong = wrong});
+    const StaticType& value = types_[number];
+    if (!is_condition || may_be_yes_or_no(value)) return;
+    wrong(0, fmt::format("a condition is a yes or a no, not {}",
+                         with_article(*value.type, value.object)));
+  }
+
+  // Of a Switch: each case must be a value that its script can have.
+  void check_cases(const DefinitionNode& node) const {
+    const auto parameters = node.type->parameters;
+    const auto cases = std::ranges::find(parameters, "cases", &Parameter::name);
+    const auto script = std::ranges::find(parameters, true, &Parameter::is_script);
+    if (cases == parameters.end() || script == parameters.end()) return;
+    const Value* const list = definition_.constant(node, "cases");
+    const std::uint32_t number =
+        definition_.ports[node.first + static_cast<std::size_t>(script - parameters.begin())]
+            .script;
+    if (list == nullptr || number == Port::kNone || !types_[number].type) return;
+    const StaticType& type = types_[number];
+    if (type.type == ValueType::String) return;
+    for (const std::string& text : std::get<std::vector<std::string>>(*list)) {
+      if (may_be_yes_or_no(type) && parse_value(ValueType::Double, text)) continue;
+      if (may_be_yes_or_no(type) && parse_value(ValueType::Bool, text)) continue;
+      const auto written = definition_.attributes(node);
+      const auto place = std::ranges::find(written, "cases", &WrittenAttribute::name);
+      report_.at_value(place->place,
+                       fmt::format("the case '{}' is never equal to {}, which '{}' is", brief(text),
+                                   with_article(*type.type, type.object), script->name));
+      return;
     }
   }
 
@@ -127,6 +205,7 @@ class Declarer {
   Definition& definition_;
   const StartTexts& starts_;
   const Reporter& report_;
+  std::vector<StaticType> types_;  // of the value of each script
 };
 
 }  // namespace

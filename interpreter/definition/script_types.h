@@ -1,9 +1,12 @@
 // Which types the values of a script have, as far as that is known before it runs.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "core/value.h"
 #include "expression/expression.h"
@@ -17,10 +20,19 @@ struct StaticType {
   friend bool operator==(const StaticType&, const StaticType&) = default;
 };
 
-// Calls `assigned` with each assignment in a script: the entry, in Expression::names(), and what it
-// gets. `entries`: the type of each of the names.
-using Assigned = std::function<void(std::uint32_t name, const StaticType& type)>;
-void find_assignments(const Expression& script, std::span<const StaticType> entries,
-                      const Assigned& assigned);
+// What a script does with types.
+struct TypeListener {
+  // An assignment: the entry, in Expression::names(), and what it gets.
+  std::function<void(std::uint32_t name, const StaticType& type)> assigned;
+  // What fails whenever it is reached: where in the text, and why.
+  std::function<void(std::size_t offset, std::string message)> wrong;
+};
+
+// Returns the type of the script's value. `entries`: the type of each of its names.
+StaticType infer_types(const Expression& script, std::span<const StaticType> entries,
+                       const TypeListener& listener);
+
+// Whether such a value may be a yes or a no.
+bool may_be_yes_or_no(const StaticType& type);
 
 }  // namespace lockstep

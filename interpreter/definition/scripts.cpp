@@ -11,7 +11,10 @@ namespace {
 // Null after an error, which is reported.
 std::shared_ptr<const Expression> parse_script(const Attribute& attribute, const Reporter& report,
                                                Language language) {
-  auto code = Expression::parse(attribute.value);
+  const bool is_ours = language == Language::Lockstep;
+  auto code =
+      Expression::parse(attribute.value, nullptr,
+                        is_ours ? Expression::Words::AreSigns : Expression::Words::AreNames);
   if (!code) {
     // A wrong or missing argument was reported already.
     const bool is_known = attribute.value.find("${") == std::string_view::npos;
@@ -20,7 +23,6 @@ std::shared_ptr<const Expression> parse_script(const Attribute& attribute, const
     report.in_value(attribute.place, error.offset, std::move(error.message), std::move(error.hint));
     return nullptr;
   }
-  const bool is_ours = language == Language::Lockstep;
   for (const auto& remark : code->remarks()) {
     report.in_value(attribute.place, remark.offset, remark.message, remark.hint,
                     is_ours ? Severity::Error : Severity::Warning);

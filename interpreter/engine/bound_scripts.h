@@ -21,6 +21,8 @@ class BoundScripts {
 
   // Runs a script of a node. Returns "" or the error. An empty text does nothing.
   std::string evaluate(NodeIndex node, std::uint32_t script);
+  // What the last one gave.
+  const Value& value() const { return value_; }
   // The same, of one that is a condition.
   std::string test(NodeIndex node, std::uint32_t script, bool& holds);
   // As new, for the next run.

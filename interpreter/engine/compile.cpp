@@ -349,6 +349,10 @@ class Compiler {
   }
 
   Cell cell(const Parameter& parameter, const Value& value) {
+    if (std::holds_alternative<std::vector<std::string>>(value)) {
+      tree_.constants.push_back(value);
+      return {.integer = static_cast<std::int64_t>(tree_.constants.size() - 1)};
+    }
     const auto* list = std::get_if<std::vector<double>>(&value);
     if (list == nullptr) return scalar_cell(parameter, value);
     const auto first = static_cast<std::uint32_t>(tree_.numbers.size());

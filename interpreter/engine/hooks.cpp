@@ -32,6 +32,8 @@ std::optional<Status> Ticker::ask_hooks(NodeIndex node, const HookedNode& hooked
   if (!goes_on) return Status::Failure;
   if (*goes_on) return std::nullopt;
   if (runs) halt(node);
+  // If that was a fault, the node counts as running until the end of the run, which is to come.
+  if (tree_.labels[node].type->leaf != nullptr) leaf(node).started = false;
   return Status::Skipped;
 }
 
@@ -90,6 +92,13 @@ bool Ticker::run_script(NodeIndex node, std::uint32_t script, std::string_view a
   if (wrong.empty()) return true;
   fail_script(node, attribute, wrong);
   return false;
+}
+
+const Value* Ticker::result_of(NodeIndex node, std::uint32_t script, std::string_view attribute) {
+  if (!run_script(node, script, attribute)) return nullptr;
+  if (!std::holds_alternative<NoValue>(scripts_.value())) return &scripts_.value();
+  fail_script(node, attribute, "it has no value");
+  return nullptr;
 }
 
 std::optional<bool> Ticker::holds(NodeIndex node, std::uint32_t script,

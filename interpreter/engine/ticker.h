@@ -73,7 +73,7 @@ class Ticker {
   // The tree is ticked again in this period, if the root is Running then.
   void ask_for_another_tick(NodeIndex node) { asked_by_ = node + 1; }
 
-  // The nodes of a range that were skipped begin anew in their next tick.
+  // The nodes of a range that were skipped begin again in their next tick.
   void forget_range(NodeIndex first, NodeIndex last) {
     if (tree_.keeps_over_skips) forget_skipped(first, last);
   }
@@ -130,7 +130,13 @@ class Ticker {
   // not accept is a fault, and the result is false.
   bool reread(NodeIndex node);
 
-  // The script that a parameter has; for run_script and holds.
+  // Of a list of texts that is a constant.
+  std::span<const std::string> texts(NodeIndex node, unsigned index) const {
+    const auto constant = static_cast<std::size_t>(parameter(node, index).integer);
+    return std::get<std::vector<std::string>>(tree_.constants[constant]);
+  }
+
+  // The script that a parameter has; for those below.
   std::uint32_t script(NodeIndex node, unsigned index) const {
     return static_cast<std::uint32_t>(parameter(node, index).integer);
   }
@@ -138,6 +144,8 @@ class Ticker {
   // the result is false, or nothing.
   bool run_script(NodeIndex node, std::uint32_t script, std::string_view attribute);
   std::optional<bool> holds(NodeIndex node, std::uint32_t script, std::string_view attribute);
+  // Its value, until another script runs; null after an error. No value is one.
+  const Value* result_of(NodeIndex node, std::uint32_t script, std::string_view attribute);
 
   // What a kind keeps beside its state, until the run begins again.
   Value& kept_value(NodeIndex node) { return kept_values_[node]; }

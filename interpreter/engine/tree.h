@@ -36,7 +36,7 @@ union Cell {
   std::int64_t integer;  // also the index of a choice
   double number;
   struct {
-    std::uint32_t first, count;  // in Tree::numbers
+    std::uint32_t first, count;  // in Tree::numbers; of texts, `integer` is one of Tree::constants
   } list;
 };
 

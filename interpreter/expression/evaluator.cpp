@@ -9,16 +9,11 @@
 #include "core/conversion.h"
 #include "core/wording.h"
 #include "expression/assign.h"
+#include "expression/equal.h"
 #include "expression/operator_words.h"
 
 namespace lockstep {
 namespace {
-
-constexpr double kEqualWithin = std::numeric_limits<float>::epsilon();
-
-bool is_equal(double left, double right) {
-  return std::abs(left - right) <= kEqualWithin;
-}
 
 // NaN is neither "less or equal" nor "more or equal", and so both less and more.
 bool are_related(double left, Relation relation, double right) {

@@ -88,8 +88,9 @@ std::string column(std::size_t offset) {
 // By precedence, in one pass: an operand is compiled before the operator that follows it.
 class ExpressionParser {
  public:
-  ExpressionParser(std::string_view script, std::shared_ptr<const ScriptEnums> enums)
-      : script_(script) {
+  ExpressionParser(std::string_view script, std::shared_ptr<const ScriptEnums> enums,
+                   Expression::Words words)
+      : script_(script), words_(words) {
     result_.enums_ = std::move(enums);
   }
 
@@ -116,8 +117,12 @@ class ExpressionParser {
   bool advance() {
     auto token = next_token(script_, next_);
     if (!token) error_ = std::move(token.error());
-    if (token) token_ = *token;
-    return token.has_value();
+    if (!token) return false;
+    token_ = *token;
+    const bool may_be_sign = token_.symbol == Symbol::Name && words_ == Expression::Words::AreSigns;
+    if (may_be_sign && token_.text == "and") token_.symbol = Symbol::And;
+    if (may_be_sign && token_.text == "or") token_.symbol = Symbol::Or;
+    return true;
   }
 
   bool accept(Symbol symbol, bool& accepted) {
@@ -179,6 +184,7 @@ class ExpressionParser {
     const Token sign = token_;
     const auto operation = *assignment(sign.symbol);
     code().resize(left.code);  // the name is not read
+    result_.offsets_.resize(left.code);
     depth_ = depth;
     std::uint32_t entry = 0;
     if (left.name.empty()) {
@@ -195,7 +201,7 @@ class ExpressionParser {
     }
     has_assignment_ = true;
     if (!advance() || !expression()) return false;
-    emit(operation, entry);
+    emit_at(sign.offset, operation, entry);
     return true;
   }
 
@@ -238,8 +244,9 @@ class ExpressionParser {
         if (!comparisons()) return false;
         continue;
       }
+      const std::size_t sign = token_.offset;
       if (!advance() || !right_of(it)) return false;
-      emit(it.operation);
+      emit_at(sign, it.operation);
       --depth_;
     }
   }
@@ -253,10 +260,11 @@ class ExpressionParser {
   bool comparisons() {
     std::vector<std::size_t> ends;
     for (Binary it = binary(token_.symbol); it.strength == kCompareStrength;) {
+      const std::size_t sign = token_.offset;
       if (!advance() || !right_of(it)) return false;
       const Binary next = binary(token_.symbol);
       const bool is_last = next.strength != kCompareStrength;
-      const std::size_t at = emit(is_last ? Operation::Compare : Operation::CompareNext);
+      const std::size_t at = emit_at(sign, is_last ? Operation::Compare : Operation::CompareNext);
       code()[at].relation = it.relation;
       --depth_;
       if (!is_last) ends.push_back(at);
@@ -272,10 +280,11 @@ class ExpressionParser {
     if (token_.symbol == Symbol::Complement) sign = Operation::Complement;
     if (token_.symbol == Symbol::Not) sign = Operation::Not;
     if (!sign) return primary(operand);
+    const std::size_t offset = token_.offset;
     if (!enter() || !advance() || !unary(operand)) return false;
     --level_;
     operand.name = {};
-    emit(*sign);
+    emit_at(offset, *sign);
     return true;
   }
 
@@ -361,7 +370,11 @@ class ExpressionParser {
   void grow() { program().stack = std::max(program().stack, ++depth_); }
 
   std::size_t emit(Operation operation, std::uint32_t argument = 0) {
+    return emit_at(token_.offset, operation, argument);
+  }
+  std::size_t emit_at(std::size_t offset, Operation operation, std::uint32_t argument = 0) {
     code().push_back({.operation = operation, .argument = argument});
+    result_.offsets_.push_back(static_cast<std::uint32_t>(offset));
     return code().size() - 1;
   }
   void go_here(std::size_t from) {
@@ -379,6 +392,7 @@ class ExpressionParser {
   std::vector<Instruction>& code() { return result_.program_.code; }
 
   std::string_view script_;
+  Expression::Words words_;
   std::size_t next_ = 0;  // behind token_
   Token token_{.symbol = Symbol::End, .text = {}};
   Expression result_;
@@ -390,8 +404,8 @@ class ExpressionParser {
 };
 
 tl::expected<Expression, Expression::Error> Expression::parse(
-    std::string_view text, std::shared_ptr<const ScriptEnums> enums) {
-  return ExpressionParser(text, std::move(enums)).parse();
+    std::string_view text, std::shared_ptr<const ScriptEnums> enums, Words words) {
+  return ExpressionParser(text, std::move(enums), words).parse();
 }
 
 }  // namespace lockstep

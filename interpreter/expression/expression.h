@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -33,9 +34,12 @@ class Expression {
     bool is_made = false;    // by ':=', if it does not exist
     std::size_t offset = 0;  // of its name, at the first place
   };
+  // Whether 'and' is '&&' and 'or' is '||', which must be escaped in XML.
+  enum class Words : bool { AreNames, AreSigns };
   // Texts that are compared with numbers may be words of `enums`, too; null: there are none.
   static tl::expected<Expression, Error> parse(std::string_view text,
-                                               std::shared_ptr<const ScriptEnums> enums = nullptr);
+                                               std::shared_ptr<const ScriptEnums> enums = nullptr,
+                                               Words words = Words::AreNames);
 
   // The entries that it reads or assigns, each once, as they are written; "@k" with its '@'.
   std::span<const std::string> names() const { return names_; }
@@ -45,12 +49,15 @@ class Expression {
   std::span<const Error> remarks() const { return remarks_; }
 
   const ScriptProgram& program() const { return program_; }
+  // Of each instruction: where in the text it comes from.
+  std::span<const std::uint32_t> offsets() const { return offsets_; }
   const ScriptEnums* enums() const { return enums_.get(); }
 
  private:
   friend class ExpressionParser;
 
   ScriptProgram program_;
+  std::vector<std::uint32_t> offsets_;
   std::vector<std::string> names_;
   std::vector<Use> uses_;
   std::vector<Error> remarks_;

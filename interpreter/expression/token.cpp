@@ -174,6 +174,7 @@ class Lexer {
     if (text_.front() == '.') {
       return fail("a number does not begin with a point", "write 0.5; '..' joins texts");
     }
+    if (text_.front() == '{') return fail("unexpected '{'", "write the name of an entry alone");
     const std::size_t length = std::max<std::size_t>(utf8_length(text_), 1);
     return fail(fmt::format("unexpected '{}'", brief(text_.substr(0, length))),
                 "texts are in quotes; names have letters from a to z, digits and _");

@@ -83,6 +83,8 @@ TEST_CASE("nodes of other libraries: what to write instead") {
       {R"(<ReactiveSequence><AlwaysSuccess/></ReactiveSequence>)", "write <Sequence>"},
       {R"(<FallbackStar><AlwaysSuccess/></FallbackStar>)", "write <Fallback memory=\"true\">"},
       {R"(<ScriptCondition code="a &lt; 1"/>)", "write <Check code=\"a &lt; 1\">"},
+      {R"(<Switch2 variable="{mode}" case_1="a" case_2="b"><AlwaysSuccess/></Switch2>)",
+       "write <Switch on=\"mode\">; its cases are one list: cases=\"dock;drive\""},
       {R"(<BlackboardCheckInt value_A="{a}"/>)", "write <Check code=\"key == 'value'\"/>"},
       {R"(<SubTreePlus ID="T" __autoremap="true"/>)",
        "write <SubTree ID=\"T\" _autoremap=\"true\">"},

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 
 namespace lockstep::test {
 namespace {
@@ -32,11 +33,12 @@ std::string parameters(const Plan& plan) {
   }
   if (plan.kind == "SyncProgress") add("barrier", plan.barrier);
   if (plan.times >= 0) add(plan.kind == "Retry" ? "attempts" : "times", plan.times);
-  if (plan.kind == "Wait" || plan.kind == "Delay" || plan.kind == "Timeout") {
-    add("seconds", plan.seconds);
-  }
+  constexpr std::array kTimed{"Wait", "Delay", "Timeout", "Cooldown", "Rate"};
+  if (std::ranges::find(kTimed, plan.kind) != kTimed.end()) add("seconds", plan.seconds);
   if (plan.wall_clock) add("clock", "wall");
-  if (!plan.code.empty()) add("code", plan.code);
+  const bool is_switch = plan.kind == "Switch";
+  if (!plan.code.empty()) add(is_switch ? "on" : "code", plan.code);
+  if (is_switch) add("cases", fmt::format("{}", fmt::join(plan.cases, ";")));
   for (const auto& [attribute, script] : plan.hooks) add(attribute, script);
   return text.empty() ? text : "[" + text + "]";
 }

@@ -28,10 +28,11 @@ struct Plan {
   double delta = 0;
   int times = -1;  // of Repeat, attempts of Retry
   double seconds = 0;
-  bool wall_clock = false;   // Timeout, Delay
+  bool wall_clock = false;   // Timeout, Delay, Rate
   std::string barrier = {};  // SyncProgress: the name of one of the root's
 
-  std::string code = {};  // Script, Check
+  std::string code = {};  // Script, Check; of Switch, what it is on
+  std::vector<std::string> cases = {};
 
   std::string pool = {};  // UseResources: likewise
   std::string resources = {};

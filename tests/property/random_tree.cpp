@@ -12,6 +12,7 @@ namespace lockstep::test {
 namespace {
 
 constexpr int kMaxDepth = 6;
+constexpr auto kStart = "x:=0;y:=1";  // what gives all entries of scripts a value
 constexpr std::array kFractions{.1, .2, .25, .3, .4, .5, .6, .7, .75, .8, .9, 1.0};
 
 class Random {
@@ -55,7 +56,7 @@ class Generator : Random {
   // The entries of all scripts have a value first.
   static Plan with_entries(Plan plan) {
     return Plan{.kind = "Sequence",
-                .children = {Plan{.kind = "Script", .code = "x:=0;y:=1"}, std::move(plan)},
+                .children = {Plan{.kind = "Script", .code = kStart}, std::move(plan)},
                 .memory = true};
   }
 
@@ -87,7 +88,9 @@ class Generator : Random {
   Plan bare_node(int depth) {
     --budget_;
     if (depth == kMaxDepth || budget_ <= 0 || (depth > 1 && one_in(4))) return leaf();
-    switch (between(0, 11)) {
+    switch (between(0, 12)) {
+      case 12:
+        return cases(depth);
       case 10:
         return branches("IfThenElse", depth);
       case 11:
@@ -136,13 +139,22 @@ class Generator : Random {
     return plan;
   }
 
+  Plan cases(int depth) {
+    Plan plan{.kind = "Switch"};
+    plan.code = scripts_ ? pick(std::array{"x", "y", "x+y"}) : pick(std::array{"1", "2"});
+    const int count = between(1, 3);
+    for (int i = 0; i < count; ++i) plan.cases.push_back(std::to_string(i));
+    for (int i = count + between(0, 1); i > 0; --i) plan.children.push_back(node(depth + 1));
+    return plan;
+  }
+
   // A subtree without actions.
   Plan guard(int depth) {
     --budget_;
     if (scripts_ && one_in(3)) return Plan{.kind = "Check", .code = condition()};
     if (depth >= kMaxDepth || !one_in(3)) return scripted("condition");
     Plan plan{.kind = pick(std::array{"Sequence", "Fallback", "Parallel", "Inverter", "Delay",
-                                      "Repeat", "SubTree"})};
+                                      "Repeat", "SubTree", "Rate", "Cooldown"})};
     const bool is_control =
         plan.kind == "Sequence" || plan.kind == "Fallback" || plan.kind == "Parallel";
     for (int i = is_control ? between(1, 3) : 1; i > 0; --i) {
@@ -198,8 +210,8 @@ class Generator : Random {
   Plan decorator(int depth) {
     if (!inside_q_ && one_in(3)) return use_resources(depth);
     Plan plan{.kind = pick(std::array{"Inverter", "ForceSuccess", "ForceFailure", "Repeat",
-                                      "Repeat", "Retry", "Timeout", "Delay", "RunOnce",
-                                      "KeepRunningUntilFailure", "SubTree", "SyncProgress",
+                                      "Repeat", "Retry", "Timeout", "Delay", "RunOnce", "Cooldown",
+                                      "Rate", "KeepRunningUntilFailure", "SubTree", "SyncProgress",
                                       "SyncProgress", "SyncProgress", "SyncProgress"})};
     if (plan.kind == "SyncProgress") {
       plan.barrier = one_in(4) ? "g1" : "g0";
@@ -207,7 +219,8 @@ class Generator : Random {
     plan.children.push_back(node(depth + 1));
     if (plan.kind == "Retry" || (plan.kind == "Repeat" && !one_in(4))) plan.times = between(1, 4);
     plan.seconds = .05 * between(plan.kind == "Timeout" ? 1 : 0, 20);
-    plan.wall_clock = (plan.kind == "Timeout" || plan.kind == "Delay") && one_in(3);
+    const bool has_clock = plan.kind == "Timeout" || plan.kind == "Delay" || plan.kind == "Rate";
+    plan.wall_clock = has_clock && one_in(3);
     return plan;
   }
 
@@ -280,7 +293,8 @@ class Generator : Random {
   }
 
   std::string fault(const std::string& script) {
-    constexpr std::array kWrong{"X", "T", "B", "I", "x", "t", "R<nan>", "R<nan>"};
+    constexpr std::array kWrong{"X", "T",      "B",      "I",      "x",
+                                "t", "R<nan>", "R<nan>", "R<nan>", "R<nan>"};
     constexpr std::array kCalls{"!halt", "^halt", "!pause", "^pause", "!resume", "^resume"};
     if (one_in(2)) return script + pick(kCalls);
     if (script[0] == '+') return steps("R", 10) + pick(kCalls);
@@ -295,6 +309,11 @@ class Generator : Random {
   bool inside_p_ = false, inside_q_ = false;
 };
 
+// Its scripts need what its first child does.
+bool gives_entries(const Plan& plan) {
+  return !plan.children.empty() && plan.children[0].code == kStart;
+}
+
 // Each plan that comes from taking a child away or putting a child in its parent's place.
 void add_smaller_plans(const Plan& plan, std::vector<Plan>& plans) {
   for (const auto& [attribute, script] : plan.hooks) {
@@ -304,7 +323,7 @@ void add_smaller_plans(const Plan& plan, std::vector<Plan>& plans) {
   for (std::size_t i = 0; i < plan.children.size(); ++i) {
     plans.push_back(plan.children[i]);
     const bool has_branches = plan.kind == "IfThenElse" || plan.kind == "WhileDoElse";
-    if (plan.children.size() > (has_branches ? 2 : 1)) {
+    if (plan.kind != "Switch" && plan.children.size() > (has_branches ? 2 : 1)) {
       Plan fewer = plan;
       fewer.children.erase(fewer.children.begin() + static_cast<std::ptrdiff_t>(i));
       const int left = static_cast<int>(fewer.children.size());
@@ -333,6 +352,7 @@ std::vector<Trial> smaller_trials(const Trial& trial) {
   add_smaller_plans(trial.plan, plans);
   std::vector<Trial> trials;
   for (Plan& plan : plans) {
+    if (gives_entries(trial.plan) && !gives_entries(plan)) continue;
     plan.beside = trial.plan.beside;
     trials.push_back(trial);
     trials.back().plan = std::move(plan);

@@ -48,6 +48,13 @@ class MiniScript {
     throw std::logic_error("what is the condition " + text);
   }
 
+  // "x" or "x+y".
+  double number(const std::string& text) const {
+    const auto plus = text.find('+');
+    if (plus == std::string::npos) return value(text);
+    return value(text.substr(0, plus)) + value(text.substr(plus + 1));
+  }
+
   void run(const std::string& text) const {
     std::istringstream statements(text);
     for (std::string it; std::getline(statements, it, ';');) {
@@ -305,6 +312,25 @@ class Branches : public ReferenceNode {
   ReferenceNode* branch_ = nullptr;
 };
 
+class Switch : public ReferenceNode {
+ public:
+  using ReferenceNode::ReferenceNode;
+  Status on_tick(bool first) override {
+    if (first) chosen_ = nullptr;
+    const double value = script().number(plan.code);
+    std::size_t place = 0;
+    while (place < plan.cases.size() && std::stod(plan.cases[place]) != value) ++place;
+    ReferenceNode* const next = place < children.size() ? children[place].get() : nullptr;
+    if (chosen_ != nullptr && chosen_ != next) chosen_->make_idle();
+    chosen_ = next;
+    return next == nullptr ? Status::Failure : next->tick();
+  }
+  double on_progress() override { return chosen_ == nullptr ? 0 : chosen_->progress(); }
+
+ private:
+  ReferenceNode* chosen_ = nullptr;
+};
+
 class Wait : public ReferenceNode {
  public:
   using ReferenceNode::ReferenceNode;
@@ -546,6 +572,42 @@ class Timed : public ReferenceNode {  // Timeout, Delay
 
  private:
   Nanoseconds counted_{0}, counted_until_{0};
+};
+
+class Cooldown : public ReferenceNode {
+ public:
+  using ReferenceNode::ReferenceNode;
+  Status on_tick(bool) override {
+    if (completed_ && world.now - *completed_ < from_seconds(plan.seconds)) return Status::Skipped;
+    completed_.reset();
+    const Status result = child().tick();
+    if (is_complete(result)) completed_ = world.now;
+    return result;
+  }
+  double on_progress() override { return child().progress(); }
+
+ private:
+  std::optional<Nanoseconds> completed_;
+};
+
+class Rate : public ReferenceNode {
+ public:
+  using ReferenceNode::ReferenceNode;
+  Status on_tick(bool first) override {
+    if (first && result_ && world.now - start_ < from_seconds(plan.seconds)) return *result_;
+    if (first) start_ = world.now;
+    if (paused && !plan.wall_clock) start_ += world.now - paused_at_;
+    result_.reset();
+    const Status result = child().tick();
+    if (is_complete(result)) result_ = result;
+    return result;
+  }
+  void on_pause() override { paused_at_ = world.now; }
+  double on_progress() override { return child().progress(); }
+
+ private:
+  std::optional<Status> result_;
+  Nanoseconds start_{0}, paused_at_{0};
 };
 
 class RunOnce : public ReferenceNode {
@@ -817,6 +879,9 @@ std::unique_ptr<ReferenceNode> ReferenceNode::make(Reference& tree, const Plan& 
   if (!plan.script.empty()) return std::make_unique<Leaf>(tree, plan, tree.world_->leaves++);
   if (kind == "Script" || kind == "Check") return node<Script>(tree, plan);
   if (kind == "IfThenElse" || kind == "WhileDoElse") return node<Branches>(tree, plan);
+  if (kind == "Switch") return node<Switch>(tree, plan);
+  if (kind == "Cooldown") return node<Cooldown>(tree, plan);
+  if (kind == "Rate") return node<Rate>(tree, plan);
   if (kind.starts_with("Always")) return node<Constant>(tree, plan);
   if (kind == "Wait") return node<Wait>(tree, plan);
   if (kind == "Sequence" || kind == "Fallback") return node<Ordered>(tree, plan);

@@ -6,9 +6,9 @@
 namespace lockstep {
 
 extern const NodeKind kSequence, kFallback, kParallel, kParallelAbsolute, kParallelRelative,
-    kIfThenElse, kWhileDoElse;
+    kIfThenElse, kWhileDoElse, kSwitch;
 extern const NodeKind kInverter, kForceSuccess, kForceFailure, kRepeat, kRetry, kTimeout, kDelay,
-    kRunOnce, kKeepRunningUntilFailure, kSubTree;
+    kCooldown, kRate, kRunOnce, kKeepRunningUntilFailure, kSubTree;
 extern const NodeKind kBarrier, kSyncProgress, kResources, kUseResources;
 extern const NodeKind kAlwaysSuccess, kAlwaysFailure, kAlwaysRunning, kWait, kScript, kCheck;
 
@@ -16,10 +16,10 @@ extern const NodeKind kAlwaysSuccess, kAlwaysFailure, kAlwaysRunning, kWait, kSc
 inline constexpr const NodeKind* kBuiltInKinds[] = {
     // Control nodes
     &kSequence, &kFallback, &kParallel, &kParallelAbsolute, &kParallelRelative, &kIfThenElse,
-    &kWhileDoElse,
+    &kWhileDoElse, &kSwitch,
     // Decorators
-    &kInverter, &kForceSuccess, &kForceFailure, &kRepeat, &kRetry, &kTimeout, &kDelay, &kRunOnce,
-    &kKeepRunningUntilFailure, &kSyncProgress, &kUseResources, &kSubTree,
+    &kInverter, &kForceSuccess, &kForceFailure, &kRepeat, &kRetry, &kTimeout, &kDelay, &kCooldown,
+    &kRate, &kRunOnce, &kKeepRunningUntilFailure, &kSyncProgress, &kUseResources, &kSubTree,
     // Leaves
     &kAlwaysSuccess, &kAlwaysFailure, &kAlwaysRunning, &kWait, &kScript, &kCheck,
     // Beside the trees

@@ -34,21 +34,24 @@ struct Places {
   unsigned success_count, failure_count;
 };
 
+// A number of children that is larger than there are.
+inline std::optional<RuleBreak> check_count(const ParameterValues& given, unsigned place,
+                                            std::string_view name) {
+  const auto* count = std::get_if<std::int64_t>(&given.values[place]);
+  if (count == nullptr || given.children == 0 || *count <= given.children) return std::nullopt;
+  const std::string most = std::to_string(given.children);
+  return RuleBreak{
+      static_cast<int>(place),
+      std::string("'").append(name) + "' is more than the " + most + " children of the node",
+      "give at most " + most};
+}
+
 inline std::optional<RuleBreak> check_counts(const ParameterValues& given, const Places& places) {
-  const std::int64_t all = given.children;
-  if (all == 0) return std::nullopt;  // that alone is wrong
-  if (!given.is_given(places.success_count)) given.values[places.success_count] = all;
-  for (const auto& [place, parameter] : {std::pair(places.success_count, &kSuccessCount),
-                                         std::pair(places.failure_count, &kFailureCount)}) {
-    const auto* count = std::get_if<std::int64_t>(&given.values[place]);
-    if (count == nullptr || *count <= all) continue;
-    const std::string most = std::to_string(all);
-    return RuleBreak{static_cast<int>(place),
-                     std::string("'").append(parameter->name) + "' is more than the " + most +
-                         " children of the node",
-                     "give at most " + most};
-  }
-  return std::nullopt;
+  if (given.children == 0) return std::nullopt;  // that alone is wrong
+  Value& success = given.values[places.success_count];
+  if (!given.is_given(places.success_count)) success = std::int64_t{given.children};
+  if (auto broken = check_count(given, places.success_count, kSuccessCount.name)) return broken;
+  return check_count(given, places.failure_count, kFailureCount.name);
 }
 
 // The progress of the child that is the M-th when the farthest is the first: where M children will

@@ -2,7 +2,6 @@
 // activation; its status says so.
 #include <algorithm>
 #include <optional>
-#include <string>
 
 #include "engine/nodes/kinds.h"
 #include "engine/nodes/parallel_rule.h"
@@ -30,19 +29,12 @@ constexpr Parameter kAllParameters[] = {
             "on.",
      .default_text = "1"}};
 
-struct Tally {
-  std::int64_t all, succeeded = 0, failed = 0, skipped = 0;
-
-  void add(Status status) {
-    succeeded += status == Status::Success;
-    failed += status == Status::Failure;
-    skipped += status == Status::Skipped;
-  }
-};
+using parallel::check_count;
+using parallel::Tally;
 
 // Of those that completed in earlier ticks of the activation.
 Tally tally_of(Ticker& ticker, NodeIndex self) {
-  Tally tally{ticker.node(self).children};
+  Tally tally;
   for (NodeIndex child = self + 1; child != ticker.end_of(self); child = ticker.end_of(child)) {
     if (is_complete(ticker.status(child))) tally.add(ticker.status(child));
   }
@@ -52,16 +44,6 @@ Tally tally_of(Ticker& ticker, NodeIndex self) {
 // -1 is all of them, and so on.
 std::int64_t count_of(std::int64_t given, std::int64_t all) {
   return given >= 0 ? given : std::max(all + given + 1, std::int64_t{0});
-}
-
-std::optional<RuleBreak> check_count(const ParameterValues& given, unsigned place,
-                                     std::string_view name) {
-  const auto* count = std::get_if<std::int64_t>(&given.values[place]);
-  if (count == nullptr || given.children == 0 || *count <= given.children) return std::nullopt;
-  const std::string most = std::to_string(given.children);
-  return RuleBreak{static_cast<int>(place),
-                   "'" + std::string(name) + "' is more than the " + most + " children of the node",
-                   "give at most " + most};
 }
 
 std::optional<RuleBreak> parallel_rule(const ParameterValues& given) {
@@ -76,31 +58,33 @@ std::optional<RuleBreak> all_rule(const ParameterValues& given) {
 // After each child, so that those to the right of the one that decides are not ticked.
 Status tick_parallel(Ticker& ticker, NodeIndex self) {
   Tally tally = tally_of(ticker, self);
+  const std::int64_t all = ticker.node(self).children;
   const std::int64_t given = ticker.parameter(self, kSuccessCount).integer;
-  const std::int64_t wanted = count_of(given, tally.all);
-  const std::int64_t failures = count_of(ticker.parameter(self, kFailureCount).integer, tally.all);
+  const std::int64_t wanted = count_of(given, all);
+  const std::int64_t failures = count_of(ticker.parameter(self, kFailureCount).integer, all);
   for (NodeIndex child = self + 1; child != ticker.end_of(self); child = ticker.end_of(child)) {
     if (!is_complete(ticker.status(child))) tally.add(ticker.tick(child));
     if (ticker.faulted()) return Status::Running;
     const std::int64_t counted = tally.succeeded + (given < 0 ? tally.skipped : 0);
     const bool success = counted >= wanted;
-    if (success || tally.all - tally.failed < wanted || tally.failed == failures) {
+    if (success || all - tally.failed < wanted || tally.failed == failures) {
       ticker.halt_running_children(self);
       return success ? Status::Success : Status::Failure;
     }
   }
-  return tally.skipped == tally.all ? Status::Skipped : Status::Running;
+  return tally.skipped == all ? Status::Skipped : Status::Running;
 }
 
 Status tick_all(Ticker& ticker, NodeIndex self) {
   Tally tally = tally_of(ticker, self);
+  const std::int64_t all = ticker.node(self).children;
   for (NodeIndex child = self + 1; child != ticker.end_of(self); child = ticker.end_of(child)) {
     if (!is_complete(ticker.status(child))) tally.add(ticker.tick(child));
   }
   if (ticker.faulted()) return Status::Running;
-  if (tally.skipped == tally.all) return Status::Skipped;
-  if (tally.succeeded + tally.failed + tally.skipped < tally.all) return Status::Running;
-  const std::int64_t most = count_of(ticker.parameter(self, kMaxFailures).integer, tally.all);
+  if (tally.skipped == all) return Status::Skipped;
+  if (tally.succeeded + tally.failed + tally.skipped < all) return Status::Running;
+  const std::int64_t most = count_of(ticker.parameter(self, kMaxFailures).integer, all);
   return tally.failed >= most ? Status::Failure : Status::Success;
 }
 

@@ -1,16 +1,12 @@
 // AsyncSequence, AsyncFallback and SequenceWithMemory: after a child that completed at once, they
 // let the tree be ticked again before they go on.
 #include "engine/nodes/kinds.h"
-#include "engine/ticker.h"
+#include "engine/nodes/ordered.h"
 
 namespace lockstep::btcpp {
 namespace {
 
-struct State {
-  NodeIndex current;  // the child at which the last tick stopped; 0: the first
-  std::uint32_t done;
-  std::uint32_t skipped;
-};
+using ordered::State;  // its place is 0 before the first child
 
 // What stays when an activation ends without Success, or is halted.
 enum class Place : bool { Forgotten, Kept };
@@ -43,15 +39,6 @@ Status tick(Ticker& ticker, NodeIndex self) {
   return all_skipped ? Status::Skipped : kGoOn;
 }
 
-double progress_of_sequence(Ticker& ticker, NodeIndex self) {
-  const auto& state = ticker.state<State>(self);
-  return (state.done + ticker.progress(state.current)) / ticker.node(self).children;
-}
-
-double progress_of_fallback(Ticker& ticker, NodeIndex self) {
-  return ticker.progress(ticker.state<State>(self).current);
-}
-
 }  // namespace
 
 const NodeKind kAsyncSequence{
@@ -64,7 +51,7 @@ const NodeKind kAsyncSequence{
              .goes_on_after = Status::Success,
              .can_run = true},
     .tick = tick<Status::Success, Place::Forgotten>,
-    .progress = progress_of_sequence,
+    .progress = ordered::progress_of_sequence,
     .state_size = sizeof(State)};
 
 const NodeKind kAsyncFallback{
@@ -77,7 +64,7 @@ const NodeKind kAsyncFallback{
              .goes_on_after = Status::Failure,
              .can_run = true},
     .tick = tick<Status::Failure, Place::Forgotten>,
-    .progress = progress_of_fallback,
+    .progress = ordered::progress_of_fallback,
     .state_size = sizeof(State)};
 
 const NodeKind kSequenceWithMemory{
@@ -90,7 +77,7 @@ const NodeKind kSequenceWithMemory{
              .goes_on_after = Status::Success,
              .can_run = true},
     .tick = tick<Status::Success, Place::Kept>,
-    .progress = progress_of_sequence,
+    .progress = ordered::progress_of_sequence,
     .state_size = sizeof(State)};
 
 }  // namespace lockstep::btcpp

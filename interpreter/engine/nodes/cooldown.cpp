@@ -1,0 +1,48 @@
+#include "engine/nodes/decorator.h"
+#include "engine/nodes/timed.h"
+
+namespace lockstep {
+namespace {
+
+constexpr Parameter kParameters[] = {
+    {.name = "seconds",
+     .type = ValueType::Double,
+     .doc = "How long the node is skipped after its child has completed.",
+     .required = true,
+     .unit = "s",
+     .range = {.min = 0, .max = 1e9}},
+};
+
+// Not cleared by a new activation.
+struct State {
+  Nanoseconds completed;  // when the child did
+  bool cools;
+};
+
+bool cools(Ticker& ticker, NodeIndex self, const State& state) {
+  const Nanoseconds passed = ticker.now() - state.completed;
+  return state.cools && passed < from_seconds(ticker.parameter(self, timed::kSeconds).number);
+}
+
+Status tick(Ticker& ticker, NodeIndex self) {
+  State& state = ticker.state<State>(self);
+  if (cools(ticker, self, state)) return Status::Skipped;
+  const Status status = ticker.tick(self + 1);
+  state = {ticker.now(), is_complete(status)};
+  return status;
+}
+
+}  // namespace
+
+const NodeKind kCooldown{
+    .type = {.id = "Cooldown",
+             .category = NodeCategory::Decorator,
+             .doc = "Ticks its child; when that has completed, the node is skipped for a time.",
+             .arity = {1, 1},
+             .parameters = kParameters,
+             .acts_again = false},
+    .tick = tick,
+    .progress = decorator::child_progress,
+    .state_size = sizeof(State)};
+
+}  // namespace lockstep

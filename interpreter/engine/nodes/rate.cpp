@@ -1,0 +1,49 @@
+#include "engine/nodes/decorator.h"
+#include "engine/nodes/timed.h"
+
+namespace lockstep {
+namespace {
+
+constexpr Parameter kParameters[] = {
+    {.name = "seconds",
+     .type = ValueType::Double,
+     .doc = "The least time from one start of the child to the next.",
+     .required = true,
+     .unit = "s",
+     .range = {.min = 0, .max = 1e9}},
+    timed::kClockParameter,
+};
+
+// Not cleared by a new activation.
+struct State {
+  timed::State time;  // since the child was started
+  Status result;      // of the child; Idle: none that counts
+};
+
+Status tick(Ticker& ticker, NodeIndex self) {
+  State& state = ticker.state<State>(self);
+  const bool starts = ticker.first_tick(self);
+  if (starts && is_complete(state.result) && !timed::is_over(ticker, self)) return state.result;
+  const bool goes_on = ticker.parameter(self, timed::kClock).integer == timed::kWall;
+  if (starts || !goes_on) timed::count(ticker, self);
+  const Status status = ticker.tick(self + 1);
+  state.result = is_complete(status) ? status : Status::Idle;
+  return status;
+}
+
+}  // namespace
+
+const NodeKind kRate{
+    .type = {.id = "Rate",
+             .category = NodeCategory::Decorator,
+             .doc = "Starts its child at most once in a time; in between returns its last result "
+                    "without ticking it. A child that runs is ticked in every tick.",
+             .arity = {1, 1},
+             .parameters = kParameters,
+             .acts_again = false},
+    .tick = tick,
+    .progress = decorator::child_progress,
+    .state_size = sizeof(State),
+    .pause = timed::pause};
+
+}  // namespace lockstep

@@ -1,0 +1,88 @@
+#include <algorithm>
+
+#include "core/wording.h"
+#include "engine/nodes/kinds.h"
+#include "engine/ticker.h"
+#include "expression/equal.h"
+
+namespace lockstep {
+namespace {
+
+constexpr unsigned kOn = 0, kCases = 1;
+
+constexpr Parameter kParameters[] = {
+    {.name = "on",
+     .type = ValueType::String,
+     .doc = "What the cases are compared with, in every tick.",
+     .required = true,
+     .is_script = true},
+    {.name = "cases",
+     .type = ValueType::StringList,
+     .doc = "The value that chooses the first child, the second, and so on: dock;drive. One child "
+            "more is for all other values.",
+     .required = true,
+     .constant = true},
+};
+
+std::optional<RuleBreak> rule(const ParameterValues& given) {
+  const auto* cases = std::get_if<std::vector<std::string>>(&given.values[kCases]);
+  if (cases == nullptr || given.children == 0) return std::nullopt;
+  for (auto it = cases->begin(); it != cases->end(); ++it) {
+    if (std::find(cases->begin(), it, *it) == it) continue;
+    return RuleBreak{static_cast<int>(kCases), "the case '" + brief(*it) + "' is given twice", ""};
+  }
+  const std::size_t count = cases->size();
+  if (given.children == count || given.children == count + 1) return std::nullopt;
+  return RuleBreak{static_cast<int>(kCases),
+                   std::to_string(count) + (count == 1 ? " case" : " cases") + " for " +
+                       std::to_string(given.children) +
+                       (given.children == 1 ? " child" : " children"),
+                   "give each child a case, in order; one child more is for all other values"};
+}
+
+struct State {
+  NodeIndex current;  // the child that was chosen last; 0: none
+};
+
+// Of the first case that is equal, else what comes after the cases; 0: nothing does.
+NodeIndex choose(const Ticker& ticker, NodeIndex self, const Value& value) {
+  NodeIndex child = self + 1;
+  for (const std::string& text : ticker.texts(self, kCases)) {
+    if (equals_text(value, text)) return child;
+    child = ticker.end_of(child);
+  }
+  return child == ticker.end_of(self) ? 0 : child;
+}
+
+Status tick(Ticker& ticker, NodeIndex self) {
+  State& state = ticker.state<State>(self);
+  if (ticker.first_tick(self)) state.current = 0;
+  const Value* value = ticker.result_of(self, ticker.script(self, kOn), "on");
+  if (value == nullptr) return Status::Failure;
+  const NodeIndex child = choose(ticker, self, *value);
+  if (state.current != 0 && state.current != child) ticker.halt(state.current);
+  state.current = child;
+  return child == 0 ? Status::Failure : ticker.tick(child);
+}
+
+double progress(Ticker& ticker, NodeIndex self) {
+  const NodeIndex child = ticker.state<State>(self).current;
+  return child == 0 ? 0.0 : ticker.progress(child);
+}
+
+}  // namespace
+
+const NodeKind kSwitch{
+    .type = {.id = "Switch",
+             .category = NodeCategory::Control,
+             .doc = "Ticks the child of the first case that equals a value, else the child after "
+                    "those of the cases; Failure if there is none. When the value chooses another "
+                    "child, the one that runs is halted.",
+             .arity = {1},
+             .parameters = kParameters,
+             .rule = rule},
+    .tick = tick,
+    .progress = progress,
+    .state_size = sizeof(State)};
+
+}  // namespace lockstep

@@ -1,0 +1,21 @@
+// When two values are equal in a script.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "core/value.h"
+
+namespace lockstep {
+
+inline constexpr double kEqualWithin = std::numeric_limits<float>::epsilon();
+
+inline bool is_equal(double left, double right) {
+  return std::abs(left - right) <= kEqualWithin;
+}
+
+// What `value == 'text'` is in a script; false where it would be an error.
+bool equals_text(const Value& value, const std::string& text);
+
+}  // namespace lockstep
