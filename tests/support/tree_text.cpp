@@ -19,6 +19,7 @@ const NodeType kScriptedActionType{.id = "Scripted",
                                    .category = NodeCategory::Action,
                                    .doc = "",
                                    .arity = {0, 0},
+                                   .can_run = true,
                                    .leaf = &kScriptedAction};
 const NodeType kScriptedConditionType{.id = "ScriptedCondition",
                                       .category = NodeCategory::Condition,
@@ -29,6 +30,7 @@ const NodeType kBareActionType{.id = "Bare",
                                .category = NodeCategory::Action,
                                .doc = "",
                                .arity = {0, 0},
+                               .can_run = true,
                                .has_progress = false,
                                .leaf = &kBareAction};
 
