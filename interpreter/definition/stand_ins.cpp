@@ -56,6 +56,7 @@ class Builder {
     find_trees();
     for (const auto& document : project_.documents) find_uses(*document, unknown, mocks);
     for (const auto& [id, use] : uses_) add(id, use, mocks);
+    for (const auto& [id, mock] : mocks) check_mock(id);
     return made_->is_empty() ? nullptr : made_;
   }
 
@@ -80,6 +81,7 @@ class Builder {
     for_each_tree(document, [&](std::uint32_t tree) {
       for (auto node = tree + 1; node < document.elements()[tree].end; ++node) {
         const std::string_view id = id_of(document, node);
+        ids_.insert(id);
         if (mocks.contains(id) || (unknown != MissingNodes::AreErrors && is_unknown(id))) {
           note_use(
               document, node,
@@ -142,6 +144,19 @@ class Builder {
     if (known == nullptr) tell(id, use.place, model != models_.nodes.end());
   }
 
+  void check_mock(std::string_view id) const {
+    if (!uses_.contains(id)) {
+      const std::vector<std::string_view> ids(ids_.begin(), ids_.end());
+      report_.nowhere(fmt::format("--mock-leaf {}: the tree has no such node", brief(id)),
+                      did_you_mean(id, ids));
+      return;
+    }
+    const NodeCategory category = catalog_.find(id)->category;
+    if (category == NodeCategory::Action || category == NodeCategory::Condition) return;
+    report_.nowhere(fmt::format("--mock-leaf {}: only a leaf has a result", brief(id)),
+                    "the result of other nodes comes from their children");
+  }
+
   void tell(std::string_view id, Place place, bool has_model) const {
     if (report_.counted_only(Severity::Note)) return;
     std::string hint =
@@ -194,7 +209,7 @@ class Builder {
   const Reporter& report_;
   std::shared_ptr<StandIns> made_ = std::make_shared<StandIns>();
   const std::vector<std::string_view> known_ids_ = catalog_.ids();
-  std::set<std::string_view> trees_;
+  std::set<std::string_view> trees_, ids_;
   std::map<std::string_view, Use> uses_;
 };
 

@@ -69,6 +69,21 @@ TEST_CASE("run --mock is for lockstep's own trees, too, and for leaves of plugin
   CHECK(run_mocked(tree, {"--mock-leaf", "Advance=failure"}).code == 1);
 }
 
+TEST_CASE("run --mock-leaf refuses a node that the tree does not have, or that is no leaf") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "tree.xml",
+      "<root BTCPP_format=\"4\"><BehaviorTree ID=\"A\"><Sequence><Dock/><Inverter><Undock/>"
+      "</Inverter></Sequence></BehaviorTree></root>");
+  const Outcome misspelled = run_mocked(tree, {"--mock-leaf", "Dokc=failure"});
+  CHECK(misspelled.code == 2);
+  CHECK(contains(misspelled.err, "--mock-leaf Dokc: the tree has no such node"));
+  CHECK(contains(misspelled.err, "did you mean 'Dock'?"));
+  const Outcome control = run_mocked(tree, {"--mock-leaf", "Sequence=failure"});
+  CHECK(control.code == 2);
+  CHECK(contains(control.err, "--mock-leaf Sequence: only a leaf has a result"));
+}
+
 TEST_CASE("run --mock-leaf takes a result and a time") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file("tree.xml", document(kNodes));
