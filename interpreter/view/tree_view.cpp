@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include "core/diagnostics.h"
@@ -146,6 +147,7 @@ class View {
   // What the bars of all children of one node have in common.
   struct Children {
     std::vector<double> progress;
+    std::vector<double> counted;  // not a number for those that nobody waits for
     double least = 1;
     std::size_t columns = 0;  // of the longest name
   };
@@ -158,8 +160,12 @@ class View {
     for (const NodeIndex child : tree_.nodes[parent].in_step) {
       const NodeView& view = snapshot_.nodes[child];
       children.progress.push_back(view.progress);
-      const bool counts = !tree_.nodes[parent].ignores_idle || view.activity != Activity::Idle;
-      if (counts) children.least = std::min(children.least, view.progress);
+      const bool is_left_out =
+          view.activity == Activity::Skipped ||
+          (tree_.nodes[parent].ignores_idle && view.activity == Activity::Idle);
+      children.counted.push_back(is_left_out ? std::numeric_limits<double>::quiet_NaN()
+                                             : view.progress);
+      if (!is_left_out) children.least = std::min(children.least, view.progress);
       children.columns = std::max(children.columns, columns(printable(tree_.nodes[child].segment)));
     }
     return children;
@@ -168,7 +174,7 @@ class View {
   void add_bar(TextLine& line, NodeIndex node, Style style) const {
     const NodeIndex self = *tree_.nodes[node].keeper;
     const auto& in_step = tree_.nodes[self].in_step;
-    const auto& [progress, least, name] = children_of(self);
+    const auto& [progress, counted, least, name] = children_of(self);
     const auto found = std::lower_bound(in_step.begin(), in_step.end(), node);
     const auto place = static_cast<std::size_t>(found - in_step.begin());
     const std::size_t gutter = browsing_.cursor ? 2 : 0;
@@ -184,7 +190,7 @@ class View {
       return;
     }
     line.add("  ");
-    line.add(waiting(self, progress, place), Style::Warning);
+    line.add(waiting(self, counted, place), Style::Warning);
   }
 
   void add_ownership(TextLine& line, NodeIndex pool, std::size_t place) const {

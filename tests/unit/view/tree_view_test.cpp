@@ -70,6 +70,18 @@ TEST_CASE("a relative node: the band in which its children may move") {
         "  = base [###############|....] 0.80  waits for arm, 0.30 ahead (delta 0.25)\n");
 }
 
+TEST_CASE("a child that was skipped is not the one that the others wait for") {
+  const Tree tree = tree_from_text("ParallelRelative[delta=.25](arm base gripper)");
+  const Snapshot now = snapshot(
+      {limited(0.25), {Activity::Running, 0.5}, {Activity::Paused, 0.8}, {Activity::Skipped}});
+  CHECK(draw(tree, now, {.width = 80, .height = 24}) ==
+        "Test  10 Hz  tick 4  0.400 s  overruns 0\n"
+        "> ParallelRelative\n"
+        "  > arm     [##########=====|....] 0.50\n"
+        "  = base    [###############|....] 0.80  waits for arm, 0.30 ahead (delta 0.25)\n"
+        "  ~ gripper [..........=====|....] 0.00\n");
+}
+
 TEST_CASE("a view with signs that need Unicode") {
   const Tree tree = tree_from_text("ParallelAbsolute[barriers=.5](a b)");
   const Snapshot now =
