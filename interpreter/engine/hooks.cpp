@@ -3,12 +3,27 @@
 #include <utility>
 
 #include "core/conversion.h"
-#include "engine/ticker.h"
+#include "engine/synchronized.h"
 
 namespace lockstep {
+namespace {
+
+// What measures see of a synchronized node that a script has decided before it began: that its
+// children are all as far as it is.
+void set_snapshot(Ticker& ticker, NodeIndex node, Status decided) {
+  if (!compares_progress(synchronization(ticker.node(node)))) return;
+  const bool succeeded = decided == Status::Success;
+  std::ranges::fill(ticker.child_numbers(node), succeeded ? 1.0 : 0.0);
+  ticker.state<SynchronizedState>(node).succeeded = succeeded;
+}
+
+}  // namespace
+
 Status Ticker::tick_hooked(NodeIndex node) {
   const HookedNode& hooked = tree_.hooked[tree_.hooks[node]];
+  const bool begins = first_tick(node);
   const auto decided = ask_hooks(node, hooked);
+  if (decided && begins) set_snapshot(*this, node, *decided);
   return finish(node, hooked, decided ? *decided : hooked.kind->tick(*this, node));
 }
 

@@ -96,6 +96,29 @@ TEST_CASE("a recording has the measures of its run") {
   }
 }
 
+TEST_CASE("a tick that a script decides adds nothing to the measures of a synchronized node") {
+  const auto measures = measures_of({"progress-distance", "spread", "step-length"});
+  std::vector<double> expected;
+  for (const char* times : {"1", "3"}) {
+    const TemporaryPath file;
+    WatchedRun run("Sequence[memory=true](Script[code=n:=0] Repeat[times=" + std::string(times) +
+                       "](ParallelAbsolute[barriers=.5;1 success_if=n>0 on_success=n:=1](a b)))",
+                   "a+.1 b+.3");
+    Recorder recorder(run.run.tree(), {.path = file.path(), .tree_file = "a.xml", .rate_hz = 10});
+    RunMeasures of_run(run.run.tree(), measures, 10);
+    run.watch({&recorder, &of_run});
+    std::istringstream text(file.text());
+    RecordingReader reader(text, "run.jsonl");
+    const auto of_recording = measure_recording(reader, measures).value();
+    if (expected.empty()) expected = {of_run.values().begin(), of_run.values().end()};
+    CHECK(expected[0] > 0);
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      CHECK(of_run.values()[i] == expected[i]);
+      CHECK(of_recording[i].value == expected[i]);
+    }
+  }
+}
+
 TEST_CASE("a plain Parallel is measured by the progress before each of its ticks") {
   const TemporaryPath file;
   // It runs twice: none of its children has progress when it begins again.
