@@ -8,6 +8,7 @@
 #include "convert/node_pairs.h"
 #include "convert/text_edits.h"
 #include "core/identifier.h"
+#include "core/pre_order.h"
 #include "core/wording.h"
 #include "definition/btcpp/version_3.h"
 #include "definition/btcpp/words.h"
@@ -181,6 +182,15 @@ class Converter {
     open_.back().tag = to_ours() ? pair_->ours : pair_->theirs;
     const FixedAttribute& fixed = to_ours() ? pair_->in_ours : pair_->in_theirs;
     if (!fixed.name.empty() && !fixed.is_default) add_attribute(token, fixed.name, fixed.value);
+    for (const AttributePair& it : pair_->attributes) {
+      const bool is_absent = document_.find_attribute(element, it.ours) == nullptr;
+      if (!to_ours() && it.conversion == Conversions::Rounds && is_absent) {
+        add_attribute(token, it.theirs, "-1");
+      }
+    }
+    if (pair_->difference.empty() || report_.counted_only(Severity::Warning)) return;
+    report_.at(place_of(element), fmt::format("'{}' is not quite the same", brief(type)),
+               std::string(pair_->difference), Severity::Warning);
   }
 
   Place place_of(std::uint32_t element) const { return document_.elements()[element].place; }
@@ -242,9 +252,8 @@ class Converter {
   void node_attribute(const XmlToken& token, const Attribute& attribute) {
     const std::string_view name = attribute.name;
     if (pair_ != nullptr && is_fixed(name)) return remove(token);
-    if (pair_ != nullptr && !pair_->milliseconds.empty() &&
-        name == (to_ours() ? pair_->milliseconds : "seconds")) {
-      return convert_time(token, attribute);
+    if (const AttributePair* pair = attribute_pair(name)) {
+      return convert_value(token, attribute, *pair);
     }
     if (name == "ID" && is_explicit_tag(open_.back().tag)) return keep(token, attribute);
     if (name == "ID" && pair_ != nullptr && pair_->ours != "SubTree") return remove(token);
@@ -256,15 +265,28 @@ class Converter {
     return !fixed.name.empty() && fixed.name == name;
   }
 
-  void convert_time(const XmlToken& token, const Attribute& attribute) {
-    const std::string value =
-        to_ours() ? seconds_of(attribute.value) : milliseconds_of(attribute.value);
-    if (value.empty()) {
+  const AttributePair* attribute_pair(std::string_view name) const {
+    if (pair_ == nullptr) return nullptr;
+    const auto it = std::ranges::find(pair_->attributes, name,
+                                      to_ours() ? &AttributePair::theirs : &AttributePair::ours);
+    return it == pair_->attributes.end() ? nullptr : &*it;
+  }
+
+  void convert_value(const XmlToken& token, const Attribute& attribute, const AttributePair& pair) {
+    const auto elements = document_.elements();
+    std::uint32_t children = 0;
+    for ([[maybe_unused]] const auto child : children_in(elements, open_.back().element)) {
+      ++children;
+    }
+    const auto value = to_ours() ? value_here(pair.conversion, attribute.value, children)
+                                 : value_there(pair.conversion, attribute.value);
+    if (!value) {
       return cannot(attribute.place,
                     fmt::format("{}=\"{}\"", attribute.name, brief(attribute.value)),
-                    "only a positive number of whole milliseconds can");
+                    std::string(lockstep::hint_of(pair.conversion)));
     }
-    replace(token, to_ours() ? "seconds" : pair_->milliseconds, value);
+    if (value->empty()) return remove(token);
+    replace(token, to_ours() ? pair.ours : pair.theirs, *value);
   }
 
   void to_our_attribute(const XmlToken& token, const Attribute& attribute) {

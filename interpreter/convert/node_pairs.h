@@ -1,6 +1,8 @@
 // Which built-in nodes of the two languages mean the same.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,19 +16,39 @@ struct FixedAttribute {
   bool is_default = false;  // so it may be absent
 };
 
+// What becomes of a value.
+enum class Conversions : unsigned char {
+  None,          // it means the same
+  Milliseconds,  // there, and seconds here
+  Rounds,        // -1 there is for ever, and absent here
+  Attempts,      // -1 there is for ever, which cannot be said here
+  Children,      // -1 there is all, -2 all but one, …; here a number, and absent is all
+};
+
+// The names of an attribute there and here.
+struct AttributePair {
+  std::string_view theirs;
+  std::string_view ours;
+  Conversions conversion = Conversions::None;
+};
+
 struct NodePair {
   std::string_view theirs;
   std::string_view ours;
   FixedAttribute in_theirs = {};
   FixedAttribute in_ours = {};
-  // A time in milliseconds there, and in seconds here; "" = none.
-  std::string_view milliseconds = {};
+  std::span<const AttributePair> attributes = {};  // that differ
+  std::string_view difference = {};                // in what they do; "" = none
 };
 
 std::span<const NodePair> node_pairs();
 
-// "1500" as "1.5", and the other way round; "" if it is no number, or not one of milliseconds.
-std::string seconds_of(std::string_view milliseconds);
-std::string milliseconds_of(std::string_view seconds);
+// The value in the other language; "" if it is the same as none there. Nothing: it cannot be said.
+// `children`: how many the node has.
+std::optional<std::string> value_there(Conversions conversion, std::string_view ours);
+std::optional<std::string> value_here(Conversions conversion, std::string_view theirs,
+                                      std::uint32_t children);
+// Which values can be said.
+std::string_view hint_of(Conversions conversion);
 
 }  // namespace lockstep

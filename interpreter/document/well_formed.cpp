@@ -104,10 +104,11 @@ class Checker {
 
   void leave_out() {
     if (!first_left_out_) return;
-    const auto [element, attribute] = *first_left_out_;
+    const auto [element, first] = *first_left_out_;
+    const std::uint32_t attribute = first;
     result_.elements.resize(element);
     result_.attributes.resize(attribute);
-    std::erase_if(result_.coded, [&](std::uint32_t coded) { return coded >= attribute; });
+    std::erase_if(result_.coded, [attribute](std::uint32_t coded) { return coded >= attribute; });
   }
 
   void references(const XmlToken& token) {

@@ -143,7 +143,7 @@ const Value* Ticker::port_value(NodeIndex node, unsigned index) const {
   return it.constant != PortBinding::kUnbound ? &tree_.constants[it.constant] : nullptr;
 }
 
-Entry* Ticker::named_entry(NodeIndex node, unsigned index) {
+std::optional<Entry*> Ticker::named_entry(NodeIndex node, unsigned index) {
   const PortBinding& it = port(node, index);
   if (it.slot == PortBinding::kUnbound) return nullptr;
   Entry& entry = board_.entries[it.slot];
@@ -155,7 +155,7 @@ Entry* Ticker::named_entry(NodeIndex node, unsigned index) {
     std::string message = "'";
     message.append(parameter.name).append("' has no value: nothing has written the entry '{");
     set_fault(node, message.append(tree_.slots[it.slot].name).append("}'"));
-    return nullptr;
+    return std::nullopt;
   }
   const std::uint32_t board = tree_.board_of(node);
   const auto& key = std::get<std::string>(*name);

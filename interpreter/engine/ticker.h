@@ -160,9 +160,9 @@ class Ticker {
   }
   // Null: it has no value.
   const Value* port_value(NodeIndex node, unsigned index) const;
-  // Of a port that names an entry (Parameter::is_key), which may not be present. Null: there is no
-  // such entry in this tree, or the name has no value, which is a fault.
-  Entry* named_entry(NodeIndex node, unsigned index);
+  // Of a port that names an entry (Parameter::is_key), which may not be present. Null: it is none
+  // of this tree. Nothing: the name has no value, which is a fault.
+  std::optional<Entry*> named_entry(NodeIndex node, unsigned index);
   // Of a tree with boards: what `key` means where the node is; and null if it belongs to an outer
   // tree. Allocates.
   Entry& entry_at(NodeIndex node, std::string_view key) {

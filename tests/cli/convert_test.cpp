@@ -88,9 +88,49 @@ TEST_CASE("converted there and back, a tree runs as before") {
   CHECK(ticks(directory.file("back.xml", back.out)) == ticks(ours));
 }
 
+TEST_CASE("convert says rounds and counts in the other language's words, and what differs") {
+  const TemporaryDirectory directory;
+  const std::string their_nodes =
+      "<Parallel success_count=\"-1\" failure_count=\"2\">\n"
+      "<Repeat num_cycles=\"-1\"><A/></Repeat>\n"
+      "<Repeat num_cycles=\"{n}\"><A/></Repeat>\n"
+      "<RetryUntilSuccessful num_attempts=\"3\"><A/></RetryUntilSuccessful>\n"
+      "<Parallel success_count=\"-2\"><A/><B/></Parallel>\n"
+      "<Sleep msec=\"1500\"/>\n"
+      "</Parallel>";
+  const std::string our_nodes =
+      "<Parallel success_count=\"5\" failure_count=\"2\">\n"
+      "<Repeat><A/></Repeat>\n"
+      "<Repeat times=\"{n}\"><A/></Repeat>\n"
+      "<Retry attempts=\"3\"><A/></Retry>\n"
+      "<Parallel success_count=\"1\"><A/><B/></Parallel>\n"
+      "<Wait seconds=\"1.5\"/>\n"
+      "</Parallel>";
+  const Outcome here = lockstep::test::lockstep(
+      {"convert", directory.file("theirs.xml", around("BTCPP_format=\"4\"", their_nodes))});
+  CHECK(here.code == 0);
+  CHECK(here.out == around("lockstep=\"1\"", our_nodes));
+  CHECK(contains(here.err, "theirs.xml:4:1: warning: 'Repeat' is not quite the same"));
+  CHECK(contains(here.err, "theirs.xml:3:1: warning: 'Parallel' is not quite the same"));
+  const Outcome there = lockstep::test::lockstep({"convert", directory.file("ours.xml", here.out)});
+  CHECK(there.code == 0);
+  CHECK(contains(there.out, "<Repeat num_cycles=\"-1\"><A/></Repeat>\n"));
+  CHECK(contains(there.out, "<RetryUntilSuccessful num_attempts=\"3\">"));
+  const Outcome again =
+      lockstep::test::lockstep({"convert", directory.file("again.xml", there.out)});
+  CHECK(again.out == here.out);
+}
+
 TEST_CASE("what lockstep's language cannot say is an error at its place") {
   const TemporaryDirectory directory;
   const Row rows[] = {
+      {"<Repeat num_cycles=\"0\"><A/></Repeat>", "3:9: error: num_cycles=\"0\" cannot"},
+      {"<RetryUntilSuccessful num_attempts=\"-1\"><A/></RetryUntilSuccessful>",
+       "hint: only a positive number can"},
+      {"<Parallel success_count=\"-3\"><A/></Parallel>", "error: success_count=\"-3\" cannot"},
+      {"<Control ID=\"AsyncSequence\"><A/></Control>", "3:1: error: this 'AsyncSequence' cannot"},
+      {"<RunOnce><A/></RunOnce>", "hint: one with then_skip=\"false\" can"},
+      {"<Sleep msec=\"{x}\"/>", "3:8: error: msec=\"{x}\" cannot"},
       {"<A _skipIf=\"x\"/>", "3:4: error: '_skipIf' cannot"},
       {"<Wait/>", "3:1: error: a leaf called 'Wait' cannot"},
       {"<A x=\"{a.b}\"/>", "3:4: error: the key 'a.b' cannot"},
@@ -110,7 +150,9 @@ TEST_CASE("what lockstep's language cannot say is an error at its place") {
 TEST_CASE("what BehaviorTree.CPP cannot say is an error at its place") {
   const TemporaryDirectory directory;
   const Row rows[] = {
-      {"<Repeat times=\"3\"><A/></Repeat>", "3:1: error: this 'Repeat' cannot"},
+      {"<Parallel memory=\"false\"><A/></Parallel>", "3:1: error: this 'Parallel' cannot"},
+      {"<AlwaysRunning/>", "3:1: error: this 'AlwaysRunning' cannot"},
+      {"<Sleep/>", "3:1: error: a leaf called 'Sleep' cannot"},
       {"<Timeout seconds=\"1\"><A/></Timeout>", "hint: one with clock=\"wall\" can"},
       {"<Wait seconds=\"0.0005\"/>", "3:7: error: seconds=\"0.0005\" cannot"},
   };

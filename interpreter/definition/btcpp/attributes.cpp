@@ -104,7 +104,7 @@ class PortChecker {
     if (!parameter.is_key && !parameter.names_entry) {
       return literal(parameter, *attribute, port, value);
     }
-    if (attribute->value.empty()) return refuse_empty(parameter, *attribute);
+    if (attribute->value.empty()) return empty_name(parameter, *attribute);
     port.key = attribute->value;
     value = std::string(attribute->value);
     return true;
@@ -138,11 +138,13 @@ class PortChecker {
     });
   }
 
-  bool refuse_empty(const Parameter& parameter, const Attribute& attribute) const {
+  // What is written to the entry without a name, nothing can read.
+  bool empty_name(const Parameter& parameter, const Attribute& attribute) const {
     report_.at_value(attribute.place, fmt::format("'{}' names no entry", parameter.name),
                      parameter.is_key ? fmt::format("write {}=\"key\"", parameter.name)
-                                      : fmt::format("write {}=\"{{key}}\"", parameter.name));
-    return false;
+                                      : fmt::format("write {}=\"{{key}}\"", parameter.name),
+                     parameter.is_key ? Severity::Warning : Severity::Error);
+    return parameter.is_key;
   }
 
   // With blanks around its braces, it must also be a literal of the type.

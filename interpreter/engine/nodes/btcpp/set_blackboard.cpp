@@ -47,10 +47,11 @@ bool store_text(Ticker& ticker, NodeIndex self, Entry& target, const Value& text
 }
 
 Status tick_set(Ticker& ticker, NodeIndex self) {
-  Entry* const target = ticker.named_entry(self, kOutputKey);
-  if (target == nullptr) return Status::Failure;
+  const auto named = ticker.named_entry(self, kOutputKey);
   const Value* const value = ticker.port_value(self, kValue);
-  if (value == nullptr) return Status::Failure;
+  if (!named || value == nullptr) return Status::Failure;
+  Entry* const target = *named;
+  if (target == nullptr) return Status::Success;  // without a name
   if (const Entry* source = ticker.port_entry(self, kValue)) {
     if (source == target) return Status::Success;
     if (!target->is_present) make_entry(*target, source->typing, source->type, source->object);
@@ -63,7 +64,9 @@ Status tick_set(Ticker& ticker, NodeIndex self) {
 }
 
 Status tick_unset(Ticker& ticker, NodeIndex self) {
-  if (Entry* entry = ticker.named_entry(self, kKey)) unset_entry(*entry);
+  const auto named = ticker.named_entry(self, kKey);
+  if (!named) return Status::Failure;
+  if (*named != nullptr) unset_entry(**named);
   return Status::Success;
 }
 
