@@ -30,6 +30,7 @@ class BoundScripts {
 
  private:
   struct FromEntry {
+    explicit FromEntry(const Entry* from) : entry(from) {}
     const Entry* entry;
     std::string text = {};  // that was compiled
     Expression code = {};

@@ -8,6 +8,7 @@
 #include "core/diagnostics.h"
 #include "core/plugin_exception.h"
 #include "plugin/call_mark.h"
+#include "plugin/descriptor.h"
 #include "plugin/float_mode.h"
 #include "plugin/host.h"
 #include "plugin/leaf_watch.h"

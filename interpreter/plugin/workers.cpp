@@ -28,7 +28,8 @@ Workers::~Workers() = default;
 lockstep_worker* Workers::begin(const CallSite& site, double now) {
   const std::lock_guard lock(mutex_);
   now_ = now;
-  return all_.emplace_back(std::make_unique<lockstep_worker>(*this, site)).get();
+  all_.push_back(std::unique_ptr<lockstep_worker>(new lockstep_worker{*this, site}));
+  return all_.back().get();
 }
 
 void Workers::give_all(double now) {

@@ -41,7 +41,7 @@ void RecentLines::add(const LeafLine& line) {
     lines.push_back(line);
     return;
   }
-  std::ranges::rotate(lines, lines.begin() + 1);
+  std::rotate(lines.begin(), lines.begin() + 1, lines.end());
   lines.back() = line;
   ++earlier;
 }
