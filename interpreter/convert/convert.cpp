@@ -257,7 +257,13 @@ class Converter {
     }
     if (name == "ID" && is_explicit_tag(open_.back().tag)) return keep(token, attribute);
     if (name == "ID" && pair_ != nullptr && pair_->ours != "SubTree") return remove(token);
-    to_ours() ? to_our_attribute(token, attribute) : keep(token, attribute);
+    to_ours() ? to_our_attribute(token, attribute) : to_their_attribute(token, attribute);
+  }
+
+  void to_their_attribute(const XmlToken& token, const Attribute& attribute) {
+    const auto hook = hook_named(attribute.name, Language::Lockstep);
+    if (!hook) return keep(token, attribute);
+    replace(token, attribute_of(*hook, Language::BehaviorTreeCpp), attribute.value);
   }
 
   bool is_fixed(std::string_view name) const {
@@ -292,12 +298,21 @@ class Converter {
   void to_our_attribute(const XmlToken& token, const Attribute& attribute) {
     const std::string_view name = attribute.name, value = attribute.value;
     if (name == "__shared_blackboard") return replace(token, "_autoremap", value);
-    if (btcpp::hook_of(name)) return cannot(attribute.place, fmt::format("'{}'", name));
+    if (const auto hook = btcpp::hook_of(name)) {
+      return replace(token, attribute_of(*hook, Language::Lockstep), value);
+    }
+    if (hook_named(name, Language::Lockstep)) {
+      return cannot(attribute.place, fmt::format("a port called '{}'", name),
+                    "there it is a script of the node");
+    }
     if (name == "_autoremap" || name == "_description") return keep(token, attribute);
     if (!btcpp::is_port_name(name)) return leave_out(token, attribute);
     if (name == "name") return convert_name(token, attribute);
     const std::string_view key = btcpp::key_of(value, name);
     if (key.empty()) return keep(token, attribute);
+    if (pair_ != nullptr && name == "code") {
+      return cannot(attribute.place, "a script in an entry", "write the script here");
+    }
     if (!is_identifier(key)) {
       return cannot(attribute.place, fmt::format("the key '{}'", brief(key)),
                     fmt::format("a key is {}", kIdentifierRule));

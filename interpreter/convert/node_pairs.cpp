@@ -59,6 +59,10 @@ constexpr NodePair kPairs[] = {
     {.theirs = "Delay", .ours = "Delay", .in_ours = kWallClock, .attributes = kDelay},
     {.theirs = "Sleep", .ours = "Wait", .attributes = kTimeout},
     {.theirs = "SubTree", .ours = "SubTree"},
+    {.theirs = "IfThenElse", .ours = "IfThenElse"},
+    {.theirs = "WhileDoElse", .ours = "WhileDoElse"},
+    {.theirs = "Script", .ours = "Script"},
+    {.theirs = "ScriptCondition", .ours = "Check"},
     {.theirs = "AlwaysSuccess", .ours = "AlwaysSuccess"},
     {.theirs = "AlwaysFailure", .ours = "AlwaysFailure"},
 };

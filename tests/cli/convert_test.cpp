@@ -121,6 +121,31 @@ TEST_CASE("convert says rounds and counts in the other language's words, and wha
   CHECK(again.out == here.out);
 }
 
+TEST_CASE("convert says scripts and branches in the other language's words") {
+  const TemporaryDirectory directory;
+  const std::string their_nodes =
+      "<IfThenElse _failureIf=\"n > 3\" _onHalted=\"n := 0\">\n"
+      "<ScriptCondition code=\"n == 1\" _post=\"n += 1\"/>\n"
+      "<Script code=\"n := 'a &amp;&amp; b'\" _while=\"n &lt; 2\"/>\n"
+      "<WhileDoElse _successIf=\"0\"><A _skipIf=\"n\"/><B _onSuccess=\"n := 2\" "
+      "_onFailure=\"n := 3\"/></WhileDoElse>\n"
+      "</IfThenElse>";
+  const std::string our_nodes =
+      "<IfThenElse failure_if=\"n > 3\" on_halt=\"n := 0\">\n"
+      "<Check code=\"n == 1\" on_end=\"n += 1\"/>\n"
+      "<Script code=\"n := 'a &amp;&amp; b'\" while=\"n &lt; 2\"/>\n"
+      "<WhileDoElse success_if=\"0\"><A skip_if=\"n\"/><B on_success=\"n := 2\" "
+      "on_failure=\"n := 3\"/></WhileDoElse>\n"
+      "</IfThenElse>";
+  const std::string theirs = around("BTCPP_format=\"4\"", their_nodes);
+  const Outcome here = lockstep::test::lockstep({"convert", directory.file("theirs.xml", theirs)});
+  CHECK(here.code == 0);
+  CHECK(here.out == around("lockstep=\"1\"", our_nodes));
+  const Outcome there = lockstep::test::lockstep({"convert", directory.file("ours.xml", here.out)});
+  CHECK(there.code == 0);
+  CHECK(there.out == theirs);
+}
+
 TEST_CASE("what lockstep's language cannot say is an error at its place") {
   const TemporaryDirectory directory;
   const Row rows[] = {
@@ -131,7 +156,9 @@ TEST_CASE("what lockstep's language cannot say is an error at its place") {
       {"<Control ID=\"AsyncSequence\"><A/></Control>", "3:1: error: this 'AsyncSequence' cannot"},
       {"<RunOnce><A/></RunOnce>", "hint: one with then_skip=\"false\" can"},
       {"<Sleep msec=\"{x}\"/>", "3:8: error: msec=\"{x}\" cannot"},
-      {"<A _skipIf=\"x\"/>", "3:4: error: '_skipIf' cannot"},
+      {"<A skip_if=\"x\"/>", "3:4: error: a port called 'skip_if' cannot"},
+      {"<Script code=\"{x}\"/>", "3:9: error: a script in an entry cannot"},
+      {"<Precondition if=\"x\"><A/></Precondition>", "3:1: error: this 'Precondition' cannot"},
       {"<Wait/>", "3:1: error: a leaf called 'Wait' cannot"},
       {"<A x=\"{a.b}\"/>", "3:4: error: the key 'a.b' cannot"},
       {"<A name=\"a/b\"/>", "3:4: error: the name 'a/b' cannot"},
