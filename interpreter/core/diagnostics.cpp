@@ -35,6 +35,9 @@ std::size_t append_visible(std::string& out, std::string_view text, Tabs tabs) {
 }
 
 std::string visible(std::string_view text, Tabs tabs) {
+  // Nearly every text: the names of all leaves of a run come here.
+  const auto is_plain = [](char character) { return character >= ' ' && character <= '~'; };
+  if (std::ranges::all_of(text, is_plain)) return std::string(text);
   std::string out;
   while (!text.empty()) text.remove_prefix(append_visible(out, text, tabs));
   return out;

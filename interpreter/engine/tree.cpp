@@ -31,18 +31,30 @@ std::uint32_t Tree::board_of(NodeIndex node) const {
   return board;
 }
 
+namespace {
+
+void append_segment(const NodeLabel& label, std::string& text) {
+  text.append(label.name);
+  if (label.repeat != 0) text.append("#").append(std::to_string(label.repeat));
+}
+
+void append_path(const Tree& tree, NodeIndex node, std::string& text) {
+  const NodeLabel& label = tree.labels[node];
+  if (label.parent != node) append_path(tree, label.parent, text);
+  append_segment(label, text.append("/"));
+}
+
+}  // namespace
+
 std::string Tree::segment(NodeIndex node) const {
-  const NodeLabel& label = labels[node];
-  std::string segment(label.name);
-  if (label.repeat != 0) segment.append("#").append(std::to_string(label.repeat));
+  std::string segment;
+  append_segment(labels[node], segment);
   return segment;
 }
 
 std::string Tree::path(NodeIndex node) const {
-  std::vector<NodeIndex> way{node};
-  while (way.back() != labels[way.back()].parent) way.push_back(labels[way.back()].parent);
   std::string path = id;
-  for (auto at = way.rbegin(); at != way.rend(); ++at) path.append("/").append(segment(*at));
+  append_path(*this, node, path);
   return path;
 }
 
