@@ -42,6 +42,7 @@ tl::expected<Loaded, LoadFailure> load(std::unique_ptr<Project> project, const L
   if (!good) return tl::unexpected(failed.value_or(LoadFailure::PluginRefused));
   std::optional<Definition> definition;
   if (project) {
+    warn_of_shadowed(*plugins, project->language, diagnostics);
     definition =
         resolve(*project, make_catalog(*plugins, project->language),
                 {options.main_tree, options.values, options.unknown, options.mocks}, diagnostics);

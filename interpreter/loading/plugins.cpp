@@ -1,5 +1,8 @@
 #include "loading/plugins.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <filesystem>
 
 #include "core/clock.h"
@@ -59,8 +62,25 @@ bool load_requested_plugins(const PluginOptions& options, const Project& project
 Catalog make_catalog(const PluginSet& plugins, Language language) {
   Catalog catalog;
   for (const NodeKind* kind : built_in_kinds(language)) catalog.add(&kind->type);
-  for (const NodeType* type : plugins.types()) catalog.add(type);
+  for (const NodeType* type : plugins.types()) {
+    if (catalog.find(type->id) == nullptr) catalog.add(type);
+  }
   return catalog;
+}
+
+void warn_of_shadowed(const PluginSet& plugins, Language language, Diagnostics& diagnostics) {
+  for (const NodeType* type : plugins.types()) {
+    const bool is_shadowed = std::ranges::any_of(
+        built_in_kinds(language), [&](const NodeKind* kind) { return kind->type.id == type->id; });
+    if (!is_shadowed) continue;
+    diagnostics.add({.severity = Severity::Warning,
+                     .location = {},
+                     .message = fmt::format("the leaf '{}' of plugin '{}' cannot be used here",
+                                            type->id, type->plugin),
+                     .hint = "the language of the tree has a node of that name; give the leaf "
+                             "another ID",
+                     .excerpt = {}});
+  }
 }
 
 }  // namespace lockstep

@@ -30,7 +30,10 @@ bool is_plugin_file(const std::string& plugin);
 [[nodiscard]] bool load_requested_plugins(const PluginOptions& options, const Project& project,
                                           PluginSet& plugins, Diagnostics& diagnostics);
 
-// The built-in nodes of a language and the leaves of `plugins`. It lives as long as these.
+// The built-in nodes of a language and the leaves of `plugins` whose ID is none of theirs. It lives
+// as long as these.
 Catalog make_catalog(const PluginSet& plugins, Language language = Language::Lockstep);
+// Says which leaves are not in it.
+void warn_of_shadowed(const PluginSet& plugins, Language language, Diagnostics& diagnostics);
 
 }  // namespace lockstep

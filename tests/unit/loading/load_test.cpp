@@ -44,6 +44,42 @@ struct Loading {
 
 }  // namespace
 
+TEST_CASE("load: a leaf called like a node of one language can be used in the other") {
+  lockstep_leaf_type wait{};
+  wait.struct_size = sizeof wait;
+  wait.kind = LOCKSTEP_ACTION;
+  wait.id = "Wait";
+  wait.create = [](const lockstep_host*, const lockstep_caller*, void*) -> void* {
+    static int one;
+    return &one;
+  };
+  wait.destroy = [](void*) {};
+  wait.tick = [](void*) -> lockstep_status { return LOCKSTEP_FAILURE; };
+  const lockstep_leaf_type* const leaves[] = {&wait};
+  lockstep_plugin plugin{};
+  plugin.abi_major = LOCKSTEP_ABI_MAJOR;
+  plugin.struct_size = sizeof plugin;
+  plugin.name = "waits";
+  plugin.leaf_type_count = 1;
+  plugin.leaf_types = leaves;
+  const auto plugins = std::make_shared<PluginSet>();
+  Diagnostics diagnostics;
+  REQUIRE(plugins->add(plugin, "waits", diagnostics));
+  const auto result = [&](const std::string& root, const std::string& node) {
+    const std::string text =
+        "<root " + root + "><BehaviorTree ID=\"A\">" + node + "</BehaviorTree></root>";
+    auto loaded = load_text("t", text, {}, diagnostics, plugins);
+    REQUIRE(loaded);
+    const Runnable runnable = make_runnable(std::move(*loaded));
+    return Run(runnable.tree, {}).tick(Nanoseconds(0));
+  };
+  CHECK(result("BTCPP_format=\"4\"", "<Wait/>") == Status::Failure);
+  CHECK(diagnostics.all().empty());
+  CHECK(result("lockstep=\"1\"", "<Wait seconds=\"1\"/>") == Status::Running);
+  REQUIRE(diagnostics.all().size() == 1);
+  CHECK(diagnostics.all()[0].message == "the leaf 'Wait' of plugin 'waits' cannot be used here");
+}
+
 TEST_CASE("load: a tree with its plugins, ready to run") {
   LoadOptions options = with_plugins();
   options.arguments["shape"] = "sigmoid";
