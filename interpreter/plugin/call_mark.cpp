@@ -16,10 +16,10 @@ static_assert(std::atomic<const CallSite*>::is_always_lock_free &&
 
 struct Less {
   bool operator()(const CallSite& a, const CallSite& b) const {
+    if (const int leaves = a.leaf.compare(b.leaf); leaves != 0) return leaves < 0;
     const std::string_view kind_of_a = a.kind;
     const std::string_view kind_of_b = b.kind;
-    return std::tie(a.plugin, a.leaf, kind_of_a, a.is_local) <
-           std::tie(b.plugin, b.leaf, kind_of_b, b.is_local);
+    return std::tie(a.plugin, kind_of_a, a.is_local) < std::tie(b.plugin, kind_of_b, b.is_local);
   }
 };
 

@@ -35,13 +35,12 @@ bool is_local(const NodeType& type) {
   return static_cast<const HostedPlugin*>(type.origin)->is_local;
 }
 
-const CallSite& site_of(const Tree& tree, const LeafNode& leaf) {
-  return CallSite::of(
-      {.leaf = fmt::format("'{}' ({} of plugin '{}')", printable(tree.path(leaf.node)),
-                           leaf.type->id, leaf.type->plugin),
-       .plugin = std::string(leaf.type->plugin),
-       .kind = kind_of(leaf.type->category),
-       .is_local = is_local(*leaf.type)});
+const CallSite& site_of(const LeafNode& leaf, std::string_view path) {
+  return CallSite::of({.leaf = fmt::format("'{}' ({} of plugin '{}')", printable(path),
+                                           leaf.type->id, leaf.type->plugin),
+                       .plugin = std::string(leaf.type->plugin),
+                       .kind = kind_of(leaf.type->category),
+                       .is_local = is_local(*leaf.type)});
 }
 
 }  // namespace
@@ -158,8 +157,9 @@ LeafSet::Implementation::Implementation(const Tree& tree, Blackboard& blackboard
     }
     LeafSlot& slot = slots_[callers_.size()];
     slot.type = leaf.type->leaf;
-    callers_.push_back(make_caller(tree.path(leaf.node), slot));
-    sites_.push_back(&site_of(tree, leaf));
+    std::string path = tree.path(leaf.node);
+    sites_.push_back(&site_of(leaf, path));
+    callers_.push_back(make_caller(std::move(path), slot));
     callers_.back()->site = sites_.back();
     callers_.back()->children = children_of(tree, leaf);
     callers_.back()->ports = bind_ports(tree, leaf, blackboard);
