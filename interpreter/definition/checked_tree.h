@@ -87,6 +87,7 @@ struct CheckedMain {
 
 struct CheckedTrees {
   Language language = Language::Lockstep;
+  std::shared_ptr<const ScriptEnums> words;  // that scripts know as numbers; null: none
   std::vector<CheckedNode> nodes;
   std::vector<Value> values;
   std::vector<CheckedPort> ports;

@@ -87,6 +87,7 @@ struct DefinitionGroup {
 struct Definition {
   std::string_view id;
   Language language = Language::Lockstep;
+  std::shared_ptr<const ScriptEnums> words = {};  // for scripts that are compiled at run time
   std::vector<DefinitionNode> nodes;  // the root and its subtree, then one for each group
   std::vector<Value> values;
   std::vector<Port> ports;

@@ -28,6 +28,7 @@ class Expander {
   Definition expand(std::string_view main) {
     definition_.id = main;
     definition_.language = trees_.language;
+    definition_.words = trees_.words;
     definition_.values = std::move(trees_.values);
     definition_.written = std::move(trees_.written);
     definition_.texts = std::move(trees_.texts);

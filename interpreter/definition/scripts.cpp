@@ -10,10 +10,10 @@ namespace {
 
 // Null after an error, which is reported.
 std::shared_ptr<const Expression> parse_script(const Attribute& attribute, const Reporter& report,
-                                               Language language) {
-  const bool is_ours = language == Language::Lockstep;
+                                               const CheckedTrees& trees) {
+  const bool is_ours = trees.language == Language::Lockstep;
   auto code =
-      Expression::parse(attribute.value, nullptr,
+      Expression::parse(attribute.value, trees.words,
                         is_ours ? Expression::Words::AreSigns : Expression::Words::AreNames);
   if (!code) {
     // A wrong or missing argument was reported already.
@@ -46,7 +46,7 @@ std::optional<Hook> hook_of(const NodeType& type, std::string_view attribute, La
 bool read_script(const Attribute& attribute, const Reporter& report, EmptyScript empty,
                  CheckedPort& port, CheckedTrees& trees) {
   if (attribute.value.empty() && empty == EmptyScript::DoesNothing) return true;
-  auto code = parse_script(attribute, report, trees.language);
+  auto code = parse_script(attribute, report, trees);
   if (code == nullptr) return false;
   port.value = static_cast<std::uint32_t>(trees.scripts.size());
   trees.scripts.push_back({{}, attribute.place, true, std::move(code)});
@@ -59,7 +59,7 @@ void check_hooks(const NodeElement& element, const Reporter& report, CheckedNode
   for (const Attribute& attribute : element.attributes) {
     const auto hook = hook_of(*node.type, attribute.name, trees.language);
     if (!hook) continue;
-    auto code = parse_script(attribute, report, trees.language);
+    auto code = parse_script(attribute, report, trees);
     if (code != nullptr) {
       trees.scripts.push_back({*hook, attribute.place, false, std::move(code)});
     }

@@ -58,7 +58,7 @@ std::string BoundScripts::compile(NodeIndex node, std::uint32_t script) {
   if (!text) return "the entry '{" + key + "}' has no script";
   source.text = std::get<std::string>(*std::move(text));
   if (source.text.empty()) return {};
-  auto code = Expression::parse(source.text);
+  auto code = Expression::parse(source.text, tree_.words);
   if (!code) {
     return "'" + brief(source.text) + "' in '{" + key + "}', column " +
            std::to_string(code.error().offset + 1) + ": " + code.error().message;

@@ -93,6 +93,7 @@ class Compiler {
     tree_.stand_ins = definition_.stand_ins;
     tree_.language = definition_.language;
     tree_.boards = definition_.boards;
+    tree_.words = definition_.words;
     tree_.nodes.reserve(definition_.nodes.size());
     number_members();
     for (const DefinitionNode& node : definition_.nodes) add(node);

@@ -132,6 +132,7 @@ struct Tree {
   std::vector<PortBinding> ports;  // of leaves and bound nodes, each type's parameters in order
   std::vector<Value> constants;
   std::vector<Slot> slots;
+  std::shared_ptr<const ScriptEnums> words = {};  // for scripts that are compiled at run time
   std::vector<Board> boards;   // if names are looked up at run time; in the order of their nodes
   std::size_t state_size = 0;  // bytes of all node states
   Language language = Language::Lockstep;

@@ -65,6 +65,7 @@ Catalog make_catalog(const PluginSet& plugins, Language language) {
   for (const NodeType* type : plugins.types()) {
     if (catalog.find(type->id) == nullptr) catalog.add(type);
   }
+  catalog.set_words(plugins.words());
   return catalog;
 }
 

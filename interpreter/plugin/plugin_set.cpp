@@ -196,6 +196,22 @@ std::vector<const NodeType*> PluginSet::types() const {
   return types;
 }
 
+std::map<std::string, double, std::less<>> PluginSet::words() const {
+  std::map<std::string, double, std::less<>> all;
+  for (const auto& plugin : plugins_) {
+    const lockstep_plugin& it = plugin->descriptors.plugin;
+    if (it.get_extension == nullptr) continue;
+    const void* table = nullptr;
+    const MarkedCall mark(CallSite::of("", it.name), PluginFunction::Describe);
+    thrown_by([&] { table = it.get_extension(LOCKSTEP_WORDS); });
+    const auto* const words = static_cast<const lockstep_words*>(table);
+    for (std::uint32_t i = 0; words != nullptr && i < words->count; ++i) {
+      all.emplace(words->words[i], words->numbers[i]);
+    }
+  }
+  return all;
+}
+
 std::vector<PluginSet::Info> PluginSet::list() const {
   const auto text = [](const char* it) { return std::string(it == nullptr ? "" : it); };
   std::vector<Info> list;

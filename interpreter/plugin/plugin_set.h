@@ -2,6 +2,8 @@
 // as node types. Nothing of a plugin runs until initialize().
 #pragma once
 
+#include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -63,6 +65,9 @@ class PluginSet {
   // The leaves of all plugins; `origin` and `leaf` are in full size whatever the plugin's age.
   // Valid as long as the set.
   std::vector<const NodeType*> types() const;
+
+  // The words of all plugins that scripts know as numbers; of two of one name, the first.
+  std::map<std::string, double, std::less<>> words() const;
 
   // Of each plugin, in the order of loading.
   struct Info {

@@ -131,6 +131,12 @@ MEMBER_AT(lockstep_place, open, 80);
 MEMBER_AT(lockstep_place, unset, 88);
 MEMBER_AT(lockstep_place, ask_for_tick, 96);
 
+SIZE_IS(lockstep_words, 24);
+MEMBER_AT(lockstep_words, struct_size, 0);
+MEMBER_AT(lockstep_words, count, 4);
+MEMBER_AT(lockstep_words, words, 8);
+MEMBER_AT(lockstep_words, numbers, 16);
+
 SIZE_IS(lockstep_plugin, 104);
 MEMBER_AT(lockstep_plugin, abi_major, 0);
 MEMBER_AT(lockstep_plugin, abi_minor, 4);
@@ -156,6 +162,7 @@ static_assert(LOCKSTEP_ACTION == 1 && LOCKSTEP_CONDITION == 2);
 static_assert(LOCKSTEP_CONTROL == 3 && LOCKSTEP_DECORATOR == 4);
 static_assert(LOCKSTEP_REAL_TIME == 1 && LOCKSTEP_MAY_RUN == 2 && LOCKSTEP_OPENS == 4 &&
               LOCKSTEP_AT_ONCE == 8);
+static_assert(LOCKSTEP_HALTS_CHILDREN == 16);
 static_assert(LOCKSTEP_BOOL == 1 && LOCKSTEP_INT == 2 && LOCKSTEP_DOUBLE == 3);
 static_assert(LOCKSTEP_STRING == 4 && LOCKSTEP_DOUBLE_LIST == 5);
 static_assert(LOCKSTEP_INT_LIST == 6 && LOCKSTEP_BOOL_LIST == 7 && LOCKSTEP_STRING_LIST == 8);

@@ -8,6 +8,17 @@ class SdkSuccess : public lockstep::Action<> {
   Status tick() override { return Status::Success; }
 };
 
+struct ReadPorts : lockstep::Ports {
+  Input<double> a{this, "a", required, "a number"};
+};
+class SdkRead : public lockstep::Action<ReadPorts> {
+ public:
+  Status tick() override {
+    const auto value = a.try_get();
+    return value && *value >= 0 ? Status::Success : Status::Failure;
+  }
+};
+
 class SdkSequence : public lockstep::Control<> {
  public:
   Status tick() override {
@@ -24,4 +35,5 @@ class SdkSequence : public lockstep::Control<> {
 
 LOCKSTEP_PLUGIN("bench_sdk", "1.0", "For benchmarks",
                 lockstep::leaf<SdkSuccess>("SdkSuccess", "Succeeds"),
+                lockstep::leaf<SdkRead>("SdkRead", "Reads a port"),
                 lockstep::leaf<SdkSequence>("SdkSequence", "A Sequence without memory"));

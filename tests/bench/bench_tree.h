@@ -22,6 +22,7 @@ class BenchTree {
     Diagnostics diagnostics;
     plugins_.load_file(LOCKSTEP_BENCH_LEAVES, diagnostics);
     plugins_.load_file(LOCKSTEP_BENCH_SDK, diagnostics);
+    plugins_.load_file(LOCKSTEP_BENCH_BTCPP, diagnostics);
     const auto project = load_project_text("bench.xml", text, {}, diagnostics);
     Catalog catalog;
     for (const NodeKind* kind : built_in_kinds()) catalog.add(&kind->type);

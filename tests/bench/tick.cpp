@@ -112,6 +112,9 @@ void leaf_kind(benchmark::State& state, const char* leaf) {
 BENCHMARK_CAPTURE(leaf_kind, built_in, "AlwaysSuccess");
 BENCHMARK_CAPTURE(leaf_kind, shared_object, "BenchSuccess");
 BENCHMARK_CAPTURE(leaf_kind, cpp_sdk, "SdkSuccess");
+BENCHMARK_CAPTURE(leaf_kind, btcpp, "BtSuccess");
+BENCHMARK_CAPTURE(leaf_kind, cpp_sdk_reads, "SdkRead a='1.5'");
+BENCHMARK_CAPTURE(leaf_kind, btcpp_reads, "BtRead a='1.5'");
 
 void ports_read(benchmark::State& state) {
   const auto leaf = fmt::format("<BenchRead reads='{}' a='{{x}}' b='{{y}}'/>", state.range(0));

@@ -13,13 +13,27 @@ namespace {
 
 constexpr const char* kSources = LOCKSTEP_SOURCE_DIR "/tests/btcpp/leaves/";
 
-Outcome run_leaves(const std::string& name, std::vector<std::string> more = {}) {
-  std::vector<std::string> arguments{"run",      kSources + name + ".xml",
-                                     "--plugin", LOCKSTEP_BTCPP_PLUGINS "/" + name + ".so",
-                                     "--clock",  "virtual",
-                                     "--view",   "none"};
+std::string plugin(const std::string& name) {
+  return LOCKSTEP_BTCPP_PLUGINS "/" + name + ".so";
+}
+
+Outcome run_tree(const std::string& tree, const std::string& leaves,
+                 std::vector<std::string> more = {}) {
+  std::vector<std::string> arguments{"run",     tree,      "--plugin", plugin(leaves),
+                                     "--clock", "virtual", "--view",   "none"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return lockstep::test::lockstep(arguments);
+}
+
+// What leaves print goes to stderr; the result is the first word on stdout.
+std::vector<std::string> printed(const Outcome& outcome) {
+  auto all = lines(outcome.err);
+  all.push_back(outcome.out.substr(0, outcome.out.find(' ')));
+  return all;
+}
+
+std::string tree_of(const std::string& node) {
+  return "<root BTCPP_format=\"4\"><BehaviorTree ID=\"Main\">" + node + "</BehaviorTree></root>";
 }
 
 }  // namespace
@@ -31,12 +45,82 @@ TEST_CASE(
     if (file.path().extension() != ".txt") continue;
     ++seen;
     const std::string name = file.path().stem();
-    const Outcome outcome = run_leaves(name);
-    // What leaves print goes to stderr; the result is the first word on stdout.
-    auto printed = lines(outcome.err);
-    printed.push_back(outcome.out.substr(0, outcome.out.find(' ')));
     INFO(name);
-    CHECK(printed == lines(read_file(file.path())));
+    CHECK(printed(run_tree(kSources + name + ".xml", name)) == lines(read_file(file.path())));
   }
-  CHECK(seen >= 1);
+  CHECK(seen >= 8);
+}
+
+TEST_CASE("leaves for BehaviorTree.CPP: they print the same from a separate process") {
+  for (const std::string name : {"halts", "register", "waiting"}) {
+    INFO(name);
+    CHECK(printed(run_tree(kSources + name + ".xml", name, {"--isolate"})) ==
+          lines(read_file(kSources + name + ".txt")));
+  }
+  const Outcome refused = run_tree(std::string(kSources) + "first.xml", "first", {"--isolate"});
+  CHECK(contains(refused.err, "the type 'Position' has no to_bytes and from_bytes"));
+}
+
+TEST_CASE("leaves for BehaviorTree.CPP: what a node does wrong is its fault") {
+  struct Case {
+    std::string how, message;
+  };
+  const Case kCases[] = {
+      {"throws in its constructor", "could not be created: no device"},
+      {"throws", "it is broken"},
+      {"throws 42", "an exception that is not a std::exception"},
+      {"runs", "node 'Wrong' is a SyncActionNode and has returned RUNNING"},
+      {"is idle", "node 'Wrong' has returned IDLE, which is no result of a tick"},
+      {"reads nothing", "port 'number' has no value and no default"},
+      {"reads no port", "'Wrong' has no port 'speed': list it in its providedPorts()"},
+      {"writes an input", "port 'number' is an input"},
+  };
+  const TemporaryDirectory directory;
+  for (const Case& it : kCases) {
+    const auto tree = directory.file("tree.xml", tree_of("<Wrong how=\"" + it.how + "\"/>"));
+    const Outcome outcome = run_tree(tree, "faulty");
+    INFO(it.how);
+    CHECK(outcome.code == 5);
+    CHECK(contains(outcome.out, "fault: Main/Wrong: " + it.message));
+    CHECK(run_tree(tree, "faulty", {"--isolate"}).out == outcome.out);
+  }
+  const auto tree = directory.file("tree.xml", tree_of("<Wrong how=\"throws\"/>"));
+  CHECK(run_tree(tree, "faulty", {"--on-fault", "fail"}).code == 1);
+}
+
+TEST_CASE("leaves for BehaviorTree.CPP: progress, onPaused and onResumed keep a barrier") {
+  const TemporaryDirectory directory;
+  const auto tree = directory.file(
+      "tree.xml", tree_of("<ParallelAbsolute barriers=\"0.5\"><Reach name=\"fast\" step=\"0.25\"/>"
+                          "<Reach name=\"slow\" step=\"0.125\"/></ParallelAbsolute>"));
+  CHECK(printed(run_tree(tree, "faulty")) ==
+        std::vector<std::string>{"fast holds at 0.5", "fast goes on", "success"});
+}
+
+TEST_CASE("leaves for BehaviorTree.CPP: IDs of lockstep's own nodes, '-' and UTF-8") {
+  const TemporaryDirectory directory;
+  const auto theirs = directory.file(
+      "theirs.xml",
+      tree_of("<Sequence><Wait wait-time=\"5\"/><Wärmen-bis wait-time=\"7\"/></Sequence>"));
+  CHECK(printed(run_tree(theirs, "faulty")) ==
+        std::vector<std::string>{"Wait 5", "Wärmen-bis 7", "success"});
+  // In lockstep's own language, Wait is lockstep's.
+  const auto ours = directory.file("ours.xml",
+                                   "<root lockstep=\"1\"><BehaviorTree ID=\"Main\">"
+                                   "<Wait seconds=\"0.1\"/></BehaviorTree></root>");
+  CHECK(run_tree(ours, "faulty").out.substr(0, 23) == "success after 11 ticks,");
+}
+
+TEST_CASE("leaves for BehaviorTree.CPP: a plugin that registers an ID twice is refused") {
+  const Outcome outcome = lockstep::test::lockstep({"nodes", "--plugin", plugin("twice")});
+  CHECK(outcome.code != 0);
+  CHECK(contains(outcome.err, "cannot be used: ID [Same] is registered already"));
+}
+
+TEST_CASE("leaves for BehaviorTree.CPP: a literal that its type does not read is found by check") {
+  const TemporaryDirectory directory;
+  const auto tree = directory.file("tree.xml", tree_of("<Move goal=\"here\"/>"));
+  const Outcome outcome = lockstep::test::lockstep({"check", tree, "--plugin", plugin("first")});
+  CHECK(outcome.code == 3);
+  CHECK(contains(outcome.err, "error: 'here' is not the text of a Position, which 'goal' must be"));
 }

@@ -31,6 +31,7 @@ class TreeReader {
 
   CheckedTrees read() {
     trees_.language = Language::BehaviorTreeCpp;
+    trees_.words = catalog_.words();
     for (const std::uint32_t document : document_order(project_)) {
       document_ = project_.documents[document].get();
       elements_ = document_->elements();

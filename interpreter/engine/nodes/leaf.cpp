@@ -52,11 +52,25 @@ void call(Ticker& ticker, NodeIndex self, void (*function)(void*)) {
   take_error(ticker, self, leaf);
 }
 
+// A control node that halts its children itself; those that it leaves are halted after it.
+void halt_before_children(Ticker& ticker, NodeIndex self, LeafSlot& leaf) {
+  if (leaf.started && leaf.type->halt != nullptr) {
+    const Reach reach(leaf, ChildAccess::Tick);
+    guarded(ticker, self, [&] { leaf.type->halt(leaf.self); });
+    take_error(ticker, self, leaf);
+  }
+  ticker.halt_range(self + 1, ticker.end_of(self));
+  leaf.failed = false;
+}
+
 // Children are halted before their control node.
 template <Kind kKind>
 void halt(Ticker& ticker, NodeIndex self) {
   LeafSlot& leaf = ticker.leaf(self);
   if constexpr (kKind == Kind::Control) {
+    if ((leaf.type->flags & LOCKSTEP_HALTS_CHILDREN) != 0) {
+      return halt_before_children(ticker, self, leaf);
+    }
     ticker.halt_range(self + 1, ticker.end_of(self));
     if (ticker.faulted() && !ticker.in_last_halt()) return;  // halted at the end of the run
   }

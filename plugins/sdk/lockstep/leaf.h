@@ -73,7 +73,10 @@ enum {
   /* Since 1.1: the node uses entries that no port names: lockstep_place::open. */
   LOCKSTEP_OPENS = 4,
   /* Since 1.1: an action that never returns running. */
-  LOCKSTEP_AT_ONCE = 8
+  LOCKSTEP_AT_ONCE = 8,
+  /* Since 1.1: a control node or decorator whose halt is called before its children are halted, and
+   * may halt them itself. */
+  LOCKSTEP_HALTS_CHILDREN = 16
 };
 
 typedef int32_t lockstep_type;
@@ -250,8 +253,8 @@ typedef struct lockstep_host {
  * what the node returns does not count.
  *
  * The host keeps the rest in order. When the node completes, children that still run are halted.
- * When the node is halted or paused, so are its children, before its own function is called. A
- * child that runs and is not ticked goes on by itself, unless it was paused or halted. */
+ * When the node is halted or paused, so are its children, before its own function is called; with
+ * LOCKSTEP_HALTS_CHILDREN, after its halt. A child that runs and is not ticked goes on by itself, unless it was paused or halted. */
 typedef struct lockstep_children {
   uint32_t struct_size;
 
@@ -396,6 +399,18 @@ typedef struct lockstep_leaf_type {
   uint32_t min_children; /* of a control node; 0: one */
   uint32_t max_children; /* of a control node; 0: any number */
 } lockstep_leaf_type;
+
+/* Since 1.1: words of a plugin that scripts know as numbers, in trees for BehaviorTree.CPP. Found
+ * with lockstep_plugin::get_extension(LOCKSTEP_WORDS), which `lockstep check` calls too; not of a
+ * plugin in a separate process. Both lists are valid until the end of the process. */
+typedef struct lockstep_words {
+  uint32_t struct_size;
+  uint32_t count;
+  const char* const* words;
+  const double* numbers;
+} lockstep_words;
+
+#define LOCKSTEP_WORDS "lockstep.words"
 
 typedef struct lockstep_plugin {
   uint32_t abi_major;       /* LOCKSTEP_ABI_MAJOR */

@@ -2,6 +2,7 @@
 // them in the thread that ticks it. A Blackboard that a program makes holds its values itself.
 #pragma once
 
+#include <iterator>
 #include <map>
 #include <memory>
 #include <string>
@@ -20,6 +21,19 @@ struct StampedValue {
   T value;
   Timestamp stamp;
 };
+
+namespace detail {
+
+// Entries of a tree that a program ticks.
+class EntryStore {
+ public:
+  virtual ~EntryStore() = default;
+  // False: there is no such entry, or it has no value; it does not take the value.
+  virtual bool get(const std::string& key, Any& value) const = 0;
+  virtual bool set(const std::string& key, const Any& value) = 0;
+};
+
+}  // namespace detail
 
 class Blackboard {
  public:
@@ -61,9 +75,9 @@ class Blackboard {
     if (place_ != nullptr) {
       detail::OpenedEntry(*place_, prefix_ + key).template set<Value>(value);
     } else if constexpr (std::is_same_v<Value, Any>) {
-      values_[key] = value;
+      keep(key, value);
     } else {
-      values_[key] = Any(value);
+      keep(key, Any(value));
     }
   }
   template <class Key = std::string>
@@ -86,7 +100,7 @@ class Blackboard {
     }
     if (!find(key, value)) return {};
     auto* const self = const_cast<Blackboard*>(this);  // NOLINT: as getAnyLocked promises
-    return {std::move(value), [self, key](const Any& changed) { self->values_[key] = changed; }};
+    return {std::move(value), [self, key](const Any& changed) { self->keep(key, changed); }};
   }
 
   // The one of the main tree, and the one outside.
@@ -106,6 +120,14 @@ class Blackboard {
   }
   const std::map<std::string, Any>& values() const { return values_; }
 
+  // For the tree that has it. What was set before becomes values of its entries.
+  void attach(std::shared_ptr<detail::EntryStore> entries) {
+    entries_ = std::move(entries);
+    for (auto it = values_.begin(); it != values_.end();) {
+      it = entries_->set(it->first, it->second) ? values_.erase(it) : std::next(it);
+    }
+  }
+
   // For the node that has it.
   static Ptr at(detail::Place& place) {
     auto root = Ptr(new Blackboard({}));
@@ -118,6 +140,11 @@ class Blackboard {
   }
 
  private:
+  void keep(const std::string& key, Any value) {
+    if (entries_ != nullptr && entries_->set(key, value)) return;
+    values_[key] = std::move(value);
+  }
+
   explicit Blackboard(Ptr parent) : parent_(std::move(parent)) {}
 
   template <class T>
@@ -139,6 +166,7 @@ class Blackboard {
     return find(key, value);
   }
   bool find(const std::string& key, Any& value) const {
+    if (entries_ != nullptr && entries_->get(key, value)) return true;
     const auto found = values_.find(key);
     if (found == values_.end()) return parent_ != nullptr && parent_->find(key, value);
     value = found->second;
@@ -148,6 +176,7 @@ class Blackboard {
   Ptr parent_, root_;
   std::string prefix_;
   detail::Place* place_ = nullptr;
+  std::shared_ptr<detail::EntryStore> entries_;
   std::map<std::string, Any> values_;
 };
 

@@ -9,7 +9,11 @@
 #include <utility>
 
 #include "behaviortree_cpp/behavior_tree.h"
+#include "behaviortree_cpp/lockstep/enum_names.h"
 #include "behaviortree_cpp/lockstep/plugin_table.h"
+#if __has_include(<lockstep/runtime.h>)
+#include "behaviortree_cpp/lockstep/program.h"
+#endif
 
 namespace BT {
 
@@ -54,7 +58,7 @@ class BehaviorTreeFactory {
   }
 
   void registerBuilder(const TreeNodeManifest& manifest, const NodeBuilder& builder) {
-    plugin_.add(manifest, builder);
+    plugin_->add(manifest, builder);
   }
   template <class T>
   void registerBuilder(const std::string& ID, const NodeBuilder& builder) {
@@ -77,8 +81,53 @@ class BehaviorTreeFactory {
     add_simple<SimpleDecoratorNode>(NodeType::DECORATOR, ID, function, std::move(ports));
   }
 
+  // A word that scripts, and ports of enums, know as a number; all names of an enum.
+  void registerScriptingEnum(StringView name, int value) {
+    plugin_->add_word(std::string(name), value);
+  }
+  template <class Enum>
+  void registerScriptingEnums() {
+    detail::for_each_name<Enum>(
+        [this](StringView name, int value) { registerScriptingEnum(name, value); });
+  }
+
   // For the plugin's own table.
-  detail::PluginTable& plugin() { return plugin_; }
+  detail::PluginTable& plugin() { return *plugin_; }
+
+#if __has_include(<lockstep/runtime.h>)
+  // In a program that ticks trees itself. All throw when the tree has errors.
+  void registerFromPlugin(const std::string& file) {
+    plugins_.push_back(file);
+  }
+  Tree createTreeFromText(const std::string& text,
+                          Blackboard::Ptr blackboard = Blackboard::create()) {
+    return make({plugin_, plugins_, text, "", ""}, std::move(blackboard));
+  }
+  Tree createTreeFromFile(const std::string& file,
+                          Blackboard::Ptr blackboard = Blackboard::create()) {
+    return make({plugin_, plugins_, "", file, ""}, std::move(blackboard));
+  }
+  // A tree of the one file that was registered.
+  void registerBehaviorTreeFromFile(const std::string& file) {
+    file_ = file;
+  }
+  void registerBehaviorTreeFromText(const std::string& text) {
+    text_ = text;
+  }
+  Tree createTree(const std::string& tree, Blackboard::Ptr blackboard = Blackboard::create()) {
+    return make({plugin_, plugins_, text_, file_, tree}, std::move(blackboard));
+  }
+#endif
+  std::unordered_map<std::string, TreeNodeManifest> manifests() const {
+    return plugin_->manifests();
+  }
+
+  template <class Filter, class Rule>
+  void addSubstitutionRule(const Filter&, const Rule&) {
+    static_assert(sizeof(Rule) == 0,
+                  "lockstep has no substitution rules: 'lockstep run --mock-leaf ID=failure' "
+                  "replaces a leaf for a test");
+  }
 
  private:
   template <class T, class... Arguments>
@@ -103,7 +152,15 @@ class BehaviorTreeFactory {
                     });
   }
 
-  detail::PluginTable plugin_;
+#if __has_include(<lockstep/runtime.h>)
+  static Tree make(detail::Program::Source source, Blackboard::Ptr blackboard) {
+    return {std::make_shared<detail::Program>(std::move(source)), std::move(blackboard)};
+  }
+#endif
+
+  std::shared_ptr<detail::PluginTable> plugin_ = std::make_shared<detail::PluginTable>();
+  std::vector<std::string> plugins_;
+  std::string file_, text_;
 };
 
 }  // namespace BT

@@ -110,7 +110,7 @@ class TreeNode {
 
   virtual NodeStatus tick() = 0;
   virtual void halt() = 0;
-  void setStatus(NodeStatus status) { status_ = status; }
+  void setStatus(NodeStatus status) { status_.store(status, std::memory_order_release); }
   void resetStatus() { forget_status(); }
   NodeConfig& config() { return config_; }
   void setRegistrationID(StringView id) { registration_name_ = id; }
@@ -123,8 +123,8 @@ class TreeNode {
   friend class detail::Child;
   friend class detail::NodeThread;
 
-  virtual NodeStatus shown_status() const { return status_; }
-  virtual void forget_status() { status_ = NodeStatus::IDLE; }
+  virtual NodeStatus shown_status() const { return status_.load(std::memory_order_acquire); }
+  virtual void forget_status() { setStatus(NodeStatus::IDLE); }
   virtual void find_children(detail::Place&) {}
 
   template <class T>

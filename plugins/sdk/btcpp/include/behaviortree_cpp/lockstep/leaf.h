@@ -32,13 +32,27 @@ struct Leaf {
   static void start(void* self) { static_cast<Leaf*>(self)->node->forget_status(); }
   static lockstep_status tick(void* self) {
     Leaf& leaf = *static_cast<Leaf*>(self);
-    return lockstep::detail::guarded(leaf.caller(), lockstep_status{LOCKSTEP_FAILURE}, [&] {
+    try {
       const InTick scope(leaf.place);
       return static_cast<lockstep_status>(leaf.node->executeTick());
-    });
+    } catch (...) {
+      return leaf.fail();
+    }
+  }
+  // Of a node that is mostly done in one tick, and so is not told of the first one.
+  static lockstep_status tick_at_once(void* self) {
+    const lockstep_status status = tick(self);
+    if (status != LOCKSTEP_RUNNING) {
+      static_cast<Leaf*>(self)->node->setStatus(NodeStatus::IDLE);
+    }
+    return status;
   }
   static void halt(void* self) {
-    static_cast<Leaf*>(self)->call([](TreeNode& node, const ClassHooks&) { node.haltNode(); });
+    Leaf& leaf = *static_cast<Leaf*>(self);
+    leaf.call([&leaf](TreeNode& node, const ClassHooks&) {
+      const InTick scope(leaf.place);  // its children may be halted
+      node.haltNode();
+    });
   }
   static void pause(void* self) {
     static_cast<Leaf*>(self)->call([](TreeNode& node, const ClassHooks& it) { it.pause(node); });
@@ -64,6 +78,12 @@ struct Leaf {
    private:
     Place& place_;
   };
+
+  // In a catch: what was thrown is an error of the node. Out of line, so that a tick stays small.
+  [[gnu::cold, gnu::noinline]] lockstep_status fail() const {
+    return lockstep::detail::guarded(caller(), lockstep_status{LOCKSTEP_FAILURE},
+                                     []() -> lockstep_status { throw; });
+  }
 
   lockstep::detail::Caller caller() const { return {place.host, place.caller}; }
   const ClassHooks& hooks() const { return place.registration->manifest->hooks; }

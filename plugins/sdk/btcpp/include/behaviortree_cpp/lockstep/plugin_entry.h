@@ -18,13 +18,14 @@ namespace BT::detail {
   return factory;
 }
 
-inline const Registration* find_registration(const std::string& id) {
-  return plugin_factory().plugin().find(id);
+inline PluginTable& made_table() {
+  return making != nullptr ? *making : plugin_factory().plugin();
 }
-
+inline const Registration* find_registration(const std::string& id) {
+  return made_table().find(id);
+}
 inline const std::shared_ptr<ScriptingEnumsRegistry>& registered_enums() {
-  static const auto enums = std::make_shared<ScriptingEnumsRegistry>();
-  return enums;
+  return made_table().words();
 }
 
 // The name of the file without "lib" in front and what is behind the first point.
@@ -47,7 +48,7 @@ template <void (*Register)(BehaviorTreeFactory&)>
         [&] {
           Register(plugin_factory());
           const auto* const here = reinterpret_cast<const void*>(&describe<Register>);
-          described = &plugin_factory().plugin().describe(plugin_name(here));
+          described = &plugin_factory().plugin().describe(plugin_name(here), table_extension);
         },
         [](const char* message) { error = message; });
     return described;

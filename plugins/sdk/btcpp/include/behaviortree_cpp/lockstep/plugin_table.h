@@ -27,13 +27,42 @@ class PluginTable {
     }
   }
 
+  std::unordered_map<std::string, TreeNodeManifest> manifests() const {
+    std::unordered_map<std::string, TreeNodeManifest> all;
+    for (const auto& [id, registration] : types_) all.emplace(id, *registration->manifest);
+    return all;
+  }
+
   const Registration* find(const std::string& id) const {
     const auto found = types_.find(id);
     return found == types_.end() ? nullptr : found->second.get();
   }
 
+  // A word that scripts and ports of enums know as a number. Throws when it has another one.
+  void add_word(const std::string& word, int number) {
+    const auto [found, is_new] = words_->emplace(word, number);
+    if (!is_new && found->second != number) {
+      throw LogicError("the word [", word, "] is registered with another number already");
+    }
+  }
+  const std::shared_ptr<ScriptingEnumsRegistry>& words() const { return words_; }
+
+  // The words as the host reads them; valid until one is added.
+  const lockstep_words* described_words() {
+    word_list_.clear();
+    numbers_.clear();
+    for (const auto& [word, number] : *words_) {
+      word_list_.push_back(word.c_str());
+      numbers_.push_back(number);
+    }
+    word_table_ = {sizeof word_table_, static_cast<std::uint32_t>(word_list_.size()),
+                   word_list_.data(), numbers_.data()};
+    return &word_table_;
+  }
+
   // The table, valid as long as this; `name` is that of the plugin.
-  const lockstep_plugin& describe(std::string name) {
+  const lockstep_plugin& describe(std::string name,
+                                  decltype(lockstep_plugin::get_extension) get_extension) {
     name_ = std::move(name);
     listed_.clear();
     for (auto& [id, registration] : types_) {
@@ -48,6 +77,7 @@ class PluginTable {
     plugin_.doc = "Nodes written for BehaviorTree.CPP";
     plugin_.leaf_type_count = static_cast<std::uint32_t>(listed_.size());
     plugin_.leaf_types = listed_.data();
+    plugin_.get_extension = get_extension;
     return plugin_;
   }
 
@@ -57,6 +87,7 @@ class PluginTable {
   }
 
   static void describe(Registration& registration) {
+    if (registration.type.struct_size != 0) return;
     const TreeNodeManifest& manifest = *registration.manifest;
     registration.ports.clear();
     for (const auto& [name, info] : manifest.ports) registration.ports.push_back({name, info, 0});
@@ -78,12 +109,14 @@ class PluginTable {
     type.ports = registration.listed.data();
     type.create = Leaf::create;
     type.destroy = Leaf::destroy;
-    type.start = Leaf::start;
-    type.tick = Leaf::tick;
+    const bool is_short = manifest.hooks.is_at_once || manifest.type == NodeType::CONDITION;
+    if (!is_short) type.start = Leaf::start;
+    type.tick = is_short ? Leaf::tick_at_once : Leaf::tick;
     type.halt = Leaf::halt;
     if (manifest.hooks.pause != nullptr) type.pause = Leaf::pause;
     if (manifest.hooks.resume != nullptr) type.resume = Leaf::resume;
     if (manifest.hooks.progress != nullptr) type.progress = Leaf::progress;
+    type.flags = LOCKSTEP_HALTS_CHILDREN;
     if (manifest.type == NodeType::CONDITION) type.flags |= LOCKSTEP_MAY_RUN;
     if (manifest.hooks.is_at_once) type.flags |= LOCKSTEP_AT_ONCE;
     if (opens_entries()) type.flags |= LOCKSTEP_OPENS;
@@ -132,9 +165,31 @@ class PluginTable {
   }
 
   std::map<std::string, std::unique_ptr<Registration>> types_;
+  std::shared_ptr<ScriptingEnumsRegistry> words_ = std::make_shared<ScriptingEnumsRegistry>();
+  std::vector<const char*> word_list_;
+  std::vector<double> numbers_;
+  lockstep_words word_table_{};
   std::string name_;
   std::vector<const lockstep_leaf_type*> listed_;
   lockstep_plugin plugin_{};
 };
+
+// Whose nodes are being made in this thread: those of a program. Null: of this plugin.
+[[gnu::visibility("hidden")]] inline thread_local PluginTable* making = nullptr;
+
+class Making {
+ public:
+  explicit Making(PluginTable& table) { making = &table; }
+  ~Making() { making = nullptr; }
+  Making(const Making&) = delete;
+  Making& operator=(const Making&) = delete;
+};
+
+[[gnu::visibility("hidden")]] PluginTable& made_table();
+
+[[gnu::visibility("hidden")]] inline const void* table_extension(const char* id) {
+  const bool is_words = id != nullptr && StringView(id) == LOCKSTEP_WORDS;
+  return is_words ? made_table().described_words() : nullptr;
+}
 
 }  // namespace BT::detail

@@ -151,6 +151,9 @@ template <class T>
 Result TreeNode::setOutput(StringView name, const T& value) {
   const detail::PortEntry* const port = find(name);
   if (port == nullptr) return nonstd::make_unexpected(no_port(name));
+  if (port->info.direction() == PortDirection::INPUT) {
+    return nonstd::make_unexpected(StrCat("port '", name, "' is an input"));
+  }
   using Value = std::decay_t<const T>;
   if (thread_ != nullptr && lockstep::detail::in_worker) {
     if constexpr (std::is_same_v<Value, Any>) {
@@ -175,7 +178,7 @@ Result TreeNode::setOutput(StringView name, const T& value) {
   const char* const given = place_->node->given(place_->caller, port->index);
   if (given == nullptr || !isBlackboardPointer(given)) {
     return nonstd::make_unexpected(
-        StrCat("port '", name, "' is not bound to an entry; the tree says ", name, "=\"{key}\""));
+        StrCat("port '", name, "' is bound to no entry; write ", name, "=\"{key}\""));
   }
   return nonstd::make_unexpected(
       StrCat("port '", name, "': the entry '", given, "' does not take this value"));
