@@ -40,6 +40,25 @@ run(${CMAKE_COMMAND} --install ${BUILD} --component sdk --prefix ${WORK}/prefix)
 check_template(cpp sweep)
 check_template(c countdown)
 
+# build_btcpp(PREFIX OPTION…): a project for BehaviorTree.CPP, as it is.
+function(build_btcpp prefix)
+  file(REMOVE_RECURSE ${WORK}/btcpp)
+  file(COPY ${SOURCE}/btcpp DESTINATION ${WORK})
+  run(${CMAKE_COMMAND} -S ${WORK}/btcpp -B ${WORK}/btcpp/build -DCMAKE_PREFIX_PATH=${prefix}
+      -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF -DCMAKE_CXX_COMPILER=${CXX_COMPILER}
+      -DCMAKE_CXX_FLAGS=-Wall\ -Wextra\ -Werror ${ARGN})
+  run(${CMAKE_COMMAND} --build ${WORK}/btcpp/build)
+endfunction()
+
+build_btcpp(${WORK}/prefix -DWITH_PROGRAM=OFF)
+if(EXISTS ${BUILD}/lockstep)
+  run(${BUILD}/lockstep run ${WORK}/btcpp/tree.xml --clock virtual
+      --plugin ${WORK}/btcpp/build/librobot_nodes.so)
+  if(NOT output MATCHES "hello, robot")
+    message(FATAL_ERROR "the nodes for BehaviorTree.CPP printed:\n${output}")
+  endif()
+endif()
+
 # check_components(COMPONENTS… EXPECTED): "" when they are found, else what the message has.
 function(check_components components expected)
   file(WRITE ${WORK}/components/CMakeLists.txt "cmake_minimum_required(VERSION 3.20)
@@ -91,5 +110,13 @@ if(EXISTS ${BUILD}/liblockstep-runtime.so AND NOT SANITIZED)
   string(REGEX REPLACE "[0-9a-f]+ [A-Za-z] lockstep_[a-z_]+\n" "" others "${output}")
   if(NOT others STREQUAL "")
     message(FATAL_ERROR "liblockstep-runtime.so exports more than its functions:\n${others}")
+  endif()
+
+  build_btcpp(${WORK}/moved)
+  run(${WORK}/btcpp/build/robot ${WORK}/btcpp/build/librobot_nodes.so)
+  string(CONCAT expected "Say\nhello, world\nSUCCESS after 3, at 3\nSay\nhello, world\n"
+         "SUCCESS at 2\ncounter halted\nrefused\n")
+  if(NOT output STREQUAL expected)
+    message(FATAL_ERROR "the program for BehaviorTree.CPP printed:\n${output}")
   endif()
 endif()

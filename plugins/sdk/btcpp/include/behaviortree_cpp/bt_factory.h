@@ -40,11 +40,21 @@ class BehaviorTreeFactory {
   // A class of nodes by its ID; `arguments` go to the end of its constructor.
   template <class T, class... Arguments>
   void registerNodeType(const std::string& ID, const PortsList& ports, Arguments... arguments) {
+    static_assert(std::is_base_of_v<TreeNode, T>,
+                  "a class of nodes derives from a node of BT, such as BT::SyncActionNode");
+    static_assert(!std::is_abstract_v<T>,
+                  "this class is abstract: it lacks a function that its base asks for, such as "
+                  "tick(), or onStart(), onRunning() and onHalted()");
     check_class<T, Arguments...>();
     registerBuilder(CreateManifest<T>(ID, ports), CreateBuilder<T>(arguments...));
   }
   template <class T, class... Arguments>
   void registerNodeType(const std::string& ID, Arguments... arguments) {
+    static_assert(std::is_base_of_v<TreeNode, T>,
+                  "a class of nodes derives from a node of BT, such as BT::SyncActionNode");
+    static_assert(!std::is_abstract_v<T>,
+                  "this class is abstract: it lacks a function that its base asks for, such as "
+                  "tick(), or onStart(), onRunning() and onHalted()");
     constexpr bool kTakesConfig =
         std::is_constructible_v<T, const std::string&, const NodeConfig&, Arguments...>;
     static_assert(!kTakesConfig || has_static_method_providedPorts<T>::value,
@@ -132,11 +142,6 @@ class BehaviorTreeFactory {
  private:
   template <class T, class... Arguments>
   static constexpr void check_class() {
-    static_assert(std::is_base_of_v<TreeNode, T>,
-                  "a class of nodes derives from a node of BT, such as BT::SyncActionNode");
-    static_assert(!std::is_abstract_v<T>,
-                  "this class is abstract: it lacks a function that its base asks for, such as "
-                  "tick(), or onStart(), onRunning() and onHalted()");
     static_assert(std::is_constructible_v<T, const std::string&, const NodeConfig&, Arguments...> ||
                       std::is_constructible_v<T, const std::string&, Arguments...>,
                   "a class of nodes has a public constructor (const std::string& name, const "

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <functional>
+#include <iostream>
 #include <memory>
 #include <string>
 #include <thread>
@@ -135,6 +136,19 @@ class Program : public EntryStore {
   std::vector<std::function<void()>> observers_;
 };
 
+// The root of a tree. It is no object here.
+struct Root {
+  const Program* program;
+
+  template <class Node = TreeNode>
+  Node* operator->() const {
+    static_assert(is_absent<Node>,
+                  "lockstep has no nodes of a tree as objects: lockstep_project_node() of "
+                  "lockstep/runtime.h lists them, and lockstep show prints a tree");
+    return nullptr;
+  }
+};
+
 }  // namespace detail
 
 class Tree {
@@ -167,13 +181,8 @@ class Tree {
   // The entries of the main tree: numbers, texts, and objects as texts.
   Blackboard::Ptr rootBlackboard() { return blackboard_; }
 
-  template <class Node = void>
-  TreeNode* rootNode() const {
-    static_assert(detail::is_absent<Node>,
-                  "lockstep has no nodes of a tree as objects: lockstep_project_node() of "
-                  "lockstep/runtime.h lists them, and lockstep show prints a tree");
-    return nullptr;
-  }
+  // For printTreeRecursively.
+  detail::Root rootNode() const { return {&program()}; }
   template <class Visitor>
   void applyVisitor(const Visitor&) const {
     static_assert(detail::is_absent<Visitor>,
@@ -190,5 +199,17 @@ class Tree {
   std::shared_ptr<detail::Program> program_;
   Blackboard::Ptr blackboard_;
 };
+
+// The names of all nodes, each below its parent.
+inline void printTreeRecursively(const detail::Root& root, std::ostream& out = std::cout) {
+  std::vector<std::size_t> depth;
+  for (std::uint32_t i = 0; i < lockstep_project_node_count(root.program->project()); ++i) {
+    lockstep_node node{};
+    node.struct_size = sizeof node;
+    if (!lockstep_project_node(root.program->project(), i, &node)) return;
+    depth.push_back(node.parent == i ? 0 : depth[node.parent] + 1);
+    out << std::string(3 * depth.back(), ' ') << node.name << std::endl;
+  }
+}
 
 }  // namespace BT

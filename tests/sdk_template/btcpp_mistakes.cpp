@@ -1,0 +1,67 @@
+// Each MISTAKE is one that authors of nodes for BehaviorTree.CPP make, or something of that library
+// that lockstep has not.
+#include <memory>
+
+#include "behaviortree_cpp/bt_factory.h"
+#include "behaviortree_cpp/loggers/groot2_publisher.h"
+
+using namespace BT;
+
+struct Point {
+  double x = 0;
+};
+
+class Good : public SyncActionNode {
+ public:
+  Good(const std::string& name, const NodeConfig& config) : SyncActionNode(name, config) {}
+  static PortsList providedPorts() {
+#if MISTAKE == 1
+    return {InputPort<Point>("point", std::make_unique<int>(1), "a point")};
+#else
+    return {InputPort<Point>("point", Point{1}, "a point")};
+#endif
+  }
+  NodeStatus tick() override {
+    return NodeStatus::SUCCESS;
+  }
+};
+
+class Abstract : public StatefulActionNode {
+ public:
+  Abstract(const std::string& name, const NodeConfig& config) : StatefulActionNode(name, config) {}
+  static PortsList providedPorts() { return {}; }
+  NodeStatus onStart() override { return NodeStatus::SUCCESS; }
+};
+
+class NoPorts : public SyncActionNode {
+ public:
+  NoPorts(const std::string& name, const NodeConfig& config) : SyncActionNode(name, config) {}
+  NodeStatus tick() override { return NodeStatus::SUCCESS; }
+};
+
+class NoConfig : public SyncActionNode {
+ public:
+  explicit NoConfig(const std::string& name) : SyncActionNode(name, {}) {}
+  static PortsList providedPorts() { return {}; }
+  NodeStatus tick() override { return NodeStatus::SUCCESS; }
+};
+
+class NoNode {};
+
+BT_REGISTER_NODES(factory) {
+  factory.registerNodeType<Good>("Good");
+#if MISTAKE == 2
+  factory.registerNodeType<Abstract>("Abstract");
+#elif MISTAKE == 3
+  factory.registerNodeType<NoPorts>("NoPorts");
+#elif MISTAKE == 4
+  factory.registerNodeType<NoConfig>("NoConfig");
+#elif MISTAKE == 5
+  factory.registerNodeType<NoNode>("NoNode");
+#elif MISTAKE == 6
+  auto tree = factory.createTreeFromText("");
+  const Groot2Publisher publisher(tree);
+#elif MISTAKE == 7
+  factory.createTreeFromText("").rootNode()->status();
+#endif
+}
