@@ -120,12 +120,18 @@ class ReferenceNode {
 
   Status tick_with_scripts() {
     const bool first = status != Status::Running;
-    if (first && asks("failure_if", false)) return ended(Status::Failure);
-    if (first && asks("success_if", false)) return ended(Status::Success);
-    if (first && asks("skip_if", false)) return Status::Skipped;
+    if (first && asks("failure_if", false)) return ended(decided(Status::Failure));
+    if (first && asks("success_if", false)) return ended(decided(Status::Success));
+    if (first && asks("skip_if", false)) return decided(Status::Skipped);
     if (asks("while", true)) return ended(on_tick(first));
     make_idle();
-    return Status::Skipped;
+    return first ? decided(Status::Skipped) : Status::Skipped;
+  }
+
+  // Before it began: to measures, all children of a synchronized node are as far as it is.
+  Status decided(Status result) {
+    std::ranges::fill(snapshot, result == Status::Success ? 1.0 : 0.0);
+    return result;
   }
 
   Status ended(Status result) {
