@@ -25,14 +25,15 @@ enum class Hook : std::uint8_t {
 };
 inline constexpr std::size_t kHooks = 8;
 
+inline constexpr std::string_view kHookAttributes[][kHooks] = {
+    {"failure_if", "success_if", "skip_if", "while", "on_success", "on_failure", "on_end",
+     "on_halt"},
+    {"_failureIf", "_successIf", "_skipIf", "_while", "_onSuccess", "_onFailure", "_post",
+     "_onHalted"}};
+
 // The attribute that has the script.
 constexpr std::string_view attribute_of(Hook hook, Language language) {
-  constexpr std::string_view kNames[][kHooks] = {
-      {"failure_if", "success_if", "skip_if", "while", "on_success", "on_failure", "on_end",
-       "on_halt"},
-      {"_failureIf", "_successIf", "_skipIf", "_while", "_onSuccess", "_onFailure", "_post",
-       "_onHalted"}};
-  return kNames[static_cast<std::size_t>(language)][static_cast<std::size_t>(hook)];
+  return kHookAttributes[static_cast<std::size_t>(language)][static_cast<std::size_t>(hook)];
 }
 
 constexpr std::optional<Hook> hook_named(std::string_view attribute, Language language) {

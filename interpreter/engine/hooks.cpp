@@ -58,6 +58,7 @@ Status Ticker::finish(NodeIndex node, const HookedNode& hooked, Status status) {
   const Hook first = status == Status::Success ? Hook::OnSuccess : Hook::OnFailure;
   for (const Hook hook : {first, Hook::Post}) {
     const std::uint32_t script = hooked.script(hook);
+    if (script == HookedNode::kNoScript) continue;
     if (!run_script(node, script, attribute_of(hook, tree_.language))) return Status::Failure;
   }
   return status;

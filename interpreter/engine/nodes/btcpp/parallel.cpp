@@ -2,6 +2,7 @@
 // activation; its status says so.
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "engine/nodes/kinds.h"
 #include "engine/nodes/parallel_rule.h"
@@ -32,12 +33,11 @@ constexpr Parameter kAllParameters[] = {
 using parallel::check_count;
 using parallel::Tally;
 
-// Of those that completed in earlier ticks of the activation.
-Tally tally_of(Ticker& ticker, NodeIndex self) {
-  Tally tally;
-  for (NodeIndex child = self + 1; child != ticker.end_of(self); child = ticker.end_of(child)) {
-    if (is_complete(ticker.status(child))) tally.add(ticker.status(child));
-  }
+// The children that have completed in this activation, and those that were skipped in this tick.
+Tally& begin_tick(Ticker& ticker, NodeIndex self) {
+  Tally& tally = ticker.state<Tally>(self);
+  if (ticker.first_tick(self)) tally = {};
+  tally.skipped = 0;
   return tally;
 }
 
@@ -55,16 +55,25 @@ std::optional<RuleBreak> all_rule(const ParameterValues& given) {
   return check_count(given, kMaxFailures, "max_failures");
 }
 
-// After each child, so that those to the right of the one that decides are not ticked.
+// Decides after each child, so that those to the right of the one that decides are not ticked. The
+// counts wanted may be others than in the last tick.
 Status tick_parallel(Ticker& ticker, NodeIndex self) {
-  Tally tally = tally_of(ticker, self);
+  Tally& tally = begin_tick(ticker, self);
   const std::int64_t all = ticker.node(self).children;
   const std::int64_t given = ticker.parameter(self, kSuccessCount).integer;
   const std::int64_t wanted = count_of(given, all);
   const std::int64_t failures = count_of(ticker.parameter(self, kFailureCount).integer, all);
+  bool may_decide = true;
   for (NodeIndex child = self + 1; child != ticker.end_of(self); child = ticker.end_of(child)) {
-    if (!is_complete(ticker.status(child))) tally.add(ticker.tick(child));
-    if (ticker.faulted()) return Status::Running;
+    if (!is_complete(ticker.status(child))) {
+      const Status status = ticker.tick(child);
+      if (ticker.faulted()) return Status::Running;
+      if (status != Status::Running) {
+        may_decide = true;
+        tally.add(status);
+      }
+    }
+    if (!std::exchange(may_decide, false)) continue;
     const std::int64_t counted = tally.succeeded + (given < 0 ? tally.skipped : 0);
     const bool success = counted >= wanted;
     if (success || all - tally.failed < wanted || tally.failed == failures) {
@@ -76,7 +85,7 @@ Status tick_parallel(Ticker& ticker, NodeIndex self) {
 }
 
 Status tick_all(Ticker& ticker, NodeIndex self) {
-  Tally tally = tally_of(ticker, self);
+  Tally& tally = begin_tick(ticker, self);
   const std::int64_t all = ticker.node(self).children;
   for (NodeIndex child = self + 1; child != ticker.end_of(self); child = ticker.end_of(child)) {
     if (!is_complete(ticker.status(child))) tally.add(ticker.tick(child));
@@ -119,6 +128,7 @@ const NodeKind kParallel{
              .latches = true},
     .tick = tick_parallel,
     .progress = progress_of_parallel,
+    .state_size = sizeof(Tally),
     .state_per_child = sizeof(double)};
 
 const NodeKind kParallelAll{
@@ -132,6 +142,7 @@ const NodeKind kParallelAll{
              .sign = "⇉",
              .latches = true},
     .tick = tick_all,
-    .progress = least_progress};
+    .progress = least_progress,
+    .state_size = sizeof(Tally)};
 
 }  // namespace lockstep::btcpp
