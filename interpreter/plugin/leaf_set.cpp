@@ -133,6 +133,7 @@ struct LeafSet::Implementation {
   std::vector<std::unique_ptr<lockstep_caller>> callers_;  // of the leaves
   std::vector<const CallSite*> sites_;                     // of the leaves
   std::optional<Fault> fault_;
+  bool is_destroyed_ = false;
 };
 
 LeafSet::Implementation::Implementation(const Tree& tree, Blackboard& blackboard,
@@ -169,6 +170,7 @@ LeafSet::Implementation::Implementation(const Tree& tree, Blackboard& blackboard
 
 // In reverse order; what was not created is passed over.
 void LeafSet::Implementation::destroy_all() {
+  if (std::exchange(is_destroyed_, true)) return;
   if (watch_ != nullptr) watch_->remove(slots_);
   for (std::size_t index = slots_.size(); index-- > 0;) {
     LeafSlot& slot = slots_[index];
@@ -277,6 +279,7 @@ bool LeafSet::Implementation::create_leaf(std::uint32_t index) {
 
 void LeafSet::Implementation::create_all(std::uint64_t seed) {
   fault_.reset();
+  is_destroyed_ = false;
   for (std::size_t index = 0; index < contexts_.size(); ++index) {
     contexts_[index]->caller->random = RandomStream(seed, kFirstRunStream + index + 1);
     if (!create_context(*contexts_[index])) return;

@@ -17,8 +17,10 @@ Run::Run(const Tree& tree, const RunOptions& options)
   leaves_.set_ticker(ticker_);
 }
 
+// The ticker has entries that leaves have made by name.
 Run::~Run() {
   halt();
+  leaves_.destroy_all();
 }
 
 void Run::halt() {
