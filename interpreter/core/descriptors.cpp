@@ -39,7 +39,11 @@ bool write_all(int file, std::string_view text, bool (*gives_up)()) noexcept {
       100;  // milliseconds; a signal may come before the wait, or to another thread
   while (!text.empty()) {
     pollfd reader{file, POLLOUT, 0};
-    while (poll(&reader, 1, 0) == 0) {
+    const auto would_wait = [&reader] {
+      const int ready = poll(&reader, 1, 0);
+      return ready == 0 || (ready < 0 && errno == EINTR);  // also without a wait
+    };
+    while (would_wait()) {
       if (gives_up()) {
         errno = EINTR;
         return false;
