@@ -28,15 +28,5 @@ set(said_23 "error_default_is_not_a_value_of_the_port_type")
 set(said_24 "name the type of the object with LOCKSTEP_OBJECT_TYPE")
 set(said_25 "a port is of type bool")
 
-foreach(mistake RANGE 25)
-  execute_process(
-    COMMAND ${CXX_COMPILER} -std=c++17 -fsyntax-only -I${SDK} -DMISTAKE=${mistake} ${SOURCE}
-    RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
-  if(mistake EQUAL 0 AND NOT result EQUAL 0)
-    message(FATAL_ERROR "the plugin without a mistake is refused:\n${output}")
-  elseif(mistake GREATER 0 AND result EQUAL 0)
-    message(SEND_ERROR "mistake ${mistake} compiles")
-  elseif(mistake GREATER 0 AND NOT output MATCHES "${said_${mistake}}")
-    message(SEND_ERROR "mistake ${mistake}: '${said_${mistake}}' is not in\n${output}")
-  endif()
-endforeach()
+include(${CMAKE_CURRENT_LIST_DIR}/check_mistakes.cmake)
+check_mistakes(25 -I${SDK})
