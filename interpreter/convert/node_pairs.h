@@ -16,7 +16,7 @@ struct FixedAttribute {
   bool is_default = false;  // so it may be absent
 };
 
-// What becomes of a value.
+// How a value is converted.
 enum class Conversions : unsigned char {
   None,          // it means the same
   Milliseconds,  // there, and seconds here

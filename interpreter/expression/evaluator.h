@@ -14,7 +14,8 @@ namespace lockstep {
 
 class Evaluator {
  public:
-  static constexpr std::size_t kLongestText = std::size_t{1} << 20;  // that a script makes, in bytes
+  static constexpr std::size_t kLongestText = std::size_t{1}
+                                              << 20;  // that a script makes, in bytes
 
   // `entries`: of each of the expression's names(). Returns "" or the error; what was assigned
   // before it stays. `result`: the value of the last statement, which may be none.

@@ -141,8 +141,8 @@ typedef struct lockstep_object_type {
 enum {
   /* The tree may leave the port out though it has no default: it has no value then. */
   LOCKSTEP_OPTIONAL = 1,
-  /* default_value is "{key}", the entry that the port is bound to where the tree leaves it out; "{=}"
-   * is the entry of the port's name. An output may have such a default, too. */
+  /* default_value is "{key}", the entry that the port is bound to where the tree leaves it out;
+   * "{=}" is the entry of the port's name. An output may have such a default, too. */
   LOCKSTEP_DEFAULT_ENTRY = 2
 };
 
@@ -151,9 +151,9 @@ typedef struct lockstep_port {
   uint32_t struct_size; /* sizeof(lockstep_port) as the plugin knew it */
   lockstep_type type;
   lockstep_direction direction;
-  const char* name;          /* the XML attribute: a letter, then letters, digits, '_' (since 1.1 also
-                                '-' and UTF-8); each port of a leaf has its own; 'name' and 'ID' are
-                                taken */
+  const char* name; /* the XML attribute: a letter, then letters, digits, '_' (since 1.1 also
+                       '-' and UTF-8); each port of a leaf has its own; 'name' and 'ID' are
+                       taken */
   const char* default_value; /* a constant, as written in XML; NULL: an input or inout must be given
                                 in the tree, an output (which has no default) may be left out */
   const char* unit;          /* "s", "m/s"; NULL or "" for none */
@@ -249,12 +249,13 @@ typedef struct lockstep_host {
  * tick, halt and pause are called inside the node's own tick only; count, status and progress
  * inside any function of the node but create and destroy. It is a fault of the node to call them
  * elsewhere, to name a child that it does not have, or (in lockstep's own language) to tick a child
- * twice in one tick. After a fault, also one of a leaf below, they do nothing, tick and status return LOCKSTEP_RUNNING, and
- * what the node returns does not count.
+ * twice in one tick. After a fault, also one of a leaf below, they do nothing, tick and status
+ * return LOCKSTEP_RUNNING, and what the node returns does not count.
  *
  * The host keeps the rest in order. When the node completes, children that still run are halted.
  * When the node is halted or paused, so are its children, before its own function is called; with
- * LOCKSTEP_HALTS_CHILDREN, after its halt. A child that runs and is not ticked goes on by itself, unless it was paused or halted. */
+ * LOCKSTEP_HALTS_CHILDREN, after its halt. A child that runs and is not ticked goes on by itself,
+ * unless it was paused or halted. */
 typedef struct lockstep_children {
   uint32_t struct_size;
 
@@ -312,8 +313,8 @@ typedef struct lockstep_workers {
 
 #define LOCKSTEP_WORKERS "lockstep.workers"
 
-/* Since 1.1: what a node may know about its place in the tree, and ports of type LOCKSTEP_ANY. Found
- * with get_extension(LOCKSTEP_PLACE). Texts are valid until destroy returns. */
+/* Since 1.1: what a node may know about its place in the tree, and ports of type LOCKSTEP_ANY.
+ * Found with get_extension(LOCKSTEP_PLACE). Texts are valid until destroy returns. */
 typedef struct lockstep_place {
   uint32_t struct_size;
 
@@ -340,8 +341,8 @@ typedef struct lockstep_place {
   bool (*set_object)(const lockstep_caller* caller, uint32_t port, const lockstep_object_type* type,
                      void* object);
 
-  /* [run] The index of a port beyond those of the type: of type LOCKSTEP_ANY, an inout, bound to the
-   * entry that `key` means where the node is in the tree. The same key gives the same index.
+  /* [run] The index of a port beyond those of the type: of type LOCKSTEP_ANY, an inout, bound to
+   * the entry that `key` means where the node is in the tree. The same key gives the same index.
    * UINT32_MAX: the type has not LOCKSTEP_OPENS, it is create that runs, or the tree is in a
    * language without such entries. */
   uint32_t (*open)(const lockstep_caller* caller, const char* key, size_t length);
@@ -366,10 +367,10 @@ typedef struct lockstep_place {
 typedef struct lockstep_leaf_type {
   uint32_t struct_size; /* sizeof(lockstep_leaf_type) as the plugin knew it */
   lockstep_leaf_kind kind;
-  const char* id;  /* the XML tag: a letter, then letters, digits, '_' (since 1.1 also '-' and UTF-8);
-                      no tag of the language */
-  const char* doc; /* one or two sentences; NULL for none */
-  uint32_t port_count;               /* at most 4096 */
+  const char* id;      /* the XML tag: a letter, then letters, digits, '_' (since 1.1 also '-' and
+                          UTF-8);      no tag of the language */
+  const char* doc;     /* one or two sentences; NULL for none */
+  uint32_t port_count; /* at most 4096 */
   const lockstep_port* const* ports; /* port_count pointers, none NULL */
 
   /* [run] A new leaf for one node of one run, or NULL after set_error. run_context is what

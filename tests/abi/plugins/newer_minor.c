@@ -20,10 +20,9 @@ static void more(void* leaf) {
   (void)leaf;
 }
 
-static const newer_port port = {
-    {sizeof(newer_port), LOCKSTEP_INT, LOCKSTEP_INPUT, "ticks", "2", NULL, NULL, NULL, 0, 0, NULL,
-     0},
-    "more"};
+static const newer_port port = {{sizeof(newer_port), LOCKSTEP_INT, LOCKSTEP_INPUT, "ticks", "2",
+                                 NULL, NULL, NULL, 0, 0, NULL, 0},
+                                "more"};
 static const lockstep_port* const ports[] = {&port.base};
 static const newer_leaf_type leaf_type = {
     {sizeof(newer_leaf_type), LOCKSTEP_ACTION, "Probe", NULL, 1, ports, probe_create, probe_destroy,

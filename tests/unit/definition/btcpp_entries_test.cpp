@@ -194,7 +194,7 @@ TEST_CASE(
   CHECK(definition.nodes[0].hooks == Port::kNone);
 }
 
-TEST_CASE("a script that does not parse is told at its column") {
+TEST_CASE("a script that does not parse is an error at its column") {
   const Resolved it = resolved("<Use _skipIf='a == '/>\n<Use _post=''/>", "<Use/>");
   CHECK_FALSE(it.definition);
   const Lines lines = told(it.diagnostics);

@@ -30,7 +30,7 @@ class DecoratorNode : public TreeNode {
     child_node_->resetStatus();
   }
 
-  // A child that has completed in it begins anew.
+  // A child that has completed in it begins again.
   NodeStatus executeTick() override {
     const NodeStatus status = TreeNode::executeTick();
     if (child_node_ != nullptr && isStatusCompleted(child_node_->status())) {

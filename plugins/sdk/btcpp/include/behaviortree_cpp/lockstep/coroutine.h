@@ -1,4 +1,4 @@
-// A function with a stack of its own, which may stop in its middle and go on later.
+// A function with a separate stack, which may stop in its middle and go on later.
 #pragma once
 
 #include <sys/mman.h>
