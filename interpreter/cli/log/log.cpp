@@ -72,10 +72,12 @@ std::function<int()> define_log(CLI::App& app) {
   const auto measures = define_log_measure(app);
   const auto plot = define_log_plot(app);
   const auto difference = define_log_diff(app);
+  const auto page = define_log_page(app);
   return [=] {
     if (measures.app->parsed()) return measures.run();
     if (plot.app->parsed()) return plot.run();
     if (difference.app->parsed()) return difference.run();
+    if (page.app->parsed()) return page.run();
     return table->parsed() ? csv(*options) : info(*options);
   };
 }
@@ -96,6 +98,7 @@ const Command kLogCommand{"log", "Read recordings of `lockstep run --record`",
                           "  lockstep log csv run.jsonl > run.csv\n"
                           "  lockstep log measure run.jsonl --measure predictability:arm@0.5\n"
                           "  lockstep log plot run.jsonl --out progress.svg\n"
+                          "  lockstep log page run.jsonl --out run.html\n"
                           "  lockstep log diff run.jsonl again.jsonl",
                           define_log};
 

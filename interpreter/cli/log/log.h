@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <istream>
 #include <string>
 #include <string_view>
 
@@ -20,6 +21,10 @@ void add_recording_file(CLI::App& app, std::string& file);
 // Opens the recording ("-" is stdin) and returns the result of `use`, or the exit code for a file
 // that is not a recording.
 int with_recording(const std::string& path, const std::function<int(RecordingReader&)>& use);
+// The two steps of it.
+int with_file(const std::string& path, const std::function<int(std::istream&)>& use);
+int read_recording(std::istream& in, const std::string& path,
+                   const std::function<int(RecordingReader&)>& use);
 // Reports an error in the recording, or that it is cut. Returns the exit code.
 int report_end(const RecordingOutcome& outcome);
 int report_end(const RecordingReader& reader);
@@ -37,5 +42,6 @@ struct LogSubcommand {
 LogSubcommand define_log_measure(CLI::App& log);
 LogSubcommand define_log_plot(CLI::App& log);
 LogSubcommand define_log_diff(CLI::App& log);
+LogSubcommand define_log_page(CLI::App& log);
 
 }  // namespace lockstep

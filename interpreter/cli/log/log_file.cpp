@@ -18,17 +18,23 @@ void add_recording_file(CLI::App& app, std::string& file) {
   app.add_option("file", file, "The recording; - is stdin")->type_name("FILE.jsonl")->required();
 }
 
-int with_recording(const std::string& path, const std::function<int(RecordingReader&)>& use) {
-  std::ifstream file;
-  if (path != "-") {
-    std::error_code error;
-    if (std::filesystem::is_directory(path, error)) return cannot_use("read", path, EISDIR);
-    errno = 0;
-    file.open(path, std::ios::binary);
-    if (!file) return cannot_use("read", path, errno);
-  }
-  RecordingReader reader(path == "-" ? std::cin : file, path == "-" ? "stdin" : path);
+int with_file(const std::string& path, const std::function<int(std::istream&)>& use) {
+  if (path == "-") return use(std::cin);
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) return cannot_use("read", path, EISDIR);
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  return file ? use(file) : cannot_use("read", path, errno);
+}
+
+int read_recording(std::istream& in, const std::string& path,
+                   const std::function<int(RecordingReader&)>& use) {
+  RecordingReader reader(in, path == "-" ? "stdin" : path);
   return reader.error().empty() ? use(reader) : report_end(reader);
+}
+
+int with_recording(const std::string& path, const std::function<int(RecordingReader&)>& use) {
+  return with_file(path, [&](std::istream& in) { return read_recording(in, path, use); });
 }
 
 int report_end(const RecordingOutcome& outcome) {

@@ -1,0 +1,63 @@
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "cli/console.h"
+#include "cli/exit_code.h"
+#include "cli/log/log.h"
+#include "cli/outputs.h"
+#include "core/descriptors.h"
+#include "core/output_file.h"
+#include "web/page.h"
+
+namespace lockstep {
+namespace {
+
+struct LogPageOptions {
+  std::string file;
+  std::string out;
+};
+
+int write_page(const std::string& path, std::string_view page) {
+  OutputFile out(path);
+  if (out.descriptor() < 0) return usage_error(printable(out.error()));
+  const bool written = write_all(out.descriptor(), page) && out.take_name();
+  return written ? kExitSuccess : cannot_use("write", path, errno);
+}
+
+// The bytes themselves go into the page. What is wrong with them is found before a browser does.
+int page_of(const LogPageOptions& options, std::istream& in) {
+  std::ostringstream all;
+  all << in.rdbuf();
+  std::istringstream recording(std::move(all).str());
+  return read_recording(recording, options.file, [&](RecordingReader& reader) {
+    while (reader.next()) {
+    }
+    if (const int code = report_end(reader); code != kExitSuccess) return code;
+    return write_page(options.out, page_with_recording(recording.view()));
+  });
+}
+
+int page(const LogPageOptions& options) {
+  const NamedFile recording[] = {named_file(options.file)};
+  if (would_overwrite("--out", options.out, recording)) return kExitUsage;
+  return with_file(options.file, [&](std::istream& in) { return page_of(options, in); });
+}
+
+}  // namespace
+
+LogSubcommand define_log_page(CLI::App& log) {
+  const auto options = std::make_shared<LogPageOptions>();
+  CLI::App* app = log.add_subcommand(
+      "page", "Write a web page that shows the recording, as one file that needs no server");
+  add_recording_file(*app, options->file);
+  app->add_option("--out", options->out, "The page, to be opened in any browser")
+      ->type_name("FILE.html")
+      ->required();
+  return {app, [options] { return page(*options); }};
+}
+
+}  // namespace lockstep

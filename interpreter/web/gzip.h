@@ -1,0 +1,12 @@
+// Compression that browsers undo.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace lockstep {
+
+// The same bytes give the same result.
+std::string gzip(std::string_view bytes);
+
+}  // namespace lockstep

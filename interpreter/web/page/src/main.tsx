@@ -1,0 +1,11 @@
+import { render } from "preact";
+import { begin } from "./source/source";
+import { App } from "./view/app";
+import { Store } from "./view/store";
+
+const store = new Store();
+render(<App store={store} />, document.getElementById("app")!);
+begin(store).catch((error: Error) => {
+  store.trouble = `the run cannot be read: ${error.message}`;
+  store.changed();
+});

@@ -1,0 +1,65 @@
+// What changed, and in which line of the recording: a value holds until the next change. Columns of
+// numbers, since a long run has millions of changes.
+
+function grown<T extends Uint32Array | Float64Array | Uint8Array>(old: T, Type: new (n: number) => T): T {
+  const more = new Type(Math.max(4, old.length * 2));
+  more.set(old as never);
+  return more;
+}
+
+const NO_LINES = new Uint32Array(0), NO_NUMBERS = new Float64Array(0), NO_BYTES = new Uint8Array(0);
+
+// The place of the last change at or before `line`, or -1.
+export function placeOf(lines: Uint32Array, length: number, line: number): number {
+  if (length === 0 || lines[0] > line) return -1;
+  if (lines[length - 1] <= line) return length - 1;
+  let low = 0, high = length - 1; // lines[low] <= line < lines[high]
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (lines[middle] <= line) low = middle;
+    else high = middle;
+  }
+  return low;
+}
+
+export class NodeColumn {
+  lines = NO_LINES;
+  progress = NO_NUMBERS;
+  flags = NO_BYTES; // status, 8: ticked, 16: held
+  length = 0;
+
+  push(line: number, progress: number, flags: number) {
+    if (this.length === this.lines.length) {
+      this.lines = grown(this.lines, Uint32Array);
+      this.progress = grown(this.progress, Float64Array);
+      this.flags = grown(this.flags, Uint8Array);
+    }
+    this.lines[this.length] = line;
+    this.progress[this.length] = progress;
+    this.flags[this.length++] = flags;
+  }
+  at(line: number): number {
+    return placeOf(this.lines, this.length, line);
+  }
+}
+
+export class NumberColumn {
+  lines = NO_LINES;
+  values = NO_NUMBERS;
+  length = 0;
+
+  push(line: number, value: number) {
+    if (this.length === this.lines.length) {
+      this.lines = grown(this.lines, Uint32Array);
+      this.values = grown(this.values, Float64Array);
+    }
+    this.lines[this.length] = line;
+    this.values[this.length++] = value;
+  }
+  at(line: number): number | undefined {
+    const place = placeOf(this.lines, this.length, line);
+    return place < 0 ? undefined : this.values[place];
+  }
+}
+
+export const TICKED = 8, HELD = 16, STATUS = 7;

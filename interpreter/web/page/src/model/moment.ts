@@ -1,0 +1,50 @@
+// The state of all nodes in one line of the run.
+import { HELD, STATUS, TICKED } from "./columns";
+import { IDLE, SUCCESS } from "./recording";
+import type { Run } from "./run";
+
+export class Moment {
+  readonly status: Uint8Array;
+  readonly progress: Float64Array; // as it is shown: 1 after success, 0 when idle
+  readonly ticked: Uint8Array;
+  readonly held: Uint8Array;
+
+  constructor(readonly run: Run, readonly line: number) {
+    const count = run.nodes.length;
+    this.status = new Uint8Array(count);
+    this.progress = new Float64Array(count);
+    this.ticked = new Uint8Array(count);
+    this.held = new Uint8Array(count);
+    for (let node = 0; node < count; ++node) {
+      const column = run.nodes[node];
+      const place = column.at(line);
+      if (place < 0) continue;
+      const flags = column.flags[place];
+      const status = (this.status[node] = flags & STATUS);
+      this.progress[node] = status === SUCCESS ? 1 : status === IDLE ? 0 : column.progress[place];
+      this.ticked[node] = flags & TICKED ? 1 : 0;
+      this.held[node] = flags & HELD ? 1 : 0;
+    }
+  }
+
+  get tick(): number {
+    return this.run.ticks[this.line] ?? 0;
+  }
+  get time(): number {
+    return this.run.times[this.line] ?? 0;
+  }
+  // Of a synchronized node; 0 when it has none yet, infinity when no barrier is left.
+  limit(node: number): number {
+    return this.run.limits.get(node)?.at(this.line) ?? 0;
+  }
+  round(node: number): string {
+    const round = this.run.rounds.get(node);
+    const number = round?.number.at(this.line) ?? 0;
+    if (!round || number === 0) return "";
+    const of = round.of.at(this.line) ?? 0;
+    return of === 0 ? `${number}` : `${number}/${of}`;
+  }
+  isLastOfEnded(): boolean {
+    return this.run.end !== null && this.line === this.run.last;
+  }
+}

@@ -1,0 +1,150 @@
+// A run, from the lines of its recording, whoever brings them. Keeps the whole of it, so that any
+// moment can be shown.
+import { NodeColumn, NumberColumn, HELD, STATUS, TICKED } from "./columns";
+import { Events } from "./events";
+import { STATUSES, type End, type Header, type Line, type LogLine, type TickLine } from "./recording";
+import { shapeOf, type Shape } from "./shape";
+
+export interface EntryChange {
+  line: number;
+  value: string | null; // null: too long to be shown
+}
+
+const STATUS_NUMBERS = new Map<string, number>(STATUSES.map((name, number) => [name, number]));
+
+export class Run {
+  header: Header | null = null;
+  shape: Shape = { nodes: [], roots: [] };
+  ticks: number[] = []; // of each line
+  times: number[] = []; // of each line, in seconds
+  nodes: NodeColumn[] = [];
+  limits = new Map<number, NumberColumn>();
+  rounds = new Map<number, { number: NumberColumn; of: NumberColumn }>();
+  entries: EntryChange[][] = [];
+  events = new Events();
+  end: End | null = null;
+  lost = 0; // ticks without a line
+  version = 0; // grows with what is fed
+
+  get lines(): number {
+    return this.ticks.length;
+  }
+  get last(): number {
+    return this.ticks.length - 1;
+  }
+  get period(): number {
+    return this.header && this.header.rate_hz > 0 ? 1 / this.header.rate_hz : 0;
+  }
+  // The last line that is not later.
+  lineAtTime(time: number): number {
+    return lastNotAbove(this.times, time);
+  }
+  lineAtTick(tick: number): number {
+    return lastNotAbove(this.ticks, tick);
+  }
+
+  feed(text: string) {
+    const line = JSON.parse(text) as Line;
+    ++this.version;
+    if ("lockstep_recording" in line) this.begin(line);
+    else if ("tick" in line) this.take(line);
+    else if ("lost" in line) this.lose(line.lost);
+    else if ("end" in line) this.finish(line.end);
+  }
+
+  private begin(header: Header) {
+    if (header.lockstep_recording !== 1) {
+      throw new Error(`this page reads recordings of version 1, not ${header.lockstep_recording}`);
+    }
+    if (this.header) return; // of a stream that goes on
+    this.header = header;
+    this.shape = shapeOf(header);
+    this.nodes = header.nodes.map(() => new NodeColumn());
+    this.entries = (header.entries ?? []).map(() => []);
+  }
+
+  private take(line: TickLine) {
+    if (this.lines > 0 && line.tick <= this.ticks[this.last]) return; // known already
+    this.ticks.push(line.tick);
+    this.times.push(line.time_s);
+    this.events.lateness(this);
+    if (line.full) this.forgetOthers(line);
+    for (const [node, status, progress, ticked, held] of line.nodes ?? []) {
+      const flags = (STATUS_NUMBERS.get(status) ?? 0) | (ticked ? TICKED : 0) | (held ? HELD : 0);
+      this.change(node, progress, flags);
+    }
+    for (const [node, limit] of line.limits ?? []) {
+      column(this.limits, node, () => new NumberColumn()).push(this.last, limit ?? Infinity);
+    }
+    for (const [node, number, of] of line.rounds ?? []) {
+      const round = column(this.rounds, node, () => ({ number: new NumberColumn(), of: new NumberColumn() }));
+      round.number.push(this.last, number);
+      round.of.push(this.last, of);
+    }
+    for (const [node, message] of line.faults ?? []) this.events.fault(this, node, message);
+    for (const [entry, value] of line.entries ?? []) this.changeEntry(entry, value);
+    this.takeLogs(line.logs);
+  }
+
+  // Of a line with the whole state, which leaves out what is idle.
+  private forgetOthers(line: TickLine) {
+    const named = new Set((line.nodes ?? []).map((node) => node[0]));
+    this.nodes.forEach((node, index) => {
+      if (node.length === 0 || named.has(index)) return;
+      if (node.flags[node.length - 1] !== 0) this.change(index, 0, 0);
+    });
+  }
+
+  private change(node: number, progress: number, flags: number) {
+    const changes = this.nodes[node];
+    const before = changes.length === 0 ? 0 : changes.flags[changes.length - 1];
+    changes.push(this.last, progress, flags);
+    this.events.change(this, node, before, flags);
+  }
+
+  private changeEntry(entry: number, value: string | null) {
+    const history = this.entries[entry];
+    const before = history[history.length - 1];
+    if (before && before.value === value) return;
+    history.push({ line: this.last, value });
+    this.events.entry(this, entry, value);
+  }
+
+  private takeLogs(logs: LogLine[] | undefined) {
+    for (const log of logs ?? []) this.events.log(this, log);
+  }
+
+  private lose(lost: { ticks: number; from: number }) {
+    this.lost += lost.ticks;
+    this.events.lost(this, lost.ticks, lost.from);
+  }
+
+  private finish(end: End) {
+    if (this.end) return;
+    this.end = end;
+    this.takeLogs(end.logs);
+    this.events.end(this, end);
+  }
+
+  // Of a node in a line.
+  status(node: number, line: number): number {
+    const place = this.nodes[node].at(line);
+    return place < 0 ? 0 : this.nodes[node].flags[place] & STATUS;
+  }
+}
+
+function column<T>(columns: Map<number, T>, node: number, make: () => T): T {
+  let found = columns.get(node);
+  if (!found) columns.set(node, (found = make()));
+  return found;
+}
+
+function lastNotAbove(values: number[], value: number): number {
+  let low = 0, high = values.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (values[middle] <= value) low = middle + 1;
+    else high = middle;
+  }
+  return Math.max(0, low - 1);
+}

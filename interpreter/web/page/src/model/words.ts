@@ -1,0 +1,50 @@
+// Symbols and words for statuses and kinds: the same as in the terminal.
+import type { Moment } from "./moment";
+import { STATUSES } from "./recording";
+import { owned, waitOf } from "./waiting";
+
+const SYMBOLS = ["·", "▶", "✓", "✗", "»"];
+export const HELD_SYMBOL = "‖";
+
+export function symbolOf(moment: Moment, node: number): string {
+  return moment.held[node] ? HELD_SYMBOL : SYMBOLS[moment.status[node]];
+}
+// "held" is a state of its own for people who look.
+export function stateOf(moment: Moment, node: number): string {
+  return moment.held[node] ? "held" : STATUSES[moment.status[node]];
+}
+
+const SIGNS: Record<string, string> = {
+  Sequence: "→", Fallback: "?", Parallel: "⇉", ParallelAbsolute: "⇉A", ParallelRelative: "⇉R", barrier: "‖",
+};
+
+export function kindText(kind: string, segment: string): string {
+  const sign = SIGNS[kind];
+  if (!sign) return kind === segment ? "" : kind;
+  return `${sign} ${kind}`;
+}
+
+export function sentenceOf(moment: Moment, node: number): string {
+  const wait = waitOf(moment, node);
+  if (wait) return wait.text;
+  const { keeper } = moment.run.shape.nodes[node];
+  if (keeper === null) return "";
+  const pool = moment.run.shape.nodes[keeper];
+  return pool.synchronization === "resources" ? owned(moment, pool, node) : "";
+}
+
+export function labelOf(moment: Moment, node: number): string {
+  const { segment, kind } = moment.run.shape.nodes[node];
+  const parts = [segment];
+  if (kind !== segment) parts.push(kind);
+  parts.push(stateOf(moment, node), `progress ${moment.progress[node].toFixed(2)}`);
+  const round = moment.round(node);
+  if (round) parts.push(`round ${round}`);
+  const sentence = sentenceOf(moment, node);
+  if (sentence) parts.push(sentence);
+  return parts.join(", ");
+}
+
+export function seconds(time: number): string {
+  return `${time.toFixed(3)} s`;
+}

@@ -1,0 +1,98 @@
+// A node of the tree, as it is drawn.
+import { tallyBelow } from "../../model/folds";
+import type { Moment } from "../../model/moment";
+import { kindText, labelOf, sentenceOf, stateOf, symbolOf } from "../../model/words";
+import type { Store } from "../store";
+import { Bar, Race } from "./bar";
+import type { Box } from "./layout";
+import { fitted, textWidth } from "./measure";
+
+interface Props {
+  store: Store;
+  moment: Moment;
+  box: Box;
+  open: boolean;
+  selected: boolean;
+}
+
+export const PADDING = 10;
+
+export function cardId(node: number): string {
+  return `node-${node}`;
+}
+
+export function Card({ store, moment, box, open, selected }: Props) {
+  const node = moment.run.shape.nodes[box.node];
+  const isInner = node.children.length > 0;
+  const comparing = node.synchronization !== null && node.synchronization !== "resources";
+  const bar = node.keeper !== null || comparing ? 8 : 4;
+  const place = { x: PADDING, y: box.height - bar - 7, width: box.width - 2 * PADDING, height: bar };
+  return (
+    <g id={cardId(box.node)} role="treeitem" aria-label={labelOf(moment, box.node)} aria-level={node.depth + 1}
+      aria-selected={selected} {...(isInner ? { "aria-expanded": open } : {})}
+      class={`card ${stateOf(moment, box.node)}${selected ? " selected" : ""}`}
+      transform={`translate(${box.x} ${box.y})`}
+      onClick={() => store.select(box.node)} onDblClick={() => isInner && store.fold(box.node, !open)}>
+      <rect class="box" width={box.width} height={box.height} rx={6} />
+      <rect class="stripe" width={4} height={box.height} rx={2} />
+      <First moment={moment} box={box} />
+      <Second moment={moment} box={box} open={open} />
+      {comparing ? <Race moment={moment} node={box.node} place={place} />
+        : <Bar moment={moment} node={box.node} place={place} />}
+      {isInner && <Fold store={store} box={box} open={open} name={node.segment} />}
+    </g>
+  );
+}
+
+function First({ moment, box }: { moment: Moment; box: Box }) {
+  const { segment } = moment.run.shape.nodes[box.node];
+  const room = box.width - 2 * PADDING - 17 - textWidth("0.00", 12) - 6;
+  return (
+    <>
+      <text class="symbol" x={PADDING} y={18}>{symbolOf(moment, box.node)}</text>
+      <text class="name" x={PADDING + 17} y={18}>{fitted(segment, 13, room, 600)}</text>
+      <text class="number" x={box.width - PADDING} y={18} text-anchor="end">
+        {moment.progress[box.node].toFixed(2)}
+      </text>
+    </>
+  );
+}
+
+// Why it waits, else its kind and its round; what a folded node hides.
+function Second({ moment, box, open }: { moment: Moment; box: Box; open: boolean }) {
+  const node = moment.run.shape.nodes[box.node];
+  const sentence = sentenceOf(moment, box.node);
+  const right = rightText(moment, box.node, open);
+  const room = box.width - 2 * PADDING - (right ? textWidth(right, 11) + 8 : 0);
+  return (
+    <>
+      <text class={sentence ? "sentence" : "kind"} x={PADDING} y={31}>
+        {fitted(sentence || kindText(node.kind, node.segment), 11, room)}
+      </text>
+      {right && <text class="kind" x={box.width - PADDING} y={31} text-anchor="end">{right}</text>}
+    </>
+  );
+}
+
+function rightText(moment: Moment, index: number, open: boolean): string {
+  const node = moment.run.shape.nodes[index];
+  if (node.children.length === 0 || open) return moment.round(index) && `round ${moment.round(index)}`;
+  const { held, by } = tallyBelow(moment, index);
+  const parts = [by[1] > 0 ? `▶${by[1]}` : "", held > 0 ? `‖${held}` : "", by[3] > 0 ? `✗${by[3]}` : ""];
+  return [`+${node.end - index - 1}`, ...parts.filter(Boolean)].join(" ");
+}
+
+function Fold({ store, box, open, name }: { store: Store; box: Box; open: boolean; name: string }) {
+  const turn = (event: Event) => {
+    event.stopPropagation();
+    store.fold(box.node, !open);
+  };
+  return (
+    <g class="fold" transform={`translate(${box.width} ${box.height / 2})`} onClick={turn}>
+      <title>{`${open ? "fold" : "unfold"} ${name}`}</title>
+      <circle class="touch" r={14} />
+      <circle r={7} />
+      <path d={open ? "M-3.5 0H3.5" : "M-3.5 0H3.5M0 -3.5V3.5"} />
+    </g>
+  );
+}

@@ -1,0 +1,96 @@
+// `lockstep log page`: the file that it writes, and what it refuses. tests/page/ looks at it in a
+// browser.
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "cli/program.h"
+
+using namespace lockstep::test;
+
+namespace {
+
+std::string record_ticks(const TemporaryDirectory& directory, const std::string& ticks) {
+  const std::string tree = directory.file("tree.xml", tree_text("<Advance step=\"0.001\"/>"));
+  const std::string file = directory.path("run.jsonl");
+  const Outcome outcome =
+      lockstep::test::lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--max-ticks",
+                                ticks, "--record", file});
+  REQUIRE(outcome.code == 124);
+  return file;
+}
+
+Outcome log_page(const std::string& recording, const std::string& page) {
+  return lockstep::test::lockstep({"log", "page", recording, "--out", page});
+}
+
+// As a browser finds it.
+std::string recording_in(const std::string& page) {
+  return run({.arguments = {"-c",
+                            "sed -n 's/.*{\"recording\":\"\\([^\"]*\\)\"}.*/\\1/p' \"$0\" | "
+                            "base64 -d | gzip -dc",
+                            page},
+              .program = "/bin/sh"})
+      .out;
+}
+
+}  // namespace
+
+TEST_CASE("log page writes one file that holds the page and the bytes of the recording") {
+  const TemporaryDirectory directory;
+  const std::string page = directory.path("run.html");
+  for (const std::string ticks : {"1", "2", "3", "700"}) {
+    const std::string recording = record_ticks(directory, ticks);
+    const Outcome outcome = log_page(recording, page);
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out + outcome.err == "");
+    CHECK(recording_in(page) == read_file(recording));
+    const std::string text = read_file(page);
+    CHECK(text.rfind("<!doctype html>", 0) == 0);
+    CHECK(text.find("default-src 'none'") != std::string::npos);
+    CHECK(text.find("http://") == text.find("http://www.w3.org/"));  // names of XML, no address
+  }
+}
+
+TEST_CASE("log page takes a recording from stdin, and what a cut one has") {
+  const TemporaryDirectory directory;
+  const std::string text = read_file(record_ticks(directory, "9"));
+  const std::string cut = text.substr(0, text.size() - 30);
+  const std::string page = directory.path("run.html");
+  const Outcome outcome = run({.arguments = {"log", "page", "-", "--out", page}, .input = cut});
+  CHECK(outcome.code == 0);
+  CHECK(outcome.err.find("the recording is cut") != std::string::npos);
+  CHECK(recording_in(page) == cut);
+}
+
+TEST_CASE("log page writes nothing where there is nothing to show") {
+  const TemporaryDirectory directory;
+  const std::string recording = record_ticks(directory, "5");
+  const std::string page = directory.file("run.html", "mine");
+  SECTION("a damaged recording") {
+    const std::string wrong = directory.file("wrong.jsonl", read_file(recording) + "{}\n");
+    const Outcome outcome = log_page(wrong, page);
+    CHECK(outcome.code == 3);
+    CHECK(outcome.err.find("wrong.jsonl:8: ") != std::string::npos);
+    CHECK(read_file(page) == "mine");
+  }
+  SECTION("the recording itself as the page") {
+    const std::string before = read_file(recording);
+    const Outcome outcome = log_page(recording, recording);
+    CHECK(outcome.code == 2);
+    CHECK(read_file(recording) == before);
+  }
+  SECTION("no such file") {
+    CHECK(log_page(directory.path("none.jsonl"), page).code == 2);
+    CHECK(read_file(page) == "mine");
+  }
+  SECTION("no such directory") {
+    const Outcome outcome = log_page(recording, directory.path("none/run.html"));
+    CHECK(outcome.code == 2);
+    CHECK(outcome.err.find("none/run.html") != std::string::npos);
+  }
+  SECTION("a disk that is full") {
+    const Outcome outcome = log_page(recording, "/dev/full");
+    CHECK(outcome.code == 2);
+    CHECK(outcome.err.find("cannot write '/dev/full'") != std::string::npos);
+  }
+}

@@ -1,0 +1,18 @@
+# Is page.html built from the sources beside it? It names their hash, as web/page/build.mjs computes it, so that no
+# node is needed to know. cmake -DPAGE=interpreter/web/page -P fresh.cmake
+file(GLOB_RECURSE names LIST_DIRECTORIES false RELATIVE ${PAGE} ${PAGE}/src/*)
+list(APPEND names build.mjs package-lock.json page.in.html)
+list(SORT names)
+set(hashes "")
+foreach(name ${names})
+  file(SHA256 ${PAGE}/${name} hash)
+  string(APPEND hashes "${hash}  ${name}\n")
+endforeach()
+string(SHA256 wanted "${hashes}")
+file(READ ${PAGE}/page.html page)
+if(NOT page MATCHES "<meta name=\"sources\" content=\"([0-9a-f]+)\">")
+  message(FATAL_ERROR "page.html does not name its sources")
+endif()
+if(NOT CMAKE_MATCH_1 STREQUAL wanted)
+  message(FATAL_ERROR "page.html is stale: run `./dev page`")
+endif()
