@@ -83,4 +83,11 @@ void EntryChanges::keep() {
   changes_.clear();
 }
 
+void EntryChanges::start_over() {
+  for (Watched& watched : watched_) {
+    watched.writes.reset();
+    watched.has_text = false;
+  }
+}
+
 }  // namespace lockstep

@@ -40,6 +40,8 @@ class EntryChanges {
   std::span<const EntryChange> changes(const Blackboard& board);
   // Call when the last result of changes() was accepted.
   void keep();
+  // Forgets what was kept: the next result has every entry that has a value.
+  void start_over();
 
  private:
   struct Watched {

@@ -22,7 +22,7 @@ using Duration = SteadyClock::duration;
 class Recorded {
  public:
   explicit Recorded(const Tree& tree)
-      : run_(tree, {}), recorder_(tree, {.path = "/dev/null", .tree_file = "bench.xml"}) {
+      : run_(tree, {}), recorder_(tree, {.path = "/dev/null", .run = {.tree_file = "bench.xml"}}) {
     recorder_.run_started(run_.ticker(), {});
   }
 

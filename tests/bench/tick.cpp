@@ -248,7 +248,7 @@ void observed_by_recorder(benchmark::State& state, const char* control, const ch
   const BenchTree bench = with_changes(control, attributes, state.range(0));
   const std::string path = std::filesystem::temp_directory_path() / "lockstep_bench_tick.jsonl";
   {
-    Recorder recorder(bench.tree(), {.path = path, .tree_file = "bench.xml"});
+    Recorder recorder(bench.tree(), {.path = path, .run = {.tree_file = "bench.xml"}});
     observe(state, bench, &recorder, [&] { std::filesystem::resize_file(path, 0); });
     state.counters["lost"] = static_cast<double>(recorder.lost());
   }

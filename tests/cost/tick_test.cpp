@@ -182,7 +182,7 @@ TEST_CASE("a tick allocates nothing and locks nothing") {
 
 TEST_CASE("recording a tick allocates nothing and locks nothing") {
   const TickingTree tree;
-  Recorder recorder(tree.tree(), {.path = "/dev/null", .tree_file = "cost.xml"});
+  Recorder recorder(tree.tree(), {.path = "/dev/null", .run = {.tree_file = "cost.xml"}});
   WatchedRun run(tree.tree(), &recorder);
   run.tick(10);
   g_allocations = g_locks = 0;
@@ -397,7 +397,7 @@ TEST_CASE("a recording in an emergency is printed without allocating or locking"
   char path[] = "/tmp/lockstep-XXXXXX";
   ::close(mkstemp(path));
   {
-    Recorder recorder(tree.tree(), {.path = path, .tree_file = "cost.xml"});
+    Recorder recorder(tree.tree(), {.path = path, .run = {.tree_file = "cost.xml"}});
     WatchedRun run(tree.tree(), &recorder);
     const off_t before = size_of(path);
     CHECK(allocations_alone([&] {
@@ -414,7 +414,7 @@ TEST_CASE("a tick calls the system for nothing") {
   WatchedRun run(tree.tree());
   run.tick(10);
   CHECK(survives_without_system_calls([&run] { run.tick(1000); }));
-  Recorder recorder(tree.tree(), {.path = "/dev/null", .tree_file = "cost.xml"});
+  Recorder recorder(tree.tree(), {.path = "/dev/null", .run = {.tree_file = "cost.xml"}});
   WatchedRun recorded(tree.tree(), &recorder);
   recorded.tick(10);
   // So few that nobody has to be woken for them.

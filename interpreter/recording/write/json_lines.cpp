@@ -207,6 +207,7 @@ class JsonLines final : public RecordingFormat {
     add_list(text, "faults", end.faults, add_fault);
     add_list(text, "entries", end.entries, add_entry);
     add_list(text, "logs", end.logs, add_log);
+    if (end.is_full) text += ",\"full\":true";
     text += "}\n";
   }
 

@@ -1,29 +1,21 @@
 // Writes a run to a file, of each tick what changed: docs/recording.md. On a virtual clock the same
 // run gives the same bytes. Does not allocate per tick, leaves printing to the writing thread, and
 // on a real clock never waits for the disk: ticks for which there is no room are left out and
-// counted, and the recording reports them. It allocates only for lines that leaves log, for faults,
-// and for entries whose text grows.
+// counted, and the recording reports them.
 #pragma once
 
 #include <functional>
 #include <string>
 
-#include "measure/entry_changes.h"
-#include "recording/recording.h"
 #include "recording/write/append_file.h"
-#include "recording/write/recording_delta.h"
-#include "runtime/leaf_lines.h"
+#include "recording/write/run_packets.h"
 #include "runtime/observer.h"
 
 namespace lockstep {
 
 struct RecorderOptions {
-  std::string path;       // of the recording
-  std::string tree_file;  // as the user named it
-  double rate_hz = 0;
-  std::uint64_t seed = 0;
-  std::map<std::string, std::string, std::less<>> arguments = {};
-  std::optional<std::vector<std::string>> entries = {};  // of these keys; none: all
+  std::string path;  // of the recording
+  RunDescription run;
   // Called once, on the tick thread, when the recording cannot be written. Nothing is written after
   // it; whether the run goes on is the caller's choice.
   std::function<void(const std::string& error)> on_error = {};
@@ -51,20 +43,14 @@ class Recorder final : public Observer {
   std::uint64_t lost() const { return lost_; }
 
  private:
-  PacketHead head() const;
-  std::vector<RecordedKey> keys() const;
+  void add_gap(PacketHead& head) const;
   bool push_tick(Ticker& ticker, const TickReport& report);
   void write(const std::string& text);
   void tell_error();
 
-  const Tree& tree_;
   RecorderOptions options_;
   AppendFile file_;
-  RecordingDelta delta_;
-  std::vector<std::uint32_t> slots_;  // of the entries that are recorded
-  EntryChanges entries_;
-  LeafLines lines_;
-  std::string line_end_;   // of the tick, for its room
+  RunPackets packets_;
   bool may_wait_ = false;  // time stands still, so waiting for the disk delays nothing
   std::uint64_t lost_ = 0;
   std::uint64_t gap_ = 0, gap_from_ = 0;  // the last of these, which no line reports yet

@@ -1,5 +1,6 @@
 #include "recording/write/recording_delta.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "engine/resources.h"
@@ -106,9 +107,9 @@ std::span<const LimitChange> RecordingDelta::limits(Ticker& ticker) {
   limits_.clear();
   for (std::size_t i = 0; i < kept_limits_.size(); ++i) {
     const LimitChange& kept = kept_limits_[i];
-    if (i < first_user_ && !ticker.ticked(kept.node)) continue;
-    const double limit = lockstep::limit(ticker, kept.node);
-    if (limit != kept.limit) limits_.push_back({kept.node, limit});
+    const bool is_as_kept = i < first_user_ && !ticker.ticked(kept.node);
+    const double limit = is_as_kept ? kept.limit : lockstep::limit(ticker, kept.node);
+    if (limit != (all_limits_ ? 0 : kept.limit)) limits_.push_back({kept.node, limit});
   }
   return limits_;
 }
@@ -124,7 +125,16 @@ std::span<const RoundChange> RecordingDelta::rounds(Ticker& ticker) {
   return rounds_;
 }
 
+void RecordingDelta::start_over() {
+  std::ranges::fill(kept_, 0);
+  std::ranges::fill(kept_progress_, 0);
+  for (NodeIndex node = 0; node < progress_.size(); ++node) set_progress(node, progress_[node]);
+  for (RoundChange& kept : kept_rounds_) kept.round = {};
+  all_limits_ = true;
+}
+
 void RecordingDelta::keep() {
+  all_limits_ = false;
   auto kept_round = kept_rounds_.begin();
   for (const RoundChange& change : rounds_) {  // in the same order
     while (kept_round->node != change.node) ++kept_round;

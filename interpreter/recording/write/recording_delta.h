@@ -30,6 +30,8 @@ class RecordingDelta {
   std::span<const RoundChange> rounds(Ticker& ticker);
   // Call when the file has accepted the last results of changes(), limits() and rounds().
   void keep();
+  // Forgets what was kept: the next results have all that differs from the state before a run.
+  void start_over();
 
  private:
   void set_progress(NodeIndex node, double progress);
@@ -39,6 +41,7 @@ class RecordingDelta {
   std::vector<NodeIndex> succeeded_;
   std::vector<LimitChange> kept_limits_;  // of each synchronized node, then of users of resources
   std::size_t first_user_ = 0;            // of these
+  bool all_limits_ = false;  // nothing was kept; kept_limits_ still has what the last ticks said
   std::vector<LimitChange> limits_;
   std::vector<RoundChange> kept_rounds_;  // of each node that repeats its child
   std::vector<RoundChange> rounds_;

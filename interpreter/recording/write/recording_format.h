@@ -26,6 +26,7 @@ struct TickEnd {
   std::span<const Fault> faults = {};
   std::span<const EntryChange> entries = {};
   std::span<const LeafLine> logs = {};
+  bool is_full = false;  // the line has the whole state; nothing before it counts
 };
 
 class RecordingFormat {

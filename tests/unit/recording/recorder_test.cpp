@@ -63,8 +63,8 @@ TEST_CASE("a disk that is too slow loses ticks, the recording says which, the re
   std::uint64_t lost = 0, ticks = 0;
   {
     SteppedRun run("Sequence[memory=true](a b)", leaves);
-    Recorder recorder(run.tree(), {.path = disk.path(), .tree_file = "a.xml", .queue = 0});
-    Recorder reference(run.tree(), {.path = complete.path(), .tree_file = "a.xml"});
+    Recorder recorder(run.tree(), {.path = disk.path(), .run = {.tree_file = "a.xml"}, .queue = 0});
+    Recorder reference(run.tree(), {.path = complete.path(), .run = {.tree_file = "a.xml"}});
     run.start(recorder, true);
     run.start(reference, false);
     while (run.ticks() < 600) run.tick();
@@ -105,7 +105,7 @@ TEST_CASE("ticks lost at the end are told before the closing line") {
   BlockedDisk disk;
   {
     SteppedRun run("Sequence(a)", "a=R");
-    Recorder recorder(run.tree(), {.path = disk.path(), .tree_file = "a.xml", .queue = 0});
+    Recorder recorder(run.tree(), {.path = disk.path(), .run = {.tree_file = "a.xml"}, .queue = 0});
     run.start(recorder, true);
     while (recorder.lost() < 10) run.tick();
     disk.unblock();
@@ -122,7 +122,8 @@ TEST_CASE("on the virtual clock the run waits for the disk instead") {
   const std::string tree = "Repeat[times=500](a)", leaves = "a=RS...";
   const auto record = [&](const std::string& path, std::size_t queue) {
     WatchedRun run(tree, leaves);
-    Recorder recorder(run.run.tree(), {.path = path, .tree_file = "a.xml", .queue = queue});
+    Recorder recorder(run.run.tree(),
+                      {.path = path, .run = {.tree_file = "a.xml"}, .queue = queue});
     run.watch({&recorder}, 5000);
     CHECK(recorder.lost() == 0);
   };
@@ -139,7 +140,7 @@ TEST_CASE("an error while the run goes on is told within a tick of its being kno
   std::string told;
   SteppedRun run("Sequence(a)", "a=R");
   Recorder recorder(run.tree(), {.path = disk.path(),
-                                 .tree_file = "a.xml",
+                                 .run = {.tree_file = "a.xml"},
                                  .on_error = [&](const std::string& error) { told += error; },
                                  .queue = 0});
   run.start(recorder, true);
@@ -164,7 +165,8 @@ TEST_CASE("a message that is longer than the queue loses its tick, not the recor
     for (int fault = 0; fault < 100; ++fault) {
       run.faults[2].push_back({1, std::string(100000, 'x')});
     }
-    Recorder recorder(run.run.tree(), {.path = file.path(), .tree_file = "a.xml", .queue = 0});
+    Recorder recorder(run.run.tree(),
+                      {.path = file.path(), .run = {.tree_file = "a.xml"}, .queue = 0});
     run.watch({&recorder});
   }
   std::istringstream in(file.text());

@@ -51,8 +51,9 @@ const Signs kSigns;
 TEST_CASE("a recording may have another format, which is one class") {
   const TemporaryPath file;
   WatchedRun run("Sequence(a b)", "a=RS b=RRF");
-  Recorder recorder(run.run.tree(),
-                    {.path = file.path(), .tree_file = "a.xml", .rate_hz = 10, .format = kSigns});
+  Recorder recorder(
+      run.run.tree(),
+      {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}, .format = kSigns});
   run.watch({&recorder});
   CHECK(file.text() ==
         "run of Test\n"

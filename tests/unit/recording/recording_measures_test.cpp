@@ -62,7 +62,8 @@ TEST_CASE("a recording has the measures of its run") {
     INFO(it.law);
     const TemporaryPath file;
     WatchedRun run(it.tree, it.leaves);
-    Recorder recorder(run.run.tree(), {.path = file.path(), .tree_file = "a.xml", .rate_hz = 10});
+    Recorder recorder(run.run.tree(),
+                      {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
     RunMeasures of_run(run.run.tree(), measures, 10);
     REQUIRE(of_run.error() == "");
     run.watch({&recorder, &of_run});
@@ -104,7 +105,8 @@ TEST_CASE("a tick that a script decides adds nothing to the measures of a synchr
     WatchedRun run("Sequence[memory=true](Script[code=n:=0] Repeat[times=" + std::string(times) +
                        "](ParallelAbsolute[barriers=.5;1 success_if=n>0 on_success=n:=1](a b)))",
                    "a+.1 b+.3");
-    Recorder recorder(run.run.tree(), {.path = file.path(), .tree_file = "a.xml", .rate_hz = 10});
+    Recorder recorder(run.run.tree(),
+                      {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
     RunMeasures of_run(run.run.tree(), measures, 10);
     run.watch({&recorder, &of_run});
     std::istringstream text(file.text());
@@ -123,7 +125,8 @@ TEST_CASE("a plain Parallel is measured by the progress before each of its ticks
   const TemporaryPath file;
   // It runs twice: none of its children has progress when it begins again.
   WatchedRun run("Repeat[times=2](Parallel(a b))", "a+.5 b+.25");
-  Recorder recorder(run.run.tree(), {.path = file.path(), .tree_file = "a.xml", .rate_hz = 10});
+  Recorder recorder(run.run.tree(),
+                    {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
   const auto measures = measures_of({"progress-distance", "spread", "step-length"});
   RunMeasures of_run(run.run.tree(), measures, 10);
   run.watch({&recorder, &of_run});
@@ -141,7 +144,8 @@ TEST_CASE("a plain Parallel is measured by the progress before each of its ticks
 TEST_CASE("a recording has the number of an entry after the last tick") {
   const TemporaryPath file;
   WatchedRun run("Parallel(Wait[seconds={pause}] ParallelAbsolute[barriers={plan}](a))", "a=RS");
-  Recorder recorder(run.run.tree(), {.path = file.path(), .tree_file = "a.xml", .rate_hz = 10});
+  Recorder recorder(run.run.tree(),
+                    {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
   const auto measures = measures_of({"entry:pause"});
   RunMeasures of_run(run.run.tree(), measures, 10);
   run.run.set("pause", 0.25);
@@ -162,7 +166,8 @@ TEST_CASE("a recording has the number of an entry after the last tick") {
 TEST_CASE("a recording that is cut does not say whether the run succeeded") {
   const TemporaryPath file;
   WatchedRun run("ParallelRelative[delta=1](a b)", "a+.5 b+.5");
-  Recorder recorder(run.run.tree(), {.path = file.path(), .tree_file = "a.xml", .rate_hz = 10});
+  Recorder recorder(run.run.tree(),
+                    {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
   run.watch({&recorder});
   const std::string whole = file.text();
   std::istringstream text(whole.substr(0, whole.find("{\"end\"")));
@@ -177,7 +182,8 @@ TEST_CASE("a recording that is cut does not say whether the run succeeded") {
 TEST_CASE("a recording tells of a node that has succeeded and was ended in the same tick") {
   const TemporaryPath file;
   WatchedRun run(kCases[4].tree, kCases[4].leaves);
-  Recorder recorder(run.run.tree(), {.path = file.path(), .tree_file = "a.xml", .rate_hz = 10});
+  Recorder recorder(run.run.tree(),
+                    {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
   run.watch({&recorder});
   CHECK(file.text().find("],\"succeeded\":[2]}\n{\"end\"") != std::string::npos);
 }

@@ -25,6 +25,7 @@ RunEnd WatchedRun::watch(std::initializer_list<Observer*> observers, std::uint64
     if (is_complete(end.status)) end.reason = StopReason::Completed;
     if (ticker.fault() != nullptr) end.reason = StopReason::Fault;
   }
+  for (Observer* observer : observers) observer->standing(ticker);
   ticker.halt_all();
   if (ticker.fault() != nullptr) end.fault = *ticker.fault();
   end.worst = worst;

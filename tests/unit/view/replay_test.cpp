@@ -275,7 +275,8 @@ TEST_CASE("a replay shows each node as the live view of the run does") {
   const TemporaryPath file;
   WatchedRun run("Sequence(ParallelAbsolute[barriers=.5;1](a Sequence[memory=true](b c)) d)",
                  "a+.05 b+.3 c+.2 d=RRF");
-  Recorder recorder(run.run.tree(), {.path = file.path(), .tree_file = "a.xml", .rate_hz = 10});
+  Recorder recorder(run.run.tree(),
+                    {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
   Activities live;
   run.watch({&recorder, &live});
   Opened opened(file.text());
@@ -303,7 +304,8 @@ TEST_CASE("the last tick of a replay has the result of the run") {
   const auto first_line = [](std::string_view leaf) {
     const TemporaryPath file;
     WatchedRun run("Parallel[success_count=1](AlwaysSuccess a)", leaf);
-    Recorder recorder(run.run.tree(), {.path = file.path(), .tree_file = "a.xml", .rate_hz = 10});
+    Recorder recorder(run.run.tree(),
+                      {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
     run.watch({&recorder});
     Opened opened(file.text());
     const TreeShape shape = shape_of(opened.reader.header());

@@ -125,7 +125,8 @@ TEST_CASE("a replay has the entries and logs of the live snapshots, forward and 
     if (tick % 2 == 0) writes.values.insert({tick, {"pause", static_cast<double>(100 + tick)}});
   }
   writes.values.insert({20, {"plan", std::vector<double>(200, 0.123456)}});
-  Recorder recorder(run.run.tree(), {.path = file.path(), .tree_file = "a.xml", .rate_hz = 10});
+  Recorder recorder(run.run.tree(),
+                    {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
   SnapshotFeed feed(run.run.tree(), hurried);
   writes.log = [&](auto who, auto level, auto text) {
     recorder.log(who, level, text);

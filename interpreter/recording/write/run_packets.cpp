@@ -1,0 +1,122 @@
+#include "recording/write/run_packets.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "core/parameter_value.h"
+#include "core/wording.h"
+#include "measure/synchronized_measure.h"
+#include "summary/statistics.h"
+
+namespace lockstep {
+namespace {
+
+std::vector<std::uint32_t> slots_of(const Tree& tree,
+                                    const std::optional<std::vector<std::string>>& keys) {
+  std::vector<std::uint32_t> slots;
+  for (std::uint32_t slot = 0; slot < tree.slots.size(); ++slot) {
+    const bool wanted = !keys || std::ranges::find(*keys, tree.slots[slot].name) != keys->end();
+    if (wanted) slots.push_back(slot);
+  }
+  return slots;
+}
+
+}  // namespace
+
+RunPackets::RunPackets(const Tree& tree, RunDescription run, const RecordingFormat& format)
+    : tree_(tree),
+      run_(std::move(run)),
+      format_(format),
+      delta_(tree),
+      slots_(slots_of(tree, run_.entries)),
+      entries_(slots_) {
+  const auto repeating = std::ranges::count_if(
+      tree.nodes, [](const Node& node) { return node.kind->round != nullptr; });
+  line_end_.reserve(format_.most_of_tick_end(
+      synchronized_nodes(tree).size() + tree.members.size() + static_cast<std::size_t>(repeating),
+      slots_.size()));
+}
+
+std::string RunPackets::header(const RunStart& start) const {
+  return format_.header({.tree = tree_.id,
+                         .file = run_.tree_file,
+                         .version = LOCKSTEP_VERSION,
+                         .rate_hz = run_.rate_hz,
+                         .clock = start.real_time ? "wall" : "virtual",
+                         .seed = run_.seed,
+                         .arguments = run_.arguments,
+                         .nodes = describe(tree_),
+                         .entries = keys()});
+}
+
+std::vector<RecordedKey> RunPackets::keys() const {
+  std::vector<RecordedKey> keys;
+  for (const std::uint32_t slot : slots_) {
+    const auto& entry = tree_.slots[slot];
+    keys.push_back({entry.name, std::string(type_name(entry.type, entry.object))});
+  }
+  return keys;
+}
+
+void RunPackets::log(std::string_view who, std::string_view level, std::string_view text) {
+  lines_.add(who, level, text);
+}
+
+Packet RunPackets::tick(Ticker& ticker, const TickReport& report) {
+  format_.set_tick_end(line_end_, {.limits = delta_.limits(ticker),
+                                   .rounds = delta_.rounds(ticker),
+                                   .succeeded = delta_.succeeded(ticker),
+                                   .faults = report.faults,
+                                   .entries = entries_.changes(ticker.blackboard()),
+                                   .logs = lines_.lines(),
+                                   .is_full = is_full_});
+  Packet packet{.nodes = delta_.changes(ticker), .text = line_end_};
+  packet.head.is_tick = 1;
+  packet.head.tick = report.tick;
+  packet.head.time = report.time.count();
+  return packet;
+}
+
+void RunPackets::keep() {
+  delta_.keep();
+  entries_.keep();
+  lines_.keep();
+  is_full_ = false;
+}
+
+void RunPackets::start_over() {
+  delta_.start_over();
+  entries_.start_over();
+  is_full_ = true;
+}
+
+std::string RunPackets::end(const Ticker& ticker, const RunEnd& end, std::uint64_t lost) {
+  RecordedEnd closing{.result = std::string(to_string(end.result())),
+                      .reason = std::string(to_string(end.reason)),
+                      .fault = end.fault ? fault_text(tree_, *end.fault) : "",
+                      .signal = {},
+                      .ticks = end.ticks,
+                      .time = to_seconds(end.time),
+                      .overruns = end.overruns,
+                      .skipped = end.skipped,
+                      .lost = lost,
+                      .notes = {},
+                      .logs = {}};
+  for (const Fault& fault : ticker.tolerated()) {
+    closing.notes.push_back(fault_text(tree_, fault, end.ticks));
+  }
+  std::ranges::move(out_of_range_notes(ticker), std::back_inserter(closing.notes));
+  if (end.reason == StopReason::Signal) closing.signal = end.signal;
+  const auto lines = lines_.lines();
+  closing.logs.assign(lines.begin(), lines.end());
+  if (lines_.left_out() > 0) {
+    closing.notes.push_back(
+        fmt::format("{} that leaves logged are not recorded", counted(lines_.left_out(), "line")));
+  }
+  return format_.end(closing);
+}
+
+}  // namespace lockstep

@@ -1,0 +1,63 @@
+// What a recording says of a run, as packets: the header, the changes of a tick, the end. Where
+// they go, and which ticks get one, is the caller's business. A tick allocates only for lines that
+// leaves log, for faults, and for entries whose text grows. Used by recorder and by the web
+// monitor.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "measure/entry_changes.h"
+#include "recording/recording.h"
+#include "recording/write/recording_delta.h"
+#include "recording/write/recording_format.h"
+#include "runtime/leaf_lines.h"
+#include "runtime/observer.h"
+
+namespace lockstep {
+
+struct RunDescription {
+  std::string tree_file;  // as the user named it
+  double rate_hz = 0;
+  std::uint64_t seed = 0;
+  std::map<std::string, std::string, std::less<>> arguments = {};
+  std::optional<std::vector<std::string>> entries = {};  // of these keys; none: all
+};
+
+class RunPackets {
+ public:
+  RunPackets(const Tree& tree, RunDescription run, const RecordingFormat& format);
+
+  std::string header(const RunStart& start) const;
+
+  // Before a tick that is to become a packet: asks every running node for its progress.
+  void before_tick(Ticker& ticker) { delta_.before_tick(ticker); }
+  // What has changed since the last packet that was kept. Valid until the next call.
+  Packet tick(Ticker& ticker, const TickReport& report);
+  // The last packet was accepted.
+  void keep();
+  // The next packet has the whole state, as if nothing had been kept, and says so.
+  void start_over();
+
+  std::string end(const Ticker& ticker, const RunEnd& end, std::uint64_t lost);
+
+  // What a leaf logs: from any thread.
+  void log(std::string_view who, std::string_view level, std::string_view text);
+
+ private:
+  std::vector<RecordedKey> keys() const;
+
+  const Tree& tree_;
+  const RunDescription run_;
+  const RecordingFormat& format_;
+  RecordingDelta delta_;
+  std::vector<std::uint32_t> slots_;  // of the entries that are shown
+  EntryChanges entries_;
+  LeafLines lines_;
+  std::string line_end_;  // of the tick, for its room
+  bool is_full_ = false;
+};
+
+}  // namespace lockstep
