@@ -16,6 +16,7 @@
 #include "runtime/fuse.h"
 #include "runtime/outlet.h"
 #include "terminal/raw_terminal.h"
+#include "web/listener.h"
 
 namespace lockstep {
 
@@ -37,6 +38,18 @@ std::vector<std::string> words_of(int argc, char** argv) {
   words.erase(words.begin());
   words.emplace_back("--help");
   return words;
+}
+
+// The value of --monitor may be left out, and what follows may be a file: gives it its value.
+std::vector<std::string> complete_monitor(const std::vector<std::string>& words) {
+  std::vector<std::string> complete;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    complete.push_back(words[i]);
+    if (words[i] != "--monitor") continue;
+    const bool has_value = i + 1 < words.size() && looks_like_address(words[i + 1]);
+    complete.back() += '=' + (has_value ? words[++i] : std::string(kAnyLoopback));
+  }
+  return complete;
 }
 
 int refuse(const UsageError& error) {
@@ -66,7 +79,7 @@ int run_command_line(int argc, char** argv) {
     subcommands.push_back(subcommand);
   }
   app.add_subcommand(kHelp, "Show the help of a command: lockstep help log info");
-  const auto words = words_of(argc, argv);
+  const auto words = complete_monitor(words_of(argc, argv));
   if (const auto error = find_unknown_command(app, words)) return refuse(*error);
   try {
     parse(app, words);

@@ -30,6 +30,7 @@ class Loop {
       while (may_tick() && tick() && meet_next()) wait();
     }
     end_.time = clock_.now() - start_;
+    for (Observer* observer : observers_) observer->standing(run_.ticker());
     run_.halt();
     if (run_.fault() != nullptr) {
       end_.reason = StopReason::Fault;

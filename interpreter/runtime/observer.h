@@ -76,6 +76,8 @@ class Observer {
   virtual void run_started(Ticker&, const RunStart&) {}
   virtual void before_tick(Ticker&, std::uint64_t /*tick*/, Nanoseconds /*time*/) {}
   virtual void after_tick(Ticker&, const TickReport&) {}
+  // The run stands after a tick: it is paused, or ends. Before leaves are paused or halted.
+  virtual void standing(Ticker&) {}
   // After every running leaf was halted. Ticker::tolerated() has the faults since the last report.
   virtual void run_ended(Ticker&, const RunEnd&) {}
 };

@@ -51,6 +51,8 @@ class Process {
   void type(const std::string& keys) const;
   // Another size of its terminal.
   void resize(unsigned short rows, unsigned short columns) const;
+  // What it has printed as far as it was read.
+  const Outcome& so_far() const { return outcome_; }
   // Forgets what it has printed so far.
   void clear_output() { outcome_ = {}; }
   Outcome finish();

@@ -22,6 +22,7 @@
 #include "summary/stall_observer.h"
 #include "summary/statistics.h"
 #include "view/waiting.h"
+#include "web/monitor.h"
 
 namespace lockstep {
 namespace {
@@ -79,14 +80,19 @@ bool knows_recorded_keys(const RunCommandOptions& options, const Tree& tree) {
 // There is one, and its members end in the order in which they may.
 class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
  public:
-  RunCommand(const RunCommandOptions& options, const Runnable& runnable)
+  RunCommand(const RunCommandOptions& options, const Runnable& runnable,
+             std::optional<Listener> listener)
       : options_(options),
         tree_(runnable.tree),
         view_(options.view, tree_, options.log_level),
         watch_(tree_, options,
                [this](const std::string& line) { view_.print("warning: " + line); }),
         statistics_(tree_) {
-    if (!options.record.empty()) recorder_.emplace(tree_, recorder_options(runnable.arguments));
+    RunDescription description = describe_run(runnable.arguments);
+    if (listener) monitor_.emplace(tree_, MonitorOptions{description}, std::move(*listener));
+    if (!options.record.empty()) {
+      recorder_.emplace(tree_, recorder_options(std::move(description)));
+    }
     if (options.stall > 0) {
       stall_.emplace(tree_, from_seconds(options.stall), [this](const Standstill& standstill) {
         const std::string text = standstill_text(tree_, standstill);
@@ -103,6 +109,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
       const int signal = StopSignals::received();  // while no reader has opened a pipe
       return signal == 0 ? kExitUsage : kExitSignal + signal;
     }
+    if (monitor_) messages().say("monitor: " + monitor_->link() + "\n");
     Diagnostics refused;
     if (!plugins->initialize(refused)) {
       view_.close();
@@ -157,19 +164,21 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     return [this, view = view_.leaf_log()](std::string_view who, lockstep_log_level level,
                                            std::string_view text) {
       if (recorder_) recorder_->log(who, name_of(level), text);
+      if (monitor_) monitor_->log(who, name_of(level), text);
       view(who, level, text);
     };
   }
 
-  RecorderOptions recorder_options(std::span<const DeclaredArgument> arguments) {
-    RecorderOptions recorder{.path = options_.record,
-                             .tree_file = options_.tree,
-                             .rate_hz = options_.rate,
-                             .seed = options_.seed};
-    for (const DeclaredArgument& argument : arguments) {
-      recorder.arguments[argument.name] = argument.value;
-    }
-    recorder.entries = recorded_keys(options_);
+  RunDescription describe_run(std::span<const DeclaredArgument> arguments) const {
+    RunDescription run{.tree_file = options_.tree, .rate_hz = options_.rate, .seed = options_.seed};
+    for (const DeclaredArgument& argument : arguments)
+      run.arguments[argument.name] = argument.value;
+    run.entries = recorded_keys(options_);
+    return run;
+  }
+
+  RecorderOptions recorder_options(RunDescription run) {
+    RecorderOptions recorder{.path = options_.record, .run = std::move(run)};
     recorder.on_error = [this](const std::string& error) { view_.print("error: " + error); };
     return recorder;
   }
@@ -185,6 +194,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   std::span<Observer* const> observers() {
     observers_ = {&statistics_};
     if (recorder_) observers_.push_back(&*recorder_);
+    if (monitor_) observers_.push_back(&*monitor_);
     if (stall_) observers_.push_back(&*stall_);
     if (view_.observer() != nullptr) observers_.push_back(view_.observer());
     observers_.push_back(&watch_);
@@ -213,6 +223,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   RunWatch watch_;
   Statistics statistics_;
   std::optional<Recorder> recorder_;
+  std::optional<Monitor> monitor_;
   std::optional<StallObserver> stall_;
   CappedNotes standstills_{"standstill"};
   std::vector<Observer*> observers_;
@@ -236,6 +247,22 @@ std::vector<NamedFile> inputs_of_run(const RunCommandOptions& options, const Loa
   return inputs;
 }
 
+// Nothing: there is to be none, or it was refused.
+Result<std::optional<Listener>> listen(const RunCommandOptions& options) {
+  if (!options.monitor) return std::nullopt;
+  if (!has_http_server()) {
+    return problem("this lockstep was built without it",
+                   "build it with libmicrohttpd and -DLOCKSTEP_MONITOR=ON");
+  }
+  auto listener = listen_on(*options.monitor);
+  if (!listener) return tl::unexpected(std::move(listener.error()));
+  if (!listener->is_loopback) {
+    return problem(fmt::format("'{}' can be reached from other machines", *options.monitor),
+                   "127.0.0.1, with `ssh -L` from there");
+  }
+  return std::move(*listener);
+}
+
 int run(const RunCommandOptions& options) {
   // First, while /dev/stdout still is what the user means by it.
   if (!options.record.empty() && would_overwrite("--record", options.record, standard_outputs())) {
@@ -253,6 +280,11 @@ int run(const RunCommandOptions& options) {
   if (!options.record.empty() &&
       would_overwrite("--record", options.record, inputs_of_run(options, *loaded)))
     return kExitUsage;
+  auto listener = listen(options);
+  if (!listener) {
+    print_error("--monitor: " + listener.error().message, listener.error().hint);
+    return kExitUsage;
+  }
   Runnable runnable = make_runnable(std::move(*loaded));
   return_freed_memory();
   if (!knows_recorded_keys(options, runnable.tree)) return kExitUsage;
@@ -262,7 +294,7 @@ int run(const RunCommandOptions& options) {
                              warnings);
     print_diagnostics(warnings, Severity::Warning);
   }
-  return RunCommand(options, runnable).run(runnable.plugins);
+  return RunCommand(options, runnable, std::move(*listener)).run(runnable.plugins);
 }
 
 std::function<int()> define_run(CLI::App& app) {

@@ -98,6 +98,13 @@ void define_fault_options(CLI::App& app, RunCommandOptions& options) {
       ->capture_default_str();
 }
 
+void define_monitor_options(CLI::App& app, RunCommandOptions& options) {
+  app.add_option("--monitor", options.monitor,
+                 "Show the run in a browser (default: 127.0.0.1 and a free port); the link is on "
+                 "stderr")
+      ->type_name("[ADDRESS:PORT]");
+}
+
 }  // namespace
 
 std::optional<Nanoseconds> RunCommandOptions::tick_budget() const {
@@ -148,6 +155,7 @@ void define_run_options(CLI::App& app, RunCommandOptions& options) {
                                   {"none", kNoLogs}},
                                  "What leaves log that is shown on stderr, in any view: this "
                                  "level and what is more urgent");
+  define_monitor_options(app, options);
   app.add_flag("--json", options.json, "Print the summary as JSON");
   add_load_options(app, options.load);
   add_mock_options(app, options.load);

@@ -36,6 +36,8 @@ struct RunCommandOptions {
   std::string record_entries = "all";
   bool json = false;
 
+  std::optional<std::string> monitor;  // where it is reached; none: there is no monitor
+
   bool is_wall() const { return clock == "wall"; }
   // None on the virtual clock and with --tick-budget 0.
   std::optional<Nanoseconds> tick_budget() const;

@@ -1,0 +1,46 @@
+// What a client asks of the monitor and what it gets, whatever brings it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace lockstep {
+
+struct Request {
+  std::string method, path;
+  std::optional<std::string> host, origin, token;  // headers
+  std::optional<std::uint64_t> after;              // of the query
+  std::string body = {};
+};
+
+// The content of an answer that comes in pieces.
+class Stream {
+ public:
+  virtual ~Stream() = default;
+  struct Piece {
+    enum class What { Bytes, Wait, End };
+    What what;
+    std::size_t count = 0;
+  };
+  // Wait: there is nothing now, and the server asks again when there may be more.
+  virtual Piece read(std::span<char> to) = 0;
+};
+
+struct Answer {
+  unsigned status = 200;
+  std::string_view type = "text/plain; charset=utf-8";
+  std::string body = {};
+  std::unique_ptr<Stream> stream = {};  // instead of `body`
+};
+
+class Answering {
+ public:
+  virtual ~Answering() = default;
+  virtual Answer answer(const Request& request) = 0;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,37 @@
+// Speaks HTTP with the clients of the monitor. One request a connection; whoever is slow, large or
+// silent is cut off. All on the thread that calls run(). The only file that knows libmicrohttpd.
+#pragma once
+
+#include <memory>
+
+#include "core/clock.h"
+#include "core/file_descriptor.h"
+#include "web/answer.h"
+
+namespace lockstep {
+
+// False: lockstep was built without libmicrohttpd.
+bool has_http_server();
+
+class HttpServer {
+ public:
+  HttpServer(FileDescriptor listener, Answering& answering);
+  ~HttpServer();
+  HttpServer(const HttpServer&) = delete;
+  HttpServer& operator=(const HttpServer&) = delete;
+
+  // Can be read when run() has something to do.
+  int descriptor() const;
+  // Serves what can be served without waiting.
+  void run();
+  // Streams that wait may have more.
+  void wake_streams();
+  // Clients that are being served.
+  std::size_t clients() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> it_;
+};
+
+}  // namespace lockstep

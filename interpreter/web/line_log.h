@@ -1,0 +1,81 @@
+// The last lines of a run, for any number of listeners: each reads on from its place, at its pace,
+// and keeps nothing else. A listener that falls behind goes on at a line that has the whole state.
+// The log has bounded size and begins with such a line.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace lockstep {
+
+class LineLog {
+ public:
+  static constexpr std::size_t kRoom = 4u << 20;  // bytes, or what a few of the longest lines take
+  static constexpr std::uint64_t kMostBehind = 40;  // events
+
+  // Where a listener is.
+  struct Place {
+    std::uint64_t event = 0;  // its number, counted from the first of all
+    std::size_t offset = 0;   // bytes of it that were read
+  };
+
+  // The first line, and those that follow: of ticks, the end. Each ends in '\n'.
+  void add_header(std::string_view line);
+  void add(std::string_view line);
+  // An event beside the lines: "state", "end". The last state is repeated after each full line.
+  void add_event(std::string_view name, std::string_view json);
+
+  // Nothing follows.
+  void close() { is_over_ = true; }
+  bool is_over() const { return is_over_; }
+
+  // A line with the whole state is needed, so that listeners can begin and catch up.
+  bool wants_full() const;
+
+  // As server-sent events: the header, which all listeners get first, and what follows.
+  std::string_view header() const { return header_; }
+  // Where a listener begins that has seen the ticks up to this one, or none.
+  Place begin(std::optional<std::uint64_t> seen) const;
+  // Copies what comes next and moves on. 0: nothing yet. Nothing: the rest of a line that was begun
+  // is not there any more.
+  std::optional<std::size_t> read(Place& place, std::span<char> to);
+
+  // As lines: the header and all that is kept.
+  std::string_view header_line() const;
+  // The tick of the first line of a tick that is kept.
+  std::optional<std::uint64_t> first_tick() const;
+  // The number of the event behind the last.
+  std::uint64_t end() const { return first_ + events_.size(); }
+  std::uint64_t first() const { return first_; }
+  // "" if it is no line.
+  std::string_view line(std::uint64_t event) const;
+
+ private:
+  struct Event {
+    std::string text;      // as it is sent
+    std::size_t line = 0;  // where in it the line begins; 0: it has none
+    std::optional<std::uint64_t> tick = {};
+    bool is_full = false;
+  };
+
+  void push(Event event);
+  void drop_old();
+  const Event& at(std::uint64_t event) const { return events_[event - first_]; }
+  void catch_up(Place& place);
+
+  std::string header_;
+  std::string state_;  // the last event of this name
+  std::deque<Event> events_;
+  std::uint64_t first_ = 0;                      // number of the first event that is kept
+  std::optional<std::uint64_t> last_full_ = {};  // likewise
+  std::size_t bytes_ = 0;
+  std::size_t since_full_ = 0;  // bytes
+  bool is_over_ = false;
+  bool is_somebody_behind_ = false;  // with no full line to go on at
+};
+
+}  // namespace lockstep

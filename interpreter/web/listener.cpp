@@ -1,0 +1,106 @@
+#include "web/listener.h"
+
+#include <fmt/format.h>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <memory>
+#include <optional>
+#include <system_error>
+
+#include "core/diagnostics.h"
+
+namespace lockstep {
+namespace {
+
+constexpr std::string_view kHint = "ADDRESS:PORT, as 127.0.0.1:8080; port 0 is a free one";
+
+struct HostAndPort {
+  std::string host, port;
+};
+
+bool is_number(std::string_view text) {
+  return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+std::optional<HostAndPort> split(std::string_view text) {
+  if (is_number(text)) return HostAndPort{"127.0.0.1", std::string(text)};
+  const auto colon = text.rfind(':');
+  if (colon == std::string_view::npos || !is_number(text.substr(colon + 1))) return std::nullopt;
+  std::string_view host = text.substr(0, colon);
+  if (host.starts_with('[') && host.ends_with(']')) {
+    host = host.substr(1, host.size() - 2);
+  } else if (host.find(':') != std::string_view::npos) {
+    return std::nullopt;
+  }
+  return HostAndPort{std::string(host.empty() ? "127.0.0.1" : host),
+                     std::string(text.substr(colon + 1))};
+}
+
+bool is_loopback(const sockaddr* address) {
+  if (address->sa_family == AF_INET) {
+    const auto* it = reinterpret_cast<const sockaddr_in*>(address);
+    return ntohl(it->sin_addr.s_addr) >> 24 == 127;
+  }
+  return IN6_IS_ADDR_LOOPBACK(&reinterpret_cast<const sockaddr_in6*>(address)->sin6_addr);
+}
+
+std::string address_of(int socket) {
+  sockaddr_storage own{};
+  socklen_t size = sizeof own;
+  char host[NI_MAXHOST] = "", port[NI_MAXSERV] = "";
+  getsockname(socket, reinterpret_cast<sockaddr*>(&own), &size);
+  getnameinfo(reinterpret_cast<const sockaddr*>(&own), size, host, sizeof host, port, sizeof port,
+              NI_NUMERICHOST | NI_NUMERICSERV);
+  return own.ss_family == AF_INET6 ? fmt::format("[{}]:{}", host, port)
+                                   : fmt::format("{}:{}", host, port);
+}
+
+// Closed ones of the last run may still be around: without SO_REUSEADDR their port is not free.
+bool open(const addrinfo& it, FileDescriptor& socket) {
+  socket = FileDescriptor(
+      ::socket(it.ai_family, it.ai_socktype | SOCK_CLOEXEC | SOCK_NONBLOCK, it.ai_protocol));
+  const int on = 1;
+  return socket.number() >= 0 &&
+         setsockopt(socket.number(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on) == 0 &&
+         bind(socket.number(), it.ai_addr, it.ai_addrlen) == 0 &&
+         listen(socket.number(), SOMAXCONN) == 0;
+}
+
+}  // namespace
+
+bool looks_like_address(std::string_view text) {
+  return text.find('/') == std::string_view::npos && split(text).has_value();
+}
+
+Result<Listener> listen_on(std::string_view address_and_port) {
+  const auto place = split(address_and_port);
+  const std::string shown = printable(address_and_port);
+  if (!place) {
+    return problem(fmt::format("'{}' is not an address", shown), std::string(kHint));
+  }
+  addrinfo wanted{};
+  wanted.ai_flags = AI_PASSIVE | AI_NUMERICSERV;
+  wanted.ai_socktype = SOCK_STREAM;
+  addrinfo* found = nullptr;
+  if (const int error = getaddrinfo(place->host.c_str(), place->port.c_str(), &wanted, &found);
+      error != 0) {
+    return problem(fmt::format("cannot listen on '{}': {}", shown, gai_strerror(error)),
+                   std::string(kHint));
+  }
+  const std::unique_ptr<addrinfo, void (*)(addrinfo*)> owner(found, freeaddrinfo);
+  Listener listener;
+  if (!open(*found, listener.socket)) {
+    return problem(
+        fmt::format("cannot listen on '{}': {}", shown, std::generic_category().message(errno)),
+        "another port, or 0 for a free one");
+  }
+  listener.address = address_of(listener.socket.number());
+  listener.is_loopback = is_loopback(found->ai_addr);
+  return listener;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,28 @@
+// The socket on which the monitor is reached.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/file_descriptor.h"
+#include "core/problem.h"
+
+namespace lockstep {
+
+struct Listener {
+  FileDescriptor socket;
+  std::string address;      // as in a link: "127.0.0.1:8080", "[::1]:8080"
+  bool is_loopback = true;  // no other machine can reach it
+};
+
+// Of this machine only, and a free port.
+constexpr std::string_view kAnyLoopback = "127.0.0.1:0";
+
+// True if it looks like what listen_on accepts, rather than like a file.
+bool looks_like_address(std::string_view text);
+
+// "ADDRESS:PORT", "[IPV6]:PORT", ":PORT" or "PORT". Without an address, that of this machine that
+// no other can reach; port 0: one that is free.
+Result<Listener> listen_on(std::string_view address_and_port);
+
+}  // namespace lockstep

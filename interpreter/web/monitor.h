@@ -1,0 +1,56 @@
+// Shows a run to browsers while it goes on. A thread serves them; the tick thread only passes on
+// what has changed (web/feed.h).
+#pragma once
+
+#include <atomic>
+#include <string>
+#include <thread>
+
+#include "core/file_descriptor.h"
+#include "core/problem.h"
+#include "web/answer.h"
+#include "web/feed.h"
+#include "web/http_server.h"
+#include "web/line_log.h"
+#include "web/listener.h"
+
+namespace lockstep {
+
+struct MonitorOptions {
+  RunDescription run;
+};
+
+class Monitor final : public Observer, private Answering {
+ public:
+  Monitor(const Tree& tree, MonitorOptions options, Listener listener);
+  ~Monitor() override;
+
+  // For a person: where it is.
+  std::string link() const;
+  // What a leaf logs; from any thread.
+  void log(std::string_view who, std::string_view level, std::string_view text);
+
+  void run_started(Ticker& ticker, const RunStart& start) override;
+  void before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) override;
+  void after_tick(Ticker& ticker, const TickReport& report) override;
+  void standing(Ticker& ticker) override;
+  void run_ended(Ticker& ticker, const RunEnd& end) override;
+
+ private:
+  void serve();
+  void serve_to_the_end();
+  void take_lines();
+  void wait(std::chrono::milliseconds longest);
+  Answer answer(const Request& request) override;
+
+  const std::string address_;
+  MonitorFeed feed_;
+  LineLog log_;
+  HttpServer server_;
+  FileDescriptor wake_;  // an eventfd
+  std::atomic<bool> stopping_{false};
+  std::string lines_;  // for its room
+  std::thread thread_;
+};
+
+}  // namespace lockstep

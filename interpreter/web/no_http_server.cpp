@@ -1,0 +1,23 @@
+// In place of http_server.cpp, where libmicrohttpd is not there.
+#include "web/http_server.h"
+
+namespace lockstep {
+
+struct HttpServer::Implementation {};
+
+bool has_http_server() {
+  return false;
+}
+
+HttpServer::HttpServer(FileDescriptor, Answering&) {}
+HttpServer::~HttpServer() = default;
+int HttpServer::descriptor() const {
+  return -1;
+}
+void HttpServer::run() {}
+void HttpServer::wake_streams() {}
+std::size_t HttpServer::clients() const {
+  return 0;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,100 @@
+// The last lines of a run: where listeners begin, how they catch up, what is dropped.
+#include "web/line_log.h"
+
+#include <fmt/format.h>
+#include <array>
+#include <catch2/catch.hpp>
+
+namespace lockstep {
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::string line(int tick, bool is_full = false, std::size_t length = 0) {
+  return fmt::format("{{\"tick\":{},\"nodes\":[{}]{}}}\n", tick, std::string(length, '1'),
+                     is_full ? ",\"full\":true" : "");
+}
+
+std::string event(int tick, bool is_full = false, std::size_t length = 0) {
+  return fmt::format("id: {}\ndata: {}\n", tick, line(tick, is_full, length));
+}
+
+std::string read_all(LineLog& log, LineLog::Place& place, std::size_t piece = 7) {
+  std::string all, room(piece, '\0');
+  for (;;) {
+    const auto count = log.read(place, room);
+    REQUIRE(count);
+    if (*count == 0) return all;
+    all.append(room, 0, *count);
+  }
+}
+
+TEST_CASE("a new listener begins at the last line that has the whole state") {
+  LineLog log;
+  CHECK(log.wants_full());
+  log.add_header("{\"lockstep_recording\":1}\n");
+  CHECK(log.header() == "data: {\"lockstep_recording\":1}\n\n");
+  CHECK(log.header_line() == "{\"lockstep_recording\":1}\n");
+  log.add(line(0, true));
+  log.add(line(1));
+  CHECK_FALSE(log.wants_full());
+  log.add_event("state", "{\"state\":\"running\"}");
+  log.add(line(2, true));
+  log.add(line(3));
+  auto place = log.begin(std::nullopt);
+  CHECK(read_all(log, place) ==
+        event(2, true) + "event: state\ndata: {\"state\":\"running\"}\n\n" + event(3));
+  log.add(line(4));
+  CHECK(read_all(log, place) == event(4));
+  auto after = log.begin(1);
+  CHECK(contains(read_all(log, after), event(3)));
+  auto unknown = log.begin(77);
+  CHECK(read_all(log, unknown).starts_with(event(2, true)));
+}
+
+TEST_CASE("a listener that falls behind goes on at a line that has the whole state") {
+  LineLog log;
+  log.add(line(0, true, 10'000));
+  auto place = log.begin(std::nullopt);
+  std::array<char, 10> some{};
+  REQUIRE(log.read(place, some) == 10u);
+  for (int tick = 1; tick < 100; ++tick) log.add(line(tick));
+  // It has the rest of what it has begun, and asks for one.
+  std::string rest(event(0, true, 10'000).size() - 10, '\0');
+  REQUIRE(log.read(place, rest) == rest.size());
+  CHECK(std::string(some.data(), 10) + rest == event(0, true, 10'000));
+  CHECK_FALSE(log.wants_full());
+  std::array<char, 1> byte{};
+  REQUIRE(log.read(place, byte) == 1u);
+  CHECK(log.wants_full());
+  log.add(line(100, true));
+  CHECK_FALSE(log.wants_full());
+  log.add(line(101));
+  CHECK(read_all(log, place) == event(1).substr(1) + event(100, true) + event(101));
+}
+
+TEST_CASE("the log has bounded size and begins with a line that has the whole state") {
+  constexpr std::size_t kLong = 100'000;
+  LineLog log;
+  log.add(line(0, true));
+  auto place = log.begin(std::nullopt);
+  auto half = place;
+  std::array<char, 10> some{};
+  REQUIRE(log.read(half, some) == 10u);
+  for (int tick = 1; tick < 1000; ++tick) {
+    log.add(line(tick, log.wants_full(), kLong));
+  }
+  std::size_t bytes = 0;
+  for (auto at = log.first(); at < log.end(); ++at) bytes += log.line(at).size();
+  CHECK(bytes < LineLog::kRoom + 30 * kLong);
+  CHECK(log.line(log.first()).ends_with(",\"full\":true}\n"));
+  CHECK(log.first_tick() > 900u);
+  // A place that is gone: what was not begun is skipped, what was begun cannot be ended.
+  CHECK_FALSE(log.read(half, some));
+  CHECK(read_all(log, place).starts_with("id: 9"));
+}
+
+}  // namespace
+}  // namespace lockstep
