@@ -63,5 +63,15 @@ BT_REGISTER_NODES(factory) {
   const Groot2Publisher publisher(tree);
 #elif MISTAKE == 7
   factory.createTreeFromText("").rootNode()->status();
+#elif MISTAKE == 8
+  factory.registerNodeType<WhileDoElseNode>("AsLong");
+#elif MISTAKE == 9
+  factory.addSubstitutionRule("talk", TestNodeConfig());
+#elif MISTAKE == 10
+#include "behaviortree_cpp/scripting/script_parser.hpp"
+#elif MISTAKE == 11
+#include "behaviortree_cpp/loggers/groot2_protocol.h"
+#elif MISTAKE == 12
+#include "behaviortree_cpp/utils/polymorphic_cast_registry.hpp"
 #endif
 }

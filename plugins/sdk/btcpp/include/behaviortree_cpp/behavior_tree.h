@@ -5,6 +5,7 @@
 #include "behaviortree_cpp/condition_node.h"  // IWYU pragma: export
 #include "behaviortree_cpp/control_node.h"    // IWYU pragma: export
 #include "behaviortree_cpp/decorator_node.h"  // IWYU pragma: export
+#include "behaviortree_cpp/lockstep/nodes.h"  // IWYU pragma: export
 #include "behaviortree_cpp/tree_node.h"       // IWYU pragma: export
 
 namespace BT {

@@ -1,0 +1,17 @@
+// As the tag Fallback, for classes that derive from it.
+#pragma once
+
+#include <string>
+
+#include "behaviortree_cpp/lockstep/row_node.h"
+
+namespace BT {
+
+class FallbackNode : public detail::RowNode {
+ public:
+  explicit FallbackNode(const std::string& name, bool make_async = false,
+                        const NodeConfig& config = {})
+      : RowNode(name, NodeStatus::FAILURE, make_async, config) {}
+};
+
+}  // namespace BT

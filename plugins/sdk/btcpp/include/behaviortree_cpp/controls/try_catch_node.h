@@ -1,0 +1,14 @@
+// TryCatchNode in trees: a tag, not a class.
+#pragma once
+
+#include "behaviortree_cpp/control_node.h"
+#include "behaviortree_cpp/lockstep/absent_node.h"
+
+namespace BT {
+
+class TryCatchNode : public detail::AbsentNode<ControlNode> {
+ public:
+  using AbsentNode::AbsentNode;
+};
+
+}  // namespace BT

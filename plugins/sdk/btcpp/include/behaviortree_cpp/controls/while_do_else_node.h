@@ -1,0 +1,14 @@
+// WhileDoElseNode in trees: a tag, not a class.
+#pragma once
+
+#include "behaviortree_cpp/control_node.h"
+#include "behaviortree_cpp/lockstep/absent_node.h"
+
+namespace BT {
+
+class WhileDoElseNode : public detail::AbsentNode<ControlNode> {
+ public:
+  using AbsentNode::AbsentNode;
+};
+
+}  // namespace BT

@@ -1,0 +1,22 @@
+// As the tag ForceSuccess, for classes that derive from it.
+#pragma once
+
+#include <string>
+
+#include "behaviortree_cpp/decorator_node.h"
+
+namespace BT {
+
+class ForceSuccessNode : public DecoratorNode {
+ public:
+  explicit ForceSuccessNode(const std::string& name) : DecoratorNode(name, {}) {}
+
+ protected:
+  NodeStatus tick() override {
+    setStatus(NodeStatus::RUNNING);
+    const NodeStatus result = child_node_->executeTick();
+    return isStatusCompleted(result) ? NodeStatus::SUCCESS : result;
+  }
+};
+
+}  // namespace BT

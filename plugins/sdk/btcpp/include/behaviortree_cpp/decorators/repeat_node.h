@@ -1,0 +1,22 @@
+// As the tag Repeat, for classes that derive from it.
+#pragma once
+
+#include <string>
+
+#include "behaviortree_cpp/lockstep/again_node.h"
+
+namespace BT {
+
+class RepeatNode : public detail::AgainNode {
+ public:
+  RepeatNode(const std::string& name, int count) : AgainNode(name, count, NodeStatus::SUCCESS) {}
+  RepeatNode(const std::string& name, const NodeConfig& config)
+      : AgainNode(name, config, NodeStatus::SUCCESS, "num_cycles") {}
+  static PortsList providedPorts() {
+    return {InputPort<int>("num_cycles",
+                           "how often the child is ticked to its success; -1: for "
+                           "ever")};
+  }
+};
+
+}  // namespace BT

@@ -1,0 +1,22 @@
+// As the tag RetryUntilSuccessful, also under another ID.
+#pragma once
+
+#include <string>
+
+#include "behaviortree_cpp/lockstep/again_node.h"
+
+namespace BT {
+
+class RetryNode : public detail::AgainNode {
+ public:
+  RetryNode(const std::string& name, int count) : AgainNode(name, count, NodeStatus::FAILURE) {}
+  RetryNode(const std::string& name, const NodeConfig& config)
+      : AgainNode(name, config, NodeStatus::FAILURE, "num_attempts") {}
+  static PortsList providedPorts() {
+    return {InputPort<int>("num_attempts",
+                           "how often a child that fails is ticked; -1: until it "
+                           "succeeds")};
+  }
+};
+
+}  // namespace BT

@@ -1,0 +1,35 @@
+// As the tag RunOnce, for classes that derive from it.
+#pragma once
+
+#include <string>
+
+#include "behaviortree_cpp/decorator_node.h"
+
+namespace BT {
+
+class RunOnceNode : public DecoratorNode {
+ public:
+  RunOnceNode(const std::string& name, const NodeConfig& config) : DecoratorNode(name, config) {}
+  static PortsList providedPorts() {
+    return {InputPort<bool>("then_skip", true, "after that: skipped, or the same result again")};
+  }
+
+ protected:
+  NodeStatus tick() override {
+    if (isStatusCompleted(result_)) {
+      return getInput<bool>("then_skip").value() ? NodeStatus::SKIPPED : result_;
+    }
+    setStatus(NodeStatus::RUNNING);
+    const NodeStatus result = child_node_->executeTick();
+    if (isStatusCompleted(result)) {
+      result_ = result;
+      resetChild();
+    }
+    return result;
+  }
+
+ private:
+  NodeStatus result_ = NodeStatus::IDLE;
+};
+
+}  // namespace BT

@@ -1,0 +1,2 @@
+// Included by public code; it needs nothing here.
+#pragma once
