@@ -6,6 +6,6 @@ import { Store } from "./view/store";
 const store = new Store();
 render(<App store={store} />, document.getElementById("app")!);
 begin(store).catch((error: Error) => {
-  store.trouble = `the run cannot be read: ${error.message}`;
+  store.trouble = `The run cannot be read: ${error.message}`;
   store.changed();
 });

@@ -23,12 +23,15 @@ export function placeOf(lines: Uint32Array, length: number, line: number): numbe
 }
 
 export class NodeColumn {
+  states = new NumberColumn(); // the flags without TICKED, where they change
   lines = NO_LINES;
   progress = NO_NUMBERS;
   flags = NO_BYTES; // status, 8: ticked, 16: held
   length = 0;
 
   push(line: number, progress: number, flags: number) {
+    const { states } = this, state = flags & ~TICKED;
+    if (state !== (states.length === 0 ? 0 : states.values[states.length - 1])) states.push(line, state);
     if (this.length === this.lines.length) {
       this.lines = grown(this.lines, Uint32Array);
       this.progress = grown(this.progress, Float64Array);
@@ -56,8 +59,11 @@ export class NumberColumn {
     this.lines[this.length] = line;
     this.values[this.length++] = value;
   }
+  placeAt(line: number): number {
+    return placeOf(this.lines, this.length, line);
+  }
   at(line: number): number | undefined {
-    const place = placeOf(this.lines, this.length, line);
+    const place = this.placeAt(line);
     return place < 0 ? undefined : this.values[place];
   }
 }

@@ -13,6 +13,7 @@ export interface RunEvent {
   node: number | null;
   text: string; // without the node
   level?: string; // of a log
+  explained?: boolean; // of a hold: the text says why
 }
 
 // Those that the keys for the next and the previous event stop at.

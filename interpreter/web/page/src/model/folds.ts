@@ -2,7 +2,7 @@
 import type { Moment } from "./moment";
 import { RUNNING } from "./recording";
 
-export const LARGE = 120; // nodes
+export const LARGE = 120, SMALL = 20; // nodes; the latter on a phone
 
 export type Folds = ReadonlyMap<number, boolean>; // node: open?
 

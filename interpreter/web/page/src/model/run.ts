@@ -98,6 +98,7 @@ export class Run {
   private change(node: number, progress: number, flags: number) {
     const changes = this.nodes[node];
     const before = changes.length === 0 ? 0 : changes.flags[changes.length - 1];
+    if (changes.length > 0 && before === flags && changes.progress[changes.length - 1] === progress) return;
     changes.push(this.last, progress, flags);
     this.events.change(this, node, before, flags);
   }

@@ -7,6 +7,7 @@ export interface ShapeNode {
   index: number;
   path: string;
   segment: string; // the last of its path
+  apart: string; // as much of the path as tells it from all others
   kind: string;
   parent: number | null;
   depth: number;
@@ -33,7 +34,29 @@ function synchronizationOf(node: HeaderNode): Synchronization {
   return node.resources ? "resources" : null;
 }
 
-// "left/lift" where "lift" alone is the name of several; "left/.../lift" leaves out what is between.
+// The least end of each path that no other has: "approach/DriveTo", "left/…/lift".
+function namesApart(paths: string[]): string[] {
+  const parts = paths.map((path) => path.split("/"));
+  const names: string[] = new Array(paths.length);
+  let open = paths.map((_, place) => place);
+  for (let count = 1; open.length > 0; ++count) {
+    const ends = new Map<string, number>();
+    const endOf = (place: number) => parts[place].slice(-count).join("/");
+    for (const place of open) ends.set(endOf(place), (ends.get(endOf(place)) ?? 0) + 1);
+    open = open.filter((place) => {
+      const alone = ends.get(endOf(place)) === 1 || count >= parts[place].length;
+      if (alone) names[place] = withoutMiddle(parts[place].slice(-count));
+      return !alone;
+    });
+  }
+  return names;
+}
+
+function withoutMiddle(segments: string[]): string {
+  return segments.length <= 2 ? segments.join("/") : `${segments[0]}/…/${segments[segments.length - 1]}`;
+}
+
+// "left/lift" where "lift" alone is the name of several; "left/…/lift" leaves out what is between.
 function shortNames(paths: string[]): string[] {
   const parts = paths.map((path) => path.split("/"));
   const names = parts.map((segments, i) => {
@@ -41,9 +64,7 @@ function shortNames(paths: string[]): string[] {
       const end = segments.slice(-count).join("/");
       const same = parts.filter((other) => other.slice(-count).join("/") === end);
       if (same.length > 1) continue;
-      const first = segments[segments.length - count];
-      const last = segments[segments.length - 1];
-      return count <= 2 ? end : `${first}/.../${last}`;
+      return withoutMiddle(segments.slice(-count));
     }
     return paths[i];
   });
@@ -51,7 +72,9 @@ function shortNames(paths: string[]): string[] {
 }
 
 export function shapeOf(header: Header): Shape {
+  const apart = namesApart(header.nodes.map((node) => node.path));
   const nodes: ShapeNode[] = header.nodes.map((node) => ({
+    apart: apart[node.index],
     index: node.index,
     path: node.path,
     segment: node.path.slice(node.path.lastIndexOf("/") + 1),

@@ -1,9 +1,10 @@
-// Where the page finds the run: in itself, or at the server that it came from.
+// Where the page finds the run: in itself, or at the program that it came from.
 import type { Store } from "../view/store";
 import { playEmbedded } from "./embedded";
+import { LiveSource } from "./live";
 
 interface Source {
-  recording?: string;
+  recording?: string; // base64 of gzip
   live?: boolean;
   control?: boolean;
 }
@@ -11,6 +12,10 @@ interface Source {
 export async function begin(store: Store) {
   const source = JSON.parse(document.getElementById("source")?.textContent || "null") as Source | null;
   if (source?.recording) return playEmbedded(store, source.recording);
-  store.trouble = "this page has no recording: make one with `lockstep log page run.jsonl --out run.html`";
+  if (source?.live) {
+    store.live = new LiveSource(store, source.control === true);
+    return store.live.begin();
+  }
+  store.trouble = "This page has no run. `lockstep log page run.jsonl --out run.html` writes one that has.";
   store.changed();
 }

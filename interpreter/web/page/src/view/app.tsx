@@ -1,34 +1,72 @@
 import { useEffect } from "preact/hooks";
+import { Chart } from "./chart/chart";
+import { onColorChange } from "./colors";
+import { Control } from "./control";
 import { Header } from "./header";
 import { globalKey } from "./keys";
-import { Now } from "./now";
+import { Details } from "./panels/details";
+import { Entries } from "./panels/entries";
+import { Help } from "./panels/help";
+import { Log } from "./panels/log";
+import { Now } from "./panels/now";
 import { useStore, type Store } from "./store";
 import { Timeline } from "./timeline/timeline";
+import { Tools } from "./tree/tools";
 import { Tree } from "./tree/tree";
 
-export function App({ store }: { store: Store }) {
-  const looking = useStore(store);
-  useEffect(() => {
-    document.documentElement.dataset.theme = looking.theme;
-  }, [looking.theme]);
+function useWindow(store: Store) {
+  const { theme } = store.looking;
+  document.documentElement.dataset.theme = theme; // before anything asks for colors
   useEffect(() => {
     document.title = `${store.run.header?.tree ?? "run"} · lockstep`;
   }, [store.run.header]);
   useEffect(() => {
     const key = (event: KeyboardEvent) => globalKey(store, event);
     addEventListener("keydown", key);
-    return () => removeEventListener("keydown", key);
+    const stop = onColorChange(() => {
+      ++store.colorVersion;
+      store.changed();
+    });
+    return () => {
+      removeEventListener("keydown", key);
+      stop();
+    };
   }, [store]);
-  if (store.run.lines === 0) return <main class="empty"><p role="status">{store.trouble || "Reading the run …"}</p></main>;
+}
+
+function Empty({ store }: { store: Store }) {
+  return (
+    <main class="empty">
+      <h1>lockstep</h1>
+      <p role="status">{store.trouble || (store.live?.connection === "lost" ? "There is no connection." : "Reading the run …")}</p>
+    </main>
+  );
+}
+
+export function App({ store }: { store: Store }) {
+  const looking = useStore(store);
+  useWindow(store);
+  if (store.run.lines === 0) return <Empty store={store} />;
   return (
     <>
       <Header store={store} />
+      <Control store={store} />
       {store.trouble && <p class="trouble" role="alert">{store.trouble}</p>}
       <main>
-        <Tree store={store} looking={looking} />
-        <aside aria-label="About this moment"><Now store={store} /></aside>
+        <div class="left">
+          <Tools store={store} looking={looking} />
+          <Tree store={store} looking={looking} />
+        </div>
+        <aside aria-label="About this moment">
+          <Now store={store} />
+          <Details store={store} />
+          <Chart store={store} />
+          <Entries store={store} />
+          <Log store={store} />
+        </aside>
       </main>
       <Timeline store={store} />
+      <Help store={store} />
     </>
   );
 }

@@ -1,27 +1,65 @@
-// What runs, and where it stands.
-import type { Store } from "./store";
+// What runs, where it stands, and how the page looks.
+import type { Connection } from "../source/live";
 import { seconds } from "../model/words";
-import type { Theme } from "./store";
+import { Search } from "./panels/search";
+import type { Store, Theme } from "./store";
 
 const NEXT: Record<Theme, Theme> = { auto: "dark", dark: "light", light: "auto" };
 
+const CONNECTIONS: Record<Connection, string> = {
+  connecting: "connecting …", open: "live", lost: "connection lost: trying again", ended: "no more comes",
+  asleep: "asleep",
+};
+
+function State({ store }: { store: Store }) {
+  const { live, run } = store;
+  const { end } = run;
+  const paused = live?.state.state === "paused";
+  return (
+    <span role="status" class="states">
+      {live && !end && <span class={`connection ${live.connection}`}>{CONNECTIONS[live.connection]}</span>}
+      {live && !end && paused && <span class="warning">‖ paused</span>}
+      {!live && <span class="dim">recording</span>}
+      {end && <span class={`result ${end.result}`}>{`ended: ${end.result} (${end.reason})`}</span>}
+    </span>
+  );
+}
+
+// Only a run that goes on reports how long its ticks take.
+function Timing({ store }: { store: Store }) {
+  const { live, run } = store;
+  const overruns = run.end?.overruns ?? live?.state.overruns;
+  const { tick_us, late_ms, speed } = live?.state ?? {};
+  return (
+    <>
+      {tick_us !== undefined && <span title="how long the last ticks took">tick takes <b>{tick_us.toFixed(0)} µs</b></span>}
+      {late_ms !== undefined && <span class={late_ms > 1000 * run.period ? "warning" : ""}
+        title="how long after its time the last tick began">late <b>{late_ms.toFixed(2)} ms</b></span>}
+      {speed !== undefined && speed !== 1 && <span>speed <b>{speed === 0 ? "as fast as possible" : `${speed}×`}</b></span>}
+      {overruns !== undefined && overruns > 0 && <span class="warning">{overruns} overruns</span>}
+    </>
+  );
+}
+
 export function Header({ store }: { store: Store }) {
-  const { header, end } = store.run;
-  const { theme } = store.looking;
+  const { header } = store.run;
+  const { theme, line } = store.looking;
   const { moment } = store;
   return (
     <header>
-      <h1>{header?.tree ?? "lockstep"}</h1>
+      <h1 title={header?.file}>{header?.tree ?? "lockstep"}</h1>
       <p class="facts">
+        <State store={store} />
         <span>tick <b>{moment.tick}</b></span>
         <span><b>{seconds(moment.time)}</b></span>
         <span>{header?.rate_hz} Hz, {header?.clock} clock</span>
-        {end && <span class={`result ${end.result}`}>{end.result} ({end.reason})</span>}
-        {end && end.overruns > 0 && <span class="warning">{end.overruns} overruns</span>}
+        <Timing store={store} />
+        {store.live && !store.run.end && line !== null && <span class="warning">looking back</span>}
       </p>
       <span class="grow" />
+      <Search store={store} />
       <button type="button" onClick={() => store.set({ theme: NEXT[theme] })}
-        title="Light, dark, or as the system has it">Theme: {theme}</button>
+        title="Dark, light, or as the system has it">{`Theme: ${theme}`}</button>
       <button type="button" aria-keyshortcuts="?" onClick={() => store.set({ help: true })}>Help</button>
     </header>
   );

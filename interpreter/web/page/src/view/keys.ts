@@ -1,21 +1,41 @@
 // Keys that work everywhere on the page.
+import { pauseOrResume } from "./control";
 import type { Store } from "./store";
+import { zoomed } from "./timeline/span";
 
-export function globalKey(store: Store, event: KeyboardEvent) {
-  const at = event.target as HTMLElement;
-  if (event.altKey || event.ctrlKey || event.metaKey || at.matches("input:not([type=range]), select, textarea")) return;
-  const keys: Record<string, () => void> = {
+function acts(store: Store): Record<string, () => void> {
+  const { looking, live, moment } = store;
+  const zoom = (factor: number) => store.set({ span: zoomed(store, factor, moment.time) });
+  const always = {
     ",": () => store.step(-1),
     ".": () => store.step(1),
     "<": () => store.step(-10),
     ">": () => store.step(10),
     "[": () => store.goToEvent(-1),
     "]": () => store.goToEvent(1),
-    f: () => store.set({ follow: !store.looking.follow }),
-    t: () => store.set({ arrangement: store.looking.arrangement === "outline" ? "diagram" : "outline" }),
-    "?": () => store.set({ help: !store.looking.help }),
+    " ": () => store.play(),
+    n: () => store.set({ line: null, playing: false }),
+    "+": () => zoom(0.5),
+    "-": () => zoom(2),
+    "0": () => store.set({ span: null }),
+    "/": () => document.getElementById("search")?.focus(),
+    f: () => store.set({ follow: !looking.follow }),
+    a: () => store.set({ onlyActive: !looking.onlyActive, folds: new Map() }),
+    t: () => store.set({ arrangement: looking.arrangement === "outline" ? "diagram" : "outline" }),
+    z: () => store.magnify(1.2),
+    Z: () => store.magnify(1 / 1.2),
+    "?": () => store.set({ help: !looking.help }),
   };
-  const act = keys[event.key];
+  if (!live?.control) return always;
+  return { ...always, p: () => pauseOrResume(live), s: () => void live.command({ do: "step", ticks: 1 }) };
+}
+
+export function globalKey(store: Store, event: KeyboardEvent) {
+  const at = event.target as HTMLElement;
+  if (event.altKey || event.ctrlKey || event.metaKey) return;
+  if (at.matches?.("input:not([type=range]), select, textarea")) return;
+  if (event.key === " " && at.matches?.("button, summary")) return; // it presses them
+  const act = acts(store)[event.key];
   if (!act) return;
   act();
   event.preventDefault();

@@ -1,8 +1,10 @@
 // What the user looks at, and the run that is looked at. One object; what draws subscribes to it.
 import { useEffect, useState } from "preact/hooks";
-import { LARGE, opened, type Folds } from "../model/folds";
+import { LARGE, SMALL, opened, type Folds } from "../model/folds";
 import { Moment } from "../model/moment";
 import { Run } from "../model/run";
+import type { LiveSource } from "../source/live";
+import { withMoment } from "./timeline/span";
 
 export type Theme = "auto" | "light" | "dark";
 export type Arrangement = "diagram" | "outline";
@@ -11,7 +13,7 @@ export interface Looking {
   line: number | null; // null: the newest
   selected: number | null;
   folds: Folds;
-  onlyActive: boolean;
+  onlyActive: boolean; // what does not run is folded
   follow: boolean; // what runs is kept in sight
   arrangement: Arrangement;
   zoom: number;
@@ -19,23 +21,26 @@ export interface Looking {
   plotted: number | null; // the synchronized node of the chart; null: what was last active
   theme: Theme;
   help: boolean;
-  playing: number; // speed; 0: stands
+  playing: boolean;
+  speed: number;
 }
 
 export class Store {
   run = new Run();
+  live: LiveSource | null = null; // null: a recording
   looking: Looking = {
     line: null, selected: null, folds: new Map(), onlyActive: false, follow: true,
     arrangement: innerWidth < 720 ? "outline" : "diagram", zoom: 1, span: null, plotted: null,
-    theme: "auto", help: false, playing: 0,
+    theme: "auto", help: false, playing: false, speed: 1,
   };
-  trouble = ""; // that the run cannot be read
+  trouble = ""; // why there is not more of the run
+  colorVersion = 0;
   private listeners = new Set<() => void>();
   private frame = 0;
   private known: { version: number; line: number; moment: Moment } | null = null;
 
   get line(): number {
-    return Math.min(this.looking.line ?? this.run.last, this.run.last);
+    return Math.max(0, Math.min(this.looking.line ?? this.run.last, this.run.last));
   }
   get moment(): Moment {
     const { line, run } = this;
@@ -68,21 +73,33 @@ export class Store {
     try {
       this.run.feed(text);
     } catch (error) {
-      this.trouble = `the recording cannot be read further: ${(error as Error).message}`;
+      this.trouble = `The run cannot be read further: ${(error as Error).message}`;
     }
-    if (begins && this.run.shape.nodes.length > LARGE) this.looking = { ...this.looking, onlyActive: true };
+    if (begins && this.run.shape.nodes.length > (innerWidth < 720 ? SMALL : LARGE)) this.looking = { ...this.looking, onlyActive: true };
     this.changed();
   }
-
-  // Nothing more comes.
+  isAnotherRun(text: string): boolean {
+    const { header } = this.run;
+    return header !== null && JSON.stringify(header) !== JSON.stringify(JSON.parse(text));
+  }
+  beginAgain() {
+    this.run = new Run();
+    this.known = null;
+    this.looking = { ...this.looking, line: null, selected: null, folds: new Map(), span: null, plotted: null };
+  }
+  // Nothing more comes of a recording.
   complete() {
-    if (!this.run.end && !this.trouble) this.trouble = "the recording is cut: it has no closing line";
+    if (!this.run.end && !this.trouble) this.trouble = "The recording is cut: it has no closing line.";
     this.changed();
   }
 
+  show(line: number) {
+    const shown = Math.max(0, Math.min(line, this.run.last));
+    this.set({ line: shown, span: withMoment(this, this.run.times[shown] ?? 0) });
+  }
   goTo(line: number) {
-    const { last } = this.run;
-    this.set({ line: Math.max(0, Math.min(line, last)), playing: 0 });
+    this.looking = { ...this.looking, playing: false };
+    this.show(line);
   }
   step(by: number) {
     this.goTo(this.line + by);
@@ -92,14 +109,29 @@ export class Store {
     const line = direction > 0 ? events.nextLine(this.line) : events.previousLine(this.line);
     if (line !== null) this.goTo(line);
   }
+  play() {
+    const { playing } = this.looking;
+    if (!playing && this.line === this.run.last) this.show(0);
+    this.set({ playing: !playing });
+  }
+  magnify(factor: number) {
+    this.set({ zoom: Math.max(0.3, Math.min(3, this.looking.zoom * factor)) });
+  }
   select(node: number, reveal = false) {
     const { folds, onlyActive } = this.looking;
-    const open = reveal ? opened(this.moment, folds, onlyActive, node) : folds;
-    this.set({ selected: node, folds: open });
+    this.set({ selected: node, folds: reveal ? opened(this.moment, folds, onlyActive, node) : folds });
   }
   fold(node: number, open: boolean) {
     const folds = new Map(this.looking.folds);
     folds.set(node, open);
+    this.set({ folds });
+  }
+  foldBelow(node: number, open: boolean) {
+    const folds = new Map(this.looking.folds);
+    const { nodes } = this.run.shape;
+    for (let below = node; below < nodes[node].end; ++below) {
+      if (nodes[below].children.length > 0 && (open || below > node)) folds.set(below, open);
+    }
     this.set({ folds });
   }
 }

@@ -1,20 +1,31 @@
 // The whole run, to go to any moment of it.
+import { useState } from "preact/hooks";
 import { seconds } from "../../model/words";
 import type { Store } from "../store";
+import { Lanes } from "./lanes";
+import { zoomed } from "./span";
+import { Transport } from "./transport";
 
 export function Timeline({ store }: { store: Store }) {
   const { run, line, moment } = store;
+  const [all, setAll] = useState(false);
   const go = (event: Event) => store.goTo(Number((event.target as HTMLInputElement).value));
+  const zoom = (factor: number) => store.set({ span: zoomed(store, factor, moment.time) });
   return (
     <section class="timeline" aria-labelledby="timeline-title">
-      <h2 id="timeline-title">Timeline</h2>
-      <div class="transport" role="group" aria-label="Go to a moment">
-        <button type="button" aria-keyshortcuts="[" title="previous event ([)" onClick={() => store.goToEvent(-1)}>⇤ event</button>
-        <button type="button" aria-keyshortcuts="," title="one tick back (,)" onClick={() => store.step(-1)}>‹ tick</button>
-        <button type="button" aria-keyshortcuts="." title="one tick forward (.)" onClick={() => store.step(1)}>tick ›</button>
-        <button type="button" aria-keyshortcuts="]" title="next event (])" onClick={() => store.goToEvent(1)}>event ⇥</button>
-        <button type="button" onClick={() => store.set({ line: null })} aria-pressed={store.looking.line === null}>newest</button>
+      <h2 id="timeline-title" class="hidden">Timeline</h2>
+      <div class="bar-of-buttons">
+        <Transport store={store} />
+        <span class="grow" />
+        <div role="group" aria-label="What the timeline shows" class="zoom buttons">
+          <button type="button" aria-pressed={all} onClick={() => setAll(!all)}
+            title="A lane for each node, not only for leaves and those that wait for each other">all nodes</button>
+          <button type="button" aria-label="zoom in" title="zoom in (+)" onClick={() => zoom(0.5)}>+</button>
+          <button type="button" aria-label="zoom out" title="zoom out (-)" onClick={() => zoom(2)}>−</button>
+          <button type="button" title="the whole run (0)" onClick={() => store.set({ span: null })}>whole run</button>
+        </div>
       </div>
+      <Lanes store={store} all={all} />
       <input type="range" aria-label="Moment" min={0} max={Math.max(0, run.last)} value={line} onInput={go}
         aria-valuetext={`tick ${moment.tick}, ${seconds(moment.time)}`} />
     </section>

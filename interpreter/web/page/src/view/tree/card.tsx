@@ -1,6 +1,9 @@
 // A node of the tree, as it is drawn.
 import { tallyBelow } from "../../model/folds";
 import type { Moment } from "../../model/moment";
+import { RUNNING } from "../../model/recording";
+import type { ShapeNode } from "../../model/shape";
+import { short } from "../../model/waiting";
 import { kindText, labelOf, sentenceOf, stateOf, symbolOf } from "../../model/words";
 import type { Store } from "../store";
 import { Bar, Race } from "./bar";
@@ -33,13 +36,15 @@ export function Card({ store, moment, box, open, selected }: Props) {
       class={`card ${stateOf(moment, box.node)}${selected ? " selected" : ""}`}
       transform={`translate(${box.x} ${box.y})`}
       onClick={() => store.select(box.node)} onDblClick={() => isInner && store.fold(box.node, !open)}>
-      <rect class="box" width={box.width} height={box.height} rx={6} />
-      <rect class="stripe" width={4} height={box.height} rx={2} />
-      <First moment={moment} box={box} />
-      <Second moment={moment} box={box} open={open} />
-      {comparing ? <Race moment={moment} node={box.node} place={place} />
-        : <Bar moment={moment} node={box.node} place={place} />}
-      {isInner && <Fold store={store} box={box} open={open} name={node.segment} />}
+      <g aria-hidden="true">
+        <rect class="box" width={box.width} height={box.height} rx={6} />
+        <rect class="stripe" width={4} height={box.height} rx={2} />
+        <First moment={moment} box={box} />
+        <Second moment={moment} box={box} open={open} />
+        {comparing ? <Race moment={moment} node={box.node} place={place} />
+          : <Bar moment={moment} node={box.node} place={place} />}
+        {isInner && <Fold store={store} box={box} open={open} name={node.segment} />}
+      </g>
     </g>
   );
 }
@@ -67,19 +72,32 @@ function Second({ moment, box, open }: { moment: Moment; box: Box; open: boolean
   return (
     <>
       <text class={sentence ? "sentence" : "kind"} x={PADDING} y={31}>
-        {fitted(sentence || kindText(node.kind, node.segment), 11, room)}
+        {fitted(sentence || kindText(node.kind, node.segment), 11, room, sentence ? 600 : 400)}
       </text>
-      {right && <text class="kind" x={box.width - PADDING} y={31} text-anchor="end">{right}</text>}
+      {right && <text class={node.synchronization && open ? "limit" : "kind"} x={box.width - PADDING} y={31} text-anchor="end">{right}</text>}
     </>
   );
 }
 
 function rightText(moment: Moment, index: number, open: boolean): string {
   const node = moment.run.shape.nodes[index];
-  if (node.children.length === 0 || open) return moment.round(index) && `round ${moment.round(index)}`;
+  if (node.children.length === 0 || open) return limitText(moment, node) || roundText(moment, index);
   const { held, by } = tallyBelow(moment, index);
   const parts = [by[1] > 0 ? `▶${by[1]}` : "", held > 0 ? `‖${held}` : "", by[3] > 0 ? `✗${by[3]}` : ""];
   return [`+${node.end - index - 1}`, ...parts.filter(Boolean)].join(" ");
+}
+
+function roundText(moment: Moment, index: number): string {
+  return moment.round(index) && `round ${moment.round(index)}`;
+}
+
+// Where those that it holds wait now.
+function limitText(moment: Moment, node: ShapeNode): string {
+  const limit = moment.limit(node.index);
+  if (moment.status[node.index] !== RUNNING) return "";
+  if (node.synchronization === "relative") return `delta ${short(limit)}`;
+  if (node.synchronization !== "absolute") return "";
+  return Number.isFinite(limit) ? `barrier ${short(limit)}` : "no barrier left";
 }
 
 function Fold({ store, box, open, name }: { store: Store; box: Box; open: boolean; name: string }) {

@@ -23,7 +23,7 @@ export interface Layout {
 
 export const GAP_X = 44;
 const MARGIN = 16, GAP_Y = 10, INDENT = 18;
-const WIDEST = 250, NARROWEST = 118, KEPT = 200;
+const WIDEST = 260, NARROWEST = 118, KEPT = 216;
 const HEIGHT = 44, KEPT_HEIGHT = 50;
 
 function isInStep(node: ShapeNode): boolean {

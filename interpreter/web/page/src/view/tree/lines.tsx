@@ -1,7 +1,7 @@
 // What joins the cards: edges, barriers through siblings, and arrows from who waits to whom.
 import type { Moment } from "../../model/moment";
 import { IDLE } from "../../model/recording";
-import { marksOf, short, spanOf, waitsOf } from "../../model/waiting";
+import { marksOf, spanOf, waitsOf } from "../../model/waiting";
 import { PADDING } from "./card";
 import { GAP_X, type Box, type Layout } from "./layout";
 
@@ -64,10 +64,8 @@ function Through({ moment, layout, keeper }: { moment: Moment; layout: Layout; k
         const x = first.x + PADDING + mark * (first.width - 2 * PADDING);
         const current = Math.abs(mark - most) < 1e-9;
         return (
-          <g key={mark} class={current ? "through current" : "through"}>
-            <line x1={x} x2={x} y1={first.y - 4} y2={last.y + last.height + 4} />
-            {current && <text x={x} y={last.y + last.height + 14} text-anchor="middle">{short(mark)}</text>}
-          </g>
+          <line key={mark} class={current ? "through current" : "through"} x1={x} x2={x}
+            y1={first.y - 4} y2={last.y + last.height + 4} />
         );
       })}
     </>

@@ -95,7 +95,7 @@ export function Tree({ store, looking }: { store: Store; looking: Looking }) {
   const letGo = () => looking.follow && store.set({ follow: false });
   return (
     <div class="tree" ref={scroller} onScroll={look} onWheel={letGo} onTouchMove={letGo}>
-      <svg role="tree" aria-label="Behavior tree" tabIndex={0} width={layout.width * zoom} height={layout.height * zoom}
+      <svg role="tree" aria-label="Behavior tree" tabindex={0} width={layout.width * zoom} height={layout.height * zoom}
         viewBox={`0 0 ${layout.width} ${layout.height}`}
         aria-activedescendant={selected === null ? undefined : cardId(selected)}
         onKeyDown={(event) => treeKey(store, shown, event)}>

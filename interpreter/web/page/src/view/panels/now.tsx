@@ -1,10 +1,10 @@
 // In words: what runs, who waits for whom, what happened last.
-import type { Moment } from "../model/moment";
-import { RUNNING } from "../model/recording";
-import { waitsOf, type Wait } from "../model/waiting";
-import { seconds } from "../model/words";
-import { LANDMARKS, type RunEvent } from "../model/events";
-import type { Store } from "./store";
+import type { Moment } from "../../model/moment";
+import { RUNNING } from "../../model/recording";
+import { waitsOf, type Wait } from "../../model/waiting";
+import { seconds } from "../../model/words";
+import { LANDMARKS, type RunEvent } from "../../model/events";
+import type { Store } from "../store";
 
 const MOST = 8;
 
@@ -18,10 +18,8 @@ export function runningLeaves(moment: Moment): number[] {
 
 // How long a node has been as it is.
 function heldSince(moment: Moment, node: number): number {
-  const column = moment.run.nodes[node];
-  let place = column.at(moment.line);
-  while (place > 0 && column.flags[place - 1] & 16) --place;
-  return moment.time - moment.run.times[column.lines[place]];
+  const { states } = moment.run.nodes[node];
+  return moment.time - moment.run.times[states.lines[states.placeAt(moment.line)]];
 }
 
 export function lastEvent(moment: Moment): RunEvent | null {
@@ -33,12 +31,12 @@ export function lastEvent(moment: Moment): RunEvent | null {
 }
 
 export function eventText(moment: Moment, event: RunEvent): string {
-  return event.node === null ? event.text : `${moment.run.shape.nodes[event.node].segment} ${event.text}`;
+  return event.node === null ? event.text : `${moment.run.shape.nodes[event.node].apart} ${event.text}`;
 }
 
 function Name({ store, node }: { store: Store; node: number }) {
-  const { segment, path } = store.run.shape.nodes[node];
-  return <button type="button" class="node" title={path} onClick={() => store.select(node, true)}>{segment}</button>;
+  const { apart, path } = store.run.shape.nodes[node];
+  return <button type="button" class="node" title={path} onClick={() => store.select(node, true)}>{apart}</button>;
 }
 
 function Waiting({ store, moment, wait }: { store: Store; moment: Moment; wait: Wait }) {

@@ -1,0 +1,64 @@
+// The numbers of the chart, as many as its columns can show.
+import { HELD, STATUS } from "../../model/columns";
+import { RUNNING } from "../../model/recording";
+import type { Run } from "../../model/run";
+import type { Store } from "../store";
+
+export const MOST_SERIES = 12;
+
+// What the timeline shows; of the whole run the part in which the node was active.
+export function chartSpan(store: Store, keeper: number): [number, number] {
+  const { run, looking } = store;
+  if (looking.span) return looking.span;
+  const { states } = run.nodes[keeper];
+  if (states.length === 0) return [run.times[0], run.times[run.last]];
+  const ended = states.values[states.length - 1] !== RUNNING;
+  const from = run.times[states.lines[0]];
+  const to = run.times[ended ? states.lines[states.length - 1] : run.last];
+  const margin = Math.max((to - from) * 0.03, run.period);
+  return [Math.max(run.times[0], from - margin), to + margin];
+}
+
+// The lines to draw: all, or the first and last of each column.
+function linesIn(run: Run, from: number, to: number, most: number): number[] {
+  const first = run.lineAtTime(from), last = Math.min(run.last, run.lineAtTime(to) + 1);
+  const count = last - first + 1;
+  const step = Math.max(1, count / most);
+  const lines: number[] = [];
+  for (let place = 0; place < count; place += step) lines.push(first + Math.floor(place));
+  if (lines[lines.length - 1] !== last) lines.push(last);
+  return lines;
+}
+
+function progressAt(run: Run, node: number, line: number): number | null {
+  const column = run.nodes[node];
+  const place = column.at(line);
+  if (place < 0) return null;
+  const status = column.flags[place] & STATUS;
+  if (status === 0) return null;
+  return status === 2 ? 1 : column.progress[place];
+}
+
+export function chartData(run: Run, keeper: number, from: number, to: number, most: number): (number | null)[][] {
+  const lines = linesIn(run, from, to, most);
+  const children = run.shape.nodes[keeper].inStep.slice(0, MOST_SERIES);
+  // While the node is idle, what it holds has no progress.
+  const active = lines.map((line) => (run.shape.nodes[keeper].isGroup ? 1 : run.status(keeper, line)));
+  return [
+    lines.map((line) => run.times[line]),
+    ...children.map((child) => lines.map((line, place) => (active[place] ? progressAt(run, child, line) : null))),
+  ];
+}
+
+// When a node was held, in seconds.
+export function heldSpans(run: Run, node: number, from: number, to: number): [number, number][] {
+  const { states } = run.nodes[node];
+  const spans: [number, number][] = [];
+  for (let place = Math.max(0, states.placeAt(run.lineAtTime(from))); place < states.length; ++place) {
+    const begin = run.times[states.lines[place]];
+    if (begin > to) break;
+    const next = place + 1 < states.length ? states.lines[place + 1] : run.last;
+    if (states.values[place] & HELD) spans.push([begin, run.times[next]]);
+  }
+  return spans;
+}

@@ -1,0 +1,104 @@
+// Acts on a run that goes on; only there if the program was started with --monitor-control.
+import { useState } from "preact/hooks";
+import type { LiveSource, When } from "../source/live";
+import type { Store } from "./store";
+
+const SPEEDS: [string, number][] = [
+  ["0.1×", 0.1], ["0.5×", 0.5], ["1×", 1], ["2×", 2], ["10×", 10], ["100×", 100], ["as fast as possible", 0],
+];
+const WHEN: Record<When, string> = { begins: "begins", completes: "completes", barrier: "reaches a barrier" };
+
+export function pauseOrResume(live: LiveSource) {
+  void live.command({ do: live.state.state === "paused" ? "resume" : "pause" });
+}
+
+function Speed({ store, live }: { store: Store; live: LiveSource }) {
+  if (store.run.header?.clock !== "virtual") return null;
+  return (
+    <label>speed <select aria-label="Speed of the run" value={live.state.speed ?? 1}
+      onChange={(event) => live.command({ do: "speed", factor: Number((event.target as HTMLSelectElement).value) })}>
+      {SPEEDS.map(([text, factor]) => <option key={factor} value={factor}>{text}</option>)}
+    </select></label>
+  );
+}
+
+function SetEntry({ store, live }: { store: Store; live: LiveSource }) {
+  const entries = store.run.header?.entries ?? [];
+  const [entry, setEntry] = useState(entries[0]?.key ?? "");
+  const [value, setValue] = useState("");
+  if (entries.length === 0) return null;
+  const send = (event: Event) => {
+    event.preventDefault();
+    void live.command({ do: "set", entry, value });
+  };
+  return (
+    <form class="buttons" aria-label="Set an entry" onSubmit={send}>
+      <select aria-label="Entry" value={entry} onChange={(event) => setEntry((event.target as HTMLSelectElement).value)}>
+        {entries.map(({ key }) => <option key={key}>{key}</option>)}
+      </select>
+      <input aria-label="Value" value={value} size={10} onInput={(event) => setValue((event.target as HTMLInputElement).value)} />
+      <button type="submit">set</button>
+    </form>
+  );
+}
+
+function Breakpoints({ store, live }: { store: Store; live: LiveSource }) {
+  const { selected } = store.looking;
+  const [when, setWhen] = useState<When>("begins");
+  const set = live.state.breakpoints ?? [];
+  const name = (node: number) => store.run.shape.nodes[node]?.segment ?? "?";
+  return (
+    <div class="buttons" role="group" aria-label="Breakpoints">
+      <button type="button" disabled={selected === null} title="select a node in the tree first"
+        onClick={() => live.command({ do: "break", node: selected, when, on: true })}>
+        {`pause when ${selected === null ? "the selected node" : name(selected)}`}</button>
+      <select aria-label="When to pause" value={when} onChange={(event) => setWhen((event.target as HTMLSelectElement).value as When)}>
+        {Object.entries(WHEN).map(([key, text]) => <option key={key} value={key}>{text}</option>)}
+      </select>
+      {set.map((one) => (
+        <button type="button" key={`${one.node} ${one.when}`} class="breakpoint" title="remove this breakpoint"
+          aria-label={`remove the breakpoint: ${name(one.node)} ${WHEN[one.when]}`}
+          onClick={() => live.command({ do: "break", node: one.node, when: one.when, on: false })}>
+          {`● ${name(one.node)} ${WHEN[one.when]} ×`}</button>
+      ))}
+    </div>
+  );
+}
+
+// A robot that stands is a fact to know before the button is pressed.
+function pauseTitle(store: Store, paused: boolean): string {
+  if (paused) return "go on (p)";
+  return store.run.header?.clock === "wall"
+    ? "no more ticks, and the running leaves are paused as by a barrier: the robot stands (p)"
+    : "no more ticks until resumed (p)";
+}
+
+export function Control({ store }: { store: Store }) {
+  const { live, run } = store;
+  const [sure, setSure] = useState(false);
+  if (!live?.control || run.end || live.connection === "ended") return null;
+  const paused = live.state.state === "paused";
+  const halt = () => {
+    if (sure) void live.command({ do: "halt" });
+    setSure(!sure);
+  };
+  return (
+    <section class="control" aria-label="Control of the run">
+      <div class="bar-of-buttons">
+        <button type="button" class="pause" aria-keyshortcuts="p" title={pauseTitle(store, paused)}
+          onClick={() => pauseOrResume(live)}>{paused ? "▶ resume" : "‖ pause"}</button>
+        <button type="button" aria-keyshortcuts="s" disabled={!paused} title="one tick (s)"
+          onClick={() => live.command({ do: "step", ticks: 1 })}>one tick</button>
+        <Speed store={store} live={live} />
+        <SetEntry store={store} live={live} />
+        <Breakpoints store={store} live={live} />
+        <span class="grow" />
+        <button type="button" class="halt" onClick={halt} onBlur={() => setSure(false)}
+          title="halts all leaves and ends the run">{sure ? "really halt the run?" : "■ halt"}</button>
+      </div>
+      {run.header?.clock === "wall" && !paused &&
+        <p class="dim">Pausing pauses the running leaves as a barrier does: the robot stands still until it is resumed.</p>}
+      {live.refusal && <p role="alert" class="warning">{live.refusal}</p>}
+    </section>
+  );
+}

@@ -1,0 +1,70 @@
+// All that is known of the node that is selected.
+import { activations } from "../../model/lanes";
+import type { Moment } from "../../model/moment";
+import { STATUSES } from "../../model/recording";
+import { marksOf, short, spanOf, waitOf } from "../../model/waiting";
+import { seconds, stateOf, symbolOf } from "../../model/words";
+import type { Store } from "../store";
+import { Panel } from "./panel";
+
+const MOST = 6;
+
+function facts(moment: Moment, node: number): [string, string][] {
+  const it = moment.run.shape.nodes[node];
+  const { states } = moment.run.nodes[node];
+  const since = states.placeAt(moment.line);
+  const rows: [string, string][] = [["Path", it.path], ["Kind", it.kind]];
+  const from = since < 0 ? "" : ` since ${seconds(moment.run.times[states.lines[since]])}`;
+  rows.push(["State", `${symbolOf(moment, node)} ${stateOf(moment, node)}${from}`]);
+  rows.push(["Progress", moment.progress[node].toFixed(4)]);
+  if (moment.round(node)) rows.push(["Round", moment.round(node)]);
+  const wait = waitOf(moment, node);
+  if (wait) rows.push(["Waiting", wait.text]);
+  if (it.synchronization === "absolute") rows.push(["Barriers", marksOf(moment, it).map(short).join(", ") || "none left"]);
+  if (it.synchronization === "relative") rows.push(["Delta", short(moment.limit(node))]);
+  if (it.synchronization === "absolute" || it.synchronization === "relative") {
+    const { least, most } = spanOf(moment, it);
+    rows.push(["Now", `the slowest at ${least.toFixed(2)}; nobody beyond ${Number.isFinite(most) ? short(most) : "1"} goes on`]);
+  }
+  return rows;
+}
+
+function Activations({ store, moment, node }: { store: Store; moment: Moment; node: number }) {
+  const { times } = moment.run;
+  const found = activations(moment.run, node, moment.line, MOST);
+  if (found.length === 0) return <p class="dim">has not been active yet</p>;
+  return (
+    <table aria-label="Activations, newest first">
+      <thead><tr><th>began</th><th>took</th><th>held</th><th>result</th></tr></thead>
+      <tbody>
+        {found.map(({ from, to, result, held }) => (
+          <tr key={from}>
+            <td><button type="button" class="node" onClick={() => store.goTo(from)}>{seconds(times[from])}</button></td>
+            <td>{seconds((to === null ? moment.time : times[to]) - times[from])}</td>
+            <td>{held > 0 ? seconds(held) : ""}</td>
+            <td>{to !== null && result === 0 ? "halted" : STATUSES[result]}</td>
+          </tr>
+        ))}
+      </tbody>
+    </table>
+  );
+}
+
+export function Details({ store }: { store: Store }) {
+  const { moment, looking } = store;
+  const node = looking.selected;
+  if (node === null) return null;
+  const it = store.run.shape.nodes[node];
+  return (
+    <Panel title={`Node ${it.apart}`}>
+      <dl>{facts(moment, node).map(([name, value]) => <div key={name}><dt>{name}</dt><dd>{value}</dd></div>)}</dl>
+      <Activations store={store} moment={moment} node={node} />
+      {it.children.length > 0 && (
+        <p class="buttons">
+          <button type="button" onClick={() => store.foldBelow(node, true)}>unfold all below</button>
+          <button type="button" onClick={() => store.foldBelow(node, false)}>fold all below</button>
+        </p>
+      )}
+    </Panel>
+  );
+}

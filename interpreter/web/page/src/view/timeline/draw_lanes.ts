@@ -1,0 +1,108 @@
+// Draws lanes on a canvas: a full bar while the node runs, a hatched one while it is held, a thin line and a
+// sign from its completion on.
+import { HELD_STATE, laneSpans } from "../../model/lanes";
+import type { Run } from "../../model/run";
+import type { Colors } from "../colors";
+
+export const LANE = 18; // pixels
+export const RULER = 20;
+
+export interface Window {
+  from: number; // seconds
+  to: number;
+  width: number; // pixels
+}
+
+export function xOf(time: number, window: Window): number {
+  return ((time - window.from) / (window.to - window.from)) * window.width;
+}
+export function timeOf(x: number, window: Window): number {
+  return window.from + (x / window.width) * (window.to - window.from);
+}
+
+function hatch(context: CanvasRenderingContext2D, color: string, background: string): CanvasPattern | string {
+  const tile = document.createElement("canvas");
+  tile.width = tile.height = 6;
+  const paint = tile.getContext("2d");
+  if (!paint) return color;
+  paint.fillStyle = background;
+  paint.fillRect(0, 0, 6, 6);
+  paint.strokeStyle = color;
+  paint.lineWidth = 2;
+  for (const shift of [-6, 0, 6]) {
+    paint.beginPath();
+    paint.moveTo(shift - 1, 7);
+    paint.lineTo(shift + 7, -1);
+    paint.stroke();
+  }
+  return context.createPattern(tile, "repeat") ?? color;
+}
+
+const SIGNS = ["", "", "✓", "✗", "»"];
+
+interface Pen {
+  context: CanvasRenderingContext2D;
+  colors: Colors;
+  held: CanvasPattern | string;
+}
+
+function drawSpan({ context, colors, held }: Pen, state: number, x: number, end: number, y: number) {
+  const width = Math.max(1, end - x);
+  if (state === 1 || state === HELD_STATE) {
+    context.fillStyle = state === 1 ? colors.running : held;
+    context.fillRect(x, y + 3, width, LANE - 6);
+    if (state !== HELD_STATE) return;
+    context.fillStyle = colors.held;
+    context.fillRect(x, y + 2, width, 1.5);
+    context.fillRect(x, y + LANE - 3.5, width, 1.5);
+    return;
+  }
+  const color = state === 2 ? colors.success : state === 3 ? colors.failure : colors.dim;
+  context.fillStyle = color;
+  context.fillRect(x, y + LANE / 2 - 0.75, width, 1.5);
+  context.fillRect(x, y + 3, 2, LANE - 6);
+  if (width > 14) context.fillText(SIGNS[state], x + 4, y + LANE / 2 - 4);
+}
+
+function drawLane(pen: Pen, run: Run, node: number, window: Window, y: number) {
+  const from = run.lineAtTime(window.from), to = run.lineAtTime(window.to);
+  let done = -1; // pixel that has its span already
+  for (const span of laneSpans(run, node, from, to)) {
+    const x = xOf(run.times[span.from], window), end = xOf(run.times[span.to], window);
+    if (end <= done && span.state !== 3) continue;
+    drawSpan(pen, span.state, Math.max(x, -2), Math.min(end, window.width + 2), y);
+    done = Math.floor(end);
+  }
+}
+
+// A step of 1, 2 or 5 times a power of ten with a label about every 90 pixels.
+function rulerStep({ from, to, width }: Window): number {
+  const least = ((to - from) / width) * 90;
+  const power = 10 ** Math.floor(Math.log10(least));
+  return [1, 2, 5, 10].map((factor) => factor * power).find((step) => step >= least) ?? 10 * power;
+}
+
+export function drawRuler(context: CanvasRenderingContext2D, window: Window, colors: Colors, height: number) {
+  const step = rulerStep(window);
+  const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
+  context.font = "11px system-ui, sans-serif";
+  context.textBaseline = "top";
+  for (let mark = Math.ceil(window.from / step); mark * step <= window.to; ++mark) {
+    const x = Math.round(xOf(mark * step, window)) + 0.5;
+    context.fillStyle = colors.line;
+    context.fillRect(x, RULER - 6, 1, height);
+    context.fillStyle = colors.dim;
+    context.fillText(`${(mark * step).toFixed(digits)} s`, x + 4, 3);
+  }
+}
+
+export function drawLanes(context: CanvasRenderingContext2D, run: Run, nodes: number[], first: number,
+  window: Window, colors: Colors, height: number) {
+  const pen: Pen = { context, colors, held: hatch(context, colors.held, colors.panel) };
+  context.font = "10px system-ui, sans-serif";
+  const rows = Math.ceil(height / LANE);
+  const begin = Math.max(0, Math.floor(first / LANE));
+  for (let row = begin; row < Math.min(nodes.length, begin + rows + 1); ++row) {
+    drawLane(pen, run, nodes[row], window, row * LANE - first);
+  }
+}

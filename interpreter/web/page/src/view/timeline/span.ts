@@ -1,0 +1,32 @@
+// The part of the run that the timeline and the chart show.
+import type { Store } from "../store";
+
+function wholeSpan(store: Store): [number, number] {
+  const { run } = store;
+  const first = run.times[0] ?? 0, last = run.times[run.last] ?? 0;
+  return [first, Math.max(last, first + Math.max(run.period, 1e-3))];
+}
+
+export function spanShown(store: Store): [number, number] {
+  return store.looking.span ?? wholeSpan(store);
+}
+
+// Around a time; `by` moves it by a part of its width. null: all of it.
+export function zoomed(store: Store, factor: number, around: number, by = 0): [number, number] | null {
+  const [first, last] = wholeSpan(store);
+  const [from, to] = spanShown(store);
+  const least = Math.max(store.run.period * 5, 1e-3);
+  const width = Math.max(least, (to - from) * factor);
+  if (width >= last - first) return null;
+  const part = (around - from) / (to - from);
+  const begin = around - part * width + by * width;
+  const clamped = Math.max(first, Math.min(begin, last - width));
+  return [clamped, clamped + width];
+}
+
+// Shifted so that the moment is in it.
+export function withMoment(store: Store, time: number): [number, number] | null {
+  const { span } = store.looking;
+  if (!span || (time >= span[0] && time <= span[1])) return span;
+  return zoomed(store, 1, time, (time - (span[0] + span[1]) / 2) / (span[1] - span[0]));
+}

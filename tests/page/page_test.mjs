@@ -1,0 +1,166 @@
+// What a person finds on the page of a recording, by role and name.
+import assert from "node:assert/strict";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { SOURCE, close, goToTick, openRun, record, tree, violations } from "./support.mjs";
+
+after(close);
+
+let door;
+before(() => {
+  door = record(join(SOURCE, "trees/door_pulling.xml"));
+});
+
+const node = (page, name) => page.getByRole("treeitem", { name: new RegExp(`^${name}[,:]`) });
+const words = async (locator) => (await locator.innerText()).replace(/\s+/g, " ");
+const label = (page, name) => node(page, name).getAttribute("aria-label");
+async function atTick(page, tick) {
+  await goToTick(page, tick);
+  await page.getByRole("slider", { name: "Moment" }).and(page.locator(`[aria-valuetext^="tick ${tick},"]`)).waitFor();
+}
+
+test("a person sees who waits for whom at which barrier, how far each is, and what happened last", async () => {
+  const page = await openRun(door);
+  await atTick(page, 400);
+  assert.equal(await label(page, "base"), "base, BackAway, held, progress 0.50, waits for arm at barrier 0.5");
+  assert.match(await label(page, "arm"), /^arm, PullDoor, running, progress 0\.4\d$/);
+  const now = page.getByRole("region", { name: "Now" });
+  assert.match(await words(now), /arm runs/);
+  assert.match(await words(now), /base waits for arm at barrier 0\.5/);
+  assert.match(await words(now), /last, at 3\.420 s: base waits for arm at barrier 0\.5/);
+  const progress = page.getByRole("list", { name: "Progress of pull at this moment" });
+  assert.match(await words(progress), /base 0\.50 waits for arm at barrier 0\.5/);
+  assert.ok(await page.getByRole("img", { name: "Progress over time of arm, base" }).isVisible());
+  await page.context().close();
+});
+
+test("keys go through ticks and events", async () => {
+  const page = await openRun(door);
+  await atTick(page, 400);
+  const moment = () => page.getByRole("slider", { name: "Moment" }).getAttribute("aria-valuetext");
+  await page.getByRole("tree").focus();
+  const after = async (key, text) => {
+    await page.keyboard.press(key);
+    await page.locator(`input[aria-valuetext^="${text}"]`).waitFor({ timeout: 3000 }).catch(async () =>
+      assert.fail(`after ${key}: ${await moment()}, not ${text}`));
+  };
+  await after(".", "tick 401,");
+  await after(",", "tick 400,");
+  await after(">", "tick 410,");
+  await after("<", "tick 400,");
+  await after("[", "tick 342,"); // base is held
+  await after("]", "tick 412,"); // it goes on
+  await after("n", "tick 700,");
+  await page.context().close();
+});
+
+test("the tree folds, unfolds and is gone through with keys", async () => {
+  const page = await openRun(door);
+  await atTick(page, 400);
+  await page.getByRole("tree").focus();
+  await page.keyboard.press("ArrowDown");
+  await page.locator('[role="treeitem"][aria-selected="true"][aria-label^="open"]').waitFor();
+  for (const key of ["ArrowDown", "ArrowDown", "ArrowDown"]) await page.keyboard.press(key);
+  await page.locator('[role="treeitem"][aria-selected="true"][aria-label^="pull"]').waitFor();
+  await page.keyboard.press("ArrowLeft");
+  await node(page, "base").waitFor({ state: "detached" });
+  assert.equal(await node(page, "pull").getAttribute("aria-expanded"), "false");
+  await page.keyboard.press("Enter");
+  await node(page, "base").waitFor();
+  await page.keyboard.press("t");
+  await page.getByRole("button", { name: "diagram" }).waitFor();
+  assert.equal(await page.getByRole("treeitem").count(), 7);
+  await page.context().close();
+});
+
+test("a node that is found is shown with its history", async () => {
+  const page = await openRun(door);
+  await page.keyboard.press("/");
+  await page.keyboard.type("pull base");
+  await page.getByRole("option", { name: "OpenDoor/open/pull/base" }).waitFor();
+  await page.keyboard.press("Enter");
+  await page.getByText("OpenDoor/open/pull/base", { exact: true }).waitFor();
+  const history = page.getByRole("table", { name: "Activations, newest first" });
+  assert.match(await words(history), /1\.730 s\s+4\.\d+ s\s+1\.990 s\s+success|1\.730 s/);
+  await history.getByRole("button", { name: "1.730 s" }).click();
+  await page.locator('input[aria-valuetext^="tick 173,"]').waitFor();
+  await page.context().close();
+});
+
+test("a click on the timeline goes there, and what it shows can be enlarged", async () => {
+  const page = await openRun(door);
+  const lanes = page.getByRole("group", { name: "Lanes of the nodes" });
+  assert.deepEqual(await lanes.getByRole("button").evaluateAll((all) => all.map((one) => one.getAttribute("aria-label"))), [
+    "reach: succeeded once", "grasp: succeeded once", "arm: succeeded once",
+    "base: held 3 times for 2.11 s, succeeded once", "release: succeeded once",
+  ]);
+  const drawing = await page.locator(".drawing").boundingBox();
+  await page.mouse.click(drawing.x + drawing.width / 2, drawing.y + 10);
+  await page.locator('input[aria-valuetext^="tick 350,"]').waitFor();
+  await page.getByRole("button", { name: "zoom in" }).click();
+  await page.mouse.click(drawing.x + drawing.width / 2 + 1, drawing.y + 10);
+  await page.locator('input[aria-valuetext^="tick 350,"]').waitFor();
+  await page.mouse.click(drawing.x + drawing.width - 1, drawing.y + 10);
+  await page.locator('input[aria-valuetext^="tick 52"]').waitFor();
+  await page.context().close();
+});
+
+test("entries, logs and events are those of the moment", async () => {
+  const page = await openRun(record(join(SOURCE, "trees/fetch_and_carry.xml")));
+  const board = page.getByRole("table", { name: "Blackboard" });
+  await atTick(page, 1000);
+  const row = board.getByRole("row", { name: /found_at/ });
+  assert.doesNotMatch(await words(row), /counter/);
+  await atTick(page, 1300);
+  assert.match(await words(row), /counter\s+11\.970 s/);
+  const events = page.getByRole("list", { name: "Events" });
+  assert.match(await words(events), /LookFor: sees the mug at the counter/);
+  await page.getByRole("button", { name: "logs" }).click();
+  await events.getByText("sees the mug").waitFor({ state: "detached" });
+  assert.match(await words(events), /found_at = counter/);
+  await page.context().close();
+});
+
+test("text of a tree is text, never markup", async () => {
+  const name = "&lt;img src=x onerror=document.title='broken'&gt;";
+  const page = await openRun(record(tree(`<Sequence name="${name}" memory="true"><Advance name="${name}" step="0.1"/></Sequence>`)));
+  const text = "<img src=x onerror=document.title='broken'>";
+  assert.equal(await page.getByRole("treeitem", { name: text }).count(), 2);
+  await page.getByRole("treeitem", { name: text }).first().click();
+  assert.equal(await page.locator("img").count(), 0);
+  assert.equal(await page.title(), "Test · lockstep");
+  await page.context().close();
+});
+
+test("axe finds nothing serious, in light, dark and on a phone", async () => {
+  for (const options of [{ colorScheme: "light" }, { colorScheme: "dark" }, { viewport: { width: 390, height: 844 } }]) {
+    const page = await openRun(door, options);
+    await atTick(page, 400);
+    await node(page, "base").click();
+    assert.deepEqual(await violations(page), []);
+    await page.keyboard.press("?");
+    await page.getByRole("dialog").waitFor();
+    assert.deepEqual(await violations(page), []);
+    await page.context().close();
+  }
+});
+
+test("the theme is that of the system until another is chosen", async () => {
+  const page = await openRun(door, { colorScheme: "dark" });
+  const background = () => page.evaluate(() => getComputedStyle(document.documentElement).backgroundColor);
+  assert.equal(await background(), "rgb(16, 20, 26)");
+  await page.getByRole("button", { name: "Theme: auto" }).click();
+  await page.getByRole("button", { name: "Theme: dark" }).click();
+  await page.getByRole("button", { name: "Theme: light" }).waitFor();
+  assert.equal(await background(), "rgb(244, 246, 248)");
+  await page.context().close();
+});
+
+test("playing goes on to the end", async () => {
+  const page = await openRun(door);
+  await page.getByRole("combobox", { name: "Speed of playing" }).selectOption("100×");
+  await page.getByRole("button", { name: "play" }).click();
+  await page.locator('input[aria-valuetext^="tick 700,"]').waitFor();
+  await page.getByRole("button", { name: "▶ play" }).waitFor();
+  await page.context().close();
+});

@@ -1,0 +1,94 @@
+// What the tests of the page share: recordings, pages of them, a browser that reports what goes wrong in it.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+
+export const SOURCE = join(dirname(fileURLToPath(import.meta.url)), "../..");
+export const BUILD = process.env.LOCKSTEP_BUILD ?? join(SOURCE, "build/dev");
+const require = createRequire(join(SOURCE, "interpreter/web/page/package.json"));
+const { chromium } = require("playwright-core");
+const AXE = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
+
+const directory = mkdtempSync(join(tmpdir(), "lockstep-page-"));
+process.on("exit", () => rmSync(directory, { recursive: true, force: true }));
+
+export function path(name) {
+  return join(directory, name);
+}
+export function file(name, text) {
+  writeFileSync(path(name), text);
+  return path(name);
+}
+
+export function lockstep(...args) {
+  return execFileSync(join(BUILD, "lockstep"), args, { encoding: "utf8", maxBuffer: 1 << 28, stdio: ["ignore", "pipe", "pipe"] });
+}
+
+let runs = 0;
+// A recording of a tree, on the virtual clock. The result of the run does not matter.
+export function record(tree, ...args) {
+  const recording = path(`run-${++runs}.jsonl`);
+  try {
+    lockstep("run", tree, "--plugin-path", join(BUILD, "plugins"), "--clock", "virtual", "--view", "none",
+      "--max-ticks", "5000", "--record", recording, ...args);
+  } catch (error) {
+    if (error.status === 2 || error.status === 3) throw error;
+  }
+  return recording;
+}
+
+export function tree(text) {
+  return file(`tree-${++runs}.xml`, `<root lockstep="1"><plugin name="motion"/><BehaviorTree ID="Test">${text}</BehaviorTree></root>`);
+}
+
+export function pageOf(recording) {
+  const page = recording.replace(/\.jsonl$/, ".html");
+  lockstep("log", "page", recording, "--out", page);
+  return `file://${page}`;
+}
+
+let browser = null;
+const complaints = [];
+
+export async function open(address, options = {}) {
+  browser ??= await chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox"] });
+  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
+  const page = await context.newPage();
+  page.on("console", (message) => message.type() === "error" && complaints.push(message.text()));
+  page.on("pageerror", (error) => complaints.push(error.stack ?? error.message));
+  page.setDefaultTimeout(10_000);
+  await page.goto(address);
+  return page;
+}
+export async function openRun(recording, options) {
+  const page = await open(pageOf(recording), options);
+  await page.getByRole("tree").waitFor();
+  return page;
+}
+
+// To be called after all tests of a file.
+export async function close() {
+  await browser?.close();
+  browser = null;
+  assert.deepEqual(complaints, [], "the browser complains");
+}
+
+export async function goToTick(page, tick) {
+  await page.getByRole("textbox", { name: "Tick" }).fill(String(tick));
+  await page.getByRole("textbox", { name: "Tick" }).press("Enter");
+}
+
+// A card's accessible name begins with its name; this rule wants all of its text, in the order in which it is drawn.
+const RULES = { "label-content-name-mismatch": { enabled: false } };
+
+// What axe finds, that matters to someone.
+export async function violations(page) {
+  await page.evaluate(AXE);
+  const { violations: found } = await page.evaluate((rules) => globalThis.axe.run(document, { rules }), RULES);
+  return found.filter(({ impact }) => impact === "serious" || impact === "critical")
+    .map(({ id, help, nodes }) => `${id}: ${help}: ${nodes.map((node) => node.html).slice(0, 3).join(" | ")}`);
+}
