@@ -1,7 +1,6 @@
 #include "document/document.h"
 
 #include <fmt/format.h>
-#include <tinyxml2.h>
 
 #include <deque>
 
@@ -10,28 +9,13 @@
 #include "document/well_formed.h"
 
 namespace lockstep {
-namespace {
-
-// An '&' that begins none is one of the value.
-void append_with_known_references(std::string_view value, std::string& text) {
-  for (auto at = value.find('&'); at != std::string_view::npos; at = value.find('&')) {
-    text += value.substr(0, at + 1);
-    value.remove_prefix(at);
-    if (!read_reference(value)) text += "amp;";
-    value.remove_prefix(1);
-  }
-  text += value;
-}
-
-}  // namespace
 
 struct Document::Implementation {
   std::shared_ptr<const Source> source;
   Language language = Language::Lockstep;
   std::vector<Element> elements;
   std::vector<Attribute> attributes;
-  std::vector<std::uint32_t> coded;  // attributes whose values have references or line ends
-  std::deque<std::string> values;    // those that are not as the text has them; never moved
+  std::deque<std::string> values;  // those that are not as the text has them; never moved
 
   void report(XmlFault fault, Diagnostics& diagnostics) const {
     const auto location = source->locate(source->place_of(fault.offset));
@@ -41,7 +25,6 @@ struct Document::Implementation {
   }
 
   bool check(Diagnostics& diagnostics);
-  bool read_coded(Diagnostics& diagnostics);
 };
 
 bool Document::Implementation::check(Diagnostics& diagnostics) {
@@ -62,32 +45,9 @@ bool Document::Implementation::check(Diagnostics& diagnostics) {
   for (auto& fault : written.faults) report(std::move(fault), diagnostics);
   elements = std::move(written.elements);
   attributes = std::move(written.attributes);
-  coded = std::move(written.coded);
-  return written.readable;
-}
-
-// All of them at once, as the attributes of a text that is made for it.
-bool Document::Implementation::read_coded(Diagnostics& diagnostics) {
-  if (coded.empty()) return true;
-  std::string text = "<r>";
-  for (const auto index : coded) {
-    const std::string_view value = attributes[index].value;
-    const char quote = value.data()[-1];
-    (text += "<a v=") += quote;
-    append_with_known_references(value, text);
-    (text += quote) += "/>";
-  }
-  text += "</r>";
-  tinyxml2::XMLDocument xml;
-  if (xml.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
-    diagnostics.error({source->path()},
-                      fmt::format("values that cannot be read ({})", xml.ErrorName()));
-    return false;
-  }
-  const auto* read = xml.RootElement()->FirstChildElement();
-  for (const auto index : coded) {
-    attributes[index].value = values.emplace_back(read->Attribute("v"));
-    read = read->NextSiblingElement();
+  if (!written.readable) return false;
+  for (const auto index : written.coded) {
+    attributes[index].value = values.emplace_back(read_value(attributes[index].value));
   }
   return true;
 }
@@ -100,7 +60,7 @@ std::unique_ptr<Document> Document::parse(std::string path, std::string text,
   std::unique_ptr<Document> document(new Document);
   auto& it = *document->it_;
   it.source = std::make_shared<const Source>(std::move(path), std::move(text), first);
-  if (!it.check(diagnostics) || !it.read_coded(diagnostics)) return nullptr;
+  if (!it.check(diagnostics)) return nullptr;
   return document;
 }
 
