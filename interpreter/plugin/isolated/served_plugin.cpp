@@ -13,8 +13,8 @@
 #include "core/plugin_exception.h"
 #include "plugin/initialize.h"
 #include "plugin/isolated/channel.h"
-#include "plugin/isolated/child_process.h"
 #include "plugin/isolated/descriptor_message.h"
+#include "plugin/isolated/leafhost_descriptors.h"
 #include "plugin/isolated/served_run.h"
 #include "plugin/shared_object.h"
 
@@ -162,18 +162,19 @@ class Server {
 
 bool ServedPlugin::has_host() {
   Channel channel;
-  return fcntl(ChildProcess::kBell, F_GETFD) >= 0 && fcntl(ChildProcess::kParent, F_GETFD) >= 0 &&
-         getpgrp() == getpid() && channel.open(ChildProcess::kMemory, Channel::Side::Leafhost);
+  return fcntl(LeafhostDescriptors::kBell, F_GETFD) >= 0 &&
+         fcntl(LeafhostDescriptors::kParent, F_GETFD) >= 0 && getpgrp() == getpid() &&
+         channel.open(LeafhostDescriptors::kMemory, Channel::Side::Leafhost);
 }
 
 int ServedPlugin::serve(const std::string& path) {
   // What the plugin starts does not inherit them.
-  const int bell = moved_up(ChildProcess::kBell);
-  watch_host(moved_up(ChildProcess::kParent));
+  const int bell = moved_up(LeafhostDescriptors::kBell);
+  watch_host(moved_up(LeafhostDescriptors::kParent));
   // Never destroyed: threads of the plugin may log until the process ends.
   static auto& channel = *new Channel;
-  if (!channel.open(ChildProcess::kMemory, Channel::Side::Leafhost)) return 1;
-  close(ChildProcess::kMemory);
+  if (!channel.open(LeafhostDescriptors::kMemory, Channel::Side::Leafhost)) return 1;
+  close(LeafhostDescriptors::kMemory);
   static auto& server = *new Server(path, channel, bell);
   while (server.serve()) {
   }

@@ -6,7 +6,7 @@
 
 namespace lockstep {
 
-// Serves the plugin in `path` over the descriptors of ChildProcess until the host ends it; the
+// Serves the plugin in `path` over the LeafhostDescriptors until the host ends it; the
 // process's exit code. Nothing when this process was not started by a host.
 struct ServedPlugin {
   static bool has_host();

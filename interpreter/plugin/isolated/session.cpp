@@ -10,6 +10,7 @@
 #include "core/own_thread.h"
 #include "core/running_time.h"
 #include "plugin/host.h"
+#include "plugin/isolated/leafhost_descriptors.h"
 
 namespace lockstep {
 namespace {
@@ -25,13 +26,17 @@ std::string Session::start(const IsolationOptions& options, const std::string& p
   hang_limit_ = options.hang_limit;
   const FileDescriptor memory(Channel::create_memory());
   bell_ = FileDescriptor(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
-  if (memory.number() < 0 || bell_.number() < 0 ||
+  const FileDescriptor end = ChildProcess::own_end();
+  if (memory.number() < 0 || bell_.number() < 0 || end.number() < 0 ||
       !channel_.open(memory.number(), Channel::Side::Host)) {
     return std::strerror(errno);  // NOLINT(concurrency-mt-unsafe): known errors, constant texts
   }
   call_log_.reader.emplace(channel_.call_log());
   thread_log_.reader.emplace(channel_.thread_log());
-  std::string failure = process_.start(options.leafhost, plugin, memory.number(), bell_.number());
+  const ChildProcess::Given given[] = {{memory.number(), LeafhostDescriptors::kMemory},
+                                       {bell_.number(), LeafhostDescriptors::kBell},
+                                       {end.number(), LeafhostDescriptors::kParent}};
+  std::string failure = process_.start(options.leafhost, {"lockstep-leafhost", plugin}, given);
   if (!failure.empty()) return failure;
   watcher_ = own_thread([this]() noexcept { watch(); });
   return {};

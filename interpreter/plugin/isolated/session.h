@@ -15,8 +15,8 @@
 
 #include "core/file_descriptor.h"
 #include "plugin/call_mark.h"
+#include "plugin/child_process.h"
 #include "plugin/isolated/channel.h"
-#include "plugin/isolated/child_process.h"
 #include "plugin/isolated/message.h"
 #include "plugin/plugin_set.h"
 

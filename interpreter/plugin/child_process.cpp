@@ -1,4 +1,4 @@
-#include "plugin/isolated/child_process.h"
+#include "plugin/child_process.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -29,15 +30,17 @@ class SpawnPlan {
   SpawnPlan& operator=(const SpawnPlan&) = delete;
 
   // The output of a leaf must not mix with our data; nothing else is inherited.
-  void set_descriptors(int memory, int bell, int parent) {
+  void set_descriptors(std::span<const ChildProcess::Given> given) {
     const bool has_errors = fcntl(STDERR_FILENO, F_GETFD) >= 0;
     posix_spawn_file_actions_addopen(&actions_, 0, "/dev/null", O_RDONLY, 0);
     if (!has_errors) posix_spawn_file_actions_addopen(&actions_, 2, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_adddup2(&actions_, 2, 1);
-    posix_spawn_file_actions_adddup2(&actions_, memory, ChildProcess::kMemory);
-    posix_spawn_file_actions_adddup2(&actions_, bell, ChildProcess::kBell);
-    posix_spawn_file_actions_adddup2(&actions_, parent, ChildProcess::kParent);
-    posix_spawn_file_actions_addclosefrom_np(&actions_, ChildProcess::kParent + 1);
+    int last = 2;
+    for (const auto& [ours, theirs] : given) {
+      posix_spawn_file_actions_adddup2(&actions_, ours, theirs);
+      last = std::max(last, theirs);
+    }
+    posix_spawn_file_actions_addclosefrom_np(&actions_, last + 1);
   }
 
   // Ctrl-C of a terminal is for the host, which then halts the leaves in order: hence a separate
@@ -53,11 +56,11 @@ class SpawnPlan {
         &attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
   }
 
-  int spawn(pid_t& pid, const std::string& program, const std::string& argument) const {
-    std::string name = "lockstep-leafhost";
-    std::string last = argument;
-    char* arguments[] = {name.data(), last.data(), nullptr};
-    return posix_spawn(&pid, program.c_str(), &actions_, &attributes_, arguments, environ);
+  int spawn(pid_t& pid, const std::string& program, std::vector<std::string> arguments) const {
+    std::vector<char*> pointers;
+    for (std::string& argument : arguments) pointers.push_back(argument.data());
+    pointers.push_back(nullptr);
+    return posix_spawn(&pid, program.c_str(), &actions_, &attributes_, pointers.data(), environ);
   }
 
  private:
@@ -74,35 +77,40 @@ int open_pidfd(pid_t process) {
   return static_cast<int>(syscall(SYS_pidfd_open, process, 0));
 }
 
-std::string description(const siginfo_t& info) {
-  if (info.si_code == CLD_EXITED) return fmt::format("ended with exit code {}", info.si_status);
-  const char* const name = sigabbrev_np(info.si_status);
-  const char* const text = sigdescr_np(info.si_status);
-  if (name == nullptr) return fmt::format("was killed by signal {}", info.si_status);
-  return fmt::format("was killed by SIG{} ({})", name, text == nullptr ? "" : text);
-}
-
 std::string error_text(int error) {
   return std::strerror(error);  // NOLINT(concurrency-mt-unsafe): known errors, constant texts
 }
 
 }  // namespace
 
-std::string ChildProcess::start(const std::string& program, const std::string& argument, int memory,
-                                int bell) {
-  const FileDescriptor parent(open_pidfd(getpid()));
-  if (parent.number() < 0) return error_text(errno);
-  const FileDescriptor memory_copy(high_copy(memory));
-  const FileDescriptor bell_copy(high_copy(bell));
-  const FileDescriptor parent_copy(high_copy(parent.number()));
-  if (memory_copy.number() < 0 || bell_copy.number() < 0 || parent_copy.number() < 0) {
-    return error_text(errno);
+std::string describe_end(int code, int status) {
+  if (code == CLD_EXITED) return fmt::format("ended with exit code {}", status);
+  const char* const name = sigabbrev_np(status);
+  const char* const text = sigdescr_np(status);
+  if (name == nullptr) return fmt::format("was killed by signal {}", status);
+  return fmt::format("was killed by SIG{} ({})", name, text == nullptr ? "" : text);
+}
+
+FileDescriptor ChildProcess::own_end() {
+  return FileDescriptor(open_pidfd(getpid()));
+}
+
+std::string ChildProcess::start(const std::string& program, std::vector<std::string> arguments,
+                                std::span<const Given> given) {
+  std::vector<FileDescriptor> copies;
+  std::vector<Given> high;
+  for (const auto& [ours, theirs] : given) {
+    copies.emplace_back(high_copy(ours));
+    if (copies.back().number() < 0) return error_text(errno);
+    high.push_back({copies.back().number(), theirs});
   }
   SpawnPlan plan;
-  plan.set_descriptors(memory_copy.number(), bell_copy.number(), parent_copy.number());
+  plan.set_descriptors(high);
   plan.set_attributes();
   pid_t pid = -1;
-  if (const int error = plan.spawn(pid, program, argument); error != 0) return error_text(error);
+  if (const int error = plan.spawn(pid, program, std::move(arguments)); error != 0) {
+    return error_text(error);
+  }
   pid_ = pid;
   descriptor_ = FileDescriptor(open_pidfd(pid));
   if (descriptor_.number() >= 0) return {};
@@ -137,7 +145,7 @@ std::string ChildProcess::reap() {
   while (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED) != 0 && errno == EINTR) {
   }
   pid_ = -1;
-  return description(info);
+  return describe_end(info.si_code, info.si_status);
 }
 
 }  // namespace lockstep

@@ -1,0 +1,56 @@
+// A child process in a separate process group: started with a few descriptors, killed with its
+// group, reaped once. Knows nothing about plugins.
+#pragma once
+
+#include <sys/types.h>
+
+#include <mutex>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/file_descriptor.h"
+
+namespace lockstep {
+
+// "was killed by SIGSEGV (Segmentation fault)", "ended with exit code 3"; `code` and `status` as
+// waitid has them.
+std::string describe_end(int code, int status);
+
+class ChildProcess {
+ public:
+  // A descriptor of ours, and the number under which the program finds it.
+  struct Given {
+    int ours, theirs;
+  };
+  // A descriptor that is readable when this process has ended, for a child that is not to outlive
+  // it; none on failure.
+  static FileDescriptor own_end();
+
+  // Runs `program` with `arguments`, the first of which is its name. Beside what it is given it
+  // finds 0 (empty), 1 and 2 (our standard error). Returns "" or the reason of a failure. The
+  // caller keeps the descriptors.
+  std::string start(const std::string& program, std::vector<std::string> arguments,
+                    std::span<const Given> given);
+
+  ChildProcess() = default;
+  // Kills and reaps it, unless that was already done.
+  ~ChildProcess();
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  // Becomes readable when the process has ended.
+  int descriptor() const { return descriptor_.number(); }
+  // Sends SIGKILL to it, even if it has left its group, and to that group, unless it has been
+  // reaped. May be called from any thread.
+  void kill();
+  // Waits for its end, kills the rest of its group, and returns how it ended.
+  std::string reap();
+
+ private:
+  std::mutex mutex_;
+  pid_t pid_ = -1;  // -1: none, or reaped
+  FileDescriptor descriptor_;
+};
+
+}  // namespace lockstep
