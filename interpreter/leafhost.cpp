@@ -1,10 +1,12 @@
-// lockstep-leafhost: the process in which an isolated plugin lives. Started by lockstep only.
+// lockstep-leafhost: the process in which an isolated plugin lives, or the guardian of one that is
+// a program. Started by lockstep only.
 #include <unistd.h>
 
 #include <string_view>
 
 #include "core/descriptors.h"
 #include "plugin/isolated/served_plugin.h"
+#include "plugin/program/guardian.h"
 #include "runtime/crash_report.h"
 #include "runtime/plugin_thread.h"
 
@@ -17,7 +19,8 @@ constexpr const char* kHelp =
     "\n"
     "It is started by lockstep ('lockstep run --isolate', or <plugin name=\"...\" "
     "isolate=\"true\"/>\n"
-    "in a tree), one for each plugin and run, and ends with it. Do not start it yourself.\n";
+    "in a tree), one for each plugin and run, and ends with it. With --program it starts a plugin\n"
+    "that is a program, and ends it. Do not start it yourself.\n";
 
 }  // namespace
 
@@ -26,6 +29,9 @@ int main(int argc, char** argv) {
   const std::string_view first = argc > 1 ? argv[1] : "";
   if (first == "--help" || first == "-h") {
     return lockstep::write_all(STDOUT_FILENO, kHelp) ? 0 : kExitUsage;
+  }
+  if (argc == 3 && first == "--program" && lockstep::is_guardian()) {
+    return lockstep::guard_program(argv[2]);
   }
   if (argc != 2 || !lockstep::ServedPlugin::has_host()) {
     lockstep::write_all(

@@ -66,6 +66,9 @@ bool JsonValue::get(double& number) {
 bool JsonValue::get(std::uint64_t& number) {
   return take(value_.get_uint64(), number);
 }
+bool JsonValue::get(std::int64_t& number) {
+  return take(value_.get_int64(), number);
+}
 bool JsonValue::is_null() {
   bool is_null = false;
   return take(value_.is_null(), is_null) && is_null;

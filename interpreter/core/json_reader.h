@@ -41,6 +41,7 @@ class JsonValue {
   bool get(std::string_view& text);
   bool get(double& number);
   bool get(std::uint64_t& number);
+  bool get(std::int64_t& number);
   bool get(bool& flag);
   bool is_null();
   bool is_list();

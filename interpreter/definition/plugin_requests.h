@@ -1,4 +1,4 @@
-// The plugins that a project requests with <plugin name="…" isolate="…"/>. Finding and loading them
+// The plugins that a project requests with <plugin name="…" …/>. Finding and loading them
 // is done elsewhere.
 #pragma once
 
@@ -14,8 +14,10 @@ inline constexpr std::size_t kMaxPlugins = 256;  // each may be a process
 
 struct PluginRequest {
   std::string name;
-  Place place;           // of the attribute that names it
-  bool isolate = false;  // in a separate process
+  Place place;               // of the attribute that names it
+  bool isolate = false;      // in a separate process
+  std::string program = {};  // the file of a program; "": it is a shared object
+  std::string hold = {};     // "signal", "message", "none"; "": as the program says
 };
 
 // Each name once, in the order of the documents; isolated if one of its elements requests it.

@@ -73,6 +73,23 @@ constexpr std::string_view kPrologueEnd = R"xsd(  <xs:simpleType name="boolean">
             <xs:attribute name="isolate" type="boolean">
               <xs:annotation><xs:documentation>true: the plugin runs in a separate process, so that it cannot bring down the run.</xs:documentation></xs:annotation>
             </xs:attribute>
+            <xs:attribute name="program" type="word">
+              <xs:annotation><xs:documentation>The plugin is a program: the name of its file, which is searched where plugins are.</xs:documentation></xs:annotation>
+            </xs:attribute>
+            <xs:attribute name="hold">
+              <xs:annotation><xs:documentation>What happens to a leaf of the program while a synchronized node withholds its ticks: its process is stopped, it gets a message, or nothing.</xs:documentation></xs:annotation>
+              <xs:simpleType>
+                <xs:union memberTypes="substituted">
+                  <xs:simpleType>
+                    <xs:restriction base="xs:string">
+                      <xs:enumeration value="signal"/>
+                      <xs:enumeration value="message"/>
+                      <xs:enumeration value="none"/>
+                    </xs:restriction>
+                  </xs:simpleType>
+                </xs:union>
+              </xs:simpleType>
+            </xs:attribute>
           </xs:complexType>
         </xs:element>
         <xs:element name="arg">

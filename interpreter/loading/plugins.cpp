@@ -22,6 +22,12 @@ std::string leafhost_path(const PluginOptions& options) {
   return (directory / LOCKSTEP_LEAFHOST_FROM_BIN).lexically_normal().string();
 }
 
+Hold hold_of(std::string_view word) {
+  if (word.empty()) return Hold::AsItSays;
+  if (word == "signal") return Hold::Signal;
+  return word == "message" ? Hold::Message : Hold::None;
+}
+
 }  // namespace
 
 bool is_plugin_file(const std::string& plugin) {
@@ -32,6 +38,9 @@ bool load_given_plugins(const PluginOptions& options, PluginSet& plugins,
                         Diagnostics& diagnostics) {
   plugins.set_isolation({.leafhost = leafhost_path(options),
                          .hang_limit = from_seconds(options.hang_limit),
+                         .halt_limit = options.halt_limit > 0
+                                           ? std::optional(from_seconds(options.halt_limit))
+                                           : std::nullopt,
                          .all = options.isolate});
   if (!check_plugin_options(options, diagnostics)) return false;
   bool good = true;
@@ -50,7 +59,10 @@ bool load_requested_plugins(const PluginOptions& options, const Project& project
   for (const PluginRequest& request : requested_plugins(project, diagnostics)) {
     const auto isolation = request.isolate ? Isolation::Isolated : Isolation::InProcess;
     Diagnostics refused;
-    good &= plugins.load_named(request.name, directories, refused, {}, isolation);
+    good &= request.program.empty()
+                ? plugins.load_named(request.name, directories, refused, {}, isolation)
+                : plugins.load_program({request.name, request.program, hold_of(request.hold)},
+                                       directories, refused);
     for (Diagnostic diagnostic : refused.all()) {  // only these need a location
       diagnostic.location = project.sources.locate_value(request.place);
       diagnostics.add(std::move(diagnostic));

@@ -16,6 +16,7 @@ struct PluginOptions {
   std::vector<std::string> directories;  // --plugin-path
   bool isolate = false;                  // --isolate
   double hang_limit = 10;                // --hang-limit, in seconds; 0 = never
+  double halt_limit = 1;                 // --halt-limit, in seconds; 0 = never
   // From where what is installed with lockstep is found; "": that of the running program.
   std::string program_directory;
 };

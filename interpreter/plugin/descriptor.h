@@ -17,9 +17,11 @@
 namespace lockstep {
 
 class IsolatedPlugin;
+class ProgramPlugin;
 
 struct HostedPlugin : lockstep_plugin {
   IsolatedPlugin* isolated = nullptr;  // null: its functions are the plugin's own
+  ProgramPlugin* program = nullptr;    // null: it is no program
   bool is_local = false;               // it cannot be isolated
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -16,6 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kAddDirectory = "add the directory that has it to the plugin path";
+
+constexpr const char* kNoDirectory = "is not found: there is no directory to search";
 
 // The names that could be found in the directories.
 std::vector<std::string> available(std::span<const std::string> directories) {
@@ -51,7 +54,7 @@ Result<std::string> find_plugin_file(std::string_view name,
     if (fs::exists(path, error)) return path;
   }
   if (directories.empty()) {
-    return problem("is not found: there is no directory to search", kAddDirectory);
+    return problem(kNoDirectory, kAddDirectory);
   }
   const std::string message =
       fmt::format("is not found: '{}.so' is not in {}", brief(name), fmt::join(directories, ", "));
@@ -65,6 +68,27 @@ Result<std::string> find_plugin_file(std::string_view name,
   std::string hint = did_you_mean(name, candidates);
   if (hint.empty()) hint = kAddDirectory;
   return problem(message, std::move(hint));
+}
+
+bool is_executable(const std::string& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error) && access(path.c_str(), X_OK) == 0;
+}
+
+Result<std::string> find_program_file(std::string_view file,
+                                      std::span<const std::string> directories) {
+  for (const std::string& directory : directories) {
+    std::string path = (fs::path(directory) / file).string();
+    std::error_code error;
+    if (!fs::exists(path, error)) continue;
+    if (is_executable(path)) return path;
+    return problem(fmt::format("is a program that cannot be executed: '{}'", path),
+                   fmt::format("chmod +x '{}'", path));
+  }
+  if (directories.empty()) return problem(kNoDirectory, kAddDirectory);
+  return problem(fmt::format("is not found: the program '{}' is not in {}", brief(file),
+                             fmt::join(directories, ", ")),
+                 kAddDirectory);
 }
 
 }  // namespace lockstep

@@ -13,4 +13,9 @@ namespace lockstep {
 [[nodiscard]] Result<std::string> find_plugin_file(std::string_view name,
                                                    std::span<const std::string> directories);
 
+// The same of a program, by the name of its file, which must be executable.
+[[nodiscard]] Result<std::string> find_program_file(std::string_view file,
+                                                    std::span<const std::string> directories);
+bool is_executable(const std::string& path);  // a regular file that this user may execute
+
 }  // namespace lockstep

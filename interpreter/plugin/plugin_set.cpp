@@ -14,6 +14,7 @@
 #include "plugin/isolated/isolated_plugin.h"
 #include "plugin/isolated/refusal.h"
 #include "plugin/plugin_path.h"
+#include "plugin/program/program_plugin.h"
 #include "plugin/shared_object.h"
 #include "plugin/trust.h"
 
@@ -34,6 +35,11 @@ std::optional<Problem> check_expected_name(std::string_view name, std::string_vi
                  fmt::format("name the file '{}.so', or give the plugin the file's name", name)};
 }
 
+bool is_program(const std::string& path) {
+  const std::string name = std::filesystem::path(path).filename().string();
+  return name.find(".so") == name.npos && is_executable(path);
+}
+
 // Two names of one file.
 bool is_same_file(const std::string& one, const std::string& other) {
   std::error_code error;
@@ -45,7 +51,8 @@ bool is_same_file(const std::string& one, const std::string& other) {
 struct PluginSet::Plugin {
   const lockstep_plugin* entry;  // the plugin's own constant
   std::string origin;
-  std::unique_ptr<IsolatedPlugin> isolated = {};  // null: it lives in this process
+  std::unique_ptr<IsolatedPlugin> isolated = {};  // both null: it lives in this process
+  std::unique_ptr<ProgramPlugin> program = {};
   Descriptors descriptors = {};
   bool initialized = false;
 
@@ -85,8 +92,9 @@ PluginSet::PluginSet() = default;
 
 PluginSet::~PluginSet() {
   for (auto plugin = plugins_.rbegin(); plugin != plugins_.rend(); ++plugin) {
-    if ((*plugin)->isolated) {
+    if ((*plugin)->isolated || (*plugin)->program) {
       (*plugin)->isolated.reset();
+      (*plugin)->program.reset();
     } else if ((*plugin)->initialized) {
       deinitialize_plugin((*plugin)->descriptors.plugin);
     }
@@ -99,6 +107,10 @@ void PluginSet::set_isolation(IsolationOptions options) {
 
 bool PluginSet::load_file(const std::string& path, Diagnostics& diagnostics, SourceLocation where,
                           Isolation isolation) {
+  if (is_program(path)) {
+    const std::string name = std::filesystem::path(path).stem().string();
+    return open_program({path, name, std::move(where)}, Hold::AsItSays, diagnostics);
+  }
   return open({path, {}, std::move(where), isolation}, diagnostics);
 }
 
@@ -110,15 +122,29 @@ bool PluginSet::load_named(std::string_view name, std::span<const std::string> d
                       "a plugin is named by letters, digits, '_' and '-', without path and '.so'");
     return false;
   }
-  if (std::ranges::any_of(plugins_, [&](const auto& it) { return it->name() == name; })) {
-    return true;
-  }
+  if (has(name)) return true;
   warn_of_writable_directories(directories, where, diagnostics);
   auto path = find_plugin_file(name, directories);
   if (!path) {
     return refuse(std::string(name), std::move(path.error()), diagnostics, std::move(where));
   }
   return open({std::move(*path), name, std::move(where), isolation}, diagnostics);
+}
+
+bool PluginSet::load_program(const Program& program, std::span<const std::string> directories,
+                             Diagnostics& diagnostics, SourceLocation where) {
+  if (has(program.name)) return true;
+  warn_of_writable_directories(directories, where, diagnostics);
+  auto path = find_program_file(program.file, directories);
+  if (!path) {
+    return refuse(program.name, std::move(path.error()), diagnostics, std::move(where));
+  }
+  return open_program({std::move(*path), program.name, std::move(where)}, program.hold,
+                      diagnostics);
+}
+
+bool PluginSet::has(std::string_view name) const {
+  return std::ranges::any_of(plugins_, [&](const auto& it) { return it->name() == name; });
 }
 
 bool PluginSet::add(const lockstep_plugin& plugin, std::string origin, Diagnostics& diagnostics,
@@ -155,6 +181,20 @@ bool PluginSet::open_isolated(const Request& request, Diagnostics& diagnostics) 
   auto plugin = std::make_unique<Plugin>(Plugin{&(*opened)->entry(), request.origin});
   plugin->isolated = std::move(*opened);
   plugin->descriptors.plugin.isolated = plugin->isolated.get();
+  return accept(std::move(plugin), 0, request, diagnostics);
+}
+
+bool PluginSet::open_program(const Request& request, Hold hold, Diagnostics& diagnostics) {
+  if (has(request.expected_name)) return true;
+  warn_of_writable_plugin(request.origin, request.where, diagnostics);
+  auto opened =
+      ProgramPlugin::open(request.origin, std::string(request.expected_name), hold, isolation_);
+  if (!opened) {
+    return refuse(request.origin, std::move(opened.error()), diagnostics, request.where);
+  }
+  auto plugin = std::make_unique<Plugin>(Plugin{&(*opened)->entry(), request.origin});
+  plugin->program = std::move(*opened);
+  plugin->descriptors.plugin.program = plugin->program.get();
   return accept(std::move(plugin), 0, request, diagnostics);
 }
 
@@ -218,7 +258,7 @@ std::vector<PluginSet::Info> PluginSet::list() const {
   for (const auto& plugin : plugins_) {
     const lockstep_plugin& it = plugin->descriptors.plugin;
     list.push_back({text(it.name), text(it.version), text(it.doc), plugin->origin,
-                    plugin->isolated != nullptr});
+                    plugin->isolated != nullptr || plugin->program != nullptr});
   }
   return list;
 }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,6 +15,7 @@
 #include "core/diagnostics.h"
 #include "core/node_type.h"
 #include "lockstep/leaf.h"
+#include "plugin/program/hold.h"
 
 namespace lockstep {
 
@@ -23,7 +25,9 @@ enum class Isolation : bool { InProcess, Isolated };
 struct IsolationOptions {
   std::string leafhost;                               // path of the program lockstep-leafhost
   Nanoseconds hang_limit = std::chrono::seconds(10);  // 0 = never
-  bool all = false;                                   // whatever is passed to a load function
+  // Programs: how long they may take to answer a halt, and to end when they are asked to.
+  std::optional<Nanoseconds> halt_limit = std::chrono::seconds(1);
+  bool all = false;  // whatever is passed to a load function
 };
 
 class PluginSet {
@@ -40,9 +44,9 @@ class PluginSet {
   // killed.
   void set_isolation(IsolationOptions options);
 
-  // Opens a shared object. On failure, returns false with one error, and the set is unchanged.
-  // Opening the same file again does nothing, isolated or not: the first call decides. `where` is
-  // the place in a tree that asked for it, if any.
+  // Opens a shared object, or a program whose name is that of the file. On failure, returns false
+  // with one error, and the set is unchanged. Opening the same file again does nothing, isolated or
+  // not: the first call decides. `where` is the place in a tree that asked for it, if any.
   bool load_file(const std::string& path, Diagnostics& diagnostics, SourceLocation where = {},
                  Isolation isolation = Isolation::InProcess);
 
@@ -51,6 +55,15 @@ class PluginSet {
   bool load_named(std::string_view name, std::span<const std::string> directories,
                   Diagnostics& diagnostics, SourceLocation where = {},
                   Isolation isolation = Isolation::InProcess);
+
+  // Opens the program `file` from the first of `directories` that has it, as a plugin named `name`,
+  // unless a plugin of this name is there already. See program/program_plugin.h.
+  struct Program {
+    std::string name, file;
+    Hold hold = Hold::AsItSays;
+  };
+  bool load_program(const Program& program, std::span<const std::string> directories,
+                    Diagnostics& diagnostics, SourceLocation where = {});
 
   // A plugin that is linked in; for tests. `origin` stands for its path in messages. The plugin and
   // all that it points to must outlive the set.
@@ -86,6 +99,8 @@ class PluginSet {
   };
   bool open(const Request& request, Diagnostics& diagnostics);
   bool open_isolated(const Request& request, Diagnostics& diagnostics);
+  bool open_program(const Request& request, Hold hold, Diagnostics& diagnostics);
+  bool has(std::string_view name) const;
   bool accept(std::unique_ptr<Plugin> plugin, std::size_t size, const Request& request,
               Diagnostics& diagnostics);
 

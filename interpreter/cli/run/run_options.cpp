@@ -91,8 +91,9 @@ void define_fault_options(CLI::App& app, RunCommandOptions& options) {
       {{"stop", FaultPolicy::Stop}, {"fail", FaultPolicy::Fail}},
       "When a leaf fails as a program (it throws, crashes in a separate process, "
       "returns an invalid status): stop the run, or count it as Failure");
-  app.add_option("--halt-limit", options.halt_limit,
-                 "Report a leaf that does not return from halt within S seconds; 0 = never")
+  app.add_option("--halt-limit", options.load.plugins.halt_limit,
+                 "Report a leaf that does not return from halt within S seconds, and end a program "
+                 "that does not answer it; 0 = never")
       ->type_name("S")
       ->check(number_between(0.0, 1e6))
       ->capture_default_str();

@@ -27,7 +27,6 @@ struct RunCommandOptions {
   std::optional<double> tick_budget_ms;  // none: the period; 0: no budget
   RealtimeOptions realtime;
   FaultPolicy on_fault = FaultPolicy::Stop;
-  double halt_limit = 1;  // seconds; 0 = never. The hang limit is among the plugin options.
 
   std::string record;
   bool stop_on_record_error = false;

@@ -59,7 +59,7 @@ LeafWatchOptions RunWatch::leaf_watch_options() {
 WatchdogOptions RunWatch::watchdog_options() {
   // Hangs are watched since plugins were loaded.
   WatchdogOptions watchdog{.hang_limit = Nanoseconds(0),
-                           .halt_limit = from_seconds(options_.halt_limit),
+                           .halt_limit = from_seconds(options_.load.plugins.halt_limit),
                            .on_long_halt = {},
                            .on_hang = {}};
   watchdog.on_long_halt = [this](const CallMark::Look& call, Nanoseconds lasts) {

@@ -1,0 +1,347 @@
+#include "plugin/program/conversation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/diagnostics.h"
+#include "core/wording.h"
+#include "plugin/host.h"
+
+namespace lockstep {
+namespace {
+
+constexpr Nanoseconds kToDie = std::chrono::milliseconds(100);  // after the end of its output
+constexpr Nanoseconds kToFlush = std::chrono::milliseconds(1);
+
+std::string shown(std::string_view line) {
+  return fmt::format("'{}'", brief(printable(line)));
+}
+
+}  // namespace
+
+const char* name_of(Conversation::Asked asked) {
+  constexpr const char* kNames[] = {"nothing", "create", "tick", "halt"};
+  return kNames[static_cast<std::size_t>(asked)];
+}
+
+std::optional<Nanoseconds> Conversation::hang_limit() const {
+  return options_.hang_limit == Nanoseconds(0) ? std::nullopt : std::optional(options_.hang_limit);
+}
+
+Result<std::string> Conversation::start(const std::string& path) {
+  if (auto failure = process_.start(options_.leafhost, path); !failure.empty()) {
+    return problem(fmt::format("does not start: {}", failure),
+                   "a program is executable, and a script begins with #! and its interpreter");
+  }
+  const auto end = monotonic_now() + options_.hang_limit;
+  while (!process_.lines.next(line_)) {
+    const auto left = hang_limit() ? std::optional(end - monotonic_now()) : std::nullopt;
+    const bool is_late = left && *left <= Nanoseconds(0);
+    if (is_late || process_.lines.is_too_long()) {
+      return problem(is_late
+                         ? fmt::format("says nothing for {:g} s", to_seconds(options_.hang_limit))
+                         : "says more than a line of 1 MiB",
+                     "its first line says what leaves it has; is its output buffered?");
+    }
+    if (!process_.await_output(left)) continue;
+    if (!process_.lines.fill(process_.output())) {
+      const auto death = process_.await_end(kToDie);
+      return problem(death ? fmt::format("{} before it said what leaves it has", *death)
+                           : "closed its output before it said what leaves it has",
+                     "run it by hand to see what it prints");
+    }
+  }
+  return line_;
+}
+
+void Conversation::begin(const lockstep_caller& run) {
+  const std::lock_guard lock(mutex_);
+  run_ = &run;
+}
+
+std::uint32_t Conversation::add(const lockstep_caller& leaf) {
+  const std::lock_guard lock(mutex_);
+  leaves_.push_back({.caller = &leaf});
+  return static_cast<std::uint32_t>(leaves_.size());
+}
+
+void Conversation::remove(std::uint32_t leaf) {
+  const std::lock_guard lock(mutex_);
+  leaves_[leaf - 1].caller = nullptr;
+}
+
+void Conversation::send(std::uint32_t number, Asked asked, std::string_view lines) {
+  if (is_gone() || (asked == Asked::Tick && !is_listened_ && find_unasked())) return;
+  bool is_written = false;
+  {
+    const std::lock_guard lock(mutex_);
+    Leaf& leaf = leaves_[number - 1];
+    if (asked != Asked::Nothing) {
+      leaf.owes_tick = leaf.asked == Asked::Tick;
+      leaf.asked = asked;
+      leaf.since = monotonic_now();
+      if (asked == Asked::Tick) leaf.news.status = 0;
+    }
+    is_written = process_.write(lines);
+  }
+  if (is_written) return;
+  // Who does not read any more may have died, which says more.
+  const auto death = process_.await_end(Nanoseconds(0));
+  give_up(death ? *death + blamed() : "did not read what it was sent; it was killed");
+}
+
+bool Conversation::await(std::uint32_t number, Asked asked, std::optional<Nanoseconds> patience) {
+  const Leaf& leaf = leaves_[number - 1];
+  if (!is_listened_) return await_here(leaf, asked, patience);
+  std::unique_lock lock(mutex_);
+  const auto is_over = [&] { return is_gone() || leaf.asked != asked; };
+  if (!patience) {
+    answered_.wait(lock, is_over);
+  } else {
+    answered_.wait_for(lock, *patience, is_over);
+  }
+  return !is_gone() && leaf.asked != asked;
+}
+
+// Nothing that comes after the answer is taken: when it comes is not the same in every run.
+bool Conversation::await_here(const Leaf& leaf, Asked asked, std::optional<Nanoseconds> patience) {
+  const Nanoseconds end = monotonic_now() + patience.value_or(Nanoseconds(0));
+  while (!is_gone() && leaf.asked == asked) {
+    if (process_.lines.next(line_)) {
+      take_line();
+      continue;
+    }
+    const auto left = patience ? std::optional(end - monotonic_now()) : std::nullopt;
+    if (left && *left <= Nanoseconds(0)) return false;
+    read_more(left);
+  }
+  return !is_gone();
+}
+
+// Where each answer is waited for, one that is there before the question would be taken for the
+// answer to it. Everything else that is there stays for its time.
+bool Conversation::find_unasked() {
+  process_.lines.fill(process_.output());
+  std::size_t place = 0;
+  while (process_.lines.look(place, line_)) {
+    if (!read_reply(reader_, line_, reply_).empty()) return false;  // its time comes
+    const bool is_answer = reply_.what == Reply::What::Status || reply_.what == Reply::What::Done;
+    if (!is_answer || reply_.leaf == 0 || reply_.leaf > leaves_.size()) continue;
+    give_up(take_answer(leaves_[reply_.leaf - 1]));
+    return true;
+  }
+  return false;
+}
+
+void Conversation::read_more(std::optional<Nanoseconds> patience) {
+  if (process_.lines.is_too_long()) {
+    return give_up("was killed, since it wrote a line of more than 1 MiB" + blamed());
+  }
+  if (!process_.await_output(patience)) return;
+  if (!process_.lines.fill(process_.output())) note_end();
+}
+
+Conversation::News Conversation::take(std::uint32_t number) {
+  const std::lock_guard lock(mutex_);
+  Leaf& leaf = leaves_[number - 1];
+  News news = std::exchange(leaf.news, {});
+  news.is_asked = leaf.asked != Asked::Nothing;
+  news.since = leaf.since;
+  if (process_.has_unwritten()) process_.flush();
+  return news;
+}
+
+double Conversation::progress(std::uint32_t leaf) {
+  const std::lock_guard lock(mutex_);
+  return leaves_[leaf - 1].progress;
+}
+
+void Conversation::forget(std::uint32_t number) {
+  const std::lock_guard lock(mutex_);
+  Leaf& leaf = leaves_[number - 1];
+  leaf.progress = 0;
+  leaf.news.status = 0;
+  leaf.news.set.clear();
+}
+
+void Conversation::forgive(std::uint32_t leaf) {
+  const std::lock_guard lock(mutex_);
+  leaves_[leaf - 1].since = monotonic_now();
+}
+
+std::string Conversation::why_gone() {
+  const std::lock_guard lock(mutex_);
+  return why_gone_;
+}
+
+void Conversation::give_up(std::string why) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (is_gone()) return;
+    why_gone_ = std::move(why);
+    gone_.store(true);
+  }
+  process_.kill();
+  answered_.notify_all();
+}
+
+bool Conversation::listen() {
+  read_more(Nanoseconds(0));
+  while (!is_gone() && process_.lines.next(line_)) take_line();
+  return !is_gone();
+}
+
+std::optional<Nanoseconds> Conversation::deadline() {
+  const std::lock_guard lock(mutex_);
+  std::optional<Nanoseconds> first;
+  const auto add = [&](Nanoseconds it) { first = first ? std::min(*first, it) : it; };
+  if (process_.has_unwritten()) add(monotonic_now() + kToFlush);
+  if (!options_.halt_limit) return first;
+  for (const Leaf& leaf : leaves_) {
+    if (leaf.asked == Asked::Halt) add(leaf.since + *options_.halt_limit);
+  }
+  return first;
+}
+
+bool Conversation::is_late(const Leaf& leaf, Nanoseconds now) const {
+  return options_.halt_limit && leaf.asked == Asked::Halt && leaf.caller != nullptr &&
+         now >= leaf.since + *options_.halt_limit;
+}
+
+void Conversation::check_deadline(Nanoseconds now) {
+  std::string late;
+  {
+    const std::lock_guard lock(mutex_);
+    if (process_.has_unwritten()) process_.flush();
+    const auto leaf = std::ranges::find_if(leaves_, [&](auto& it) { return is_late(it, now); });
+    if (leaf != leaves_.end()) late = leaf->caller->who;
+  }
+  if (!late.empty()) end_late(late);
+}
+
+// What it does when it is asked to end is its own affair.
+void Conversation::end_late(std::string_view leaf) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (is_gone()) return;
+    why_gone_ = fmt::format("did not answer halt of '{}' for {:g} s; it was ended", leaf,
+                            to_seconds(*options_.halt_limit));
+    ends_softly_ = true;
+    gone_.store(true);
+    if (run_ != nullptr) {
+      host_table().log(run_, LOCKSTEP_LOG_WARNING, ("its program " + why_gone_).c_str());
+    }
+  }
+  process_.end_softly(options_.halt_limit);
+  answered_.notify_all();
+}
+
+// The end of its output, which is mostly its own.
+void Conversation::note_end() {
+  const bool has_rest = process_.lines.has_rest();
+  const auto death = process_.await_end(kToDie);
+  give_up(fmt::format("{}{}{}", death ? *death : "closed its output; it was killed",
+                      has_rest ? " in the middle of a line" : "", blamed()));
+}
+
+// Who is to blame for what the program does: who it is to answer.
+std::string Conversation::blamed() {
+  const std::lock_guard lock(mutex_);
+  for (const Leaf& leaf : leaves_) {
+    if (leaf.asked == Asked::Nothing || leaf.caller == nullptr) continue;
+    return fmt::format(" when it was to answer {} of '{}'",
+                       name_of(leaf.owes_tick ? Asked::Tick : leaf.asked), leaf.caller->who);
+  }
+  return {};
+}
+
+void Conversation::take_line() {
+  const std::string wrong = read_reply(reader_, line_, reply_);
+  if (!wrong.empty()) {
+    give_up(fmt::format("was killed, since it wrote {}, which is no answer: {}{}", shown(line_),
+                        wrong, blamed()));
+    return;
+  }
+  std::string why = take_reply();
+  answered_.notify_all();
+  if (!why.empty()) give_up(std::move(why));
+}
+
+// "" or why it is no reply.
+std::string Conversation::take_reply() {
+  const std::lock_guard lock(mutex_);
+  const bool is_known = reply_.leaf > 0 && reply_.leaf <= leaves_.size();
+  Leaf* const leaf = is_known ? &leaves_[reply_.leaf - 1] : nullptr;
+  const lockstep_caller* const caller = leaf != nullptr ? leaf->caller : run_;
+  if (reply_.what == Reply::What::Log) {
+    if (caller != nullptr) host_table().log(caller, reply_.level, reply_.text.c_str());
+    return {};
+  }
+  if (reply_.what == Reply::What::Error && reply_.leaf == 0) {
+    return fmt::format("has said: {}", brief(reply_.text));
+  }
+  if (leaf == nullptr) {
+    return fmt::format("was killed, since it spoke of leaf {}, which it does not have",
+                       reply_.leaf);
+  }
+  if (reply_.what == Reply::What::Error) {
+    take_error(*leaf);
+  } else if (reply_.what == Reply::What::Progress) {
+    leaf->progress = *reply_.progress;
+  } else {
+    return take_answer(*leaf);
+  }
+  return {};
+}
+
+// An error is the answer to what was asked, if anything was.
+void Conversation::take_error(Leaf& leaf) {
+  constexpr std::size_t kLongest = 4096;  // the host cuts it off anyway
+  if (leaf.news.error.empty()) leaf.news.error = reply_.text.substr(0, kLongest);
+  if (std::exchange(leaf.owes_tick, false)) return;
+  leaf.asked = Asked::Nothing;
+}
+
+// "" or why it is no answer.
+std::string Conversation::take_answer(Leaf& leaf) {
+  const bool is_status = reply_.what == Reply::What::Status;
+  const Asked owed = leaf.owes_tick ? Asked::Tick : leaf.asked;
+  if (owed == Asked::Nothing || is_status != (owed == Asked::Tick)) {
+    return fmt::format(
+        "was killed, since it answered {} for '{}', which {}", is_status ? "a status" : "'done'",
+        leaf.caller == nullptr ? "" : leaf.caller->who,
+        owed == Asked::Nothing ? "was not asked" : fmt::format("is to answer {}", name_of(owed)));
+  }
+  if (std::exchange(leaf.owes_tick, false)) return {};  // it was halted meanwhile
+  leaf.asked = Asked::Nothing;
+  if (!is_status) return {};
+  leaf.news.status = reply_.status;
+  if (reply_.progress) leaf.progress = *reply_.progress;
+  if (reply_.sets_ports) leaf.news.set = line_;
+  return {};
+}
+
+std::string Conversation::end() {
+  const auto limit = options_.halt_limit;
+  const auto end = monotonic_now() + limit.value_or(Nanoseconds(0));
+  const auto left = [&] { return limit ? std::optional(end - monotonic_now()) : std::nullopt; };
+  if (ends_softly_) {
+    process_.await_end(limit ? std::optional(*limit + kToDie) : std::nullopt);
+    return {};
+  }
+  process_.close_input();
+  while (!is_gone() && (!limit || *left() > Nanoseconds(0))) {  // at the latest at its output's end
+    while (!is_gone() && process_.lines.next(line_)) take_line();
+    read_more(left());
+  }
+  if (process_.await_end(limit ? std::optional(std::max(*left(), kToDie)) : std::nullopt))
+    return {};
+  process_.end_softly(limit);
+  process_.await_end(limit ? std::optional(*limit + kToDie) : std::nullopt);
+  return fmt::format("did not end for {:g} s after its input was closed; it was ended",
+                     to_seconds(limit.value_or(Nanoseconds(0))));
+}
+
+}  // namespace lockstep

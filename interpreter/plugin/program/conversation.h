@@ -1,0 +1,121 @@
+// What lockstep and one program say to each other: which leaf was asked what, and what it has
+// answered. Whatever the program does, nothing is kept that grows, and no answer is taken that was
+// not asked for: then the program is killed, and its leaves have an error.
+//
+// On the virtual clock the thread of the run reads what the program says, when it waits for it. On
+// the wall clock a listener does, and the thread of the run takes what is there.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/json_reader.h"
+#include "core/problem.h"
+#include "lockstep/leaf.h"
+#include "plugin/plugin_set.h"
+#include "plugin/program/program_process.h"
+#include "plugin/program/reply.h"
+
+namespace lockstep {
+
+class Conversation {
+ public:
+  enum class Asked : std::uint8_t { Nothing, Create, Tick, Halt };
+
+  explicit Conversation(const IsolationOptions& options) : options_(options) {}
+  // Starts the program and returns its first line.
+  Result<std::string> start(const std::string& path);
+  // Tells it whose leaves it has: a program that says something of itself says it to the run.
+  void begin(const lockstep_caller& run);
+
+  // The number of a new leaf, from 1.
+  std::uint32_t add(const lockstep_caller& leaf);
+  void remove(std::uint32_t leaf);
+
+  // Sends lines to the program, the last of which asks that. Does not wait. A leaf has not been
+  // asked anything else, except a tick before a halt, whose answer is then ignored.
+  void send(std::uint32_t leaf, Asked asked, std::string_view lines);
+  // Waits for the answer, at most so long; false when there is none. Not for a gone program.
+  bool await(std::uint32_t leaf, Asked asked, std::optional<Nanoseconds> patience);
+
+  // What a leaf has said since the last call.
+  struct News {
+    lockstep_status status = 0;  // 0: no answer to tick
+    std::string set = {};        // the line that has "set", or ""
+    std::string error = {};
+    bool is_asked = false;  // it owes an answer
+    Nanoseconds since{0};   // when it was asked
+  };
+  News take(std::uint32_t leaf);
+  double progress(std::uint32_t leaf);
+  // A new activation: what it has said before does not count.
+  void forget(std::uint32_t leaf);
+  // The time in which the leaf was held does not count as its own.
+  void forgive(std::uint32_t leaf);
+
+  // Once true, the program has ended or is about to. `why` continues "its program ".
+  bool is_gone() const { return gone_.load(); }
+  std::string why_gone();
+  // Kills it, unless it is gone already.
+  void give_up(std::string why);
+
+  // For the thread that reads. Takes what the program has said. False: it says no more.
+  bool listen();
+  int output() const { return process_.output(); }
+  // When the listener is to look at it again, whatever it says, and what it does then.
+  std::optional<Nanoseconds> deadline();
+  void check_deadline(Nanoseconds now);
+
+  ProgramProcess& process() { return process_; }
+  // The end, when no listener reads any more: closes its input, and waits. "", or what it took.
+  std::string end();
+  // Somebody else reads.
+  void set_listened(bool is_listened) { is_listened_ = is_listened; }
+  const IsolationOptions& options() const { return options_; }
+  std::optional<Nanoseconds> hang_limit() const;
+
+ private:
+  struct Leaf {
+    const lockstep_caller* caller = nullptr;  // null: removed
+    Asked asked = Asked::Nothing;             // the last; a tick before a halt is `owes_tick`
+    bool owes_tick = false;
+    Nanoseconds since{0};
+    News news = {};
+    double progress = 0;
+  };
+  bool await_here(const Leaf& leaf, Asked asked, std::optional<Nanoseconds> patience);
+  bool find_unasked();
+  void read_more(std::optional<Nanoseconds> patience);
+  void take_line();
+  std::string take_reply();
+  void take_error(Leaf& leaf);
+  std::string take_answer(Leaf& leaf);
+  void note_end();
+  void end_late(std::string_view leaf);
+  bool is_late(const Leaf& leaf, Nanoseconds now) const;
+  std::string blamed();
+
+  const IsolationOptions& options_;
+  ProgramProcess process_;
+  bool is_listened_ = false;
+  JsonReader reader_;  // these three: of the thread that reads
+  std::string line_;
+  Reply reply_;
+
+  std::mutex mutex_;  // of all below, and of what is written to the process
+  std::condition_variable answered_;
+  std::vector<Leaf> leaves_;
+  const lockstep_caller* run_ = nullptr;
+  std::string why_gone_;
+  bool ends_softly_ = false;
+  std::atomic<bool> gone_{false};
+};
+
+// "tick", "halt".
+const char* name_of(Conversation::Asked asked);
+
+}  // namespace lockstep

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+
+namespace lockstep {
+
+// What happens to a leaf of a program while a synchronized node withholds its ticks.
+enum class Hold : std::uint8_t {
+  AsItSays,  // Message for leaves that say so, else None
+  Signal,    // its process group is stopped; each leaf has its own process
+  Message,   // it gets `pause` and `resume`
+  None,
+};
+
+}  // namespace lockstep

@@ -1,0 +1,22 @@
+// Values of ports as JSON, in requests to programs and in their answers.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/json_reader.h"
+#include "core/value.h"
+#include "lockstep/leaf.h"
+
+namespace lockstep {
+
+// What the port has now; NoValue when it has none. After a refusal the caller has an error.
+Value port_value(const lockstep_caller& caller, std::uint32_t port);
+
+// Nothing is "null".
+void append_json_value(std::string& to, const Value& value);
+
+// Sets the port to what the program has said. "" or what is wrong with it.
+std::string set_port(const lockstep_caller& caller, std::uint32_t port, JsonValue value);
+
+}  // namespace lockstep

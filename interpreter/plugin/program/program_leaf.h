@@ -1,0 +1,59 @@
+// A leaf whose work a program does. On the virtual clock each tick waits for the answer. On the
+// wall clock none does: a tick takes the answer that is there, and until then the leaf is running.
+#pragma once
+
+#include <vector>
+
+#include "lockstep/leaf.h"
+#include "plugin/host.h"
+#include "plugin/program/conversation.h"
+#include "plugin/program/hello.h"
+#include "plugin/program/listener.h"
+#include "plugin/program/request.h"
+
+namespace lockstep {
+
+class ProgramLeaf {
+ public:
+  // `listener` is that of the conversation, on the wall clock; else null.
+  ProgramLeaf(const lockstep_caller& caller, Conversation& conversation, Hold hold,
+              Listener* listener);
+  ~ProgramLeaf();
+  ProgramLeaf(const ProgramLeaf&) = delete;
+  ProgramLeaf& operator=(const ProgramLeaf&) = delete;
+
+  bool create();  // false: the caller has an error
+  void start();
+  lockstep_status tick();
+  void halt();
+  void pause();
+  void resume();
+  double progress();
+
+ private:
+  bool is_waiting() const { return listener_ == nullptr; }
+  lockstep_status tick_and_wait();
+  lockstep_status tick_without_waiting();
+  void ask_tick();
+  lockstep_status take(Conversation::News news);
+  void set_ports(std::string line);
+  bool await(Conversation::Asked asked);
+  void note_late(const Conversation::News& news);
+  void fail(const std::string& why);
+  bool fail_if_gone();
+  double now() const;
+
+  const lockstep_caller& caller_;
+  Conversation& conversation_;
+  const Hold hold_;
+  Listener* const listener_;
+  const std::uint32_t number_;
+  Request request_;
+  std::vector<Value> sent_;
+  bool has_begun_ = true;  // false: `start` is to be sent before the next tick
+  bool is_held_ = false;
+  Nanoseconds told_late_{0};  // the question of which it was said; 0: none
+  JsonReader reader_;
+};
+
+}  // namespace lockstep

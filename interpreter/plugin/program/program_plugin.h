@@ -1,0 +1,45 @@
+// A plugin that is a program: a process for each concurrent run. To the rest of lockstep it is an
+// ordinary plugin, whose functions are proxies (program_run.h).
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "core/problem.h"
+#include "plugin/plugin_set.h"
+#include "plugin/program/conversation.h"
+#include "plugin/program/hello.h"
+
+namespace lockstep {
+
+class ProgramPlugin {
+ public:
+  // Starts the first process, which says what leaves it has.
+  [[nodiscard]] static Result<std::unique_ptr<ProgramPlugin>> open(const std::string& path,
+                                                                   const std::string& name,
+                                                                   Hold hold,
+                                                                   const IsolationOptions& options);
+  ProgramPlugin(const ProgramPlugin&) = delete;
+  ProgramPlugin& operator=(const ProgramPlugin&) = delete;
+
+  // Valid as long as this object.
+  const lockstep_plugin& entry() const { return hello_->plugin(); }
+  const Hello& hello() const { return *hello_; }
+
+  // A process that has said the same as the first; null on failure, with the reason in `failure`.
+  // May be called from any thread.
+  std::unique_ptr<Conversation> acquire(std::string& failure);
+
+ private:
+  ProgramPlugin(std::string path, IsolationOptions options);
+
+  std::string path_;
+  IsolationOptions options_;
+  std::unique_ptr<Hello> hello_;
+
+  std::mutex mutex_;
+  std::unique_ptr<Conversation> first_;  // until a run takes it
+};
+
+}  // namespace lockstep

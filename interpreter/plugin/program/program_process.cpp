@@ -1,0 +1,150 @@
+#include "plugin/program/program_process.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "plugin/program/guardian.h"
+
+namespace lockstep {
+namespace {
+
+constexpr std::size_t kMostUnwritten = std::size_t{4} << 20;
+constexpr Nanoseconds kPatience = std::chrono::seconds(2);  // for a process that was killed
+
+// Waits until the descriptor is readable. Signals do not end the wait.
+bool await(int descriptor, std::optional<Nanoseconds> patience) {
+  const Nanoseconds end = monotonic_now() + patience.value_or(Nanoseconds(0));
+  pollfd readable{descriptor, POLLIN, 0};
+  while (true) {
+    timespec left{};
+    if (patience) {
+      const Nanoseconds rest = std::max(end - monotonic_now(), Nanoseconds(0));
+      left = {rest.count() / 1'000'000'000, rest.count() % 1'000'000'000};
+    }
+    const int count = ppoll(&readable, 1, patience ? &left : nullptr, nullptr);
+    if (count > 0) return true;
+    if (count == 0) return false;
+  }
+}
+
+// What the program reads is a socket: to write to one whose reader is gone sends no signal.
+struct Channel {
+  FileDescriptor reading, writing;
+
+  bool open_pipe() {
+    int ends[2];
+    return take(pipe2(ends, O_CLOEXEC), ends);
+  }
+  bool open_socket() {
+    int ends[2];
+    return take(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends), ends);
+  }
+
+ private:
+  bool take(int error, const int (&ends)[2]) {
+    if (error != 0) return false;
+    reading = FileDescriptor(ends[0]);
+    writing = FileDescriptor(ends[1]);
+    return true;
+  }
+};
+
+std::string text_of(int error) {
+  return std::strerror(error);  // NOLINT(concurrency-mt-unsafe): known errors, constant texts
+}
+
+}  // namespace
+
+std::string ProgramProcess::start(const std::string& leafhost, const std::string& path) {
+  Channel requests, answers;
+  int control[2];
+  const FileDescriptor parent = ChildProcess::own_end();
+  if (parent.number() < 0 || !requests.open_socket() || !answers.open_pipe() ||
+      socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, control) != 0) {
+    return text_of(errno);
+  }
+  control_ = FileDescriptor(control[0]);
+  const FileDescriptor theirs(control[1]);
+  const ChildProcess::Given given[] = {{requests.reading.number(), GuardianDescriptors::kRequests},
+                                       {answers.writing.number(), GuardianDescriptors::kAnswers},
+                                       {theirs.number(), GuardianDescriptors::kControl},
+                                       {parent.number(), GuardianDescriptors::kParent}};
+  if (auto failure = guardian_.start(leafhost, {"lockstep-leafhost", "--program", path}, given);
+      !failure.empty()) {
+    return failure;
+  }
+  input_ = std::move(requests.writing);
+  output_ = std::move(answers.reading);
+  fcntl(output_.number(), F_SETFL, O_RDONLY | O_NONBLOCK);
+  GuardianReport report{};
+  const bool reported = await(control_.number(), kPatience) &&
+                        recv(control_.number(), &report, sizeof report, 0) == sizeof report;
+  if (!reported) return "its guardian does not start";
+  if (report.what == GuardianReport::What::NotStarted) return text_of(report.number);
+  group_ = report.number;
+  return {};
+}
+
+// The guardian ends what it guards when nobody holds the other end of its socket.
+ProgramProcess::~ProgramProcess() {
+  if (guardian_.descriptor() < 0) return;
+  control_ = FileDescriptor();
+  if (!await(guardian_.descriptor(), kPatience)) {
+    kill();
+    guardian_.kill();
+  }
+}
+
+bool ProgramProcess::write(std::string_view text) {
+  unwritten_ += text;
+  std::size_t done = 0;
+  while (done < unwritten_.size()) {
+    const ssize_t count = send(input_.number(), unwritten_.data() + done, unwritten_.size() - done,
+                               MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (count > 0) {
+      done += static_cast<std::size_t>(count);
+    } else if (errno == EAGAIN) {
+      break;
+    } else if (errno != EINTR) {
+      return false;
+    }
+  }
+  unwritten_.erase(0, done);
+  return unwritten_.size() <= kMostUnwritten;
+}
+
+bool ProgramProcess::await_output(std::optional<Nanoseconds> patience) const {
+  return await(output_.number(), patience);
+}
+
+void ProgramProcess::end_softly(std::optional<Nanoseconds> limit) {
+  const GuardianOrder order{limit ? limit->count() : -1};
+  send(control_.number(), &order, sizeof order, MSG_NOSIGNAL | MSG_DONTWAIT);
+}
+
+// The guardian keeps the number of the group for us as long as there is control_.
+void ProgramProcess::signal(int number) const {
+  if (group_ > 0 && control_.number() >= 0) ::kill(-group_, number);
+}
+
+std::optional<std::string> ProgramProcess::await_end(std::optional<Nanoseconds> patience) {
+  if (end_) return end_;
+  if (!await(control_.number(), patience)) return std::nullopt;
+  GuardianReport report{};
+  if (recv(control_.number(), &report, sizeof report, 0) == sizeof report) {
+    end_ = describe_end(report.number, report.status);
+  } else {
+    kill();
+    end_ = "was killed: its guardian has died";
+  }
+  return end_;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,64 @@
+// A program as a process: its guardian, the pipes to and from it, and signals to its group. Knows
+// nothing about what is said.
+#pragma once
+
+#include <signal.h>
+#include <sys/types.h>
+
+#include <atomic>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/clock.h"
+#include "core/file_descriptor.h"
+#include "plugin/child_process.h"
+#include "plugin/program/line_input.h"
+
+namespace lockstep {
+
+class ProgramProcess {
+ public:
+  // Starts the program in `path`, under a guardian, which is `leafhost`. "" or why it does not
+  // start.
+  std::string start(const std::string& leafhost, const std::string& path);
+  ProgramProcess() = default;
+  // Ends what is left of it.
+  ~ProgramProcess();
+  ProgramProcess(const ProgramProcess&) = delete;
+  ProgramProcess& operator=(const ProgramProcess&) = delete;
+
+  // Never waits: what the program does not take now is kept for the next call. False: too much is
+  // kept, or nobody reads.
+  bool write(std::string_view text);
+  bool has_unwritten() const { return !unwritten_.empty(); }
+  bool flush() { return write({}); }
+  // It can read the end of its input.
+  void close_input() { input_ = FileDescriptor(); }
+
+  // What it writes. `lines.fill(output())` takes what is there.
+  int output() const { return output_.number(); }
+  // Waits until there is output, or its end, at most so long. False: there is none yet.
+  bool await_output(std::optional<Nanoseconds> patience) const;
+  LineInput lines;
+
+  // To its process group. Any thread.
+  void hold() { signal(SIGSTOP); }
+  void go_on() { signal(SIGCONT); }
+  // TERM, CONT, and KILL after `limit`, if any.
+  void end_softly(std::optional<Nanoseconds> limit);
+  void kill() { signal(SIGKILL); }
+  // Waits at most so long for its end: how it ended, or nothing.
+  std::optional<std::string> await_end(std::optional<Nanoseconds> patience);
+
+ private:
+  void signal(int number) const;
+
+  ChildProcess guardian_;
+  FileDescriptor control_, input_, output_;
+  std::string unwritten_;
+  pid_t group_ = -1;
+  std::optional<std::string> end_;
+};
+
+}  // namespace lockstep

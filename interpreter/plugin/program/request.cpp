@@ -1,0 +1,64 @@
+#include "plugin/program/request.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "core/json.h"
+#include "plugin/host.h"
+#include "plugin/program/port_json.h"
+
+namespace lockstep {
+
+Request& Request::begin(std::string_view what, std::uint32_t leaf) {
+  fmt::format_to(std::back_inserter(text_), R"({{"do":"{}","leaf":{})", what, leaf);
+  return *this;
+}
+
+void Request::name(std::string_view name) {
+  text_ += ',';
+  append_json(text_, name);
+  text_ += ':';
+}
+
+Request& Request::field(std::string_view name, double number) {
+  this->name(name);
+  fmt::format_to(std::back_inserter(text_), "{}", number);
+  return *this;
+}
+
+Request& Request::field(std::string_view name, std::uint64_t number) {
+  this->name(name);
+  fmt::format_to(std::back_inserter(text_), "{}", number);
+  return *this;
+}
+
+Request& Request::field(std::string_view name, std::string_view text) {
+  this->name(name);
+  append_json(text_, text);
+  return *this;
+}
+
+Request& Request::ports(const lockstep_caller& caller, std::vector<Value>& sent) {
+  const bool is_all = sent.size() != caller.ports.size();
+  sent.resize(caller.ports.size());
+  const char* before = ",\"ports\":{";
+  for (std::uint32_t port = 0; port < caller.ports.size(); ++port) {
+    Value value = port_value(caller, port);
+    if (value == sent[port]) continue;
+    sent[port] = std::move(value);
+    text_ += before;
+    append_json(text_, caller.ports[port].name);
+    text_ += ':';
+    append_json_value(text_, sent[port]);
+    before = ",";
+  }
+  if (*before == ',' && before[1] == '\0') {
+    text_ += '}';
+  } else if (is_all) {
+    text_ += ",\"ports\":{}";
+  }
+  return *this;
+}
+
+}  // namespace lockstep
