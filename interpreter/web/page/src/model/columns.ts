@@ -44,6 +44,19 @@ export class NodeColumn {
   at(line: number): number {
     return placeOf(this.lines, this.length, line);
   }
+  // Forgets every second of the older changes that have only another progress.
+  thin() {
+    const old = this.length >> 1;
+    let kept = 0;
+    for (let place = 0; place < this.length; ++place) {
+      const changes = place === 0 || this.flags[place] !== this.flags[place - 1] || this.flags[place] !== this.flags[place + 1];
+      if (place < old && !changes && place % 2 === 1) continue;
+      this.lines[kept] = this.lines[place];
+      this.progress[kept] = this.progress[place];
+      this.flags[kept++] = this.flags[place];
+    }
+    this.length = kept;
+  }
 }
 
 export class NumberColumn {

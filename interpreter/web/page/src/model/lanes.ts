@@ -71,8 +71,19 @@ export function laneNodes(run: Run, all: boolean): number[] {
     .map((node) => node.index);
 }
 
+const texts = new WeakMap<object, { length: number; text: string }>();
+
 // "held 3 times for 0.51 s, succeeded once": for those who do not see the lane.
 export function laneText(run: Run, node: number): string {
+  const { states } = run.nodes[node];
+  const known = texts.get(states);
+  if (known?.length === states.length) return known.text;
+  const text = newLaneText(run, node);
+  texts.set(states, { length: states.length, text });
+  return text;
+}
+
+function newLaneText(run: Run, node: number): string {
   const counts = [0, 0, 0, 0, 0, 0];
   let held = 0;
   for (const { state, from, to } of laneSpans(run, node, 0, run.last)) {

@@ -3,6 +3,7 @@
 import { NodeColumn, NumberColumn, HELD, STATUS, TICKED } from "./columns";
 import { Events } from "./events";
 import { STATUSES, type End, type Header, type Line, type LogLine, type TickLine } from "./recording";
+import { Thinner } from "./thin";
 import { shapeOf, type Shape } from "./shape";
 
 export interface EntryChange {
@@ -25,6 +26,8 @@ export class Run {
   end: End | null = null;
   lost = 0; // ticks without a line
   version = 0; // grows with what is fed
+  private joins = false; // the line tells what there was, not what happened
+  private readonly thinner = new Thinner();
 
   get lines(): number {
     return this.ticks.length;
@@ -68,6 +71,7 @@ export class Run {
     this.ticks.push(line.tick);
     this.times.push(line.time_s);
     this.events.lateness(this);
+    this.joins = line.full === true && this.lines === 1;
     if (line.full) this.forgetOthers(line);
     for (const [node, status, progress, ticked, held] of line.nodes ?? []) {
       const flags = (STATUS_NUMBERS.get(status) ?? 0) | (ticked ? TICKED : 0) | (held ? HELD : 0);
@@ -84,6 +88,7 @@ export class Run {
     for (const [node, message] of line.faults ?? []) this.events.fault(this, node, message);
     for (const [entry, value] of line.entries ?? []) this.changeEntry(entry, value);
     this.takeLogs(line.logs);
+    this.thinner.events(this.events);
   }
 
   // Of a line with the whole state, which leaves out what is idle.
@@ -100,7 +105,8 @@ export class Run {
     const before = changes.length === 0 ? 0 : changes.flags[changes.length - 1];
     if (changes.length > 0 && before === flags && changes.progress[changes.length - 1] === progress) return;
     changes.push(this.last, progress, flags);
-    this.events.change(this, node, before, flags);
+    this.thinner.count(this.nodes);
+    if (!this.joins) this.events.change(this, node, before, flags);
   }
 
   private changeEntry(entry: number, value: string | null) {
@@ -108,7 +114,7 @@ export class Run {
     const before = history[history.length - 1];
     if (before && before.value === value) return;
     history.push({ line: this.last, value });
-    this.events.entry(this, entry, value);
+    if (!this.joins) this.events.entry(this, entry, value);
   }
 
   private takeLogs(logs: LogLine[] | undefined) {

@@ -1,13 +1,12 @@
 // What happened up to this moment, newest first.
 import { useState } from "preact/hooks";
 import type { EventKind, RunEvent } from "../../model/events";
-import { Moment } from "../../model/moment";
-import { waitOf } from "../../model/waiting";
 import { seconds } from "../../model/words";
 import type { Store } from "../store";
+import { whatHappened } from "./event_text";
 import { Panel } from "./panel";
 
-const MOST = 120;
+const MOST = 120, FARTHEST = 50_000;
 
 const GROUPS: Record<string, EventKind[]> = {
   completions: ["start", "success", "failure", "skipped", "halt"],
@@ -28,20 +27,12 @@ function isWarning(event: RunEvent): boolean {
 function newest(store: Store, kinds: Set<EventKind>, only: number | null): RunEvent[] {
   const { events } = store.run;
   const found: RunEvent[] = [];
-  for (let place = events.placeAfter(store.line); place-- > 0 && found.length < MOST; ) {
+  const last = events.placeAfter(store.line);
+  for (let place = last; place-- > Math.max(0, last - FARTHEST) && found.length < MOST; ) {
     const event = events.all[place];
     if (kinds.has(event.kind) && (only === null || event.node === only)) found.push(event);
   }
   return found;
-}
-
-// Worked out when it is looked at: whom a node waited for is a matter of its siblings too.
-function whyHeld(store: Store, event: RunEvent): string {
-  if (event.kind !== "hold" || event.explained || event.node === null) return event.text;
-  const wait = waitOf(new Moment(store.run, event.line), event.node);
-  event.explained = true;
-  if (wait?.text) event.text = wait.text;
-  return event.text;
 }
 
 function Row({ store, event }: { store: Store; event: RunEvent }) {
@@ -54,7 +45,7 @@ function Row({ store, event }: { store: Store; event: RunEvent }) {
         {isWarning(event) && <b>{event.kind === "log" ? "warning: " : `${event.kind}: `}</b>}
         {node && <><button type="button" class="node" title={node.path}
           onClick={() => store.select(node.index, true)}>{node.apart}</button>{" "}</>}
-        {whyHeld(store, event)}
+        {whatHappened(store, event)}
       </span>
     </li>
   );

@@ -4,12 +4,14 @@ import { RUNNING } from "../../model/recording";
 import { waitsOf, type Wait } from "../../model/waiting";
 import { seconds } from "../../model/words";
 import { LANDMARKS, type RunEvent } from "../../model/events";
+import { eventText } from "./event_text";
 import type { Store } from "../store";
+import { Bar } from "../tree/bar";
 
 const MOST = 8;
 
 // Leaves, since the nodes above them only pass their ticks on.
-export function runningLeaves(moment: Moment): number[] {
+function runningLeaves(moment: Moment): number[] {
   return moment.run.shape.nodes
     .filter((node) => node.children.length === 0 && !node.isGroup && moment.status[node.index] === RUNNING &&
       !moment.held[node.index])
@@ -22,7 +24,7 @@ function heldSince(moment: Moment, node: number): number {
   return moment.time - moment.run.times[states.lines[states.placeAt(moment.line)]];
 }
 
-export function lastEvent(moment: Moment): RunEvent | null {
+function lastEvent(moment: Moment): RunEvent | null {
   const { all } = moment.run.events;
   for (let place = moment.run.events.placeAfter(moment.line); place-- > 0; ) {
     if (LANDMARKS.has(all[place].kind) || all[place].kind === "start") return all[place];
@@ -30,8 +32,30 @@ export function lastEvent(moment: Moment): RunEvent | null {
   return null;
 }
 
-export function eventText(moment: Moment, event: RunEvent): string {
-  return event.node === null ? event.text : `${moment.run.shape.nodes[event.node].apart} ${event.text}`;
+// The part of the tree in which all of them are, from the root down, by the names that someone has given.
+function task(moment: Moment, leaves: number[]): string {
+  const { nodes } = moment.run.shape;
+  const above = (node: number) => {
+    const path: number[] = [];
+    for (let up = nodes[node].parent; up !== null; up = nodes[up].parent) path.unshift(up);
+    return path;
+  };
+  const paths = leaves.map(above);
+  const common = (paths[0] ?? []).filter((node, place) => paths.every((path) => path[place] === node));
+  const names = common.filter((node) => nodes[node].segment !== nodes[node].kind).map((node) => nodes[node].segment);
+  return names.join(" › ");
+}
+
+function Progress({ moment, node }: { moment: Moment; node: number }) {
+  const value = moment.progress[node];
+  return (
+    <span class="progress">
+      <svg class="meter" width={64} height={14} aria-hidden="true">
+        <Bar moment={moment} node={node} place={{ x: 0, y: 3, width: 64, height: 8 }} />
+      </svg>
+      <span class="number">{value.toFixed(2)}</span>
+    </span>
+  );
 }
 
 function Name({ store, node }: { store: Store; node: number }) {
@@ -43,8 +67,8 @@ function Waiting({ store, moment, wait }: { store: Store; moment: Moment; wait: 
   return (
     <li class="held">
       <span aria-hidden="true" class="symbol">‖</span> <Name store={store} node={wait.node} /> {wait.text}
-      <span class="number">{moment.progress[wait.node].toFixed(2)}</span>
       <span class="dim">for {heldSince(moment, wait.node).toFixed(2)} s</span>
+      <Progress moment={moment} node={wait.node} />
     </li>
   );
 }
@@ -54,14 +78,16 @@ export function Now({ store }: { store: Store }) {
   const running = runningLeaves(moment);
   const waits = waitsOf(moment);
   const last = lastEvent(moment);
+  const where = task(moment, [...running, ...waits.map((wait) => wait.node)]);
   return (
     <section class="now" aria-labelledby="now-title">
       <h2 id="now-title">{moment.isLastOfEnded() ? "At the end" : "Now"}</h2>
+      {where && <p class="where"><span class="dim">in</span> {where}</p>}
       <ul>
         {running.slice(0, MOST).map((node) => (
           <li key={node} class="running">
             <span aria-hidden="true" class="symbol">▶</span> <Name store={store} node={node} /> runs
-            <span class="number">{moment.progress[node].toFixed(2)}</span>
+            <Progress moment={moment} node={node} />
           </li>
         ))}
         {running.length > MOST && <li class="dim">and {running.length - MOST} more run</li>}
@@ -71,7 +97,7 @@ export function Now({ store }: { store: Store }) {
       </ul>
       {last && (
         <p class="last">
-          <span class="dim">last, at {seconds(moment.run.times[last.line])}:</span> {eventText(moment, last)}
+          <span class="dim">last, at {seconds(moment.run.times[last.line])}:</span> {eventText(store, last)}
         </p>
       )}
     </section>

@@ -16,6 +16,9 @@ export function Timeline({ store }: { store: Store }) {
       <h2 id="timeline-title" class="hidden">Timeline</h2>
       <div class="bar-of-buttons">
         <Transport store={store} />
+        <p class="key dim" aria-hidden="true">
+          <i class="runs" /> runs <i class="is-held" /> held <i class="over success" />✓ succeeded <i class="over failure" />✗ failed
+        </p>
         <span class="grow" />
         <div role="group" aria-label="What the timeline shows" class="zoom buttons">
           <button type="button" aria-pressed={all} onClick={() => setAll(!all)}

@@ -21,9 +21,9 @@ export interface Layout {
   arrangement: Arrangement;
 }
 
-export const GAP_X = 44;
+export const GAP_X = 36;
 const MARGIN = 16, GAP_Y = 10, INDENT = 18;
-const WIDEST = 260, NARROWEST = 118, KEPT = 216;
+const WIDEST = 260, NARROWEST = 106, KEPT = 216;
 const HEIGHT = 44, KEPT_HEIGHT = 50;
 
 function isInStep(node: ShapeNode): boolean {
@@ -31,7 +31,7 @@ function isInStep(node: ShapeNode): boolean {
 }
 
 function ownWidth(node: ShapeNode): number {
-  const name = textWidth(node.segment, 13, 600) + 72;
+  const name = textWidth(node.segment, 13, 600) + 70;
   const kind = textWidth(kindText(node.kind, node.segment), 11) + 62;
   return Math.ceil(Math.min(WIDEST, Math.max(isInStep(node) ? KEPT : NARROWEST, name, kind)));
 }

@@ -51,25 +51,57 @@ function inSight(layout: Layout, sight: Sight, zoom: number): Box[] {
 }
 
 // The innermost nodes that run, of those that are shown.
-export function innermostRunning(moment: Moment, layout: Layout): number[] {
+function innermostRunning(moment: Moment, layout: Layout): number[] {
   const { nodes } = moment.run.shape;
   const running = layout.boxes.map((box) => box.node).filter((node) => moment.status[node] === RUNNING);
   const above = new Set(running.map((node) => nodes[node].parent));
   return running.filter((node) => !above.has(node));
 }
 
-function scrollTo(scroller: HTMLDivElement, layout: Layout, wanted: number[], zoom: number) {
-  const boxes = wanted.map((node) => layout.at.get(node)).filter((box) => box !== undefined);
-  if (boxes.length === 0) return;
+interface Extent {
+  left: number;
+  right: number;
+  top: number;
+  bottom: number;
+}
+
+function extentOf(layout: Layout, nodes: Iterable<number>): Extent | null {
+  const extent = { left: Infinity, right: -Infinity, top: Infinity, bottom: -Infinity };
+  for (const node of nodes) {
+    const box = layout.at.get(node);
+    if (!box) continue;
+    extent.left = Math.min(extent.left, box.x);
+    extent.right = Math.max(extent.right, box.x + box.width);
+    extent.top = Math.min(extent.top, box.y);
+    extent.bottom = Math.max(extent.bottom, box.y + box.height);
+  }
+  return extent.left === Infinity ? null : extent;
+}
+
+// With as many of the nodes above them as there is room for.
+function withAbove(store: Store, layout: Layout, wanted: number[], width: number, height: number): Extent | null {
+  const { nodes } = store.run.shape;
+  const all = new Set(wanted);
+  let extent = extentOf(layout, all);
+  for (let rows = new Set(wanted); extent && rows.size > 0; ) {
+    rows = new Set([...rows].map((node) => nodes[node].parent).filter((parent) => parent !== null));
+    for (const node of rows) all.add(node);
+    const more = extentOf(layout, all);
+    if (!more || more.right - more.left > width || more.bottom - more.top > height) break;
+    extent = more;
+  }
+  return extent;
+}
+
+function scrollTo(scroller: HTMLDivElement, extent: Extent | null, zoom: number) {
+  if (!extent) return;
   const fit = (low: number, high: number, at: number, size: number) => {
     if (low * zoom >= at + 4 && high * zoom <= at + size - 4) return at;
     if ((high - low) * zoom > size) high = low + size / zoom;
     return Math.max(0, ((low + high) / 2) * zoom - size / 2);
   };
-  const x = fit(Math.min(...boxes.map((box) => box.x)), Math.max(...boxes.map((box) => box.x + box.width)),
-    scroller.scrollLeft, scroller.clientWidth);
-  const y = fit(Math.min(...boxes.map((box) => box.y)), Math.max(...boxes.map((box) => box.y + box.height)),
-    scroller.scrollTop, scroller.clientHeight);
+  const x = fit(extent.left, extent.right, scroller.scrollLeft, scroller.clientWidth);
+  const y = fit(extent.top, extent.bottom, scroller.scrollTop, scroller.clientHeight);
   if (x !== scroller.scrollLeft || y !== scroller.scrollTop) scroller.scrollTo({ left: x, top: y });
 }
 
@@ -81,15 +113,21 @@ export function Tree({ store, looking }: { store: Store; looking: Looking }) {
   const room = looking.arrangement === "outline" ? Math.max(240, sight.width / zoom) : 0;
   const layout = useMemo(() => layOut(store.run.shape, shown, looking.arrangement, room),
     [store.run.shape, shown, looking.arrangement, room]);
+  useEffect(() => {
+    if (looking.arrangement !== "diagram" || !scroller.current) return;
+    const fits = scroller.current.clientWidth / layout.width;
+    if (fits < 1) store.set({ zoom: Math.max(fits, 0.85) });
+  }, [store.run.shape]);
   const boxes = inSight(layout, sight, zoom);
   const running = looking.follow ? innermostRunning(moment, layout) : [];
   const followed = running.join();
 
   useEffect(() => {
-    if (scroller.current && running.length > 0) scrollTo(scroller.current, layout, running, zoom);
+    const it = scroller.current;
+    if (it) scrollTo(it, withAbove(store, layout, running, it.clientWidth / zoom, it.clientHeight / zoom), zoom);
   }, [followed, layout, zoom]);
   useEffect(() => {
-    if (scroller.current && selected !== null) scrollTo(scroller.current, layout, [selected], zoom);
+    if (scroller.current && selected !== null) scrollTo(scroller.current, extentOf(layout, [selected]), zoom);
   }, [selected]);
 
   const letGo = () => looking.follow && store.set({ follow: false });

@@ -1,0 +1,118 @@
+// The page's model of a run, without a browser: gaps, lines with the whole state, lines that come twice, long runs.
+import assert from "node:assert/strict";
+import { createRequire } from "node:module";
+import { join } from "node:path";
+import { before, test } from "node:test";
+import { SOURCE, file } from "./support.mjs";
+
+const PAGE = join(SOURCE, "interpreter/web/page");
+const require = createRequire(join(PAGE, "package.json"));
+let model;
+before(async () => {
+  const { outputFiles } = await require("esbuild").build({
+    stdin: {
+      contents: ["run", "moment", "waiting", "thin", "lanes"].map((name) => `export * from "./src/model/${name}";`).join("\n"),
+      resolveDir: PAGE,
+    },
+    bundle: true, write: false, format: "esm",
+  });
+  model = await import(file("model.mjs", outputFiles[0].text));
+});
+
+const HEADER = {
+  lockstep_recording: 1, tree: "Test", file: "t.xml", version: "0", rate_hz: 10, clock: "virtual", seed: 0, arguments: {},
+  nodes: [
+    { index: 0, path: "Test/pull", kind: "ParallelAbsolute", name: "pull", parent: null, barriers: [0.5, 1] },
+    { index: 1, path: "Test/pull/arm", kind: "Advance", name: "arm", parent: 0 },
+    { index: 2, path: "Test/pull/base", kind: "Advance", name: "base", parent: 0 },
+  ],
+  entries: [{ key: "door", type: "string" }],
+};
+
+function runOf(...lines) {
+  const run = new model.Run();
+  for (const line of [HEADER, ...lines]) run.feed(JSON.stringify(line));
+  return run;
+}
+const running = (node, progress, held = 0) => [node, "running", progress, held ? 0 : 1, held];
+
+test("a state stands until a line changes it, also over ticks that have no line", () => {
+  const run = runOf(
+    { tick: 0, time_s: 0, nodes: [running(0, 0), running(1, 0), running(2, 0)], limits: [[0, 0.5]] },
+    { tick: 1, time_s: 0.1 },
+    { lost: { ticks: 3, from: 2 } },
+    { tick: 5, time_s: 0.5, nodes: [running(2, 0.5, 1), running(1, 0.25)] });
+  assert.equal(run.lost, 3);
+  assert.equal(run.lineAtTick(4), 1);
+  const early = new model.Moment(run, 1), late = new model.Moment(run, 2);
+  assert.deepEqual([early.held[2], late.held[2]], [0, 1]);
+  assert.equal(model.waitOf(early, 2), null);
+  assert.equal(model.waitOf(late, 2).text, "waits for arm at barrier 0.5");
+  assert.deepEqual(model.waitOf(late, 2).for, [1]);
+});
+
+test("a line with the whole state makes idle what it does not name, and changes nothing else", () => {
+  const run = runOf(
+    { tick: 0, time_s: 0, nodes: [running(0, 0), running(1, 0.25), running(2, 0)] },
+    { tick: 9, time_s: 0.9, full: true, nodes: [running(0, 0), running(1, 0.25)] });
+  const moment = new model.Moment(run, 1);
+  assert.deepEqual([...moment.status], [1, 1, 0]);
+  assert.equal(run.nodes[1].length, 1);
+  assert.deepEqual(run.events.all.map((event) => [event.kind, event.node]), [["start", 1], ["start", 2], ["halt", 2]]);
+});
+
+test("who joins a run does not take what there was for what happened", () => {
+  const run = runOf(
+    { tick: 70, time_s: 7, full: true, nodes: [running(0, 0.5), [1, "success", 1, 1, 0]], entries: [[0, "open"]] },
+    { tick: 71, time_s: 7.1, nodes: [[0, "success", 1, 1, 0]], entries: [[0, "shut"]] });
+  assert.deepEqual(run.events.all.map((event) => event.text), ["succeeded", "door = shut"]);
+  assert.equal(run.entries[0][0].value, "open");
+});
+
+test("lines that come again after a connection was lost are taken once", () => {
+  const line = { tick: 0, time_s: 0, nodes: [running(0, 0), running(1, 0)], logs: [["Test/pull/arm", "info", "here"]] };
+  const run = runOf(line, line, HEADER, line, { tick: 1, time_s: 0.1 }, line);
+  assert.equal(run.lines, 2);
+  assert.equal(run.events.all.filter((event) => event.kind === "log").length, 1);
+});
+
+test("on the wall clock a tick that overran is an event", () => {
+  const run = new model.Run();
+  run.feed(JSON.stringify({ ...HEADER, clock: "wall" }));
+  for (const [tick, time_s] of [[0, 0], [1, 0.1], [2, 0.4], [5, 0.7]]) run.feed(JSON.stringify({ tick, time_s }));
+  assert.deepEqual(run.events.all.map((event) => [event.kind, event.line]), [["overrun", 2]]);
+});
+
+test("a version that the page does not know is refused", () => {
+  assert.throws(() => new model.Run().feed(JSON.stringify({ ...HEADER, lockstep_recording: 2 })), /version 1, not 2/);
+});
+
+test("a long run keeps every change of state and forgets some progress of long ago", () => {
+  const run = runOf({ tick: 0, time_s: 0, nodes: [running(0, 0), running(1, 0)] });
+  for (let tick = 1; tick < 1000; ++tick) {
+    run.feed(JSON.stringify({ tick, time_s: tick / 10, nodes: [running(1, tick / 1000, tick % 100 === 50 ? 1 : 0)] }));
+  }
+  const column = run.nodes[1], states = column.states.length;
+  column.thin();
+  assert.ok(column.length < 800 && column.length > 700, `${column.length} changes`);
+  assert.equal(column.states.length, states);
+  assert.equal(new model.Moment(run, 50).held[1], 1);
+  assert.equal(new model.Moment(run, 51).held[1], 0);
+  assert.equal(new model.Moment(run, 999).progress[1], 0.999);
+  const thinner = new model.Thinner(100, 10);
+  for (let change = 0; change < 101; ++change) thinner.count(run.nodes);
+  assert.ok(column.length < 700);
+  thinner.events(run.events);
+  assert.ok(run.events.all.length <= 10 || run.events.all.length <= states);
+});
+
+test("activations are told apart, with what was held in them", () => {
+  const run = runOf(
+    { tick: 0, time_s: 0, nodes: [running(1, 0)] }, { tick: 1, time_s: 0.1, nodes: [running(1, 0.5, 1)] },
+    { tick: 2, time_s: 0.2, nodes: [running(1, 0.5)] }, { tick: 3, time_s: 0.3, nodes: [[1, "failure", 0.5, 1, 0]] },
+    { tick: 4, time_s: 0.4, nodes: [running(1, 0)] }, { tick: 5, time_s: 0.5, nodes: [[1, "idle", 0, 0, 0]] });
+  assert.deepEqual(model.activations(run, 1, 5, 9), [
+    { from: 4, to: 5, result: 0, held: 0 }, { from: 0, to: 3, result: 3, held: 0.1 },
+  ]);
+  assert.equal(model.laneText(run, 1), "held once for 0.10 s, failed once");
+});
