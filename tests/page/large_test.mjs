@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { after, test } from "node:test";
 import { close, goToTick, openRun, record, tree } from "./support.mjs";
 
-after(close);
+after(() => close());
 
 const LEAVES = Array.from({ length: 99 }, (_, leaf) => `<Advance name="l${leaf}" step="0.5"/>`).join("");
 const BRANCHES = Array.from({ length: 100 }, (_, branch) =>

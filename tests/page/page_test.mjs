@@ -4,7 +4,7 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { SOURCE, close, goToTick, openRun, record, tree, violations } from "./support.mjs";
 
-after(close);
+after(() => close());
 
 let door;
 before(() => {

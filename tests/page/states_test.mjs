@@ -4,7 +4,7 @@ import { join } from "node:path";
 import { after, test } from "node:test";
 import { SOURCE, close, goToTick, lockstep, openRun, record } from "./support.mjs";
 
-after(close);
+after(() => close());
 
 const STATES = { "·": "idle", "▶": "running", "✓": "success", "✗": "failure", "»": "skipped", "‖": "held" };
 

@@ -1,8 +1,9 @@
 // What the tests of the page share: recordings, pages of them, a browser that reports what goes wrong in it.
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
+import { execFileSync, spawn } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
+import { connect, createServer } from "node:net";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -51,6 +52,54 @@ export function pageOf(recording) {
   return `file://${page}`;
 }
 
+const started = [];
+
+// lockstep with a monitor, once it has printed its link. `ended` is its exit code, or the signal that ended it.
+export function start(command, tree, ...args) {
+  const child = spawn(join(BUILD, "lockstep"), [command, tree, "--plugin-path", join(BUILD, "plugins"), "--view", "none",
+    "--monitor", ...args], { stdio: ["ignore", "ignore", "pipe"] });
+  started.push(child);
+  const ended = new Promise((done) => child.on("exit", (code, signal) => done(code ?? signal)));
+  return new Promise((done, fail) => {
+    let text = "";
+    child.stderr.on("data", (part) => {
+      text += part;
+      const link = text.match(/^monitor: (http:\S+)$/m);
+      if (link) done({ process: child, link: link[1], ended });
+    });
+    ended.then((code) => fail(new Error(`lockstep ended with ${code}: ${text}`)));
+  });
+}
+
+// A connection to the link that can be cut, stalled and mended.
+export async function cable(link) {
+  const { port, hash } = new URL(link);
+  const pairs = new Set();
+  let state = "whole";
+  const server = createServer((near) => {
+    if (state === "cut") return near.destroy();
+    const far = connect(Number(port), "127.0.0.1");
+    pairs.add([near, far]);
+    for (const [from, to] of [[near, far], [far, near]]) {
+      from.on("data", (bytes) => state === "whole" && to.write(bytes));
+      from.on("close", () => to.destroy());
+      from.on("error", () => to.destroy());
+    }
+  });
+  await new Promise((done) => server.listen(0, "127.0.0.1", done));
+  server.unref();
+  return {
+    link: `http://127.0.0.1:${server.address().port}/${hash}`,
+    cut() {
+      state = "cut";
+      for (const pair of pairs) for (const socket of pair) socket.destroy();
+      pairs.clear();
+    },
+    stall: () => (state = "stalled"),
+    mend: () => (state = "whole"),
+  };
+}
+
 let browser = null;
 const complaints = [];
 
@@ -70,11 +119,12 @@ export async function openRun(recording, options) {
   return page;
 }
 
-// To be called after all tests of a file.
-export async function close() {
+// To be called after all tests of a file; `expected` complaints are none.
+export async function close(expected = /^$/) {
   await browser?.close();
   browser = null;
-  assert.deepEqual(complaints, [], "the browser complains");
+  for (const child of started) child.kill("SIGKILL");
+  assert.deepEqual(complaints.filter((one) => !expected.test(one)), [], "the browser complains");
 }
 
 export async function goToTick(page, tick) {

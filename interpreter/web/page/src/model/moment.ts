@@ -27,6 +27,7 @@ export class Moment {
     }
   }
 
+  // Before the first tick there is nothing.
   get tick(): number {
     return this.run.ticks[this.line] ?? 0;
   }

@@ -15,18 +15,21 @@ export interface ServerState {
   state?: "running" | "paused" | "ended";
   speed?: number;
   breakpoints?: Breakpoint[];
-  hit?: Breakpoint | null;
+  reached?: Breakpoint; // that paused the run
   late_ms?: number;
   tick_us?: number;
   overruns?: number;
 }
 
-const SHORTEST = 250, LONGEST = 5000; // milliseconds until the next attempt
+// Milliseconds.
+const SHORTEST = 250, LONGEST = 5000; // until the next attempt
+const SILENCE = 3000; // after which a connection may be dead: a cable that was pulled closes nothing
+const PATIENCE = 3000; // for an answer
 
 export class LiveSource {
   connection: Connection = "connecting";
   state: ServerState = {};
-  refusal = ""; // of the last command
+  notice = ""; // what became of the last order
   private abort: AbortController | null = null;
   private attempts = 0;
   private hasHistory = false;
@@ -45,8 +48,7 @@ export class LiveSource {
     return this.token ? { "X-Lockstep-Token": this.token } : {};
   }
   private url(path: string): URL {
-    const url = new URL(path, this.base);
-    return url;
+    return new URL(path, this.base);
   }
   private become(connection: Connection) {
     this.connection = connection;
@@ -70,10 +72,11 @@ export class LiveSource {
       if (!this.hasHistory) await this.readHistory(abort.signal);
       await this.readEvents(abort.signal);
     } catch (error) {
-      if (!abort.signal.aborted && error instanceof Refused) return this.refuse(error);
+      if (error instanceof Refused) return this.refuse(error);
     }
-    if (abort.signal.aborted || this.connection === "ended") return;
+    if (abort !== this.abort || this.connection === "ended" || this.connection === "asleep") return;
     if (this.store.run.end) return this.become("ended");
+    if (abort.signal.reason === SILENT) return void this.connect();
     this.become("lost");
     const wait = Math.min(LONGEST, SHORTEST * 2 ** this.attempts++);
     setTimeout(() => !document.hidden && this.connection === "lost" && this.connect(), wait);
@@ -85,7 +88,7 @@ export class LiveSource {
   }
 
   private async get(path: string, signal: AbortSignal): Promise<Response> {
-    const answer = await fetch(this.url(path), { headers: this.headers(), signal, cache: "no-store" });
+    const answer = await inTime(fetch(this.url(path), { headers: this.headers(), signal, cache: "no-store" }));
     if (answer.status === 401 || answer.status === 403) {
       throw new Refused("The program does not let this page in: open the link that it has printed, with its token.");
     }
@@ -109,12 +112,12 @@ export class LiveSource {
     if (!answer.ok || !answer.body) throw new Error(`the program answers ${answer.status}`);
     this.become("open");
     this.attempts = 0;
-    await readEvents(answer.body, (name, data) => this.take(name, data));
+    await readEvents(watched(answer.body, this.abort!), (name, data) => this.take(name, data));
   }
 
   private take(name: string, data: string) {
     if (name === "message") return this.takeLine(data);
-    if (name === "state") this.state = JSON.parse(data) as ServerState;
+    if (name === "state") this.state = { ...this.state, reached: undefined, ...(JSON.parse(data) as ServerState) };
     if (name === "end") this.connection = "ended";
     this.store.changed();
   }
@@ -125,16 +128,17 @@ export class LiveSource {
     this.store.feed(data);
   }
 
-  async command(what: object) {
-    this.refusal = "";
+  // `done` is what to say when it was taken.
+  async order(what: object, done = "") {
+    this.notice = "";
     try {
       const answer = await fetch(this.url("control"), {
         method: "POST", body: JSON.stringify(what),
         headers: { ...this.headers(), "Content-Type": "application/json" },
       });
-      if (!answer.ok) this.refusal = await reasonOf(answer);
+      this.notice = answer.ok ? done : `not done: ${await reasonOf(answer)}`;
     } catch {
-      this.refusal = "the program does not answer";
+      this.notice = "not done: the program does not answer";
     }
     this.store.changed();
   }
@@ -142,10 +146,35 @@ export class LiveSource {
 
 class Refused extends Error {}
 
+function inTime(answer: Promise<Response>): Promise<Response> {
+  let timer: ReturnType<typeof setTimeout>;
+  const late = new Promise<never>((_, fail) => {
+    timer = setTimeout(() => fail(new Error("no answer")), PATIENCE);
+  });
+  return Promise.race([answer, late]).finally(() => clearTimeout(timer));
+}
+
+const SILENT = "silent";
+
+// The same bytes; `abort` is called when they stop.
+function watched(body: ReadableStream<Uint8Array>, abort: AbortController): ReadableStream<Uint8Array> {
+  const give = () => setTimeout(() => abort.abort(SILENT), SILENCE);
+  let timer = give();
+  return body.pipeThrough(new TransformStream({
+    transform(bytes, controller) {
+      clearTimeout(timer);
+      timer = give();
+      controller.enqueue(bytes);
+    },
+    flush: () => clearTimeout(timer),
+  }));
+}
+
 async function reasonOf(answer: Response): Promise<string> {
   const text = await answer.text();
   try {
-    return (JSON.parse(text) as { error: string }).error;
+    const { error, hint } = JSON.parse(text) as { error: string; hint?: string };
+    return hint ? `${error} (${hint})` : error;
   } catch {
     return text.trim() || `the program answers ${answer.status}`;
   }

@@ -46,7 +46,7 @@ function Empty({ store }: { store: Store }) {
 export function App({ store }: { store: Store }) {
   const looking = useStore(store);
   useWindow(store);
-  if (store.run.lines === 0) return <Empty store={store} />;
+  if (store.run.header === null) return <Empty store={store} />;
   return (
     <>
       <Header store={store} />

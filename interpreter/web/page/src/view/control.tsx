@@ -6,17 +6,17 @@ import type { Store } from "./store";
 const SPEEDS: [string, number][] = [
   ["0.1×", 0.1], ["0.5×", 0.5], ["1×", 1], ["2×", 2], ["10×", 10], ["100×", 100], ["as fast as possible", 0],
 ];
-const WHEN: Record<When, string> = { begins: "begins", completes: "completes", barrier: "reaches a barrier" };
+const WHEN: Record<When, string> = { begins: "begins", completes: "completes", barrier: "comes to a barrier" };
 
 export function pauseOrResume(live: LiveSource) {
-  void live.command({ do: live.state.state === "paused" ? "resume" : "pause" });
+  void live.order({ do: live.state.state === "paused" ? "resume" : "pause" });
 }
 
 function Speed({ store, live }: { store: Store; live: LiveSource }) {
   if (store.run.header?.clock !== "virtual") return null;
   return (
     <label>speed <select aria-label="Speed of the run" value={live.state.speed ?? 1}
-      onChange={(event) => live.command({ do: "speed", factor: Number((event.target as HTMLSelectElement).value) })}>
+      onChange={(event) => live.order({ do: "speed", factor: Number((event.target as HTMLSelectElement).value) })}>
       {SPEEDS.map(([text, factor]) => <option key={factor} value={factor}>{text}</option>)}
     </select></label>
   );
@@ -29,7 +29,7 @@ function SetEntry({ store, live }: { store: Store; live: LiveSource }) {
   if (entries.length === 0) return null;
   const send = (event: Event) => {
     event.preventDefault();
-    void live.command({ do: "set", entry, value });
+    void live.order({ do: "set", entry, value }, `${entry} = ${value} from the next tick on`);
   };
   return (
     <form class="buttons" aria-label="Set an entry" onSubmit={send}>
@@ -42,27 +42,40 @@ function SetEntry({ store, live }: { store: Store; live: LiveSource }) {
   );
 }
 
+// It is the synchronized node that has the barriers.
+function watched(store: Store, selected: number, when: When): number {
+  const { keeper, synchronization } = store.run.shape.nodes[selected];
+  return when === "barrier" && !synchronization && keeper !== null ? keeper : selected;
+}
+
 function Breakpoints({ store, live }: { store: Store; live: LiveSource }) {
   const { selected } = store.looking;
   const [when, setWhen] = useState<When>("begins");
   const set = live.state.breakpoints ?? [];
-  const name = (node: number) => store.run.shape.nodes[node]?.segment ?? "?";
+  const name = (node: number) => store.run.shape.nodes[node]?.apart ?? "?";
+  const node = selected === null ? null : watched(store, selected, when);
   return (
     <div class="buttons" role="group" aria-label="Breakpoints">
-      <button type="button" disabled={selected === null} title="select a node in the tree first"
-        onClick={() => live.command({ do: "break", node: selected, when, on: true })}>
-        {`pause when ${selected === null ? "the selected node" : name(selected)}`}</button>
+      <button type="button" disabled={node === null} title="select a node in the tree first"
+        onClick={() => live.order({ do: "break", node, when, on: true })}>
+        {`pause when ${node === null ? "the selected node" : name(node)}`}</button>
       <select aria-label="When to pause" value={when} onChange={(event) => setWhen((event.target as HTMLSelectElement).value as When)}>
         {Object.entries(WHEN).map(([key, text]) => <option key={key} value={key}>{text}</option>)}
       </select>
       {set.map((one) => (
         <button type="button" key={`${one.node} ${one.when}`} class="breakpoint" title="remove this breakpoint"
           aria-label={`remove the breakpoint: ${name(one.node)} ${WHEN[one.when]}`}
-          onClick={() => live.command({ do: "break", node: one.node, when: one.when, on: false })}>
+          onClick={() => live.order({ do: "break", node: one.node, when: one.when, on: false })}>
           {`● ${name(one.node)} ${WHEN[one.when]} ×`}</button>
       ))}
     </div>
   );
+}
+
+function reachedText(store: Store, live: LiveSource): string {
+  const { reached, state } = live.state;
+  if (!reached || state !== "paused") return "";
+  return `paused, since ${store.run.shape.nodes[reached.node]?.apart ?? "?"} ${WHEN[reached.when]}`;
 }
 
 // A robot that stands is a fact to know before the button is pressed.
@@ -79,7 +92,7 @@ export function Control({ store }: { store: Store }) {
   if (!live?.control || run.end || live.connection === "ended") return null;
   const paused = live.state.state === "paused";
   const halt = () => {
-    if (sure) void live.command({ do: "halt" });
+    if (sure) void live.order({ do: "halt" });
     setSure(!sure);
   };
   return (
@@ -88,7 +101,7 @@ export function Control({ store }: { store: Store }) {
         <button type="button" class="pause" aria-keyshortcuts="p" title={pauseTitle(store, paused)}
           onClick={() => pauseOrResume(live)}>{paused ? "▶ resume" : "‖ pause"}</button>
         <button type="button" aria-keyshortcuts="s" disabled={!paused} title="one tick (s)"
-          onClick={() => live.command({ do: "step", ticks: 1 })}>one tick</button>
+          onClick={() => live.order({ do: "step", ticks: 1 })}>one tick</button>
         <Speed store={store} live={live} />
         <SetEntry store={store} live={live} />
         <Breakpoints store={store} live={live} />
@@ -98,7 +111,7 @@ export function Control({ store }: { store: Store }) {
       </div>
       {run.header?.clock === "wall" && !paused &&
         <p class="dim">Pausing pauses the running leaves as a barrier does: the robot stands still until it is resumed.</p>}
-      {live.refusal && <p role="alert" class="warning">{live.refusal}</p>}
+      <p role="status" class="notice">{reachedText(store, live) || live.notice}</p>
     </section>
   );
 }

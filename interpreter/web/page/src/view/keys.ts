@@ -27,7 +27,7 @@ function acts(store: Store): Record<string, () => void> {
     "?": () => store.set({ help: !looking.help }),
   };
   if (!live?.control) return always;
-  return { ...always, p: () => pauseOrResume(live), s: () => void live.command({ do: "step", ticks: 1 }) };
+  return { ...always, p: () => pauseOrResume(live), s: () => void live.order({ do: "step", ticks: 1 }) };
 }
 
 export function globalKey(store: Store, event: KeyboardEvent) {

@@ -45,8 +45,8 @@ export function Help({ store }: { store: Store }) {
         <section aria-label="Keys"><Rows rows={KEYS} /></section>
         <section aria-label="Signs"><Rows rows={SIGNS} /></section>
       </div>
+      <form method="dialog"><button type="submit" autofocus onClick={() => store.set({ help: false })}>Close</button></form>
       <details><summary>Licenses of what is in this page</summary><pre tabIndex={0}>{help ? licenses : ""}</pre></details>
-      <form method="dialog"><button type="submit" onClick={() => store.set({ help: false })}>Close</button></form>
     </dialog>
   );
 }

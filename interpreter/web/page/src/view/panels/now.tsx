@@ -66,8 +66,11 @@ function Name({ store, node }: { store: Store; node: number }) {
 function Waiting({ store, moment, wait }: { store: Store; moment: Moment; wait: Wait }) {
   return (
     <li class="held">
-      <span aria-hidden="true" class="symbol">‖</span> <Name store={store} node={wait.node} /> {wait.text}
-      <span class="dim">for {heldSince(moment, wait.node).toFixed(2)} s</span>
+      <span aria-hidden="true" class="symbol">‖</span>
+      <span>
+        <Name store={store} node={wait.node} /> {wait.text || "waits"}{" "}
+        <span class="dim">for {heldSince(moment, wait.node).toFixed(2)} s</span>
+      </span>
       <Progress moment={moment} node={wait.node} />
     </li>
   );
@@ -86,7 +89,8 @@ export function Now({ store }: { store: Store }) {
       <ul>
         {running.slice(0, MOST).map((node) => (
           <li key={node} class="running">
-            <span aria-hidden="true" class="symbol">▶</span> <Name store={store} node={node} /> runs
+            <span aria-hidden="true" class="symbol">▶</span>
+            <span><Name store={store} node={node} /> runs</span>
             <Progress moment={moment} node={node} />
           </li>
         ))}
