@@ -8,6 +8,7 @@
 #include <iostream>
 #include <string>
 #include <string_view>
+#include <typeindex>
 #include <unordered_map>
 #include <utility>
 #include <variant>
@@ -37,8 +38,10 @@ using KeyValueVector = std::vector<std::pair<std::string, std::string>>;
 
 template <class T>
 using Expected = nonstd::expected<T, std::string>;
+#ifdef USE_BTCPP3_OLD_NAMES
 template <class T>
 using Optional = nonstd::expected<T, std::string>;
+#endif
 using Result = Expected<std::monostate>;
 
 using TimePoint = std::chrono::high_resolution_clock::time_point;
@@ -68,6 +71,17 @@ inline std::vector<StringView> splitString(const StringView& text, char separato
     at = end + 1;
   }
   return parts;
+}
+
+// A value as "json:…"; an error when its type has no text in JSON.
+inline Expected<std::string> toJsonString(const Any& value) {
+  if (value.isNumber() || value.isString()) return "json:" + detail::plain_json(value);
+  const detail::JsonFunctions* const functions = detail::find_json(value.castedType());
+  if (functions == nullptr || !functions->write) {
+    return nonstd::make_unexpected(
+        StrCat("values of type ", demangle(value.type()), " have no text in JSON"));
+  }
+  return "json:" + functions->write(value.object());
 }
 
 namespace detail {
@@ -133,6 +147,20 @@ inline T convertFromString(StringView text) {
   return detail::TextReader<T>::read(text);
 }
 
+// A text in JSON as a value of a type that is registered for it.
+[[nodiscard]] inline Any convertFromJSON(StringView text, std::type_index type) {
+  Any value;
+  if (!detail::read_json(type, text, value)) {
+    throw RuntimeError("the JSON '", text, "' is no value of type ", demangle(type),
+                       ", or that type is not registered with BT::RegisterJsonDefinition");
+  }
+  return value;
+}
+template <typename T>
+[[nodiscard]] T convertFromJSON(StringView text) {
+  return convertFromJSON(text, typeid(T)).cast<T>();
+}
+
 namespace detail {
 
 template <class Item>
@@ -187,40 +215,37 @@ inline PortDirection convertFromString<PortDirection>(StringView text) {
   detail::refuse_text(text, "a direction");
 }
 
-inline std::string toStr(const std::string& value) {
-  return value;
+template <class T>
+constexpr bool IsConvertibleToString() {
+  return std::is_convertible_v<T, std::string> || std::is_convertible_v<T, std::string_view>;
 }
-inline std::string toStr(const NodeStatus& status) {
-  return detail::kStatusNames[static_cast<int>(status)];
-}
-// With colors for a terminal.
-inline std::string toStr(NodeStatus status, bool colored) {
-  if (!colored) return toStr(status);
-  constexpr const char* kColors[] = {"36", "33", "32", "31", "34"};
-  return StrCat("\x1b[", kColors[static_cast<int>(status)], "m", toStr(status), "\x1b[0m");
-}
-inline std::string toStr(const NodeType& type) {
-  return detail::kTypeNames[static_cast<int>(type)];
-}
-inline std::string toStr(const PortDirection& direction) {
-  return detail::kDirectionNames[static_cast<int>(direction)];
-}
+
+// Specialize it for your types, or register them for JSON.
 template <typename T>
 [[nodiscard]] std::string toStr(const T& value) {
-  if constexpr (std::is_convertible_v<T, std::string>) {
+  if constexpr (IsConvertibleToString<T>()) {
     return static_cast<std::string>(value);
   } else if constexpr (std::is_same_v<T, bool>) {
     return value ? "true" : "false";
   } else if constexpr (std::is_arithmetic_v<T>) {
     return std::to_string(value);
-  } else if constexpr (std::is_same_v<T, std::string_view>) {
-    return std::string(value);
+  } else if constexpr (std::is_same_v<T, NodeStatus>) {
+    return detail::kStatusNames[static_cast<int>(value)];
+  } else if constexpr (std::is_same_v<T, NodeType>) {
+    return detail::kTypeNames[static_cast<int>(value)];
+  } else if constexpr (std::is_same_v<T, PortDirection>) {
+    return detail::kDirectionNames[static_cast<int>(value)];
   } else {
-    std::string text;
-    if (detail::write_json(typeid(T), &value, text)) return text;
+    if (auto text = toJsonString(Any(value))) return std::move(*text);
     throw LogicError("there is no text for a value of type ", demangle(typeid(T)),
-                     "; overload BT::toStr, or register it for JSON");
+                     "; specialize BT::toStr for it, or register it for JSON");
   }
+}
+// With colors for a terminal.
+[[nodiscard]] inline std::string toStr(NodeStatus status, bool colored) {
+  if (!colored) return toStr(status);
+  constexpr const char* kColors[] = {"36", "33", "32", "31", "34"};
+  return StrCat("\x1b[", kColors[static_cast<int>(status)], "m", toStr(status), "\x1b[0m");
 }
 
 inline std::ostream& operator<<(std::ostream& out, const NodeStatus& status) {

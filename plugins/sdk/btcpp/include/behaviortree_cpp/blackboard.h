@@ -5,6 +5,8 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <mutex>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -38,6 +40,17 @@ class EntryStore {
 class Blackboard {
  public:
   using Ptr = std::shared_ptr<Blackboard>;
+
+  // What an entry is when it is asked for.
+  struct Entry {
+    explicit Entry(const TypeInfo& type) : info(type), string_converter(type.converter()) {}
+    Any value;
+    TypeInfo info;
+    StringConverter string_converter;
+    mutable std::mutex entry_mutex;  // a tree is ticked by one thread: nothing to lock
+    std::uint64_t sequence_id = 0;
+    std::chrono::nanoseconds stamp{0};
+  };
   static Ptr create(Ptr parent = {}) { return Ptr(new Blackboard(std::move(parent))); }
   Blackboard(const Blackboard&) = delete;
   Blackboard& operator=(const Blackboard&) = delete;
@@ -46,8 +59,10 @@ class Blackboard {
   template <class T>
   [[nodiscard]] T get(const std::string& key) const {
     auto value = read<T>(key);
-    if (!value) throw RuntimeError("Blackboard::get: ", value.error());
-    return std::move(*value);
+    if (value) return std::move(*value);
+    const std::string message = "Blackboard::get: " + value.error();
+    if (has_value(key)) throw std::runtime_error(message);  // of another type
+    throw RuntimeError(message);
   }
   template <class T>
   Expected<StampedValue<T>> getStamped(const std::string& key) const {
@@ -103,6 +118,23 @@ class Blackboard {
     return {std::move(value), [self, key](const Any& changed) { self->keep(key, changed); }};
   }
 
+  // A copy of it; null: there is no such entry, or it has no value.
+  template <class Key = std::string>
+  [[nodiscard]] std::shared_ptr<Entry> getEntry(const Key& key) const {
+    const AnyPtrLocked value = getAnyLocked(key);
+    if (!value) return nullptr;
+    auto entry = std::make_shared<Entry>(TypeInfo::of(*value));
+    entry->value = *value;
+    return entry;
+  }
+  // Of the value that it has; null: it has none.
+  template <class Key = std::string>
+  [[nodiscard]] const TypeInfo* entryInfo(const Key& key) {
+    const auto entry = getEntry(key);
+    if (entry == nullptr) return nullptr;
+    return &(types_[std::string(key)] = entry->info);
+  }
+
   // The one of the main tree, and the one outside.
   Blackboard* rootBlackboard() {
     return place_ != nullptr ? root_.get() : parent_ != nullptr ? parent_->rootBlackboard() : this;
@@ -119,10 +151,19 @@ class Blackboard {
     return keys;
   }
   const std::map<std::string, Any>& values() const { return values_; }
+  void cloneInto(Blackboard& other) const {
+    for (const auto& [key, value] : values_) other.keep(key, value);
+  }
+  void debugMessage() const {
+    for (const auto& [key, value] : values_) {
+      std::cout << key << " (" << demangle(value.type()) << ")" << std::endl;
+    }
+  }
 
   // For the tree that has it. What was set before becomes values of its entries.
-  void attach(std::shared_ptr<detail::EntryStore> entries) {
-    entries_ = std::move(entries);
+  void attach(const std::shared_ptr<detail::EntryStore>& entries) {
+    if (parent_ != nullptr) parent_->attach(entries);
+    entries_ = entries;
     for (auto it = values_.begin(); it != values_.end();) {
       it = entries_->set(it->first, it->second) ? values_.erase(it) : std::next(it);
     }
@@ -178,6 +219,7 @@ class Blackboard {
   detail::Place* place_ = nullptr;
   std::shared_ptr<detail::EntryStore> entries_;
   std::map<std::string, Any> values_;
+  std::map<std::string, TypeInfo> types_;  // that entryInfo has given
 };
 
 }  // namespace BT

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <type_traits>
 #include <unordered_map>
@@ -10,6 +11,7 @@
 
 #include "behaviortree_cpp/behavior_tree.h"
 #include "behaviortree_cpp/lockstep/enum_names.h"
+#include "behaviortree_cpp/lockstep/node_ids.h"
 #include "behaviortree_cpp/lockstep/plugin_table.h"
 #if __has_include(<lockstep/runtime.h>)
 #include "behaviortree_cpp/lockstep/program.h"
@@ -36,6 +38,8 @@ class BehaviorTreeFactory {
   BehaviorTreeFactory() = default;
   BehaviorTreeFactory(const BehaviorTreeFactory&) = delete;
   BehaviorTreeFactory& operator=(const BehaviorTreeFactory&) = delete;
+  BehaviorTreeFactory(BehaviorTreeFactory&&) = default;
+  BehaviorTreeFactory& operator=(BehaviorTreeFactory&&) = default;
 
   // A class of nodes by its ID; `arguments` go to the end of its constructor.
   template <class T, class... Arguments>
@@ -128,8 +132,37 @@ class BehaviorTreeFactory {
     return make({plugin_, plugins_, text_, file_, tree}, std::move(blackboard));
   }
 #endif
-  std::unordered_map<std::string, TreeNodeManifest> manifests() const {
+  // What is registered, without the nodes that every tree has.
+  const std::unordered_map<std::string, TreeNodeManifest>& manifests() const {
     return plugin_->manifests();
+  }
+  const std::unordered_map<std::string, NodeBuilder>& builders() const {
+    return plugin_->builders();
+  }
+  const std::set<std::string>& builtinNodes() const {
+    return detail::node_ids();
+  }
+  // False: it is not registered.
+  bool unregisterBuilder(const std::string& ID) {
+    if (builtinNodes().count(ID) != 0) throw LogicError("the node '", ID, "' cannot be removed");
+    return plugin_->remove(ID);
+  }
+  void addMetadataToManifest(const std::string& node_ID, const KeyValueVector& metadata) {
+    const auto found = plugin_->manifests().find(node_ID);
+    if (found == plugin_->manifests().end()) {
+      throw RuntimeError("addMetadataToManifest: ID [", node_ID, "] is not registered");
+    }
+    found->second.metadata = metadata;
+  }
+  // A node that is in no tree.
+  [[nodiscard]] std::unique_ptr<TreeNode> instantiateTreeNode(const std::string& name,
+                                                              const std::string& ID,
+                                                              const NodeConfig& config) const {
+    const auto builder = builders().find(ID);
+    if (builder == builders().end()) throw RuntimeError("ID [", ID, "] is not registered");
+    auto node = builder->second(name, config);
+    node->setRegistrationID(ID);
+    return node;
   }
 
   template <class Filter, class Rule>

@@ -2,153 +2,173 @@
 // tree as json:{…}, and crosses to the process of an isolated plugin.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "behaviortree_cpp/basic_types.h"
-#include "behaviortree_cpp/lockstep/json_text.h"
-
-namespace BT::detail {
-
-template <class T>
-struct is_vector : std::false_type {};
-template <class Item>
-struct is_vector<std::vector<Item>> : std::true_type {};
-
-struct JsonWriter;
-struct JsonReader;
-
-// What the fields of a class are said to; BT_JSON_CONVERTER says them.
-struct NoField {
-  template <class Field>
-  void operator()(const char*, Field*) {}
-};
-template <class T, class = void>
-inline constexpr bool has_json_fields = false;
-template <class T>
-inline constexpr bool has_json_fields<
-    T, std::void_t<decltype(_JsonTypeDefinition(std::declval<T&>(), std::declval<NoField&>()))>> =
-    true;
-
-struct JsonWriter {
-  std::string& out;
-  bool is_first = true;
-
-  template <class Field>
-  void operator()(const char* name, Field* field) {
-    if (!std::exchange(is_first, false)) out += ',';
-    write_json_text(name, out);
-    out += ':';
-    write(*field, out);
-  }
-
-  template <class T>
-  static void write(const T& value, std::string& out) {
-    if constexpr (is_text_v<T>) {
-      write_json_text(value, out);
-    } else if constexpr (std::is_enum_v<T>) {
-      out += std::to_string(static_cast<std::int64_t>(value));
-    } else if constexpr (std::is_floating_point_v<T>) {
-      out += std::isfinite(value) ? constant_text(value) : "null";
-    } else if constexpr (std::is_arithmetic_v<T>) {
-      out += constant_text(value);
-    } else if constexpr (is_vector<T>::value) {
-      out += '[';
-      for (std::size_t i = 0; i < value.size(); ++i) {
-        if (i != 0) out += ',';
-        write<typename T::value_type>(value[i], out);
-      }
-      out += ']';
-    } else {
-      static_assert(has_json_fields<T>,
-                    "this type has no fields for JSON: say them with BT_JSON_CONVERTER(Type, it) { "
-                    "add_field(\"x\", &it.x); } in the namespace of the type");
-      out += '{';
-      JsonWriter fields{out};
-      _JsonTypeDefinition(const_cast<T&>(value), fields);  // NOLINT: it takes addresses only
-      out += '}';
-    }
-  }
-};
-
-struct JsonReader {
-  const JsonNode& node;
-  bool is_good = true;
-
-  template <class Field>
-  void operator()(const char* name, Field* field) {
-    const JsonNode* const found = node.find(name);
-    is_good = is_good && found != nullptr && read(*found, *field);
-  }
-
-  // False: it is no value of the type.
-  template <class T>
-  static bool read(const JsonNode& from, T& value) {
-    using Kind = JsonNode::Kind;
-    if constexpr (std::is_same_v<T, std::string>) {
-      value = from.text;
-      return from.kind == Kind::Text;
-    } else if constexpr (std::is_same_v<T, bool>) {
-      value = from.flag;
-      return from.kind == Kind::Bool;
-    } else if constexpr (std::is_enum_v<T>) {
-      std::int64_t number = 0;
-      if (!read(from, number)) return false;
-      value = static_cast<T>(number);
-      return true;
-    } else if constexpr (std::is_arithmetic_v<T>) {
-      const char* const end = from.text.data() + from.text.size();
-      const auto [rest, error] = std::from_chars(from.text.data(), end, value);
-      return from.kind == Kind::Number && error == std::errc() && rest == end;
-    } else if constexpr (is_vector<T>::value) {
-      value.clear();
-      for (const JsonNode& item : from.items) {
-        typename T::value_type read_item{};
-        if (!read(item, read_item)) return false;
-        value.push_back(std::move(read_item));
-      }
-      return from.kind == Kind::List;
-    } else {
-      JsonReader fields{from};
-      _JsonTypeDefinition(value, fields);
-      return from.kind == Kind::Object && fields.is_good;
-    }
-  }
-};
-
-template <class T>
-void register_json() {
-  JsonFunctions functions{};
-  functions.write = [](const void* value, std::string& text) {
-    JsonWriter::write(*static_cast<const T*>(value), text);
-  };
-  functions.read = [](std::string_view text, Any& any) {
-    JsonNode node;
-    T value{};
-    if (!JsonParser::parse(text, node) || !JsonReader::read(node, value)) return false;
-    any = Any(value);
-    return true;
-  };
-  json_functions()[typeid(T)] = functions;
-}
-
-}  // namespace BT::detail
+#include "behaviortree_cpp/contrib/json.hpp"
 
 namespace BT {
+
+// What the types of this shared object have for JSON.
+class JsonExporter {
+ public:
+  using Entry = std::pair<Any, TypeInfo>;
+  using ExpectedEntry = nonstd::expected<Entry, std::string>;
+
+  static JsonExporter& get() {
+    static JsonExporter exporter;
+    return exporter;
+  }
+
+  // False: its type has none.
+  bool toJson(const Any& value, nlohmann::json& json) const {
+    const auto text = toJsonString(value);
+    if (text) json = nlohmann::json::parse(text->substr(5));
+    return text.has_value();
+  }
+  // An object as one of the type that its "__type" names.
+  ExpectedEntry fromJson(const nlohmann::json& json) const {
+    const nlohmann::json& first = json.is_array() && !json.empty() ? json.front() : json;
+    const auto type = first.is_object() ? first.find("__type") : first.end();
+    if (type == first.end() || !type->is_string()) {
+      return nonstd::make_unexpected(std::string("Missing field '__type'"));
+    }
+    for (const auto& [index, functions] : detail::json_functions()) {
+      if (functions.name == *type && functions.is_list == json.is_array()) {
+        return fromJson(json, index);
+      }
+    }
+    return nonstd::make_unexpected(std::string("Type not found in registered list"));
+  }
+  ExpectedEntry fromJson(const nlohmann::json& json, std::type_index type) const {
+    Entry entry;
+    const detail::JsonFunctions* const functions = detail::find_json(type);
+    if (functions == nullptr || !functions->read || !functions->read(json.dump(), entry.first)) {
+      return nonstd::make_unexpected(StrCat("it is no value of type ", demangle(type)));
+    }
+    entry.second = functions->type();
+    return entry;
+  }
+  template <class T>
+  Expected<T> fromJson(const nlohmann::json& json) const {
+    const auto entry = fromJson(json, typeid(T));
+    if (!entry) return nonstd::make_unexpected(entry.error());
+    return entry->first.template tryCast<T>();
+  }
+
+  // A type with to_json and from_json, as BT_JSON_CONVERTER makes them.
+  template <class T>
+  void addConverter() {
+    add_write<T>([](const T& value, nlohmann::json& json) { json = value; });
+    add_read<T>([](const nlohmann::json& json, T& value) { json.get_to(value); });
+  }
+  template <class T>
+  void addConverter(std::function<void(const T&, nlohmann::json&)> to_json, bool add_type = true) {
+    add_write<T>([=](const T& value, nlohmann::json& json) {
+      to_json(value, json);
+      if (add_type) json["__type"] = demangle(typeid(T));
+    });
+  }
+  template <class T>
+  void addConverter(std::function<void(const nlohmann::json&, T&)> from_json) {
+    add_read<T>(std::move(from_json));
+  }
+
+ private:
+  JsonExporter() {
+    addConverter<std::vector<double>>();
+    addConverter<std::vector<int>>();
+    addConverter<std::vector<bool>>();
+    addConverter<std::vector<std::string>>();
+  }
+
+  template <class T>
+  static detail::JsonFunctions& functions_of(bool is_list = false) {
+    detail::JsonFunctions& functions = detail::json_functions()[typeid(T)];
+    functions.is_list = is_list;
+    functions.type = TypeInfo::Create<T>;
+    return functions;
+  }
+  template <class T>
+  static void name(const nlohmann::json& json) {
+    const auto type = json.is_object() ? json.find("__type") : json.end();
+    const std::string name = type == json.end() ? demangle(typeid(T)) : std::string(*type);
+    functions_of<T>().name = functions_of<std::vector<T>>(true).name = name;
+  }
+
+  template <class T, class Write>
+  static void add_write(Write write_one) {
+    functions_of<T>().write = [=](const void* value) {
+      nlohmann::json json;
+      write_one(*static_cast<const T*>(value), json);
+      return json.dump();
+    };
+    functions_of<std::vector<T>>(true).write = [=](const void* values) {
+      nlohmann::json list = nlohmann::json::array();
+      for (const T& value : *static_cast<const std::vector<T>*>(values)) {
+        write_one(value, list.emplace_back());
+      }
+      return list.dump();
+    };
+    nlohmann::json json;
+    write_one(T{}, json);
+    name<T>(json);
+  }
+
+  template <class T, class Read>
+  static void add_read(Read read_one) {
+    functions_of<T>().read = [=](std::string_view text, Any& any) {
+      return reading(text, [&](const nlohmann::json& json) {
+        T value{};
+        read_one(json, value);
+        any = Any(value);
+      });
+    };
+    functions_of<std::vector<T>>(true).read = [=](std::string_view text, Any& any) {
+      return reading(text, [&](const nlohmann::json& json) {
+        std::vector<T> values;
+        for (const nlohmann::json& it : json) read_one(it, values.emplace_back());
+        any = Any(values);
+      });
+    };
+    if (functions_of<T>().name.empty()) name<T>({});
+  }
+  template <class Read>
+  static bool reading(std::string_view text, Read read) {
+    try {
+      read(nlohmann::json::parse(text));
+    } catch (const std::exception&) {
+      return false;
+    }
+    return true;
+  }
+};
 
 // T, and lists of it, have a text in JSON from now on. Call it where the nodes are registered.
 template <class T>
 void RegisterJsonDefinition() {
-  detail::register_json<T>();
-  if constexpr (!detail::is_vector<T>::value) detail::register_json<std::vector<T>>();
+  JsonExporter::get().addConverter<T>();
 }
 
 }  // namespace BT
 
 // Says the fields of a class, in its namespace:
 //   BT_JSON_CONVERTER(Point, point) { add_field("x", &point.x); add_field("y", &point.y); }
-#define BT_JSON_CONVERTER(Type, value) \
-  template <class AddField>            \
+#define BT_JSON_CONVERTER(Type, value)                                                         \
+  template <class AddField>                                                                    \
+  void _JsonTypeDefinition(Type&, AddField&);                                                  \
+  inline void to_json(nlohmann::json& json, const Type& from) {                                \
+    const auto add = [&json](const char* name, auto* field) { json[name] = *field; };          \
+    _JsonTypeDefinition(const_cast<Type&>(from), add);                                         \
+    json["__type"] = #Type;                                                                    \
+  }                                                                                            \
+  inline void from_json(const nlohmann::json& json, Type& to) {                                \
+    const auto add = [&json](const char* name, auto* field) { json.at(name).get_to(*field); }; \
+    _JsonTypeDefinition(to, add);                                                              \
+  }                                                                                            \
+  template <class AddField>                                                                    \
   inline void _JsonTypeDefinition(Type& value, AddField& add_field)

@@ -3,7 +3,10 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <unordered_map>
@@ -13,6 +16,7 @@
 #include "behaviortree_cpp/basic_types.h"
 #include "behaviortree_cpp/blackboard.h"
 #include "behaviortree_cpp/lockstep/registration.h"
+#include "behaviortree_cpp/utils/signal.h"
 
 namespace BT {
 
@@ -31,6 +35,19 @@ using ScriptingEnumsRegistry = std::unordered_map<std::string, int>;
 enum class PreCond { FAILURE_IF = 0, SUCCESS_IF, SKIP_IF, WHILE_TRUE, COUNT_ };
 enum class PostCond { ON_HALTED = 0, ON_FAILURE, ON_SUCCESS, ALWAYS, COUNT_ };
 
+inline const std::array<std::string, 4> PreCondNames = {"_failureIf", "_successIf", "_skipIf",
+                                                        "_while"};
+inline const std::array<std::string, 4> PostCondNames = {"_onHalted", "_onFailure", "_onSuccess",
+                                                         "_post"};
+template <>
+[[nodiscard]] inline std::string toStr<PreCond>(const PreCond& condition) {
+  return PreCondNames[static_cast<std::size_t>(condition)];
+}
+template <>
+[[nodiscard]] inline std::string toStr<PostCond>(const PostCond& condition) {
+  return PostCondNames[static_cast<std::size_t>(condition)];
+}
+
 struct NodeConfig {
   Blackboard::Ptr blackboard;
   std::shared_ptr<ScriptingEnumsRegistry> enums;
@@ -41,12 +58,41 @@ struct NodeConfig {
   const TreeNodeManifest* manifest = nullptr;
   std::uint16_t uid = 0;
   std::string path;
+
+  // Of a node that a program makes: lockstep keeps those of a tree for itself.
+  std::map<PreCond, std::string> pre_conditions;
+  std::map<PostCond, std::string> post_conditions;
 };
 using NodeConfiguration = NodeConfig;
+
+template <class T>
+constexpr bool hasNodeNameCtor() {
+  return std::is_constructible_v<T, const std::string&>;
+}
+template <class T, class... Arguments>
+constexpr bool hasNodeFullCtor() {
+  return std::is_constructible_v<T, const std::string&, const NodeConfig&, Arguments...>;
+}
 
 class TreeNode {
  public:
   using Ptr = std::shared_ptr<TreeNode>;
+
+  // Calls around a tick. One that returns SUCCESS or FAILURE before it decides in place of tick().
+  using PreTickCallback = std::function<NodeStatus(TreeNode&)>;
+  using PostTickCallback = std::function<NodeStatus(TreeNode&, NodeStatus)>;
+  using TickMonitorCallback = std::function<void(TreeNode&, NodeStatus, std::chrono::microseconds)>;
+  void setPreTickFunction(PreTickCallback call) { watch().before = std::move(call); }
+  void setPostTickFunction(PostTickCallback call) { watch().after = std::move(call); }
+  void setTickMonitorCallback(TickMonitorCallback call) { watch().monitor = std::move(call); }
+
+  // Calls for each change of the status, as long as the subscriber lives.
+  using StatusChangeSignal = Signal<TimePoint, const TreeNode&, NodeStatus, NodeStatus>;
+  using StatusChangeSubscriber = StatusChangeSignal::Subscriber;
+  using StatusChangeCallback = StatusChangeSignal::CallableFunction;
+  [[nodiscard]] StatusChangeSubscriber subscribeToStatusChange(StatusChangeCallback call) {
+    return watch().changes.subscribe(std::move(call));
+  }
 
   TreeNode(std::string name, NodeConfig config);
   virtual ~TreeNode() = default;
@@ -110,7 +156,14 @@ class TreeNode {
 
   virtual NodeStatus tick() = 0;
   virtual void halt() = 0;
-  void setStatus(NodeStatus status) { status_.store(status, std::memory_order_release); }
+  void setStatus(NodeStatus status) {
+    const NodeStatus before = status_.load(std::memory_order_relaxed);
+    status_.store(status, std::memory_order_release);
+    if (watch_ != nullptr && before != status) tell(before, status);
+  }
+  // A text as a value of a port: of an enum also a word that is registered, or a number.
+  template <class T>
+  T parseString(const std::string& text) const;
   void resetStatus() { forget_status(); }
   NodeConfig& config() { return config_; }
   void setRegistrationID(StringView id) { registration_name_ = id; }
@@ -135,11 +188,25 @@ class TreeNode {
   const detail::PortEntry* find(StringView port) const;
   std::string no_port(StringView port) const;
 
+  struct Watch {
+    PreTickCallback before;
+    PostTickCallback after;
+    TickMonitorCallback monitor;
+    StatusChangeSignal changes;
+  };
+  Watch& watch() {
+    if (watch_ == nullptr) watch_ = std::make_unique<Watch>();
+    return *watch_;
+  }
+  void tell(NodeStatus before, NodeStatus status);
+  NodeStatus watched_tick();
+
   std::string name_;
   NodeConfig config_;
   std::string registration_name_;
   std::atomic<NodeStatus> status_{NodeStatus::IDLE};
   detail::Place* place_ = nullptr;  // null: it is not in a tree
+  std::unique_ptr<Watch> watch_;    // null: nobody watches
 
   struct ThreadPorts {
     std::vector<Expected<Any>> inputs;  // of each port

@@ -35,7 +35,7 @@ class Child final : public TreeNode {
   NodeStatus tick() override { return executeTick(); }
   // Outside of the parent's tick the host has halted it.
   void halt() override {
-    if (parent_.is_in_tick && host_status() == NodeStatus::RUNNING) {
+    if (parent_.is_in_tick() && host_status() == NodeStatus::RUNNING) {
       parent_.children->halt(parent_.caller, index_);
     }
   }

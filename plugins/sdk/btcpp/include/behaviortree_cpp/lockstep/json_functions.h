@@ -2,6 +2,7 @@
 // has its own table.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -9,11 +10,19 @@
 
 #include "behaviortree_cpp/utils/safe_any.hpp"
 
+namespace BT {
+class TypeInfo;
+}
+
 namespace BT::detail {
 
+// Without `write` or `read` it is only read or only written.
 struct JsonFunctions {
-  void (*write)(const void* value, std::string& text);
-  bool (*read)(std::string_view text, Any& value);  // false: it is none
+  std::string name;  // its "__type"
+  bool is_list = false;
+  TypeInfo (*type)() = nullptr;
+  std::function<std::string(const void* value)> write;
+  std::function<bool(std::string_view text, Any& value)> read;  // false: it is none
 };
 
 [[gnu::visibility("hidden")]] inline std::map<std::type_index, JsonFunctions>& json_functions() {
@@ -26,16 +35,39 @@ inline const JsonFunctions* find_json(std::type_index type) {
   return found == json_functions().end() ? nullptr : &found->second;
 }
 
-// False: the type has none.
-inline bool write_json(std::type_index type, const void* value, std::string& text) {
-  const JsonFunctions* const functions = find_json(type);
-  if (functions != nullptr) functions->write(value, text);
-  return functions != nullptr;
-}
 // False: the type has none, or the text is no value of it.
 inline bool read_json(std::type_index type, std::string_view text, Any& value) {
   const JsonFunctions* const functions = find_json(type);
-  return functions != nullptr && functions->read(text, value);
+  return functions != nullptr && functions->read && functions->read(text, value);
+}
+
+// Numbers and texts.
+inline std::string plain_json(const Any& value) {
+  if (value.isNumber()) {
+    std::string text = value.cast<std::string>();
+    if (value.castedType() == typeid(double)) {
+      char digits[64];
+      const double number = value.cast<double>();
+      if (!std::isfinite(number)) return "null";
+      const auto end = std::to_chars(digits, digits + sizeof digits, number).ptr;
+      text.assign(digits, end);
+      if (text.find_first_of(".e") == std::string::npos) text += ".0";
+    }
+    return text;
+  }
+  std::string text = "\"";
+  for (const char c : value.cast<std::string>()) {
+    if (c == '"' || c == '\\') text += '\\';
+    if (static_cast<unsigned char>(c) >= 0x20) {
+      text += c;
+    } else {
+      constexpr char kHex[] = "0123456789abcdef";
+      text += "\\u00";
+      text += kHex[(c >> 4) & 0xf];
+      text += kHex[c & 0xf];
+    }
+  }
+  return text + '"';
 }
 
 }  // namespace BT::detail

@@ -70,8 +70,10 @@ struct Leaf {
   // Marks a tick.
   class InTick {
    public:
-    explicit InTick(Place& place) : place_(place) { place_.is_in_tick = true; }
-    ~InTick() { place_.is_in_tick = false; }
+    explicit InTick(Place& place) : place_(place) {
+      place_.ticking.store(pthread_self(), std::memory_order_relaxed);
+    }
+    ~InTick() { place_.ticking.store({}, std::memory_order_relaxed); }
     InTick(const InTick&) = delete;
     InTick& operator=(const InTick&) = delete;
 
@@ -128,7 +130,7 @@ struct Leaf {
     NodeConfig config;
     config.blackboard = Blackboard::at(place);
     config.enums = registered_enums();
-    config.manifest = place.registration->manifest.get();
+    config.manifest = place.registration->manifest;
     config.path = place.node->path(place.caller);
     for (const PortEntry& port : place.registration->ports) {
       const char* const given = place.node->given(place.caller, port.index);

@@ -47,9 +47,7 @@ struct ObjectCalls {
     return text.size();
   }
   static std::string json_of(const void* object) {
-    std::string text;
-    write_json(typeid(T), static_cast<const Holder*>(object)->value.get(), text);
-    return text;
+    return find_json(typeid(T))->write(static_cast<const Holder*>(object)->value.get());
   }
   static void* made_from(T value) {
     return new Holder{std::make_shared<const T>(std::move(value))};
@@ -110,8 +108,9 @@ const lockstep_object_type* object_type() {
     type.retain = Calls::Common::retain;
     type.release = Calls::Common::release;
     type.from_text = Calls::from_text;
-    if (find_json(typeid(T)) != nullptr) {
-      type.to_text = Calls::to_text;
+    const JsonFunctions* const json = find_json(typeid(T));
+    if (json != nullptr && json->write) type.to_text = Calls::to_text;
+    if (json != nullptr && json->write && json->read) {
       type.to_bytes = Calls::to_bytes;
       type.from_bytes = Calls::from_bytes;
     }

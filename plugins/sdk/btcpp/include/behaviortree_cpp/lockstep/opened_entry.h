@@ -81,13 +81,14 @@ class OpenedEntry {
       is_set = detail::set<T>(place_, port_, value);
     }
     if (!is_set) {
-      throw LogicError("Blackboard::set: the entry '", key_, "' does not take a value of type ",
-                       demangle(typeid(T)));
+      using Error = std::conditional_t<is_text_v<T>, RuntimeError, LogicError>;
+      throw Error("Blackboard::set: the entry '", key_, "' does not take a value of type ",
+                  demangle(typeid(T)));
     }
   }
 
  private:
-  Place place_;
+  const Place& place_;
   std::string key_;
   std::uint32_t port_ = 0;
 };

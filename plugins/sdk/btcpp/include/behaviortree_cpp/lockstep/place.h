@@ -2,8 +2,10 @@
 #pragma once
 
 #include <lockstep/leaf.h>
+#include <pthread.h>
 #include <lockstep/cpp/caller.hpp>
 
+#include <atomic>
 #include <cstdint>
 #include <string>
 
@@ -17,7 +19,12 @@ struct Place {
   const lockstep_place* node = nullptr;
   const lockstep_children* children = nullptr;  // of a control node or decorator
   const Registration* registration = nullptr;   // of its type
-  bool is_in_tick = false;
+  std::atomic<pthread_t> ticking{};             // the thread that ticks it now; 0: none
+
+  bool is_in_tick() const {
+    const pthread_t thread = ticking.load(std::memory_order_relaxed);
+    return thread != 0 && thread == pthread_self();
+  }
 };
 
 }  // namespace BT::detail

@@ -19,19 +19,23 @@ class PluginTable {
  public:
   void add(const TreeNodeManifest& manifest, const NodeBuilder& build) {
     const std::string& id = manifest.registration_ID;
+    const auto [kept, is_new] = manifests_.emplace(id, manifest);
+    if (!is_new) throw BehaviorTreeException("ID [", id, "] is registered already");
+    builders_.emplace(id, build);
     auto registration = std::make_unique<Registration>();
-    registration->manifest = std::make_unique<TreeNodeManifest>(manifest);
+    registration->manifest = &kept->second;
     registration->build = build;
-    if (!types_.emplace(id, std::move(registration)).second) {
-      throw BehaviorTreeException("ID [", id, "] is registered already");
-    }
+    types_.emplace(id, std::move(registration));
+  }
+  // False: there is no such type.
+  bool remove(const std::string& id) {
+    builders_.erase(id);
+    types_.erase(id);
+    return manifests_.erase(id) == 1;
   }
 
-  std::unordered_map<std::string, TreeNodeManifest> manifests() const {
-    std::unordered_map<std::string, TreeNodeManifest> all;
-    for (const auto& [id, registration] : types_) all.emplace(id, *registration->manifest);
-    return all;
-  }
+  std::unordered_map<std::string, TreeNodeManifest>& manifests() { return manifests_; }
+  const std::unordered_map<std::string, NodeBuilder>& builders() const { return builders_; }
 
   const Registration* find(const std::string& id) const {
     const auto found = types_.find(id);
@@ -164,6 +168,8 @@ class PluginTable {
     }
   }
 
+  std::unordered_map<std::string, TreeNodeManifest> manifests_;
+  std::unordered_map<std::string, NodeBuilder> builders_;
   std::map<std::string, std::unique_ptr<Registration>> types_;
   std::shared_ptr<ScriptingEnumsRegistry> words_ = std::make_shared<ScriptingEnumsRegistry>();
   std::vector<const char*> word_list_;

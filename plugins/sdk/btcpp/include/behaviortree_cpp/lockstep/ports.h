@@ -18,13 +18,21 @@ class TypeInfo {
   static TypeInfo Create() {
     TypeInfo info;
     info.type_ = typeid(T);
+    info.name_ = demangle(typeid(T));
     info.values_ = &detail::PortValue<T>::kTable;
     return info;
   }
   TypeInfo() = default;
+  // Of a value that is there.
+  static TypeInfo of(const Any& value) {
+    TypeInfo info;
+    info.type_ = value.type();
+    info.name_ = demangle(value.type());
+    return info;
+  }
 
   const std::type_index& type() const { return type_; }
-  std::string typeName() const { return isStronglyTyped() ? demangle(type_) : "AnyTypeAllowed"; }
+  const std::string& typeName() const { return name_; }
   bool isStronglyTyped() const { return type_ != typeid(AnyTypeAllowed) && type_ != typeid(Any); }
   // An empty value: there is no conversion.
   Any parseString(const std::string& text) const { return values_->parse(text); }
@@ -34,6 +42,7 @@ class TypeInfo {
 
  private:
   std::type_index type_ = typeid(AnyTypeAllowed);
+  std::string name_ = "AnyTypeAllowed";
   const detail::PortValues* values_ = &detail::PortValue<AnyTypeAllowed>::kTable;
 };
 
@@ -51,13 +60,14 @@ class PortInfo : public TypeInfo {
   template <class T>
   void setDefaultValue(const T& value) {
     default_ = Any(value);
-    default_text_.clear();
-    if constexpr (detail::is_text_v<T>) {
-      default_text_ = value;
-    } else if constexpr (std::is_arithmetic_v<T>) {
-      default_text_ = detail::constant_text(value);
+    if constexpr (std::is_floating_point_v<T>) {
+      default_text_ = detail::constant_text(value);  // all of its digits
     } else {
-      detail::write_json(typeid(T), &value, default_text_);
+      try {
+        default_text_ = toStr(value);
+      } catch (const LogicError&) {
+        default_text_.clear();
+      }
     }
   }
 
@@ -70,16 +80,38 @@ class PortInfo : public TypeInfo {
 
 using PortsList = std::unordered_map<std::string, PortInfo>;
 
-namespace detail {
+// The attributes of every node.
+[[nodiscard]] inline bool IsReservedAttribute(StringView name) {
+  for (const StringView it : {"name", "ID", "_autoremap", "_failureIf", "_successIf", "_skipIf",
+                              "_while", "_onHalted", "_onFailure", "_onSuccess", "_post"}) {
+    if (name == it) return true;
+  }
+  return false;
+}
 
-inline constexpr StringView kForbidden = " \t\n\r<>&\"'/\\:*?|.";
+// The first character that no name may have; '\0': there is none.
+[[nodiscard]] inline char findForbiddenChar(StringView name) {
+  for (const char c : name) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code < 0x20 || code == 0x7f || StringView(" <>&\"'/\\:*?|.").find(c) != StringView::npos) {
+      return c;
+    }
+  }
+  return '\0';
+}
+
+[[nodiscard]] inline bool IsAllowedPortName(StringView name) {
+  if (name.empty()) return false;
+  const char first = static_cast<char>(name.front() | 0x20);
+  return first >= 'a' && first <= 'z' && findForbiddenChar(name) == '\0' &&
+         !IsReservedAttribute(name);
+}
+
+namespace detail {
 
 // Throws when it is none: the tree could not name it.
 inline void check_port_name(StringView name) {
-  const bool begins =
-      !name.empty() && ((name[0] >= 'a' && name[0] <= 'z') || (name[0] >= 'A' && name[0] <= 'Z'));
-  const bool is_taken = name == "name" || name == "ID";
-  if (begins && !is_taken && name.find_first_of(kForbidden) == StringView::npos) return;
+  if (IsAllowedPortName(name)) return;
   throw RuntimeError("'", name,
                      "' is not the name of a port: a letter first, no blanks, and none "
                      "of the characters <>&\"'/\\:*?|.");

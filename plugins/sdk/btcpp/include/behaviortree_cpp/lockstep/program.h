@@ -92,6 +92,9 @@ class Program : public EntryStore {
   }
   bool set(const std::string& key, const Any& value) override {
     const char* const name = key.c_str();
+    if (value.isString()) {
+      return lockstep_run_set_text(run_.get(), name, value.cast<std::string>().c_str());
+    }
     const auto whole = value.tryCast<std::int64_t>();
     const auto real = value.tryCast<double>();
     if (value.isType<bool>() && lockstep_run_set_bool(run_.get(), name, value.cast<bool>())) {

@@ -78,7 +78,7 @@ struct PortEntry {
 
 // One type of node.
 struct Registration {
-  std::unique_ptr<TreeNodeManifest> manifest;
+  const TreeNodeManifest* manifest;  // the table's
   NodeBuilder build;
   std::vector<PortEntry> ports;  // by name
   std::list<lockstep_port> described = {};

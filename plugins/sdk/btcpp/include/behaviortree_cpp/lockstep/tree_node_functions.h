@@ -31,7 +31,7 @@ inline TreeNode::TreeNode(std::string name, NodeConfig config)
       place_(std::exchange(detail::creating, nullptr)) {}
 
 inline NodeStatus TreeNode::executeTick() {
-  const NodeStatus status = tick();
+  const NodeStatus status = watch_ == nullptr ? tick() : watched_tick();
   if (status == NodeStatus::IDLE) {
     throw LogicError("node '", name_, "' has returned IDLE, which is no result of a tick");
   }
@@ -39,8 +39,37 @@ inline NodeStatus TreeNode::executeTick() {
   return status;
 }
 
+inline void TreeNode::tell(NodeStatus before, NodeStatus status) {
+  watch_->changes.notify(std::chrono::high_resolution_clock::now(), *this, before, status);
+}
+
+inline NodeStatus TreeNode::watched_tick() {
+  NodeStatus status = NodeStatus::IDLE;
+  if (watch_->before && !isStatusCompleted(this->status())) status = watch_->before(*this);
+  if (!isStatusCompleted(status)) {
+    const auto began = std::chrono::steady_clock::now();
+    status = tick();
+    const auto took = std::chrono::steady_clock::now() - began;
+    if (watch_->monitor) {
+      watch_->monitor(*this, status, std::chrono::duration_cast<std::chrono::microseconds>(took));
+    }
+  }
+  if (watch_->after) {
+    const NodeStatus decided = watch_->after(*this, status);
+    if (isStatusCompleted(decided)) status = decided;
+  }
+  return status;
+}
+
+template <class T>
+T TreeNode::parseString(const std::string& text) const {
+  auto value = detail::parse_with<T>(text, config_.enums.get());
+  if (!value) throw RuntimeError(value.error());
+  return std::move(*value);
+}
+
 inline void TreeNode::emitWakeUpSignal() {
-  if (place_ != nullptr && place_->is_in_tick) place_->node->ask_for_tick(place_->caller);
+  if (place_ != nullptr && place_->is_in_tick()) place_->node->ask_for_tick(place_->caller);
 }
 
 inline const detail::PortEntry* TreeNode::find(StringView port) const {

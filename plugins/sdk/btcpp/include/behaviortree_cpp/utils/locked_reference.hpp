@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <stdexcept>
 #include <utility>
 
 #include "behaviortree_cpp/utils/safe_any.hpp"
@@ -31,7 +32,7 @@ class LockedPtr<Any> {
   ~LockedPtr() { finish(); }
 
   // False: there is no such entry.
-  explicit operator bool() const { return is_there_; }
+  operator bool() const { return is_there_; }  // NOLINT: as in the library
 
   const Any* get() const { return is_there_ ? &value_ : nullptr; }
   Any* get() {
@@ -42,8 +43,13 @@ class LockedPtr<Any> {
   Any* operator->() { return get(); }
   const Any& operator*() const { return value_; }
 
+  // The ticks of a tree are in one thread, so there is nothing to lock.
+  void lock() {}
+  void unlock() {}
+
   template <class Value>
   void assign(const Value& value) {
+    if (!is_there_) throw std::runtime_error("LockedPtr::assign: there is no such entry");
     if constexpr (std::is_same_v<Value, Any>) {
       value_ = value;
     } else {

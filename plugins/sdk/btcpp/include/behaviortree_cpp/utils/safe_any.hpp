@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -66,12 +67,11 @@ bool convert_number(From from, To& to) {
 class Any {
  public:
   Any() = default;
+  Any(const std::type_index& type) : type_(type) {}  // NOLINT: as in the library
   template <class T, class = std::enable_if_t<!std::is_same_v<std::decay_t<T>, Any>>>
   explicit Any(const T& value) : type_(typeid(std::decay_t<const T>)) {
     using Value = std::decay_t<const T>;
-    if constexpr (std::is_same_v<Value, std::type_index>) {
-      type_ = value;
-    } else if constexpr (detail::is_text_v<Value>) {
+    if constexpr (detail::is_text_v<Value>) {
       it_ = std::string(value);
       type_ = typeid(std::string);
     } else if constexpr (std::is_same_v<Value, std::uint64_t>) {
@@ -117,8 +117,9 @@ class Any {
       if (isNumber()) return number_text();
     } else if constexpr (std::is_enum_v<T>) {
       if (int number = 0; to_number(number)) return static_cast<T>(number);
+      if (std::int64_t number = 0; text_to_number(number)) return static_cast<T>(number);
     } else if constexpr (std::is_arithmetic_v<T>) {
-      if (T number{}; to_number(number)) return number;
+      if (T number{}; to_number(number) || text_to_number(number)) return number;
       if (isNumber()) {
         return nonstd::make_unexpected(
             StrCat(number_text(), " has no exact value of type ", demangle(typeid(T))));
@@ -134,7 +135,7 @@ class Any {
   template <class T>
   T cast() const {
     auto value = tryCast<T>();
-    if (!value) throw RuntimeError(StrCat("Any::cast: ", value.error()));
+    if (!value) throw std::runtime_error(StrCat("Any::cast: ", value.error()));
     return std::move(*value);
   }
 
@@ -158,25 +159,34 @@ class Any {
     return const_cast<Any*>(this)->castPtr<T>();  // NOLINT: it is not changed
   }
 
+  // The object inside; null: it is a number, a text or empty.
+  const void* object() const {
+    const auto* const object = std::get_if<Object>(&it_);
+    return object == nullptr ? nullptr : object->value.get();
+  }
   // For ports of any type: false when it is no object, or the port does not take it.
   bool store_object(const detail::Place& place, std::uint32_t port) const {
     const auto* const object = std::get_if<Object>(&it_);
     return object != nullptr && object->ops->store(place, port, object->value.get());
   }
 
-  // The value as one of the type that `other` has.
-  nonstd::expected<bool, std::string> copyInto(Any& other) const {
+  // The value as one of the type that `other` has. Throws when it is none.
+  void copyInto(Any& other) const {
     if (other.empty() || castedType() == other.castedType()) {
       other.it_ = it_;
-      if (other.type_ == typeid(void)) other.type_ = type_;
-      return true;
+      if (other.type_ == typeid(std::nullptr_t)) other.type_ = type_;
+      return;
     }
-    if (isNumber() && other.isNumber()) {
-      const bool fits = std::visit([this](auto& number) { return to_held(number); }, other.it_);
-      if (fits) return true;
+    if (isNumber() && other.isNumber() &&
+        std::visit([this](auto& number) { return to_held(number); }, other.it_)) {
+      return;
     }
-    return nonstd::make_unexpected(
-        StrCat("a value of type ", demangle(type_), " is none of type ", demangle(other.type_)));
+    if (isNumber() && other.isString()) {
+      other.it_ = number_text();
+      return;
+    }
+    throw std::runtime_error(StrCat("Any::copyInto: a value of type ", demangle(type_),
+                                    " is none of type ", demangle(other.type_)));
   }
 
  private:
@@ -215,6 +225,16 @@ class Any {
     const auto* const real = std::get_if<double>(&it_);
     return real != nullptr && detail::convert_number(*real, number);
   }
+  // What a text begins with.
+  template <class T>
+  bool text_to_number([[maybe_unused]] T& number) const {
+    if constexpr (!std::is_same_v<T, bool>) {
+      const auto* const text = std::get_if<std::string>(&it_);
+      if (text == nullptr) return false;
+      return std::from_chars(text->data(), text->data() + text->size(), number).ec == std::errc();
+    }
+    return false;
+  }
   template <class T>
   bool to_held(T& held) const {
     if constexpr (std::is_arithmetic_v<T>) {
@@ -231,7 +251,7 @@ class Any {
   }
 
   std::variant<std::monostate, std::int64_t, std::uint64_t, double, std::string, Object> it_;
-  std::type_index type_{typeid(void)};
+  std::type_index type_{typeid(std::nullptr_t)};
 };
 
 }  // namespace BT
