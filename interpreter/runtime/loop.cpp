@@ -1,9 +1,13 @@
 #include "runtime/loop.h"
 
+#include <signal.h>
+
 #include <algorithm>
 #include <vector>
 
 #include "core/own_thread.h"
+#include "runtime/pace.h"
+#include "runtime/run_control.h"
 
 namespace lockstep {
 namespace {
@@ -20,14 +24,15 @@ class Loop {
         observers_(observers),
         deadlines_(options.rate),
         is_real_(clock.is_real()),
-        start_(clock.now()) {}
+        begun_(clock.now()),
+        start_(begun_) {}
 
   RunEnd run() {
     for (Observer* observer : observers_) {
       observer->run_started(run_.ticker(), {run_.period(), is_real_});
     }
     if (run_.fault() == nullptr) {  // of a leaf that could not be created
-      while (may_tick() && tick() && meet_next()) wait();
+      while (may_tick() && is_admitted() && tick() && meet_next()) wait();
     }
     end_.time = clock_.now() - start_;
     for (Observer* observer : observers_) observer->standing(run_.ticker());
@@ -51,9 +56,60 @@ class Loop {
       return stop(StopReason::Recording);
     }
     if (options_.max_ticks && end_.ticks >= *options_.max_ticks) return stop(StopReason::MaxTicks);
-    if (options_.timeout && clock_.now() - start_ >= *options_.timeout) {
+    if (options_.timeout && clock_.now() - begun_ >= *options_.timeout) {
       return stop(StopReason::Timeout);
     }
+    if (options_.control != nullptr && options_.control->is_halted()) {
+      end_.signal = SIGINT;  // as Ctrl-C
+      return stop(StopReason::Signal);
+    }
+    return true;
+  }
+
+  // Before each tick: what others order, and the time until they let it come. False: it does not.
+  bool is_admitted() {
+    if (options_.control == nullptr) return true;
+    take_orders();
+    if (!may_tick()) return false;
+    if (options_.control->is_paused() && !stand()) return false;
+    return is_real_ || keep_pace();
+  }
+
+  void take_orders() { options_.control->take_orders(run_.ticker(), run_.blackboard()); }
+
+  // The run's time stands still until it goes on, at the time of the next tick. So the leaves
+  // and the nodes that count time lose nothing, and no deadline is missed.
+  bool stand() {
+    const Nanoseconds time = deadlines_.at(deadline_);
+    for (Observer* observer : observers_) observer->standing(run_.ticker());
+    if (is_real_) {  // there, leaves go on by themselves
+      run_.set_now(time);
+      run_.ticker().pause(0);
+    }
+    options_.control->report_standing(true);
+    bool goes_on = may_tick() && !run_.ticker().faulted();
+    while (goes_on && options_.control->is_paused()) {
+      options_.control->wait(kLongestSleep);
+      take_orders();
+      goes_on = may_tick();
+    }
+    options_.control->report_standing(false);
+    if (is_real_) start_ = clock_.now() - time;
+    pace_.restart();
+    return goes_on;
+  }
+
+  // Of a virtual clock that is not to run as fast as it can.
+  bool keep_pace() {
+    pace_.set(run_.period(), options_.control->speed());
+    while (pace_.is_early()) {
+      options_.control->wait(std::min(pace_.left(), kLongestSleep));
+      take_orders();
+      if (!may_tick()) return false;
+      if (options_.control->is_paused()) return is_admitted();
+      pace_.set(run_.period(), options_.control->speed());
+    }
+    pace_.count();
     return true;
   }
 
@@ -78,6 +134,7 @@ class Loop {
       faults = ticker.take_tolerated();
     const TickReport report{end_.ticks, now, end_.status, skipped_before_, faults};
     for (Observer* observer : observers_) observer->after_tick(ticker, report);
+    if (options_.control != nullptr) options_.control->count_tick(ticker);
     ++end_.ticks;
     if (ticker.faulted()) return false;
     if (has_ended(end_.status)) return stop(StopReason::Completed);
@@ -116,9 +173,17 @@ class Loop {
   void wait() {
     const Nanoseconds deadline = start_ + deadlines_.at(deadline_);
     if (!is_real_) return clock_.sleep_until(deadline);
-    for (auto now = clock_.now(); now < deadline && !stop_requested(); now = clock_.now()) {
+    for (auto now = clock_.now(); now < deadline && !is_wait_over(); now = clock_.now()) {
       clock_.sleep_until(std::min(deadline, now + kLongestSleep));
     }
+  }
+
+  // Before the deadline.
+  bool is_wait_over() {
+    if (stop_requested()) return true;
+    if (options_.control == nullptr) return false;
+    take_orders();
+    return options_.control->pauses_at_once() || options_.control->is_halted();
   }
 
   Run& run_;
@@ -127,7 +192,9 @@ class Loop {
   std::span<Observer* const> observers_;
   const Deadlines deadlines_;
   const bool is_real_;
-  const Nanoseconds start_;
+  const Nanoseconds begun_;
+  Nanoseconds start_;  // as if there had been no pauses
+  Pace pace_;
   std::uint64_t deadline_ = 0;  // number of the deadline that the next tick waits for
   std::uint64_t skipped_before_ = 0;
   RunEnd end_;

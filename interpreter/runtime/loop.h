@@ -15,6 +15,8 @@
 
 namespace lockstep {
 
+class RunControl;
+
 // What happens to missed deadlines.
 enum class OverrunPolicy : std::uint8_t {
   Skip,     // skipped: the next tick is at the next future deadline
@@ -28,10 +30,12 @@ constexpr std::uint64_t kMostVirtualTicks = 1'000'000;
 struct LoopOptions {
   double rate = 100;                       // Hz, in [0.001, 100000]
   std::optional<std::uint64_t> max_ticks;  // stop after this many
-  std::optional<Nanoseconds> timeout;      // stop before the first tick at or after this time
+  std::optional<Nanoseconds> timeout;      // stop before the first tick at or after this time; on a
+                                           // real clock, time in which the run is paused counts too
   std::function<int()> stop_signal = {};   // called before each tick: nonzero = stop
   OverrunPolicy overrun = OverrunPolicy::Skip;
   std::function<bool()> recording_failed = {};  // called before each tick: true = stop
+  RunControl* control = nullptr;                // who may pause the run, and more; or nobody
 };
 
 // Runs to the end: halts every running leaf and notifies every observer.

@@ -21,6 +21,8 @@ struct Request {
 class Stream {
  public:
   virtual ~Stream() = default;
+  // It goes on until the client leaves.
+  virtual bool is_endless() const = 0;
   struct Piece {
     enum class What { Bytes, Wait, End };
     What what;
@@ -34,12 +36,15 @@ struct Answer {
   unsigned status = 200;
   std::string_view type = "text/plain; charset=utf-8";
   std::string body = {};
-  std::unique_ptr<Stream> stream = {};  // instead of `body`
+  std::unique_ptr<Stream> stream = {};        // instead of `body`
+  std::string policy = "default-src 'none'";  // what a page may load: Content-Security-Policy
 };
 
 class Answering {
  public:
   virtual ~Answering() = default;
+  // Before the body is read: the refusal, or nothing.
+  virtual std::optional<Answer> refuse(const Request& head) = 0;
   virtual Answer answer(const Request& request) = 0;
 };
 

@@ -19,6 +19,7 @@ std::size_t room_for(const Tree& tree) {
 
 MonitorFeed::MonitorFeed(const Tree& tree, RunDescription run, RealTime real_time)
     : real_time_(real_time),
+      deadlines_(run.rate_hz),
       packets_(tree, std::move(run), json_lines()),
       ring_(room_for(tree)),
       room_(64u << 10) {}
@@ -28,29 +29,48 @@ void MonitorFeed::log(std::string_view who, std::string_view level, std::string_
 }
 
 void MonitorFeed::run_started(Ticker&, const RunStart& start) {
+  is_real_time_ = start.real_time;
   header_ = packets_.header(start);
 }
 
 // Only a tick whose line is due asks leaves for their progress.
 void MonitorFeed::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds) {
-  const Nanoseconds now = real_time_();
-  is_due_ = now - published_ >= kPeriod;
+  began_ = real_time_();
+  is_due_ = began_ - published_ >= kPeriod;
   if (!is_due_) return;
-  published_ = now;
+  published_ = began_;
   packets_.before_tick(ticker);
 }
 
 void MonitorFeed::after_tick(Ticker& ticker, const TickReport& report) {
+  if (is_real_time_) note_times(report.time);
   last_ = report;
   is_shown_ = false;
   faults_.insert(faults_.end(), report.faults.begin(), report.faults.end());
   if (is_due_) publish(ticker);
 }
 
+// Another thread may take them in between: then they count for the next time, too.
+void MonitorFeed::note_times(Nanoseconds time) {
+  const auto raise = [](std::atomic<std::int64_t>& most, Nanoseconds it) {
+    if (it.count() > most.load(std::memory_order_relaxed)) most = it.count();
+  };
+  raise(took_, real_time_() - began_);
+  const std::uint64_t next = deadlines_.first_from(time);
+  const bool is_on_time = next == 0 || deadlines_.at(next) == time;
+  raise(late_, is_on_time ? Nanoseconds(0) : time - deadlines_.at(next - 1));
+}
+
+std::optional<MonitorFeed::Times> MonitorFeed::take_times() {
+  const std::int64_t took = took_.exchange(-1), late = late_.exchange(-1);
+  if (took < 0 || late < 0) return std::nullopt;
+  return Times{.took = Nanoseconds(took), .late = Nanoseconds(late)};
+}
+
 // Nothing follows for a while, so what was held back is due; and so is the tick after it.
 void MonitorFeed::standing(Ticker& ticker) {
   if (!is_shown_) publish(ticker);
-  published_ = Nanoseconds(0);
+  hurry();
 }
 
 void MonitorFeed::run_ended(Ticker& ticker, const RunEnd& end) {

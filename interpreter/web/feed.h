@@ -5,11 +5,13 @@
 #pragma once
 
 #include <atomic>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "recording/write/packet_ring.h"
 #include "recording/write/run_packets.h"
+#include "runtime/deadlines.h"
 #include "runtime/observer.h"
 
 namespace lockstep {
@@ -23,6 +25,8 @@ class MonitorFeed final : public Observer {
   // `real_time` is for tests.
   MonitorFeed(const Tree& tree, RunDescription run, RealTime real_time = monotonic_now);
 
+  // The next tick gets a line, however soon it comes.
+  void hurry() { published_ = Nanoseconds(0); }
   // What a leaf logs; from any thread.
   void log(std::string_view who, std::string_view level, std::string_view text);
 
@@ -39,21 +43,32 @@ class MonitorFeed final : public Observer {
   const std::string& end() const { return end_; }
   // Whole lines: those since the last call.
   void take(std::string& lines);
+  // The longest tick and the largest lateness since the last call; nothing on a virtual clock, and
+  // when there was no tick.
+  struct Times {
+    Nanoseconds took, late;
+  };
+  std::optional<Times> take_times();
   // The next line is to have the whole state.
   void want_full() { wants_full_.store(true, std::memory_order_relaxed); }
 
  private:
   void publish(Ticker& ticker);
+  void note_times(Nanoseconds time);
 
   const RealTime real_time_;
+  const Deadlines deadlines_;
   RunPackets packets_;
   PacketRing ring_;
   std::string header_, end_;
-  TickReport last_;            // of the last tick
-  std::vector<Fault> faults_;  // since the last line
-  Nanoseconds published_{0};   // when
-  bool is_due_ = false;        // a line, after this tick
-  bool is_shown_ = true;       // the last tick has its line
+  bool is_real_time_ = false;
+  Nanoseconds began_{0};                           // the last tick
+  std::atomic<std::int64_t> took_{-1}, late_{-1};  // ns, the most since they were taken
+  TickReport last_;                                // of the last tick
+  std::vector<Fault> faults_;                      // since the last line
+  Nanoseconds published_{0};                       // when
+  bool is_due_ = false;                            // a line, after this tick
+  bool is_shown_ = true;                           // the last tick has its line
   std::atomic<bool> wants_full_{true};
   std::vector<char> room_;  // of the taking thread
 };

@@ -2,10 +2,12 @@
 
 #include <microhttpd.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -15,64 +17,102 @@ namespace lockstep {
 namespace {
 
 constexpr unsigned kMostConnections = 250;
-constexpr std::size_t kMostHeader = 16u << 10;  // bytes that a connection may take, body included
-constexpr std::size_t kMostBody = 4u << 10;
-constexpr unsigned kLongestSilence = 30;   // seconds, of a client that takes nothing
-constexpr std::size_t kPiece = 16u << 10;  // bytes of a stream that are read at once
+constexpr std::size_t kMostStreams = 150;  // so that other requests find a place
+constexpr std::size_t kMemory = 16u
+                                << 10;  // bytes of a connection: for its header, then for its body
+constexpr std::size_t kMostBody = 4u << 10;  // bytes
+constexpr unsigned kLongestSilence = 30;     // seconds, of a client that takes nothing
+constexpr std::size_t kPiece = 8u << 10;     // bytes of a stream that are read at once
+// From the first byte to the last: of a request, of the answer.
+constexpr std::chrono::seconds kLongestRequest{10}, kLongestAnswer{120};
+constexpr std::chrono::milliseconds kBetweenLooks{500};
 
 std::optional<std::string> header(MHD_Connection* connection, const char* name) {
   const char* value = MHD_lookup_connection_value(connection, MHD_HEADER_KIND, name);
   return value == nullptr ? std::nullopt : std::optional<std::string>(value);
 }
 
-std::optional<std::uint64_t> number(const char* text) {
+std::optional<std::uint64_t> whole_number(const char* text) {
   if (text == nullptr) return std::nullopt;
   const auto value = parse_int(text);
   return value && *value >= 0 ? std::optional<std::uint64_t>(*value) : std::nullopt;
 }
 
-// A request whose body is coming in.
-struct Incoming {
-  Request request;
-};
+Request read_head(MHD_Connection* connection, const char* url, const char* method) {
+  return {.method = method,
+          .path = url,
+          .host = header(connection, MHD_HTTP_HEADER_HOST),
+          .origin = header(connection, MHD_HTTP_HEADER_ORIGIN),
+          .token = header(connection, "X-Lockstep-Token"),
+          .after = whole_number(
+              MHD_lookup_connection_value(connection, MHD_GET_ARGUMENT_KIND, "after"))};
+}
+
+// Only a body whose length is known is read.
+std::optional<Answer> refuse_body(MHD_Connection* connection) {
+  if (header(connection, MHD_HTTP_HEADER_TRANSFER_ENCODING)) {
+    return Answer{.status = MHD_HTTP_LENGTH_REQUIRED, .body = "a body must tell its length\n"};
+  }
+  const auto length = header(connection, MHD_HTTP_HEADER_CONTENT_LENGTH);
+  if (!length) return std::nullopt;
+  const auto bytes = whole_number(length->c_str());
+  if (bytes && *bytes <= kMostBody) return std::nullopt;
+  return Answer{.status = MHD_HTTP_CONTENT_TOO_LARGE, .body = "the body is too large\n"};
+}
 
 }  // namespace
 
 struct HttpServer::Implementation {
   explicit Implementation(Answering& all_answering) : answering(all_answering) {}
 
-  // --- for libmicrohttpd -------------------------------------------------------------------------
+  // --- what libmicrohttpd calls ------------------------------------------------------------------
 
+  // First with the head of a request, then with each part of its body, then at its end.
   static MHD_Result on_request(void* self, MHD_Connection* connection, const char* url,
                                const char* method, const char*, const char* data, std::size_t* size,
                                void** state) {
     auto& it = *static_cast<Implementation*>(self);
-    auto* incoming = static_cast<Incoming*>(*state);
-    if (incoming == nullptr) {
-      incoming = new Incoming{it.read_head(connection, url, method)};
-      *state = incoming;
-      if (it.has_body(connection)) return it.is_small(connection) ? MHD_YES : it.refuse(connection);
-      return it.has_body(connection) ? MHD_YES : it.reply(connection, incoming->request);
-    }
-    if (*size > 0) {
-      if (incoming->request.body.size() + *size > kMostBody) return MHD_NO;
-      incoming->request.body.append(data, *size);
-      *size = 0;
+    if (*state == nullptr) {
+      auto* request = new Request(read_head(connection, url, method));
+      *state = request;
+      if (auto refusal = it.refuse(connection, *request)) return it.send(connection, *refusal);
       return MHD_YES;
     }
-    return it.reply(connection, incoming->request);
+    auto& request = *static_cast<Request*>(*state);
+    if (*size == 0) return it.answer(connection, request);
+    if (request.body.size() + *size > kMostBody) return MHD_NO;
+    request.body.append(data, std::exchange(*size, 0));
+    return MHD_YES;
   }
 
   static void on_completed(void* self, MHD_Connection* connection, void** state,
                            MHD_RequestTerminationCode) {
     static_cast<Implementation*>(self)->waiting.erase(connection);
-    delete static_cast<Incoming*>(std::exchange(*state, nullptr));
+    delete static_cast<Request*>(std::exchange(*state, nullptr));
+  }
+
+  static void on_connection(void* self, MHD_Connection* connection, void**,
+                            MHD_ConnectionNotificationCode code) {
+    auto& it = *static_cast<Implementation*>(self);
+    if (code == MHD_CONNECTION_NOTIFY_STARTED) {
+      it.deadlines[connection] = monotonic_now() + kLongestRequest;
+    } else {
+      it.deadlines.erase(connection);
+    }
   }
 
   struct Open {
+    Open(Implementation& its_server, MHD_Connection* its_connection, std::unique_ptr<Stream> it)
+        : server(its_server), connection(its_connection), stream(std::move(it)) {
+      ++server.streams;
+    }
+    ~Open() { --server.streams; }
+    Open(const Open&) = delete;
+    Open& operator=(const Open&) = delete;
+
     Implementation& server;
-    MHD_Connection* connection;
-    std::unique_ptr<Stream> stream;
+    MHD_Connection* const connection;
+    const std::unique_ptr<Stream> stream;
   };
 
   static ssize_t on_read(void* open, std::uint64_t, char* to, std::size_t size) {
@@ -89,57 +129,69 @@ struct HttpServer::Implementation {
 
   // -----------------------------------------------------------------------------------------------
 
-  Request read_head(MHD_Connection* connection, const char* url, const char* method) const {
-    return {
-        .method = method,
-        .path = url,
-        .host = header(connection, MHD_HTTP_HEADER_HOST),
-        .origin = header(connection, "Origin"),
-        .token = header(connection, "X-Lockstep-Token"),
-        .after = number(MHD_lookup_connection_value(connection, MHD_GET_ARGUMENT_KIND, "after"))};
+  std::optional<Answer> refuse(MHD_Connection* connection, const Request& request) {
+    if (auto refusal = answering.refuse(request)) return refusal;
+    return refuse_body(connection);
   }
 
-  bool has_body(MHD_Connection* connection) const {
-    return header(connection, MHD_HTTP_HEADER_TRANSFER_ENCODING) ||
-           header(connection, MHD_HTTP_HEADER_CONTENT_LENGTH);
+  MHD_Result answer(MHD_Connection* connection, const Request& request) {
+    Answer it = answering.answer(request);
+    if (it.stream && streams >= kMostStreams) {
+      it = {.status = MHD_HTTP_SERVICE_UNAVAILABLE, .body = "too many watch this run\n"};
+    }
+    const bool is_endless = it.stream && it.stream->is_endless();
+    deadlines[connection] = is_endless ? Nanoseconds::max() : monotonic_now() + kLongestAnswer;
+    return send(connection, it);
   }
 
-  bool is_small(MHD_Connection* connection) const {
-    if (header(connection, MHD_HTTP_HEADER_TRANSFER_ENCODING)) return false;
-    const auto length = number(header(connection, MHD_HTTP_HEADER_CONTENT_LENGTH)->c_str());
-    return length && *length <= kMostBody;
-  }
-
-  MHD_Result refuse(MHD_Connection* connection) {
-    return send(connection, {.status = MHD_HTTP_CONTENT_TOO_LARGE, .body = "too large\n"});
-  }
-
-  MHD_Result reply(MHD_Connection* connection, const Request& request) {
-    return send(connection, answering.answer(request));
-  }
-
-  MHD_Result send(MHD_Connection* connection, Answer answer) {
-    MHD_Response* response =
-        answer.stream ? MHD_create_response_from_callback(
-                            MHD_SIZE_UNKNOWN, kPiece, on_read,
-                            new Open{*this, connection, std::move(answer.stream)}, on_free)
-                      : MHD_create_response_from_buffer(answer.body.size(), answer.body.data(),
-                                                        MHD_RESPMEM_MUST_COPY);
+  MHD_Result send(MHD_Connection* connection, Answer& answer) {
+    MHD_Response* response = make_response(connection, answer);
     if (response == nullptr) throw std::bad_alloc();
     const auto add = [response](const char* name, const std::string& value) {
       MHD_add_response_header(response, name, value.c_str());
     };
     add(MHD_HTTP_HEADER_CONTENT_TYPE, std::string(answer.type));
-    add(MHD_HTTP_HEADER_CONNECTION, "close");
+    add("Content-Security-Policy", answer.policy + "; frame-ancestors 'none'");
+    add("X-Content-Type-Options", "nosniff");
+    add("Cross-Origin-Resource-Policy", "same-origin");
+    add("Referrer-Policy", "no-referrer");
     add(MHD_HTTP_HEADER_CACHE_CONTROL, "no-store");
+    add(MHD_HTTP_HEADER_CONNECTION, "close");
     const MHD_Result result = MHD_queue_response(connection, answer.status, response);
     MHD_destroy_response(response);
     return result;
   }
 
+  MHD_Response* make_response(MHD_Connection* connection, Answer& answer) {
+    if (!answer.stream) {
+      return MHD_create_response_from_buffer(answer.body.size(), answer.body.data(),
+                                             MHD_RESPMEM_MUST_COPY);
+    }
+    auto open = std::make_unique<Open>(*this, connection, std::move(answer.stream));
+    MHD_Response* response =
+        MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, kPiece, on_read, open.get(), on_free);
+    if (response != nullptr) open.release();
+    return response;
+  }
+
+  // Each byte that comes now and then keeps a connection alive for libmicrohttpd, not for us.
+  void cut_off_late() {
+    const Nanoseconds now = monotonic_now();
+    if (now < next_look) return;
+    next_look = now + kBetweenLooks;
+    for (const auto& [connection, deadline] : deadlines) {
+      if (now < deadline) continue;
+      const auto* info = MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CONNECTION_FD);
+      shutdown(info->connect_fd, SHUT_RDWR);
+    }
+  }
+
   Answering& answering;
   MHD_Daemon* daemon = nullptr;
+  std::size_t streams = 0;
   std::unordered_set<MHD_Connection*> waiting;  // suspended: their stream has nothing
+  std::unordered_map<MHD_Connection*, Nanoseconds> deadlines;
+  Nanoseconds next_look{0};
 };
 
 bool has_http_server() {
@@ -148,19 +200,22 @@ bool has_http_server() {
 
 HttpServer::HttpServer(FileDescriptor listener, Answering& answering)
     : it_(std::make_unique<Implementation>(answering)) {
-  const int socket = dup(listener.number());
+  const int socket = dup(listener.number());  // it closes what it gets
   it_->daemon = MHD_start_daemon(
       MHD_USE_EPOLL | MHD_ALLOW_SUSPEND_RESUME, 0, nullptr, nullptr, Implementation::on_request,
       it_.get(), MHD_OPTION_LISTEN_SOCKET, socket, MHD_OPTION_CONNECTION_LIMIT, kMostConnections,
-      MHD_OPTION_CONNECTION_MEMORY_LIMIT, kMostHeader, MHD_OPTION_CONNECTION_TIMEOUT,
-      kLongestSilence, MHD_OPTION_NOTIFY_COMPLETED, Implementation::on_completed, it_.get(),
-      MHD_OPTION_END);
-  if (it_->daemon == nullptr) throw std::runtime_error("the monitor's server does not start");
+      MHD_OPTION_CONNECTION_MEMORY_LIMIT, kMemory, MHD_OPTION_CONNECTION_TIMEOUT, kLongestSilence,
+      MHD_OPTION_NOTIFY_COMPLETED, Implementation::on_completed, it_.get(),
+      MHD_OPTION_NOTIFY_CONNECTION, Implementation::on_connection, it_.get(),
+      MHD_OPTION_STRICT_FOR_CLIENT, 1, MHD_OPTION_END);
+  if (it_->daemon == nullptr) throw std::runtime_error("the server of the monitor does not start");
 }
 
+// A suspended connection would be a mistake for libmicrohttpd.
 HttpServer::~HttpServer() {
   wake_streams();
   MHD_run(it_->daemon);
+  wake_streams();
   MHD_stop_daemon(it_->daemon);
 }
 
@@ -169,6 +224,7 @@ int HttpServer::descriptor() const {
 }
 
 void HttpServer::run() {
+  it_->cut_off_late();
   MHD_run(it_->daemon);
 }
 
@@ -178,8 +234,8 @@ void HttpServer::wake_streams() {
   }
 }
 
-std::size_t HttpServer::clients() const {
-  return MHD_get_daemon_info(it_->daemon, MHD_DAEMON_INFO_CURRENT_CONNECTIONS)->num_connections;
+std::size_t HttpServer::streams() const {
+  return it_->streams;
 }
 
 }  // namespace lockstep

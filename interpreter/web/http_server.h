@@ -26,8 +26,8 @@ class HttpServer {
   void run();
   // Streams that wait may have more.
   void wake_streams();
-  // Clients that are being served.
-  std::size_t clients() const;
+  // Streams that have not ended.
+  std::size_t streams() const;
 
  private:
   struct Implementation;

@@ -78,7 +78,7 @@ LineLog::Place LineLog::begin(std::optional<std::uint64_t> seen) const {
       if (at(event).tick == seen) return {.event = event + 1};
     }
   }
-  return {.event = last_full_.value_or(end())};
+  return {.event = last_full_.value_or(first_)};
 }
 
 std::optional<std::size_t> LineLog::read(Place& place, std::span<char> to) {

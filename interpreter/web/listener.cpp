@@ -98,6 +98,7 @@ Result<Listener> listen_on(std::string_view address_and_port) {
         fmt::format("cannot listen on '{}': {}", shown, std::generic_category().message(errno)),
         "another port, or 0 for a free one");
   }
+  listener.name = place->host;
   listener.address = address_of(listener.socket.number());
   listener.is_loopback = is_loopback(found->ai_addr);
   return listener;

@@ -11,6 +11,7 @@ namespace lockstep {
 
 struct Listener {
   FileDescriptor socket;
+  std::string name;         // of the host, as it was given
   std::string address;      // as in a link: "127.0.0.1:8080", "[::1]:8080"
   bool is_loopback = true;  // no other machine can reach it
 };

@@ -6,8 +6,11 @@
 
 #include <utility>
 
+#include "core/json.h"
 #include "core/own_thread.h"
+#include "web/orders.h"
 #include "web/page.h"
+#include "web/token.h"
 
 namespace lockstep {
 namespace {
@@ -15,13 +18,15 @@ namespace {
 // How long a line may wait for the thread that sends it.
 constexpr std::chrono::milliseconds kNap{25};
 // How long the end of a run is offered to clients that do not read it.
-constexpr std::chrono::milliseconds kPatience{1000};
+constexpr std::chrono::milliseconds kPatience{500};
 
 // What follows a place in the log, for one listener.
 class Events final : public Stream {
  public:
   Events(LineLog& log, std::optional<std::uint64_t> seen)
       : log_(log), place_(log.begin(seen)), is_at_header_(!seen) {}
+
+  bool is_endless() const override { return true; }
 
   Piece read(std::span<char> to) override {
     if (is_at_header_) return read_header(to);
@@ -48,7 +53,11 @@ class Events final : public Stream {
 }  // namespace
 
 Monitor::Monitor(const Tree& tree, MonitorOptions options, Listener listener)
-    : address_(std::move(listener.address)),
+    : tree_(tree),
+      gate_(std::move(listener.name),
+            options.control != nullptr || !listener.is_loopback ? make_token() : std::string()),
+      address_(std::move(listener.address)),
+      control_(options.control),
       feed_(tree, std::move(options.run)),
       server_(std::move(listener.socket), *this),
       wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
@@ -61,7 +70,8 @@ Monitor::~Monitor() {
 }
 
 std::string Monitor::link() const {
-  return fmt::format("http://{}/", address_);
+  const bool has_token = !gate_.token().empty();
+  return fmt::format("http://{}/{}{}", address_, has_token ? "#token=" : "", gate_.token());
 }
 
 void Monitor::log(std::string_view who, std::string_view level, std::string_view text) {
@@ -69,12 +79,14 @@ void Monitor::log(std::string_view who, std::string_view level, std::string_view
 }
 
 void Monitor::run_started(Ticker& ticker, const RunStart& start) {
+  is_real_time_ = start.real_time;
   feed_.run_started(ticker, start);
   log_.add_header(feed_.header());
   thread_ = own_thread([this] { serve(); });
 }
 
 void Monitor::before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) {
+  if (control_ != nullptr && control_->pauses_after_tick()) feed_.hurry();
   feed_.before_tick(ticker, tick, time);
 }
 
@@ -96,7 +108,7 @@ void Monitor::run_ended(Ticker& ticker, const RunEnd& end) {
 
 void Monitor::serve() {
   while (!stopping_.load(std::memory_order_acquire)) {
-    take_lines();
+    tell_status();
     server_.run();
     wait(kNap);
   }
@@ -106,12 +118,22 @@ void Monitor::serve() {
 // The end is what everybody waits for.
 void Monitor::serve_to_the_end() {
   take_lines();
-  log_.add(feed_.end());
+  if (!feed_.end().empty()) log_.add(feed_.end());
   log_.add_event("end", "{}");
   log_.close();
   server_.wake_streams();
   const Nanoseconds until = monotonic_now() + kPatience;
-  for (server_.run(); server_.clients() > 0 && monotonic_now() < until; server_.run()) wait(kNap);
+  for (server_.run(); server_.streams() > 0 && monotonic_now() < until; server_.run()) wait(kNap);
+}
+
+// A pause is told after the line of the last tick before it.
+void Monitor::tell_status() {
+  const auto state = control_ != nullptr ? control_->state() : RunControl::State();
+  take_lines();
+  const auto status = status_.next(state, feed_, monotonic_now());
+  if (!status) return;
+  log_.add_event("state", *status);
+  server_.wake_streams();
 }
 
 void Monitor::take_lines() {
@@ -133,18 +155,46 @@ void Monitor::wait(std::chrono::milliseconds longest) {
   eventfd_read(wake_.number(), &rung);
 }
 
+std::optional<Answer> Monitor::refuse(const Request& head) {
+  return gate_.refuse(head);
+}
+
 Answer Monitor::answer(const Request& request) {
+  if (request.path == "/control") {
+    if (request.method == "POST") return obey(request.body);
+    return {.status = 405, .body = "only POST\n"};
+  }
+  if (request.path != "/" && request.path != "/events") {
+    return {.status = 404, .body = "there is no such page\n"};
+  }
   if (request.method != "GET") return {.status = 405, .body = "only GET\n"};
-  if (request.path == "/") {
-    return {.type = "text/html; charset=utf-8",
-            .body =
-                "<!doctype html><title>lockstep</title><p>The lines of the run are at "
-                "<a href=events>events</a>.\n"};
+  if (request.path == "/") return page();
+  return {.type = "text/event-stream", .stream = std::make_unique<Events>(log_, request.after)};
+}
+
+Answer Monitor::page() const {
+  const Json source = {{"live", true},
+                       {"control", control_ != nullptr},
+                       {"clock", is_real_time_ ? "wall" : "virtual"}};
+  return {.type = "text/html; charset=utf-8",
+          .body = page_with_source(source.text()),
+          .policy = std::string(page_policy())};
+}
+
+Answer Monitor::obey(const std::string& text) {
+  const auto refuse = [](unsigned status, const Problem& problem) {
+    Json json = {{"error", problem.message}};
+    if (!problem.hint.empty()) json["hint"] = problem.hint;
+    return Answer{.status = status, .type = "application/json", .body = json.text() + '\n'};
+  };
+  if (control_ == nullptr) {
+    return refuse(403, {"this monitor only shows the run", "start it with --monitor-control"});
   }
-  if (request.path == "/events") {
-    return {.type = "text/event-stream", .stream = std::make_unique<Events>(log_, request.after)};
-  }
-  return {.status = 404, .body = "there is no such page\n"};
+  auto order = read_order(tree_, is_real_time_, text);
+  if (!order) return refuse(400, order.error());
+  if (order->what == RunControl::Order::What::Break) status_.note(order->breakpoint, order->is_on);
+  control_->give(std::move(*order));
+  return {.status = 204};
 }
 
 }  // namespace lockstep

@@ -10,14 +10,17 @@
 #include "core/problem.h"
 #include "web/answer.h"
 #include "web/feed.h"
+#include "web/gate.h"
 #include "web/http_server.h"
 #include "web/line_log.h"
 #include "web/listener.h"
+#include "web/status.h"
 
 namespace lockstep {
 
 struct MonitorOptions {
   RunDescription run;
+  RunControl* control = nullptr;  // what clients may order; null: they may only look
 };
 
 class Monitor final : public Observer, private Answering {
@@ -40,11 +43,20 @@ class Monitor final : public Observer, private Answering {
   void serve();
   void serve_to_the_end();
   void take_lines();
+  void tell_status();
   void wait(std::chrono::milliseconds longest);
+  std::optional<Answer> refuse(const Request& head) override;
   Answer answer(const Request& request) override;
+  Answer page() const;
+  Answer obey(const std::string& order);
 
+  const Tree& tree_;
+  const Gate gate_;
   const std::string address_;
+  RunControl* const control_;
+  bool is_real_time_ = true;
   MonitorFeed feed_;
+  RunStatus status_;
   LineLog log_;
   HttpServer server_;
   FileDescriptor wake_;  // an eventfd

@@ -16,7 +16,7 @@ int HttpServer::descriptor() const {
 }
 void HttpServer::run() {}
 void HttpServer::wake_streams() {}
-std::size_t HttpServer::clients() const {
+std::size_t HttpServer::streams() const {
   return 0;
 }
 

@@ -44,6 +44,8 @@ class Process {
 
   // Reads on until its output holds `text`; false when it ended without.
   bool wait_for(const std::string& text);
+  // Reads what comes next; false at the end.
+  bool read_on() { return read_more(); }
   void signal(int number) const { kill(pid_, number); }
   // Until it has been stopped by a signal.
   void wait_for_stop() const;

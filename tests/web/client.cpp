@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 namespace lockstep::test {
@@ -46,8 +47,8 @@ bool Client::read_more() {
   return true;
 }
 
-bool Client::wait_for(const std::string& text) {
-  while (!contains(received_, text)) {
+bool Client::wait_for(const std::string& text, std::size_t from) {
+  while (received_.find(text, from) == std::string::npos) {
     if (!read_more()) return false;
   }
   return true;
@@ -91,8 +92,8 @@ namespace {
 
 std::vector<std::string> as_run(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "run");
-  const auto wants = [](const std::string& it) { return it.starts_with("--monitor"); };
-  if (std::none_of(arguments.begin(), arguments.end(), wants)) arguments.push_back("--monitor");
+  if (std::find(arguments.begin(), arguments.end(), "--monitor") == arguments.end())
+    arguments.push_back("--monitor");
   return arguments;
 }
 
@@ -101,11 +102,13 @@ std::vector<std::string> as_run(std::vector<std::string> arguments) {
 MonitoredRun::MonitoredRun(std::vector<std::string> arguments)
     : process_({.arguments = as_run(std::move(arguments))}) {
   REQUIRE(process_.wait_for("monitor: http://"));
-  REQUIRE(process_.wait_for("/\n"));
   const std::string& said = process_.so_far().err;
+  while (said.find('\n', said.find("monitor: http://")) == std::string::npos) {
+    REQUIRE(process_.read_on());
+  }
   const auto link = said.find("monitor: http://");
   const std::string text = said.substr(link, said.find('\n', link) - link);
-  port_ = static_cast<unsigned>(std::stoi(text.substr(text.rfind(':') + 1)));
+  port_ = static_cast<unsigned>(std::stoi(text.substr(text.rfind(':', text.find('#')) + 1)));
   if (const auto token = text.find("#token="); token != std::string::npos) {
     token_ = text.substr(token + 7);
   }

@@ -15,10 +15,10 @@ class Client {
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
 
-  // As many of the bytes as the other side takes; false when it has closed.
+  // False when the other side has closed.
   bool send(const std::string& bytes);
-  // Reads on until `text` has come; false when the other side closes before.
-  bool wait_for(const std::string& text);
+  // Reads on until `text` has come, from a place on; false when the other side closes before.
+  bool wait_for(const std::string& text, std::size_t from = 0);
   // Until the other side closes. What has come so far, all in all.
   const std::string& finish();
   const std::string& so_far() const { return received_; }

@@ -89,7 +89,12 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
                [this](const std::string& line) { view_.print("warning: " + line); }),
         statistics_(tree_) {
     RunDescription description = describe_run(runnable.arguments);
-    if (listener) monitor_.emplace(tree_, MonitorOptions{description}, std::move(*listener));
+    if (listener) {
+      if (options.monitor_control) control_.emplace();
+      if (options.begins_paused) control_->give({.what = RunControl::Order::What::Pause});
+      monitor_.emplace(tree_, MonitorOptions{description, control_ ? &*control_ : nullptr},
+                       std::move(*listener));
+    }
     if (!options.record.empty()) {
       recorder_.emplace(tree_, recorder_options(std::move(description)));
     }
@@ -185,6 +190,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
 
   LoopOptions loop_options() {
     LoopOptions loop = options_.loop();
+    if (control_) loop.control = &*control_;
     if (recorder_ && options_.stop_on_record_error) {
       loop.recording_failed = [this] { return recorder_->failed(); };
     }
@@ -223,6 +229,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   RunWatch watch_;
   Statistics statistics_;
   std::optional<Recorder> recorder_;
+  std::optional<RunControl> control_;
   std::optional<Monitor> monitor_;
   std::optional<StallObserver> stall_;
   CappedNotes standstills_{"standstill"};
@@ -249,16 +256,20 @@ std::vector<NamedFile> inputs_of_run(const RunCommandOptions& options, const Loa
 
 // Nothing: there is to be none, or it was refused.
 Result<std::optional<Listener>> listen(const RunCommandOptions& options) {
+  if (options.begins_paused && !options.monitor_control) {
+    return problem("--monitor-paused needs --monitor-control", "else nobody can let it go on");
+  }
+  if (options.monitor_control && !options.monitor) {
+    return problem("--monitor-control needs --monitor");
+  }
   if (!options.monitor) return std::nullopt;
   if (!has_http_server()) {
-    return problem("this lockstep was built without it",
+    return problem("--monitor: this lockstep was built without it",
                    "build it with libmicrohttpd and -DLOCKSTEP_MONITOR=ON");
   }
   auto listener = listen_on(*options.monitor);
-  if (!listener) return tl::unexpected(std::move(listener.error()));
-  if (!listener->is_loopback) {
-    return problem(fmt::format("'{}' can be reached from other machines", *options.monitor),
-                   "127.0.0.1, with `ssh -L` from there");
+  if (!listener) {
+    return problem("--monitor: " + listener.error().message, listener.error().hint);
   }
   return std::move(*listener);
 }
@@ -282,7 +293,7 @@ int run(const RunCommandOptions& options) {
     return kExitUsage;
   auto listener = listen(options);
   if (!listener) {
-    print_error("--monitor: " + listener.error().message, listener.error().hint);
+    print_error(listener.error().message, listener.error().hint);
     return kExitUsage;
   }
   Runnable runnable = make_runnable(std::move(*loaded));

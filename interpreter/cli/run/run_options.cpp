@@ -104,6 +104,11 @@ void define_monitor_options(CLI::App& app, RunCommandOptions& options) {
                  "Show the run in a browser (default: 127.0.0.1 and a free port); the link is on "
                  "stderr")
       ->type_name("[ADDRESS:PORT]");
+  app.add_flag("--monitor-control", options.monitor_control,
+               "Let those who have the link pause the run, tick it step by step, halt it and set "
+               "entries");
+  app.add_flag("--monitor-paused", options.begins_paused,
+               "With --monitor-control: pause before the first tick");
 }
 
 }  // namespace

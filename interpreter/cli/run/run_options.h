@@ -36,6 +36,8 @@ struct RunCommandOptions {
   bool json = false;
 
   std::optional<std::string> monitor;  // where it is reached; none: there is no monitor
+  bool monitor_control = false;        // who watches may pause the run, and more
+  bool begins_paused = false;
 
   bool is_wall() const { return clock == "wall"; }
   // None on the virtual clock and with --tick-budget 0.

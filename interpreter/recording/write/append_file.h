@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/output_file.h"
-#include "recording/write/bell.h"
+#include "core/bell.h"
 #include "recording/write/json_lines.h"
 #include "recording/write/packet_ring.h"
 

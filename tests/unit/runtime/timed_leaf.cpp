@@ -27,6 +27,14 @@ void halt(void*) {
   ++TimedLeaves::halted;
 }
 
+void pause(void*) {
+  ++TimedLeaves::paused;
+}
+
+void resume(void*) {
+  ++TimedLeaves::resumed;
+}
+
 const lockstep_leaf_type kLeaf = {sizeof(lockstep_leaf_type),
                                   LOCKSTEP_ACTION,
                                   "Timed",
@@ -38,8 +46,8 @@ const lockstep_leaf_type kLeaf = {sizeof(lockstep_leaf_type),
                                   nullptr,
                                   tick,
                                   halt,
-                                  nullptr,
-                                  nullptr,
+                                  pause,
+                                  resume,
                                   nullptr,
                                   nullptr,
                                   0,
@@ -72,10 +80,12 @@ const NodeType& parallel() {
 
 thread_local std::function<void(std::uint32_t leaf)> TimedLeaves::on_tick;
 thread_local std::uint32_t TimedLeaves::halted = 0;
+thread_local std::uint32_t TimedLeaves::paused = 0;
+thread_local std::uint32_t TimedLeaves::resumed = 0;
 
 TimedLeaves::TimedLeaves(std::uint32_t leaves) {
   on_tick = {};
-  halted = 0;
+  halted = paused = resumed = 0;
   Diagnostics diagnostics;
   if (!plugins.add(kPlugin, "timed", diagnostics)) throw std::logic_error("plugin refused");
   Definition definition{.id = "Test", .nodes = {}, .values = {}, .ports = {}, .entries = {}};

@@ -18,6 +18,8 @@ struct TimedLeaves {
   static thread_local std::function<void(std::uint32_t leaf)> on_tick;
   // How many leaves were halted since the last of these was made.
   static thread_local std::uint32_t halted;
+  // How many calls of pause and of resume there were, likewise.
+  static thread_local std::uint32_t paused, resumed;
 
   PluginSet plugins;
   Tree tree;

@@ -1,5 +1,5 @@
 // One thread waits, any other rings: a futex. Ringing never waits and is async-signal-safe; it is a
-// system call, so not for each tick. Used by append_file.
+// system call, so not for each tick.
 #pragma once
 
 #include "core/futex.h"

@@ -1,0 +1,46 @@
+// Where a run is to pause: after a tick in which something happens to a node. Used by run_control.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "engine/ticker.h"
+
+namespace lockstep {
+
+struct Breakpoint {
+  enum class When : std::uint8_t {
+    Begins,     // the node; not if it completes at once as it did before
+    Completes,  // it; likewise
+    Barrier,    // a child comes to the limit of this synchronized node, or the limit moves on
+  };
+  NodeIndex node = 0;
+  When when = When::Begins;
+
+  friend bool operator==(const Breakpoint&, const Breakpoint&) = default;
+};
+
+class Breakpoints {
+ public:
+  // Of a node of the tree; Barrier only of a synchronized one.
+  void set(Ticker& ticker, Breakpoint breakpoint);
+  void remove(Breakpoint breakpoint);
+
+  // After each tick: the first that was reached in it.
+  std::optional<Breakpoint> reached(Ticker& ticker);
+
+ private:
+  struct Watched {
+    Breakpoint breakpoint;
+    Status before = Status::Idle;      // after the last tick
+    std::vector<bool> were_held = {};  // the children of a synchronized node
+    double limit = 0;
+  };
+  static bool is_reached(Ticker& ticker, Watched& watched);
+  static bool is_barrier_reached(Ticker& ticker, Watched& watched);
+
+  std::vector<Watched> watched_;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,48 @@
+#include "web/gate.h"
+
+#include <arpa/inet.h>
+
+#include "web/token.h"
+
+namespace lockstep {
+namespace {
+
+std::string_view without_port(std::string_view host) {
+  const auto end = host.starts_with('[') ? host.find(']') : host.find(':') - 1;
+  return end < host.size() ? host.substr(0, end + 1) : host;
+}
+
+bool is_address(std::string_view host) {
+  in_addr v4{};
+  in6_addr v6{};
+  if (host.starts_with('[') && host.ends_with(']')) {
+    return inet_pton(AF_INET6, std::string(host.substr(1, host.size() - 2)).c_str(), &v6) == 1;
+  }
+  return inet_pton(AF_INET, std::string(host).c_str(), &v4) == 1;
+}
+
+}  // namespace
+
+// A page of elsewhere may have a name that leads here. It cannot have an address or our names.
+bool Gate::is_own_host(std::string_view host) const {
+  const std::string_view name = without_port(host);
+  return name == "localhost" || name == name_ || is_address(name);
+}
+
+std::optional<Answer> Gate::refuse(const Request& request) const {
+  if (!request.host || !is_own_host(*request.host)) {
+    return Answer{.status = 421, .body = "this is the monitor of lockstep, not that host\n"};
+  }
+  if (request.origin && *request.origin != "http://" + *request.host) {
+    return Answer{.status = 403, .body = "pages of other hosts may not ask\n"};
+  }
+  const bool is_open = token_.empty() || (request.path == "/" && request.method == "GET");
+  if (!is_open && !is_token(token_, request.token.value_or(""))) {
+    return Answer{
+        .status = 403,
+        .body = "the token is missing or wrong: it is in the link that lockstep printed\n"};
+  }
+  return std::nullopt;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,15 @@
+// What a client orders, as JSON: {"do":"step","ticks":1}.
+#pragma once
+
+#include <string>
+
+#include "core/problem.h"
+#include "engine/tree.h"
+#include "runtime/run_control.h"
+
+namespace lockstep {
+
+// The order that the text has, checked: it can be carried out in a run of this tree.
+Result<RunControl::Order> read_order(const Tree& tree, bool is_real_time, std::string text);
+
+}  // namespace lockstep

@@ -1,0 +1,167 @@
+// A run that is controlled from a browser, from outside.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "web/client.h"
+
+using namespace lockstep::test;
+using nlohmann::json;
+
+namespace {
+
+const std::string kPull = tree_text(
+    "<Sequence name=\"all\" memory=\"true\"><Wait name=\"rest\" seconds=\"{pause}\"/>"
+    "<ParallelAbsolute name=\"pull\" barriers=\"0.5\"><Advance name=\"arm\" step=\"0.1\"/>"
+    "<Advance name=\"base\" step=\"0.25\"/></ParallelAbsolute></Sequence>");
+
+// A run of this tree that begins paused, and who controls it.
+class Controlled {
+ public:
+  explicit Controlled(const std::string& tree, std::vector<std::string> more = {})
+      : run_(with(directory_.file("tree.xml", tree), std::move(more))), events_(run_.port()) {
+    events_.send(get_text(run_.port(), "/events", token()));
+  }
+
+  Response order(const json& body) { return post(run_.port(), "/control", body.dump(), token()); }
+  // Until the tick has its line: the run stands, or it would have none.
+  void wait_for_tick(int tick) {
+    REQUIRE(events_.wait_for("{\"tick\":" + std::to_string(tick) + ","));
+  }
+  std::string token() const { return "X-Lockstep-Token: " + run_.token() + "\r\n"; }
+  MonitoredRun& run() { return run_; }
+  Client& events() { return events_; }
+
+ private:
+  static std::vector<std::string> with(const std::string& tree, std::vector<std::string> more) {
+    more.insert(more.begin(), {tree, "--monitor", "--monitor-control", "--monitor-paused"});
+    return more;
+  }
+  TemporaryDirectory directory_;
+  MonitoredRun run_;
+  Client events_;
+};
+
+}  // namespace
+
+TEST_CASE("a run that is paused and ticked step by step comes to the same end") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("tree.xml", kPull);
+  const std::vector<std::string> options{"--clock", "virtual", "--set", "pause=0.2"};
+  const Outcome alone =
+      lockstep::test::lockstep({"run", tree, "--clock", "virtual", "--set", "pause=0.2"});
+  Controlled it(kPull, options);
+  REQUIRE(it.events().wait_for("\"state\":\"paused\""));
+  CHECK(it.order({{"do", "step"}, {"ticks", 3}}).status == 204);
+  it.wait_for_tick(2);
+  for (int step = 0; step < 6; ++step) CHECK(it.order({{"do", "step"}}).status == 204);
+  it.wait_for_tick(8);
+  CHECK(it.order({{"do", "speed"}, {"factor", 100}}).status == 204);
+  CHECK(it.order({{"do", "resume"}}).status == 204);
+  CHECK(contains(it.events().finish(), "\"result\":\"success\""));
+  const Outcome outcome = it.run().process().finish();
+  CHECK(outcome.code == 0);
+  CHECK(outcome.out == alone.out);
+}
+
+TEST_CASE("a run on the wall clock stands while it is paused, and misses no deadline") {
+  Controlled it(kPull, {"--rate", "50", "--set", "pause=0.1"});
+  it.order({{"do", "step"}, {"ticks", 2}});
+  it.wait_for_tick(1);
+  CHECK(it.order({{"do", "speed"}, {"factor", 2}}).status == 400);
+  it.order({{"do", "resume"}});
+  it.events().finish();
+  const Outcome outcome = it.run().process().finish();
+  CHECK(outcome.code == 0);
+  CHECK(contains(outcome.out, "success after "));
+}
+
+TEST_CASE("a run pauses where it is told to") {
+  Controlled it(kPull, {"--clock", "virtual", "--set", "pause=0.05"});
+  const auto stop = [](int node, const char* when, bool on = true) {
+    return json{{"do", "break"}, {"node", node}, {"when", when}, {"on", on}};
+  };
+  CHECK(it.order(stop(2, "begins")).status == 204);
+  CHECK(it.order(stop(2, "barrier")).status == 204);
+  CHECK(it.order(stop(4, "completes")).status == 204);
+  it.order({{"do", "resume"}});
+  REQUIRE(it.events().wait_for(R"("reached":{"node":2,"when":"begins"})"));
+  it.order({{"do", "resume"}});
+  REQUIRE(it.events().wait_for(R"("reached":{"node":2,"when":"barrier"})"));
+  CHECK(contains(it.events().so_far(), R"([4,"running",0.5,0,1])"));  // base is held
+  CHECK(it.order(stop(2, "barrier", false)).status == 204);
+  it.order({{"do", "resume"}});
+  REQUIRE(it.events().wait_for(R"("reached":{"node":4,"when":"completes"})"));
+  CHECK(it.order({{"do", "halt"}}).status == 204);
+  it.events().finish();
+  const Outcome outcome = it.run().process().finish();
+  CHECK(outcome.code == 130);
+}
+
+TEST_CASE("an entry is set between ticks, if its type takes the value") {
+  Controlled it(kPull, {"--clock", "virtual", "--set", "pause=1000", "--max-ticks", "500"});
+  CHECK(it.order({{"do", "set"}, {"entry", "pause"}, {"value", "0.03"}}).status == 204);
+  const Response wrong = it.order({{"do", "set"}, {"entry", "pause"}, {"value", "soon"}});
+  CHECK(wrong.status == 400);
+  CHECK(json::parse(wrong.body)["error"] == "'soon' is not a number, which 'pause' holds");
+  const Response unknown = it.order({{"do", "set"}, {"entry", "pauze"}, {"value", "1"}});
+  CHECK(json::parse(unknown.body)["error"] == "the tree has no entry 'pauze'");
+  it.order({{"do", "resume"}});
+  it.events().finish();
+  CHECK(it.run().process().finish().code == 0);
+}
+
+TEST_CASE("a paused run ends at a signal within a second") {
+  for (const int number : {SIGTERM, SIGINT}) {
+    for (const char* clock : {"wall", "virtual"}) {
+      Controlled it(kPull, {"--clock", clock, "--set", "pause=1000"});
+      it.order({{"do", "step"}});
+      it.wait_for_tick(0);
+      timespec begin{}, end{};
+      clock_gettime(CLOCK_MONOTONIC, &begin);
+      it.run().process().signal(number);
+      CHECK(it.run().process().finish().code == 128 + number);
+      clock_gettime(CLOCK_MONOTONIC, &end);
+      CHECK(end.tv_sec - begin.tv_sec <= 1);
+      CHECK(contains(it.events().finish(), "\"reason\":\"signal\""));
+    }
+  }
+}
+
+TEST_CASE("a paused run ends at its timeout on the wall clock") {
+  Controlled it(kPull, {"--timeout", "0.3", "--set", "pause=1000"});
+  it.events().finish();
+  CHECK(it.run().process().finish().code == 124);
+}
+
+TEST_CASE("what is no order is refused with a sentence") {
+  Controlled it(kPull, {"--set", "pause=1"});
+  const auto error = [&](const std::string& body) {
+    const Response response = post(it.run().port(), "/control", body, it.token());
+    CHECK(response.status == 400);
+    CHECK(contains(response.head, "Content-Type: application/json\r\n"));
+    return json::parse(response.body)["error"].get<std::string>();
+  };
+  CHECK(error("") == "not JSON");
+  CHECK(error("{") == "not JSON");
+  CHECK(error("[]") == "expected a JSON object");
+  CHECK(error("{}") == "'do' is missing");
+  CHECK(error(R"({"do":"fly"})") == "'fly' is not an order");
+  CHECK(error(R"({"do":"step","ticks":0})") == "'ticks' is 0, expected 1 to 1000000000");
+  CHECK(error(R"({"do":"break","node":99,"when":"begins"})") == "no node 99, expected 0 to 4");
+  CHECK(error(R"({"do":"break","node":0,"when":"barrier"})") ==
+        "'Main/all' has no barriers and no delta");
+  CHECK(error(R"({"do":"break","node":0,"when":"ever"})") ==
+        "'when' is neither 'begins' nor 'completes' nor 'barrier'");
+  CHECK(get(it.run().port(), "/control", it.token()).status == 405);
+}
+
+TEST_CASE("options for control need what they control") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("tree.xml", kPull);
+  const Outcome alone = lockstep::test::lockstep({"run", tree, "--monitor-control"});
+  CHECK(alone.code == 2);
+  CHECK(contains(alone.err, "--monitor-control needs --monitor"));
+  const Outcome paused = lockstep::test::lockstep({"run", tree, "--monitor", "--monitor-paused"});
+  CHECK(paused.code == 2);
+  CHECK(contains(paused.err, "--monitor-paused needs --monitor-control"));
+}
