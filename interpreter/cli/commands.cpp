@@ -16,7 +16,7 @@
 #include "runtime/fuse.h"
 #include "runtime/outlet.h"
 #include "terminal/raw_terminal.h"
-#include "web/listener.h"
+#include "web/server_socket.h"
 
 namespace lockstep {
 

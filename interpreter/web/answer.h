@@ -10,7 +10,7 @@
 
 namespace lockstep {
 
-struct Request {
+struct WebRequest {
   std::string method, path;
   std::optional<std::string> host, origin, token;  // headers
   std::optional<std::uint64_t> after;              // of the query
@@ -18,9 +18,9 @@ struct Request {
 };
 
 // The content of an answer that comes in pieces.
-class Stream {
+class WebStream {
  public:
-  virtual ~Stream() = default;
+  virtual ~WebStream() = default;
   // It goes on until the client leaves.
   virtual bool is_endless() const = 0;
   struct Piece {
@@ -32,11 +32,11 @@ class Stream {
   virtual Piece read(std::span<char> to) = 0;
 };
 
-struct Answer {
+struct WebAnswer {
   unsigned status = 200;
   std::string_view type = "text/plain; charset=utf-8";
   std::string body = {};
-  std::unique_ptr<Stream> stream = {};        // instead of `body`
+  std::unique_ptr<WebStream> stream = {};     // instead of `body`
   std::string policy = "default-src 'none'";  // what a page may load: Content-Security-Policy
 };
 
@@ -44,8 +44,8 @@ class Answering {
  public:
   virtual ~Answering() = default;
   // Before the body is read: the refusal, or nothing.
-  virtual std::optional<Answer> refuse(const Request& head) = 0;
-  virtual Answer answer(const Request& request) = 0;
+  virtual std::optional<WebAnswer> refuse(const WebRequest& head) = 0;
+  virtual WebAnswer answer(const WebRequest& request) = 0;
 };
 
 }  // namespace lockstep

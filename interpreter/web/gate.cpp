@@ -29,16 +29,16 @@ bool Gate::is_own_host(std::string_view host) const {
   return name == "localhost" || name == name_ || is_address(name);
 }
 
-std::optional<Answer> Gate::refuse(const Request& request) const {
+std::optional<WebAnswer> Gate::refuse(const WebRequest& request) const {
   if (!request.host || !is_own_host(*request.host)) {
-    return Answer{.status = 421, .body = "this is the monitor of lockstep, not that host\n"};
+    return WebAnswer{.status = 421, .body = "this is the monitor of lockstep, not that host\n"};
   }
   if (request.origin && *request.origin != "http://" + *request.host) {
-    return Answer{.status = 403, .body = "pages of other hosts may not ask\n"};
+    return WebAnswer{.status = 403, .body = "pages of other hosts may not ask\n"};
   }
   const bool is_open = token_.empty() || (request.path == "/" && request.method == "GET");
   if (!is_open && !is_token(token_, request.token.value_or(""))) {
-    return Answer{
+    return WebAnswer{
         .status = 403,
         .body = "the token is missing or wrong: it is in the link that lockstep printed\n"};
   }

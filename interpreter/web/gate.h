@@ -15,7 +15,7 @@ class Gate {
   Gate(std::string name, std::string token) : name_(std::move(name)), token_(std::move(token)) {}
 
   // The refusal, or nothing.
-  std::optional<Answer> refuse(const Request& request) const;
+  std::optional<WebAnswer> refuse(const WebRequest& request) const;
   const std::string& token() const { return token_; }
 
  private:

@@ -38,7 +38,7 @@ std::optional<std::uint64_t> whole_number(const char* text) {
   return value && *value >= 0 ? std::optional<std::uint64_t>(*value) : std::nullopt;
 }
 
-Request read_head(MHD_Connection* connection, const char* url, const char* method) {
+WebRequest read_head(MHD_Connection* connection, const char* url, const char* method) {
   return {.method = method,
           .path = url,
           .host = header(connection, MHD_HTTP_HEADER_HOST),
@@ -49,15 +49,15 @@ Request read_head(MHD_Connection* connection, const char* url, const char* metho
 }
 
 // Only a body whose length is known is read.
-std::optional<Answer> refuse_body(MHD_Connection* connection) {
+std::optional<WebAnswer> refuse_body(MHD_Connection* connection) {
   if (header(connection, MHD_HTTP_HEADER_TRANSFER_ENCODING)) {
-    return Answer{.status = MHD_HTTP_LENGTH_REQUIRED, .body = "a body must tell its length\n"};
+    return WebAnswer{.status = MHD_HTTP_LENGTH_REQUIRED, .body = "a body must tell its length\n"};
   }
   const auto length = header(connection, MHD_HTTP_HEADER_CONTENT_LENGTH);
   if (!length) return std::nullopt;
   const auto bytes = whole_number(length->c_str());
   if (bytes && *bytes <= kMostBody) return std::nullopt;
-  return Answer{.status = MHD_HTTP_CONTENT_TOO_LARGE, .body = "the body is too large\n"};
+  return WebAnswer{.status = MHD_HTTP_CONTENT_TOO_LARGE, .body = "the body is too large\n"};
 }
 
 }  // namespace
@@ -73,12 +73,12 @@ struct HttpServer::Implementation {
                                void** state) {
     auto& it = *static_cast<Implementation*>(self);
     if (*state == nullptr) {
-      auto* request = new Request(read_head(connection, url, method));
+      auto* request = new WebRequest(read_head(connection, url, method));
       *state = request;
       if (auto refusal = it.refuse(connection, *request)) return it.send(connection, *refusal);
       return MHD_YES;
     }
-    auto& request = *static_cast<Request*>(*state);
+    auto& request = *static_cast<WebRequest*>(*state);
     if (*size == 0) return it.answer(connection, request);
     if (request.body.size() + *size > kMostBody) return MHD_NO;
     request.body.append(data, std::exchange(*size, 0));
@@ -88,7 +88,7 @@ struct HttpServer::Implementation {
   static void on_completed(void* self, MHD_Connection* connection, void** state,
                            MHD_RequestTerminationCode) {
     static_cast<Implementation*>(self)->waiting.erase(connection);
-    delete static_cast<Request*>(std::exchange(*state, nullptr));
+    delete static_cast<WebRequest*>(std::exchange(*state, nullptr));
   }
 
   static void on_connection(void* self, MHD_Connection* connection, void**,
@@ -102,7 +102,7 @@ struct HttpServer::Implementation {
   }
 
   struct Open {
-    Open(Implementation& its_server, MHD_Connection* its_connection, std::unique_ptr<Stream> it)
+    Open(Implementation& its_server, MHD_Connection* its_connection, std::unique_ptr<WebStream> it)
         : server(its_server), connection(its_connection), stream(std::move(it)) {
       ++server.streams;
     }
@@ -112,14 +112,14 @@ struct HttpServer::Implementation {
 
     Implementation& server;
     MHD_Connection* const connection;
-    const std::unique_ptr<Stream> stream;
+    const std::unique_ptr<WebStream> stream;
   };
 
   static ssize_t on_read(void* open, std::uint64_t, char* to, std::size_t size) {
     auto& it = *static_cast<Open*>(open);
-    const Stream::Piece piece = it.stream->read({to, size});
-    if (piece.what == Stream::Piece::What::End) return MHD_CONTENT_READER_END_OF_STREAM;
-    if (piece.what == Stream::Piece::What::Bytes) return static_cast<ssize_t>(piece.count);
+    const WebStream::Piece piece = it.stream->read({to, size});
+    if (piece.what == WebStream::Piece::What::End) return MHD_CONTENT_READER_END_OF_STREAM;
+    if (piece.what == WebStream::Piece::What::Bytes) return static_cast<ssize_t>(piece.count);
     it.server.waiting.insert(it.connection);
     MHD_suspend_connection(it.connection);
     return 0;
@@ -129,13 +129,13 @@ struct HttpServer::Implementation {
 
   // -----------------------------------------------------------------------------------------------
 
-  std::optional<Answer> refuse(MHD_Connection* connection, const Request& request) {
+  std::optional<WebAnswer> refuse(MHD_Connection* connection, const WebRequest& request) {
     if (auto refusal = answering.refuse(request)) return refusal;
     return refuse_body(connection);
   }
 
-  MHD_Result answer(MHD_Connection* connection, const Request& request) {
-    Answer it = answering.answer(request);
+  MHD_Result answer(MHD_Connection* connection, const WebRequest& request) {
+    WebAnswer it = answering.answer(request);
     if (it.stream && streams >= kMostStreams) {
       it = {.status = MHD_HTTP_SERVICE_UNAVAILABLE, .body = "too many watch this run\n"};
     }
@@ -144,7 +144,7 @@ struct HttpServer::Implementation {
     return send(connection, it);
   }
 
-  MHD_Result send(MHD_Connection* connection, Answer& answer) {
+  MHD_Result send(MHD_Connection* connection, WebAnswer& answer) {
     MHD_Response* response = make_response(connection, answer);
     if (response == nullptr) throw std::bad_alloc();
     const auto add = [response](const char* name, const std::string& value) {
@@ -162,7 +162,7 @@ struct HttpServer::Implementation {
     return result;
   }
 
-  MHD_Response* make_response(MHD_Connection* connection, Answer& answer) {
+  MHD_Response* make_response(MHD_Connection* connection, WebAnswer& answer) {
     if (!answer.stream) {
       return MHD_create_response_from_buffer(answer.body.size(), answer.body.data(),
                                              MHD_RESPMEM_MUST_COPY);

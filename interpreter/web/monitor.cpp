@@ -20,8 +20,12 @@ constexpr std::chrono::milliseconds kNap{25};
 // How long the end of a run is offered to clients that do not read it.
 constexpr std::chrono::milliseconds kPatience{500};
 
+// How often a listener gets something, so that it knows that the run is there, and the server
+// who has gone.
+constexpr std::chrono::milliseconds kBeat{1000};
+
 // What follows a place in the log, for one listener.
-class Events final : public Stream {
+class Events final : public WebStream {
  public:
   Events(LineLog& log, std::optional<std::uint64_t> seen)
       : log_(log), place_(log.begin(seen)), is_at_header_(!seen) {}
@@ -32,8 +36,11 @@ class Events final : public Stream {
     if (is_at_header_) return read_header(to);
     const auto count = log_.read(place_, to);
     if (!count) return {Piece::What::End};
-    if (*count > 0) return {Piece::What::Bytes, *count};
-    return {log_.is_over() ? Piece::What::End : Piece::What::Wait};
+    if (*count > 0) return bytes(*count);
+    if (log_.is_over()) return {Piece::What::End};
+    if (monotonic_now() - heard_ < kBeat) return {Piece::What::Wait};
+    constexpr std::string_view kComment = ":\n\n";
+    return bytes(kComment.copy(to.data(), to.size()));
   }
 
  private:
@@ -41,6 +48,11 @@ class Events final : public Stream {
     const std::size_t count = log_.header().copy(to.data(), to.size(), in_header_);
     in_header_ += count;
     is_at_header_ = in_header_ < log_.header().size();
+    return bytes(count);
+  }
+
+  Piece bytes(std::size_t count) {
+    heard_ = monotonic_now();
     return {Piece::What::Bytes, count};
   }
 
@@ -48,11 +60,12 @@ class Events final : public Stream {
   LineLog::Place place_;
   bool is_at_header_;
   std::size_t in_header_ = 0;
+  Nanoseconds heard_{0};
 };
 
 }  // namespace
 
-Monitor::Monitor(const Tree& tree, MonitorOptions options, Listener listener)
+Monitor::Monitor(const Tree& tree, MonitorOptions options, ServerSocket listener)
     : tree_(tree),
       gate_(std::move(listener.name),
             options.control != nullptr || !listener.is_loopback ? make_token() : std::string()),
@@ -130,9 +143,13 @@ void Monitor::serve_to_the_end() {
 void Monitor::tell_status() {
   const auto state = control_ != nullptr ? control_->state() : RunControl::State();
   take_lines();
-  const auto status = status_.next(state, feed_, monotonic_now());
-  if (!status) return;
-  log_.add_event("state", *status);
+  const Nanoseconds now = monotonic_now();
+  if (const auto status = status_.next(state, feed_, now)) {
+    log_.add_event("state", *status);
+    server_.wake_streams();
+  }
+  if (now - beat_ < kBeat) return;
+  beat_ = now;
   server_.wake_streams();
 }
 
@@ -155,11 +172,11 @@ void Monitor::wait(std::chrono::milliseconds longest) {
   eventfd_read(wake_.number(), &rung);
 }
 
-std::optional<Answer> Monitor::refuse(const Request& head) {
+std::optional<WebAnswer> Monitor::refuse(const WebRequest& head) {
   return gate_.refuse(head);
 }
 
-Answer Monitor::answer(const Request& request) {
+WebAnswer Monitor::answer(const WebRequest& request) {
   if (request.path == "/control") {
     if (request.method == "POST") return obey(request.body);
     return {.status = 405, .body = "only POST\n"};
@@ -172,7 +189,7 @@ Answer Monitor::answer(const Request& request) {
   return {.type = "text/event-stream", .stream = std::make_unique<Events>(log_, request.after)};
 }
 
-Answer Monitor::page() const {
+WebAnswer Monitor::page() const {
   const Json source = {{"live", true},
                        {"control", control_ != nullptr},
                        {"clock", is_real_time_ ? "wall" : "virtual"}};
@@ -181,11 +198,11 @@ Answer Monitor::page() const {
           .policy = std::string(page_policy())};
 }
 
-Answer Monitor::obey(const std::string& text) {
+WebAnswer Monitor::obey(const std::string& text) {
   const auto refuse = [](unsigned status, const Problem& problem) {
     Json json = {{"error", problem.message}};
     if (!problem.hint.empty()) json["hint"] = problem.hint;
-    return Answer{.status = status, .type = "application/json", .body = json.text() + '\n'};
+    return WebAnswer{.status = status, .type = "application/json", .body = json.text() + '\n'};
   };
   if (control_ == nullptr) {
     return refuse(403, {"this monitor only shows the run", "start it with --monitor-control"});

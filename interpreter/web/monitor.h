@@ -13,7 +13,7 @@
 #include "web/gate.h"
 #include "web/http_server.h"
 #include "web/line_log.h"
-#include "web/listener.h"
+#include "web/server_socket.h"
 #include "web/status.h"
 
 namespace lockstep {
@@ -25,7 +25,7 @@ struct MonitorOptions {
 
 class Monitor final : public Observer, private Answering {
  public:
-  Monitor(const Tree& tree, MonitorOptions options, Listener listener);
+  Monitor(const Tree& tree, MonitorOptions options, ServerSocket listener);
   ~Monitor() override;
 
   // For a person: where it is.
@@ -45,10 +45,10 @@ class Monitor final : public Observer, private Answering {
   void take_lines();
   void tell_status();
   void wait(std::chrono::milliseconds longest);
-  std::optional<Answer> refuse(const Request& head) override;
-  Answer answer(const Request& request) override;
-  Answer page() const;
-  Answer obey(const std::string& order);
+  std::optional<WebAnswer> refuse(const WebRequest& head) override;
+  WebAnswer answer(const WebRequest& request) override;
+  WebAnswer page() const;
+  WebAnswer obey(const std::string& order);
 
   const Tree& tree_;
   const Gate gate_;
@@ -62,6 +62,7 @@ class Monitor final : public Observer, private Answering {
   FileDescriptor wake_;  // an eventfd
   std::atomic<bool> stopping_{false};
   std::string lines_;  // for its room
+  Nanoseconds beat_{0};
   std::thread thread_;
 };
 

@@ -81,7 +81,7 @@ bool knows_recorded_keys(const RunCommandOptions& options, const Tree& tree) {
 class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
  public:
   RunCommand(const RunCommandOptions& options, const Runnable& runnable,
-             std::optional<Listener> listener)
+             std::optional<ServerSocket> listener)
       : options_(options),
         tree_(runnable.tree),
         view_(options.view, tree_, options.log_level),
@@ -255,7 +255,7 @@ std::vector<NamedFile> inputs_of_run(const RunCommandOptions& options, const Loa
 }
 
 // Nothing: there is to be none, or it was refused.
-Result<std::optional<Listener>> listen(const RunCommandOptions& options) {
+Result<std::optional<ServerSocket>> listen(const RunCommandOptions& options) {
   if (options.begins_paused && !options.monitor_control) {
     return problem("--monitor-paused needs --monitor-control", "else nobody can let it go on");
   }

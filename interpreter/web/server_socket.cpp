@@ -1,4 +1,4 @@
-#include "web/listener.h"
+#include "web/server_socket.h"
 
 #include <fmt/format.h>
 #include <netdb.h>
@@ -76,7 +76,7 @@ bool looks_like_address(std::string_view text) {
   return text.find('/') == std::string_view::npos && split(text).has_value();
 }
 
-Result<Listener> listen_on(std::string_view address_and_port) {
+Result<ServerSocket> listen_on(std::string_view address_and_port) {
   const auto place = split(address_and_port);
   const std::string shown = printable(address_and_port);
   if (!place) {
@@ -92,7 +92,7 @@ Result<Listener> listen_on(std::string_view address_and_port) {
                    std::string(kHint));
   }
   const std::unique_ptr<addrinfo, void (*)(addrinfo*)> owner(found, freeaddrinfo);
-  Listener listener;
+  ServerSocket listener;
   if (!open(*found, listener.socket)) {
     return problem(
         fmt::format("cannot listen on '{}': {}", shown, std::generic_category().message(errno)),

@@ -9,7 +9,7 @@
 
 namespace lockstep {
 
-struct Listener {
+struct ServerSocket {
   FileDescriptor socket;
   std::string name;         // of the host, as it was given
   std::string address;      // as in a link: "127.0.0.1:8080", "[::1]:8080"
@@ -24,6 +24,6 @@ bool looks_like_address(std::string_view text);
 
 // "ADDRESS:PORT", "[IPV6]:PORT", ":PORT" or "PORT". Without an address, that of this machine that
 // no other can reach; port 0: one that is free.
-Result<Listener> listen_on(std::string_view address_and_port);
+Result<ServerSocket> listen_on(std::string_view address_and_port);
 
 }  // namespace lockstep
