@@ -7,9 +7,14 @@
 namespace lockstep {
 namespace {
 
+// "robot" of "robot:8080"; "" if there is more.
 std::string_view without_port(std::string_view host) {
-  const auto end = host.starts_with('[') ? host.find(']') : host.find(':') - 1;
-  return end < host.size() ? host.substr(0, end + 1) : host;
+  const auto close = host.starts_with('[') ? host.find(']') : 0;
+  const auto colon = close < host.size() ? host.find(':', close) : host.npos;
+  if (colon == host.npos) return host;
+  const std::string_view port = host.substr(colon + 1);
+  const bool is_port = port.find_first_not_of("0123456789") == port.npos;
+  return is_port ? host.substr(0, colon) : std::string_view();
 }
 
 bool is_address(std::string_view host) {
@@ -26,6 +31,7 @@ bool is_address(std::string_view host) {
 // A page of elsewhere may have a name that leads here. It cannot have an address or our names.
 bool Gate::is_own_host(std::string_view host) const {
   const std::string_view name = without_port(host);
+  if (name.empty()) return false;
   return name == "localhost" || name == name_ || is_address(name);
 }
 

@@ -67,6 +67,11 @@ struct HttpServer::Implementation {
 
   // --- what libmicrohttpd calls ------------------------------------------------------------------
 
+  // No path that the server has needs it, and %00 would cut one.
+  static std::size_t keep_escapes(void*, MHD_Connection*, char* text) {
+    return std::char_traits<char>::length(text);
+  }
+
   // First with the head of a request, then with each part of its body, then at its end.
   static MHD_Result on_request(void* self, MHD_Connection* connection, const char* url,
                                const char* method, const char*, const char* data, std::size_t* size,
@@ -207,6 +212,7 @@ HttpServer::HttpServer(FileDescriptor listener, Answering& answering)
       MHD_OPTION_CONNECTION_MEMORY_LIMIT, kMemory, MHD_OPTION_CONNECTION_TIMEOUT, kLongestSilence,
       MHD_OPTION_NOTIFY_COMPLETED, Implementation::on_completed, it_.get(),
       MHD_OPTION_NOTIFY_CONNECTION, Implementation::on_connection, it_.get(),
+      MHD_OPTION_UNESCAPE_CALLBACK, Implementation::keep_escapes, nullptr,
       MHD_OPTION_STRICT_FOR_CLIENT, 1, MHD_OPTION_END);
   if (it_->daemon == nullptr) throw std::runtime_error("the server of the monitor does not start");
 }
@@ -221,6 +227,12 @@ HttpServer::~HttpServer() {
 
 int HttpServer::descriptor() const {
   return MHD_get_daemon_info(it_->daemon, MHD_DAEMON_INFO_EPOLL_FD)->epoll_fd;
+}
+
+bool HttpServer::serve(FileDescriptor connection) {
+  sockaddr address{.sa_family = AF_UNIX, .sa_data = {}};
+  const int socket = dup(connection.number());
+  return MHD_add_connection(it_->daemon, socket, &address, sizeof address.sa_family) == MHD_YES;
 }
 
 void HttpServer::run() {

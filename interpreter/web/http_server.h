@@ -22,6 +22,8 @@ class HttpServer {
 
   // Can be read when run() has something to do.
   int descriptor() const;
+  // A client that is connected already. False: it was refused.
+  bool serve(FileDescriptor connection);
   // Serves what can be served without waiting.
   void run();
   // Streams that wait may have more.

@@ -10,8 +10,10 @@ namespace {
 
 constexpr std::string_view kData = "data: ";
 
+}  // namespace
+
 // Of {"tick":7,…
-std::optional<std::uint64_t> tick_of(std::string_view line) {
+std::optional<std::uint64_t> tick_of_line(std::string_view line) {
   constexpr std::string_view kTick = "{\"tick\":";
   if (!line.starts_with(kTick)) return std::nullopt;
   std::uint64_t tick = 0;
@@ -19,14 +21,13 @@ std::optional<std::uint64_t> tick_of(std::string_view line) {
   return read.ec == std::errc() ? std::optional(tick) : std::nullopt;
 }
 
-}  // namespace
-
 void LineLog::add_header(std::string_view line) {
   header_ = fmt::format("{}{}\n", kData, line);
 }
 
 void LineLog::add(std::string_view line) {
-  Event event{.text = {}, .tick = tick_of(line), .is_full = line.ends_with(",\"full\":true}\n")};
+  Event event{
+      .text = {}, .tick = tick_of_line(line), .is_full = line.ends_with(",\"full\":true}\n")};
   if (event.tick) event.text = fmt::format("id: {}\n", *event.tick);
   event.text += kData;
   event.line = event.text.size();
@@ -109,10 +110,6 @@ void LineLog::catch_up(Place& place) {
 
 std::string_view LineLog::header_line() const {
   return std::string_view(header_).substr(kData.size(), header_.size() - kData.size() - 1);
-}
-
-std::optional<std::uint64_t> LineLog::first_tick() const {
-  return events_.empty() ? std::nullopt : events_.front().tick;
 }
 
 std::string_view LineLog::line(std::uint64_t event) const {

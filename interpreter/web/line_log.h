@@ -12,6 +12,9 @@
 
 namespace lockstep {
 
+// Of a line of a recording that is one of a tick.
+std::optional<std::uint64_t> tick_of_line(std::string_view line);
+
 class LineLog {
  public:
   static constexpr std::size_t kRoom = 4u << 20;  // bytes, or what a few of the longest lines take
@@ -46,11 +49,12 @@ class LineLog {
 
   // As lines: the header and all that is kept.
   std::string_view header_line() const;
-  // The tick of the first line of a tick that is kept.
-  std::optional<std::uint64_t> first_tick() const;
   // The number of the event behind the last.
   std::uint64_t end() const { return first_ + events_.size(); }
   std::uint64_t first() const { return first_; }
+  // Of the last line with the whole state.
+  std::optional<std::uint64_t> last_full() const { return last_full_; }
+  std::optional<std::uint64_t> tick(std::uint64_t event) const { return at(event).tick; }
   // "" if it is no line.
   std::string_view line(std::uint64_t event) const;
 

@@ -8,6 +8,7 @@
 
 #include "core/json.h"
 #include "core/own_thread.h"
+#include "web/history.h"
 #include "web/orders.h"
 #include "web/page.h"
 #include "web/token.h"
@@ -70,6 +71,7 @@ Monitor::Monitor(const Tree& tree, MonitorOptions options, ServerSocket listener
       gate_(std::move(listener.name),
             options.control != nullptr || !listener.is_loopback ? make_token() : std::string()),
       address_(std::move(listener.address)),
+      recording_(std::move(options.recording)),
       control_(options.control),
       feed_(tree, std::move(options.run)),
       server_(std::move(listener.socket), *this),
@@ -181,11 +183,14 @@ WebAnswer Monitor::answer(const WebRequest& request) {
     if (request.method == "POST") return obey(request.body);
     return {.status = 405, .body = "only POST\n"};
   }
-  if (request.path != "/" && request.path != "/events") {
-    return {.status = 404, .body = "there is no such page\n"};
-  }
+  const bool is_known =
+      request.path == "/" || request.path == "/events" || request.path == "/history";
+  if (!is_known) return {.status = 404, .body = "there is no such page\n"};
   if (request.method != "GET") return {.status = 405, .body = "only GET\n"};
   if (request.path == "/") return page();
+  if (request.path == "/history") {
+    return {.type = "application/x-ndjson", .stream = std::make_unique<History>(log_, recording_)};
+  }
   return {.type = "text/event-stream", .stream = std::make_unique<Events>(log_, request.after)};
 }
 

@@ -20,6 +20,7 @@ namespace lockstep {
 
 struct MonitorOptions {
   RunDescription run;
+  std::string recording = {};     // the file that the run writes; "": none
   RunControl* control = nullptr;  // what clients may order; null: they may only look
 };
 
@@ -53,6 +54,7 @@ class Monitor final : public Observer, private Answering {
   const Tree& tree_;
   const Gate gate_;
   const std::string address_;
+  const std::string recording_;
   RunControl* const control_;
   bool is_real_time_ = true;
   MonitorFeed feed_;

@@ -14,6 +14,9 @@ HttpServer::~HttpServer() = default;
 int HttpServer::descriptor() const {
   return -1;
 }
+bool HttpServer::serve(FileDescriptor) {
+  return false;
+}
 void HttpServer::run() {}
 void HttpServer::wake_streams() {}
 std::size_t HttpServer::streams() const {

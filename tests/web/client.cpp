@@ -92,7 +92,10 @@ namespace {
 
 std::vector<std::string> as_run(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "run");
-  if (std::find(arguments.begin(), arguments.end(), "--monitor") == arguments.end())
+  const auto is_monitor = [](const std::string& it) {
+    return it == "--monitor" || it.starts_with("--monitor=");
+  };
+  if (std::none_of(arguments.begin(), arguments.end(), is_monitor))
     arguments.push_back("--monitor");
   return arguments;
 }

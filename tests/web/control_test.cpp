@@ -165,3 +165,31 @@ TEST_CASE("options for control need what they control") {
   CHECK(paused.code == 2);
   CHECK(contains(paused.err, "--monitor-paused needs --monitor-control"));
 }
+
+TEST_CASE("the history has the run so far, from its recording if there is one") {
+  const TemporaryDirectory directory;
+  for (const bool records : {false, true}) {
+    CAPTURE(records);
+    std::vector<std::string> options{"--clock", "virtual", "--set", "pause=3"};
+    if (records) options.insert(options.end(), {"--record", directory.path("run.jsonl")});
+    Controlled it(kPull, options);
+    it.order({{"do", "step"}, {"ticks", 200}});
+    it.wait_for_tick(199);
+    it.order({{"do", "step"}});
+    it.wait_for_tick(200);
+    const Response response = get(it.run().port(), "/history", it.token());
+    CHECK(response.status == 200);
+    // It comes in pieces of which each tells its length.
+    CHECK(contains(response.body, "{\"lockstep_recording\":1,"));
+    CHECK(contains(response.body, "{\"tick\":0,"));
+    CHECK(contains(response.body, "{\"tick\":200,"));
+    // Without a recording, what happened between two lines is not there.
+    if (records) CHECK(contains(read_file(directory.path("run.jsonl")), "{\"tick\":0,"));
+    Client after(it.run().port());
+    after.send(get_text(it.run().port(), "/events?after=200", it.token()));
+    it.order({{"do", "step"}});
+    REQUIRE(after.wait_for("{\"tick\":201,"));
+    CHECK_FALSE(contains(after.so_far(), "{\"tick\":200,"));
+    CHECK_FALSE(contains(after.so_far(), "lockstep_recording"));
+  }
+}

@@ -92,7 +92,8 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     if (listener) {
       if (options.monitor_control) control_.emplace();
       if (options.begins_paused) control_->give({.what = RunControl::Order::What::Pause});
-      monitor_.emplace(tree_, MonitorOptions{description, control_ ? &*control_ : nullptr},
+      monitor_.emplace(tree_,
+                       MonitorOptions{description, options.record, control_ ? &*control_ : nullptr},
                        std::move(*listener));
     }
     if (!options.record.empty()) {

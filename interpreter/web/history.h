@@ -1,0 +1,42 @@
+// The lines of a run up to now, for one client: what its recording has, as far as it goes, then
+// what the log has.
+#pragma once
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "web/answer.h"
+#include "web/line_log.h"
+
+namespace lockstep {
+
+class History final : public WebStream {
+ public:
+  // `recording` is the file that the run writes; "": none.
+  History(const LineLog& log, const std::string& recording);
+
+  bool is_endless() const override { return false; }
+  Piece read(std::span<char> to) override;
+
+ private:
+  std::string_view next();
+  std::string_view next_recorded();
+  std::string_view next_logged();
+
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+
+  const LineLog& log_;
+  std::unique_ptr<std::FILE, Close> file_;
+  std::string line_;         // of the file
+  std::uint64_t until_ = 0;  // the tick with which the log begins
+  bool is_at_header_ = true;
+  std::uint64_t event_;     // the next of the log
+  std::string_view rest_;   // of the line that is being read
+  std::uint64_t read_ = 0;  // the event that it is of, and 1 more; 0: none
+};
+
+}  // namespace lockstep
