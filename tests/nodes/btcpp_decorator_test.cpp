@@ -37,6 +37,8 @@ constexpr TickRow kDecorators[] = {
    "ReactiveSequence(c RetryUntilSuccessful[num_attempts=3](a))", "c=S a=FS", "S[c a c a]"},
   {"RetryUntilSuccessful: fails after num_attempts failures",
    "RetryUntilSuccessful[num_attempts=2](a)", "a=FFS", "F[a a] S[a]"},
+  {"RetryUntilSuccessful: has the progress of this attempt",
+   "RetryUntilSuccessful[num_attempts=3](a)", "a=R.5FR.25S", "R[a]=.5 R[a a]=.25 S[a]=1"},
   {"RetryUntilSuccessful: num_attempts 0 is Failure without a tick",
    "RetryUntilSuccessful[num_attempts=0](a)", "a=S", "F[]"},
   {"RetryUntilSuccessful: num_attempts -1 is for ever",

@@ -104,6 +104,7 @@ std::optional<Status> tick(Ticker& ticker, int period) {
 struct Outcome {
   std::string difference = {};
   bool has_fault = false;
+  bool has_holds = false;
   std::set<Status> results = {};
 };
 
@@ -131,6 +132,8 @@ Outcome compared(const Document& document) {
       }
     }
     same(period, "calls", shown(engine.events), shown(reference.events()));
+    outcome.has_holds |=
+        std::ranges::find(engine.events, Call::Pause, &Event::call) != engine.events.end();
     if (!expected) break;
     same(period, "entries", shown(entries(engine.ticker())), shown(known(engine, reference)));
     same(period, "result", std::string(to_string(*got)), std::string(to_string(*expected)));
@@ -142,7 +145,7 @@ Outcome compared(const Document& document) {
 }  // namespace
 
 TEST_CASE("trees for BehaviorTree.CPP do what the law says, on random documents") {
-  int faults = 0;
+  int faults = 0, holds = 0;
   std::map<Status, int> results;
   for (std::uint64_t seed = 1; seed <= kDocuments; ++seed) {
     const Document document = random_document(seed);
@@ -153,6 +156,7 @@ TEST_CASE("trees for BehaviorTree.CPP do what the law says, on random documents"
                    << to_xml(document));
     }
     faults += outcome.has_fault ? 1 : 0;
+    holds += outcome.has_holds ? 1 : 0;
     for (const Status result : outcome.results) ++results[result];
   }
   // They are not all over before anything has happened.
@@ -161,6 +165,7 @@ TEST_CASE("trees for BehaviorTree.CPP do what the law says, on random documents"
     CHECK(results[result] > kDocuments / 10);
   }
   CHECK(results[Status::Skipped] > kDocuments / 100);
+  CHECK(holds > kDocuments / 100);
 }
 
 }  // namespace lockstep::test::law

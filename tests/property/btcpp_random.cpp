@@ -83,6 +83,7 @@ class Generator {
     std::string text;
     for (int length = 1 + below(4); length > 0; --length) {
       text += all[static_cast<std::size_t>(below(static_cast<int>(all.size())))];
+      if (text.back() == 'R' && below(2) == 0) text += one_of({".2", ".5", ".75", ".9"});
     }
     return text;
   }
@@ -118,6 +119,9 @@ class Generator {
     }
   }
 
+  // What has progress for a while.
+  Element motion() { return named({.tag = "Act", .letters = letters("RRRR") + letters("RRS")}); }
+
   Element named(Element leaf) {
     leaf.attributes["name"] = fmt::format("a{}", ++names_);
     return leaf;
@@ -145,7 +149,13 @@ class Generator {
                                            "KeepRunningUntilFailure"};
     Element it;
     int least = 1, most = 1;
-    switch (below(12)) {
+    switch (below(15)) {
+      case 12:
+      case 13:
+      case 14:
+        it = synchronized();
+        most = 4;
+        break;
       case 0:
         it = {.tag = one_of({"IfThenElse", "WhileDoElse"})};
         least = 2, most = 3;
@@ -171,15 +181,32 @@ class Generator {
         most = 4;
         break;
     }
+    const bool compares = it.tag == "ParallelAbsolute" || it.tag == "ParallelRelative";
     for (int i = least + below(most - least + 1); i > 0; --i) {
-      it.children.push_back(node(depth - 1));
+      it.children.push_back(compares && below(3) == 0 ? motion() : node(depth - 1));
     }
     add_counts(it);
     return it;
   }
 
+  Element synchronized() {
+    if (below(2) == 0) {
+      return {.tag = "ParallelRelative", .attributes = {{"delta", one_of({"0", "0.2", "0.5"})}}};
+    }
+    Element it{.tag = "ParallelAbsolute"};
+    it.attributes["barriers"] = one_of({"0.5", "0.2;0.6", "0.25;0.5;0.75;1"});
+    if (below(3) == 0) it.attributes["at_barrier"] = "tick";
+    return it;
+  }
+
   void add_counts(Element& it) {
     const int all = static_cast<int>(it.children.size());
+    if (it.tag == "ParallelAbsolute" || it.tag == "ParallelRelative") {
+      const auto some = [&] { return std::to_string(1 + below(all)); };
+      if (below(3) == 0) it.attributes["success_count"] = some();
+      if (below(3) == 0) it.attributes["failure_count"] = some();
+      return;
+    }
     const auto count = [&] { return std::to_string(below(all + 3) - 2); };
     if (it.tag == "ParallelAll" && below(2) == 0) it.attributes["max_failures"] = count();
     if (it.tag != "Parallel") return;

@@ -1,8 +1,12 @@
 #include "property/btcpp_reference.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <functional>
+#include <limits>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 
 namespace lockstep::test::law {
@@ -61,6 +65,7 @@ class Node {
   Node(const Element& element, Board& board, World& world)
       : element_(element), board_(&board), world_(world) {
     if (element.tag == "Act" || element.tag == "Cond") number_ = world.leaves++;
+    read_letters();
     for (const auto& [name, value] : element.attributes) declare(name, value);
     if (element.tag == "SubTree") enter();
     for (const Element& child : element.children) {
@@ -76,7 +81,23 @@ class Node {
       run("_post");
     }
     status_ = it == Status::Skipped ? Status::Idle : it;
+    was_skipped_ = it == Status::Skipped;
+    is_paused_ = false;
+    last_ = it;
     return it;
+  }
+
+  // In [0, 1]; of a node that runs as the table of semantics says.
+  double progress() const {
+    if (status_ == Status::Running) return progress_of_running();
+    return status_ == Status::Success ? 1 : 0;
+  }
+
+  void pause() {
+    if (status_ != Status::Running || is_paused_) return;
+    is_paused_ = true;
+    if (element_.tag == "Act") world_.events.push_back({Call::Pause, number_});
+    for (const auto& child : children_) child->pause();
   }
 
   void halt() {
@@ -85,6 +106,7 @@ class Node {
     reset_children();
     forget(Ended::Halted);
     status_ = Status::Idle;
+    was_skipped_ = is_paused_ = false;
     run("_onHalted");
   }
 
@@ -96,6 +118,7 @@ class Node {
       forget(Ended::Reset);
     }
     status_ = Status::Idle;
+    was_skipped_ = is_paused_ = false;
   }
 
  private:
@@ -235,6 +258,7 @@ class Node {
     if (tag == "ReactiveFallback") return reactive(Status::Failure);
     if (tag == "Parallel") return parallel();
     if (tag == "ParallelAll") return parallel_all();
+    if (is_synchronized()) return synchronized();
     if (tag == "IfThenElse") return if_then_else();
     if (tag == "WhileDoElse") return while_do_else();
     if (tag == "Switch2") return choose();
@@ -243,10 +267,28 @@ class Node {
     return decorate();
   }
 
+  // "R.5RS": letters, and the progress after that tick where one is written.
+  void read_letters() {
+    const std::string& text = element_.letters;
+    for (std::size_t at = 0; at < text.size();) {
+      const char letter = text[at++];
+      const std::size_t end = std::min(text.find_first_not_of(".0123456789", at), text.size());
+      steps_.emplace_back(letter, std::nullopt);
+      if (end != at) steps_.back().second = std::stod(text.substr(at, end - at));
+      at = end;
+    }
+  }
+
   Status leaf() {
-    if (status_ != Status::Running) world_.events.push_back({Call::Start, number_});
+    if (status_ != Status::Running) {
+      world_.events.push_back({Call::Start, number_});
+      progress_ = 0;
+    } else if (is_paused_) {
+      world_.events.push_back({Call::Resume, number_});
+    }
     world_.events.push_back({Call::Tick, number_});
-    const char letter = element_.letters[std::min(ticks_++, element_.letters.size() - 1)];
+    const auto& [letter, progress] = steps_[std::min(ticks_++, steps_.size() - 1)];
+    progress_ = progress.value_or(progress_);
     return letter == 'R'   ? Status::Running
            : letter == 'S' ? Status::Success
            : letter == 'F' ? Status::Failure
@@ -401,6 +443,140 @@ class Node {
                                                                    : Status::Success);
   }
 
+  // --- what lockstep adds ---
+
+  bool is_synchronized() const {
+    return element_.tag == "ParallelAbsolute" || element_.tag == "ParallelRelative";
+  }
+
+  // Without an action in it.
+  bool is_guard() const {
+    constexpr const char* kActions[] = {
+        "Act",           "Script",        "Sleep",          "SetBlackboard",
+        "AlwaysSuccess", "AlwaysFailure", "UnsetBlackboard"};
+    if (std::ranges::find(kActions, element_.tag) != std::end(kActions)) return false;
+    return std::ranges::all_of(children_, [](const auto& child) { return child->is_guard(); });
+  }
+
+  // Of a child of a synchronized node: nobody waits for one that has failed.
+  double reached() const { return status_ == Status::Failure && !is_guard() ? 1 : progress(); }
+
+  bool is_held(double reached, double least) const {
+    constexpr double kEpsilon = 1e-9;
+    if (element_.tag == "ParallelRelative") {
+      return reached > least + std::stod(text("delta")) + kEpsilon;
+    }
+    std::istringstream barriers(text("barriers"));
+    for (std::string it; std::getline(barriers, it, ';');) {
+      const double barrier = std::stod(it);
+      if (barrier <= least + kEpsilon) continue;
+      return text("at_barrier") == "tick" ? reached > barrier + kEpsilon
+                                          : reached >= barrier - kEpsilon;
+    }
+    return false;
+  }
+
+  Status synchronized() {
+    if (status_ != Status::Running) reset_children();
+    std::vector<double> snapshot;
+    double least = 1;
+    for (const auto& child : children_) {
+      snapshot.push_back(child->was_skipped_ ? -1 : child->reached());
+      if (!child->was_skipped_) least = std::min(least, snapshot.back());
+    }
+    int there = 0, succeeded = 0, failed = 0;
+    for (std::size_t i = 0; i < children_.size(); ++i) {
+      Node& child = *children_[i];
+      const bool is_over = child.status_ == Status::Success || child.status_ == Status::Failure;
+      if (child.is_guard()) {
+        if (is_over) child.reset();
+        child.execute();
+      } else if (!is_over && (snapshot[i] < 0 || !is_held(snapshot[i], least))) {
+        child.execute();
+      } else if (!is_over) {
+        child.pause();
+      }
+      there += child.was_skipped_ ? 0 : 1;
+      succeeded += child.status_ == Status::Success ? 1 : 0;
+      failed += child.status_ == Status::Failure ? 1 : 0;
+    }
+    if (there == 0) return pass(Status::Skipped);
+    const int wanted = std::min(number("success_count", there), there);
+    if (succeeded >= wanted) return end(Status::Success);
+    const bool is_lost = failed >= number("failure_count", 1) || there - failed < wanted;
+    return is_lost ? end(Status::Failure) : Status::Running;
+  }
+
+  double progress_of_running() const {
+    const std::string& tag = element_.tag;
+    const auto all = static_cast<double>(children_.size());
+    if (tag == "Act") return progress_;
+    if (tag == "Sleep") return std::min(1.0, (world_.time - *since_) / (number("msec") * 1.0));
+    if (tag == "Sequence" || tag == "AsyncSequence" || tag == "SequenceWithMemory") {
+      return (static_cast<double>(at_) + children_[at_]->progress()) / all;
+    }
+    if (tag == "TryCatch" && at_ + 1 < children_.size()) {
+      return (static_cast<double>(at_) + children_[at_]->progress()) / (all - 1);
+    }
+    if (tag == "IfThenElse") return at_ == 0 ? 0 : children_[at_]->progress();
+    if (tag == "Fallback" || tag == "AsyncFallback" || tag == "Switch2" || tag == "TryCatch") {
+      return children_[at_]->progress();
+    }
+    if (tag.starts_with("Reactive") || tag == "WhileDoElse") return progress_of_reactive();
+    if (tag == "Parallel") return progress_of_parallel();
+    if (tag == "ParallelAll" || is_synchronized()) return least_progress();
+    const Node& child = *children_[0];
+    if (tag == "Repeat" && times_ > 0) return std::min(1.0, (rounds_ + running(child)) / times_);
+    if (tag == "LoopInt") {
+      const bool runs = child.status_ == Status::Running;
+      return (rounds_ - (runs ? 1 : 0) + running(child)) / 3;
+    }
+    // Its child has succeeded, and begins again in the next tick.
+    if (tag == "KeepRunningUntilFailure" && child.last_ == Status::Success) return 1;
+    return tag == "Repeat" ? running(child) : child.progress();
+  }
+
+  static double running(const Node& child) {
+    return child.status_ == Status::Running ? child.progress() : 0;
+  }
+
+  // Of the child that runs; at most one does.
+  double progress_of_reactive() const {
+    for (std::size_t i = 0; i < children_.size(); ++i) {
+      if (children_[i]->status_ != Status::Running) continue;
+      const double child = children_[i]->progress();
+      if (element_.tag == "WhileDoElse") return i == 0 ? 0 : child;
+      if (element_.tag == "ReactiveFallback") return child;
+      return (static_cast<double>(i) + child) / static_cast<double>(children_.size());
+    }
+    return 0;
+  }
+
+  double progress_of_parallel() const {
+    std::vector<double> all;
+    for (const auto& child : children_) {
+      if (!child->was_skipped_) all.push_back(child->progress());
+    }
+    if (all.empty()) return 0;
+    std::ranges::sort(all, std::greater<>());
+    const int wanted =
+        std::clamp(count(number("success_count", -1)), 1, static_cast<int>(children_.size()));
+    return all[std::min(static_cast<std::size_t>(wanted), all.size()) - 1];
+  }
+
+  double least_progress() const {
+    double least = 1;
+    for (const auto& child : children_) {
+      if (child->was_skipped_) continue;
+      if (is_synchronized()) {
+        least = std::min(least, child->reached());
+      } else if (child->status_ != Status::Failure) {
+        least = std::min(least, child->progress());
+      }
+    }
+    return least;
+  }
+
   Status if_then_else() {
     if (status_ != Status::Running) at_ = 0;
     if (at_ == 0) {
@@ -521,7 +697,7 @@ class Node {
 
   Status repeat(Status goes_on, const std::string& port) {
     Node& child = *children_[0];
-    while (rounds_ < number(port)) {
+    while (rounds_ < (times_ = number(port))) {
       Status result{};
       const bool at_once = completes_at_once(child, result);
       if (result == Status::Running) return result;
@@ -532,7 +708,7 @@ class Node {
         return result;
       }
       ++rounds_;
-      if (at_once && rounds_ < number(port)) {
+      if (at_once && rounds_ < (times_ = number(port))) {
         world_.is_asked = true;
         return Status::Running;
       }
@@ -580,9 +756,13 @@ class Node {
   Status status_ = Status::Idle;
   std::uint32_t number_ = 0;
   std::vector<std::pair<std::string, Entry>> literals_;
+  std::vector<std::pair<char, std::optional<double>>> steps_;  // of a leaf
+  double progress_ = 0;                                        // of a leaf
+  Status last_ = Status::Idle;                                 // what its last tick returned
+  bool was_skipped_ = false, is_paused_ = false;
   std::size_t ticks_ = 0, at_ = 0, skipped_ = 0;
   unsigned seen_ = 0;
-  int rounds_ = 0;
+  int rounds_ = 0, times_ = 0;
   std::optional<int> since_;
   bool is_over_ = false, is_open_ = false;
   std::optional<Status> once_;

@@ -26,7 +26,8 @@ struct Element {
   std::map<std::string, std::string> attributes = {};
   std::map<std::string, Script> scripts = {};  // _skipIf, …, code, if
   std::vector<Element> children = {};
-  std::string letters = {};  // of a leaf: what it returns, tick by tick; the last one stays
+  // Of a leaf: what it returns, tick by tick, the last one stays; R.5: and its progress then.
+  std::string letters = {};
 };
 
 // A period with more of them is a fault.

@@ -95,7 +95,7 @@ const NodeKind kRetryUntilSuccessful{
              .parameters = kRetryParameters,
              .can_run = true},
     .tick = tick<Status::Failure>,
-    .progress = progress,
+    .progress = decorator::child_progress,  // of this attempt
     .state_size = sizeof(State),
     .halt = forget,
     .forget = forget,
