@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "convert/node_pairs.h"
+#include "convert/switch_node.h"
 #include "convert/text_edits.h"
 #include "core/identifier.h"
 #include "core/pre_order.h"
@@ -103,6 +104,7 @@ class Converter {
     const std::uint32_t element = next_++;
     open_.push_back({element, token.begin, std::string(token.name)});
     pair_ = nullptr;
+    is_switch_ = false;
     if (element >= document_.elements().size()) {  // a second root
       open_.back().is_left_out = true;
     } else if (open_.size() > 2 && !is_left_out()) {
@@ -175,6 +177,8 @@ class Converter {
       return cannot(place_of(element), fmt::format("a leaf called '{}'", brief(type)),
                     "there it is the name of a built-in node");
     }
+    is_switch_ = to_ours() ? switch_cases_there(type) != 0 : type == "Switch";
+    if (is_switch_) return convert_switch(element, type, token);
     pair_ = find_pair(element, type);
     if (pair_ == nullptr) {
       return cannot(place_of(element), fmt::format("this '{}'", brief(type)), hint_of(type));
@@ -191,6 +195,30 @@ class Converter {
     if (pair_->difference.empty() || report_.counted_only(Severity::Warning)) return;
     report_.at(place_of(element), fmt::format("'{}' is not quite the same", brief(type)),
                std::string(pair_->difference), Severity::Warning);
+  }
+
+  void convert_switch(std::uint32_t element, std::string_view type, const XmlToken& token) {
+    const ConvertedSwitch converted =
+        to_ours() ? switch_to_ours(document_, element, switch_cases_there(type))
+                  : switch_to_theirs(document_, element, count_children(element));
+    if (!converted.problem.empty()) {
+      return cannot(converted.place, converted.problem, converted.hint);
+    }
+    open_.back().tag = "Switch";
+    if (!to_ours()) open_.back().tag += std::to_string(converted.attributes.size() - 1);
+    for (const auto& [name, value] : converted.attributes) add_attribute(token, name, value);
+    if (report_.counted_only(Severity::Warning)) return;
+    report_.at(place_of(element), fmt::format("'{}' is not quite the same", brief(type)),
+               "for BehaviorTree.CPP, an entry without a value chooses the last child; in "
+               "lockstep's language it is an error",
+               Severity::Warning);
+  }
+
+  std::uint32_t count_children(std::uint32_t element) const {
+    const auto elements = document_.elements();
+    std::uint32_t children = 0;
+    for ([[maybe_unused]] const auto child : children_in(elements, element)) ++children;
+    return children;
   }
 
   Place place_of(std::uint32_t element) const { return document_.elements()[element].place; }
@@ -213,6 +241,7 @@ class Converter {
       const FixedAttribute& fixed = to_ours() ? pair.in_theirs : pair.in_ours;
       return fmt::format("one with {}=\"{}\" can", fixed.name, fixed.value);
     }
+    if (type == "Precondition") return "give its child failure_if, success_if or skip_if";
     return {};
   }
 
@@ -251,11 +280,13 @@ class Converter {
 
   void node_attribute(const XmlToken& token, const Attribute& attribute) {
     const std::string_view name = attribute.name;
+    if (is_switch_ && is_switch_attribute(name)) return remove(token);
     if (pair_ != nullptr && is_fixed(name)) return remove(token);
     if (const AttributePair* pair = attribute_pair(name)) {
       return convert_value(token, attribute, *pair);
     }
     if (name == "ID" && is_explicit_tag(open_.back().tag)) return keep(token, attribute);
+    if (name == "ID" && is_switch_) return remove(token);
     if (name == "ID" && pair_ != nullptr && pair_->ours != "SubTree") return remove(token);
     to_ours() ? to_our_attribute(token, attribute) : to_their_attribute(token, attribute);
   }
@@ -279,11 +310,7 @@ class Converter {
   }
 
   void convert_value(const XmlToken& token, const Attribute& attribute, const AttributePair& pair) {
-    const auto elements = document_.elements();
-    std::uint32_t children = 0;
-    for ([[maybe_unused]] const auto child : children_in(elements, open_.back().element)) {
-      ++children;
-    }
+    const std::uint32_t children = count_children(open_.back().element);
     const auto value = to_ours() ? value_here(pair.conversion, attribute.value, children)
                                  : value_there(pair.conversion, attribute.value);
     if (!value) {
@@ -408,6 +435,7 @@ class Converter {
   std::vector<Open> open_;
   std::uint32_t next_ = 0;          // element
   const NodePair* pair_ = nullptr;  // of the innermost element
+  bool is_switch_ = false;          // likewise
 };
 
 }  // namespace

@@ -146,6 +146,31 @@ TEST_CASE("convert says scripts and branches in the other language's words") {
   CHECK(there.out == theirs);
 }
 
+TEST_CASE("convert makes a list of the cases of a Switch, and back") {
+  const TemporaryDirectory directory;
+  const std::string their_nodes =
+      "<Control ID=\"Switch2\" variable=\"{mode}\" name=\"m\" case_1=\"dock\" "
+      "case_2=\"a;b\"><A/><B/>"
+      "<Switch3 variable=\"x\" case_1=\"1\" case_2=\"2\" case_3=\"x\"><A/><A/><A/><A/></Switch3>"
+      "</Control>";
+  const std::string our_nodes =
+      "<Switch on=\"mode\" cases=\"dock;a\\;b\" name=\"m\"><A/><B/>"
+      "<Switch on=\"'x'\" cases=\"1;2;x\"><A/><A/><A/><A/></Switch>"
+      "</Switch>";
+  const Outcome here = lockstep::test::lockstep(
+      {"convert", directory.file("theirs.xml", around("BTCPP_format=\"4\"", their_nodes))});
+  CHECK(here.code == 0);
+  CHECK(here.out == around("lockstep=\"1\"", our_nodes));
+  CHECK(contains(here.err, "theirs.xml:3:1: warning: 'Switch2' is not quite the same"));
+  const Outcome there = lockstep::test::lockstep({"convert", directory.file("ours.xml", here.out)});
+  CHECK(there.code == 0);
+  CHECK(contains(there.out,
+                 "<Switch2 variable=\"{mode}\" case_1=\"dock\" case_2=\"a;b\" name=\"m\">"));
+  const Outcome again =
+      lockstep::test::lockstep({"convert", directory.file("again.xml", there.out)});
+  CHECK(again.out == here.out);
+}
+
 TEST_CASE("what lockstep's language cannot say is an error at its place") {
   const TemporaryDirectory directory;
   const Row rows[] = {
@@ -159,6 +184,13 @@ TEST_CASE("what lockstep's language cannot say is an error at its place") {
       {"<A skip_if=\"x\"/>", "3:4: error: a port called 'skip_if' cannot"},
       {"<Script code=\"{x}\"/>", "3:9: error: a script in an entry cannot"},
       {"<Precondition if=\"x\"><A/></Precondition>", "3:1: error: this 'Precondition' cannot"},
+      {"<Precondition if=\"x\"><A/></Precondition>", "hint: give its child failure_if, success_if"},
+      {"<Switch2 variable=\"{x}\" case_1=\"{y}\" case_2=\"2\"><A/><A/><A/></Switch2>",
+       "3:25: error: a case that is an entry cannot"},
+      {"<Switch2 case_1=\"1\" case_2=\"2\"><A/><A/><A/></Switch2>",
+       "3:1: error: a Switch without 'variable' cannot"},
+      {"<Switch2 variable=\"{a.b}\" case_1=\"1\" case_2=\"2\"><A/><A/><A/></Switch2>",
+       "3:10: error: the key 'a.b' cannot"},
       {"<Wait/>", "3:1: error: a leaf called 'Wait' cannot"},
       {"<A x=\"{a.b}\"/>", "3:4: error: the key 'a.b' cannot"},
       {"<A name=\"a/b\"/>", "3:4: error: the name 'a/b' cannot"},
@@ -181,6 +213,12 @@ TEST_CASE("what BehaviorTree.CPP cannot say is an error at its place") {
       {"<AlwaysRunning/>", "3:1: error: this 'AlwaysRunning' cannot"},
       {"<Sleep/>", "3:1: error: a leaf called 'Sleep' cannot"},
       {"<Timeout seconds=\"1\"><A/></Timeout>", "hint: one with clock=\"wall\" can"},
+      {"<Switch on=\"x + 1\" cases=\"1;2\"><A/><A/><A/></Switch>",
+       "3:9: error: a Switch on the script 'x + 1' cannot"},
+      {"<Switch on=\"x\" cases=\"1\"><A/><A/></Switch>",
+       "3:16: error: a Switch with 1 case cannot"},
+      {"<Switch on=\"x\" cases=\"1;2\"><A/><A/></Switch>",
+       "hint: add <AlwaysFailure/> as its last child"},
       {"<Wait seconds=\"0.0005\"/>", "3:7: error: seconds=\"0.0005\" cannot"},
   };
   for (const Row& row : rows) {
