@@ -31,6 +31,7 @@ class Adviser {
       if (!compares_progress(at(group.node).type->synchronization)) continue;
       for (const std::uint32_t member : group.members) without_progress(member, group.node);
     }
+    assigning_conditions();
     if (!definition_.boards.empty()) return;  // any entry may be made while the tree runs
     unwritten_entries();
     missing_names();
@@ -195,6 +196,23 @@ class Adviser {
                        fmt::format("nothing writes '{}'", brief(name)),
                        unwritten_hint(nullptr, name, Typing::Strict, valued), Severity::Warning);
     });
+  }
+
+  // '=' where '==' was meant: the value of the condition is that of an assignment.
+  void assigning_conditions() const {
+    const std::vector<bool> conditions = definition_.conditions();
+    for (std::size_t i = 0; i < conditions.size(); ++i) {
+      const BoundScript& script = definition_.scripts[i];
+      if (!conditions[i] || script.code == nullptr) continue;
+      const auto& code = script.code->program().code;
+      const std::size_t last = code.size() - 2;  // before the end
+      if (code[last].operation != Operation::Store) continue;
+      if (script.code->uses()[code[last].argument].is_made) continue;
+      if (report_.counted_only(Severity::Warning)) return;
+      report_.in_value(script.place, script.code->offsets()[last],
+                       "'=' assigns, and the condition is what was assigned", "'==' compares",
+                       Severity::Warning);
+    }
   }
 
   // Names in scripts that no port declares and nothing makes: each script that needs one fails.

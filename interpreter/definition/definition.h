@@ -155,6 +155,26 @@ struct Definition {
     return false;
   }
 
+  // Of each script: whether its value is a yes or a no.
+  std::vector<bool> conditions() const {
+    std::vector<bool> are(scripts.size());
+    const auto add = [&](std::uint32_t script) {
+      if (script != Port::kNone) are[script] = true;
+    };
+    for (const NodeHooks& it : hooks) {
+      for (const Hook hook : {Hook::FailureIf, Hook::SuccessIf, Hook::SkipIf, Hook::While}) {
+        add(it[static_cast<std::size_t>(hook)]);
+      }
+    }
+    for (const DefinitionNode& node : nodes) {
+      if (node.type->category != NodeCategory::Condition) continue;
+      for (std::size_t i = 0; i < node.type->parameters.size(); ++i) {
+        add(ports[node.first + i].script);
+      }
+    }
+    return are;
+  }
+
   // The lowest node that has all of these below it. They are in pre-order, and none is below
   // another.
   std::uint32_t common_ancestor(std::span<const std::uint32_t> below) const {

@@ -25,7 +25,7 @@ class Declarer {
     declare_made();
     for (const auto& [entry, text] : starts_) declare_started(definition_.entries[entry], text);
     declare_made();
-    const std::vector<bool> conditions = find_conditions();
+    const std::vector<bool> conditions = definition_.conditions();
     types_.resize(definition_.scripts.size());
     for (std::size_t i = 0; i < definition_.scripts.size(); ++i) {
       if (!find_undeclared(definition_.scripts[i])) check_types(i, conditions[i]);
@@ -127,26 +127,6 @@ class Declarer {
                    : hint_for_undeclared(key, entry(script, i)));
     }
     return found;
-  }
-
-  // Of each script: whether its value is a yes or a no.
-  std::vector<bool> find_conditions() const {
-    std::vector<bool> conditions(definition_.scripts.size());
-    const auto add = [&](std::uint32_t script) {
-      if (script != Port::kNone) conditions[script] = true;
-    };
-    for (const NodeHooks& hooks : definition_.hooks) {
-      for (const Hook hook : {Hook::FailureIf, Hook::SuccessIf, Hook::SkipIf, Hook::While}) {
-        add(hooks[static_cast<std::size_t>(hook)]);
-      }
-    }
-    for (const DefinitionNode& node : definition_.nodes) {
-      if (node.type->category != NodeCategory::Condition) continue;
-      for (std::size_t i = 0; i < node.type->parameters.size(); ++i) {
-        add(definition_.ports[node.first + i].script);
-      }
-    }
-    return conditions;
   }
 
   void check_types(std::size_t number, bool is_condition) {
