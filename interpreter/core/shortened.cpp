@@ -12,9 +12,10 @@ void Shortened::append(std::string_view part) {
   const std::string_view fits = utf8_front(part, text_.size() - 1 - size_);
   std::copy(fits.begin(), fits.end(), text_.begin() + static_cast<std::ptrdiff_t>(size_));
   size_ += fits.size();
+  text_[size_] = '\0';
 }
 
-Shortened::Shortened(std::string_view text) {
+Shortened::Shortened(std::string_view text) : Shortened() {
   const std::string_view front = utf8_front(text, kLongest);
   append(front);
   if (front.size() == text.size()) return;

@@ -12,8 +12,14 @@ class Shortened {
  public:
   static constexpr std::size_t kLongest = 500;  // bytes of the text
 
-  Shortened() = default;
+  Shortened() { text_[0] = '\0'; }
   explicit Shortened(std::string_view text);
+  Shortened(const Shortened& from) : Shortened() { append(from.text()); }
+  Shortened& operator=(const Shortened& from) {
+    size_ = 0;
+    append(from.text());
+    return *this;
+  }
   // A text that another process has already shortened.
   static Shortened as_it_is(std::string_view text);
 
@@ -23,7 +29,7 @@ class Shortened {
  private:
   void append(std::string_view part);
 
-  std::array<char, kLongest + 80> text_{};  // ends with a NUL
+  std::array<char, kLongest + 80> text_;  // ends with a NUL; what is behind it has no meaning
   std::size_t size_ = 0;
 };
 

@@ -38,9 +38,15 @@ void append_segment(const NodeLabel& label, std::string& text) {
   if (label.repeat != 0) text.append("#").append(std::to_string(label.repeat));
 }
 
-void append_path(const Tree& tree, NodeIndex node, std::string& text) {
+// `more`: the bytes that come behind it.
+void append_path(const Tree& tree, NodeIndex node, std::size_t more, std::string& text) {
   const NodeLabel& label = tree.labels[node];
-  if (label.parent != node) append_path(tree, label.parent, text);
+  const std::size_t all = more + label.name.size() + 1;
+  if (label.parent != node) {
+    append_path(tree, label.parent, all, text);
+  } else {
+    text.reserve(text.size() + all);
+  }
   append_segment(label, text.append("/"));
 }
 
@@ -54,7 +60,7 @@ std::string Tree::segment(NodeIndex node) const {
 
 std::string Tree::path(NodeIndex node) const {
   std::string path = id;
-  append_path(*this, node, path);
+  append_path(*this, node, 0, path);
   return path;
 }
 

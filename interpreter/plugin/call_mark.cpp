@@ -2,8 +2,8 @@
 
 #include <array>
 #include <mutex>
-#include <set>
-#include <tuple>
+#include <string_view>
+#include <unordered_set>
 #include <utility>
 
 namespace lockstep {
@@ -14,12 +14,16 @@ static_assert(std::atomic<const CallSite*>::is_always_lock_free &&
               std::atomic<std::uint32_t>::is_always_lock_free &&
               std::atomic<std::uint64_t>::is_always_lock_free);
 
-struct Less {
+struct Hash {
+  std::size_t operator()(const CallSite& site) const {
+    return std::hash<std::string>()(site.leaf) ^ std::hash<std::string>()(site.plugin);
+  }
+};
+
+struct Same {
   bool operator()(const CallSite& a, const CallSite& b) const {
-    if (const int leaves = a.leaf.compare(b.leaf); leaves != 0) return leaves < 0;
-    const std::string_view kind_of_a = a.kind;
-    const std::string_view kind_of_b = b.kind;
-    return std::tie(a.plugin, kind_of_a, a.is_local) < std::tie(b.plugin, kind_of_b, b.is_local);
+    return a.leaf == b.leaf && a.plugin == b.plugin && a.is_local == b.is_local &&
+           std::string_view(a.kind) == b.kind;
   }
 };
 
@@ -38,7 +42,7 @@ const char* name_of(PluginFunction function) {
 const CallSite& CallSite::of(CallSite site) {
   // Never destroyed: threads outlive the end of main.
   static auto& mutex = *new std::mutex;
-  static auto& sites = *new std::set<CallSite, Less>;
+  static auto& sites = *new std::unordered_set<CallSite, Hash, Same>;
   const std::lock_guard lock(mutex);
   return *sites.insert(std::move(site)).first;
 }

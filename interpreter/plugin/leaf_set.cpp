@@ -36,8 +36,9 @@ bool is_local(const NodeType& type) {
 }
 
 const CallSite& site_of(const LeafNode& leaf, std::string_view path) {
-  return CallSite::of({.leaf = fmt::format("'{}' ({} of plugin '{}')", printable(path),
-                                           leaf.type->id, leaf.type->plugin),
+  std::string text = "'" + printable(path);
+  text.append("' (").append(leaf.type->id).append(" of plugin '").append(leaf.type->plugin);
+  return CallSite::of({.leaf = std::move(text.append("')")),
                        .plugin = std::string(leaf.type->plugin),
                        .kind = kind_of(leaf.type->category),
                        .is_local = is_local(*leaf.type)});
@@ -144,6 +145,8 @@ LeafSet::Implementation::Implementation(const Tree& tree, Blackboard& blackboard
       log_(std::move(log)),
       watch_(watch),
       slots_(tree.leaves.size()) {
+  callers_.reserve(tree.leaves.size());
+  sites_.reserve(tree.leaves.size());
   for (const LeafNode& leaf : tree.leaves) {
     if (find_context(leaf.type->origin) == nullptr) {
       const lockstep_plugin* const plugin = leaf.type->origin;
@@ -243,12 +246,13 @@ LeafSet::Implementation::Context* LeafSet::Implementation::find_context(const vo
 
 std::unique_ptr<lockstep_caller> LeafSet::Implementation::make_caller(std::string who,
                                                                       LeafSlot& slot) {
-  return std::make_unique<lockstep_caller>(lockstep_caller{.who = std::move(who),
-                                                           .ports = {},
-                                                           .random = RandomStream(0, 0),
-                                                           .time = &time_,
-                                                           .log = &log_,
-                                                           .slot = &slot});
+  // Made where it stays: it is large.
+  return std::unique_ptr<lockstep_caller>(new lockstep_caller{.who = std::move(who),
+                                                              .ports = {},
+                                                              .random = RandomStream(0, 0),
+                                                              .time = &time_,
+                                                              .log = &log_,
+                                                              .slot = &slot});
 }
 
 bool LeafSet::Implementation::create_context(Context& context) {
