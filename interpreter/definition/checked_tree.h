@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "core/hook.h"
@@ -95,6 +96,7 @@ struct CheckedTrees {
   std::vector<Remapping> remappings;
   std::vector<WrittenAttribute> written;
   std::vector<CheckedScript> scripts;
+  std::unordered_map<std::string_view, std::shared_ptr<const Expression>> compiled;  // by the text
   std::list<std::string> texts;                   // that are not as the documents have them
   std::map<std::string_view, CheckedTree> trees;  // by the ID of the BehaviorTree
   std::vector<std::string_view> ids;              // as they stand in the documents

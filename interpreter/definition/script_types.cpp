@@ -89,6 +89,7 @@ class TypeMachine {
         return push(ValueType::String);
       case Operation::Load:
       case Operation::LoadCopy:
+      case Operation::LoadToCompare:
         return stack_.push_back(entries_[it.argument]);
       case Operation::Add:
         return add(it);

@@ -8,9 +8,11 @@
 namespace lockstep {
 namespace {
 
-// Null after an error, which is reported.
+// Null after an error, which is reported. A text that was there before is not compiled again.
 std::shared_ptr<const Expression> parse_script(const Attribute& attribute, const Reporter& report,
-                                               const CheckedTrees& trees) {
+                                               CheckedTrees& trees) {
+  const auto same = trees.compiled.find(attribute.value);
+  if (same != trees.compiled.end()) return same->second;
   const bool is_ours = trees.language == Language::Lockstep;
   auto code =
       Expression::parse(attribute.value, trees.words,
@@ -28,7 +30,10 @@ std::shared_ptr<const Expression> parse_script(const Attribute& attribute, const
                     is_ours ? Severity::Error : Severity::Warning);
   }
   if (is_ours && !code->remarks().empty()) return nullptr;
-  return std::make_shared<const Expression>(*std::move(code));
+  const bool is_clean = code->remarks().empty();  // else each place has its messages
+  auto script = std::make_shared<const Expression>(*std::move(code));
+  if (is_clean) trees.compiled.emplace(attribute.value, script);
+  return script;
 }
 
 // The moment at which the script in an attribute runs. A parameter of that name comes first.

@@ -9,6 +9,9 @@ namespace lockstep {
 
 BoundScripts::BoundScripts(const Tree& tree, Blackboard& board, NamedEntries& names)
     : tree_(tree), names_(names) {
+  std::size_t entries = 0;
+  for (const Script& script : tree.scripts) entries += script.slots.size();
+  entries_.reserve(entries);
   scripts_.reserve(tree.scripts.size());
   for (const Script& script : tree.scripts) {
     Bound& bound = scripts_.emplace_back(Bound{.code = script.code.get()});
@@ -16,27 +19,26 @@ BoundScripts::BoundScripts(const Tree& tree, Blackboard& board, NamedEntries& na
       bound.source = std::make_unique<FromEntry>(&board.entries[script.slots.front()]);
       continue;
     }
-    for (const std::uint32_t slot : script.slots) bound.entries.push_back(&board.entries[slot]);
+    bound.entries = {entries_.data() + entries_.size(), script.slots.size()};
+    for (const std::uint32_t slot : script.slots) entries_.push_back(&board.entries[slot]);
   }
 }
 
-std::string BoundScripts::evaluate(NodeIndex node, std::uint32_t script) {
+bool BoundScripts::evaluate(NodeIndex node, std::uint32_t script) {
   const Bound& it = scripts_[script];
   if (it.source != nullptr) {
-    std::string wrong = compile(node, script);
-    if (!wrong.empty() || it.code == nullptr) return wrong;
+    if (!compile(node, script)) return false;
+    if (it.code == nullptr) return true;
   }
   return evaluator_.evaluate(*it.code, it.entries, value_);
 }
 
-std::string BoundScripts::test(NodeIndex node, std::uint32_t script, bool& holds) {
+Truth BoundScripts::test_from_entry(NodeIndex node, std::uint32_t script) {
   const Bound& it = scripts_[script];
-  if (it.source != nullptr) {
-    std::string wrong = compile(node, script);
-    if (!wrong.empty()) return wrong;
-    if (it.code == nullptr) return "the script is empty";
-  }
-  return evaluator_.test(*it.code, it.entries, holds);
+  if (!compile(node, script)) return Truth::Error;
+  if (it.code != nullptr) return evaluator_.test(*it.code, it.entries);
+  evaluator_.fail("the script is empty");
+  return Truth::Error;
 }
 
 void BoundScripts::reset() {
@@ -46,29 +48,32 @@ void BoundScripts::reset() {
 }
 
 // What the entry has now.
-std::string BoundScripts::compile(NodeIndex node, std::uint32_t script) {
+bool BoundScripts::compile(NodeIndex node, std::uint32_t script) {
   Bound& it = scripts_[script];
   FromEntry& source = *it.source;
   const Value& value = source.entry->value;
   const auto* const same = std::get_if<std::string>(&value);
-  if (it.code != nullptr && same != nullptr && *same == source.text) return {};
+  if (it.code != nullptr && same != nullptr && *same == source.text) return true;
   it.code = nullptr;
   const std::string& key = tree_.slots[tree_.scripts[script].slots.front()].name;
   auto text = convert_value(value, ValueType::String, nullptr);
-  if (!text) return "the entry '{" + key + "}' has no script";
+  if (!text) return evaluator_.fail("the entry '{" + key + "}' has no script");
   source.text = std::get<std::string>(*std::move(text));
-  if (source.text.empty()) return {};
+  if (source.text.empty()) return true;
   auto code = Expression::parse(source.text, tree_.words);
   if (!code) {
-    return "'" + brief(source.text) + "' in '{" + key + "}', column " +
-           std::to_string(code.error().offset + 1) + ": " + code.error().message;
+    return evaluator_.fail("'" + brief(source.text) + "' in '{" + key + "}', column " +
+                           std::to_string(code.error().offset + 1) + ": " + code.error().message);
   }
   source.code = *std::move(code);
   it.code = &source.code;
-  it.entries.clear();
+  source.entries.clear();
   const std::uint32_t board = tree_.board_of(node);
-  for (const std::string& name : source.code.names()) it.entries.push_back(&names_.at(board, name));
-  return {};
+  for (const std::string& name : source.code.names()) {
+    source.entries.push_back(&names_.at(board, name));
+  }
+  it.entries = source.entries;
+  return true;
 }
 
 }  // namespace lockstep

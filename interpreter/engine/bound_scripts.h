@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,12 +20,18 @@ class BoundScripts {
   // All must outlive this, and the entries of `board` stay where they are.
   BoundScripts(const Tree& tree, Blackboard& board, NamedEntries& names);
 
-  // Runs a script of a node. Returns "" or the error. An empty text does nothing.
-  std::string evaluate(NodeIndex node, std::uint32_t script);
+  // Runs a script of a node. False after an error. An empty text does nothing.
+  bool evaluate(NodeIndex node, std::uint32_t script);
   // What the last one gave.
   const Value& value() const { return value_; }
   // The same, of one that is a condition.
-  std::string test(NodeIndex node, std::uint32_t script, bool& holds);
+  Truth test(NodeIndex node, std::uint32_t script) {
+    const Bound& it = scripts_[script];
+    if (it.source != nullptr) return test_from_entry(node, script);
+    return evaluator_.test(*it.code, it.entries);
+  }
+  // What was wrong in the last one that failed.
+  const std::string& error() const { return evaluator_.error(); }
   // As new, for the next run.
   void reset();
 
@@ -34,17 +41,20 @@ class BoundScripts {
     const Entry* entry;
     std::string text = {};  // that was compiled
     Expression code = {};
+    std::vector<Entry*> entries = {};
   };
   struct Bound {
     const Expression* code;  // null: there is none now
-    std::vector<Entry*> entries = {};
+    std::span<Entry* const> entries = {};
     std::unique_ptr<FromEntry> source = {};
   };
-  std::string compile(NodeIndex node, std::uint32_t script);
+  bool compile(NodeIndex node, std::uint32_t script);
+  Truth test_from_entry(NodeIndex node, std::uint32_t script);
 
   const Tree& tree_;
   NamedEntries& names_;
-  std::vector<Bound> scripts_;  // of each Tree::scripts
+  std::vector<Bound> scripts_;   // of each Tree::scripts
+  std::vector<Entry*> entries_;  // theirs, one after another
   Evaluator evaluator_;
   Value value_;  // of the last script
 };

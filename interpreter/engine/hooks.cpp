@@ -22,44 +22,58 @@ void set_snapshot(Ticker& ticker, NodeIndex node, Status decided) {
 Status Ticker::tick_hooked(NodeIndex node) {
   const HookedNode& hooked = tree_.hooked[tree_.hooks[node]];
   const bool begins = first_tick(node);
-  const auto decided = ask_hooks(node, hooked);
+  auto decided = begins && hooked.begins ? ask_first(node, hooked) : std::nullopt;
+  if (!decided && hooked.script(Hook::While) != HookedNode::kNoScript) {
+    decided = ask_while(node, hooked);
+  }
   if (decided && begins) set_snapshot(*this, node, *decided);
-  return finish(node, hooked, decided ? *decided : hooked.kind->tick(*this, node));
+  const Status status = decided ? *decided : hooked.kind->tick(*this, node);
+  return hooked.ends ? finish(node, hooked, status) : status;
+}
+
+inline Truth Ticker::ask(NodeIndex node, const HookedNode& hooked, Hook hook) {
+  const Truth answer = scripts_.test(node, hooked.script(hook));
+  if (answer == Truth::Error) [[unlikely]] {
+    fail_script(node, attribute_of(hook, tree_.language), scripts_.error());
+  }
+  return answer;
 }
 
 // The result without a tick, if a script gives it.
-std::optional<Status> Ticker::ask_hooks(NodeIndex node, const HookedNode& hooked) {
-  const bool runs = status(node) == Status::Running;
-  const auto ask = [&](Hook hook) {
-    return holds(node, hooked.script(hook), attribute_of(hook, tree_.language));
-  };
-  constexpr std::pair<Hook, Status> kFirst[] = {{Hook::FailureIf, Status::Failure},
-                                                {Hook::SuccessIf, Status::Success},
-                                                {Hook::SkipIf, Status::Skipped}};
+std::optional<Status> Ticker::ask_first(NodeIndex node, const HookedNode& hooked) {
+  static constexpr std::pair<Hook, Status> kFirst[] = {{Hook::FailureIf, Status::Failure},
+                                                       {Hook::SuccessIf, Status::Success},
+                                                       {Hook::SkipIf, Status::Skipped}};
+#pragma GCC unroll 3
   for (const auto& [hook, result] : kFirst) {
-    if (runs || hooked.script(hook) == HookedNode::kNoScript) continue;
-    const auto is_true = ask(hook);
-    if (!is_true) return Status::Failure;
-    if (*is_true) return result;
+    if (hooked.script(hook) == HookedNode::kNoScript) continue;
+    const Truth answer = ask(node, hooked, hook);
+    if (answer != Truth::No) return answer == Truth::Yes ? result : Status::Failure;
   }
-  if (hooked.script(Hook::While) == HookedNode::kNoScript) return std::nullopt;
-  const auto goes_on = ask(Hook::While);
-  if (!goes_on) return Status::Failure;
-  if (*goes_on) return std::nullopt;
+  return std::nullopt;
+}
+
+std::optional<Status> Ticker::ask_while(NodeIndex node, const HookedNode& hooked) {
+  const bool runs = status(node) == Status::Running;
+  const Truth goes_on = ask(node, hooked, Hook::While);
+  if (goes_on == Truth::Yes) return std::nullopt;
+  if (goes_on == Truth::Error) return Status::Failure;
   if (runs) halt(node);
   // If that was a fault, the node counts as running until the end of the run, which is to come.
   if (tree_.labels[node].type->leaf != nullptr) leaf(node).started = false;
   return Status::Skipped;
 }
 
+// The scripts after the last tick.
 Status Ticker::finish(NodeIndex node, const HookedNode& hooked, Status status) {
   if (!is_complete(status) || faulted_) return status;
   if (tree_.labels[node].type->leaf != nullptr) leaf(node).started = false;  // nothing to halt
   const Hook first = status == Status::Success ? Hook::OnSuccess : Hook::OnFailure;
   for (const Hook hook : {first, Hook::Post}) {
     const std::uint32_t script = hooked.script(hook);
-    if (script == HookedNode::kNoScript) continue;
-    if (!run_script(node, script, attribute_of(hook, tree_.language))) return Status::Failure;
+    if (script == HookedNode::kNoScript || scripts_.evaluate(node, script)) continue;
+    fail_script(node, attribute_of(hook, tree_.language), scripts_.error());
+    return Status::Failure;
   }
   return status;
 }
@@ -104,9 +118,8 @@ void Ticker::run_halt_hooks(std::size_t from, NodeIndex next) {
 
 bool Ticker::run_script(NodeIndex node, std::uint32_t script, std::string_view attribute) {
   if (script == HookedNode::kNoScript) return true;
-  std::string wrong = scripts_.evaluate(node, script);
-  if (wrong.empty()) return true;
-  fail_script(node, attribute, wrong);
+  if (scripts_.evaluate(node, script)) return true;
+  fail_script(node, attribute, scripts_.error());
   return false;
 }
 
@@ -119,10 +132,9 @@ const Value* Ticker::result_of(NodeIndex node, std::uint32_t script, std::string
 
 std::optional<bool> Ticker::holds(NodeIndex node, std::uint32_t script,
                                   std::string_view attribute) {
-  bool holds = false;
-  std::string wrong = scripts_.test(node, script, holds);
-  if (wrong.empty()) return holds;
-  fail_script(node, attribute, wrong);
+  const Truth answer = scripts_.test(node, script);
+  if (answer != Truth::Error) return answer == Truth::Yes;
+  fail_script(node, attribute, scripts_.error());
   return std::nullopt;
 }
 

@@ -241,7 +241,9 @@ class Ticker {
 
  private:
   Status tick_with_groups();
-  std::optional<Status> ask_hooks(NodeIndex node, const HookedNode& hooked);
+  Truth ask(NodeIndex node, const HookedNode& hooked, Hook hook);
+  std::optional<Status> ask_first(NodeIndex node, const HookedNode& hooked);
+  std::optional<Status> ask_while(NodeIndex node, const HookedNode& hooked);
   Status finish(NodeIndex node, const HookedNode& hooked, Status status);
   void fail_script(NodeIndex node, std::string_view attribute, std::string_view wrong);
   void note_halt(NodeIndex node);

@@ -92,20 +92,50 @@ bool is_allowed(const Entry& entry, const Value& value) {
   return holds(value, entry.type) && (real == nullptr || std::isfinite(*real));
 }
 
-// The quick way for what is assigned most: a number that the old one's kind has.
-bool take_number(Entry& entry, const Operand& value) {
+}  // namespace
+
+std::optional<double> number_in_script(std::string_view text, const ScriptEnums* enums) {
+  if (text == "true") return 1;
+  if (text == "false") return 0;
+  if (enums != nullptr) {
+    const auto word = enums->find(text);
+    if (word != enums->end()) return word->second;
+  }
+  const auto number = number_from_text(text);
+  return number ? std::optional(number->value) : std::nullopt;
+}
+
+bool assign_number(Entry& entry, const Operand& value) {
   if (auto* const real = std::get_if<double>(&entry.value)) {
     const bool is_real = value.kind == Operand::Kind::Real && std::isfinite(value.real);
     const bool is_whole = value.kind == Operand::Kind::Whole && to_real(value.whole);
-    if (is_real) *real = value.real;
-    if (is_whole) *real = static_cast<double>(value.whole);
-    return is_real || is_whole;
+    if (!is_real && !is_whole) return false;
+    *real = is_real ? value.real : static_cast<double>(value.whole);
+  } else {
+    auto* const whole = std::get_if<std::int64_t>(&entry.value);
+    if (whole == nullptr || !value.is_number()) return false;
+    const auto exact = value.kind == Operand::Kind::Real ? to_whole(value.real) : value.whole;
+    if (!exact) return false;
+    *whole = *exact;
   }
-  auto* const whole = std::get_if<std::int64_t>(&entry.value);
-  if (whole == nullptr || !value.is_number()) return false;
-  const auto exact = value.kind == Operand::Kind::Real ? to_whole(value.real) : value.whole;
-  if (exact) *whole = *exact;
-  return exact.has_value();
+  ++entry.writes;
+  return true;
+}
+
+bool assign(Entry& entry, const Operand& value, const ScriptEnums* enums) {
+  if (assign_number(entry, value)) return true;
+  auto* const text = std::get_if<std::string>(&entry.value);
+  if (text != nullptr && value.kind == Operand::Kind::Text) {
+    *text = *value.text;
+  } else if (value.kind == Operand::Kind::Empty) {
+    return false;
+  } else {
+    auto assigned = Assigned(entry, enums).of(value);
+    if (!assigned || !is_allowed(entry, *assigned)) return false;
+    entry.value = std::move(*assigned);
+  }
+  ++entry.writes;
+  return true;
 }
 
 std::string refusal(const Entry& entry, const Operand& value, std::string_view name) {
@@ -120,39 +150,6 @@ std::string refusal(const Entry& entry, const Operand& value, std::string_view n
   }
   return fmt::format("cannot assign {} to '{}', which has the type {}", value.shown(), brief(name),
                      what);
-}
-
-}  // namespace
-
-std::optional<double> number_in_script(std::string_view text, const ScriptEnums* enums) {
-  if (text == "true") return 1;
-  if (text == "false") return 0;
-  if (enums != nullptr) {
-    const auto word = enums->find(text);
-    if (word != enums->end()) return word->second;
-  }
-  const auto number = number_from_text(text);
-  return number ? std::optional(number->value) : std::nullopt;
-}
-
-std::string assign(Entry& entry, const Operand& value, const ScriptEnums* enums,
-                   std::string_view name) {
-  if (take_number(entry, value)) {
-    ++entry.writes;
-    return {};
-  }
-  auto* const text = std::get_if<std::string>(&entry.value);
-  if (text != nullptr && value.kind == Operand::Kind::Text) {
-    *text = *value.text;
-  } else if (value.kind == Operand::Kind::Empty) {
-    return refusal(entry, value, name);
-  } else {
-    auto assigned = Assigned(entry, enums).of(value);
-    if (!assigned || !is_allowed(entry, *assigned)) return refusal(entry, value, name);
-    entry.value = std::move(*assigned);
-  }
-  ++entry.writes;
-  return {};
 }
 
 }  // namespace lockstep

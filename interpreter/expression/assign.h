@@ -14,9 +14,12 @@ namespace lockstep {
 // begins with.
 std::optional<double> number_in_script(std::string_view text, const ScriptEnums* enums);
 
-// Stores `value` and counts the write. Returns "" or the error; the entry is then as it was. An
-// entry that has a value keeps its kind. `name` is for messages.
-std::string assign(Entry& entry, const Operand& value, const ScriptEnums* enums,
-                   std::string_view name);
+// Stores `value` and counts the write. False: the entry does not take it, and is as it was. An
+// entry that has a value keeps its kind.
+bool assign(Entry& entry, const Operand& value, const ScriptEnums* enums);
+// The same, where a number goes into an entry that has one of the same kind. False: it is not so.
+bool assign_number(Entry& entry, const Operand& value);
+// The error after that. `name`: of the entry.
+std::string refusal(const Entry& entry, const Operand& value, std::string_view name);
 
 }  // namespace lockstep

@@ -15,23 +15,17 @@
 namespace lockstep {
 namespace {
 
-// NaN is neither "less or equal" nor "more or equal", and so both less and more.
-bool are_related(double left, Relation relation, double right) {
-  switch (relation) {
-    case Relation::Equal:
-      return is_equal(left, right);
-    case Relation::NotEqual:
-      return !is_equal(left, right);
-    case Relation::LessEqual:
-      return left < right || is_equal(left, right);
-    case Relation::GreaterEqual:
-      return left > right || is_equal(left, right);
-    case Relation::Less:
-      return !are_related(left, Relation::GreaterEqual, right);
-    case Relation::Greater:
-      break;
-  }
-  return !are_related(left, Relation::LessEqual, right);
+// NaN is neither "less or equal" nor "more or equal", and so both less and more. Without branches:
+// a bit for each relation.
+inline bool are_related(double left, Relation relation, double right) {
+  const unsigned equal = is_equal(left, right) ? 1 : 0;
+  const unsigned not_above = equal | (left < right ? 1 : 0);
+  const unsigned not_below = equal | (left > right ? 1 : 0);
+  const auto bit = [](Relation of, unsigned holds) { return holds << static_cast<unsigned>(of); };
+  const unsigned all = bit(Relation::Equal, equal) | bit(Relation::NotEqual, equal ^ 1) |
+                       bit(Relation::LessEqual, not_above) | bit(Relation::Greater, not_above ^ 1) |
+                       bit(Relation::GreaterEqual, not_below) | bit(Relation::Less, not_below ^ 1);
+  return ((all >> static_cast<unsigned>(relation)) & 1) != 0;
 }
 
 bool are_related(const std::string& left, Relation relation, const std::string& right) {
@@ -64,6 +58,16 @@ bool take(const Operand& operand, double& number) {
   return is_exact;
 }
 
+// Of an entry.
+bool take(const Value& value, double& number) {
+  if (const auto* real = std::get_if<double>(&value)) {
+    number = *real;
+    return true;
+  }
+  const auto* whole = std::get_if<std::int64_t>(&value);
+  return whole != nullptr && take(Operand::of(*whole), number);
+}
+
 bool take(const Operand& operand, std::int64_t& number) {
   if (operand.kind == Operand::Kind::Real) {
     const auto whole = to_whole(operand.real);
@@ -83,41 +87,138 @@ bool take(const Operand& operand, bool& holds) {
   return operand.kind == Operand::Kind::Whole && (operand.whole == 0 || operand.whole == 1);
 }
 
+inline double calculated(double left, Operation operation, double right) {
+  switch (operation) {
+    case Operation::Add:
+    case Operation::AddTo:
+      return left + right;
+    case Operation::Subtract:
+    case Operation::SubtractFrom:
+      return left - right;
+    case Operation::Multiply:
+    case Operation::MultiplyBy:
+      return left * right;
+    default:
+      return left / right;
+  }
+}
+
+inline bool combined(bool left, Operation operation, bool right) {
+  return operation == Operation::And ? left && right : left || right;
+}
+
+// How far a program has run.
+struct Reached {
+  const Instruction* at;
+  Operand* top;  // one past the last operand
+};
+
+// Runs what scripts do most, numbers, without a call. Stops before the first instruction that needs
+// more; Machine does the same with all operands. A function of its own: it needs few registers.
+[[gnu::noinline]] Reached run_quickly(const Instruction* at, Entry* const* entries, Operand* top) {
+  double left = 0;
+  double right = 0;
+  for (;; ++at) {
+    switch (at->operation) {
+      case Operation::Load:
+      case Operation::LoadCopy: {
+        const Value& value = entries[at->argument]->value;
+        if (const auto* real = std::get_if<double>(&value)) {
+          *top++ = Operand::of(*real);
+          continue;
+        }
+        if (const auto* whole = std::get_if<std::int64_t>(&value)) {
+          *top++ = Operand::of(*whole);
+          continue;
+        }
+        break;
+      }
+      case Operation::LoadToCompare:
+        if (!take(entries[at->argument]->value, left)) break;
+        *top++ = Operand::of(are_related(left, at->relation, at->real) ? 1.0 : 0.0);
+        at += 2;
+        continue;
+      case Operation::Real:
+        *top++ = Operand::of(at->real);
+        continue;
+      case Operation::Whole:
+        *top++ = Operand::of(at->whole);
+        continue;
+      case Operation::Add:
+      case Operation::Subtract:
+      case Operation::Multiply:
+      case Operation::Divide:
+        if (!take(top[-2], left) || !take(top[-1], right)) break;
+        --top;
+        top[-1] = Operand::of(calculated(left, at->operation, right));
+        continue;
+      case Operation::Compare:
+        if (!take(top[-2], left) || !take(top[-1], right)) break;
+        --top;
+        top[-1] = Operand::of(are_related(left, at->relation, right) ? 1.0 : 0.0);
+        continue;
+      case Operation::And:
+      case Operation::Or: {
+        bool first = false;
+        bool second = false;
+        if (!take(top[-2], first) || !take(top[-1], second)) break;
+        --top;
+        top[-1] = Operand::of(combined(first, at->operation, second) ? 1.0 : 0.0);
+        continue;
+      }
+      case Operation::Need:
+        if (!entries[at->argument]->is_present) break;
+        continue;
+      case Operation::Store: {
+        Entry& entry = *entries[at->argument];
+        if (!assign_number(entry, top[-1])) break;
+        top[-1] = Operand::of(entry.value);
+        continue;
+      }
+      default:
+        break;
+    }
+    break;
+  }
+  return {at, top};
+}
+
 // One run of one expression.
 class Machine {
  public:
   Machine(const Expression& expression, std::span<Entry* const> entries, Operand* stack,
-          std::string* texts)
+          std::string* texts, std::string& error)
       : expression_(expression),
         program_(expression.program()),
-        entries_(entries),
+        entries_(entries.data()),
         stack_(stack),
-        texts_(texts) {}
+        texts_(texts),
+        error_(error) {}
 
-  // The stack then has the value of the last statement, or error() says why not.
-  bool run() {
-    for (const Instruction* at = program_.code.data(); at->operation != Operation::End;) {
-      it_ = at;
-      next_ = at + 1;
+  // From there on. The stack then has the value of the last statement, or the error says why not.
+  bool run(Reached from) {
+    while (from.at->operation != Operation::End) {
+      it_ = from.at;
+      next_ = it_ + 1;
+      top_ = static_cast<std::size_t>(from.top - stack_);
       if (!step()) return false;
-      at = next_;
+      from = run_quickly(next_, entries_, stack_ + top_);
     }
     return true;
   }
-  std::string& error() { return error_; }
 
  private:
   bool step() {
     switch (it_->operation) {
       case Operation::Real:
-        return push(Operand::of(program_.reals[it_->argument]));
+      case Operation::Truth:
+        return push(Operand::of(it_->real));
       case Operation::Whole:
-        return push(Operand::of(program_.wholes[it_->argument]));
+        return push(Operand::of(it_->whole));
       case Operation::Text:
         return push(Operand::of(&program_.texts[it_->argument]));
-      case Operation::Truth:
-        return push(Operand::of(static_cast<double>(it_->argument)));
       case Operation::Load:
+      case Operation::LoadToCompare:
         return load();
       case Operation::LoadCopy:
         return load() && copy_text();
@@ -225,22 +326,6 @@ class Machine {
     return true;
   }
 
-  static double calculated(double left, Operation operation, double right) {
-    switch (operation) {
-      case Operation::Add:
-      case Operation::AddTo:
-        return left + right;
-      case Operation::Subtract:
-      case Operation::SubtractFrom:
-        return left - right;
-      case Operation::Multiply:
-      case Operation::MultiplyBy:
-        return left * right;
-      default:
-        return left / right;
-    }
-  }
-
   bool calculate() {
     double left = 0;
     double right = 0;
@@ -301,8 +386,7 @@ class Machine {
     bool left = false;
     bool right = false;
     if (!take(before_last(), left) || !take(last(), right)) return wrong_operands();
-    const bool holds = it_->operation == Operation::And ? left && right : left || right;
-    return replace_two(Operand::of(holds ? 1.0 : 0.0));
+    return replace_two(Operand::of(combined(left, it_->operation, right) ? 1.0 : 0.0));
   }
 
   bool take_comparable(const Operand& operand, double& number) const {
@@ -374,8 +458,9 @@ class Machine {
 
   // The value of an assignment is what the entry then has.
   bool store(const Operand& value) {
-    error_ = assign(entry(), value, expression_.enums(), name());
-    if (!error_.empty()) return false;
+    if (!assign(entry(), value, expression_.enums())) {
+      return fail(refusal(entry(), value, name()));
+    }
     last() = Operand::of(entry().value);
     return copy_text();
   }
@@ -398,46 +483,56 @@ class Machine {
 
   const Expression& expression_;
   const ScriptProgram& program_;
-  const std::span<Entry* const> entries_;
+  Entry* const* const entries_;
   Operand* const stack_;
   std::string* const texts_;
   std::size_t top_ = 0;
   const Instruction* it_ = nullptr;
   const Instruction* next_ = nullptr;
-  std::string error_;
+  std::string& error_;
 };
+
+// Out of line, so that what happens each time is short.
+[[gnu::noinline]] bool run_slowly(Machine&& machine, const Reached& from) {
+  return machine.run(from);
+}
+
+[[gnu::noinline]] std::string no_condition(const Operand& operand) {
+  return fmt::format("a condition is 0, 1 or a number that is not negative and not whole, not {}",
+                     operand.shown());
+}
 
 }  // namespace
 
-std::string Evaluator::evaluate(const Expression& expression, std::span<Entry* const> entries,
-                                Value& result) {
-  Operand last;
-  std::string error = run(expression, entries, last);
-  if (error.empty()) last.store(result);
-  return error;
-}
-
-std::string Evaluator::test(const Expression& expression, std::span<Entry* const> entries,
-                            bool& holds) {
-  Operand last;
-  std::string error = run(expression, entries, last);
-  if (!error.empty()) return error;
-  if (take(last, holds)) return {};
-  return fmt::format("a condition is 0, 1 or a number that is not negative and not whole, not {}",
-                     last.shown());
-}
-
-std::string Evaluator::run(const Expression& expression, std::span<Entry* const> entries,
-                           Operand& last) {
+inline const Operand* Evaluator::run(const Expression& expression,
+                                     std::span<Entry* const> entries) {
   const std::size_t size = expression.program().stack + std::size_t{1};
-  if (stack_.size() < size) {
+  if (stack_.size() < size) [[unlikely]] {
     stack_.resize(size);
     texts_.resize(size);
   }
-  Machine machine(expression, entries, stack_.data(), texts_.data());
-  if (!machine.run()) return std::move(machine.error());
-  last = stack_[0];
-  return {};
+  Operand* const stack = stack_.data();
+  const Reached reached = run_quickly(expression.program().code.data(), entries.data(), stack);
+  if (reached.at->operation == Operation::End) [[likely]]
+    return stack;
+  const bool ran = run_slowly(Machine(expression, entries, stack, texts_.data(), error_), reached);
+  return ran ? stack : nullptr;
+}
+
+bool Evaluator::evaluate(const Expression& expression, std::span<Entry* const> entries,
+                         Value& result) {
+  const Operand* const last = run(expression, entries);
+  if (last != nullptr) last->store(result);
+  return last != nullptr;
+}
+
+Truth Evaluator::test(const Expression& expression, std::span<Entry* const> entries) {
+  const Operand* const last = run(expression, entries);
+  if (last == nullptr) return Truth::Error;
+  bool holds = false;
+  if (take(*last, holds)) return holds ? Truth::Yes : Truth::No;
+  error_ = no_condition(*last);
+  return Truth::Error;
 }
 
 }  // namespace lockstep

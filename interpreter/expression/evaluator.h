@@ -2,8 +2,10 @@
 // longer than all before only.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/entry.h"
@@ -12,21 +14,32 @@
 
 namespace lockstep {
 
+// Of a condition.
+enum class Truth : std::uint8_t { No, Yes, Error };
+
 class Evaluator {
  public:
   static constexpr std::size_t kLongestText = std::size_t{1}
                                               << 20;  // that a script makes, in bytes
 
-  // `entries`: of each of the expression's names(). Returns "" or the error; what was assigned
-  // before it stays. `result`: the value of the last statement, which may be none.
-  std::string evaluate(const Expression& expression, std::span<Entry* const> entries,
-                       Value& result);
+  // `entries`: of each of the expression's names(). False after an error; what was assigned before
+  // it stays. `result`: the value of the last statement, which may be none.
+  bool evaluate(const Expression& expression, std::span<Entry* const> entries, Value& result);
   // The same, of an expression that is a condition.
-  std::string test(const Expression& expression, std::span<Entry* const> entries, bool& holds);
+  Truth test(const Expression& expression, std::span<Entry* const> entries);
+  // What was wrong in the last one that failed.
+  const std::string& error() const { return error_; }
+  // For an error before that: keeps it and gives false.
+  bool fail(std::string message) {
+    error_ = std::move(message);
+    return false;
+  }
 
  private:
-  std::string run(const Expression& expression, std::span<Entry* const> entries, Operand& last);
+  // The value of the last statement; null after an error.
+  const Operand* run(const Expression& expression, std::span<Entry* const> entries);
 
+  std::string error_;
   std::vector<Operand> stack_;
   std::vector<std::string> texts_;  // those that were made for the operand at that place
 };

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/conversion.h"
 #include "core/wording.h"
 #include "expression/token.h"
 
@@ -266,12 +267,26 @@ class ExpressionParser {
       const bool is_last = next.strength != kCompareStrength;
       const std::size_t at = emit_at(sign, is_last ? Operation::Compare : Operation::CompareNext);
       code()[at].relation = it.relation;
+      if (is_last) compare_early(at);
       --depth_;
       if (!is_last) ends.push_back(at);
       it = next;
     }
     for (const std::size_t end : ends) go_here(end);
     return true;
+  }
+
+  // The instruction that loads an entry, where what follows compares it with a number.
+  void compare_early(std::size_t compare) {
+    if (compare < 2) return;
+    const Instruction& number = code()[compare - 1];
+    Instruction& load = code()[compare - 2];
+    const bool is_real = number.operation == Operation::Real;
+    const bool is_exact = number.operation == Operation::Whole && number.whole <= kLargestExact;
+    if (load.operation != Operation::Load || (!is_real && !is_exact)) return;
+    load.operation = Operation::LoadToCompare;
+    load.relation = code()[compare].relation;
+    load.real = is_real ? number.real : static_cast<double>(number.whole);
   }
 
   bool unary(Operand& operand) {
@@ -292,11 +307,11 @@ class ExpressionParser {
     const Token token = token_;
     switch (token.symbol) {
       case Symbol::Whole:
-        return advance() && push(Operation::Whole, program().wholes, token.whole);
+        return advance() && push(Instruction::of(token.whole));
       case Symbol::Real:
-        return advance() && push(Operation::Real, program().reals, token.real);
+        return advance() && push(Instruction::of(Operation::Real, token.real));
       case Symbol::Text:
-        return advance() && push(Operation::Text, program().texts, std::string(token.text));
+        return advance() && push_text(token.text);
       case Symbol::Name:
         return advance() && name(token, operand);
       case Symbol::Open:
@@ -331,22 +346,18 @@ class ExpressionParser {
     operand.name = token.text;
     if (token.text == "true" || token.text == "false") {
       operand.name = {};
-      emit(Operation::Truth, token.text == "true" ? 1 : 0);
-      grow();
-      return true;
+      return push(Instruction::of(Operation::Truth, token.text == "true" ? 1.0 : 0.0));
     }
     const ScriptEnums* const enums = result_.enums();
     if (enums != nullptr) {
       const auto word = enums->find(token.text);
-      if (word != enums->end()) return push(Operation::Real, program().reals, word->second);
+      if (word != enums->end()) return push(Instruction::of(Operation::Real, word->second));
     }
     // Of a left side this will be taken back.
     const Symbol next = token_.symbol;
     const std::uint32_t entry = use(token.text);
     if (!assignment(next)) result_.uses_[entry].is_read = true;
-    emit(Operation::Load, entry);
-    grow();
-    return true;
+    return push(Instruction::of(Operation::Load, entry));
   }
 
   std::uint32_t use(std::string_view name) {
@@ -359,10 +370,13 @@ class ExpressionParser {
     return number;
   }
 
-  template <class T>
-  bool push(Operation operation, std::vector<T>& constants, T value) {
-    emit(operation, static_cast<std::uint32_t>(constants.size()));
-    constants.push_back(std::move(value));
+  bool push_text(std::string_view text) {
+    const auto number = static_cast<std::uint32_t>(program().texts.size());
+    program().texts.emplace_back(text);
+    return push(Instruction::of(Operation::Text, number));
+  }
+  bool push(const Instruction& operand) {
+    add(token_.offset, operand);
     grow();
     return true;
   }
@@ -373,7 +387,10 @@ class ExpressionParser {
     return emit_at(token_.offset, operation, argument);
   }
   std::size_t emit_at(std::size_t offset, Operation operation, std::uint32_t argument = 0) {
-    code().push_back({.operation = operation, .argument = argument});
+    return add(offset, Instruction::of(operation, argument));
+  }
+  std::size_t add(std::size_t offset, const Instruction& instruction) {
+    code().push_back(instruction);
     result_.offsets_.push_back(static_cast<std::uint32_t>(offset));
     return code().size() - 1;
   }

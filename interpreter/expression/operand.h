@@ -55,9 +55,12 @@ struct Operand {
   Value value() const;
   // The same into `out`.
   void store(Value& out) const {
-    auto* const held = std::get_if<double>(&out);
-    if (held != nullptr && kind == Kind::Real) {
-      *held = real;
+    auto* const held_real = std::get_if<double>(&out);
+    auto* const held_whole = std::get_if<std::int64_t>(&out);
+    if (held_real != nullptr && kind == Kind::Real) {
+      *held_real = real;
+    } else if (held_whole != nullptr && kind == Kind::Whole) {
+      *held_whole = whole;
     } else {
       out = value();
     }

@@ -11,10 +11,11 @@ enum class Operation : std::uint8_t {
   // Push a constant, or the value of an entry.
   Real,
   Whole,
+  Truth,  // the real number of true or false
   Text,
-  Truth,  // true or false: the real number `argument`
   Load,
-  LoadCopy,  // a text is copied: the entry may be assigned before it is used
+  LoadCopy,       // a text is copied: the entry may be assigned before it is used
+  LoadToCompare,  // a number and Compare follow: it has that number and the relation, too
   // Replace two operands by their result.
   Add,
   Subtract,
@@ -52,15 +53,27 @@ enum class Relation : std::uint8_t { Equal, NotEqual, Less, LessEqual, Greater, 
 struct Instruction {
   Operation operation;
   Relation relation = {};
-  std::uint32_t argument = 0;  // a constant, a name, or the instruction to go to
+  std::uint32_t argument = 0;  // a text, a name, or the instruction to go to
+  union {
+    std::int64_t whole = 0;
+    double real;
+  };
+
+  static Instruction of(Operation operation, std::uint32_t argument = 0) {
+    return {operation, {}, argument, {}};
+  }
+  static Instruction of(Operation operation, double real) {
+    Instruction it = of(operation);
+    it.real = real;
+    return it;
+  }
+  static Instruction of(std::int64_t whole) { return {Operation::Whole, {}, 0, {whole}}; }
 };
 
 struct ScriptProgram {
   std::vector<Instruction> code;
-  std::vector<double> reals;
-  std::vector<std::int64_t> wholes;
-  std::vector<std::string> texts;
   std::uint32_t stack = 0;  // how many operands there are at most
+  std::vector<std::string> texts;
 };
 
 }  // namespace lockstep

@@ -29,7 +29,7 @@ ScriptRun ScriptBoard::run(std::string_view script) {
   std::vector<Entry*> entries;
   for (const std::string& name : expression->names()) entries.push_back(&at(name));
   ScriptRun run;
-  run.error = evaluator_.evaluate(*expression, entries, run.value);
+  if (!evaluator_.evaluate(*expression, entries, run.value)) run.error = evaluator_.error();
   return run;
 }
 

@@ -530,9 +530,9 @@ std::string disagreement(const std::string& script) {
   }
   Evaluator evaluator;
   Value value;
-  const std::string error = evaluator.evaluate(*compiled, bound, value);
-  if (error.empty() == reference.failed) return "one of them failed: " + error;
-  if (error.empty() && !is_same(value, reference.value)) {
+  const bool ran = evaluator.evaluate(*compiled, bound, value);
+  if (ran == reference.failed) return "one of them failed: " + evaluator.error();
+  if (ran && !is_same(value, reference.value)) {
     return "'" + to_text(value) + "', not '" + to_text(reference.value) + "'";
   }
   for (const auto& [name, entry] : entries) {

@@ -256,8 +256,8 @@ TEST_CASE("a condition of a node is a number that means yes or no") {
     std::vector<Entry*> entries;
     for (const std::string& name : script->names()) entries.push_back(&board.at(name));
     Evaluator evaluator;
-    bool holds = false;
-    const std::string error = evaluator.test(*script, entries, holds);
-    CHECK((!error.empty() ? error : holds ? "yes" : "no") == row.result);
+    const Truth answer = evaluator.test(*script, entries);
+    const std::string shown = answer == Truth::Yes ? "yes" : "no";
+    CHECK((answer == Truth::Error ? evaluator.error() : shown) == row.result);
   }
 }
