@@ -123,6 +123,17 @@ void ports_read(benchmark::State& state) {
 }
 BENCHMARK(ports_read)->Arg(0)->Arg(1)->Arg(4);
 
+void script(benchmark::State& state, const char* attribute) {
+  const auto leaf = fmt::format("<BenchSuccess {}/>", attribute);
+  tick_all(state, BenchTree(fmt::format("<Sequence><Script code='n := 1; m := 1'/>{}</Sequence>",
+                                        BenchTree::repeated(leaf, kLeaves))));
+}
+BENCHMARK_CAPTURE(script, none, "");
+BENCHMARK_CAPTURE(script, skip_if, "skip_if='n &gt; 5'");
+BENCHMARK_CAPTURE(script, skips, "skip_if='n &gt; 0'");
+BENCHMARK_CAPTURE(script, holds, "while='n &lt; 5 &amp;&amp; m == 1'");
+BENCHMARK_CAPTURE(script, on_success, "on_success='n = n + 1'");
+
 // --- the shape of the tree -----------------------------------------------------------------------
 
 std::string binary(int depth) {
