@@ -86,6 +86,7 @@ std::function<int()> define_check(CLI::App& app) {
       ->check(one_of({"text", "json", "github", "sarif"}))
       ->capture_default_str();
   add_load_options(app, options->load);
+  add_program_option(app, options->load.plugins);
   return [options] { return check(*options); };
 }
 

@@ -21,7 +21,7 @@ struct Command {
 };
 
 extern const Command kRunCommand, kCheckCommand, kShowCommand, kNodesCommand, kSchemaCommand,
-    kConvertCommand, kLogCommand, kReplayCommand, kStudyCommand;
+    kConvertCommand, kPluginCommand, kLogCommand, kReplayCommand, kStudyCommand;
 
 // All commands, in the order of --help.
 std::span<const Command* const> commands();

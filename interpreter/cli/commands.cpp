@@ -21,9 +21,9 @@
 namespace lockstep {
 
 std::span<const Command* const> commands() {
-  static constexpr const Command* kAll[] = {&kRunCommand,   &kCheckCommand,  &kShowCommand,
-                                            &kNodesCommand, &kSchemaCommand, &kConvertCommand,
-                                            &kLogCommand,   &kReplayCommand, &kStudyCommand};
+  static constexpr const Command* kAll[] = {
+      &kRunCommand,     &kCheckCommand,  &kShowCommand, &kNodesCommand,  &kSchemaCommand,
+      &kConvertCommand, &kPluginCommand, &kLogCommand,  &kReplayCommand, &kStudyCommand};
   return kAll;
 }
 

@@ -65,6 +65,7 @@ std::function<int()> define_nodes(CLI::App& app) {
       ->check(one_of({"text", "json", "markdown", "btcpp"}))
       ->capture_default_str();
   add_plugin_options(app, options->plugins);
+  add_program_option(app, options->plugins);
   return [options] { return nodes(*options); };
 }
 

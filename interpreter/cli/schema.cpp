@@ -29,6 +29,7 @@ std::function<int()> define_schema(CLI::App& app) {
   app.add_flag("--strict", options->strict,
                "Reject unknown nodes; name every plugin of the trees with --plugin");
   add_plugin_options(app, options->plugins);
+  add_program_option(app, options->plugins);
   return [options] { return schema(*options); };
 }
 

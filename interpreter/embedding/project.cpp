@@ -89,6 +89,7 @@ lockstep_project* lockstep_project_new(void) {
   return guarded([] {
     auto project = std::make_unique<lockstep_project>();
     project->options.plugins.program_directory = program_directory();
+    project->options.plugins.run_programs = true;
     project->options.main_file = MainFile::IsRegular;
     return project.release();
   });

@@ -34,14 +34,18 @@ bool is_plugin_file(const std::string& plugin) {
   return plugin.find('/') != std::string::npos || plugin.ends_with(".so");
 }
 
+IsolationOptions isolation_options(const PluginOptions& options) {
+  const bool is_limited = options.halt_limit > 0;
+  return {.leafhost = leafhost_path(options),
+          .hang_limit = from_seconds(options.hang_limit),
+          .halt_limit = is_limited ? std::optional(from_seconds(options.halt_limit)) : std::nullopt,
+          .all = options.isolate,
+          .run_programs = options.run_programs};
+}
+
 bool load_given_plugins(const PluginOptions& options, PluginSet& plugins,
                         Diagnostics& diagnostics) {
-  plugins.set_isolation({.leafhost = leafhost_path(options),
-                         .hang_limit = from_seconds(options.hang_limit),
-                         .halt_limit = options.halt_limit > 0
-                                           ? std::optional(from_seconds(options.halt_limit))
-                                           : std::nullopt,
-                         .all = options.isolate});
+  plugins.set_isolation(isolation_options(options));
   if (!check_plugin_options(options, diagnostics)) return false;
   bool good = true;
   const auto directories = plugin_directories(options);

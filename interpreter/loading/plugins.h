@@ -17,9 +17,13 @@ struct PluginOptions {
   bool isolate = false;                  // --isolate
   double hang_limit = 10;                // --hang-limit, in seconds; 0 = never
   double halt_limit = 1;                 // --halt-limit, in seconds; 0 = never
+  // --run-programs: else a program is not started, and its leaves are read from a file beside it.
+  bool run_programs = false;
   // From where what is installed with lockstep is found; "": that of the running program.
   std::string program_directory;
 };
+
+IsolationOptions isolation_options(const PluginOptions& options);
 
 // Whether a plugin is given as a file, and not as a name to search for.
 bool is_plugin_file(const std::string& plugin);

@@ -14,6 +14,7 @@
 #include "plugin/isolated/isolated_plugin.h"
 #include "plugin/isolated/refusal.h"
 #include "plugin/plugin_path.h"
+#include "plugin/program/leaves_file.h"
 #include "plugin/program/program_plugin.h"
 #include "plugin/shared_object.h"
 #include "plugin/trust.h"
@@ -191,6 +192,14 @@ bool PluginSet::open_program(const Request& request, Hold hold, Diagnostics& dia
       ProgramPlugin::open(request.origin, std::string(request.expected_name), hold, isolation_);
   if (!opened) {
     return refuse(request.origin, std::move(opened.error()), diagnostics, request.where);
+  }
+  if ((*opened)->is_file_stale()) {
+    diagnostics.add({.severity = Severity::Warning,
+                     .location = request.where,
+                     .message = fmt::format("plugin '{}' has other leaves than '{}' says",
+                                            request.expected_name, leaves_file_of(request.origin)),
+                     .hint = "let 'lockstep plugin check --save' write it again",
+                     .excerpt = {}});
   }
   auto plugin = std::make_unique<Plugin>(Plugin{&(*opened)->entry(), request.origin});
   plugin->program = std::move(*opened);

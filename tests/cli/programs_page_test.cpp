@@ -62,8 +62,8 @@ TEST_CASE("a leaf that is a program gives the recording of the same leaf in C++"
 }
 
 TEST_CASE("nodes has the leaves and ports of a program") {
-  const Outcome outcome =
-      lockstep::test::lockstep({"nodes", "Advance", "--plugin", kProgramsFolder + "/advance.py"});
+  const Outcome outcome = lockstep::test::lockstep(
+      {"nodes", "Advance", "--run-programs", "--plugin", kProgramsFolder + "/advance.py"});
   INFO(outcome.err);
   CHECK(outcome.code == 0);
   CHECK(contains(outcome.out, "step"));

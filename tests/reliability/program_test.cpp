@@ -3,10 +3,14 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <fstream>
+#include <functional>
+#include <sstream>
 #include <thread>
+#include <utility>
 
 #include "cli/program.h"
 
@@ -27,6 +31,27 @@ std::string misbehaving(const std::string& how, const std::string& hold = "") {
          how + R"("/></Parallel></BehaviorTree></root>)";
 }
 
+// Asks again and again, for five seconds.
+bool becomes_true(const std::function<bool()>& is_true) {
+  for (int tries = 0; tries < 1000; ++tries) {
+    if (is_true()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return false;
+}
+
+// 'R', 'S', 'T', 'Z', and the parent.
+std::pair<char, pid_t> state_of(pid_t pid) {
+  const std::string text = read_file("/proc/" + std::to_string(pid) + "/stat");
+  const auto name_end = text.rfind(')');
+  if (name_end == text.npos) return {};
+  std::istringstream rest(text.substr(name_end + 1));
+  char state = 0;
+  pid_t parent = 0;
+  rest >> state >> parent;
+  return {state, parent};
+}
+
 struct ProgramRun {
   TemporaryDirectory directory;
   std::string pids = directory.path("pids");
@@ -40,16 +65,20 @@ struct ProgramRun {
     call.environment = {{"PIDS", pids}};
   }
 
-  // Of those that have noted themselves; a killed process needs a moment to be gone.
+  // Those that have noted themselves.
+  std::vector<pid_t> processes() const {
+    std::ifstream file(pids);
+    std::vector<pid_t> found;
+    for (pid_t pid = 0; file >> pid;) found.push_back(pid);
+    return found;
+  }
+
+  // Not even a zombie is left. A killed process needs a moment for that.
   bool are_all_gone() const {
-    for (int tries = 0; tries < 1000; ++tries) {
-      std::ifstream file(pids);
-      bool any = false;
-      for (pid_t pid = 0; file >> pid;) any |= kill(pid, 0) == 0;
-      if (!any) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    return false;
+    const auto all = processes();
+    return !all.empty() && becomes_true([&] {
+      return std::ranges::none_of(all, [](pid_t pid) { return kill(pid, 0) == 0; });
+    });
   }
 };
 
@@ -104,5 +133,111 @@ TEST_CASE("a program that breaks its protocol is a fault of its leaf, and all ot
 }
 
 TEST_CASE("the same on the wall clock, where no tick waits for the answer") {
-  for (const ProgramMisdeed& row : kProgramMisdeeds) check_misdeed(row, "wall");
+  for (const ProgramMisdeed& row : kProgramMisdeeds) {
+    const auto is = [&](const char* how) { return std::string_view(row.how) == how; };
+    if (is("garbage") || is("half") || is("endless") || is("twice") || is("closed") || is("die") ||
+        is("silent") || is("error")) {
+      check_misdeed(row, "wall");
+    }
+  }
+}
+
+TEST_CASE("a program that sleeps in a tick costs no other leaf its tick, and is named") {
+  const ProgramRun it(
+      R"(<root lockstep="1"><plugin name="hostile" program="hostile.py"/><plugin name="motion"/>)"
+      R"(<BehaviorTree ID="Main"><Parallel><Misbehave name="bad" how="slow"/>)"
+      R"(<Advance name="arm" step="0.01"/></Parallel></BehaviorTree></root>)",
+      {"--rate", "1000"});
+  Call call = it.call;
+  std::ranges::replace(call.arguments, std::string("40"), std::string("800"));
+  const Outcome outcome = run(call);
+  INFO(outcome.err);
+  CHECK(outcome.code == 124);
+  CHECK(contains(outcome.err, "Main/Parallel/arm: success"));
+  CHECK(contains(outcome.err, "Main/Parallel/bad: warning: its program is late"));
+  CHECK(it.are_all_gone());
+}
+
+TEST_CASE(
+    "with hold=\"signal\" the process of a leaf that is held is stopped, until it is halted") {
+  const ProgramRun it(
+      R"(<root lockstep="1"><plugin name="steady" program="steady.py" hold="signal"/>)"
+      R"(<plugin name="motion"/><BehaviorTree ID="Main"><ParallelAbsolute barriers="0.005">)"
+      R"(<Steady name="steady"/><Advance name="arm" step="1e-9"/></ParallelAbsolute>)"
+      R"(</BehaviorTree></root>)",
+      {"--timeout", "100"});
+  Call call = it.call;
+  std::ranges::replace(call.arguments, std::string("40"), std::string("100000"));
+  for (const int end : {SIGINT, SIGKILL}) {
+    Process process(call);
+    REQUIRE(process.wait_for("steady: waits for arm at barrier"));
+    const pid_t program = it.processes().back();
+    CHECK(becomes_true([&] { return state_of(program).first == 'T'; }));
+    process.signal(end);
+    const Outcome outcome = process.finish();
+    INFO(outcome.err);
+    CHECK(outcome.code == 128 + end);
+    CHECK(contains(outcome.err, "steady: info: halted") == (end == SIGINT));
+    CHECK(it.are_all_gone());
+  }
+}
+
+TEST_CASE("nothing that a program has started outlives lockstep, not even a kill -9 of it") {
+  const ProgramRun it(misbehaving("children"), {"--timeout", "100"});
+  Call call = it.call;
+  std::ranges::replace(call.arguments, std::string("40"), std::string("100000"));
+  Process process(call);
+  REQUIRE(process.wait_for("children are there"));
+  REQUIRE(it.processes().size() == 4);
+  process.signal(SIGKILL);
+  process.finish();
+  CHECK(it.are_all_gone());
+}
+
+TEST_CASE("a program whose guardian is killed dies with it, which is a fault") {
+  const ProgramRun it(misbehaving("children"), {"--timeout", "100"});
+  Call call = it.call;
+  std::ranges::replace(call.arguments, std::string("40"), std::string("100000"));
+  Process process(call);
+  REQUIRE(process.wait_for("children are there"));
+  const auto all = it.processes();
+  kill(state_of(all.front()).second, SIGKILL);
+  CHECK(process.wait_for("its guardian has died"));
+  kill(all.back(), SIGKILL);  // what has left the group: nobody is left to find it
+  CHECK(process.finish().code == 5);
+  CHECK(it.are_all_gone());
+}
+
+TEST_CASE("a program that has died is reaped while the run goes on") {
+  const ProgramRun it(
+      R"(<root lockstep="1"><plugin name="hostile" program="hostile.py"/><plugin name="motion"/>)"
+      R"(<BehaviorTree ID="Main"><Parallel><Advance name="arm" step="1e-9"/>)"
+      R"(<Fallback><Misbehave name="bad" how="die"/><AlwaysSuccess/></Fallback></Parallel></BehaviorTree></root>)",
+      {"--timeout", "100", "--on-fault", "fail"});
+  Call call = it.call;
+  std::ranges::replace(call.arguments, std::string("40"), std::string("100000"));
+  Process process(call);
+  REQUIRE(process.wait_for("was killed by SIGSEGV"));
+  CHECK(it.are_all_gone());
+  CHECK(process.end_by(SIGINT).code == 130);
+}
+
+TEST_CASE(
+    "a program that does not answer halt gets TERM, then KILL; so does one that does not end") {
+  for (const char* clock : {"virtual", "wall"}) {
+    for (const char* how : {"deaf", "steady"}) {
+      ProgramRun it(misbehaving(how), {"--clock", clock, "--halt-limit", "0.1"});
+      it.call.environment["STUBBORN"] = "1";
+      const Outcome outcome = run(it.call);
+      INFO(clock << " " << how << "\n" << outcome.err);
+      const bool is_deaf = std::string_view(how) == "deaf";
+      CHECK(outcome.code == (is_deaf ? 5 : 124));
+      CHECK(contains(outcome.err,
+                     is_deaf ? "its program did not answer halt of 'Main/Parallel/bad' for "
+                               "0.1 s; it was ended"
+                             : "its program did not end for 0.1 s after its input was "
+                               "closed; it was ended"));
+      CHECK(it.are_all_gone());
+    }
+  }
 }

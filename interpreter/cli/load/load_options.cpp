@@ -85,6 +85,12 @@ void add_plugin_options(CLI::App& app, PluginOptions& options) {
       ->capture_default_str();
 }
 
+void add_program_option(CLI::App& app, PluginOptions& options) {
+  app.add_flag("--run-programs", options.run_programs,
+               "Start plugins that are programs, to learn what leaves they have; else that is read "
+               "from a file beside the program, grip.leaves.json for grip.py");
+}
+
 void add_load_options(CLI::App& app, LoadCommandOptions& options) {
   app.add_option("--tree", options.main_tree,
                  "The BehaviorTree to run (default: main_tree_to_execute)")

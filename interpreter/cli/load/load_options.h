@@ -24,6 +24,8 @@ struct LoadCommandOptions {
   std::vector<std::string> mock_leaves;  // --mock-leaf id=result
 };
 
+// --run-programs, for commands that run no tree.
+void add_program_option(CLI::App& app, PluginOptions& options);
 // --plugin, --plugin-path, --isolate and --hang-limit.
 void add_plugin_options(CLI::App& app, PluginOptions& options);
 // The plugin options, --arg, --set, --tree and --ros-package.

@@ -164,6 +164,7 @@ void define_run_options(CLI::App& app, RunCommandOptions& options) {
   define_monitor_options(app, options);
   app.add_flag("--json", options.json, "Print the summary as JSON");
   add_load_options(app, options.load);
+  options.load.plugins.run_programs = true;
   add_mock_options(app, options.load);
 }
 

@@ -245,6 +245,7 @@ std::function<int()> define_study(CLI::App& app) {
   app.add_flag("--json", options->json, "Print the summary as JSON");
   app.add_flag("--no-plots", options->no_plots, "Draw no box plots");
   add_load_options(app, options->study.load);
+  options->study.load.plugins.run_programs = true;
   CLI::App* parts = app.add_subcommand("merge", "Merge the parts of a study");
   define_merge(*parts, options);
   CLI::App* cells = app.add_subcommand("compare", "Compare two cells of a study");

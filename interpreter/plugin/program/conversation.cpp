@@ -13,6 +13,7 @@ namespace lockstep {
 namespace {
 
 constexpr Nanoseconds kToDie = std::chrono::milliseconds(100);  // after the end of its output
+constexpr const char* kGoodEnd = "ended with exit code 0";
 constexpr Nanoseconds kToFlush = std::chrono::milliseconds(1);
 
 std::string shown(std::string_view line) {
@@ -46,7 +47,7 @@ Result<std::string> Conversation::start(const std::string& path) {
                      "its first line says what leaves it has; is its output buffered?");
     }
     if (!process_.await_output(left)) continue;
-    if (!process_.lines.fill(process_.output())) {
+    if (is_output_over()) {
       const auto death = process_.await_end(kToDie);
       return problem(death ? fmt::format("{} before it said what leaves it has", *death)
                            : "closed its output before it said what leaves it has",
@@ -54,6 +55,13 @@ Result<std::string> Conversation::start(const std::string& path) {
     }
   }
   return line_;
+}
+
+// Takes what there is. What it has started may hold its output open when it has ended.
+bool Conversation::is_output_over() {
+  const bool has_ended = process_.has_ended();
+  const auto filled = process_.lines.fill(process_.output());
+  return filled == LineInput::Filled::End || (filled == LineInput::Filled::Nothing && has_ended);
 }
 
 void Conversation::begin(const lockstep_caller& run) {
@@ -140,7 +148,7 @@ void Conversation::read_more(std::optional<Nanoseconds> patience) {
     return give_up("was killed, since it wrote a line of more than 1 MiB" + blamed());
   }
   if (!process_.await_output(patience)) return;
-  if (!process_.lines.fill(process_.output())) note_end();
+  if (is_output_over()) note_end();
 }
 
 Conversation::News Conversation::take(std::uint32_t number) {
@@ -185,6 +193,12 @@ void Conversation::give_up(std::string why) {
   }
   process_.kill();
   answered_.notify_all();
+  if (!is_listened_) bury();
+}
+
+// One that is asked to end has time for that.
+void Conversation::bury() {
+  if (!ends_softly_) process_.bury();
 }
 
 bool Conversation::listen() {
@@ -325,19 +339,18 @@ std::string Conversation::take_answer(Leaf& leaf) {
 
 std::string Conversation::end() {
   const auto limit = options_.halt_limit;
+  if (ends_softly_) process_.await_end(limit ? std::optional(*limit + kToDie) : std::nullopt);
+  if (is_gone()) return {};
   const auto end = monotonic_now() + limit.value_or(Nanoseconds(0));
-  const auto left = [&] { return limit ? std::optional(end - monotonic_now()) : std::nullopt; };
-  if (ends_softly_) {
-    process_.await_end(limit ? std::optional(*limit + kToDie) : std::nullopt);
-    return {};
-  }
+  const auto left = [&] {
+    return limit ? std::optional(std::max(end - monotonic_now(), Nanoseconds(0))) : std::nullopt;
+  };
   process_.close_input();
-  while (!is_gone() && (!limit || *left() > Nanoseconds(0))) {  // at the latest at its output's end
+  while (!is_gone() && process_.await_output(left()) && !is_output_over()) {
     while (!is_gone() && process_.lines.next(line_)) take_line();
-    read_more(left());
   }
-  if (process_.await_end(limit ? std::optional(std::max(*left(), kToDie)) : std::nullopt))
-    return {};
+  if (is_gone()) return why_gone();
+  if (const auto how = process_.await_end(left())) return *how == kGoodEnd ? "" : *how;
   process_.end_softly(limit);
   process_.await_end(limit ? std::optional(*limit + kToDie) : std::nullopt);
   return fmt::format("did not end for {:g} s after its input was closed; it was ended",

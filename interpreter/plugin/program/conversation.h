@@ -70,6 +70,9 @@ class Conversation {
   std::optional<Nanoseconds> deadline();
   void check_deadline(Nanoseconds now);
 
+  // Of a gone program: waits for the end of its process, when nobody else does.
+  void bury();
+
   ProgramProcess& process() { return process_; }
   // The end, when no listener reads any more: closes its input, and waits. "", or what it took.
   std::string end();
@@ -89,6 +92,7 @@ class Conversation {
   };
   bool await_here(const Leaf& leaf, Asked asked, std::optional<Nanoseconds> patience);
   bool find_unasked();
+  bool is_output_over();
   void read_more(std::optional<Nanoseconds> patience);
   void take_line();
   std::string take_reply();

@@ -9,7 +9,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdlib>
+#include <filesystem>
 #include <optional>
 
 #include "core/clock.h"
@@ -35,6 +38,18 @@ void report(GuardianReport::What what, int number, int status = 0) {
   const int error = errno;
   const ssize_t written = write(errors, &error, sizeof error);
   _exit(written == sizeof error ? 127 : 126);
+}
+
+// So that a program in Python finds lockstep_leaf.py, behind all that its user has.
+void help_python() {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path here = fs::read_symlink("/proc/self/exe", error).parent_path();
+  fs::path modules = here / "python";  // in a build directory
+  if (!fs::is_directory(modules, error)) modules = here / LOCKSTEP_PYTHON_FROM_LEAFHOST;
+  const char* const given = std::getenv("PYTHONPATH");
+  const std::string before = given == nullptr || *given == '\0' ? "" : std::string(given) + ":";
+  setenv("PYTHONPATH", (before + modules.lexically_normal().string()).c_str(), 1);
 }
 
 // The process, or nothing after a report why there is none.
@@ -146,6 +161,7 @@ bool is_guardian() {
 int guard_program(const std::string& path) {
   signal(SIGPIPE, SIG_DFL);
   prctl(PR_SET_CHILD_SUBREAPER, 1);
+  help_python();
   fcntl(Given::kControl, F_SETFD, FD_CLOEXEC);
   fcntl(Given::kParent, F_SETFD, FD_CLOEXEC);
   const auto program = start_program(path);

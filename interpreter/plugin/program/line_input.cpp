@@ -6,7 +6,7 @@
 
 namespace lockstep {
 
-bool LineInput::fill(int descriptor) {
+LineInput::Filled LineInput::fill(int descriptor) {
   constexpr std::size_t kPart = std::size_t{1} << 14;
   text_.erase(0, begin_);
   scanned_ -= begin_;
@@ -16,7 +16,8 @@ bool LineInput::fill(int descriptor) {
   const ssize_t got = read(descriptor, text_.data() + size, kPart);
   const int error = errno;
   text_.resize(size + static_cast<std::size_t>(got > 0 ? got : 0));
-  return got > 0 || (got < 0 && (error == EAGAIN || error == EINTR));
+  if (got > 0) return Filled::Some;
+  return got < 0 && (error == EAGAIN || error == EINTR) ? Filled::Nothing : Filled::End;
 }
 
 bool LineInput::look(std::size_t& place, std::string& line) const {

@@ -11,9 +11,9 @@ class LineInput {
  public:
   static constexpr std::size_t kLongest = std::size_t{1} << 20;
 
-  // Takes what there is to read, at most a part of it. False at the end, after which there is no
-  // more, or on an error.
-  bool fill(int descriptor);
+  // Takes what there is to read, at most a part of it. End: there will be no more.
+  enum class Filled { Some, Nothing, End };
+  Filled fill(int descriptor);
   // The next whole line, without its end, or nothing.
   bool next(std::string& line);
   // The same without taking it: of the whole lines from `place` on, which is 0 for all. Moves on.

@@ -61,14 +61,22 @@ void Listener::listen() {
       const std::lock_guard lock(mutex_);
       known = conversations_;
     }
-    std::erase_if(known, [](Conversation* it) { return it->is_gone(); });
+    std::erase_if(known, [](Conversation* it) {
+      if (it->is_gone()) it->bury();
+      return it->is_gone();
+    });
     descriptors.assign(1, {bell_.number(), POLLIN, 0});
-    for (Conversation* it : known) descriptors.push_back({it->output(), POLLIN, 0});
+    for (Conversation* it : known) {
+      descriptors.push_back({it->output(), POLLIN, 0});
+      descriptors.push_back({it->process().end(), POLLIN, 0});
+    }
     await(descriptors, first_deadline(known));
     eventfd_t rings = 0;
     eventfd_read(bell_.number(), &rings);
     for (std::size_t i = 0; i < known.size(); ++i) {
-      if (descriptors[i + 1].revents != 0) known[i]->listen();
+      const bool speaks =
+          descriptors[2 * i + 1].revents != 0 || descriptors[2 * i + 2].revents != 0;
+      if (speaks) known[i]->listen();
       known[i]->check_deadline(monotonic_now());
     }
   }

@@ -173,7 +173,9 @@ void ProgramLeaf::halt() {
   request_.begin("halt", number_).field("now", now()).end();
   conversation_.send(number_, Asked::Halt, request_.text());
   if (std::exchange(is_held_, false)) conversation_.process().go_on();
-  if (listener_ != nullptr) return listener_->wake();
+  if (listener_ != nullptr) listener_->wake();
+  // At the end of a run there is no tick to lose, and whether the leaf stands still counts.
+  if (listener_ != nullptr && !caller_.ticker->in_last_halt()) return;
   const auto limit = conversation_.options().halt_limit;
   if (!conversation_.await(number_, Asked::Halt, limit)) {
     conversation_.check_deadline(monotonic_now());

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "plugin/program/leaves_file.h"
 #include "plugin/program/program_run.h"
 
 namespace lockstep {
@@ -15,14 +16,28 @@ Result<std::unique_ptr<ProgramPlugin>> ProgramPlugin::open(const std::string& pa
                                                            const std::string& name, Hold hold,
                                                            const IsolationOptions& options) {
   std::unique_ptr<ProgramPlugin> plugin(new ProgramPlugin(path, options));
-  plugin->first_ = std::make_unique<Conversation>(plugin->options_);
-  auto line = plugin->first_->start(path);
+  auto line = plugin->first_line();
   if (!line) return tl::unexpected(std::move(line.error()));
   auto hello =
       Hello::read(std::move(*line), name, hold, program_functions(), program_leaf_functions());
   if (!hello) return tl::unexpected(std::move(hello.error()));
   plugin->hello_ = std::move(*hello);
   return plugin;
+}
+
+Result<std::string> ProgramPlugin::first_line() {
+  auto written = read_leaves_file(path_);
+  if (!options_.run_programs) {
+    if (written) return *std::move(written);
+    return problem("is a program, which this command does not run: its leaves are not known",
+                   fmt::format("give --run-programs, or let 'lockstep plugin check --save' write "
+                               "them to '{}'",
+                               leaves_file_of(path_)));
+  }
+  first_ = std::make_unique<Conversation>(options_);
+  auto line = first_->start(path_);
+  is_file_stale_ = line && written && *line != *written;
+  return line;
 }
 
 std::unique_ptr<Conversation> ProgramPlugin::acquire(std::string& failure) {

@@ -15,7 +15,8 @@ namespace lockstep {
 
 class ProgramPlugin {
  public:
-  // Starts the first process, which says what leaves it has.
+  // Starts the first process, which says what leaves it has. Where programs are not run, a file
+  // beside it says so.
   [[nodiscard]] static Result<std::unique_ptr<ProgramPlugin>> open(const std::string& path,
                                                                    const std::string& name,
                                                                    Hold hold,
@@ -26,6 +27,8 @@ class ProgramPlugin {
   // Valid as long as this object.
   const lockstep_plugin& entry() const { return hello_->plugin(); }
   const Hello& hello() const { return *hello_; }
+  // The file beside it says something else.
+  bool is_file_stale() const { return is_file_stale_; }
 
   // A process that has said the same as the first; null on failure, with the reason in `failure`.
   // May be called from any thread.
@@ -33,10 +36,12 @@ class ProgramPlugin {
 
  private:
   ProgramPlugin(std::string path, IsolationOptions options);
+  Result<std::string> first_line();
 
   std::string path_;
   IsolationOptions options_;
   std::unique_ptr<Hello> hello_;
+  bool is_file_stale_ = false;
 
   std::mutex mutex_;
   std::unique_ptr<Conversation> first_;  // until a run takes it

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <initializer_list>
 
 #include "plugin/program/guardian.h"
 
@@ -18,19 +19,21 @@ namespace {
 constexpr std::size_t kMostUnwritten = std::size_t{4} << 20;
 constexpr Nanoseconds kPatience = std::chrono::seconds(2);  // for a process that was killed
 
-// Waits until the descriptor is readable. Signals do not end the wait.
-bool await(int descriptor, std::optional<Nanoseconds> patience) {
+// Waits until one of the descriptors is readable. Signals do not end the wait.
+bool await(std::initializer_list<int> descriptors, std::optional<Nanoseconds> patience) {
   const Nanoseconds end = monotonic_now() + patience.value_or(Nanoseconds(0));
-  pollfd readable{descriptor, POLLIN, 0};
+  pollfd readable[2];
+  nfds_t count = 0;
+  for (const int descriptor : descriptors) readable[count++] = {descriptor, POLLIN, 0};
   while (true) {
     timespec left{};
     if (patience) {
       const Nanoseconds rest = std::max(end - monotonic_now(), Nanoseconds(0));
       left = {rest.count() / 1'000'000'000, rest.count() % 1'000'000'000};
     }
-    const int count = ppoll(&readable, 1, patience ? &left : nullptr, nullptr);
-    if (count > 0) return true;
-    if (count == 0) return false;
+    const int ready = ppoll(readable, count, patience ? &left : nullptr, nullptr);
+    if (ready > 0) return true;
+    if (ready == 0) return false;
   }
 }
 
@@ -84,7 +87,7 @@ std::string ProgramProcess::start(const std::string& leafhost, const std::string
   output_ = std::move(answers.reading);
   fcntl(output_.number(), F_SETFL, O_RDONLY | O_NONBLOCK);
   GuardianReport report{};
-  const bool reported = await(control_.number(), kPatience) &&
+  const bool reported = await({control_.number()}, kPatience) &&
                         recv(control_.number(), &report, sizeof report, 0) == sizeof report;
   if (!reported) return "its guardian does not start";
   if (report.what == GuardianReport::What::NotStarted) return text_of(report.number);
@@ -92,14 +95,21 @@ std::string ProgramProcess::start(const std::string& leafhost, const std::string
   return {};
 }
 
-// The guardian ends what it guards when nobody holds the other end of its socket.
 ProgramProcess::~ProgramProcess() {
-  if (guardian_.descriptor() < 0) return;
-  control_ = FileDescriptor();
-  if (!await(guardian_.descriptor(), kPatience)) {
-    kill();
-    guardian_.kill();
+  bury();
+}
+
+// The guardian ends what it guards when nobody holds the other end of its socket.
+void ProgramProcess::bury() {
+  if (is_buried_ || guardian_.descriptor() < 0) return;
+  is_buried_ = true;
+  {
+    const std::lock_guard lock(mutex_);
+    group_ = -1;
+    shutdown(control_.number(), SHUT_RDWR);
   }
+  if (!await({guardian_.descriptor()}, kPatience)) guardian_.kill();
+  guardian_.reap();
 }
 
 bool ProgramProcess::write(std::string_view text) {
@@ -121,7 +131,11 @@ bool ProgramProcess::write(std::string_view text) {
 }
 
 bool ProgramProcess::await_output(std::optional<Nanoseconds> patience) const {
-  return await(output_.number(), patience);
+  return await({output_.number(), control_.number()}, patience);
+}
+
+bool ProgramProcess::has_ended() const {
+  return end_.has_value() || await({control_.number()}, Nanoseconds(0));
 }
 
 void ProgramProcess::end_softly(std::optional<Nanoseconds> limit) {
@@ -129,14 +143,15 @@ void ProgramProcess::end_softly(std::optional<Nanoseconds> limit) {
   send(control_.number(), &order, sizeof order, MSG_NOSIGNAL | MSG_DONTWAIT);
 }
 
-// The guardian keeps the number of the group for us as long as there is control_.
-void ProgramProcess::signal(int number) const {
-  if (group_ > 0 && control_.number() >= 0) ::kill(-group_, number);
+// The guardian keeps the number of the group for us until the end of control_.
+void ProgramProcess::signal(int number) {
+  const std::lock_guard lock(mutex_);
+  if (group_ > 0) ::kill(-group_, number);
 }
 
 std::optional<std::string> ProgramProcess::await_end(std::optional<Nanoseconds> patience) {
   if (end_) return end_;
-  if (!await(control_.number(), patience)) return std::nullopt;
+  if (!await({control_.number()}, patience)) return std::nullopt;
   GuardianReport report{};
   if (recv(control_.number(), &report, sizeof report, 0) == sizeof report) {
     end_ = describe_end(report.number, report.status);

@@ -5,7 +5,7 @@
 #include <signal.h>
 #include <sys/types.h>
 
-#include <atomic>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -38,8 +38,12 @@ class ProgramProcess {
 
   // What it writes. `lines.fill(output())` takes what is there.
   int output() const { return output_.number(); }
-  // Waits until there is output, or its end, at most so long. False: there is none yet.
+  // Waits until there is output, or its end, or that of the process, at most so long. False: there
+  // is none yet.
   bool await_output(std::optional<Nanoseconds> patience) const;
+  // Readable when the process has ended; what it has started may still hold its output open.
+  int end() const { return control_.number(); }
+  bool has_ended() const;
   LineInput lines;
 
   // To its process group. Any thread.
@@ -50,15 +54,19 @@ class ProgramProcess {
   void kill() { signal(SIGKILL); }
   // Waits at most so long for its end: how it ended, or nothing.
   std::optional<std::string> await_end(std::optional<Nanoseconds> patience);
+  // Ends what is left of it, and waits for that: not even a zombie stays.
+  void bury();
 
  private:
-  void signal(int number) const;
+  void signal(int number);
 
   ChildProcess guardian_;
   FileDescriptor control_, input_, output_;
   std::string unwritten_;
+  std::mutex mutex_;  // of control_ and group_, for signals from any thread
   pid_t group_ = -1;
   std::optional<std::string> end_;
+  bool is_buried_ = false;
 };
 
 }  // namespace lockstep

@@ -25,6 +25,7 @@ class ProgramRun {
   }
   ~ProgramRun() {
     listener_.reset();
+    for (const auto& conversation : conversations_) conversation->process().close_input();
     for (const auto& conversation : conversations_) {
       const std::string what = conversation->end();
       if (!what.empty())

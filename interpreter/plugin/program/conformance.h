@@ -1,0 +1,24 @@
+// Whether a program keeps the protocol: asks each of its leaves all that a run could ask.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plugin/plugin_set.h"
+
+namespace lockstep {
+
+struct ConformanceStep {
+  bool is_good = false;
+  std::string text;
+};
+
+struct Conformance {
+  std::vector<ConformanceStep> steps;  // the last may be the first that is not good
+  std::string first_line;              // of the program; "" without
+  bool is_good() const { return steps.empty() || steps.back().is_good; }
+};
+
+Conformance check_conformance(const std::string& path, const IsolationOptions& options);
+
+}  // namespace lockstep

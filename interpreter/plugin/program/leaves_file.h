@@ -1,0 +1,15 @@
+// What leaves a program has, in a file beside it: its first line, for commands that do not run it.
+// grip.leaves.json for grip.py.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace lockstep {
+
+std::string leaves_file_of(const std::string& program);
+
+// Its first line; nothing when there is no such file, or none that a program could have said.
+std::optional<std::string> read_leaves_file(const std::string& program);
+
+}  // namespace lockstep

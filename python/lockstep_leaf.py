@@ -1,0 +1,332 @@
+"""Leaves of lockstep in Python: a class for each type of leaf, and `serve()` at the end of the file.
+
+    #!/usr/bin/python3
+    from lockstep_leaf import Action, serve
+
+    class Sweep(Action):
+        "Sweeps the floor."
+        step: float = 0.01               # a port, with its default
+
+        def start(self):
+            self.done = 0.0
+
+        def tick(self):
+            self.done += self.step
+            return True if self.done >= 1 else None    # True, False: success, failure; None: running
+
+        def progress(self):
+            return min(self.done, 1.0)
+
+    serve()
+
+docs/programs.md has the rest. `python3 -m lockstep_leaf sweep.py` tries the leaves by hand.
+"""
+import json
+import os
+import random
+import sys
+import traceback
+
+__all__ = ["Action", "Condition", "InOut", "Output", "Port", "Skipped", "serve"]
+
+PROTOCOL = 1
+_TYPES = {bool: "bool", int: "int", float: "double", str: "string", list[bool]: "list of bool",
+          list[int]: "list of int", list[float]: "list of double", list[str]: "list of string"}
+
+
+class Skipped:
+    "What a tick may return in a tree for BehaviorTree.CPP: as if the leaf were not there."
+
+
+class Port:
+    """The default of a port, and what else is to be known about it:
+    `force: float = Port(10.0, unit="N", min=0, doc="how hard")`."""
+
+    def __init__(self, default=None, *, unit="", doc="", min=None, max=None, choices=None,
+                 optional=False):
+        self.default, self.optional = default, optional
+        self.facts = {"unit": unit, "doc": doc, "min": min, "max": max, "choices": choices}
+
+
+class _Directed:
+    "Output[float], InOut[float]"
+
+    def __init__(self, direction, type_=None):
+        self.direction, self.type = direction, type_
+
+    def __getitem__(self, type_):
+        return _Directed(self.direction, type_)
+
+
+Output = _Directed("output")
+InOut = _Directed("inout")
+
+
+class _Attribute:
+    "A port of a class: what its leaves read is what lockstep said last."
+
+    def __init__(self, name, annotation, default):
+        directed = annotation if isinstance(annotation, _Directed) else _Directed("input", annotation)
+        port = default if isinstance(default, Port) else Port(default)
+        if directed.type not in _TYPES:
+            raise TypeError(f"the port '{name}' is a {directed.type}, expected bool, int, float, str "
+                            "or a list of them: list[float]")
+        self.name, self.direction = name, directed.direction
+        self.fact = {"name": name, "type": _TYPES[directed.type], "direction": self.direction}
+        if port.default is not None:
+            default = port.default
+            self.fact["default"] = ";".join(map(str, default)) if isinstance(default, list) else default
+        if port.optional:
+            self.fact["optional"] = True
+        self.fact.update({key: value for key, value in port.facts.items() if value not in (None, "")})
+
+    def __get__(self, leaf, owner=None):
+        if leaf is None:
+            return self
+        value = leaf._values.get(self.name)
+        if value is None:
+            raise AttributeError(f"the port '{self.name}' has no value")
+        return value
+
+    def __set__(self, leaf, value):
+        if self.direction == "input":
+            raise AttributeError(f"the port '{self.name}' is an input")
+        leaf._values[self.name] = leaf._set[self.name] = value
+
+
+class _Leaf:
+    kind = ""
+    real_time = False  # it works in real time, whether ticks come or not
+
+    # What lockstep says: of the run, and of this tick.
+    name = path = clock = ""
+    period = now = 0.0
+
+    def __init_subclass__(cls):
+        cls._ports = dict(getattr(cls, "_ports", {}))
+        for name, annotation in cls.__dict__.get("__annotations__", {}).items():
+            if isinstance(annotation, str):
+                annotation = eval(annotation, vars(sys.modules[cls.__module__]))
+            cls._ports[name] = _Attribute(name, annotation, cls.__dict__.get(name))
+            setattr(cls, name, cls._ports[name])
+        if cls.__module__ != __name__:
+            _classes[cls.__name__] = cls
+
+    def tick(self):
+        raise NotImplementedError(f"{type(self).__name__} has no tick")
+
+    def log(self, text, level="info"):
+        _say(leaf=self._number, log=str(text), level=level)
+
+    @classmethod
+    def _fact(cls):
+        fact = {"id": cls.__name__, "kind": cls.kind, "doc": (cls.__doc__ or "").strip(),
+                "ports": [port.fact for port in cls._ports.values()]}
+        flags = {"progress": hasattr(cls, "progress"), "real_time": cls.real_time,
+                 "pause": hasattr(cls, "pause") or hasattr(cls, "resume")}
+        return fact | {name: True for name, is_set in flags.items() if is_set}
+
+
+_classes = {}
+
+
+class Action(_Leaf):
+    kind = "action"
+
+
+class Condition(_Leaf):
+    kind = "condition"
+
+
+_ANSWERS = {None: "running", True: "success", False: "failure", Skipped: "skipped",
+            "running": "running", "success": "success", "failure": "failure", "skipped": "skipped"}
+
+
+class _Server:
+    "One process: its leaves by their numbers, and an answer to each request."
+
+    def __init__(self):
+        self.leaves = {}
+        self.broken = set()  # those that had an error; the next start mends it
+
+    def create(self, number, request):
+        leaf = _classes[request["type"]].__new__(_classes[request["type"]])
+        leaf._number, leaf._values, leaf._set = number, {}, {}
+        for name in ("name", "path", "clock", "period"):
+            setattr(leaf, name, request[name])
+        leaf.random = random.Random(request["seed"])
+        self.leaves[number] = leaf
+        leaf.__init__()
+        _say(leaf=number, done=True)
+
+    def start(self, leaf, request):
+        self.broken.discard(leaf._number)
+        leaf._values, leaf._set = {}, {}
+        self.update(leaf, request)
+        self.call(leaf, "start")
+
+    def tick(self, leaf, request):
+        self.update(leaf, request)
+        result = leaf.tick()
+        answer = {"leaf": leaf._number, "status": self.status(leaf, result)}
+        if hasattr(leaf, "progress"):
+            answer["progress"] = float(leaf.progress())
+        if leaf._set:
+            answer["set"], leaf._set = leaf._set, {}
+        _say(**answer)
+
+    @staticmethod
+    def status(leaf, result):
+        try:
+            return _ANSWERS[result]
+        except (KeyError, TypeError):
+            raise ValueError(f"tick returned {result!r}, expected None (running), True (success) or "
+                             "False (failure)") from None
+
+    def halt(self, leaf, request):
+        self.call(leaf, "halt")
+        _say(leaf=leaf._number, done=True)
+
+    def pause(self, leaf, request):
+        self.call(leaf, "pause")
+
+    def resume(self, leaf, request):
+        self.call(leaf, "resume")
+
+    def destroy(self, leaf, request):
+        del self.leaves[leaf._number]
+
+    @staticmethod
+    def call(leaf, function):
+        if hasattr(leaf, function):
+            getattr(leaf, function)()
+
+    @staticmethod
+    def update(leaf, request):
+        if "ports" in request:
+            leaf._values.update(request["ports"])
+
+    def answer(self, request):
+        do, number = request["do"], request["leaf"]
+        try:
+            if do == "create":
+                return self.create(number, request)
+            leaf = self.leaves[number]
+            leaf.now = request.get("now", leaf.now)
+            if number in self.broken and do in ("tick", "pause", "resume"):
+                return None
+            handler = getattr(self, do, None)  # requests of a later version are ignored
+            return handler and handler(leaf, request)
+        except Exception as error:
+            self.broken.add(number)
+            _say(leaf=number, error=_blame(error))
+
+
+def _blame(error):
+    "What went wrong, and where in the author's file."
+    mine = [frame for frame in traceback.extract_tb(error.__traceback__)
+            if frame.filename != __file__]
+    where = f" ({os.path.basename(mine[-1].filename)}:{mine[-1].lineno})" if mine else ""
+    return f"{type(error).__name__}: {error}{where}"
+
+
+def _write(line):
+    data = memoryview(line.encode())
+    while data:
+        data = data[os.write(_out, data):]
+
+
+def _say(**what):
+    _write(json.dumps(what, separators=(",", ":"), allow_nan=False) + "\n")
+
+
+_out = 1
+
+
+def serve(version="", doc=""):
+    "Speaks to lockstep until it has nothing more to say. At the end of the author's file."
+    global _out
+    if _by_hand:
+        return
+    # What the leaves print is for people.
+    _out = os.dup(1)
+    os.dup2(2, 1)
+    sys.stdout = sys.stderr
+    hello = {"lockstep": PROTOCOL, "leaves": [cls._fact() for cls in _classes.values()]}
+    _say(**hello, **{key: text for key, text in (("version", version), ("doc", doc)) if text})
+    server = _Server()
+    for line in sys.stdin.buffer:
+        server.answer(json.loads(line))
+
+
+_by_hand = False
+
+
+class _Prompt:
+    "Requests from a person, in place of lockstep."
+
+    def __init__(self):
+        self.server, self.now, self.number, self.cls = _Server(), 0.0, 0, None
+
+    def ask(self, do, **fields):
+        print("->", json.dumps({"do": do, "leaf": self.number, "now": round(self.now, 9), **fields}),
+              flush=True)
+        self.server.answer({"do": do, "leaf": self.number, "now": self.now, **fields})
+
+    def start(self, words):
+        if words and words[0] in _classes:
+            self.cls, self.number = _classes[words.pop(0)], self.number + 1
+            self.ask("create", type=self.cls.__name__, name=self.cls.__name__, path=self.cls.__name__,
+                     period=0.01, clock="virtual", seed=0)
+        if self.cls is None:
+            return print("start what? one of:", ", ".join(_classes))
+        ports = {fact["name"]: fact["default"] for fact in self.facts() if "default" in fact}
+        for word in words:
+            name, _, value = word.partition("=")
+            try:
+                ports[name] = json.loads(value)
+            except ValueError:
+                ports[name] = value
+        self.ask("start", ports=ports)
+
+    def facts(self):
+        return self.cls._fact()["ports"]
+
+    def obey(self, line):
+        do, *words = line.split()
+        if do == "start":
+            self.start(words)
+        elif do in ("tick", "halt", "pause", "resume") and self.cls is not None:
+            for _ in range(int(words[0]) if words else 1):
+                self.ask(do)
+                self.now += 0.01
+        else:
+            print("start LEAF [PORT=VALUE…] · tick [TIMES] · pause · resume · halt · quit")
+
+    def run(self):
+        for cls in _classes.values():
+            ports = " ".join(f"{port['name']}:{port['type']}" for port in cls._fact()["ports"])
+            print(f"{cls.__name__} ({cls.kind}) {ports}")
+        while True:
+            print("> ", end="", flush=True)
+            line = sys.stdin.readline()
+            if not line or line.strip() == "quit":
+                return
+            if line.strip():
+                self.obey(line)
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit("usage: python3 -m lockstep_leaf FILE.py")
+    import runpy
+    module = sys.modules["lockstep_leaf"] = sys.modules["__main__"]
+    module._by_hand = True
+    sys.argv = sys.argv[1:]
+    sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
+    runpy.run_path(sys.argv[0], run_name="__lockstep__")
+    module._Prompt().run()
+
+
+if __name__ == "__main__":
+    main()

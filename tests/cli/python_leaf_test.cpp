@@ -1,0 +1,93 @@
+// Leaves with lockstep_leaf.py, the helper for Python, from outside.
+#include <sys/stat.h>
+
+#include <catch2/catch.hpp>
+
+#include "cli/program.h"
+#include "support/paths.h"
+
+using namespace lockstep::test;
+
+namespace {
+
+// The blocks of docs/programs.md under this heading that are of this kind.
+std::string block_under(const std::string& heading, const std::string& kind) {
+  const std::string page = read_file(LOCKSTEP_SOURCE_DIR "/docs/programs.md");
+  const std::string open = "\n```" + kind + "\n";
+  const auto begin = page.find(open, page.find("\n## " + heading + "\n")) + open.size();
+  return page.substr(begin, page.find("```\n", begin) - begin);
+}
+
+struct PythonLeaves {
+  TemporaryDirectory directory;
+  std::string program = directory.file("grip.py", block_under("In Python", "python"));
+  PythonLeaves() { chmod(program.c_str(), 0755); }
+
+  Outcome run_tree(const std::string& nodes) const {
+    const std::string tree = directory.file(
+        "tree.xml",
+        "<root lockstep=\"1\"><plugin name=\"grip\" program=\"grip.py\"/><BehaviorTree "
+        "ID=\"Main\"><Sequence memory=\"true\">" +
+            nodes + "</Sequence></BehaviorTree></root>");
+    return lockstep::test::lockstep({"run", tree, "--plugin-path", directory.path(""), "--clock",
+                                     "virtual", "--max-ticks", "100"});
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a leaf in Python sets ports that another reads; its exception has file and line") {
+  const PythonLeaves leaves;
+  const Outcome good = leaves.run_tree(R"(<Grip width="{w}"/><IsClosed width="{w}"/>)");
+  INFO(good.err);
+  CHECK(good.code == 0);
+  CHECK(contains(good.err, "Grip: success"));
+  const Outcome bad = leaves.run_tree(R"(<Grip force="60"/>)");
+  INFO(bad.err);
+  CHECK(bad.code == 5);
+  CHECK(contains(bad.err, "ValueError: too hard for the glass (grip.py:"));
+  CHECK(contains(bad.err, "Grip: info: let go"));
+  const Outcome unset = leaves.run_tree(R"(<IsClosed width="{w}"/>)");
+  CHECK(unset.code == 5);
+  CHECK(contains(unset.err, "the port 'width' has no value (grip.py:"));
+}
+
+TEST_CASE("plugin check finds what a program does against the protocol, and saves its leaves") {
+  const PythonLeaves leaves;
+  const auto nodes = [&] {
+    return lockstep::test::lockstep({"nodes", "Grip", "--plugin", leaves.program});
+  };
+  const Outcome unknown = nodes();
+  CHECK(unknown.code == 4);
+  CHECK(contains(unknown.err, "is a program, which this command does not run"));
+  const Outcome checked = lockstep::test::lockstep({"plugin", "check", leaves.program, "--save"});
+  INFO(checked.out << checked.err);
+  CHECK(checked.code == 0);
+  CHECK(contains(checked.out, "ok    'Grip 1' answers halt\n"));
+  CHECK(contains(checked.out, "ok    ends when its input is closed\n"));
+  const Outcome known = nodes();
+  CHECK(known.code == 0);
+  CHECK(contains(known.out, "force  double in N, from 0 to 100, default 10"));
+
+  chmod(leaves.directory.file("grip.py", "#!/bin/sh\necho hello\n").c_str(), 0755);
+  const Outcome wrong = lockstep::test::lockstep({"plugin", "check", leaves.program});
+  CHECK(wrong.code == 4);
+  CHECK(contains(wrong.out, "wrong it does not say what leaves it has: not JSON"));
+  CHECK(nodes().code == 0);  // it was not run
+}
+
+TEST_CASE("python3 -m lockstep_leaf tries leaves by hand") {
+  const PythonLeaves leaves;
+  const Outcome outcome =
+      run({.arguments = {"-m", "lockstep_leaf", leaves.program},
+           .environment = {{"PYTHONPATH", LOCKSTEP_SOURCE_DIR "/python"}},
+           .input = "start Grip force=20\ntick 2\nhalt\nstart Grip force=60\ntick\nquit\n",
+           .program = "/usr/bin/python3"});
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK(contains(outcome.out, "Grip (action) force:double width:double\n"));
+  CHECK(contains(outcome.out,
+                 R"({"leaf":1,"status":"running","progress":0.1,"set":{"width":0.09}})"));
+  CHECK(contains(outcome.out, R"({"leaf":1,"log":"let go","level":"info"})"));
+  CHECK(contains(outcome.out, R"("error":"ValueError: too hard for the glass (grip.py:)"));
+}
