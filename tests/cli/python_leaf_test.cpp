@@ -36,7 +36,7 @@ struct PythonLeaves {
 
 }  // namespace
 
-TEST_CASE("a leaf in Python sets ports that another reads; its exception has file and line") {
+TEST_CASE("a leaf in Python sets ports that another reads, and its exception has file and line") {
   const PythonLeaves leaves;
   const Outcome good = leaves.run_tree(R"(<Grip width="{w}"/><IsClosed width="{w}"/>)");
   INFO(good.err);
