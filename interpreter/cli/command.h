@@ -21,7 +21,7 @@ struct Command {
 };
 
 extern const Command kRunCommand, kCheckCommand, kShowCommand, kNodesCommand, kSchemaCommand,
-    kConvertCommand, kPluginCommand, kLogCommand, kReplayCommand, kStudyCommand;
+    kConvertCommand, kPluginCommand, kLogCommand, kReplayCommand, kStudyCommand, kMonitorCommand;
 
 // All commands, in the order of --help.
 std::span<const Command* const> commands();

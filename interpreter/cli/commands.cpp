@@ -21,9 +21,10 @@
 namespace lockstep {
 
 std::span<const Command* const> commands() {
-  static constexpr const Command* kAll[] = {
-      &kRunCommand,     &kCheckCommand,  &kShowCommand, &kNodesCommand,  &kSchemaCommand,
-      &kConvertCommand, &kPluginCommand, &kLogCommand,  &kReplayCommand, &kStudyCommand};
+  static constexpr const Command* kAll[] = {&kRunCommand,    &kCheckCommand,  &kShowCommand,
+                                            &kNodesCommand,  &kSchemaCommand, &kConvertCommand,
+                                            &kPluginCommand, &kLogCommand,    &kReplayCommand,
+                                            &kStudyCommand,  &kMonitorCommand};
   return kAll;
 }
 

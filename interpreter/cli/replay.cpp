@@ -9,8 +9,11 @@
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/log/log.h"
+#include "cli/monitor_link.h"
 #include "cli/replay_session.h"
+#include "runtime/stop_signals.h"
 #include "terminal/terminal.h"
+#include "web/page_server.h"
 
 namespace lockstep {
 namespace {
@@ -20,6 +23,8 @@ struct ReplayOptions {
   std::optional<std::uint64_t> at;
   double speed = 1;
   bool print = false;
+  std::optional<std::string> monitor;  // where a page is served; none: there is none
+  bool opens_browser = false;
 };
 
 int no_such_tick(std::uint64_t tick, std::uint64_t first, std::uint64_t last) {
@@ -98,7 +103,28 @@ int play(const ReplayOptions& options, RecordingReader& reader) {
   return code == kExitSuccess ? read : code;
 }
 
+int serve(const ReplayOptions& options) {
+  auto socket = listen_for_monitor(*options.monitor);
+  if (!socket) {
+    print_error(socket.error().message, socket.error().hint);
+    return kExitUsage;
+  }
+  if (!socket->is_loopback) {
+    print_error(fmt::format("--monitor: '{}' can be reached from other machines", *options.monitor),
+                "lockstep log page FILE --out PAGE.html makes a page that can be sent there");
+    return kExitUsage;
+  }
+  return with_page(options.file, [&](std::string page) {
+    PageServer server(std::move(page), std::move(*socket));
+    StopSignals::install();
+    const MonitorLink link(server.link(), options.file, options.opens_browser);
+    server.serve_until([] { return StopSignals::received() != 0; });
+    return kExitSignal + StopSignals::received();
+  });
+}
+
 int replay(const ReplayOptions& options) {
+  if (options.monitor) return serve(options);
   return with_recording(options.file, [&](RecordingReader& reader) {
     const bool interactive = !options.print && options.file != "-" && is_terminal(STDIN_FILENO) &&
                              is_terminal(results_file()) && can_draw();
@@ -116,6 +142,13 @@ std::function<int()> define_replay(CLI::App& app) {
       ->type_name("X")
       ->check(number_between(ReplayPlayer::kSlowest, ReplayPlayer::kFastest))
       ->capture_default_str();
+  app.add_option(
+         "--monitor", options->monitor,
+         "Show the recording in a browser (default: 127.0.0.1 and a free port), until Ctrl-C; "
+         "the link is on stderr")
+      ->type_name("[ADDRESS:PORT]");
+  app.add_flag("--monitor-open", options->opens_browser,
+               "With --monitor: open the page in the browser");
   app.add_flag("--print", options->print, "Print one tick and exit, even on a terminal");
   return [options] { return replay(*options); };
 }
@@ -145,7 +178,8 @@ const Command kReplayCommand{
     "Examples:\n"
     "  lockstep replay run.jsonl\n"
     "  lockstep replay run.jsonl --at 400 --speed 0.1\n"
-    "  lockstep replay run.jsonl --at 400 --print",
+    "  lockstep replay run.jsonl --at 400 --print\n"
+    "  lockstep replay run.jsonl --monitor",
     define_replay};
 
 }  // namespace lockstep

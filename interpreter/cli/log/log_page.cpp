@@ -28,26 +28,29 @@ int write_page(const std::string& path, std::string_view page) {
   return written ? kExitSuccess : cannot_use("write", path, errno);
 }
 
-// The bytes themselves go into the page. What is wrong with them is found before a browser does.
-int page_of(const LogPageOptions& options, std::istream& in) {
-  std::ostringstream all;
-  all << in.rdbuf();
-  std::istringstream recording(std::move(all).str());
-  return read_recording(recording, options.file, [&](RecordingReader& reader) {
-    while (reader.next()) {
-    }
-    if (const int code = report_end(reader); code != kExitSuccess) return code;
-    return write_page(options.out, page_with_recording(recording.view()));
-  });
-}
-
 int page(const LogPageOptions& options) {
   const NamedFile recording[] = {named_file(options.file)};
   if (would_overwrite("--out", options.out, recording)) return kExitUsage;
-  return with_file(options.file, [&](std::istream& in) { return page_of(options, in); });
+  return with_page(options.file,
+                   [&](const std::string& page) { return write_page(options.out, page); });
 }
 
 }  // namespace
+
+// The bytes themselves go into the page. What is wrong with them is found before a browser does.
+int with_page(const std::string& path, const std::function<int(std::string page)>& use) {
+  return with_file(path, [&](std::istream& in) {
+    std::ostringstream all;
+    all << in.rdbuf();
+    std::istringstream recording(std::move(all).str());
+    return read_recording(recording, path, [&](RecordingReader& reader) {
+      while (reader.next()) {
+      }
+      if (const int code = report_end(reader); code != kExitSuccess) return code;
+      return use(page_with_recording(recording.view()));
+    });
+  });
+}
 
 LogSubcommand define_log_page(CLI::App& log) {
   const auto options = std::make_shared<LogPageOptions>();

@@ -6,6 +6,7 @@
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/load/real_time_leaves.h"
+#include "cli/monitor_link.h"
 #include "cli/outputs.h"
 #include "cli/run/run_options.h"
 #include "cli/run/run_watch.h"
@@ -115,7 +116,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
       const int signal = StopSignals::received();  // while no reader has opened a pipe
       return signal == 0 ? kExitUsage : kExitSignal + signal;
     }
-    if (monitor_) messages().say("monitor: " + monitor_->link() + "\n");
+    if (monitor_) link_.emplace(monitor_->link(), options_.tree, options_.opens_browser);
     Diagnostics refused;
     if (!plugins->initialize(refused)) {
       view_.close();
@@ -232,6 +233,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   std::optional<Recorder> recorder_;
   std::optional<RunControl> control_;
   std::optional<Monitor> monitor_;
+  std::optional<MonitorLink> link_;
   std::optional<StallObserver> stall_;
   CappedNotes standstills_{"standstill"};
   std::vector<Observer*> observers_;
@@ -263,15 +265,12 @@ Result<std::optional<ServerSocket>> listen(const RunCommandOptions& options) {
   if (options.monitor_control && !options.monitor) {
     return problem("--monitor-control needs --monitor");
   }
+  if (options.opens_browser && !options.monitor) {
+    return problem("--monitor-open needs --monitor");
+  }
   if (!options.monitor) return std::nullopt;
-  if (!has_http_server()) {
-    return problem("--monitor: this lockstep was built without it",
-                   "build it with libmicrohttpd and -DLOCKSTEP_MONITOR=ON");
-  }
-  auto listener = listen_on(*options.monitor);
-  if (!listener) {
-    return problem("--monitor: " + listener.error().message, listener.error().hint);
-  }
+  auto listener = listen_for_monitor(*options.monitor);
+  if (!listener) return tl::unexpected(std::move(listener.error()));
   return std::move(*listener);
 }
 

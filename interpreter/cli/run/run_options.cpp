@@ -109,6 +109,7 @@ void define_monitor_options(CLI::App& app, RunCommandOptions& options) {
                "entries");
   app.add_flag("--monitor-paused", options.begins_paused,
                "With --monitor-control: pause before the first tick");
+  app.add_flag("--monitor-open", options.opens_browser, "Open the page of the run in the browser");
 }
 
 }  // namespace

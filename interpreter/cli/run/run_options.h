@@ -38,6 +38,7 @@ struct RunCommandOptions {
   std::optional<std::string> monitor;  // where it is reached; none: there is no monitor
   bool monitor_control = false;        // who watches may pause the run, and more
   bool begins_paused = false;
+  bool opens_browser = false;
 
   bool is_wall() const { return clock == "wall"; }
   // None on the virtual clock and with --tick-budget 0.

@@ -1,0 +1,81 @@
+#include "web/registry.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "core/value.h"
+
+namespace lockstep {
+namespace {
+
+namespace fs = std::filesystem;
+
+// "" when there is none that only this user can write to.
+std::string directory() {
+  const char* runtime = secure_getenv("XDG_RUNTIME_DIR");
+  const bool has_runtime = runtime != nullptr && *runtime == '/';
+  const std::string path = has_runtime ? fmt::format("{}/lockstep", runtime)
+                                       : fmt::format("/tmp/lockstep-{}", geteuid());
+  mkdir(path.c_str(), S_IRWXU);
+  struct stat status {};
+  const bool is_ours = lstat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode) &&
+                       status.st_uid == geteuid() && (status.st_mode & (S_IWGRP | S_IWOTH)) == 0;
+  return is_ours ? path : std::string();
+}
+
+// False: its run has ended, without being able to remove it.
+bool is_locked(const std::string& path) {
+  const FileDescriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
+  return file.number() >= 0 && flock(file.number(), LOCK_SH | LOCK_NB) != 0;
+}
+
+}  // namespace
+
+std::vector<RegisteredRun> registered_runs() {
+  std::vector<RegisteredRun> runs;
+  const std::string path = directory();
+  if (path.empty()) return runs;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(path, error)) {
+    const auto process = parse_int(entry.path().filename().string());
+    if (!process) continue;
+    if (!is_locked(entry.path())) {
+      fs::remove(entry.path(), error);
+      continue;
+    }
+    RegisteredRun run{.process = static_cast<pid_t>(*process), .link = {}, .tree_file = {}};
+    std::ifstream file(entry.path());
+    if (std::getline(file, run.link) && std::getline(file, run.tree_file)) {
+      runs.push_back(std::move(run));
+    }
+  }
+  std::ranges::sort(runs, {}, &RegisteredRun::process);
+  return runs;
+}
+
+Registration::Registration(const std::string& link, const std::string& tree_file) {
+  const std::string path = directory();
+  if (path.empty()) return;
+  path_ = fmt::format("{}/{}", path, getpid());
+  constexpr int kFlags = O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW;
+  file_ = FileDescriptor(open(path_.c_str(), kFlags, S_IRUSR | S_IWUSR));
+  if (file_.number() < 0 || flock(file_.number(), LOCK_EX | LOCK_NB) != 0) return;
+  std::error_code error;
+  const fs::path absolute = fs::absolute(tree_file, error);
+  const std::string text = fmt::format("{}\n{}\n", link, absolute.string());
+  if (write(file_.number(), text.data(), text.size()) < 0) unlink(path_.c_str());
+}
+
+Registration::~Registration() {
+  if (file_.number() >= 0) unlink(path_.c_str());
+}
+
+}  // namespace lockstep
