@@ -56,6 +56,22 @@ TEST_CASE(
   CHECK(seen >= 8);
 }
 
+TEST_CASE("programs for BehaviorTree.CPP: they print what they print with the library") {
+  int seen = 0;
+  for (const auto& file :
+       std::filesystem::directory_iterator(LOCKSTEP_SOURCE_DIR "/tests/btcpp/programs")) {
+    if (file.path().extension() != ".txt") continue;
+    ++seen;
+    const std::string name = file.path().stem();
+    INFO(name);
+    const Outcome outcome =
+        run({.arguments = {}, .program = LOCKSTEP_BTCPP_PLUGINS "/program_" + name});
+    CHECK(outcome.code == 0);
+    CHECK(lines(outcome.out) == lines(read_file(file.path())));
+  }
+  CHECK(seen >= 1);
+}
+
 TEST_CASE("leaves for BehaviorTree.CPP: they print the same from a separate process") {
   for (const std::string name : {"halts", "register", "waiting"}) {
     INFO(name);

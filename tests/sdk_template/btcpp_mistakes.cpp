@@ -4,6 +4,7 @@
 
 #include "behaviortree_cpp/bt_factory.h"
 #include "behaviortree_cpp/loggers/groot2_publisher.h"
+#include "behaviortree_cpp/xml_parsing.h"
 
 using namespace BT;
 
@@ -62,7 +63,7 @@ BT_REGISTER_NODES(factory) {
   auto tree = factory.createTreeFromText("");
   const Groot2Publisher publisher(tree);
 #elif MISTAKE == 7
-  factory.createTreeFromText("").rootNode()->status();
+  writeTreeNodesModelXML(factory);
 #elif MISTAKE == 8
   factory.registerNodeType<WhileDoElseNode>("AsLong");
 #elif MISTAKE == 9

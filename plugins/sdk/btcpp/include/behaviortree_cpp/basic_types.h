@@ -17,6 +17,7 @@
 #include "behaviortree_cpp/contrib/expected.hpp"
 #include "behaviortree_cpp/exceptions.h"
 #include "behaviortree_cpp/lockstep/json_functions.h"
+#include "behaviortree_cpp/lockstep/standard.h"
 #include "behaviortree_cpp/utils/demangle_util.h"
 #include "behaviortree_cpp/utils/safe_any.hpp"
 

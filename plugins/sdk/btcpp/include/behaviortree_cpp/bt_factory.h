@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "behaviortree_cpp/behavior_tree.h"
+#include "behaviortree_cpp/lockstep/documents.h"
 #include "behaviortree_cpp/lockstep/enum_names.h"
 #include "behaviortree_cpp/lockstep/node_ids.h"
 #include "behaviortree_cpp/lockstep/plugin_table.h"
@@ -115,21 +116,33 @@ class BehaviorTreeFactory {
   }
   Tree createTreeFromText(const std::string& text,
                           Blackboard::Ptr blackboard = Blackboard::create()) {
-    return make({plugin_, plugins_, text, "", ""}, std::move(blackboard));
+    return make({plugin_, plugins_, documents_.text(text), "", detail::Documents::main_of(text)},
+                std::move(blackboard));
   }
   Tree createTreeFromFile(const std::string& file,
                           Blackboard::Ptr blackboard = Blackboard::create()) {
-    return make({plugin_, plugins_, "", file, ""}, std::move(blackboard));
+    if (documents_.tree_ids().empty()) {
+      return make({plugin_, plugins_, "", file, ""}, std::move(blackboard));
+    }
+    detail::Documents all = documents_;
+    const std::string main = detail::Documents::main_of(all.add_file(file));
+    return make({plugin_, plugins_, all.text(), "", main}, std::move(blackboard));
   }
-  // A tree of the one file that was registered.
+  // A tree of what was registered; a later tree of the same ID replaces an earlier one.
   void registerBehaviorTreeFromFile(const std::string& file) {
-    file_ = file;
+    documents_.add_file(file);
   }
   void registerBehaviorTreeFromText(const std::string& text) {
-    text_ = text;
+    documents_.add_text(text);
+  }
+  std::vector<std::string> registeredBehaviorTrees() const {
+    return documents_.tree_ids();
+  }
+  void clearRegisteredBehaviorTrees() {
+    documents_ = {};
   }
   Tree createTree(const std::string& tree, Blackboard::Ptr blackboard = Blackboard::create()) {
-    return make({plugin_, plugins_, text_, file_, tree}, std::move(blackboard));
+    return make({plugin_, plugins_, documents_.text(), "", tree}, std::move(blackboard));
   }
 #endif
   // What is registered, without the nodes that every tree has.
@@ -198,7 +211,7 @@ class BehaviorTreeFactory {
 
   std::shared_ptr<detail::PluginTable> plugin_ = std::make_shared<detail::PluginTable>();
   std::vector<std::string> plugins_;
-  std::string file_, text_;
+  detail::Documents documents_;  // of createTree
 };
 
 }  // namespace BT

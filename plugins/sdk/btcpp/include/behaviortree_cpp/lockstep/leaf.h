@@ -13,6 +13,9 @@ namespace BT::detail {
 // The type of that id; null: none.
 [[gnu::visibility("hidden")]] const Registration* find_registration(const std::string& id);
 [[gnu::visibility("hidden")]] const std::shared_ptr<ScriptingEnumsRegistry>& registered_enums();
+// In a program: what the library calls the node, null otherwise; a node that was made there.
+[[gnu::visibility("hidden")]] const NodeNumber* number_of(const std::string& path);
+[[gnu::visibility("hidden")]] void note_made(const std::string& path, TreeNode& node);
 
 struct Leaf {
   Place place;
@@ -117,6 +120,7 @@ struct Leaf {
     node->place_ = &place;
     find_children(host);
     node->registration_name_ = place.registration->manifest->registration_ID;
+    note_made(place.node->path(id), *node);
   }
 
   void find_children(const lockstep_host& host) {
@@ -132,6 +136,10 @@ struct Leaf {
     config.enums = registered_enums();
     config.manifest = place.registration->manifest;
     config.path = place.node->path(place.caller);
+    if (const NodeNumber* const number = number_of(config.path)) {
+      config.path = number->path;
+      config.uid = number->uid;
+    }
     for (const PortEntry& port : place.registration->ports) {
       const char* const given = place.node->given(place.caller, port.index);
       if (given == nullptr) continue;

@@ -24,6 +24,14 @@ inline PluginTable& made_table() {
 inline const Registration* find_registration(const std::string& id) {
   return made_table().find(id);
 }
+inline const NodeNumber* number_of(const std::string& path) {
+  if (making == nullptr) return nullptr;
+  const auto found = making->numbers.find(path);
+  return found == making->numbers.end() ? nullptr : &found->second;
+}
+inline void note_made(const std::string& path, TreeNode& node) {
+  if (making != nullptr) making->made[path] = &node;
+}
 inline const std::shared_ptr<ScriptingEnumsRegistry>& registered_enums() {
   return made_table().words();
 }

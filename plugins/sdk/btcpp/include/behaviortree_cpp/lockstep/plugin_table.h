@@ -51,16 +51,20 @@ class PluginTable {
   }
   const std::shared_ptr<ScriptingEnumsRegistry>& words() const { return words_; }
 
+  // In a program: how its nodes are numbered, by their paths, and those that were made.
+  std::map<std::string, NodeNumber> numbers;
+  std::map<std::string, TreeNode*> made;
+
   // The words as the host reads them; valid until one is added.
   const lockstep_words* described_words() {
     word_list_.clear();
-    numbers_.clear();
+    word_numbers_.clear();
     for (const auto& [word, number] : *words_) {
       word_list_.push_back(word.c_str());
-      numbers_.push_back(number);
+      word_numbers_.push_back(number);
     }
     word_table_ = {sizeof word_table_, static_cast<std::uint32_t>(word_list_.size()),
-                   word_list_.data(), numbers_.data()};
+                   word_list_.data(), word_numbers_.data()};
     return &word_table_;
   }
 
@@ -173,7 +177,7 @@ class PluginTable {
   std::map<std::string, std::unique_ptr<Registration>> types_;
   std::shared_ptr<ScriptingEnumsRegistry> words_ = std::make_shared<ScriptingEnumsRegistry>();
   std::vector<const char*> word_list_;
-  std::vector<double> numbers_;
+  std::vector<double> word_numbers_;
   lockstep_words word_table_{};
   std::string name_;
   std::vector<const lockstep_leaf_type*> listed_;

@@ -15,12 +15,11 @@
 
 #include "behaviortree_cpp/blackboard.h"
 #include "behaviortree_cpp/lockstep/plugin_table.h"
+#include "behaviortree_cpp/lockstep/program_nodes.h"
+#include "behaviortree_cpp/utils/wildcards.hpp"
 
 namespace BT {
 namespace detail {
-
-template <class>
-inline constexpr bool is_absent = false;
 
 // What went wrong, with its places.
 inline std::string project_errors(lockstep_project* project) {
@@ -48,17 +47,25 @@ class Program : public EntryStore {
     if (project_ == nullptr) throw RuntimeError(lockstep_last_error());
     const Making scope(*source_.nodes);
     load();
+    places_ = std::make_unique<const NodePlaces>(project_.get());
+    source_.nodes->numbers.clear();
+    source_.nodes->made.clear();
+    for (const NodePlace& it : places_->nodes) source_.nodes->numbers[it.own_path] = it.number;
     lockstep_run_options options{};
     options.struct_size = sizeof options;
     options.tick_period = 0.01;
     run_.reset(lockstep_run_new(project_.get(), &options));
     if (run_ == nullptr) throw RuntimeError(lockstep_last_error());
+    for (std::uint32_t i = 0; i < places_->nodes.size(); ++i) nodes_.push_back(make_node(i));
+    root_ = std::make_unique<ProgramNode>(*this, run_.get(), 0, *places_, nodes_.front()->type());
   }
 
   NodeStatus tick() {
     const std::chrono::duration<double> since = std::chrono::steady_clock::now() - began_;
     const auto status = static_cast<NodeStatus>(lockstep_run_tick(run_.get(), since.count()));
-    for (const auto& observe : observers_) observe();
+    for (std::size_t i = 0; i < observers_.size(); ++i) {
+      if (const auto observe = observers_[i].lock()) (*observe)();
+    }
     if (const char* const fault = lockstep_run_fault(run_.get(), nullptr)) {
       const std::string text = fault;
       halt();
@@ -70,7 +77,23 @@ class Program : public EntryStore {
 
   lockstep_project* project() const { return project_.get(); }
   lockstep_run* run() const { return run_.get(); }
-  void observe(std::function<void()> after_tick) { observers_.push_back(std::move(after_tick)); }
+  // As long as the result lives.
+  std::shared_ptr<std::function<void()>> observe(std::function<void()> after_tick) {
+    auto observer = std::make_shared<std::function<void()>>(std::move(after_tick));
+    observers_.push_back(observer);
+    return observer;
+  }
+  const NodePlaces& places() const { return *places_; }
+  // In the order of the tree: objects of the program's classes, or what stands for others.
+  const std::vector<TreeNode::Ptr>& nodes() const { return nodes_; }
+  TreeNode* root() const { return root_.get(); }
+  // After the last tick.
+  NodeStatus status_of(std::uint32_t index) const {
+    lockstep_node_state state{};
+    state.struct_size = sizeof state;
+    if (!lockstep_run_node(run_.get(), index, &state)) return NodeStatus::IDLE;
+    return static_cast<NodeStatus>(state.status);
+  }
 
   bool get(const std::string& key, Any& value) const override {
     const char* const name = key.c_str();
@@ -132,34 +155,72 @@ class Program : public EntryStore {
     void operator()(lockstep_run* run) const { lockstep_run_free(run); }
   };
 
+  TreeNode::Ptr make_node(std::uint32_t index) {
+    const NodePlace& place = places_->nodes[index];
+    const auto made = source_.nodes->made.find(place.own_path);
+    if (made != source_.nodes->made.end()) return {made->second, [](TreeNode*) {}};
+    const auto known = source_.nodes->manifests().find(place.id);
+    const NodeType type =
+        known == source_.nodes->manifests().end() ? type_of_id(place.id) : known->second.type;
+    return std::make_shared<ProgramNode>(*this, run_.get(), index, *places_, type);
+  }
+
   Source source_;  // outlives the run
   std::unique_ptr<lockstep_project, FreeProject> project_{lockstep_project_new()};
   std::unique_ptr<lockstep_run, FreeRun> run_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
-  std::vector<std::function<void()>> observers_;
+  std::vector<std::weak_ptr<std::function<void()>>> observers_;
+  std::unique_ptr<const NodePlaces> places_;
+  std::vector<TreeNode::Ptr> nodes_;
+  std::unique_ptr<ProgramNode> root_;
 };
 
-// The root of a tree. It is no object here.
-struct Root {
-  const Program* program;
-
-  template <class Node = TreeNode>
-  Node* operator->() const {
-    static_assert(is_absent<Node>,
-                  "lockstep has no nodes of a tree as objects: lockstep_project_node() of "
-                  "lockstep/runtime.h lists them, and lockstep show prints a tree");
-    return nullptr;
+// The entries of a SubTree.
+class SubtreeEntries : public EntryStore {
+ public:
+  SubtreeEntries(std::shared_ptr<Program> program, std::string prefix)
+      : program_(std::move(program)), prefix_(std::move(prefix)) {}
+  bool get(const std::string& key, Any& value) const override {
+    return program_->get(prefix_ + key, value);
   }
+  bool set(const std::string& key, const Any& value) override {
+    return program_->set(prefix_ + key, value);
+  }
+
+ private:
+  std::shared_ptr<Program> program_;
+  std::string prefix_;
 };
 
 }  // namespace detail
 
 class Tree {
  public:
+  struct Subtree {
+    using Ptr = std::shared_ptr<Subtree>;
+    std::vector<TreeNode::Ptr> nodes;
+    Blackboard::Ptr blackboard;
+    std::string instance_name;  // "" of the main tree
+    std::string tree_ID;        // the name of the SubTree
+  };
+  std::vector<Subtree::Ptr> subtrees;  // the main tree first
+
   Tree() = default;
   Tree(std::shared_ptr<detail::Program> program, Blackboard::Ptr blackboard)
       : program_(std::move(program)), blackboard_(std::move(blackboard)) {
     blackboard_->attach(program_);
+    for (const detail::SubtreePlace& it : program_->places().subtrees) {
+      Blackboard::Ptr entries = subtrees.empty() ? blackboard_ : Blackboard::create();
+      if (!subtrees.empty()) {
+        entries->attach(std::make_shared<detail::SubtreeEntries>(program_, it.entries));
+      }
+      subtrees.push_back(
+          std::make_shared<Subtree>(Subtree{{}, std::move(entries), it.path, it.name}));
+    }
+    const auto& nodes = program_->nodes();
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      subtrees[program_->places().nodes[i].subtree]->nodes.push_back(nodes[i]);
+    }
   }
 
   // One period: the tree is ticked again while a node asks for it.
@@ -184,13 +245,24 @@ class Tree {
   // The entries of the main tree: numbers, texts, and objects as texts.
   Blackboard::Ptr rootBlackboard() { return blackboard_; }
 
-  // For printTreeRecursively.
-  detail::Root rootNode() const { return {&program()}; }
-  template <class Visitor>
-  void applyVisitor(const Visitor&) const {
-    static_assert(detail::is_absent<Visitor>,
-                  "lockstep has no nodes of a tree as objects: lockstep_project_node() of "
-                  "lockstep/runtime.h lists them");
+  // It stands for the whole tree: haltNode() halts it.
+  [[nodiscard]] TreeNode* rootNode() const { return program().root(); }
+  // A program's own nodes are the objects that its classes made; others have a name, a path, a type
+  // and a status.
+  void applyVisitor(const std::function<void(const TreeNode*)>& visitor) const {
+    for (const auto& node : program().nodes()) visitor(node.get());
+  }
+  void applyVisitor(const std::function<void(TreeNode*)>& visitor) {
+    for (const auto& node : program().nodes()) visitor(node.get());
+  }
+  template <class Node = TreeNode>
+  [[nodiscard]] std::vector<const TreeNode*> getNodesByPath(StringView pattern) const {
+    std::vector<const TreeNode*> found;
+    for (const auto& node : program().nodes()) {
+      if (dynamic_cast<const Node*>(node.get()) == nullptr) continue;
+      if (wildcards_match(node->fullPath(), pattern)) found.push_back(node.get());
+    }
+    return found;
   }
 
   detail::Program& program() const {
@@ -204,15 +276,16 @@ class Tree {
 };
 
 // The names of all nodes, each below its parent.
-inline void printTreeRecursively(const detail::Root& root, std::ostream& out = std::cout) {
+inline void printTreeRecursively(const TreeNode* root, std::ostream& out = std::cout) {
+  const auto* const node = dynamic_cast<const detail::ProgramNode*>(root);
+  if (node == nullptr || node->index() != 0) throw LogicError("it is not the root of a BT::Tree");
   std::vector<std::size_t> depth;
-  for (std::uint32_t i = 0; i < lockstep_project_node_count(root.program->project()); ++i) {
-    lockstep_node node{};
-    node.struct_size = sizeof node;
-    if (!lockstep_project_node(root.program->project(), i, &node)) return;
-    depth.push_back(node.parent == i ? 0 : depth[node.parent] + 1);
-    out << std::string(3 * depth.back(), ' ') << node.name << std::endl;
+  out << "----------------" << std::endl;
+  for (const detail::NodePlace& it : node->places().nodes) {
+    depth.push_back(depth.empty() ? 0 : depth[it.parent] + 1);
+    out << std::string(3 * depth.back(), ' ') << it.name << std::endl;
   }
+  out << "----------------" << std::endl;
 }
 
 }  // namespace BT

@@ -76,6 +76,12 @@ struct PortEntry {
   std::uint32_t index;  // for the host
 };
 
+// What the library calls a node of a tree.
+struct NodeNumber {
+  std::string path;
+  std::uint16_t uid = 0;
+};
+
 // One type of node.
 struct Registration {
   const TreeNodeManifest* manifest;  // the table's

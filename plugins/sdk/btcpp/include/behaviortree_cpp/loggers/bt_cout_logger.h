@@ -1,36 +1,26 @@
-// Prints each change of a node's status.
+// Prints each change of a node's status that is seen after a tick.
 #pragma once
 
 #include <cstdio>
+#include <iostream>
 #include <string>
-#include <vector>
 
-#include "behaviortree_cpp/bt_factory.h"
+#include "behaviortree_cpp/loggers/abstract_logger.h"
 
 namespace BT {
 
-class StdCoutLogger {
+class StdCoutLogger : public StatusChangeLogger {
  public:
-  explicit StdCoutLogger(const Tree& tree) {
-    detail::Program* const program = &tree.program();
-    std::vector<NodeStatus> before(lockstep_project_node_count(program->project()),
-                                   NodeStatus::IDLE);
-    program->observe([program, before]() mutable {
-      for (std::uint32_t i = 0; i < before.size(); ++i) print(*program, i, before[i]);
-    });
-  }
+  explicit StdCoutLogger(const Tree& tree) : StatusChangeLogger(tree.rootNode()) {}
+  void flush() override { std::cout << std::flush; }
 
  private:
-  static void print(detail::Program& program, std::uint32_t index, NodeStatus& before) {
-    lockstep_node_state state{};
-    state.struct_size = sizeof state;
-    lockstep_node node{};
-    node.struct_size = sizeof node;
-    if (!lockstep_run_node(program.run(), index, &state)) return;
-    const auto now = static_cast<NodeStatus>(state.status);
-    if (now == before || !lockstep_project_node(program.project(), index, &node)) return;
-    std::printf("%s: %s -> %s\n", node.path, toStr(before).c_str(), toStr(now).c_str());
-    before = now;
+  void callback(Duration timestamp, const TreeNode& node, NodeStatus before,
+                NodeStatus now) override {
+    const double seconds = std::chrono::duration<double>(timestamp).count();
+    std::printf("[%.3f]: %-25s %s -> %s", seconds, node.name().c_str(), toStr(before, true).c_str(),
+                toStr(now, true).c_str());
+    std::cout << std::endl;
   }
 };
 

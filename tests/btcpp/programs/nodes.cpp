@@ -1,0 +1,84 @@
+// A program that looks at the nodes of its tree, and shares a blackboard with it.
+#include <iostream>
+
+#include "behaviortree_cpp/bt_factory.h"
+
+using namespace BT;
+
+// Gets what it needs from a visitor.
+class Tell : public SyncActionNode {
+ public:
+  Tell(const std::string& name, const NodeConfig& config) : SyncActionNode(name, config) {}
+  static PortsList providedPorts() { return {InputPort<int>("number"), OutputPort<int>("next")}; }
+  void initialize(const std::string& what) { what_ = what; }
+  NodeStatus tick() override {
+    const int number = getInput<int>("number").value();
+    setOutput("next", number + 1);
+    std::cout << name() << ": " << what_ << " " << number << std::endl;
+    return NodeStatus::SUCCESS;
+  }
+
+ private:
+  std::string what_ = "nothing";
+};
+
+class Wait : public StatefulActionNode {
+ public:
+  Wait(const std::string& name, const NodeConfig& config) : StatefulActionNode(name, config) {}
+  static PortsList providedPorts() { return {}; }
+  NodeStatus onStart() override { return NodeStatus::RUNNING; }
+  NodeStatus onRunning() override { return NodeStatus::RUNNING; }
+  void onHalted() override { std::cout << name() << " halted" << std::endl; }
+};
+
+static const char* const kMain = R"(
+<root BTCPP_format="4">
+  <BehaviorTree ID="Main">
+    <Sequence>
+      <Tell name="first" number="{@shared}" next="{@shared}"/>
+      <SubTree ID="Part" name="mine" number="{@shared}" next="{next}"/>
+      <SubTree ID="Part" name="other" number="7" next="{last}"/>
+      <Inverter><Wait/></Inverter>
+    </Sequence>
+  </BehaviorTree>
+</root>)";
+
+static const char* const kPart = R"(
+<root BTCPP_format="4">
+  <BehaviorTree ID="Part">
+    <Fallback name="any"><AlwaysFailure/><Tell number="{number}" next="{next}"/></Fallback>
+  </BehaviorTree>
+</root>)";
+
+int main() {
+  BehaviorTreeFactory factory;
+  factory.registerNodeType<Tell>("Tell");
+  factory.registerNodeType<Wait>("Wait");
+  factory.registerBehaviorTreeFromText(kPart);
+  factory.registerBehaviorTreeFromText(kMain);
+  for (const std::string& tree : factory.registeredBehaviorTrees()) std::cout << tree << std::endl;
+
+  const auto shared = Blackboard::create();
+  shared->set("shared", 40);
+  auto tree = factory.createTree("Main", Blackboard::create(shared));
+  printTreeRecursively(tree.rootNode());
+  tree.applyVisitor([](TreeNode* node) {
+    std::cout << node->UID() << " " << node->fullPath() << " " << node->registrationName() << " "
+              << node->type() << " " << node->status() << std::endl;
+    if (auto* const tell = dynamic_cast<Tell*>(node)) tell->initialize("visited");
+  });
+  for (const auto& part : tree.subtrees) {
+    std::cout << "[" << part->instance_name << "] " << part->nodes.size() << std::endl;
+  }
+  for (const TreeNode* node : tree.getNodesByPath("mine/*")) std::cout << node->name() << std::endl;
+  std::cout << tree.getNodesByPath<Tell>("*").size() << std::endl;
+
+  std::cout << tree.tickOnce() << std::endl;
+  std::cout << tree.tickOnce() << " " << tree.rootNode()->status() << std::endl;
+  std::cout << shared->get<int>("shared") << " " << tree.rootBlackboard()->get<int>("next") << " "
+            << tree.subtrees[2]->blackboard->get<int>("number") << std::endl;
+  tree.rootNode()->haltNode();
+  shared->set("shared", 100);
+  std::cout << tree.tickOnce() << std::endl;
+  tree.haltTree();
+}
