@@ -31,7 +31,8 @@ struct RecordedNode {
 };
 
 struct RecordedKey {
-  std::string key, type;  // of a blackboard entry
+  std::string key, type;                // of a blackboard entry
+  std::vector<NodeIndex> writers = {};  // the nodes that may write it; readers leave it out
 };
 
 struct RecordingHeader {

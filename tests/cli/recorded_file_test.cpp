@@ -74,7 +74,8 @@ TEST_CASE("a recording has the entries that changed and what leaves logged, of e
   CHECK(contains(all[1], R"([[0,"0.5"]])"));
   CHECK(contains(all[2], R"([[0,"0.4;0.8"]])"));
   const auto header = nlohmann::json::parse(lines(read_file(file))[0]);
-  CHECK(header["entries"] == nlohmann::json::parse(R"([{"key":"plan","type":"list of double"},
+  CHECK(header["entries"] ==
+        nlohmann::json::parse(R"([{"key":"plan","type":"list of double","writers":[3]},
                                                        {"key":"s","type":"double"}])"));
   CHECK(recorded("logs", {"--log-level", "none"}) ==
         std::vector<std::string>{R"(0[["Main/Sequence/Say","info","says: a \"word\""]])"});
@@ -87,6 +88,38 @@ TEST_CASE("a recording has the entries that changed and what leaves logged, of e
       lockstep::test::lockstep({"run", tree, "--record", file, "--record-entries", "plam"});
   CHECK(typo.code == 2);
   CHECK(contains(typo.err, "the tree has no entry 'plam'\n  hint: did you mean 'plan'?"));
+}
+
+TEST_CASE("a recording says which nodes may write an entry: by a port or a script") {
+  const TemporaryDirectory directory;
+  const auto writers = [&](const std::string& text) {
+    const std::string tree = directory.file("tree.xml", text);
+    const std::string file = directory.path("run.jsonl");
+    const Outcome outcome =
+        lockstep::test::lockstep({"run", tree, "--clock", "virtual", "--view", "none",
+                                  "--max-ticks", "9", "--record", file});
+    INFO(outcome.err);
+    CHECK(outcome.code == 0);
+    std::map<std::string, std::vector<int>> found;
+    const auto header = nlohmann::json::parse(lines(read_file(file))[0]);
+    for (const auto& entry : header["entries"]) {
+      found[entry["key"]] = entry.value("writers", std::vector<int>());
+    }
+    return found;
+  };
+  using Writers = std::map<std::string, std::vector<int>>;
+  CHECK(
+      writers("<root lockstep=\"1\" main_tree_to_execute=\"Main\"><plugin name=\"motion\"/>"
+              "<BehaviorTree ID=\"Main\"><Sequence memory=\"true\">"
+              "<Script code=\"a := 1; b := 2\" on_success=\"b += a\"/><Check code=\"b == 3\"/>"
+              "<Advance step=\"1\" on_end=\"a := 2\"/><SubTree ID=\"Sub\" x=\"{b}\" y=\"5\"/>"
+              "</Sequence></BehaviorTree><BehaviorTree ID=\"Sub\"><Sequence memory=\"true\">"
+              "<Script code=\"x := 7\"/><Script code=\"y == 5\" on_success=\"x := 8\"/></Sequence>"
+              "</BehaviorTree></root>") == Writers{{"a", {1, 3}}, {"b", {1, 6, 7}}, {"Sub/y", {}}});
+  const Writers other = writers(
+      "<root BTCPP_format=\"4\"><BehaviorTree ID=\"Main\"><Sequence><Script code=\"a := 1\"/>"
+      "<AlwaysSuccess _onSuccess=\"a := 2\"/></Sequence></BehaviorTree></root>");
+  CHECK(other == Writers{{"a", {1, 2}}});
 }
 
 }  // namespace lockstep::test

@@ -113,6 +113,8 @@ test("entries, logs and events are those of the moment", async () => {
   assert.doesNotMatch(await words(row), /counter/);
   await atTick(page, 1300);
   assert.match(await words(row), /counter\s+11\.970 s/);
+  await row.getByRole("button").click();
+  assert.match(await words(board), /by kitchen\/…\/LookFor counter 11\.970 s/);
   const events = page.getByRole("list", { name: "Events" });
   assert.match(await words(events), /LookFor: sees the mug at the counter/);
   await page.getByRole("button", { name: "logs" }).click();

@@ -34,7 +34,9 @@ Json json_of(const RecordedNode& node, std::size_t index) {
 }
 
 Json json_of(const RecordedKey& entry) {
-  return {{"key", entry.key}, {"type", entry.type}};
+  Json json = {{"key", entry.key}, {"type", entry.type}};
+  if (!entry.writers.empty()) json["writers"] = entry.writers;
+  return json;
 }
 
 Json json_of(const LeafLine& log) {

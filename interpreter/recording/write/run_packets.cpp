@@ -8,6 +8,7 @@
 
 #include "core/parameter_value.h"
 #include "core/wording.h"
+#include "engine/writers.h"
 #include "measure/synchronized_measure.h"
 #include "summary/statistics.h"
 
@@ -53,10 +54,11 @@ std::string RunPackets::header(const RunStart& start) const {
 }
 
 std::vector<RecordedKey> RunPackets::keys() const {
+  const auto who = writers(tree_);
   std::vector<RecordedKey> keys;
   for (const std::uint32_t slot : slots_) {
     const auto& entry = tree_.slots[slot];
-    keys.push_back({entry.name, std::string(type_name(entry.type, entry.object))});
+    keys.push_back({entry.name, std::string(type_name(entry.type, entry.object)), who[slot]});
   }
   return keys;
 }

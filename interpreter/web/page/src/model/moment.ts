@@ -3,11 +3,20 @@ import { HELD, STATUS, TICKED } from "./columns";
 import { IDLE, SUCCESS } from "./recording";
 import type { Run } from "./run";
 
+// Of a synchronized node.
+export interface Span {
+  least: number;
+  most: number; // how far a child may be
+  slowest: number[]; // the places of those that are at the least
+}
+
 export class Moment {
   readonly status: Uint8Array;
   readonly progress: Float64Array; // as it is shown: 1 after success, 0 when idle
   readonly ticked: Uint8Array;
   readonly held: Uint8Array;
+
+  readonly spans = new Map<number, Span>(); // of synchronized nodes, once they were asked for
 
   constructor(readonly run: Run, readonly line: number) {
     const count = run.nodes.length;

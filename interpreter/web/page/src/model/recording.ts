@@ -27,7 +27,7 @@ export interface Header {
   seed: number;
   arguments: Record<string, string>;
   nodes: HeaderNode[];
-  entries?: { key: string; type: string }[];
+  entries?: { key: string; type: string; writers?: number[] }[];
 }
 
 export type LogLine = [who: string, level: string, text: string];

@@ -1,20 +1,15 @@
 // Who waits for whom, and where: the same sentences as those of `lockstep replay`.
-import type { Moment } from "./moment";
+import type { Moment, Span } from "./moment";
 import { IDLE, SKIPPED } from "./recording";
 import type { ShapeNode } from "./shape";
 
-const EPSILON = 1e-9;
+const EPSILON = 1e-9, FEW = 8;
 
 export interface Wait {
   node: number;
   keeper: number;
-  for: number[]; // those that it waits for
+  for: number[]; // those that it waits for, of many a few
   text: string;
-}
-
-export interface Span {
-  least: number;
-  most: number; // how far a child may be
 }
 
 function isLeftOut(moment: Moment, keeper: ShapeNode, child: number): boolean {
@@ -22,28 +17,28 @@ function isLeftOut(moment: Moment, keeper: ShapeNode, child: number): boolean {
   return (status === SKIPPED && !moment.held[child]) || (keeper.ignoresIdle && status === IDLE);
 }
 
-// Of a node that compares progress.
+// Of a node that compares progress. Worked out once in a moment, however many it holds.
 export function spanOf(moment: Moment, keeper: ShapeNode): Span {
+  const known = moment.spans.get(keeper.index);
+  if (known) return known;
+  const counted = keeper.inStep.map((child) => !isLeftOut(moment, keeper, child));
   let least = 1;
-  for (const child of keeper.inStep) {
-    if (!isLeftOut(moment, keeper, child)) least = Math.min(least, moment.progress[child]);
-  }
+  keeper.inStep.forEach((child, place) => {
+    if (counted[place]) least = Math.min(least, moment.progress[child]);
+  });
+  const slowest = [...keeper.inStep.keys()].filter(
+    (place) => counted[place] && moment.progress[keeper.inStep[place]] <= least + EPSILON);
   const limit = moment.limit(keeper.index);
-  return { least, most: Math.min(1, keeper.synchronization === "relative" ? least + limit : limit) };
+  const most = Math.min(1, keeper.synchronization === "relative" ? least + limit : limit);
+  const span = { least, most, slowest };
+  moment.spans.set(keeper.index, span);
+  return span;
 }
 
-function slowest(moment: Moment, keeper: ShapeNode, least: number): number[] {
-  return keeper.inStep
-    .map((_, place) => place)
-    .filter((place) => {
-      const child = keeper.inStep[place];
-      return !isLeftOut(moment, keeper, child) && moment.progress[child] <= least + EPSILON;
-    });
-}
-
-function listed(names: string[]): string {
-  if (names.length <= 2) return names.join(" and ");
-  return `${names[0]}, ${names[1]} and ${names.length - 2} more`;
+function listed(places: number[], names: string[]): string {
+  const first = names[places[0]], second = names[places[1]];
+  if (places.length <= 2) return places.length === 1 ? first : `${first} and ${second}`;
+  return `${first}, ${second} and ${places.length - 2} more`;
 }
 
 // As printf's %.6g of a barrier or delta.
@@ -52,9 +47,8 @@ export function short(value: number): string {
 }
 
 function waitAtBarrier(moment: Moment, keeper: ShapeNode, node: number): Wait {
-  const { least } = spanOf(moment, keeper);
-  const places = slowest(moment, keeper, least);
-  const whom = listed(places.map((place) => keeper.names[place]));
+  const { least, slowest } = spanOf(moment, keeper);
+  const whom = listed(slowest, keeper.names);
   const limit = moment.limit(keeper.index);
   const of = keeper.isGroup ? ` of '${keeper.segment}'` : "";
   let text = `waits for ${whom}`;
@@ -63,7 +57,7 @@ function waitAtBarrier(moment: Moment, keeper: ShapeNode, node: number): Wait {
   } else if (Number.isFinite(limit)) {
     text += ` at barrier ${short(limit)}${of}`;
   }
-  return { node, keeper: keeper.index, for: places.map((place) => keeper.inStep[place]), text };
+  return { node, keeper: keeper.index, for: slowest.slice(0, FEW).map((place) => keeper.inStep[place]), text };
 }
 
 // Sets of resources are sums of powers of two, up to 2^52.

@@ -20,7 +20,8 @@ function State({ store }: { store: Store }) {
       {live && !end && <span class={`connection ${live.connection}`}>{CONNECTIONS[live.connection]}</span>}
       {live && !end && paused && <span class="warning">‖ paused</span>}
       {!live && <span class="dim">recording</span>}
-      {end && <span class={`result ${end.result}`}>{`ended: ${end.result} (${end.reason})`}</span>}
+      {end && !store.moment.isLastOfEnded() && <span class="dim">{`it ended later: ${end.result}`}</span>}
+      {store.moment.isLastOfEnded() && <span class={`result ${end?.result}`}>{`ended: ${end?.result} (${end?.reason})`}</span>}
     </span>
   );
 }
@@ -42,7 +43,7 @@ function Timing({ store }: { store: Store }) {
 }
 
 export function Header({ store }: { store: Store }) {
-  const { header } = store.run;
+  const { run } = store, { header, end } = run;
   const { theme, line } = store.looking;
   const { moment } = store;
   return (
@@ -50,8 +51,8 @@ export function Header({ store }: { store: Store }) {
       <h1 title={header?.file}>{header?.tree ?? "lockstep"}</h1>
       <p class="facts">
         <State store={store} />
-        <span>tick <b>{moment.tick}</b></span>
-        <span><b>{seconds(moment.time)}</b></span>
+        <span>tick <b>{moment.tick}</b>{end && ` of ${run.ticks[run.last]}`}</span>
+        <span><b>{seconds(moment.time)}</b>{end && ` of ${seconds(run.times[run.last])}`}</span>
         <span>{header?.rate_hz} Hz, {header?.clock} clock</span>
         <Timing store={store} />
         {store.live && !store.run.end && line !== null && <span class="warning">looking back</span>}

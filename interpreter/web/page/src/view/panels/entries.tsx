@@ -1,5 +1,6 @@
 // The blackboard: each entry with its value, and all that it has been.
 import { useState } from "preact/hooks";
+import { Moment } from "../../model/moment";
 import type { EntryChange } from "../../model/run";
 import { seconds } from "../../model/words";
 import type { Store } from "../store";
@@ -11,6 +12,17 @@ function upTo(changes: EntryChange[], line: number): number {
   let count = changes.length;
   while (count > 0 && changes[count - 1].line > line) --count;
   return count;
+}
+
+// Those that may have written it: of the nodes with a port or a script that writes it, the ones that had a tick.
+function writersOf(store: Store, entry: number, change: EntryChange): string {
+  const { run } = store;
+  const all = run.header?.entries?.[entry].writers;
+  if (!all || change.line === 0) return "";
+  const moment = new Moment(run, change.line);
+  const ticked = all.filter((node) => moment.ticked[node]);
+  const names = (ticked.length > 0 ? ticked : all).map((node) => run.shape.nodes[node].apart);
+  return names.length === 0 ? "" : `by ${names.slice(0, 3).join(" or ")}${names.length > 3 ? " or others" : ""}`;
 }
 
 function shown(value: string | null | undefined): string {
@@ -33,9 +45,9 @@ function Entry({ store, entry }: { store: Store; entry: number }) {
         <td class="value">{shown(now?.value)}</td>
         <td class="dim">{now ? seconds(run.times[now.line]) : ""}</td>
       </tr>
-      {open && changes.slice(Math.max(0, count - MOST), count).reverse().map((change, place) => (
+      {open && changes.slice(Math.max(0, count - MOST), count).reverse().map((change) => (
         <tr key={change.line} class="history">
-          <td>{place === 0 ? "now" : "before"}</td>
+          <td>{writersOf(store, entry, change) || (change.line === 0 ? "at the start" : "")}</td>
           <td class="value">{shown(change.value)}</td>
           <td><button type="button" class="node" onClick={() => store.goTo(change.line)}>{seconds(run.times[change.line])}</button></td>
         </tr>

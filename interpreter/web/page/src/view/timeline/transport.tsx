@@ -47,7 +47,7 @@ export function Transport({ store }: { store: Store }) {
         onClick={() => store.set({ line: null, playing: false })}>newest</button>
       <label>tick <input class="tick" aria-label="Tick" inputMode="numeric" value={moment.tick} size={7}
         onKeyDown={goToTick} onFocus={(event) => (event.target as HTMLInputElement).select()} /></label>
-      <select aria-label="Speed of playing" value={looking.speed}
+      <select class="speed" aria-label="Speed of playing" value={looking.speed}
         onChange={(event) => store.set({ speed: Number((event.target as HTMLSelectElement).value) })}>
         {SPEEDS.map((speed) => <option key={speed} value={speed}>{`${speed}×`}</option>)}
       </select>
