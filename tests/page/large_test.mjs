@@ -52,3 +52,15 @@ test("10,000 nodes stay fluid", async () => {
   }
   await page.context().close();
 });
+
+test("10,000 children of one node, of which most are held", async () => {
+  const leaves = Array.from({ length: 10_000 }, (_, leaf) => `<Advance name="l${leaf}" step="0.0${10 + (leaf * 7) % 10}"/>`);
+  const page = await openRun(record(tree(`<ParallelRelative name="all" delta="0.05">${leaves.join("")}</ParallelRelative>`),
+    "--seed", "1", "--timeout", "0.2"));
+  await page.getByRole("treeitem", { name: /^l\d+, Advance, held.* ahead \(delta 0\.05\)$/ }).first().waitFor();
+  const took = await frames(page, 10, `const slider = document.querySelector('input[aria-label="Moment"]');
+    slider.value = 5 + step; slider.dispatchEvent(new Event("input", { bubbles: true }));`);
+  console.log(`scrubbing: ${took[5].toFixed(1)} ms a frame`);
+  assert.ok(took[5] < 1000, `${took[5]} ms a frame`);
+  await page.context().close();
+});

@@ -75,10 +75,8 @@ export function owned(moment: Moment, pool: ShapeNode, node: number): string {
   return limit > 0 ? `owns ${resourcesIn(pool, limit).join(";")}` : "";
 }
 
-function waitForResources(moment: Moment, pool: ShapeNode, node: number): Wait | null {
-  const limit = memberLimit(moment, node);
-  if (limit >= 0) return null;
-  const wanted = new Set(resourcesIn(pool, limit));
+function waitForResources(moment: Moment, pool: ShapeNode, node: number): Wait {
+  const wanted = new Set(resourcesIn(pool, memberLimit(moment, node)));
   const owners: number[] = [], parts: string[] = [];
   pool.inStep.forEach((other, place) => {
     const its = memberLimit(moment, other);
@@ -90,23 +88,27 @@ function waitForResources(moment: Moment, pool: ShapeNode, node: number): Wait |
   return { node, keeper: pool.index, for: owners, text: parts.length ? `waits for ${parts.join(", ")}` : "" };
 }
 
-export function waitOf(moment: Moment, node: number): Wait | null {
+function isWaiting(moment: Moment, node: number): boolean {
   const { nodes } = moment.run.shape;
   const { keeper, parent } = nodes[node];
-  if (keeper === null) return null;
-  if (nodes[keeper].synchronization === "resources") return waitForResources(moment, nodes[keeper], node);
+  if (keeper === null) return false;
+  if (nodes[keeper].synchronization === "resources") return memberLimit(moment, node) < 0;
   // Under a parent that is held itself, the parent says what is waited for.
-  if (!moment.held[node] || (parent !== null && moment.held[parent])) return null;
-  return waitAtBarrier(moment, nodes[keeper], node);
+  return moment.held[node] === 1 && (parent === null || !moment.held[parent]);
 }
 
-export function waitsOf(moment: Moment): Wait[] {
-  const waits: Wait[] = [];
-  for (const { index, keeper } of moment.run.shape.nodes) {
-    const wait = keeper === null ? null : waitOf(moment, index);
-    if (wait) waits.push(wait);
-  }
-  return waits;
+export function waitOf(moment: Moment, node: number): Wait | null {
+  if (!isWaiting(moment, node)) return null;
+  const { nodes } = moment.run.shape;
+  const keeper = nodes[nodes[node].keeper!];
+  return keeper.synchronization === "resources"
+    ? waitForResources(moment, keeper, node)
+    : waitAtBarrier(moment, keeper, node);
+}
+
+// All that wait.
+export function waiting(moment: Moment): number[] {
+  return moment.run.shape.nodes.map((node) => node.index).filter((node) => isWaiting(moment, node));
 }
 
 // The barriers to draw: those that the header has, else the current one.

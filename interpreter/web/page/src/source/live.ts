@@ -2,6 +2,7 @@
 // nothing while the page is out of sight.
 import type { Store } from "../view/store";
 import { readEvents } from "./event_stream";
+import { feedLines } from "./lines";
 
 export type Connection = "connecting" | "open" | "lost" | "ended" | "asleep";
 export type When = "begins" | "completes" | "barrier";
@@ -97,11 +98,7 @@ export class LiveSource {
 
   private async readHistory(signal: AbortSignal) {
     const answer = await this.get("history", signal);
-    if (answer.ok) {
-      for (const line of (await answer.text()).split("\n")) {
-        if (line.endsWith("}")) this.store.feed(line);
-      }
-    }
+    if (answer.ok && answer.body) await feedLines(answer.body, this.store);
     this.hasHistory = true;
   }
 

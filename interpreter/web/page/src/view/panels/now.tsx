@@ -1,7 +1,7 @@
 // In words: what runs, who waits for whom, what happened last.
 import type { Moment } from "../../model/moment";
 import { RUNNING } from "../../model/recording";
-import { waitsOf, type Wait } from "../../model/waiting";
+import { waiting, waitOf } from "../../model/waiting";
 import { seconds } from "../../model/words";
 import { LANDMARKS, type RunEvent } from "../../model/events";
 import { eventText } from "./event_text";
@@ -63,15 +63,16 @@ function Name({ store, node }: { store: Store; node: number }) {
   return <button type="button" class="node" title={path} onClick={() => store.select(node, true)}>{apart}</button>;
 }
 
-function Waiting({ store, moment, wait }: { store: Store; moment: Moment; wait: Wait }) {
+function Waiting({ store, moment, node }: { store: Store; moment: Moment; node: number }) {
+  const wait = waitOf(moment, node);
   return (
     <li class="held">
       <span aria-hidden="true" class="symbol">‖</span>
       <span>
-        <Name store={store} node={wait.node} /> {wait.text || "waits"}{" "}
-        <span class="dim">for {heldSince(moment, wait.node).toFixed(2)} s</span>
+        <Name store={store} node={node} /> {wait?.text || "waits"}{" "}
+        <span class="dim">for {heldSince(moment, node).toFixed(2)} s</span>
       </span>
-      <Progress moment={moment} node={wait.node} />
+      <Progress moment={moment} node={node} />
     </li>
   );
 }
@@ -79,9 +80,9 @@ function Waiting({ store, moment, wait }: { store: Store; moment: Moment; wait: 
 export function Now({ store }: { store: Store }) {
   const { moment } = store;
   const running = runningLeaves(moment);
-  const waits = waitsOf(moment);
+  const waits = waiting(moment);
   const last = lastEvent(moment);
-  const where = task(moment, [...running, ...waits.map((wait) => wait.node)]);
+  const where = task(moment, [...running, ...waits].slice(0, 200));
   return (
     <section class="now" aria-labelledby="now-title">
       <h2 id="now-title">{moment.isLastOfEnded() ? "At the end" : "Now"}</h2>
@@ -95,7 +96,7 @@ export function Now({ store }: { store: Store }) {
           </li>
         ))}
         {running.length > MOST && <li class="dim">and {running.length - MOST} more run</li>}
-        {waits.slice(0, MOST).map((wait) => <Waiting key={wait.node} store={store} moment={moment} wait={wait} />)}
+        {waits.slice(0, MOST).map((node) => <Waiting key={node} store={store} moment={moment} node={node} />)}
         {waits.length > MOST && <li class="dim">and {waits.length - MOST} more wait</li>}
         {running.length + waits.length === 0 && <li class="dim">no leaf runs</li>}
       </ul>

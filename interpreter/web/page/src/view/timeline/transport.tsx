@@ -1,5 +1,5 @@
 // Goes through the run: ticks, events, play, a number.
-import { useEffect } from "preact/hooks";
+import { useEffect, useState } from "preact/hooks";
 import type { Store } from "../store";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5, 10, 100];
@@ -22,14 +22,25 @@ function usePlaying(store: Store) {
   }, [playing, store]);
 }
 
-export function Transport({ store }: { store: Store }) {
-  const { looking, moment, run } = store;
-  usePlaying(store);
-  const goToTick = (event: KeyboardEvent) => {
-    const field = event.target as HTMLInputElement;
-    if (event.key !== "Enter" || !/^\d+$/.test(field.value.trim())) return;
-    store.goTo(run.lineAtTick(Number(field.value)));
+// What is being typed stays, however the run goes on.
+function TickField({ store }: { store: Store }) {
+  const [typed, setTyped] = useState<string | null>(null);
+  const key = (event: KeyboardEvent) => {
+    if (event.key !== "Enter") return;
+    const text = (event.target as HTMLInputElement).value.trim();
+    if (/^\d+$/.test(text)) store.goTo(store.run.lineAtTick(Number(text)));
+    setTyped(null);
   };
+  return (
+    <input class="tick" aria-label="Tick" inputMode="numeric" value={typed ?? store.moment.tick} size={7} onKeyDown={key}
+      onInput={(event) => setTyped((event.target as HTMLInputElement).value)} onBlur={() => setTyped(null)}
+      onFocus={(event) => (event.target as HTMLInputElement).select()} />
+  );
+}
+
+export function Transport({ store }: { store: Store }) {
+  const { looking } = store;
+  usePlaying(store);
   return (
     <div class="buttons" role="group" aria-label="Go to a moment">
       <button type="button" aria-keyshortcuts="[" aria-label="previous event" title="previous event ([)"
@@ -45,8 +56,7 @@ export function Transport({ store }: { store: Store }) {
         onClick={() => store.goToEvent(1)}>⇥</button>
       <button type="button" aria-keyshortcuts="End" aria-pressed={looking.line === null} title="the newest tick (n)"
         onClick={() => store.set({ line: null, playing: false })}>newest</button>
-      <label>tick <input class="tick" aria-label="Tick" inputMode="numeric" value={moment.tick} size={7}
-        onKeyDown={goToTick} onFocus={(event) => (event.target as HTMLInputElement).select()} /></label>
+      <label>tick <TickField store={store} /></label>
       <select class="speed" aria-label="Speed of playing" value={looking.speed}
         onChange={(event) => store.set({ speed: Number((event.target as HTMLSelectElement).value) })}>
         {SPEEDS.map((speed) => <option key={speed} value={speed}>{`${speed}×`}</option>)}

@@ -1,7 +1,7 @@
 // What joins the cards: edges, barriers through siblings, and arrows from who waits to whom.
 import type { Moment } from "../../model/moment";
 import { IDLE } from "../../model/recording";
-import { marksOf, spanOf, waitsOf } from "../../model/waiting";
+import { marksOf, spanOf, waitOf } from "../../model/waiting";
 import { PADDING } from "./card";
 import { GAP_X, type Box, type Layout } from "./layout";
 
@@ -81,15 +81,14 @@ function arrow(from: Box, to: Box): string {
   return `M${from.x} ${y1 - side}C${left} ${y1 - side} ${left} ${y2 + side} ${to.x - 2} ${y2 + side}`;
 }
 
-export function Arrows({ moment, layout }: { moment: Moment; layout: Layout }) {
+export function Arrows({ moment, layout, boxes }: Props) {
   const { nodes } = moment.run.shape;
   const paths: { text: string; d: string }[] = [];
-  for (const wait of waitsOf(moment)) {
-    const from = layout.at.get(wait.node);
-    if (!from) continue;
-    for (const other of wait.for.slice(0, 8)) {
+  for (const from of boxes) {
+    const wait = waitOf(moment, from.node);
+    for (const other of wait?.for ?? []) {
       const to = layout.at.get(other);
-      if (to) paths.push({ text: `${nodes[wait.node].segment} ${wait.text}`, d: arrow(from, to) });
+      if (to) paths.push({ text: `${nodes[from.node].segment} ${wait?.text}`, d: arrow(from, to) });
     }
   }
   return (

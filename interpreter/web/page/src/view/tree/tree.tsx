@@ -43,7 +43,7 @@ export function Tree({ store, looking }: { store: Store; looking: Looking }) {
   }, [store.run.shape]);
   const boxes = inSight(layout, sight, zoom);
   const running = looking.follow ? innermostRunning(moment, layout) : [];
-  const followed = running.join();
+  const followed = `${running.length} ${running.slice(0, 50).join()}`;
 
   useEffect(() => {
     const it = scroller.current;
@@ -68,7 +68,7 @@ export function Tree({ store, looking }: { store: Store; looking: Looking }) {
           <Card key={box.node} store={store} moment={moment} box={box} selected={selected === box.node}
             open={isOpen(moment, looking.folds, looking.onlyActive, box.node)} />
         ))}
-        <g aria-hidden="true"><Arrows moment={moment} layout={layout} /></g>
+        <g aria-hidden="true"><Arrows moment={moment} layout={layout} boxes={boxes} /></g>
       </svg>
     </div>
   );
