@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { SOURCE, cable, close, goToTick, open, start, tree } from "./support.mjs";
+import { SOURCE, cable, close, goToTick, open, start, tree, violations } from "./support.mjs";
 
 // What is lost, or wrong, on purpose is a complaint of the browser, too.
 after(() => close(/net::ERR_|status of 400/));
@@ -116,6 +116,40 @@ test("a reload in the middle has the whole run", async () => {
   await page.getByText("looking back").waitFor();
   const tick = await tickOf(page);
   assert.ok(tick > 3 && tick <= 12, `tick ${tick}`);
+  run.process.kill("SIGTERM");
+  await page.context().close();
+});
+
+test("on the wall clock the page says that the robot will stand, before it is paused", async () => {
+  const { run, page } = await look(tree(`<Repeat><Advance step="0.01"/></Repeat>`), "--monitor-control");
+  await page.getByText("the robot stands still until it is resumed").waitFor();
+  await page.getByRole("tree").focus();
+  await page.keyboard.press("p");
+  await state(page, "paused").waitFor();
+  const tick = await tickOf(page);
+  await page.keyboard.press("s");
+  await page.locator(`input[aria-valuetext^="tick ${tick + 1},"]`).waitFor();
+  await page.keyboard.press("p");
+  await page.waitForFunction((from) => Number(document.querySelector("input.tick").value) > from + 10, tick);
+  assert.deepEqual(await violations(page), []);
+  run.process.kill("SIGTERM");
+  await page.context().close();
+});
+
+test("a page that nobody looks at asks for nothing, and goes on when somebody does", async () => {
+  const { run, page } = await look(tree(`<Repeat><Advance step="0.01"/></Repeat>`));
+  const hide = (hidden) => page.evaluate((value) => {
+    Object.defineProperty(document, "hidden", { value, configurable: true });
+    document.dispatchEvent(new Event("visibilitychange"));
+  }, hidden);
+  await hide(true);
+  await state(page, "asleep").waitFor();
+  const tick = await tickOf(page);
+  const asked = page.waitForRequest(/events\?after=\d+$/);
+  await hide(false);
+  await asked;
+  await state(page, "live").waitFor();
+  await page.waitForFunction((from) => Number(document.querySelector("input.tick").value) > from, tick);
   run.process.kill("SIGTERM");
   await page.context().close();
 });
