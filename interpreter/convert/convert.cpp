@@ -192,9 +192,16 @@ class Converter {
         add_attribute(token, it.theirs, "-1");
       }
     }
-    if (pair_->difference.empty() || report_.counted_only(Severity::Warning)) return;
+    const bool differs = !pair_->is_different_when_held || may_be_held();
+    if (pair_->difference.empty() || !differs || report_.counted_only(Severity::Warning)) return;
     report_.at(place_of(element), fmt::format("'{}' is not quite the same", brief(type)),
                std::string(pair_->difference), Severity::Warning);
+  }
+
+  bool may_be_held() const {
+    return std::ranges::any_of(open_, [](const Open& it) {
+      return it.tag == "ParallelAbsolute" || it.tag == "ParallelRelative";
+    });
   }
 
   void convert_switch(std::uint32_t element, std::string_view type, const XmlToken& token) {

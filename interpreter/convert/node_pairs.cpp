@@ -33,6 +33,9 @@ constexpr std::string_view kDecides =
     "for BehaviorTree.CPP, it decides after each child; in lockstep's language when all were "
     "ticked, and conditions are asked in every tick";
 
+constexpr std::string_view kStands =
+    "while it is held, the time of a Wait stands still; that of a Sleep goes on";
+
 constexpr NodePair kPairs[] = {
     {.theirs = "Sequence", .ours = "Sequence", .in_ours = kRemembers},
     {.theirs = "Fallback", .ours = "Fallback", .in_ours = kRemembers},
@@ -57,7 +60,11 @@ constexpr NodePair kPairs[] = {
     {.theirs = "RunOnce", .ours = "RunOnce", .in_theirs = kRepeatsResult},
     {.theirs = "Timeout", .ours = "Timeout", .in_ours = kWallClock, .attributes = kTimeout},
     {.theirs = "Delay", .ours = "Delay", .in_ours = kWallClock, .attributes = kDelay},
-    {.theirs = "Sleep", .ours = "Wait", .attributes = kTimeout},
+    {.theirs = "Sleep",
+     .ours = "Wait",
+     .attributes = kTimeout,
+     .difference = kStands,
+     .is_different_when_held = true},
     {.theirs = "SubTree", .ours = "SubTree"},
     {.theirs = "IfThenElse", .ours = "IfThenElse"},
     {.theirs = "WhileDoElse", .ours = "WhileDoElse"},

@@ -39,6 +39,7 @@ struct NodePair {
   FixedAttribute in_ours = {};
   std::span<const AttributePair> attributes = {};  // that differ
   std::string_view difference = {};                // in what they do; "" = none
+  bool is_different_when_held = false;             // and only below a synchronized node
 };
 
 std::span<const NodePair> node_pairs();

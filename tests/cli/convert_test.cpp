@@ -146,6 +146,18 @@ TEST_CASE("convert says scripts and branches in the other language's words") {
   CHECK(there.out == theirs);
 }
 
+TEST_CASE("convert warns of a Sleep that may be held") {
+  const TemporaryDirectory directory;
+  const auto told = [&](const std::string& node) {
+    const std::string tree = around("BTCPP_format=\"4\"", node);
+    return lockstep::test::lockstep({"convert", directory.file("tree.xml", tree)}).err;
+  };
+  CHECK(told("<Sequence><Sleep msec=\"100\"/></Sequence>").empty());
+  CHECK(contains(told("<ParallelRelative delta=\"1\"><Sequence>\n<Sleep msec=\"100\"/></Sequence>"
+                      "</ParallelRelative>"),
+                 "tree.xml:4:1: warning: 'Sleep' is not quite the same"));
+}
+
 TEST_CASE("convert makes a list of the cases of a Switch, and back") {
   const TemporaryDirectory directory;
   const std::string their_nodes =
