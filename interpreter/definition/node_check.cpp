@@ -44,8 +44,11 @@ void check_arity(ElementOf element, const CheckedNode& node, const Reporter& rep
     report.at(node.place,
               fmt::format("'{}' needs {}", type.id,
                           any_number ? "a child" : arity_text(type.arity.min, type.arity.max)),
-              fmt::format("it is a {}: put {} into it", to_string(type.category),
-                          node.children + 1 == type.arity.min ? "a node" : "nodes"));
+              node.children == 0
+                  ? fmt::format("it is a {}: put {} into it", to_string(type.category),
+                                type.arity.min == 1 ? "a node" : "nodes")
+                  : fmt::format("it has {}; `lockstep nodes {}` says what they are for",
+                                node.children, type.id));
   } else if (node.children > type.arity.max) {
     // The first child that is one too many.
     std::uint32_t extra = element.index + 1;

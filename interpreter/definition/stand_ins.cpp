@@ -144,11 +144,22 @@ class Builder {
     if (known == nullptr) tell(id, use.place, model != models_.nodes.end());
   }
 
+  std::vector<std::string_view> unknown_ids() const {
+    std::vector<std::string_view> ids;
+    for (const auto& [id, use] : uses_) ids.push_back(id);
+    return ids;
+  }
+
   void check_mock(std::string_view id) const {
     if (!uses_.contains(id)) {
       const std::vector<std::string_view> ids(ids_.begin(), ids_.end());
+      std::string hint = did_you_mean(id, ids);
+      if (hint.empty()) {
+        hint = "it takes the ID of a leaf, not its name";
+        if (!uses_.empty()) hint += fmt::format(": {}", listed(unknown_ids()));
+      }
       report_.nowhere(fmt::format("--mock-leaf {}: the tree has no such node", brief(id)),
-                      did_you_mean(id, ids));
+                      std::move(hint));
       return;
     }
     const NodeCategory category = catalog_.find(id)->category;

@@ -79,6 +79,8 @@ TEST_CASE("run --mock-leaf refuses a node that the tree does not have, or that i
   CHECK(misspelled.code == 2);
   CHECK(contains(misspelled.err, "--mock-leaf Dokc: the tree has no such node"));
   CHECK(contains(misspelled.err, "did you mean 'Dock'?"));
+  CHECK(contains(run_mocked(tree, {"--mock-leaf", "left_arm=failure"}).err,
+                 "hint: it takes the ID of a leaf, not its name: 'Dock', 'Undock'"));
   const Outcome control = run_mocked(tree, {"--mock-leaf", "Sequence=failure"});
   CHECK(control.code == 2);
   CHECK(contains(control.err, "--mock-leaf Sequence: only a leaf has a result"));

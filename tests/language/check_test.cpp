@@ -53,6 +53,8 @@ TEST_CASE("hints") {
       {R"(<Sequnce/>)", "did you mean 'Sequence'?"},
       {R"(<Wait second="1"/>)", "parameters of 'Wait': 'seconds'"},
       {R"(<Inverter/>)", "it is a decorator: put a node into it"},
+      {R"(<IfThenElse><AlwaysSuccess/></IfThenElse>)",
+       "it has 1; `lockstep nodes IfThenElse` says what they are for"},
       {R"(<Timeout seconds="0"><AlwaysSuccess/></Timeout>)", "it must be more than 0, at most"},
       {R"(<ParallelAbsolute barriers="0.5;0.2"><AlwaysSuccess/></ParallelAbsolute>)",
        "write '0.2;0.5'"},
