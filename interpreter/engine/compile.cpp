@@ -167,7 +167,8 @@ class Compiler {
       if (hooks == Port::kNone) continue;
       const NodeKind*& kind = tree_.nodes[node].kind;
       tree_.hooks[node] = static_cast<std::uint32_t>(tree_.hooked.size());
-      HookedNode& hooked = tree_.hooked.emplace_back(node, kind, definition_.hooks[hooks]);
+      tree_.hooked.push_back({node, kind, definition_.hooks[hooks]});
+      HookedNode& hooked = tree_.hooked.back();
       const auto has = [&](Hook it) { return hooked.script(it) != HookedNode::kNoScript; };
       hooked.begins = has(Hook::FailureIf) || has(Hook::SuccessIf) || has(Hook::SkipIf);
       hooked.ends = has(Hook::OnSuccess) || has(Hook::OnFailure) || has(Hook::Post);
