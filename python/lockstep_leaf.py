@@ -120,7 +120,7 @@ class _Leaf:
 
     @classmethod
     def _fact(cls):
-        fact = {"id": cls.__name__, "kind": cls.kind, "doc": (cls.__doc__ or "").strip(),
+        fact = {"id": cls.__name__, "kind": cls.kind, "doc": " ".join((cls.__doc__ or "").split()),
                 "ports": [port.fact for port in cls._ports.values()]}
         flags = {"progress": hasattr(cls, "progress"), "real_time": cls.real_time,
                  "pause": hasattr(cls, "pause") or hasattr(cls, "resume")}
@@ -151,7 +151,7 @@ class _Server:
 
     def create(self, number, request):
         leaf = _classes[request["type"]].__new__(_classes[request["type"]])
-        leaf._number, leaf._values, leaf._set = number, {}, {}
+        leaf._number, leaf._values, leaf._set, leaf._has_begun = number, {}, {}, False
         for name in ("name", "path", "clock", "period"):
             setattr(leaf, name, request[name])
         leaf.random = random.Random(request["seed"])
@@ -161,9 +161,10 @@ class _Server:
 
     def start(self, leaf, request):
         self.broken.discard(leaf._number)
-        leaf._values, leaf._set = {}, {}
+        leaf._values, leaf._set, leaf._has_begun = {}, {}, False
         self.update(leaf, request)
         self.call(leaf, "start")
+        leaf._has_begun = True
 
     def tick(self, leaf, request):
         self.update(leaf, request)
@@ -184,7 +185,8 @@ class _Server:
                              "False (failure)") from None
 
     def halt(self, leaf, request):
-        self.call(leaf, "halt")
+        if leaf._has_begun:  # there is nothing to halt when its start has failed
+            self.call(leaf, "halt")
         _say(leaf=leaf._number, done=True)
 
     def pause(self, leaf, request):

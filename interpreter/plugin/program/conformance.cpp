@@ -119,7 +119,8 @@ class Examiner {
   bool passed(Trial& trial, std::string_view what) {
     const std::string error = trial.take_error();
     if (error.empty()) return note(true, fmt::format("'{}' {}", trial.name(), what));
-    return note(false, fmt::format("'{}' {}: {}", trial.name(), what, error));
+    // An error is an answer, too: to values that make no sense, perhaps.
+    return note(!conversation_.is_gone(), fmt::format("'{}' {}: {}", trial.name(), what, error));
   }
 
   bool examine_leaf(const Descriptors::Leaf& type) {
@@ -157,7 +158,11 @@ class Examiner {
       status = trial.leaf().tick();
       times.push_back(monotonic_now() - asked);
       if (std::string error = trial.take_error(); !error.empty()) {
-        return note(false, fmt::format("'{}' tick {}: {}", trial.name(), times.size(), error));
+        note(!conversation_.is_gone(), fmt::format("'{}' answers tick {} with an error: {}",
+                                                   trial.name(), times.size(), error));
+        if (conversation_.is_gone()) return false;
+        trial.leaf().halt();
+        return passed(trial, "answers halt");
       }
     }
     std::ranges::sort(times);

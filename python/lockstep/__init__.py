@@ -1,0 +1,135 @@
+"""Runs, studies and recordings of lockstep from Python.
+
+    import lockstep
+    run = lockstep.run("trees/door_pulling.xml", args={"slack": 0.4}, seed=7, record="run.jsonl")
+    print(run.result, run.ticks)
+    table = lockstep.read("run.jsonl")              # a row for each tick and active node
+    runs = lockstep.study("trees/paper/example5.xml", runs=100, grid={"barrier_count": [0, 5]})
+
+Tables are pandas.DataFrame where pandas is installed, else lists of dicts. The program lockstep is
+found by the variable LOCKSTEP, beside this package, or in PATH. docs/programs.md has the leaves.
+"""
+import csv
+import io
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+
+__all__ = ["Error", "Run", "program", "read", "read_study", "run", "study"]
+
+
+class Error(Exception):
+    "lockstep has ended with an exit code that is no result of a tree; `code`, and its words."
+
+    def __init__(self, code, text):
+        super().__init__(text.strip() or f"exit code {code}")
+        self.code = code
+
+
+class Run:
+    "How a run has ended: what `lockstep run --json` prints, as attributes."
+
+    def __init__(self, summary, code, messages):
+        self.summary, self.code, self.messages = summary, code, messages
+
+    def __getattr__(self, name):
+        try:
+            return self.summary[name]
+        except KeyError:
+            raise AttributeError(name) from None
+
+    def __repr__(self):
+        return f"<lockstep run: {self.result} after {self.ticks} ticks>"
+
+
+def program():
+    "The path of the program lockstep."
+    here = pathlib.Path(__file__).resolve()
+    beside = [parent / "bin" / "lockstep" for parent in here.parents[:6]]
+    found = os.environ.get("LOCKSTEP") or next((str(it) for it in beside if it.is_file()), None)
+    found = found or shutil.which("lockstep")
+    if found is None:
+        raise FileNotFoundError("lockstep is not found: set the variable LOCKSTEP to its path")
+    return found
+
+
+def _call(words, good=(0,)):
+    done = subprocess.run([program(), *map(str, words)], capture_output=True, text=True)
+    if done.returncode not in good:
+        raise Error(done.returncode, done.stderr)
+    return done
+
+
+def _options(**options):
+    "--max-ticks 10 for max_ticks=10; a dict or a list is given several times."
+    words = []
+    for name, value in options.items():
+        option = "--" + name.replace("_", "-")
+        if value is True:
+            words.append(option)
+        elif isinstance(value, dict):
+            for key, it in value.items():
+                words += [option, f"{key}={_text(it)}"]
+        elif isinstance(value, (list, tuple)):
+            for it in value:
+                words += [option, _text(it)]
+        elif value is not None and value is not False:
+            words += [option, _text(value)]
+    return words
+
+
+def _text(value):
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return ";".join(map(_text, value)) if isinstance(value, (list, tuple)) else str(value)
+
+
+def run(tree, args=None, *, set=None, seed=0, clock="virtual", plugins=(), plugin_path=(), record=None,
+        **options):
+    """Runs a tree. `options` are those of `lockstep run`: max_ticks=100, on_fault="fail", isolate=True.
+    A fault of a leaf raises Error, as a tree that is wrong does."""
+    words = _options(arg=args or {}, set=set or {}, seed=seed, clock=clock, plugin=plugins,
+                     plugin_path=plugin_path, record=record, **options)
+    done = _call(["run", tree, "--json", "--view", "none", *words], good=(0, 1, 7, 124))
+    return Run(json.loads(done.stdout), done.returncode, done.stderr)
+
+
+def study(tree, *, runs=None, grid=None, args=None, measure=(), out=None, plots=False, **options):
+    """Makes a study, and returns a row for each run, as read_study does. `grid` has lists of values:
+    {"noise": [0, 0.05]}. Without `out` its directory is temporary."""
+    axes = {name: ",".join(map(_text, values)) for name, values in (grid or {}).items()}
+    words = _options(runs=runs, grid=axes, arg=args or {}, measure=measure, no_plots=not plots, **options)
+    with tempfile.TemporaryDirectory() as directory:
+        where = out or os.path.join(directory, "study")
+        _call(["study", tree, "--out", where, *words])
+        return read_study(where)
+
+
+def read(recording):
+    "A recording as a table: tick, time_s, node, path, status, progress, ticked, held."
+    return _table(_call(["log", "csv", recording]).stdout)
+
+
+def read_study(directory, table="runs"):
+    'The runs of a study ("runs"), or what its cells have in common ("summary").'
+    return _table((pathlib.Path(directory) / f"{table}.csv").read_text())
+
+
+def _table(text):
+    try:
+        import pandas
+    except ImportError:
+        return [{name: _value(it) for name, it in row.items()} for row in csv.DictReader(io.StringIO(text))]
+    return pandas.read_csv(io.StringIO(text))
+
+
+def _value(text):
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            pass
+    return text

@@ -1,0 +1,76 @@
+// The package lockstep for Python: from the sources, and installed into a venv without a network.
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "cli/program.h"
+#include "support/paths.h"
+
+using namespace lockstep::test;
+
+namespace {
+
+Outcome python(std::vector<std::string> arguments, const std::string& path,
+               const std::string& program = "/usr/bin/python3") {
+  return run({.arguments = std::move(arguments),
+              .environment = {{"PYTHONPATH", path}, {"LOCKSTEP", LOCKSTEP_BINARY_DIR "/lockstep"}},
+              .program = program});
+}
+
+const std::string kPackage = LOCKSTEP_SOURCE_DIR "/python";
+
+}  // namespace
+
+TEST_CASE("Python runs trees, and reads recordings and studies") {
+  const TemporaryDirectory directory;
+  const std::string script = directory.file("use.py", R"(
+import sys, lockstep
+tree = sys.argv[1] + "/trees/door_pulling.xml"
+run = lockstep.run(tree, args={"barriers": [0.5]}, seed=3, record=sys.argv[2])
+print(run.result, run.code)
+rows = lockstep.read(sys.argv[2])
+rows = rows if isinstance(rows, list) else rows.to_dict("records")
+print(len(rows) > 100, sorted(rows[0]))
+rows = lockstep.study(tree, runs=3, grid={"barriers": ["", "0.5"]}, measure=["spread"])
+rows = rows if isinstance(rows, list) else rows.to_dict("records")
+print(len(rows), [row["result"] for row in rows])
+try:
+    lockstep.run("none.xml")
+except lockstep.Error as error:
+    print(error.code, error)
+)");
+  const Outcome outcome =
+      python({script, LOCKSTEP_SOURCE_DIR, directory.path("run.jsonl")}, kPackage);
+  INFO(outcome.err);
+  CHECK(outcome.out ==
+        "success 0\n"
+        "True ['held', 'node', 'path', 'progress', 'status', 'tick', 'ticked', 'time_s']\n"
+        "6 ['failure', 'failure', 'failure', 'success', 'success', 'success']\n"
+        "3 none.xml: error: cannot be read: No such file or directory\n");
+}
+
+TEST_CASE("docs/paper/figure3.py makes the figure: more barriers keep tasks closer") {
+  const Outcome outcome = python({LOCKSTEP_SOURCE_DIR "/docs/paper/figure3.py", "5"}, kPackage);
+  INFO(outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK(contains(outcome.out, "noise 0.05: the median of the progress distance"));
+  CHECK(lines(outcome.out).size() == 14);
+}
+
+TEST_CASE("the package installs into a venv without an index") {
+  const TemporaryDirectory directory;
+  const std::string venv = directory.path("venv");
+  if (python({"-c", "import setuptools, ensurepip"}, "").code != 0) return;
+  REQUIRE(python({"-m", "venv", "--system-site-packages", venv}, "").code == 0);
+  std::filesystem::copy(kPackage, directory.path("sources"),
+                        std::filesystem::copy_options::recursive);
+  const Outcome installed = python({"-m", "pip", "install", "-q", "--no-index",
+                                    "--no-build-isolation", directory.path("sources")},
+                                   "", venv + "/bin/python3");
+  INFO(installed.err);
+  REQUIRE(installed.code == 0);
+  const Outcome outcome =
+      python({"-c", "import lockstep, lockstep_leaf; print(lockstep.__file__, lockstep.program())"},
+             "", venv + "/bin/python3");
+  CHECK(contains(outcome.out, venv));
+  CHECK(contains(outcome.out, LOCKSTEP_BINARY_DIR "/lockstep"));
+}
