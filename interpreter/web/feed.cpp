@@ -45,6 +45,7 @@ void MonitorFeed::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds) {
 void MonitorFeed::after_tick(Ticker& ticker, const TickReport& report) {
   if (is_real_time_) note_times(report.time);
   last_ = report;
+  has_ticked_ = true;
   is_shown_ = false;
   faults_.insert(faults_.end(), report.faults.begin(), report.faults.end());
   if (is_due_) publish(ticker);
@@ -69,7 +70,8 @@ std::optional<MonitorFeed::Times> MonitorFeed::take_times() {
 
 // Nothing follows for a while, so what was held back is due; and so is the tick after it.
 void MonitorFeed::standing(Ticker& ticker) {
-  if (!is_shown_) publish(ticker);
+  const bool is_due = !is_shown_ || wants_full_.load(std::memory_order_relaxed);
+  if (has_ticked_ && is_due) publish(ticker);
   hurry();
 }
 

@@ -68,7 +68,8 @@ class MonitorFeed final : public Observer {
   std::vector<Fault> faults_;                      // since the last line
   Nanoseconds published_{0};                       // when
   bool is_due_ = false;                            // a line, after this tick
-  bool is_shown_ = true;                           // the last tick has its line
+  bool has_ticked_ = false;
+  bool is_shown_ = true;  // the last tick has its line
   std::atomic<bool> wants_full_{true};
   std::vector<char> room_;  // of the taking thread
 };

@@ -3,8 +3,7 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 
-#include <algorithm>
-#include <cstdlib>
+#include <utility>
 
 #include "core/file_descriptor.h"
 
@@ -24,46 +23,69 @@ std::FILE* open_regular(const std::string& path) {
 
 }  // namespace
 
-History::History(const LineLog& log, const std::string& recording)
-    : log_(log), file_(open_regular(recording)), event_(log.first()) {
-  const auto full = log.last_full();
+History::History(const LineLog& log, const std::string& recording, bool is_coming)
+    : log_(log),
+      file_(open_regular(recording)),
+      full_(log.last_full()),
+      asked_(monotonic_now()),
+      waits_(is_coming && file_ != nullptr),
+      event_(log.first()) {
+  if (!waits_) is_seam_there();
+}
+
+// Where the recording ends and the log begins. Until a tick comes the client waits, but not for
+// long.
+bool History::is_seam_there() {
+  const auto full = log_.last_full();
+  if (waits_ && full == full_ && monotonic_now() - asked_ < kPatience) return false;
+  waits_ = false;
   if (!full) file_.reset();
-  if (file_ == nullptr) return;
+  if (file_ == nullptr) return true;
   event_ = *full;
-  until_ = *log.tick(event_);
+  until_ = *log_.tick(event_);
+  return true;
 }
 
 WebStream::Piece History::read(std::span<char> to) {
+  if (waits_ && !is_seam_there()) return {Piece::What::Wait};
   // The log may have dropped the line meanwhile.
   if (read_ != 0 && read_ - 1 < log_.first()) return {Piece::What::End};
-  if (rest_.empty()) rest_ = next();
+  if (rest_.empty()) {
+    const auto line = next();
+    if (!line) return {Piece::What::Wait};
+    rest_ = *line;
+  }
   if (rest_.empty()) return {Piece::What::End};
   const std::size_t count = rest_.copy(to.data(), to.size());
   rest_.remove_prefix(count);
   return {Piece::What::Bytes, count};
 }
 
-std::string_view History::next() {
+std::optional<std::string_view> History::next() {
   if (file_ != nullptr) {
-    const std::string_view line = next_recorded();
-    if (!line.empty()) return line;
+    const auto line = next_recorded();
+    if (!line || !line->empty()) return line;
     file_.reset();
-  } else if (is_at_header_) {
-    is_at_header_ = false;
-    return log_.header_line();
   }
+  if (std::exchange(is_at_header_, false)) return log_.header_line();
   return next_logged();
 }
 
-// The last line may be half written.
-std::string_view History::next_recorded() {
-  line_.clear();
-  for (int letter = 0; !line_.ends_with('\n'); line_ += static_cast<char>(letter)) {
-    letter = getc_unlocked(file_.get());
-    if (letter == EOF) return {};
+// Nothing: the end of it is still on its way to the disk.
+std::optional<std::string_view> History::next_recorded() {
+  if (line_.ends_with('\n')) line_.clear();
+  while (!line_.ends_with('\n')) {
+    const int letter = getc_unlocked(file_.get());
+    if (letter == EOF) {
+      std::clearerr(file_.get());
+      const bool is_late = next_tick_ < until_ && monotonic_now() - asked_ < kPatience;
+      return is_late ? std::nullopt : std::optional(std::string_view());
+    }
+    line_ += static_cast<char>(letter);
   }
   is_at_header_ = false;
   const auto tick = tick_of_line(line_);
+  if (tick) next_tick_ = *tick + 1;
   const bool is_end = line_.starts_with("{\"end\"");
   return is_end || (tick && *tick >= until_) ? std::string_view() : line_;
 }

@@ -4,9 +4,11 @@
 
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "core/clock.h"
 #include "web/answer.h"
 #include "web/line_log.h"
 
@@ -14,15 +16,19 @@ namespace lockstep {
 
 class History final : public WebStream {
  public:
-  // `recording` is the file that the run writes; "": none.
-  History(const LineLog& log, const std::string& recording);
+  static constexpr std::chrono::milliseconds kPatience{300};
+
+  // `recording` is the file that the run writes; "": none. If there is one, and a line with the
+  // whole state `is_coming`, it goes on with that one.
+  History(const LineLog& log, const std::string& recording, bool is_coming);
 
   bool is_endless() const override { return false; }
   Piece read(std::span<char> to) override;
 
  private:
-  std::string_view next();
-  std::string_view next_recorded();
+  bool is_seam_there();
+  std::optional<std::string_view> next();
+  std::optional<std::string_view> next_recorded();
   std::string_view next_logged();
 
   struct Close {
@@ -31,8 +37,12 @@ class History final : public WebStream {
 
   const LineLog& log_;
   std::unique_ptr<std::FILE, Close> file_;
-  std::string line_;         // of the file
-  std::uint64_t until_ = 0;  // the tick with which the log begins
+  std::optional<std::uint64_t> full_;  // the last line with the whole state, when it was asked for
+  const Nanoseconds asked_;
+  bool waits_;                   // for another one
+  std::string line_;             // of the file
+  std::uint64_t until_ = 0;      // the tick with which the log begins
+  std::uint64_t next_tick_ = 0;  // of the file
   bool is_at_header_ = true;
   std::uint64_t event_;     // the next of the log
   std::string_view rest_;   // of the line that is being read

@@ -235,9 +235,16 @@ bool HttpServer::serve(FileDescriptor connection) {
   return MHD_add_connection(it_->daemon, socket, &address, sizeof address.sa_family) == MHD_YES;
 }
 
+// What libmicrohttpd knows to be ready does not make its descriptor readable.
 void HttpServer::run() {
+  constexpr int kMostTurns = 64;
   it_->cut_off_late();
-  MHD_run(it_->daemon);
+  for (int turn = 0; turn == 0 || (has_more() && turn < kMostTurns); ++turn) MHD_run(it_->daemon);
+}
+
+bool HttpServer::has_more() const {
+  MHD_UNSIGNED_LONG_LONG milliseconds = 1;
+  return MHD_get_timeout(it_->daemon, &milliseconds) == MHD_YES && milliseconds == 0;
 }
 
 void HttpServer::wake_streams() {

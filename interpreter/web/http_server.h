@@ -26,6 +26,8 @@ class HttpServer {
   bool serve(FileDescriptor connection);
   // Serves what can be served without waiting.
   void run();
+  // run() has something to do at once; else when the descriptor can be read.
+  bool has_more() const;
   // Streams that wait may have more.
   void wake_streams();
   // Streams that have not ended.

@@ -25,6 +25,9 @@ constexpr std::chrono::milliseconds kPatience{500};
 // who has gone.
 constexpr std::chrono::milliseconds kBeat{1000};
 
+// How often those that wait look whether it is time for something.
+constexpr std::chrono::milliseconds kLook{100};
+
 // What follows a place in the log, for one listener.
 class Events final : public WebStream {
  public:
@@ -109,7 +112,9 @@ void Monitor::after_tick(Ticker& ticker, const TickReport& report) {
   feed_.after_tick(ticker, report);
 }
 
+// Whoever comes while the run is paused begins with the state in which it is.
 void Monitor::standing(Ticker& ticker) {
+  if (control_ != nullptr && control_->is_paused()) feed_.want_full();
   feed_.standing(ticker);
   eventfd_write(wake_.number(), 1);
 }
@@ -150,8 +155,8 @@ void Monitor::tell_status() {
     log_.add_event("state", *status);
     server_.wake_streams();
   }
-  if (now - beat_ < kBeat) return;
-  beat_ = now;
+  if (now - woken_ < kLook) return;
+  woken_ = now;
   server_.wake_streams();
 }
 
@@ -169,7 +174,7 @@ void Monitor::take_lines() {
 
 void Monitor::wait(std::chrono::milliseconds longest) {
   pollfd files[] = {{server_.descriptor(), POLLIN, 0}, {wake_.number(), POLLIN, 0}};
-  poll(files, 2, static_cast<int>(longest.count()));
+  poll(files, 2, server_.has_more() ? 0 : static_cast<int>(longest.count()));
   eventfd_t rung = 0;
   eventfd_read(wake_.number(), &rung);
 }
@@ -189,9 +194,16 @@ WebAnswer Monitor::answer(const WebRequest& request) {
   if (request.method != "GET") return {.status = 405, .body = "only GET\n"};
   if (request.path == "/") return page();
   if (request.path == "/history") {
-    return {.type = "application/x-ndjson", .stream = std::make_unique<History>(log_, recording_)};
+    return {.type = "application/x-ndjson", .stream = history()};
   }
   return {.type = "text/event-stream", .stream = std::make_unique<Events>(log_, request.after)};
+}
+
+// What the recording has is followed by a line with the whole state: by a new one, if ticks come.
+std::unique_ptr<WebStream> Monitor::history() {
+  const bool is_paused = control_ != nullptr && control_->state().is_paused;
+  if (!is_paused) feed_.want_full();
+  return std::make_unique<History>(log_, recording_, !is_paused);
 }
 
 WebAnswer Monitor::page() const {

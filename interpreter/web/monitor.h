@@ -49,6 +49,7 @@ class Monitor final : public Observer, private Answering {
   std::optional<WebAnswer> refuse(const WebRequest& head) override;
   WebAnswer answer(const WebRequest& request) override;
   WebAnswer page() const;
+  std::unique_ptr<WebStream> history();
   WebAnswer obey(const std::string& order);
 
   const Tree& tree_;
@@ -64,7 +65,7 @@ class Monitor final : public Observer, private Answering {
   FileDescriptor wake_;  // an eventfd
   std::atomic<bool> stopping_{false};
   std::string lines_;  // for its room
-  Nanoseconds beat_{0};
+  Nanoseconds woken_{0};
   std::thread thread_;
 };
 

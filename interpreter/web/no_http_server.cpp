@@ -18,6 +18,9 @@ bool HttpServer::serve(FileDescriptor) {
   return false;
 }
 void HttpServer::run() {}
+bool HttpServer::has_more() const {
+  return false;
+}
 void HttpServer::wake_streams() {}
 std::size_t HttpServer::streams() const {
   return 0;

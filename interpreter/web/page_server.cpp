@@ -19,7 +19,7 @@ void PageServer::serve_until(const std::function<bool()>& stop) {
   while (!stop()) {
     server_.run();
     pollfd file{server_.descriptor(), POLLIN, 0};
-    poll(&file, 1, kLook);
+    poll(&file, 1, server_.has_more() ? 0 : kLook);
   }
 }
 
