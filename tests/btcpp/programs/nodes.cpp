@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "behaviortree_cpp/bt_factory.h"
+#include "behaviortree_cpp/json_export.h"
 
 using namespace BT;
 
@@ -50,6 +51,47 @@ static const char* const kPart = R"(
   </BehaviorTree>
 </root>)";
 
+struct Pose {
+  double x = 0, y = 0;
+};
+BT_JSON_CONVERTER(Pose, pose) {
+  add_field("x", &pose.x);
+  add_field("y", &pose.y);
+}
+
+// A program gives an object to a tree, and gets one.
+static void share_objects(BehaviorTreeFactory& factory) {
+  RegisterJsonDefinition<Pose>();
+  factory.registerSimpleAction("Mirror",
+                               [](TreeNode& node) {
+                                 const auto pose = node.getInput<Pose>("from").value();
+                                 node.setOutput("to", Pose{pose.y, pose.x});
+                                 return NodeStatus::SUCCESS;
+                               },
+                               {InputPort<Pose>("from"), OutputPort<Pose>("to")});
+  auto tree = factory.createTreeFromText(
+      R"(<root BTCPP_format="4" main_tree_to_execute="Mirrors">
+           <BehaviorTree ID="Mirrors"><Mirror from="{from}" to="{to}"/></BehaviorTree></root>)");
+  tree.subtrees.front()->blackboard->set("from", Pose{1.5, 2});
+  std::cout << tree.tickOnce() << " " << toStr(tree.rootBlackboard()->get<Pose>("to")) << std::endl;
+}
+
+// What a program sees of a node that throws.
+static void fail(BehaviorTreeFactory& factory) {
+  factory.registerSimpleAction(
+      "Broken", [](TreeNode&) -> NodeStatus { throw std::runtime_error("it is broken"); });
+  auto tree = factory.createTreeFromText(
+      R"(<root BTCPP_format="4" main_tree_to_execute="Fails">
+           <BehaviorTree ID="Fails"><Sequence><AlwaysSuccess/><Broken/></Sequence></BehaviorTree></root>)");
+  try {
+    tree.tickOnce();
+  } catch (const NodeExecutionError& error) {
+    std::cout << error.what() << std::endl
+              << error.failedNode().node_path << std::endl
+              << error.originalMessage() << std::endl;
+  }
+}
+
 int main() {
   BehaviorTreeFactory factory;
   factory.registerNodeType<Tell>("Tell");
@@ -81,4 +123,8 @@ int main() {
   shared->set("shared", 100);
   std::cout << tree.tickOnce() << std::endl;
   tree.haltTree();
+  tree.emitWakeUpSignal();
+  std::cout << tree.sleep(std::chrono::seconds(60)) << std::endl;
+  fail(factory);
+  share_objects(factory);
 }

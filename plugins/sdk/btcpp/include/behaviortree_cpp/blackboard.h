@@ -196,7 +196,14 @@ class Blackboard {
       return nonstd::make_unexpected(StrCat("there is no entry '", key, "'"));
     }
     if constexpr (!std::is_same_v<T, std::string> && !std::is_same_v<T, Any>) {
-      if (value.isString()) return detail::parse<T>(value.cast<std::string>());
+      if (value.isString()) {
+        const auto text = value.cast<std::string>();
+        Any object;  // of an entry that a tree has: its text is JSON
+        if (entries_ != nullptr && detail::read_json(typeid(T), text, object)) {
+          return object.tryCast<T>();
+        }
+        return detail::parse<T>(text);
+      }
     }
     return value.tryCast<T>();
   }

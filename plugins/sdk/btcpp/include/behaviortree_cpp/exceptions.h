@@ -32,4 +32,28 @@ class RuntimeError : public BehaviorTreeException {
   using BehaviorTreeException::BehaviorTreeException;
 };
 
+// The node that has thrown.
+struct TickBacktraceEntry {
+  std::string node_name;
+  std::string node_path;
+  std::string registration_name;
+};
+
+// What a tick of a program's tree throws when a node has thrown, or does what no node may.
+class NodeExecutionError : public RuntimeError {
+ public:
+  NodeExecutionError(TickBacktraceEntry node, const std::string& message)
+      : RuntimeError("Exception in node '", node.node_path, "' [", node.registration_name,
+                     "]: ", message),
+        node_(std::move(node)),
+        message_(message) {}
+
+  [[nodiscard]] const TickBacktraceEntry& failedNode() const { return node_; }
+  [[nodiscard]] const std::string& originalMessage() const { return message_; }
+
+ private:
+  TickBacktraceEntry node_;
+  std::string message_;
+};
+
 }  // namespace BT

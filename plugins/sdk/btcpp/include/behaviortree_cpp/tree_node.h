@@ -167,6 +167,12 @@ class TreeNode {
   void resetStatus() { forget_status(); }
   NodeConfig& config() { return config_; }
   void setRegistrationID(StringView id) { registration_name_ = id; }
+  template <class Ports>
+  void modifyPortsRemapping(const Ports&) {
+    static_assert(sizeof(Ports) == 0,
+                  "lockstep binds the ports of a node to entries when the tree is loaded: use "
+                  "config().blackboard to reach an entry by a name of your own");
+  }
 
  private:
   friend class BehaviorTreeFactory;
@@ -214,6 +220,15 @@ class TreeNode {
   };
   std::unique_ptr<ThreadPorts> thread_;  // while a thread runs its tick
 };
+
+// Gives each port the entry of its name, in the config of a node that a program makes.
+template <class T>
+void assignDefaultRemapping(NodeConfig& config) {
+  for (const auto& [name, info] : getProvidedPorts<T>()) {
+    if (info.direction() != PortDirection::OUTPUT) config.input_ports[name] = "{=}";
+    if (info.direction() != PortDirection::INPUT) config.output_ports[name] = "{=}";
+  }
+}
 
 }  // namespace BT
 

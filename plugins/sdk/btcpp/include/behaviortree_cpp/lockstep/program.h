@@ -16,6 +16,7 @@
 #include "behaviortree_cpp/blackboard.h"
 #include "behaviortree_cpp/lockstep/plugin_table.h"
 #include "behaviortree_cpp/lockstep/program_nodes.h"
+#include "behaviortree_cpp/utils/wakeup_signal.hpp"
 #include "behaviortree_cpp/utils/wildcards.hpp"
 
 namespace BT {
@@ -66,11 +67,7 @@ class Program : public EntryStore {
     for (std::size_t i = 0; i < observers_.size(); ++i) {
       if (const auto observe = observers_[i].lock()) (*observe)();
     }
-    if (const char* const fault = lockstep_run_fault(run_.get(), nullptr)) {
-      const std::string text = fault;
-      halt();
-      throw RuntimeError(text);
-    }
+    throw_fault();
     return status;
   }
   void halt() { lockstep_run_halt(run_.get()); }
@@ -125,8 +122,8 @@ class Program : public EntryStore {
     }
     if (whole && lockstep_run_set_int(run_.get(), name, *whole)) return true;
     if (real && lockstep_run_set_double(run_.get(), name, *real)) return true;
-    const auto text = value.tryCast<std::string>();
-    return text && lockstep_run_set_text(run_.get(), name, text->c_str());
+    const auto json = toJsonString(value);  // of an object
+    return json && lockstep_run_set_text(run_.get(), name, json->c_str());
   }
 
  private:
@@ -154,6 +151,19 @@ class Program : public EntryStore {
   struct FreeRun {
     void operator()(lockstep_run* run) const { lockstep_run_free(run); }
   };
+
+  void throw_fault() {
+    std::uint32_t index = 0;
+    const char* const fault = lockstep_run_fault(run_.get(), &index);
+    if (fault == nullptr) return;
+    std::string text = fault;
+    halt();
+    if (index >= places_->nodes.size()) throw RuntimeError(text);
+    const NodePlace& node = places_->nodes[index];
+    const std::string path = node.own_path + ": ";
+    if (StartWith(text, path)) text.erase(0, path.size());
+    throw NodeExecutionError({node.name, node.number.path, node.id}, text);
+  }
 
   TreeNode::Ptr make_node(std::uint32_t index) {
     const NodePlace& place = places_->nodes[index];
@@ -236,12 +246,14 @@ class Tree {
     return status;
   }
   void haltTree() { program().halt(); }
-  // False: nothing has ended it.
+  // True: emitWakeUpSignal() has ended it.
   template <class Rep, class Period>
   bool sleep(std::chrono::duration<Rep, Period> duration) {
-    std::this_thread::sleep_for(duration);
-    return false;
+    return wake_up_->waitFor(std::chrono::duration_cast<std::chrono::microseconds>(duration));
   }
+  // From any thread.
+  void emitWakeUpSignal() { wake_up_->emitSignal(); }
+  [[nodiscard]] std::shared_ptr<WakeUpSignal> wakeUpSignal() const { return wake_up_; }
   // The entries of the main tree: numbers, texts, and objects as texts.
   Blackboard::Ptr rootBlackboard() { return blackboard_; }
 
@@ -273,6 +285,7 @@ class Tree {
  private:
   std::shared_ptr<detail::Program> program_;
   Blackboard::Ptr blackboard_;
+  std::shared_ptr<WakeUpSignal> wake_up_ = std::make_shared<WakeUpSignal>();
 };
 
 // The names of all nodes, each below its parent.
