@@ -6,15 +6,20 @@ import type { Store } from "../store";
 
 export const MOST_SERIES = 12;
 
-// What the timeline shows; of the whole run the part in which the node was active.
+// What the timeline shows; of the whole run the activation of the node that is going on, else the last or the first.
 export function chartSpan(store: Store, keeper: number): [number, number] {
   const { run, looking } = store;
   if (looking.span) return looking.span;
   const { states } = run.nodes[keeper];
-  if (states.length === 0) return [run.times[0], run.times[run.last]];
-  const ended = states.values[states.length - 1] !== RUNNING;
-  const from = run.times[states.lines[0]];
-  const to = run.times[ended ? states.lines[states.length - 1] : run.last];
+  const runs = (place: number) => (states.values[place] & STATUS) === RUNNING;
+  let begin = Math.max(0, states.placeAt(store.line));
+  while (begin > 0 && !runs(begin)) --begin;
+  while (begin < states.length && !runs(begin)) ++begin;
+  if (begin >= states.length) return [run.times[0] ?? 0, run.times[run.last] ?? 1];
+  let end = begin;
+  while (begin > 0 && runs(begin - 1)) --begin;
+  while (end < states.length && runs(end)) ++end;
+  const from = run.times[states.lines[begin]], to = run.times[end < states.length ? states.lines[end] : run.last];
   const margin = Math.max((to - from) * 0.03, run.period);
   return [Math.max(run.times[0], from - margin), to + margin];
 }
