@@ -36,7 +36,7 @@ function Timing({ store }: { store: Store }) {
       {tick_us !== undefined && <span title="how long the last ticks took">tick takes <b>{tick_us.toFixed(0)} µs</b></span>}
       {late_ms !== undefined && <span class={late_ms > 1000 * run.period ? "warning" : ""}
         title="how long after its time the last tick began">late <b>{late_ms.toFixed(2)} ms</b></span>}
-      {speed !== undefined && speed !== 1 && <span>speed <b>{speed === 0 ? "as fast as possible" : `${speed}×`}</b></span>}
+      {run.header?.clock === "virtual" && speed !== undefined && speed !== 1 && <span>speed <b>{speed === 0 ? "as fast as possible" : `${speed}×`}</b></span>}
       {overruns !== undefined && overruns > 0 && <span class="warning">{overruns} overruns</span>}
     </>
   );

@@ -3,12 +3,16 @@ import type { Moment } from "../../model/moment";
 import { RUNNING } from "../../model/recording";
 import { waiting, waitOf } from "../../model/waiting";
 import { seconds } from "../../model/words";
-import { LANDMARKS, type RunEvent } from "../../model/events";
+import type { EventKind, RunEvent } from "../../model/events";
 import { eventText } from "./event_text";
 import type { Store } from "../store";
 import { Bar } from "../tree/bar";
 
 const MOST = 8;
+// What happened in the tree; how punctual it was is told elsewhere.
+const TOLD: ReadonlySet<EventKind> = new Set<EventKind>([
+  "start", "success", "failure", "halt", "hold", "release", "fault", "lost", "end",
+]);
 
 // Leaves, since the nodes above them only pass their ticks on.
 function runningLeaves(moment: Moment): number[] {
@@ -27,7 +31,7 @@ function heldSince(moment: Moment, node: number): number {
 function lastEvent(moment: Moment): RunEvent | null {
   const { all } = moment.run.events;
   for (let place = moment.run.events.placeAfter(moment.line); place-- > 0; ) {
-    if (LANDMARKS.has(all[place].kind) || all[place].kind === "start") return all[place];
+    if (TOLD.has(all[place].kind)) return all[place];
   }
   return null;
 }
