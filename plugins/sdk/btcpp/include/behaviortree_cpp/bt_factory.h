@@ -178,6 +178,19 @@ class BehaviorTreeFactory {
     return node;
   }
 
+  template <class Derived, class Base>
+  void registerPolymorphicCast() {
+    static_assert(sizeof(Derived) == 0,
+                  "lockstep has no polymorphic casts: give the port the type of the base, "
+                  "std::shared_ptr<Base>");
+  }
+  template <class Text>
+  void loadSubstitutionRuleFromJSON(const Text&) {
+    static_assert(sizeof(Text) == 0,
+                  "lockstep has no substitution rules: 'lockstep run --mock-leaf ID=failure' "
+                  "replaces a leaf for a test");
+  }
+  void clearSubstitutionRules() {}
   template <class Filter, class Rule>
   void addSubstitutionRule(const Filter&, const Rule&) {
     static_assert(sizeof(Rule) == 0,

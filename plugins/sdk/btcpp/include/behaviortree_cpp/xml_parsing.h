@@ -14,4 +14,11 @@ std::string writeTreeNodesModelXML(const Factory&, bool = false) {
   return {};
 }
 
+template <class Tree>
+std::string WriteTreeToXML(const Tree&, bool = false, bool = false) {
+  static_assert(sizeof(Tree) == 0,
+                "lockstep has no WriteTreeToXML: 'lockstep show tree.xml' prints a tree with its "
+                "subtrees");
+  return {};
+}
 }  // namespace BT

@@ -288,6 +288,26 @@ class Tree {
   std::shared_ptr<WakeUpSignal> wake_up_ = std::make_shared<WakeUpSignal>();
 };
 
+template <class AnyTree>
+std::vector<Blackboard::Ptr> BlackboardBackup(const AnyTree&) {
+  static_assert(sizeof(AnyTree) == 0,
+                "lockstep keeps no backups of a blackboard: rootBlackboard() reads and sets its "
+                "entries one by one");
+  return {};
+}
+template <class AnyTree>
+void BlackboardRestore(const std::vector<Blackboard::Ptr>& backup, AnyTree& tree) {
+  BlackboardBackup(tree);
+  static_cast<void>(backup);
+}
+template <class AnyTree>
+std::string ExportTreeToJSON(const AnyTree&) {
+  static_assert(sizeof(AnyTree) == 0,
+                "lockstep has no ExportTreeToJSON: 'lockstep run --record run.jsonl' records the "
+                "entries of a run");
+  return {};
+}
+
 // The names of all nodes, each below its parent.
 inline void printTreeRecursively(const TreeNode* root, std::ostream& out = std::cout) {
   const auto* const node = dynamic_cast<const detail::ProgramNode*>(root);
