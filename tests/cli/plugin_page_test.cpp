@@ -38,7 +38,8 @@ TEST_CASE("docs/plugins.md: what it says works word for word, from the installat
       "' sources/build/release\n"
       "cd sources\n" +
       commands[0].substr(kBuild.size()) + "cd ..\n" + commands[1] +
-      "lockstep run lockstep/share/lockstep/trees/door_pulling.xml --clock virtual\n";
+      "lockstep run lockstep/share/lockstep/trees/door_pulling.xml --clock virtual\n"
+      "lockstep run lockstep/share/lockstep/trees/commands.xml\n";
   const Outcome outcome = run({.arguments = {"-e", "-c", script},
                                .environment = {{"HOME", home.path("")}},
                                .program = "/bin/sh"});
@@ -46,8 +47,11 @@ TEST_CASE("docs/plugins.md: what it says works word for word, from the installat
   CHECK(outcome.code == 0);
   CHECK(outcome.out.find("Greet (") != std::string::npos);
   CHECK((outcome.out + outcome.err).find("hello, robot") != std::string::npos);
-  for (const char* file : {"LICENSE", "README.md", "docs/language.md", "schema/lockstep.xsd",
-                           "template/c/countdown.c", "template/cpp/sweep.cpp"}) {
+  CHECK((outcome.out + outcome.err).find("Main/both/fast: success") != std::string::npos);
+  for (const char* file :
+       {"LICENSE", "README.md", "docs/language.md", "schema/lockstep.xsd", "template/c/countdown.c",
+        "template/cpp/sweep.cpp", "template/rust/lockstep.rs", "python/lockstep_leaf.py",
+        "python/lockstep/__init__.py", "schema/program.schema.json"}) {
     INFO(file);
     CHECK(std::filesystem::exists(home.path("lockstep/share/lockstep/") + file));
   }

@@ -99,3 +99,27 @@ TEST_CASE("nodes has the leaves and ports of a program") {
   CHECK(contains(outcome.out, "step"));
   CHECK(contains(outcome.out, "0.01"));
 }
+
+TEST_CASE("what lockstep and a program say keeps schema/program.schema.json") {
+  const TemporaryDirectory directory;
+  const std::string said = directory.path("lines");
+  const std::string tree = directory.file(
+      "tree.xml",
+      R"(<root lockstep="1"><plugin name="tee" program="tee.py"/><plugin name="motion"/>)"
+      R"(<BehaviorTree ID="Main"><ParallelAbsolute barriers="0.005"><Steady name="a"/>)"
+      R"(<Advance step="0.0005"/></ParallelAbsolute></BehaviorTree></root>)");
+  const Outcome outcome = run({.arguments = {"run", tree, "--plugin-path", kProgramsFolder,
+                                             "--clock", "virtual", "--max-ticks", "30"},
+                               .environment = {{"LINES", said}}});
+  INFO(outcome.err);
+  CHECK(outcome.code == 124);
+  if (run({.arguments = {"-c", "import jsonschema"}, .program = "/usr/bin/python3"}).code != 0)
+    return;
+  const Outcome validated =
+      run({.arguments = {kProgramsFolder + "/validate.py",
+                         LOCKSTEP_SOURCE_DIR "/schema/program.schema.json", said},
+           .program = "/usr/bin/python3"});
+  INFO(validated.err);
+  CHECK(validated.out ==
+        "create destroy done halt lockstep log pause resume start status tick True\n");
+}

@@ -92,10 +92,29 @@ void Conversation::send(std::uint32_t number, Asked asked, std::string_view line
       leaf.since = monotonic_now();
       if (asked == Asked::Tick) leaf.news.status = 0;
     }
-    is_written = process_.write(lines);
+    if (is_listened_) {
+      outgoing_ += lines;
+      is_written = outgoing_.size() <= ProgramProcess::kMostUnwritten;
+    } else {
+      is_written = process_.write(lines);
+    }
   }
-  if (is_written) return;
-  // Who does not read any more may have died, which says more.
+  if (!is_written) give_up_deaf();
+}
+
+// Only what takes no time is done under the lock, for which the tick thread would wait.
+void Conversation::flush() {
+  {
+    const std::lock_guard lock(mutex_);
+    outgoing_.swap(written_);
+  }
+  const bool has_more = !written_.empty() || process_.has_unwritten();
+  if (has_more && !is_gone() && !process_.write(written_)) give_up_deaf();
+  written_.clear();
+}
+
+// Who does not read any more may have died, which says more.
+void Conversation::give_up_deaf() {
   const auto death = process_.await_end(Nanoseconds(0));
   give_up(death ? *death + blamed() : "did not read what it was sent; it was killed");
 }
@@ -157,7 +176,6 @@ Conversation::News Conversation::take(std::uint32_t number) {
   News news = std::exchange(leaf.news, {});
   news.is_asked = leaf.asked != Asked::Nothing;
   news.since = leaf.since;
-  if (process_.has_unwritten()) process_.flush();
   return news;
 }
 
@@ -208,9 +226,9 @@ bool Conversation::listen() {
 }
 
 std::optional<Nanoseconds> Conversation::deadline() {
-  const std::lock_guard lock(mutex_);
   std::optional<Nanoseconds> first;
   const auto add = [&](Nanoseconds it) { first = first ? std::min(*first, it) : it; };
+  const std::lock_guard lock(mutex_);
   if (process_.has_unwritten()) add(monotonic_now() + kToFlush);
   if (!options_.halt_limit) return first;
   for (const Leaf& leaf : leaves_) {
@@ -228,7 +246,6 @@ void Conversation::check_deadline(Nanoseconds now) {
   std::string late;
   {
     const std::lock_guard lock(mutex_);
-    if (process_.has_unwritten()) process_.flush();
     const auto leaf = std::ranges::find_if(leaves_, [&](auto& it) { return is_late(it, now); });
     if (leaf != leaves_.end()) late = leaf->caller->who;
   }

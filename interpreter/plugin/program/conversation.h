@@ -36,8 +36,10 @@ class Conversation {
   std::uint32_t add(const lockstep_caller& leaf);
   void remove(std::uint32_t leaf);
 
-  // Sends lines to the program, the last of which asks that. Does not wait. A leaf has not been
-  // asked anything else, except a tick before a halt, whose answer is then ignored.
+  // Sends lines to the program, the last of which asks that. Does not wait. Where somebody else
+  // reads, he also writes, when he is woken: to write to a program may mean to make way for it. A
+  // leaf has not been asked anything else, except a tick before a halt, whose answer is then
+  // ignored.
   void send(std::uint32_t leaf, Asked asked, std::string_view lines);
   // Waits for the answer, at most so long; false when there is none. Not for a gone program.
   bool await(std::uint32_t leaf, Asked asked, std::optional<Nanoseconds> patience);
@@ -65,6 +67,8 @@ class Conversation {
 
   // For the thread that reads. Takes what the program has said. False: it says no more.
   bool listen();
+  // The same. Writes what was sent.
+  void flush();
   int output() const { return process_.output(); }
   // When the listener is to look at it again, whatever it says, and what it does then.
   std::optional<Nanoseconds> deadline();
@@ -99,6 +103,7 @@ class Conversation {
   void take_error(Leaf& leaf);
   std::string take_answer(Leaf& leaf);
   void note_end();
+  void give_up_deaf();
   void end_late(std::string_view leaf);
   bool is_late(const Leaf& leaf, Nanoseconds now) const;
   std::string blamed();
@@ -106,14 +111,16 @@ class Conversation {
   const IsolationOptions& options_;
   ProgramProcess process_;
   bool is_listened_ = false;
-  JsonReader reader_;  // these three: of the thread that reads
+  JsonReader reader_;  // these: of the thread that reads
   std::string line_;
   Reply reply_;
+  std::string written_;  // keeps its capacity
 
-  std::mutex mutex_;  // of all below, and of what is written to the process
+  std::mutex mutex_;  // of all below
   std::condition_variable answered_;
   std::vector<Leaf> leaves_;
   const lockstep_caller* run_ = nullptr;
+  std::string outgoing_;
   std::string why_gone_;
   bool ends_softly_ = false;
   std::atomic<bool> gone_{false};

@@ -37,7 +37,10 @@ Listener::~Listener() {
   is_over_.store(true);
   wake();
   thread_.join();
-  for (Conversation* conversation : conversations_) conversation->set_listened(false);
+  for (Conversation* conversation : conversations_) {
+    conversation->flush();
+    conversation->set_listened(false);
+  }
 }
 
 void Listener::add(Conversation& conversation) {
@@ -50,13 +53,16 @@ void Listener::add(Conversation& conversation) {
 }
 
 void Listener::wake() {
-  eventfd_write(bell_.number(), 1);
+  if (!is_woken_.exchange(true)) eventfd_write(bell_.number(), 1);
 }
 
 void Listener::listen() {
   std::vector<Conversation*> known;
   std::vector<pollfd> descriptors;
-  while (!is_over_.load()) {
+  while (true) {
+    // First: who has something new before this does not ring, and who has it later does.
+    is_woken_.store(false);
+    if (is_over_.load()) return;
     {
       const std::lock_guard lock(mutex_);
       known = conversations_;
@@ -67,6 +73,7 @@ void Listener::listen() {
     });
     descriptors.assign(1, {bell_.number(), POLLIN, 0});
     for (Conversation* it : known) {
+      it->flush();
       descriptors.push_back({it->output(), POLLIN, 0});
       descriptors.push_back({it->process().end(), POLLIN, 0});
     }

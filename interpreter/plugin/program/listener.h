@@ -1,5 +1,5 @@
-// The thread that reads what the programs of a run say, on the wall clock: neither reading nor a
-// program that says nothing costs the tick thread any time.
+// The thread that reads what the programs of a run say, on the wall clock, and writes to them:
+// neither of it costs the tick thread any time, nor does a program that takes its processor.
 #pragma once
 
 #include <atomic>
@@ -22,14 +22,15 @@ class Listener {
 
   // Which outlives it.
   void add(Conversation& conversation);
-  // There is a deadline that it does not know.
+  // There is something to write, or a deadline that it does not know. One system call at most until
+  // it is awake.
   void wake();
 
  private:
   void listen();
 
   FileDescriptor bell_;
-  std::atomic<bool> is_over_{false};
+  std::atomic<bool> is_over_{false}, is_woken_{false};
   std::mutex mutex_;
   std::vector<Conversation*> conversations_;
   std::thread thread_;

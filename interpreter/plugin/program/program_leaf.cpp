@@ -31,7 +31,7 @@ ProgramLeaf::~ProgramLeaf() {
     conversation_.await(number_, Asked::Halt, conversation_.options().halt_limit);
     request_.clear();
     request_.begin("destroy", number_).end();
-    conversation_.send(number_, Asked::Nothing, request_.text());
+    send(Asked::Nothing);
   }
   conversation_.remove(number_);
 }
@@ -42,6 +42,11 @@ double ProgramLeaf::now() const {
 
 void ProgramLeaf::fail(const std::string& why) {
   host_table().set_error(&caller_, why.c_str());
+}
+
+void ProgramLeaf::send(Conversation::Asked asked) {
+  conversation_.send(number_, asked, request_.text());
+  if (listener_ != nullptr) listener_->wake();
 }
 
 bool ProgramLeaf::fail_if_gone() {
@@ -72,7 +77,7 @@ bool ProgramLeaf::create() {
       .field("clock", std::string_view(is_waiting() ? "virtual" : "wall"))
       .field("seed", host_table().random_bits(&caller_) >> 11)  // exact as a double
       .end();
-  conversation_.send(number_, Asked::Create, request_.text());
+  send(Asked::Create);
   if (!await(Asked::Create)) return false;
   const auto news = conversation_.take(number_);
   if (!news.error.empty()) fail(news.error);
@@ -98,7 +103,7 @@ void ProgramLeaf::ask_tick() {
     has_begun_ = true;
   }
   request_.begin("tick", number_).field("now", now()).ports(caller_, sent_).end();
-  if (caller_.slot->error == nullptr) conversation_.send(number_, Asked::Tick, request_.text());
+  if (caller_.slot->error == nullptr) send(Asked::Tick);
 }
 
 lockstep_status ProgramLeaf::tick_and_wait() {
@@ -171,9 +176,8 @@ void ProgramLeaf::halt() {
   if (!has_begun_) return;
   request_.clear();
   request_.begin("halt", number_).field("now", now()).end();
-  conversation_.send(number_, Asked::Halt, request_.text());
+  send(Asked::Halt);
   if (std::exchange(is_held_, false)) conversation_.process().go_on();
-  if (listener_ != nullptr) listener_->wake();
   // At the end of a run there is no tick to lose, and whether the leaf stands still counts.
   if (listener_ != nullptr && !caller_.ticker->in_last_halt()) return;
   const auto limit = conversation_.options().halt_limit;
@@ -193,7 +197,7 @@ void ProgramLeaf::pause() {
   }
   request_.clear();
   request_.begin("pause", number_).field("now", now()).end();
-  conversation_.send(number_, Asked::Nothing, request_.text());
+  send(Asked::Nothing);
 }
 
 void ProgramLeaf::resume() {
@@ -205,7 +209,7 @@ void ProgramLeaf::resume() {
   }
   request_.clear();
   request_.begin("resume", number_).field("now", now()).end();
-  conversation_.send(number_, Asked::Nothing, request_.text());
+  send(Asked::Nothing);
 }
 
 double ProgramLeaf::progress() {

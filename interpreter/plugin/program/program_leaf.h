@@ -35,6 +35,7 @@ class ProgramLeaf {
   lockstep_status tick_and_wait();
   lockstep_status tick_without_waiting();
   void ask_tick();
+  void send(Conversation::Asked asked);  // the request
   lockstep_status take(Conversation::News news);
   void set_ports(std::string line);
   bool await(Conversation::Asked asked);

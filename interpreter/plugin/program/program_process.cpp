@@ -16,7 +16,6 @@
 namespace lockstep {
 namespace {
 
-constexpr std::size_t kMostUnwritten = std::size_t{4} << 20;
 constexpr Nanoseconds kPatience = std::chrono::seconds(2);  // for a process that was killed
 
 // Waits until one of the descriptors is readable. Signals do not end the wait.

@@ -28,11 +28,11 @@ class ProgramProcess {
   ProgramProcess(const ProgramProcess&) = delete;
   ProgramProcess& operator=(const ProgramProcess&) = delete;
 
+  static constexpr std::size_t kMostUnwritten = std::size_t{4} << 20;
   // Never waits: what the program does not take now is kept for the next call. False: too much is
   // kept, or nobody reads.
   bool write(std::string_view text);
   bool has_unwritten() const { return !unwritten_.empty(); }
-  bool flush() { return write({}); }
   // It can read the end of its input.
   void close_input() { input_ = FileDescriptor(); }
 
