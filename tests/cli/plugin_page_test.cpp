@@ -47,7 +47,7 @@ TEST_CASE("docs/plugins.md: what it says works word for word, from the installat
   CHECK(outcome.code == 0);
   CHECK(outcome.out.find("Greet (") != std::string::npos);
   CHECK((outcome.out + outcome.err).find("hello, robot") != std::string::npos);
-  CHECK((outcome.out + outcome.err).find("Main/both/fast: success") != std::string::npos);
+  CHECK((outcome.out + outcome.err).find("Main/Sequence/both/fast: success") != std::string::npos);
   for (const char* file :
        {"LICENSE", "README.md", "docs/language.md", "schema/lockstep.xsd", "template/c/countdown.c",
         "template/cpp/sweep.cpp", "template/rust/lockstep.rs", "python/lockstep_leaf.py",
