@@ -18,7 +18,7 @@ std::FILE* open_regular(const std::string& path) {
   if (file.number() < 0 || fstat(file.number(), &status) != 0 || !S_ISREG(status.st_mode)) {
     return nullptr;
   }
-  return fdopen(dup(file.number()), "r");
+  return fdopen(fcntl(file.number(), F_DUPFD_CLOEXEC, 0), "r");
 }
 
 }  // namespace

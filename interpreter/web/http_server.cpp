@@ -1,5 +1,6 @@
 #include "web/http_server.h"
 
+#include <fcntl.h>
 #include <microhttpd.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -205,15 +206,20 @@ bool has_http_server() {
 
 HttpServer::HttpServer(FileDescriptor listener, Answering& answering)
     : it_(std::make_unique<Implementation>(answering)) {
-  const int socket = dup(listener.number());  // it closes what it gets
+  const bool listens = listener.number() >= 0;
+  // It closes what it gets.
+  const int socket = listens ? fcntl(listener.number(), F_DUPFD_CLOEXEC, 0) : -1;
+  const unsigned flags = MHD_USE_EPOLL | MHD_ALLOW_SUSPEND_RESUME;
+  MHD_OptionItem listening[] = {{MHD_OPTION_LISTEN_SOCKET, socket, nullptr},
+                                {MHD_OPTION_END, 0, nullptr}};
   it_->daemon = MHD_start_daemon(
-      MHD_USE_EPOLL | MHD_ALLOW_SUSPEND_RESUME, 0, nullptr, nullptr, Implementation::on_request,
-      it_.get(), MHD_OPTION_LISTEN_SOCKET, socket, MHD_OPTION_CONNECTION_LIMIT, kMostConnections,
-      MHD_OPTION_CONNECTION_MEMORY_LIMIT, kMemory, MHD_OPTION_CONNECTION_TIMEOUT, kLongestSilence,
-      MHD_OPTION_NOTIFY_COMPLETED, Implementation::on_completed, it_.get(),
-      MHD_OPTION_NOTIFY_CONNECTION, Implementation::on_connection, it_.get(),
-      MHD_OPTION_UNESCAPE_CALLBACK, Implementation::keep_escapes, nullptr,
-      MHD_OPTION_STRICT_FOR_CLIENT, 1, MHD_OPTION_END);
+      listens ? flags : flags | MHD_USE_NO_LISTEN_SOCKET, 0, nullptr, nullptr,
+      Implementation::on_request, it_.get(), MHD_OPTION_ARRAY, listens ? listening : listening + 1,
+      MHD_OPTION_CONNECTION_LIMIT, kMostConnections, MHD_OPTION_CONNECTION_MEMORY_LIMIT, kMemory,
+      MHD_OPTION_CONNECTION_TIMEOUT, kLongestSilence, MHD_OPTION_NOTIFY_COMPLETED,
+      Implementation::on_completed, it_.get(), MHD_OPTION_NOTIFY_CONNECTION,
+      Implementation::on_connection, it_.get(), MHD_OPTION_UNESCAPE_CALLBACK,
+      Implementation::keep_escapes, nullptr, MHD_OPTION_STRICT_FOR_CLIENT, 1, MHD_OPTION_END);
   if (it_->daemon == nullptr) throw std::runtime_error("the server of the monitor does not start");
 }
 
@@ -231,7 +237,7 @@ int HttpServer::descriptor() const {
 
 bool HttpServer::serve(FileDescriptor connection) {
   sockaddr address{.sa_family = AF_UNIX, .sa_data = {}};
-  const int socket = dup(connection.number());
+  const int socket = fcntl(connection.number(), F_DUPFD_CLOEXEC, 0);
   return MHD_add_connection(it_->daemon, socket, &address, sizeof address.sa_family) == MHD_YES;
 }
 

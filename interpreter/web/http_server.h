@@ -15,6 +15,7 @@ bool has_http_server();
 
 class HttpServer {
  public:
+  // Without a listener, only serve() brings clients.
   HttpServer(FileDescriptor listener, Answering& answering);
   ~HttpServer();
   HttpServer(const HttpServer&) = delete;

@@ -151,7 +151,7 @@ void Monitor::tell_status() {
   const auto state = control_ != nullptr ? control_->state() : RunControl::State();
   take_lines();
   const Nanoseconds now = monotonic_now();
-  if (const auto status = status_.next(state, feed_, now)) {
+  if (const auto status = status_.next(state, feed_, is_real_time_, now)) {
     log_.add_event("state", *status);
     server_.wake_streams();
   }

@@ -25,7 +25,7 @@ void RunStatus::note(Breakpoint breakpoint, bool is_on) {
 }
 
 std::optional<std::string> RunStatus::next(const RunControl::State& state, MonitorFeed& feed,
-                                           Nanoseconds now) {
+                                           bool is_real_time, Nanoseconds now) {
   const bool is_new = is_changed_ || told_ != state;
   const bool is_due = now - told_at_ >= kPeriod;
   if (!is_new && !is_due) return std::nullopt;
@@ -33,7 +33,8 @@ std::optional<std::string> RunStatus::next(const RunControl::State& state, Monit
   if (!is_new && !times) return std::nullopt;
   told_ = state;
   is_changed_ = false;
-  Json json = {{"state", state.is_paused ? "paused" : "running"}, {"speed", state.speed}};
+  Json json = {{"state", state.is_paused ? "paused" : "running"}};
+  if (!is_real_time) json["speed"] = state.speed;
   json["breakpoints"] = Json::array();
   for (const Breakpoint& it : breakpoints_) json["breakpoints"].push_back(json_of(it));
   if (state.breakpoint) json["reached"] = json_of(*state.breakpoint);

@@ -20,7 +20,7 @@ class RunStatus {
   // As JSON, if listeners are to be told now: at once if something has changed, except for the
   // times of ticks.
   std::optional<std::string> next(const RunControl::State& state, MonitorFeed& feed,
-                                  Nanoseconds now);
+                                  bool is_real_time, Nanoseconds now);
 
  private:
   std::optional<RunControl::State> told_ = {};

@@ -13,6 +13,7 @@
 #include "runtime/run.h"
 #include "summary/statistics.h"
 #include "view/console_live.h"
+#include "web/monitor.h"
 
 namespace {
 
@@ -276,6 +277,15 @@ void observed_by_live_view(benchmark::State& state, const char* control, const c
   }
   std::fclose(null);
 }
+// The feed, and the thread that takes its lines; nobody watches.
+void observed_by_monitor(benchmark::State& state, const char* control, const char* attributes) {
+  const BenchTree bench = with_changes(control, attributes, state.range(0));
+  auto socket = listen_on(kAnyLoopback);
+  if (!socket) std::abort();
+  Monitor monitor(bench.tree(), {.run = {.tree_file = "bench.xml", .rate_hz = 1000}},
+                  std::move(*socket));
+  observe(state, bench, &monitor);
+}
 void changing(benchmark::internal::Benchmark* benchmark) {
   for (const int leaves : {10, kLeaves}) benchmark->Arg(leaves);
 }
@@ -283,7 +293,8 @@ void changing(benchmark::internal::Benchmark* benchmark) {
   BENCHMARK_CAPTURE(observed_by_nobody, name, control, attributes)->Apply(changing);     \
   BENCHMARK_CAPTURE(observed_by_statistics, name, control, attributes)->Apply(changing); \
   BENCHMARK_CAPTURE(observed_by_recorder, name, control, attributes)->Apply(changing);   \
-  BENCHMARK_CAPTURE(observed_by_live_view, name, control, attributes)->Apply(changing)
+  BENCHMARK_CAPTURE(observed_by_live_view, name, control, attributes)->Apply(changing);  \
+  BENCHMARK_CAPTURE(observed_by_monitor, name, control, attributes)->Apply(changing)
 OBSERVED(parallel, "Parallel", "");
 OBSERVED(synchronized, "ParallelRelative", "delta='1'");
 

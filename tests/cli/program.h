@@ -46,6 +46,7 @@ class Process {
   bool wait_for(const std::string& text);
   // Reads what comes next; false at the end.
   bool read_on() { return read_more(); }
+  pid_t id() const { return pid_; }
   void signal(int number) const { kill(pid_, number); }
   // Until it has been stopped by a signal.
   void wait_for_stop() const;

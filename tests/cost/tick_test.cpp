@@ -27,10 +27,12 @@
 #include "recording/write/recorder.h"
 #include "runtime/loop.h"
 #include "runtime/run.h"
+#include "runtime/run_control.h"
 #include "study/run_measures.h"
 #include "summary/statistics.h"
 #include "support/paths.h"
 #include "view/snapshot_feed.h"
+#include "web/feed.h"
 
 namespace {
 thread_local bool t_counting = false;
@@ -132,25 +134,26 @@ class TickingTree {
   Tree tree_;
 };
 
-// As `lockstep run` ticks it: watched, with the measures of the summary, and maybe a recorder.
+// As `lockstep run` ticks it: watched, with the measures of the summary, and maybe another
+// observer.
 class WatchedRun {
  public:
-  explicit WatchedRun(const Tree& tree, Recorder* recorder = nullptr)
+  explicit WatchedRun(const Tree& tree, Observer* observer = nullptr)
       : watch_({.budget = std::chrono::seconds(1)}),
         statistics_(tree),
-        recorder_(recorder),
+        observer_(observer),
         run_(tree, {.watch = &watch_}) {
-    if (recorder_ != nullptr) recorder_->run_started(run_.ticker(), {});
+    if (observer_ != nullptr) observer_->run_started(run_.ticker(), {});
   }
 
   void tick(std::uint64_t count) {
     for (std::uint64_t i = 0; i < count; ++i, ++tick_) {
       const Nanoseconds now = deadline_of(tick_, 100);
       run_.set_now(now);
-      if (recorder_ != nullptr) recorder_->before_tick(run_.ticker(), tick_, now);
+      if (observer_ != nullptr) observer_->before_tick(run_.ticker(), tick_, now);
       const TickReport report{tick_, now, run_.tick(now)};
       statistics_.after_tick(run_.ticker(), report);
-      if (recorder_ != nullptr) recorder_->after_tick(run_.ticker(), report);
+      if (observer_ != nullptr) observer_->after_tick(run_.ticker(), report);
     }
   }
   const Fault* fault() const { return run_.fault(); }
@@ -159,7 +162,7 @@ class WatchedRun {
  private:
   LeafWatch watch_;
   Statistics statistics_;
-  Recorder* recorder_;
+  Observer* observer_;
   Run run_;
   std::uint64_t tick_ = 0;
 };
@@ -221,6 +224,40 @@ TEST_CASE("an entry that is another number in each tick is recorded without allo
 Nanoseconds hurried() {
   static Nanoseconds now{0};
   return now += std::chrono::seconds(1);
+}
+
+TEST_CASE(
+    "the monitor's feed passes lines on without allocating or locking, also when nobody takes "
+    "them") {
+  const TickingTree tree;
+  MonitorFeed feed(tree.tree(), {.tree_file = "cost.xml", .rate_hz = 100}, hurried);
+  WatchedRun run(tree.tree(), &feed);
+  run.tick(10);
+  g_allocations = g_locks = 0;
+  t_counting = true;
+  for (int i = 0; i < 10; ++i) {
+    run.tick(1000);
+    feed.want_full();
+  }
+  t_counting = false;
+  CHECK(run.fault() == nullptr);
+  CHECK(g_allocations == 0);
+  CHECK(g_locks == 0);
+}
+
+TEST_CASE("a run that may be controlled looks for orders without allocating or locking") {
+  const TickingTree tree;
+  Run run(tree.tree(), {});
+  RunControl control;
+  g_allocations = g_locks = 0;
+  t_counting = true;
+  for (int i = 0; i < 1000; ++i) {
+    control.take_orders(run.ticker(), run.blackboard());
+    control.count_tick(run.ticker());
+  }
+  t_counting = false;
+  CHECK(g_allocations == 0);
+  CHECK(g_locks == 0);
 }
 
 TEST_CASE("a feed takes snapshots and entries that change without allocating or locking") {

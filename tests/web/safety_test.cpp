@@ -1,7 +1,8 @@
 // What somebody may try with the monitor: docs/security.md, row by row.
 #include <catch2/catch.hpp>
-#include <fstream>
+#include <filesystem>
 #include <memory>
+#include <set>
 #include <sstream>
 
 #include "web/client.h"
@@ -55,6 +56,16 @@ class Guarded {
   TemporaryDirectory directory_;
   MonitoredRun run_;
 };
+
+std::set<std::string> sockets_of(const std::string& process) {
+  std::set<std::string> sockets;
+  for (const auto& file : std::filesystem::directory_iterator("/proc/" + process + "/fd")) {
+    std::error_code error;
+    const std::string target = std::filesystem::read_symlink(file.path(), error);
+    if (target.starts_with("socket:")) sockets.insert(target);
+  }
+  return sockets;
+}
 
 std::string host(const std::string& name) {
   return "GET / HTTP/1.1\r\nHost: " + name + "\r\n\r\n";
@@ -248,4 +259,20 @@ TEST_CASE("garbage is no request") {
     CHECK((status == 0 || status >= 400));
   }
   it.check_is_well();
+}
+
+TEST_CASE("no program that lockstep starts gets a socket of the monitor") {
+  Guarded it({"--monitor-control", "--isolate"});
+  Client events(it.port());
+  events.send(get_text(it.port(), "/events", it.token()));
+  REQUIRE(events.wait_for("data: {\"tick\":"));
+  const std::string process = std::to_string(it.run().process().id());
+  const auto sockets = sockets_of(process);
+  CHECK(sockets.size() >= 2);  // one listens, one is ours
+  std::istringstream children(read_file("/proc/" + process + "/task/" + process + "/children"));
+  std::string child;
+  REQUIRE(children >> child);
+  do {
+    for (const std::string& socket : sockets_of(child)) CHECK_FALSE(sockets.contains(socket));
+  } while (children >> child);
 }
