@@ -98,6 +98,7 @@ test("a click on the timeline goes there, and what it shows can be enlarged", as
   await page.mouse.click(drawing.x + drawing.width / 2, drawing.y + 10);
   await page.locator('input[aria-valuetext^="tick 350,"]').waitFor();
   await page.getByRole("button", { name: "zoom in" }).click();
+  await page.getByRole("button", { name: "whole run", pressed: false }).waitFor();
   await page.mouse.click(drawing.x + drawing.width / 2 + 1, drawing.y + 10);
   await page.locator('input[aria-valuetext^="tick 350,"]').waitFor();
   await page.mouse.click(drawing.x + drawing.width - 1, drawing.y + 10);

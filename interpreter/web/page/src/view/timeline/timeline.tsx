@@ -25,7 +25,7 @@ export function Timeline({ store }: { store: Store }) {
             title="A lane for each node, not only for leaves and those that wait for each other">all nodes</button>
           <button type="button" aria-label="zoom in" title="zoom in (+)" onClick={() => zoom(0.5)}>+</button>
           <button type="button" aria-label="zoom out" title="zoom out (-)" onClick={() => zoom(2)}>−</button>
-          <button type="button" title="the whole run (0)" onClick={() => store.set({ span: null })}>whole run</button>
+          <button type="button" aria-pressed={store.looking.span === null} title="the whole run (0)" onClick={() => store.set({ span: null })}>whole run</button>
         </div>
       </div>
       <Lanes store={store} all={all} />
