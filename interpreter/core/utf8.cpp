@@ -27,12 +27,6 @@ Character first_character(std::string_view text) {
   return {static_cast<std::size_t>(bytes), static_cast<char32_t>(code)};
 }
 
-void append_character(char32_t code, std::string& text) {
-  utf8proc_uint8_t bytes[4];
-  const auto count = utf8proc_encode_char(static_cast<utf8proc_int32_t>(code), bytes);
-  text.append(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(count));
-}
-
 std::string_view utf8_front(std::string_view text, std::size_t bytes) {
   if (text.size() <= bytes) return text;
   auto length = bytes;

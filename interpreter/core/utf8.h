@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 #include <string_view>
 
 namespace lockstep {
@@ -15,7 +14,6 @@ struct Character {
 // The first character of `text`. 0 bytes if there is none: `text` is empty, or begins with a stray
 // or cut sequence, an overlong form, a surrogate, or a code point beyond U+10FFFF.
 Character first_character(std::string_view text);
-void append_character(char32_t code, std::string& text);
 inline std::size_t utf8_length(std::string_view text) {
   return first_character(text).bytes;
 }

@@ -1,21 +1,55 @@
 #include "document/document.h"
 
 #include <fmt/format.h>
+#include <tinyxml2.h>
 
+#include <cstddef>
 #include <deque>
+#include <new>
 
 #include "document/language_of.h"
 #include "document/references.h"
 #include "document/well_formed.h"
 
 namespace lockstep {
+namespace {
+
+// An '&' that begins none is one of the value.
+void append_with_known_references(std::string_view value, std::string& text) {
+  for (auto at = value.find('&'); at != std::string_view::npos; at = value.find('&')) {
+    text += value.substr(0, at + 1);
+    value.remove_prefix(at);
+    if (!read_reference(value)) text += "amp;";
+    value.remove_prefix(1);
+  }
+  text += value;
+}
+
+// A program that links lockstep::runtime may have another version of tinyxml2 in it, whose
+// functions are then called with this object: it has room for a document of any version, and
+// functions of theirs that are in a header or virtual are not called.
+class AnyTinyxml2 {
+ public:
+  AnyTinyxml2() : document_(new (room_) tinyxml2::XMLDocument) {}
+  ~AnyTinyxml2() { document_->tinyxml2::XMLDocument::~XMLDocument(); }
+  AnyTinyxml2(const AnyTinyxml2&) = delete;
+  AnyTinyxml2& operator=(const AnyTinyxml2&) = delete;
+  tinyxml2::XMLDocument* operator->() { return document_; }
+
+ private:
+  alignas(std::max_align_t) std::byte room_[8 * sizeof(tinyxml2::XMLDocument)];
+  tinyxml2::XMLDocument* document_;
+};
+
+}  // namespace
 
 struct Document::Implementation {
   std::shared_ptr<const Source> source;
   Language language = Language::Lockstep;
   std::vector<Element> elements;
   std::vector<Attribute> attributes;
-  std::deque<std::string> values;  // those that are not as the text has them; never moved
+  std::vector<std::uint32_t> coded;  // attributes whose values have references or line ends
+  std::deque<std::string> values;    // those that are not as the text has them; never moved
 
   void report(XmlFault fault, Diagnostics& diagnostics) const {
     const auto location = source->locate(source->place_of(fault.offset));
@@ -25,6 +59,7 @@ struct Document::Implementation {
   }
 
   bool check(Diagnostics& diagnostics);
+  bool read_coded(Diagnostics& diagnostics);
 };
 
 bool Document::Implementation::check(Diagnostics& diagnostics) {
@@ -45,9 +80,31 @@ bool Document::Implementation::check(Diagnostics& diagnostics) {
   for (auto& fault : written.faults) report(std::move(fault), diagnostics);
   elements = std::move(written.elements);
   attributes = std::move(written.attributes);
-  if (!written.readable) return false;
-  for (const auto index : written.coded) {
-    attributes[index].value = values.emplace_back(read_value(attributes[index].value));
+  coded = std::move(written.coded);
+  return written.readable;
+}
+
+// All of them at once, as the attributes of a text that is made for it.
+bool Document::Implementation::read_coded(Diagnostics& diagnostics) {
+  if (coded.empty()) return true;
+  std::string text = "<r>";
+  for (const auto index : coded) {
+    const std::string_view value = attributes[index].value;
+    const char quote = value.data()[-1];
+    (text += "<a v=") += quote;
+    append_with_known_references(value, text);
+    (text += quote) += "/>";
+  }
+  text += "</r>";
+  AnyTinyxml2 xml;
+  if (xml->Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
+    diagnostics.error({source->path()}, "values that cannot be read");
+    return false;
+  }
+  const auto* read = xml->FirstChildElement()->FirstChildElement();
+  for (const auto index : coded) {
+    attributes[index].value = values.emplace_back(read->Attribute("v"));
+    read = read->NextSiblingElement();
   }
   return true;
 }
@@ -60,7 +117,7 @@ std::unique_ptr<Document> Document::parse(std::string path, std::string text,
   std::unique_ptr<Document> document(new Document);
   auto& it = *document->it_;
   it.source = std::make_shared<const Source>(std::move(path), std::move(text), first);
-  if (!it.check(diagnostics)) return nullptr;
+  if (!it.check(diagnostics) || !it.read_coded(diagnostics)) return nullptr;
   return document;
 }
 

@@ -1,5 +1,6 @@
 // One XML file, parsed: elements in pre-order with their attributes, each with its exact place in
-// the original bytes. It knows XML, not trees.
+// the original bytes. The only folder that sees tinyxml2, which reads values with references. It
+// knows XML, not trees.
 #pragma once
 
 #include <cstddef>

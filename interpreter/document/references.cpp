@@ -4,8 +4,6 @@
 #include <charconv>
 #include <cstdint>
 
-#include "core/utf8.h"
-
 namespace lockstep {
 namespace {
 
@@ -25,15 +23,14 @@ std::optional<RawUnit> read_number(std::string_view digits, std::size_t raw) {
       std::from_chars(digits.data(), digits.data() + digits.size(), code, base);
   if (error != std::errc() || end != digits.data() + digits.size() || !is_xml_character(code))
     return std::nullopt;
-  return RawUnit{raw, code < 0x80 ? 1u : code < 0x800 ? 2u : code < 0x10000 ? 3u : 4u, code};
+  return RawUnit{raw, code < 0x80 ? 1u : code < 0x800 ? 2u : code < 0x10000 ? 3u : 4u};
 }
 
 RawUnit read_unit(std::string_view raw) {
-  const RawUnit byte{1, 1, static_cast<unsigned char>(raw[0])};
-  if (raw[0] == '&') return read_reference(raw).value_or(byte);
-  // Each line end, of any of the two-byte kinds too, is one newline.
-  if (raw.starts_with("\r\n") || raw.starts_with("\n\r")) return {2, 1, '\n'};
-  return raw[0] == '\r' ? RawUnit{1, 1, '\n'} : byte;
+  if (raw[0] == '&') return read_reference(raw).value_or(RawUnit{1, 1});
+  // The reader turns each line end, of any of the two-byte kinds too, into one newline.
+  if (raw.starts_with("\r\n") || raw.starts_with("\n\r")) return {2, 1};
+  return {1, 1};
 }
 
 }  // namespace
@@ -45,24 +42,9 @@ std::optional<RawUnit> read_reference(std::string_view raw) {
   const auto name = raw.substr(1, end - 1);
   if (name.starts_with('#')) return read_number(name.substr(1), end + 1);
   constexpr std::string_view kNames[] = {"lt", "gt", "amp", "quot", "apos"};
-  const auto* const found = std::find(std::begin(kNames), std::end(kNames), name);
-  if (found == std::end(kNames)) return std::nullopt;
-  const char is = "<>&\"'"[found - std::begin(kNames)];
-  return RawUnit{end + 1, 1, static_cast<unsigned char>(is)};
-}
-
-std::string read_value(std::string_view raw) {
-  std::string text;
-  while (!raw.empty()) {
-    const RawUnit unit = read_unit(raw);
-    if (unit.read == 1) {
-      text += static_cast<char>(unit.code);
-    } else {
-      append_character(unit.code, text);
-    }
-    raw.remove_prefix(unit.raw);
-  }
-  return text;
+  if (std::find(std::begin(kNames), std::end(kNames), name) == std::end(kNames))
+    return std::nullopt;
+  return RawUnit{end + 1, 1};
 }
 
 std::size_t raw_offset(std::string_view raw, std::size_t read) {
