@@ -129,7 +129,7 @@ test("on the wall clock the page says that the robot will stand, before it is pa
   const tick = await tickOf(page);
   await page.keyboard.press("s");
   await page.locator(`input[aria-valuetext^="tick ${tick + 1},"]`).waitFor();
-  await page.keyboard.press("p");
+  await page.getByRole("button", { name: "resume" }).click(); // p would pause while the tick is not over yet
   await page.waitForFunction((from) => Number(document.querySelector("input.tick").value) > from + 10, tick);
   assert.deepEqual(await violations(page), []);
   run.process.kill("SIGTERM");

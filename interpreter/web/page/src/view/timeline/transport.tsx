@@ -22,7 +22,7 @@ function usePlaying(store: Store) {
   }, [playing, store]);
 }
 
-// What is being typed stays, however the run goes on.
+// From the moment in which someone begins to type, it stays as it is, however the run goes on.
 function TickField({ store }: { store: Store }) {
   const [typed, setTyped] = useState<string | null>(null);
   const key = (event: KeyboardEvent) => {
@@ -34,7 +34,11 @@ function TickField({ store }: { store: Store }) {
   return (
     <input class="tick" aria-label="Tick" inputMode="numeric" value={typed ?? store.moment.tick} size={7} onKeyDown={key}
       onInput={(event) => setTyped((event.target as HTMLInputElement).value)} onBlur={() => setTyped(null)}
-      onFocus={(event) => (event.target as HTMLInputElement).select()} />
+      onFocus={(event) => {
+        const field = event.target as HTMLInputElement;
+        setTyped(field.value);
+        field.select();
+      }} />
   );
 }
 
