@@ -48,12 +48,13 @@ except lockstep.Error as error:
         "3 none.xml: error: cannot be read: No such file or directory\n");
 }
 
-TEST_CASE("docs/paper/figure3.py makes the figure: more barriers keep tasks closer") {
+TEST_CASE("docs/paper/figure3.py makes the figure: more barriers, better predictability") {
   const Outcome outcome = python({LOCKSTEP_SOURCE_DIR "/docs/paper/figure3.py", "5"}, kPackage);
   INFO(outcome.err);
   CHECK(outcome.code == 0);
-  CHECK(contains(outcome.out, "noise 0.05: the median of the progress distance"));
-  CHECK(lines(outcome.out).size() == 14);
+  CHECK(contains(outcome.out, "noise 0.05: the median of the predictability distance"));
+  CHECK(lines(outcome.out).size() == 12);
+  CHECK(contains(outcome.out, "  20 barriers    -4"));
 }
 
 TEST_CASE("the package installs into a venv without an index") {
