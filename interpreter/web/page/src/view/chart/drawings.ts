@@ -72,6 +72,11 @@ export function drawInFront(plot: uPlot, store: Store, keeper: number, paint: Co
   held(plot, store.run, keeper, paint);
   const x = plot.valToPos(store.moment.time, "x", true);
   if (x >= bbox.left && x <= bbox.left + bbox.width) {
+    // What comes after it is pale.
+    ctx.globalAlpha = 0.6;
+    ctx.fillStyle = paint.panel;
+    ctx.fillRect(x, bbox.top, bbox.left + bbox.width - x, bbox.height);
+    ctx.globalAlpha = 1;
     ctx.fillStyle = paint.text;
     ctx.fillRect(x, bbox.top, devicePixelRatio, bbox.height);
   }

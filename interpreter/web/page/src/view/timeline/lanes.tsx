@@ -109,6 +109,9 @@ export function Lanes({ store, all }: { store: Store; all: boolean }) {
           ))}
         </ul>
       </div>
+      {cursor < size.width && (
+        <div class="later" style={{ left: px(left + Math.max(0, cursor)), width: px(size.width - Math.max(0, cursor)) }} />
+      )}
       {cursor >= 0 && cursor <= size.width && <div class="cursor" style={{ left: px(left + cursor) }} />}
     </div>
   );
