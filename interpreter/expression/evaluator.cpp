@@ -114,7 +114,7 @@ struct Reached {
 };
 
 // Runs what scripts do most, numbers, without a call. Stops before the first instruction that needs
-// more; Machine does the same with all operands. A function of its own: it needs few registers.
+// more; Machine does the same with all operands. It is separate so that it needs few registers.
 [[gnu::noinline]] Reached run_quickly(const Instruction* at, Entry* const* entries, Operand* top) {
   double left = 0;
   double right = 0;

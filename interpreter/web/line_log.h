@@ -47,7 +47,7 @@ class LineLog {
   // is not there any more.
   std::optional<std::size_t> read(Place& place, std::span<char> to);
 
-  // As lines: the header and all that is kept.
+  // As lines: the header and the rest of the log.
   std::string_view header_line() const;
   // The number of the event behind the last.
   std::uint64_t end() const { return first_ + events_.size(); }

@@ -146,7 +146,7 @@ void Monitor::serve_to_the_end() {
   for (server_.run(); server_.streams() > 0 && monotonic_now() < until; server_.run()) wait(kNap);
 }
 
-// A pause is told after the line of the last tick before it.
+// A pause is reported after the line of the last tick before it.
 void Monitor::tell_status() {
   const auto state = control_ != nullptr ? control_->state() : RunControl::State();
   take_lines();

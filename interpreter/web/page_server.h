@@ -1,5 +1,5 @@
-// Serves one page to the browsers of this machine until it is told to stop: a recording that is
-// looked at, without a run.
+// Serves one page to the browsers of this machine until it is stopped: a recording that is looked
+// at, without a run.
 #pragma once
 
 #include <functional>

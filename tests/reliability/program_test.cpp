@@ -158,8 +158,7 @@ TEST_CASE("a program that sleeps in a tick costs no other leaf its tick, and is 
   CHECK(it.are_all_gone());
 }
 
-TEST_CASE(
-    "held by a signal, the process of a leaf is stopped, until it is halted") {
+TEST_CASE("held by a signal, the process of a leaf is stopped, until it is halted") {
   const ProgramRun it(
       R"(<root lockstep="1"><plugin name="steady" program="steady.py" hold="signal"/>)"
       R"(<plugin name="motion"/><BehaviorTree ID="Main"><ParallelAbsolute barriers="0.005">)"

@@ -75,7 +75,7 @@ TEST_CASE("a run on the wall clock stands while it is paused, and misses no dead
   CHECK(contains(outcome.out, "success after "));
 }
 
-TEST_CASE("a run pauses where it is told to") {
+TEST_CASE("a run pauses at its breakpoints") {
   Controlled it(kPull, {"--clock", "virtual", "--set", "pause=0.05"});
   const auto stop = [](int node, const char* when, bool on = true) {
     return json{{"do", "break"}, {"node", node}, {"when", when}, {"on", on}};

@@ -44,7 +44,7 @@ class Guarded {
   }
 
  private:
-  // Of the program without a monitor, with all that is loaded: the page in it, libraries.
+  // Of the program without a monitor, with the page in it and its libraries.
   static constexpr double kAlone = 12;
 
   static std::vector<std::string> with(const std::string& tree,

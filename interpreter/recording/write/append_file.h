@@ -13,8 +13,8 @@
 #include <thread>
 #include <vector>
 
-#include "core/output_file.h"
 #include "core/bell.h"
+#include "core/output_file.h"
 #include "recording/write/json_lines.h"
 #include "recording/write/packet_ring.h"
 
