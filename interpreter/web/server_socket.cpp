@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <system_error>
@@ -59,6 +61,13 @@ std::string address_of(int socket) {
                                    : fmt::format("{}:{}", host, port);
 }
 
+// The digits of a port. getaddrinfo takes larger numbers, and another port for them.
+bool is_port(std::string_view digits) {
+  std::uint16_t port = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), port);
+  return error == std::errc() && end == digits.data() + digits.size();
+}
+
 // Closed ones of the last run may still be around: without SO_REUSEADDR their port is not free.
 bool open(const addrinfo& it, FileDescriptor& socket) {
   socket = FileDescriptor(
@@ -81,6 +90,9 @@ Result<ServerSocket> listen_on(std::string_view address_and_port) {
   const std::string shown = printable(address_and_port);
   if (!place) {
     return problem(fmt::format("'{}' is not an address", shown), std::string(kHint));
+  }
+  if (!is_port(place->port)) {
+    return problem(fmt::format("'{}' is not an address", shown), "the largest port is 65535");
   }
   addrinfo wanted{};
   wanted.ai_flags = AI_PASSIVE | AI_NUMERICSERV;

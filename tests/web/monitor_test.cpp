@@ -71,6 +71,10 @@ TEST_CASE("the address of the monitor is checked before the run begins") {
   const Outcome wrong = lockstep::test::lockstep({"run", tree, "--monitor=somewhere"});
   CHECK(wrong.code == 2);
   CHECK(contains(wrong.err, "--monitor: 'somewhere' is not an address"));
+  const Outcome large =
+      lockstep::test::lockstep({"run", tree, "--max-ticks", "1", "--monitor", "127.0.0.1:99999"});
+  CHECK(large.code == 2);
+  CHECK(contains(large.err, "hint: the largest port is 65535"));
   const Outcome foreign = lockstep::test::lockstep({"run", tree, "--monitor", "192.0.2.1:0"});
   CHECK(foreign.code == 2);
   CHECK(contains(foreign.err, "cannot listen on '192.0.2.1:0'"));
