@@ -109,7 +109,7 @@ export async function open(address, options = {}) {
   const page = await context.newPage();
   page.on("console", (message) => message.type() === "error" && complaints.push(message.text()));
   page.on("pageerror", (error) => complaints.push(error.stack ?? error.message));
-  page.setDefaultTimeout(10_000);
+  page.setDefaultTimeout(60_000); // only what hangs takes so long, also on a busy machine
   await page.goto(address);
   return page;
 }
