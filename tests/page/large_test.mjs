@@ -37,8 +37,13 @@ test("10,000 nodes stay fluid", async () => {
     slider.value = 1000 + step * 7; slider.dispatchEvent(new Event("input", { bubbles: true }));`;
   const scrubbing = await frames(page, 60, scrub);
   await running.waitFor();
-  const box = await running.boundingBox(), sight = await page.locator(".tree").boundingBox();
-  assert.ok(box.y >= sight.y && box.y + box.height <= sight.y + sight.height, "what runs is in sight");
+  const isInSight = async () => {
+    const box = await running.boundingBox(), sight = await page.locator(".tree").boundingBox();
+    return box !== null && box.y >= sight.y && box.y + box.height <= sight.y + sight.height;
+  };
+  const until = Date.now() + 10_000; // it scrolls there in one of the next frames
+  while (!(await isInSight()) && Date.now() < until) await page.evaluate(() => new Promise(requestAnimationFrame));
+  assert.ok(await isInSight(), "what runs is in sight");
 
   await page.getByRole("button", { name: "only what runs" }).click();
   await page.getByRole("treeitem", { name: /^b99, Sequence/ }).waitFor({ state: "detached" });
