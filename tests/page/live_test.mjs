@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { SOURCE, cable, close, goToTick, open, start, tree, violations } from "./support.mjs";
+import { SOURCE, cable, close, goToTick, open, soon, start, tree, violations } from "./support.mjs";
 
 // What is lost, or wrong, on purpose is a complaint of the browser, too.
 after(() => close(/net::ERR_|status of 400/));
@@ -32,7 +32,7 @@ test("the door opens: the base is seen held at 0.25, tick by tick, back and on",
     await page.getByRole("button", { name: "one tick", exact: true }).click();
     await page.locator(`input[max="${tick}"][aria-valuetext^="tick ${tick},"]`).waitFor();
   }
-  assert.match(await node(page, "reach").getAttribute("aria-label"), /running, progress 0\.04/);
+  await soon.match(page, () => node(page, "reach").getAttribute("aria-label"), /running, progress 0\.04/);
   await page.getByRole("combobox", { name: "Speed of the run" }).selectOption("1×");
   await node(page, "pull").click();
   await page.getByRole("combobox", { name: "When to pause" }).selectOption("comes to a barrier");
@@ -40,13 +40,13 @@ test("the door opens: the base is seen held at 0.25, tick by tick, back and on",
   await page.getByRole("button", { name: "remove the breakpoint: pull comes to a barrier" }).waitFor();
   await page.getByRole("button", { name: "resume" }).click();
   await page.getByText("paused, since pull comes to a barrier").waitFor();
-  const base = await node(page, "base").getAttribute("aria-label");
-  assert.equal(base, "base, BackAway, held, progress 0.25, waits for arm at barrier 0.25");
+  await soon.equal(page, () => node(page, "base").getAttribute("aria-label"),
+    "base, BackAway, held, progress 0.25, waits for arm at barrier 0.25");
   const held = await tickOf(page);
   await page.getByRole("tree").focus();
   await page.keyboard.press(",");
   await page.getByText("looking back").waitFor();
-  assert.match(await node(page, "base").getAttribute("aria-label"), /running/);
+  await soon.match(page, () => node(page, "base").getAttribute("aria-label"), /running/);
   await page.keyboard.press("n");
   await page.locator(`input[aria-valuetext^="tick ${held},"]`).waitFor();
   await page.getByRole("button", { name: "remove the breakpoint" }).click();
@@ -83,7 +83,7 @@ test("a page that only looks has no control", async () => {
   assert.equal(await page.getByRole("button", { name: "pause" }).count(), 0);
   run.process.kill("SIGKILL");
   await state(page, "connection lost").waitFor();
-  assert.match(await node(page, "AlwaysRunning").getAttribute("aria-label"), /running/);
+  await soon.match(page, () => node(page, "AlwaysRunning").getAttribute("aria-label"), /running/);
   await page.context().close();
 });
 

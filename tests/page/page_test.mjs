@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { SOURCE, close, goToTick, openRun, record, tree, violations } from "./support.mjs";
+import { SOURCE, close, goToTick, openRun, record, soon, tree, violations } from "./support.mjs";
 
 after(() => close());
 
@@ -22,15 +22,15 @@ async function atTick(page, tick) {
 test("a person sees who waits for whom at which barrier, how far each is, and what happened last", async () => {
   const page = await openRun(door);
   await atTick(page, 400);
-  assert.equal(await label(page, "base"), "base, BackAway, held, progress 0.50, waits for arm at barrier 0.5");
-  assert.match(await label(page, "arm"), /^arm, PullDoor, running, progress 0\.4\d$/);
+  await soon.equal(page, () => label(page, "base"), "base, BackAway, held, progress 0.50, waits for arm at barrier 0.5");
+  await soon.match(page, () => label(page, "arm"), /^arm, PullDoor, running, progress 0\.4\d$/);
   const now = page.getByRole("region", { name: "Now" });
-  assert.match(await words(now), /arm runs/);
-  assert.match(await words(now), /base waits for arm at barrier 0\.5/);
-  assert.match(await words(now), /last, at 3\.420 s: base waits for arm at barrier 0\.5/);
+  await soon.match(page, () => words(now), /arm runs/);
+  await soon.match(page, () => words(now), /base waits for arm at barrier 0\.5/);
+  await soon.match(page, () => words(now), /last, at 3\.420 s: base waits for arm at barrier 0\.5/);
   const progress = page.getByRole("list", { name: "Progress of pull at this moment" });
-  assert.match(await words(progress), /base 0\.50 waits for arm at barrier 0\.5/);
-  assert.ok(await page.getByRole("img", { name: "Progress over time of arm, base" }).isVisible());
+  await soon.match(page, () => words(progress), /base 0\.50 waits for arm at barrier 0\.5/);
+  await soon.ok(page, () => page.getByRole("img", { name: "Progress over time of arm, base" }).isVisible());
   await page.context().close();
 });
 
@@ -41,7 +41,7 @@ test("keys go through ticks and events", async () => {
   await page.getByRole("tree").focus();
   const after = async (key, text) => {
     await page.keyboard.press(key);
-    await page.locator(`input[aria-valuetext^="${text}"]`).waitFor({ timeout: 3000 }).catch(async () =>
+    await page.locator(`input[aria-valuetext^="${text}"]`).waitFor().catch(async () =>
       assert.fail(`after ${key}: ${await moment()}, not ${text}`));
   };
   await after(".", "tick 401,");
@@ -64,12 +64,12 @@ test("the tree folds, unfolds and is gone through with keys", async () => {
   await page.locator('[role="treeitem"][aria-selected="true"][aria-label^="pull"]').waitFor();
   await page.keyboard.press("ArrowLeft");
   await node(page, "base").waitFor({ state: "detached" });
-  assert.equal(await node(page, "pull").getAttribute("aria-expanded"), "false");
+  await soon.equal(page, () => node(page, "pull").getAttribute("aria-expanded"), "false");
   await page.keyboard.press("Enter");
   await node(page, "base").waitFor();
   await page.keyboard.press("t");
   await page.getByRole("button", { name: "diagram" }).waitFor();
-  assert.equal(await page.getByRole("treeitem").count(), 7);
+  await soon.equal(page, () => page.getByRole("treeitem").count(), 7);
   await page.context().close();
 });
 
@@ -81,7 +81,7 @@ test("a node that is found is shown with its history", async () => {
   await page.keyboard.press("Enter");
   await page.getByText("OpenDoor/open/pull/base", { exact: true }).waitFor();
   const history = page.getByRole("table", { name: "Activations, newest first" });
-  assert.match(await words(history), /1\.730 s\s+4\.\d+ s\s+1\.990 s\s+success|1\.730 s/);
+  await soon.match(page, () => words(history), /1\.730 s\s+4\.\d+ s\s+1\.990 s\s+success|1\.730 s/);
   await history.getByRole("button", { name: "1.730 s" }).click();
   await page.locator('input[aria-valuetext^="tick 173,"]').waitFor();
   await page.context().close();
@@ -90,7 +90,8 @@ test("a node that is found is shown with its history", async () => {
 test("a click on the timeline goes there, and what it shows can be enlarged", async () => {
   const page = await openRun(door);
   const lanes = page.getByRole("group", { name: "Lanes of the nodes" });
-  assert.deepEqual(await lanes.getByRole("button").evaluateAll((all) => all.map((one) => one.getAttribute("aria-label"))), [
+  const labels = () => lanes.getByRole("button").evaluateAll((all) => all.map((one) => one.getAttribute("aria-label")));
+  await soon.deepEqual(page, labels, [
     "reach: succeeded once", "grasp: succeeded once", "arm: succeeded once",
     "base: held 3 times for 2.11 s, succeeded once", "release: succeeded once",
   ]);
@@ -111,16 +112,16 @@ test("entries, logs and events are those of the moment", async () => {
   const board = page.getByRole("table", { name: "Blackboard" });
   await atTick(page, 1000);
   const row = board.getByRole("row", { name: /found_at/ });
-  assert.doesNotMatch(await words(row), /counter/);
+  await soon.doesNotMatch(page, () => words(row), /counter/);
   await atTick(page, 1300);
-  assert.match(await words(row), /counter\s+11\.970 s/);
+  await soon.match(page, () => words(row), /counter\s+11\.970 s/);
   await row.getByRole("button").click();
-  assert.match(await words(board), /by kitchen\/…\/LookFor counter 11\.970 s/);
+  await soon.match(page, () => words(board), /by kitchen\/…\/LookFor counter 11\.970 s/);
   const events = page.getByRole("list", { name: "Events" });
-  assert.match(await words(events), /LookFor: sees the mug at the counter/);
+  await soon.match(page, () => words(events), /LookFor: sees the mug at the counter/);
   await page.getByRole("button", { name: "logs" }).click();
   await events.getByText("sees the mug").waitFor({ state: "detached" });
-  assert.match(await words(events), /found_at = counter/);
+  await soon.match(page, () => words(events), /found_at = counter/);
   await page.context().close();
 });
 
@@ -128,7 +129,7 @@ test("text of a tree is text, never markup", async () => {
   const name = "&lt;img src=x onerror=document.title='broken'&gt;";
   const page = await openRun(record(tree(`<Sequence name="${name}" memory="true"><Advance name="${name}" step="0.1"/></Sequence>`)));
   const text = "<img src=x onerror=document.title='broken'>";
-  assert.equal(await page.getByRole("treeitem", { name: text }).count(), 2);
+  await soon.equal(page, () => page.getByRole("treeitem", { name: text }).count(), 2);
   await page.getByRole("treeitem", { name: text }).first().click();
   assert.equal(await page.locator("img").count(), 0);
   assert.equal(await page.title(), "Test · lockstep");
@@ -151,11 +152,11 @@ test("axe finds nothing serious, in light, dark and on a phone", async () => {
 test("the theme is that of the system until another is chosen", async () => {
   const page = await openRun(door, { colorScheme: "dark" });
   const background = () => page.evaluate(() => getComputedStyle(document.documentElement).backgroundColor);
-  assert.equal(await background(), "rgb(16, 20, 26)");
+  await soon.equal(page, background, "rgb(16, 20, 26)");
   await page.getByRole("button", { name: "Theme: auto" }).click();
   await page.getByRole("button", { name: "Theme: dark" }).click();
   await page.getByRole("button", { name: "Theme: light" }).waitFor();
-  assert.equal(await background(), "rgb(244, 246, 248)");
+  await soon.equal(page, background, "rgb(244, 246, 248)");
   await page.context().close();
 });
 

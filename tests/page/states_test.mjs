@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { SOURCE, close, goToTick, lockstep, openRun, record } from "./support.mjs";
+import { SOURCE, close, eventually, goToTick, lockstep, openRun, record } from "./support.mjs";
 
 after(() => close());
 
@@ -51,10 +51,12 @@ for (const name of ["fetch_and_carry", "door_pulling", "cart", "nested", "two_ro
       await goToTick(page, tick);
       const wanted = printed(recording, tick);
       assert.ok(wanted.length > 2);
-      const found = await shown(page);
-      assert.equal(found.length, wanted.length);
-      wanted.forEach((row, place) => assert.ok(agrees(found[place], row),
-        `tick ${tick}: ${JSON.stringify(found[place])} is not ${JSON.stringify(row)}`));
+      await eventually(page, async () => {
+        const found = await shown(page);
+        assert.equal(found.length, wanted.length);
+        wanted.forEach((row, place) => assert.ok(agrees(found[place], row),
+          `tick ${tick}: ${JSON.stringify(found[place])} is not ${JSON.stringify(row)}`));
+      });
     }
     await page.context().close();
   });

@@ -127,6 +127,23 @@ export async function close(expected = /^$/) {
   assert.deepEqual(complaints.filter((one) => !expected.test(one)), [], "the browser complains");
 }
 
+// Asserts again in the next frames until all holds; what still fails after a minute fails. The page draws when it can.
+export async function eventually(page, assertions) {
+  const until = Date.now() + 60_000;
+  for (;;) {
+    try {
+      return await assertions();
+    } catch (error) {
+      if (Date.now() > until) throw error;
+    }
+    await page.evaluate(() => new Promise(requestAnimationFrame));
+  }
+}
+
+// soon.match(page, look, pattern) and the like: what `look` gives, eventually.
+export const soon = Object.fromEntries(["equal", "deepEqual", "match", "doesNotMatch", "ok"].map((name) =>
+  [name, (page, look, ...wanted) => eventually(page, async () => assert[name](await look(), ...wanted))]));
+
 export async function goToTick(page, tick) {
   await page.getByRole("textbox", { name: "Tick" }).fill(String(tick));
   await page.getByRole("textbox", { name: "Tick" }).press("Enter");
