@@ -6,7 +6,7 @@ namespace lockstep {
 namespace {
 
 template <Status kStatus>
-Status tick(Ticker&, NodeIndex) {
+Status tick_always(Ticker&, NodeIndex) {
   return kStatus;
 }
 
@@ -17,7 +17,7 @@ const NodeKind kAlwaysSuccess{.type = {.id = "AlwaysSuccess",
                                        .doc = "Success at once.",
                                        .arity = {0, 0},
                                        .acts_again = false},
-                              .tick = tick<Status::Success>,
+                              .tick = tick_always<Status::Success>,
                               .progress = no_progress};
 
 const NodeKind kAlwaysFailure{.type = {.id = "AlwaysFailure",
@@ -25,7 +25,7 @@ const NodeKind kAlwaysFailure{.type = {.id = "AlwaysFailure",
                                        .doc = "Failure at once.",
                                        .arity = {0, 0},
                                        .acts_again = false},
-                              .tick = tick<Status::Failure>,
+                              .tick = tick_always<Status::Failure>,
                               .progress = no_progress};
 
 const NodeKind kAlwaysRunning{.type = {.id = "AlwaysRunning",
@@ -35,7 +35,7 @@ const NodeKind kAlwaysRunning{.type = {.id = "AlwaysRunning",
                                        .can_run = true,
                                        .acts_again = false,
                                        .has_progress = false},
-                              .tick = tick<Status::Running>,
+                              .tick = tick_always<Status::Running>,
                               .progress = no_progress};
 
 }  // namespace lockstep

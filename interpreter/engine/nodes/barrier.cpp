@@ -8,14 +8,14 @@
 namespace lockstep {
 namespace {
 
-constexpr unsigned kDelta = 3;
+constexpr unsigned kBarrierDelta = 3;
 constexpr unsigned kIdle = 4;
 
 constexpr std::string_view kIdleChoices[] = {"wait", "ignore"};
 constexpr std::int64_t kIgnore = 1;
 constexpr double kLeftOut = std::numeric_limits<double>::quiet_NaN();
 
-constexpr Parameter kParameters[] = {
+constexpr Parameter kBarrierParameters[] = {
     absolute::kBarriersParameter, absolute::kBarrierCountParameter, absolute::kAtBarrierParameter,
     Parameter{.name = "delta",
               .type = ValueType::Double,
@@ -31,24 +31,24 @@ constexpr Parameter kParameters[] = {
               .choices = kIdleChoices,
               .constant = true}};
 
-std::optional<RuleBreak> rule(const ParameterValues& given) {
+std::optional<RuleBreak> rule_of_barrier(const ParameterValues& given) {
   const bool listed =
       given.is_given(absolute::kBarriers) || given.is_given(absolute::kBarrierCount);
   constexpr auto kOne = "give exactly one of 'barriers', 'barrier_count' and 'delta'";
-  if (listed && given.is_given(kDelta)) {
-    return RuleBreak{static_cast<int>(kDelta), "both barriers and 'delta' are given", kOne};
+  if (listed && given.is_given(kBarrierDelta)) {
+    return RuleBreak{static_cast<int>(kBarrierDelta), "both barriers and 'delta' are given", kOne};
   }
   if (listed) return absolute::check_barriers(given);
-  if (given.is_given(kDelta)) return std::nullopt;
+  if (given.is_given(kBarrierDelta)) return std::nullopt;
   return RuleBreak{-1, "'barriers', 'barrier_count' or 'delta' is missing", kOne};
 }
 
 // Of the barrier; behind it the progress of each member (child_numbers), and its Place.
-struct State {
+struct BarrierState {
   SynchronizedState synchronized;
   std::uint64_t succeeded;  // how many members
 };
-static_assert(sizeof(State) % sizeof(double) == 0);
+static_assert(sizeof(BarrierState) % sizeof(double) == 0);
 
 // Of a member.
 struct Place {
@@ -106,12 +106,12 @@ void hold(Ticker& ticker, NodeIndex self, Held held) {
 }
 
 Status tick_barrier(Ticker& ticker, NodeIndex self) {
-  State& state = ticker.state<State>(self);
+  BarrierState& state = ticker.state<BarrierState>(self);
   if (ticker.status(self) == Status::Idle) state = {};
   const bool ignores_idle = ticker.parameter(self, kIdle).integer == kIgnore;
   const double least = take_snapshot(ticker, self, ignores_idle ? kLeftOut : 0);
   if (synchronization(ticker.node(self)) == Synchronization::Relative) {
-    state.synchronized.limit = ticker.parameter(self, kDelta).number;
+    state.synchronized.limit = ticker.parameter(self, kBarrierDelta).number;
     const double most = least + state.synchronized.limit + kProgressEpsilon;
     hold(ticker, self, [most](double reached) { return reached > most; });
   } else {
@@ -136,7 +136,7 @@ constexpr Parameter kMemberParameters[] = {
               .group = "barrier"}};
 
 void note_success(Ticker& ticker, const Member& member) {
-  State& state = ticker.state<State>(member.group);
+  BarrierState& state = ticker.state<BarrierState>(member.group);
   bool& succeeded = place_of(ticker, member.group, member.number).succeeded;
   if (succeeded) return;
   succeeded = true;
@@ -175,14 +175,14 @@ const NodeKind kBarrier{
                     "current barrier, or is more than delta ahead, is held until all the others "
                     "have come so far.",
              .arity = {0, 0},
-             .parameters = kParameters,
-             .rule = rule,
+             .parameters = kBarrierParameters,
+             .rule = rule_of_barrier,
              .sign = "‖",
              .synchronization = Synchronization::Absolute},
     .tick = tick_barrier,
     .progress = [](Ticker& ticker,
                    NodeIndex self) { return least_progress(ticker.child_numbers(self)); },
-    .state_size = sizeof(State),
+    .state_size = sizeof(BarrierState),
     .state_per_child = sizeof(double) + sizeof(Place)};
 
 const NodeKind kSyncProgress{

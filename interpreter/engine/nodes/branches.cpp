@@ -6,7 +6,7 @@
 namespace lockstep {
 namespace {
 
-struct State {
+struct BranchState {
   NodeIndex branch;  // that was chosen in this activation; 0: none yet
 };
 
@@ -40,7 +40,7 @@ Status skipped_condition(Ticker& ticker, NodeIndex self) {
 
 template <Language kLanguage>
 Status tick_if(Ticker& ticker, NodeIndex self) {
-  State& state = ticker.state<State>(self);
+  BranchState& state = ticker.state<BranchState>(self);
   if (ticker.first_tick(self)) state.branch = 0;
   if (state.branch == 0) {
     const Status condition = ticker.tick(condition_of(self));
@@ -64,7 +64,7 @@ Status ask(Ticker& ticker, NodeIndex self) {
 
 template <Language kLanguage>
 Status tick_while(Ticker& ticker, NodeIndex self) {
-  State& state = ticker.state<State>(self);
+  BranchState& state = ticker.state<BranchState>(self);
   if (ticker.first_tick(self)) state.branch = 0;
   const Status condition = ask<kLanguage>(ticker, self);
   if (condition == Status::Running) {
@@ -79,8 +79,8 @@ Status tick_while(Ticker& ticker, NodeIndex self) {
   return branch == 0 ? Status::Failure : tick_branch(ticker, self, branch);
 }
 
-double progress(Ticker& ticker, NodeIndex self) {
-  const NodeIndex branch = ticker.state<State>(self).branch;
+double progress_of_branch(Ticker& ticker, NodeIndex self) {
+  const NodeIndex branch = ticker.state<BranchState>(self).branch;
   return branch == 0 ? 0.0 : ticker.progress(branch);
 }
 
@@ -93,8 +93,8 @@ constexpr NodeKind kIf{
                     "child.",
              .arity = {2, 3}},
     .tick = tick_if<kLanguage>,
-    .progress = progress,
-    .state_size = sizeof(State)};
+    .progress = progress_of_branch,
+    .state_size = sizeof(BranchState)};
 
 template <Language kLanguage>
 constexpr NodeKind kWhile{
@@ -105,8 +105,8 @@ constexpr NodeKind kWhile{
                     "third child.",
              .arity = {2, 3}},
     .tick = tick_while<kLanguage>,
-    .progress = progress,
-    .state_size = sizeof(State)};
+    .progress = progress_of_branch,
+    .state_size = sizeof(BranchState)};
 
 }  // namespace
 

@@ -4,7 +4,7 @@
 namespace lockstep {
 namespace {
 
-constexpr Parameter kParameters[] = {
+constexpr Parameter kCooldownParameters[] = {
     {.name = "seconds",
      .type = ValueType::Double,
      .doc = "How long the node is skipped after its child has completed.",
@@ -14,18 +14,18 @@ constexpr Parameter kParameters[] = {
 };
 
 // Not cleared by a new activation.
-struct State {
+struct CooldownState {
   Nanoseconds completed;  // when the child did
   bool cools;
 };
 
-bool cools(Ticker& ticker, NodeIndex self, const State& state) {
+bool cools(Ticker& ticker, NodeIndex self, const CooldownState& state) {
   const Nanoseconds passed = ticker.now() - state.completed;
   return state.cools && passed < from_seconds(ticker.parameter(self, timed::kSeconds).number);
 }
 
-Status tick(Ticker& ticker, NodeIndex self) {
-  State& state = ticker.state<State>(self);
+Status tick_cooldown(Ticker& ticker, NodeIndex self) {
+  CooldownState& state = ticker.state<CooldownState>(self);
   if (cools(ticker, self, state)) return Status::Skipped;
   const Status status = ticker.tick(self + 1);
   state = {ticker.now(), is_complete(status)};
@@ -39,10 +39,10 @@ const NodeKind kCooldown{
              .category = NodeCategory::Decorator,
              .doc = "Ticks its child; when that has completed, the node is skipped for a time.",
              .arity = {1, 1},
-             .parameters = kParameters,
+             .parameters = kCooldownParameters,
              .acts_again = false},
-    .tick = tick,
+    .tick = tick_cooldown,
     .progress = decorator::child_progress,
-    .state_size = sizeof(State)};
+    .state_size = sizeof(CooldownState)};
 
 }  // namespace lockstep

@@ -4,7 +4,7 @@
 namespace lockstep {
 namespace {
 
-constexpr Parameter kParameters[] = {
+constexpr Parameter kDelayParameters[] = {
     {.name = "seconds",
      .type = ValueType::Double,
      .doc = "How long to wait before the child is ticked.",
@@ -14,7 +14,7 @@ constexpr Parameter kParameters[] = {
     timed::kClockParameter,
 };
 
-Status tick(Ticker& ticker, NodeIndex self) {
+Status tick_delay(Ticker& ticker, NodeIndex self) {
   return timed::is_over_by_clock(ticker, self) ? ticker.tick(self + 1) : Status::Running;
 }
 
@@ -25,9 +25,9 @@ const NodeKind kDelay{
              .category = NodeCategory::Decorator,
              .doc = "Running for a time, then ticks its child and returns what it returns.",
              .arity = {1, 1},
-             .parameters = kParameters,
+             .parameters = kDelayParameters,
              .can_run = true},
-    .tick = tick,
+    .tick = tick_delay,
     .progress = decorator::child_progress,
     .state_size = sizeof(timed::State),
     .pause = timed::pause};

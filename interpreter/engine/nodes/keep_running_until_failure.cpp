@@ -3,7 +3,7 @@
 namespace lockstep {
 namespace {
 
-Status tick(Ticker& ticker, NodeIndex self) {
+Status tick_keep_running(Ticker& ticker, NodeIndex self) {
   return ticker.tick(self + 1) == Status::Failure ? Status::Failure : Status::Running;
 }
 
@@ -15,7 +15,7 @@ const NodeKind kKeepRunningUntilFailure{
              .doc = "Running until its child fails; a child that succeeds is started again.",
              .arity = {1, 1},
              .can_run = true},
-    .tick = tick,
+    .tick = tick_keep_running,
     .progress = decorator::child_progress};
 
 }  // namespace lockstep

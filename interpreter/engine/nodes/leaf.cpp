@@ -65,7 +65,7 @@ void halt_before_children(Ticker& ticker, NodeIndex self, LeafSlot& leaf) {
 
 // Children are halted before their control node.
 template <Kind kKind>
-void halt(Ticker& ticker, NodeIndex self) {
+void halt_leaf(Ticker& ticker, NodeIndex self) {
   LeafSlot& leaf = ticker.leaf(self);
   if constexpr (kKind == Kind::Control) {
     if ((leaf.type->flags & LOCKSTEP_HALTS_CHILDREN) != 0) {
@@ -87,7 +87,7 @@ bool is_out(const Ticker& ticker, const LeafSlot& leaf) {
 template <Kind kKind>
 Status out(Ticker& ticker, NodeIndex self) {
   if (ticker.faulted()) return Status::Running;  // halted at the end of the run, in its order
-  halt<kKind>(ticker, self);
+  halt_leaf<kKind>(ticker, self);
   return Status::Failure;
 }
 
@@ -140,7 +140,7 @@ template <Kind kKind>
 }
 
 template <Kind kKind>
-Status tick(Ticker& ticker, NodeIndex self) {
+Status tick_leaf(Ticker& ticker, NodeIndex self) {
   LeafSlot& leaf = ticker.leaf(self);
   if (!prepare(ticker, self, leaf)) [[unlikely]]
     return out<kKind>(ticker, self);
@@ -158,7 +158,7 @@ Status tick(Ticker& ticker, NodeIndex self) {
 }
 
 Status tick_control(Ticker& ticker, NodeIndex self) {
-  const Status status = tick<Kind::Control>(ticker, self);
+  const Status status = tick_leaf<Kind::Control>(ticker, self);
   if (status != Status::Running) ticker.halt_running_children(self);
   return status;
 }
@@ -186,7 +186,7 @@ double corrected(Ticker& ticker, NodeIndex self, LeafSlot& leaf, double reported
   return std::clamp(reported, 0.0, 1.0);
 }
 
-double progress(Ticker& ticker, NodeIndex self) {
+double progress_of_leaf(Ticker& ticker, NodeIndex self) {
   LeafSlot& leaf = ticker.leaf(self);
   if (leaf.type->progress == nullptr || leaf.failed) return 0.0;
   double reported = 0.0;
@@ -212,30 +212,30 @@ double progress_of_control(Ticker& ticker, NodeIndex self) {
   if (leaf.failed) return 0.0;
   if (leaf.type->progress == nullptr) return progress_of_children(ticker, self);
   const Reach reach(leaf, ChildAccess::Look);
-  return progress(ticker, self);
+  return progress_of_leaf(ticker, self);
 }
 
 }  // namespace
 
 const NodeKind kPluginAction{
     .type = {.id = "Action", .category = NodeCategory::Action, .doc = "", .arity = {0, 0}},
-    .tick = tick<Kind::Action>,
-    .progress = progress,
-    .halt = halt<Kind::Action>,
+    .tick = tick_leaf<Kind::Action>,
+    .progress = progress_of_leaf,
+    .halt = halt_leaf<Kind::Action>,
     .pause = pause};
 
 const NodeKind kPluginCondition{
     .type = {.id = "Condition", .category = NodeCategory::Condition, .doc = "", .arity = {0, 0}},
-    .tick = tick<Kind::Condition>,
-    .progress = progress,
-    .halt = halt<Kind::Condition>,
+    .tick = tick_leaf<Kind::Condition>,
+    .progress = progress_of_leaf,
+    .halt = halt_leaf<Kind::Condition>,
     .pause = pause};
 
 const NodeKind kPluginControl{
     .type = {.id = "Control", .category = NodeCategory::Control, .doc = "", .arity = {1}},
     .tick = tick_control,
     .progress = progress_of_control,
-    .halt = halt<Kind::Control>,
+    .halt = halt_leaf<Kind::Control>,
     .pause = pause_control};
 
 }  // namespace lockstep

@@ -12,7 +12,7 @@ const Mock& mock_of(const Ticker& ticker, NodeIndex self) {
   return *ticker.tree().labels[self].type->mock;
 }
 
-Status tick_action(Ticker& ticker, NodeIndex self) {
+Status tick_mock_action(Ticker& ticker, NodeIndex self) {
   timed::count(ticker, self);
   const Mock& mock = mock_of(ticker, self);
   const Nanoseconds counted = ticker.now() - ticker.state<timed::State>(self).start;
@@ -27,7 +27,7 @@ double action_progress(Ticker& ticker, NodeIndex self) {
   return seconds > 0 ? std::min(1.0, to_seconds(counted) / seconds) : 1.0;
 }
 
-Status tick_condition(Ticker& ticker, NodeIndex self) {
+Status tick_mock_condition(Ticker& ticker, NodeIndex self) {
   return mock_of(ticker, self).result;
 }
 
@@ -40,7 +40,7 @@ struct ControlState {
   std::uint32_t done;
 };
 
-Status tick_control(Ticker& ticker, NodeIndex self) {
+Status tick_mock_control(Ticker& ticker, NodeIndex self) {
   auto& state = ticker.state<ControlState>(self);
   if (ticker.first_tick(self)) state = {self + 1, 0};
   for (; state.child != ticker.end_of(self); state.child = ticker.end_of(state.child)) {
@@ -57,7 +57,7 @@ double control_progress(Ticker& ticker, NodeIndex self) {
   return (state.done + here) / ticker.node(self).children;
 }
 
-Status tick_decorator(Ticker& ticker, NodeIndex self) {
+Status tick_mock_decorator(Ticker& ticker, NodeIndex self) {
   return ticker.tick(self + 1);
 }
 
@@ -65,19 +65,19 @@ Status tick_decorator(Ticker& ticker, NodeIndex self) {
 
 const NodeKind kMockAction{
     .type = {.id = "", .category = NodeCategory::Action, .doc = "", .can_run = true},
-    .tick = tick_action,
+    .tick = tick_mock_action,
     .progress = action_progress,
     .state_size = sizeof(timed::State),
     .pause = timed::pause};
 const NodeKind kMockCondition{.type = {.id = "", .category = NodeCategory::Condition, .doc = ""},
-                              .tick = tick_condition,
+                              .tick = tick_mock_condition,
                               .progress = condition_progress};
 const NodeKind kMockControl{.type = {.id = "", .category = NodeCategory::Control, .doc = ""},
-                            .tick = tick_control,
+                            .tick = tick_mock_control,
                             .progress = control_progress,
                             .state_size = sizeof(ControlState)};
 const NodeKind kMockDecorator{.type = {.id = "", .category = NodeCategory::Decorator, .doc = ""},
-                              .tick = tick_decorator,
+                              .tick = tick_mock_decorator,
                               .progress = decorator::child_progress};
 
 }  // namespace lockstep

@@ -4,27 +4,27 @@
 namespace lockstep {
 namespace {
 
-constexpr parallel::Places kPlaces{.success_count = 0, .failure_count = 1};
+constexpr parallel::Places kParallelPlaces{.success_count = 0, .failure_count = 1};
 
-constexpr Parameter kParameters[] = {parallel::kSuccessCount, parallel::kFailureCount,
-                                     parallel::kMemory};
+constexpr Parameter kParallelParameters[] = {parallel::kSuccessCount, parallel::kFailureCount,
+                                             parallel::kMemory};
 
-std::optional<RuleBreak> rule(const ParameterValues& given) {
-  return parallel::check_counts(given, kPlaces);
+std::optional<RuleBreak> rule_of_parallel(const ParameterValues& given) {
+  return parallel::check_counts(given, kParallelPlaces);
 }
 
-Status tick(Ticker& ticker, NodeIndex self) {
+Status tick_parallel(Ticker& ticker, NodeIndex self) {
   const NodeIndex end = ticker.end_of(self);
   parallel::Tally tally;
   for (NodeIndex child = self + 1; child != end; child = ticker.end_of(child)) {
     tally.add(parallel::is_over(ticker, child) ? ticker.status(child) : ticker.tick(child));
   }
-  return parallel::judge(ticker, self, kPlaces, tally);
+  return parallel::judge(ticker, self, kParallelPlaces, tally);
 }
 
-double progress(Ticker& ticker, NodeIndex self) {
+double progress_of_parallel(Ticker& ticker, NodeIndex self) {
   return parallel::progress_of_mth(ticker, self,
-                                   ticker.parameter(self, kPlaces.success_count).integer);
+                                   ticker.parameter(self, kParallelPlaces.success_count).integer);
 }
 
 }  // namespace
@@ -37,12 +37,12 @@ const NodeKind kParallel{
                     "failure_count failed, or when success can no longer be reached. The children "
                     "that still run are then halted.",
              .arity = {1},
-             .parameters = kParameters,
-             .rule = rule,
+             .parameters = kParallelParameters,
+             .rule = rule_of_parallel,
              .sign = "⇉",
              .latches = true},
-    .tick = tick,
-    .progress = progress,
+    .tick = tick_parallel,
+    .progress = progress_of_parallel,
     .state_per_child = sizeof(double)};
 
 }  // namespace lockstep

@@ -5,15 +5,15 @@
 namespace lockstep {
 namespace {
 
-constexpr parallel::Places kPlaces{.success_count = 3, .failure_count = 4};
+constexpr parallel::Places kAbsolutePlaces{.success_count = 3, .failure_count = 4};
 
-constexpr Parameter kParameters[] = {
+constexpr Parameter kAbsoluteParameters[] = {
     absolute::kBarriersParameter, absolute::kBarrierCountParameter, absolute::kAtBarrierParameter,
     parallel::kSuccessCount,      parallel::kFailureCount,          parallel::kMemory,
 };
 
-std::optional<RuleBreak> rule(const ParameterValues& given) {
-  if (auto broken = parallel::check_counts(given, kPlaces)) return broken;
+std::optional<RuleBreak> rule_of_absolute(const ParameterValues& given) {
+  if (auto broken = parallel::check_counts(given, kAbsolutePlaces)) return broken;
   if (!given.is_given(absolute::kBarriers) && !given.is_given(absolute::kBarrierCount)) {
     return RuleBreak{-1, "'barriers' or 'barrier_count' is missing",
                      "give exactly one of the two, such as barriers=\"0.25;0.5;0.75\""};
@@ -21,14 +21,14 @@ std::optional<RuleBreak> rule(const ParameterValues& given) {
   return absolute::check_barriers(given);
 }
 
-Status tick(Ticker& ticker, NodeIndex self) {
+Status tick_absolute(Ticker& ticker, NodeIndex self) {
   const auto barriers = ticker.numbers(ticker.parameter(self, absolute::kBarriers));
   const double least = synchronized::take_snapshot(ticker, self);
   const double barrier = absolute::current_barrier(barriers, least);
   ticker.state<SynchronizedState>(self).limit = barrier;
   const bool ticks =
       ticker.parameter(self, absolute::kAtBarrier).integer == absolute::kTickAtBarrier;
-  return synchronized::tick_children(ticker, self, kPlaces, absolute::Held{barrier, ticks});
+  return synchronized::tick_children(ticker, self, kAbsolutePlaces, absolute::Held{barrier, ticks});
 }
 
 }  // namespace
@@ -41,12 +41,12 @@ const NodeKind kParallelAbsolute{
                     "have. Ends as "
                     "Parallel does.",
              .arity = {1},
-             .parameters = kParameters,
-             .rule = rule,
+             .parameters = kAbsoluteParameters,
+             .rule = rule_of_absolute,
              .sign = "⇉A",
              .synchronization = Synchronization::Absolute,
              .latches = true},
-    .tick = tick,
+    .tick = tick_absolute,
     .progress = synchronized::least_progress,
     .state_size = sizeof(SynchronizedState),
     .state_per_child = sizeof(double)};

@@ -5,9 +5,9 @@ namespace lockstep {
 namespace {
 
 constexpr unsigned kDelta = 0;
-constexpr parallel::Places kPlaces{.success_count = 1, .failure_count = 2};
+constexpr parallel::Places kRelativePlaces{.success_count = 1, .failure_count = 2};
 
-constexpr Parameter kParameters[] = {
+constexpr Parameter kRelativeParameters[] = {
     {.name = "delta",
      .type = ValueType::Double,
      .doc = "How far a child may be ahead of the slowest and still be ticked: 0 = strict lockstep, "
@@ -19,16 +19,16 @@ constexpr Parameter kParameters[] = {
     parallel::kMemory,
 };
 
-std::optional<RuleBreak> rule(const ParameterValues& given) {
-  return parallel::check_counts(given, kPlaces);
+std::optional<RuleBreak> rule_of_relative(const ParameterValues& given) {
+  return parallel::check_counts(given, kRelativePlaces);
 }
 
-Status tick(Ticker& ticker, NodeIndex self) {
+Status tick_relative(Ticker& ticker, NodeIndex self) {
   const double least = synchronized::take_snapshot(ticker, self);
   const double delta = ticker.parameter(self, kDelta).number;
   ticker.state<SynchronizedState>(self).limit = delta;
   const double most = farthest(Synchronization::Relative, delta, least) + kProgressEpsilon;
-  return synchronized::tick_children(ticker, self, kPlaces,
+  return synchronized::tick_children(ticker, self, kRelativePlaces,
                                      [most](double reached) { return reached > most; });
 }
 
@@ -40,12 +40,12 @@ const NodeKind kParallelRelative{
              .doc = "Ticks its children in parallel and holds those that are ahead of the slowest "
                     "by more than delta. Ends as Parallel does.",
              .arity = {1},
-             .parameters = kParameters,
-             .rule = rule,
+             .parameters = kRelativeParameters,
+             .rule = rule_of_relative,
              .sign = "⇉R",
              .synchronization = Synchronization::Relative,
              .latches = true},
-    .tick = tick,
+    .tick = tick_relative,
     .progress = synchronized::least_progress,
     .state_size = sizeof(SynchronizedState),
     .state_per_child = sizeof(double)};

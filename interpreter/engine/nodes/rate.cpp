@@ -4,7 +4,7 @@
 namespace lockstep {
 namespace {
 
-constexpr Parameter kParameters[] = {
+constexpr Parameter kRateParameters[] = {
     {.name = "seconds",
      .type = ValueType::Double,
      .doc = "The least time from one start of the child to the next.",
@@ -15,13 +15,13 @@ constexpr Parameter kParameters[] = {
 };
 
 // Not cleared by a new activation.
-struct State {
+struct RateState {
   timed::State time;  // since the child was started
   Status result;      // of the child; Idle: none that counts
 };
 
-Status tick(Ticker& ticker, NodeIndex self) {
-  State& state = ticker.state<State>(self);
+Status tick_rate(Ticker& ticker, NodeIndex self) {
+  RateState& state = ticker.state<RateState>(self);
   const bool starts = ticker.first_tick(self);
   if (starts && is_complete(state.result) && !timed::is_over(ticker, self)) return state.result;
   const bool goes_on = ticker.parameter(self, timed::kClock).integer == timed::kWall;
@@ -39,11 +39,11 @@ const NodeKind kRate{
              .doc = "Starts its child at most once in a time; in between returns its last result "
                     "without ticking it. A child that runs is ticked in every tick.",
              .arity = {1, 1},
-             .parameters = kParameters,
+             .parameters = kRateParameters,
              .acts_again = false},
-    .tick = tick,
+    .tick = tick_rate,
     .progress = decorator::child_progress,
-    .state_size = sizeof(State),
+    .state_size = sizeof(RateState),
     .pause = timed::pause};
 
 }  // namespace lockstep

@@ -6,19 +6,19 @@ namespace {
 constexpr unsigned kTimes = 0;
 constexpr std::int64_t kForever = 0;  // the cell of an absent number
 
-constexpr Parameter kParameters[] = {
+constexpr Parameter kRepeatParameters[] = {
     {.name = "times",
      .type = ValueType::Int,
      .doc = "How often the child must succeed; for ever when absent.",
      .range = {.min = 1}},
 };
 
-struct State {
+struct RepeatState {
   std::int64_t done;
 };
 
-Status tick(Ticker& ticker, NodeIndex self) {
-  State& state = ticker.state<State>(self);
+Status tick_repeat(Ticker& ticker, NodeIndex self) {
+  RepeatState& state = ticker.state<RepeatState>(self);
   if (ticker.first_tick(self)) state.done = 0;
   const Status status = ticker.tick(self + 1);
   if (status != Status::Success) return status;
@@ -26,18 +26,18 @@ Status tick(Ticker& ticker, NodeIndex self) {
   return state.done == ticker.parameter(self, kTimes).integer ? Status::Success : Status::Running;
 }
 
-double progress(Ticker& ticker, NodeIndex self) {
+double progress_of_repeat(Ticker& ticker, NodeIndex self) {
   const std::int64_t times = ticker.parameter(self, kTimes).integer;
   const double child = ticker.progress(self + 1);
   if (times == kForever) return child;
   // A child that has just succeeded is already counted as done.
   const double current = ticker.status(self + 1) == Status::Running ? child : 0.0;
-  const auto done = static_cast<double>(ticker.state<State>(self).done);
+  const auto done = static_cast<double>(ticker.state<RepeatState>(self).done);
   return (done + current) / static_cast<double>(times);
 }
 
-Round round(Ticker& ticker, NodeIndex self) {
-  return {ticker.state<State>(self).done + 1, ticker.parameter(self, kTimes).integer};
+Round round_of_repeat(Ticker& ticker, NodeIndex self) {
+  return {ticker.state<RepeatState>(self).done + 1, ticker.parameter(self, kTimes).integer};
 }
 
 }  // namespace
@@ -48,11 +48,11 @@ const NodeKind kRepeat{
              .doc = "Ticks its child until it has succeeded a number of times, once per tick; "
                     "Failure as soon as it fails.",
              .arity = {1, 1},
-             .parameters = kParameters,
+             .parameters = kRepeatParameters,
              .can_run = true},
-    .tick = tick,
-    .progress = progress,
-    .state_size = sizeof(State),
-    .round = round};
+    .tick = tick_repeat,
+    .progress = progress_of_repeat,
+    .state_size = sizeof(RepeatState),
+    .round = round_of_repeat};
 
 }  // namespace lockstep

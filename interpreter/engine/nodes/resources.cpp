@@ -9,7 +9,7 @@
 namespace lockstep {
 namespace {
 
-constexpr Parameter kParameters[] = {
+constexpr Parameter kResourcesParameters[] = {
     {.name = "increment",
      .type = ValueType::Int,
      .doc = "What the priority of a member grows by in a tick in which it waits; 0: the first in "
@@ -24,7 +24,7 @@ constexpr Parameter kParameters[] = {
      .constant = true},
 };
 
-std::optional<RuleBreak> rule(const ParameterValues& given) {
+std::optional<RuleBreak> rule_of_resources(const ParameterValues& given) {
   constexpr unsigned kNames = 1;
   return resources::check_list(given, kNames);
 }
@@ -60,7 +60,7 @@ std::span<std::uint32_t> who_asks(Ticker& ticker, NodeIndex self, std::span<cons
   return numbers.first(count);
 }
 
-Status tick(Ticker& ticker, NodeIndex self) {
+Status tick_resources(Ticker& ticker, NodeIndex self) {
   ticker.state<ResourcePool>(self).owned = 0;
   const auto members = ticker.tree().members_of(self);
   const auto asking = who_asks(ticker, self, members);
@@ -83,10 +83,10 @@ const NodeKind kResources{
              .doc = "A pool of things that only one node can use at a time: arms, a gripper, the "
                     "space in a door. UseResources takes them.",
              .arity = {0, 0},
-             .parameters = kParameters,
-             .rule = rule,
+             .parameters = kResourcesParameters,
+             .rule = rule_of_resources,
              .synchronization = Synchronization::Resources},
-    .tick = tick,
+    .tick = tick_resources,
     .progress = [](Ticker&, NodeIndex) { return 0.0; },
     .state_size = sizeof(ResourcePool),
     .state_per_child = sizeof(std::uint32_t)};

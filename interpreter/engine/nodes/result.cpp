@@ -5,7 +5,7 @@ namespace lockstep {
 namespace {
 
 template <Status kSuccessBecomes, Status kFailureBecomes>
-Status tick(Ticker& ticker, NodeIndex self) {
+Status tick_result(Ticker& ticker, NodeIndex self) {
   const Status status = ticker.tick(self + 1);
   if (status == Status::Success) return kSuccessBecomes;
   if (status == Status::Failure) return kFailureBecomes;
@@ -20,7 +20,7 @@ const NodeKind kInverter{
              .doc = "Success of its child becomes Failure, and Failure Success.",
              .arity = {1, 1},
              .inverts = true},
-    .tick = tick<Status::Failure, Status::Success>,
+    .tick = tick_result<Status::Failure, Status::Success>,
     .progress = decorator::child_progress};
 
 const NodeKind kForceSuccess{
@@ -28,7 +28,7 @@ const NodeKind kForceSuccess{
              .category = NodeCategory::Decorator,
              .doc = "Success when its child completes, whatever the result.",
              .arity = {1, 1}},
-    .tick = tick<Status::Success, Status::Success>,
+    .tick = tick_result<Status::Success, Status::Success>,
     .progress = decorator::child_progress};
 
 const NodeKind kForceFailure{
@@ -36,7 +36,7 @@ const NodeKind kForceFailure{
              .category = NodeCategory::Decorator,
              .doc = "Failure when its child completes, whatever the result.",
              .arity = {1, 1}},
-    .tick = tick<Status::Failure, Status::Failure>,
+    .tick = tick_result<Status::Failure, Status::Failure>,
     .progress = decorator::child_progress};
 
 }  // namespace lockstep

@@ -5,7 +5,7 @@ namespace {
 
 constexpr unsigned kAttempts = 0;
 
-constexpr Parameter kParameters[] = {
+constexpr Parameter kRetryParameters[] = {
     {.name = "attempts",
      .type = ValueType::Int,
      .doc = "How often the child may fail before this node does.",
@@ -13,12 +13,12 @@ constexpr Parameter kParameters[] = {
      .range = {.min = 1}},
 };
 
-struct State {
+struct RetryState {
   std::int64_t failed;
 };
 
-Status tick(Ticker& ticker, NodeIndex self) {
-  State& state = ticker.state<State>(self);
+Status tick_retry(Ticker& ticker, NodeIndex self) {
+  RetryState& state = ticker.state<RetryState>(self);
   if (ticker.first_tick(self)) state.failed = 0;
   const Status status = ticker.tick(self + 1);
   if (status != Status::Failure) return status;
@@ -27,8 +27,8 @@ Status tick(Ticker& ticker, NodeIndex self) {
                                                                    : Status::Running;
 }
 
-Round round(Ticker& ticker, NodeIndex self) {
-  return {ticker.state<State>(self).failed + 1, ticker.parameter(self, kAttempts).integer};
+Round round_of_retry(Ticker& ticker, NodeIndex self) {
+  return {ticker.state<RetryState>(self).failed + 1, ticker.parameter(self, kAttempts).integer};
 }
 
 }  // namespace
@@ -39,11 +39,11 @@ const NodeKind kRetry{
              .doc = "Ticks its child until it succeeds, at most a number of attempts, once per "
                     "tick.",
              .arity = {1, 1},
-             .parameters = kParameters,
+             .parameters = kRetryParameters,
              .can_run = true},
-    .tick = tick,
+    .tick = tick_retry,
     .progress = decorator::child_progress,
-    .state_size = sizeof(State),
-    .round = round};
+    .state_size = sizeof(RetryState),
+    .round = round_of_retry};
 
 }  // namespace lockstep

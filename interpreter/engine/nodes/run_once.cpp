@@ -6,32 +6,32 @@ namespace {
 
 constexpr unsigned kThenSkip = 0;
 
-constexpr Parameter kParameters[] = {
+constexpr Parameter kRunOnceParameters[] = {
     {.name = "then_skip",
      .type = ValueType::Bool,
      .doc = "Be skipped once the child has completed; else return its result again.",
      .default_text = "true"}};
 
 // Not cleared by a new activation: once means once in a run.
-struct State {
+struct RunOnceState {
   Status result;  // Idle: not yet completed
 };
 
-Status tick_once(Ticker& ticker, NodeIndex self, State& state) {
+Status tick_once(Ticker& ticker, NodeIndex self, RunOnceState& state) {
   const Status status = ticker.tick(self + 1);
   if (is_complete(status)) state.result = status;
   return status;
 }
 
-Status tick(Ticker& ticker, NodeIndex self) {
-  State& state = ticker.state<State>(self);
+Status tick_run_once(Ticker& ticker, NodeIndex self) {
+  RunOnceState& state = ticker.state<RunOnceState>(self);
   return is_complete(state.result) ? state.result : tick_once(ticker, self, state);
 }
 
 Status tick_or_skip(Ticker& ticker, NodeIndex self) {
-  State& state = ticker.state<State>(self);
+  RunOnceState& state = ticker.state<RunOnceState>(self);
   const bool skips = is_complete(state.result) && ticker.parameter(self, kThenSkip).boolean;
-  return skips ? Status::Skipped : tick(ticker, self);
+  return skips ? Status::Skipped : tick_run_once(ticker, self);
 }
 
 }  // namespace
@@ -43,9 +43,9 @@ const NodeKind kRunOnce{
                     "that result without ticking it.",
              .arity = {1, 1},
              .acts_again = false},
-    .tick = tick,
+    .tick = tick_run_once,
     .progress = decorator::child_progress,
-    .state_size = sizeof(State)};
+    .state_size = sizeof(RunOnceState)};
 
 const NodeKind btcpp::kRunOnce{
     .type = {.id = "RunOnce",
@@ -53,10 +53,10 @@ const NodeKind btcpp::kRunOnce{
              .doc = "Ticks its child until it has completed once in this run; from then on it is "
                     "skipped, or returns that result again.",
              .arity = {1, 1},
-             .parameters = kParameters,
+             .parameters = kRunOnceParameters,
              .acts_again = false},
     .tick = tick_or_skip,
     .progress = decorator::child_progress,
-    .state_size = sizeof(State)};
+    .state_size = sizeof(RunOnceState)};
 
 }  // namespace lockstep

@@ -3,7 +3,7 @@
 namespace lockstep {
 namespace {
 
-Status tick(Ticker& ticker, NodeIndex self) {
+Status tick_subtree(Ticker& ticker, NodeIndex self) {
   return ticker.tick(self + 1);
 }
 
@@ -13,7 +13,7 @@ Status tick(Ticker& ticker, NodeIndex self) {
 const NodeKind kSubTree{.type = {.id = "SubTree",
                                  .category = NodeCategory::SubTree,
                                  .doc = "The tree with this ID, with a separate blackboard scope."},
-                        .tick = tick,
+                        .tick = tick_subtree,
                         .progress = decorator::child_progress};
 
 }  // namespace lockstep

@@ -10,7 +10,7 @@ namespace {
 
 constexpr unsigned kOn = 0, kCases = 1;
 
-constexpr Parameter kParameters[] = {
+constexpr Parameter kSwitchParameters[] = {
     {.name = "on",
      .type = ValueType::String,
      .doc = "What the cases are compared with, in every tick.",
@@ -24,7 +24,7 @@ constexpr Parameter kParameters[] = {
      .constant = true},
 };
 
-std::optional<RuleBreak> rule(const ParameterValues& given) {
+std::optional<RuleBreak> rule_of_switch(const ParameterValues& given) {
   const auto* cases = std::get_if<std::vector<std::string>>(&given.values[kCases]);
   if (cases == nullptr || given.children == 0) return std::nullopt;
   for (auto it = cases->begin(); it != cases->end(); ++it) {
@@ -40,7 +40,7 @@ std::optional<RuleBreak> rule(const ParameterValues& given) {
                    "give each child a case, in order; one child more is for all other values"};
 }
 
-struct State {
+struct SwitchState {
   NodeIndex current;  // the child that was chosen last; 0: none
 };
 
@@ -54,8 +54,8 @@ NodeIndex choose(const Ticker& ticker, NodeIndex self, const Value& value) {
   return child == ticker.end_of(self) ? 0 : child;
 }
 
-Status tick(Ticker& ticker, NodeIndex self) {
-  State& state = ticker.state<State>(self);
+Status tick_switch(Ticker& ticker, NodeIndex self) {
+  SwitchState& state = ticker.state<SwitchState>(self);
   if (ticker.first_tick(self)) state.current = 0;
   const Value* value = ticker.result_of(self, ticker.script(self, kOn), "on");
   if (value == nullptr) return Status::Failure;
@@ -65,8 +65,8 @@ Status tick(Ticker& ticker, NodeIndex self) {
   return child == 0 ? Status::Failure : ticker.tick(child);
 }
 
-double progress(Ticker& ticker, NodeIndex self) {
-  const NodeIndex child = ticker.state<State>(self).current;
+double progress_of_switch(Ticker& ticker, NodeIndex self) {
+  const NodeIndex child = ticker.state<SwitchState>(self).current;
   return child == 0 ? 0.0 : ticker.progress(child);
 }
 
@@ -79,10 +79,10 @@ const NodeKind kSwitch{
                     "those of the cases; Failure if there is none. When the value chooses another "
                     "child, the one that runs is halted.",
              .arity = {1},
-             .parameters = kParameters,
-             .rule = rule},
-    .tick = tick,
-    .progress = progress,
-    .state_size = sizeof(State)};
+             .parameters = kSwitchParameters,
+             .rule = rule_of_switch},
+    .tick = tick_switch,
+    .progress = progress_of_switch,
+    .state_size = sizeof(SwitchState)};
 
 }  // namespace lockstep

@@ -4,7 +4,7 @@
 namespace lockstep {
 namespace {
 
-constexpr Parameter kParameters[] = {
+constexpr Parameter kTimeoutParameters[] = {
     {.name = "seconds",
      .type = ValueType::Double,
      .doc = "How long the child may run, counted from its first tick.",
@@ -14,7 +14,7 @@ constexpr Parameter kParameters[] = {
     timed::kClockParameter,
 };
 
-Status tick(Ticker& ticker, NodeIndex self) {
+Status tick_timeout(Ticker& ticker, NodeIndex self) {
   if (!timed::is_over_by_clock(ticker, self)) return ticker.tick(self + 1);
   ticker.halt(self + 1);
   return Status::Failure;
@@ -27,8 +27,8 @@ const NodeKind kTimeout{
              .category = NodeCategory::Decorator,
              .doc = "Halts its child and returns Failure if the child still runs after a time.",
              .arity = {1, 1},
-             .parameters = kParameters},
-    .tick = tick,
+             .parameters = kTimeoutParameters},
+    .tick = tick_timeout,
     .progress = decorator::child_progress,
     .state_size = sizeof(timed::State),
     .pause = timed::pause};

@@ -4,7 +4,7 @@
 namespace lockstep {
 namespace {
 
-constexpr Parameter kParameters[] = {
+constexpr Parameter kUseResourcesParameters[] = {
     {.name = "pool",
      .type = ValueType::String,
      .doc = "The pool, a <resources> in root.",
@@ -23,9 +23,9 @@ constexpr Parameter kParameters[] = {
      .default_text = "false",
      .constant = true},
 };
-static_assert(kParameters[resources::kResources].of_pool);
+static_assert(kUseResourcesParameters[resources::kResources].of_pool);
 
-std::optional<RuleBreak> rule(const ParameterValues& given) {
+std::optional<RuleBreak> rule_of_use_resources(const ParameterValues& given) {
   return resources::check_list(given, resources::kResources);
 }
 
@@ -45,7 +45,7 @@ Status tick_child(Ticker& ticker, NodeIndex self) {
   return Status::Running;
 }
 
-Status tick(Ticker& ticker, NodeIndex self) {
+Status tick_use_resources(Ticker& ticker, NodeIndex self) {
   auto& use = ticker.state<ResourceUse>(self);
   ticker.reach(ticker.membership(self).group);
   if (!resources::has_asked(ticker, use)) resources::ask(ticker, self);
@@ -60,10 +60,10 @@ const NodeKind kUseResources{
              .doc = "Ticks its child in the ticks in which it owns all of its resources, which "
                     "nobody else owns then; in the others the child is held, and this is Running.",
              .arity = {1, 1},
-             .parameters = kParameters,
-             .rule = rule,
+             .parameters = kUseResourcesParameters,
+             .rule = rule_of_use_resources,
              .can_run = true},
-    .tick = tick,
+    .tick = tick_use_resources,
     .progress = decorator::child_progress,
     .state_size = sizeof(ResourceUse)};
 

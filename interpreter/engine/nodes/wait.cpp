@@ -6,7 +6,7 @@
 namespace lockstep {
 namespace {
 
-constexpr Parameter kParameters[] = {
+constexpr Parameter kWaitParameters[] = {
     {.name = "seconds",
      .type = ValueType::Double,
      .doc = "How long to wait; the time during which it is held does not count.",
@@ -19,12 +19,12 @@ Nanoseconds duration(const Ticker& ticker, NodeIndex self) {
   return from_seconds(ticker.parameter(self, timed::kSeconds).number);
 }
 
-Status tick(Ticker& ticker, NodeIndex self) {
+Status tick_wait(Ticker& ticker, NodeIndex self) {
   timed::count(ticker, self);
   return timed::is_over(ticker, self) ? Status::Success : Status::Running;
 }
 
-double progress(Ticker& ticker, NodeIndex self) {
+double progress_of_wait(Ticker& ticker, NodeIndex self) {
   const auto& state = ticker.state<timed::State>(self);
   const bool paused = ticker.activity(self) == Activity::Paused;
   const Nanoseconds elapsed = (paused ? state.paused_at : ticker.now()) - state.start;
@@ -37,10 +37,10 @@ const NodeKind kWait{.type = {.id = "Wait",
                               .category = NodeCategory::Action,
                               .doc = "Running for a time, then Success.",
                               .arity = {0, 0},
-                              .parameters = kParameters,
+                              .parameters = kWaitParameters,
                               .can_run = true},
-                     .tick = tick,
-                     .progress = progress,
+                     .tick = tick_wait,
+                     .progress = progress_of_wait,
                      .state_size = sizeof(timed::State),
                      .pause = timed::pause};
 

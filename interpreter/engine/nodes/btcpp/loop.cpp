@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "core/conversion.h"
+#include "engine/nodes/btcpp/results.h"
 #include "engine/nodes/decorator.h"
 
 namespace lockstep::btcpp {
@@ -11,10 +12,7 @@ namespace {
 
 constexpr unsigned kQueue = 0, kValue = 1, kIfEmpty = 2;
 
-// Those that a node may return, in the order of Status.
-constexpr std::string_view kResults[] = {"RUNNING", "SUCCESS", "FAILURE", "SKIPPED"};
-
-constexpr std::array<Parameter, 3> parameters_of(ValueType list, ValueType item) {
+constexpr std::array<Parameter, 3> parameters_of_loop(ValueType list, ValueType item) {
   return {Parameter{.name = "queue",
                     .type = list,
                     .doc = "The items; an entry is copied when the node begins.",
@@ -32,9 +30,9 @@ constexpr std::array<Parameter, 3> parameters_of(ValueType list, ValueType item)
 }
 
 template <ValueType kList, ValueType kItem>
-constexpr auto kParameters = parameters_of(kList, kItem);
+constexpr auto kLoopParameters = parameters_of_loop(kList, kItem);
 
-struct State {
+struct LoopState {
   std::uint32_t next;  // item
 };
 
@@ -51,8 +49,8 @@ std::optional<Value> item_of(const Value& list, std::size_t index) {
 
 // False: there is no list, which is a fault.
 template <ValueType kList>
-bool begin(Ticker& ticker, NodeIndex self) {
-  ticker.state<State>(self).next = 0;
+bool begin_loop(Ticker& ticker, NodeIndex self) {
+  ticker.state<LoopState>(self).next = 0;
   const Value* queue = ticker.port_value(self, kQueue);
   auto list = queue == nullptr ? std::nullopt : convert_value(*queue, kList, nullptr);
   if (list) {
@@ -74,10 +72,10 @@ Status if_empty(Ticker& ticker, NodeIndex self) {
 }
 
 template <class T, ValueType kList, ValueType kItem>
-Status tick(Ticker& ticker, NodeIndex self) {
-  if (ticker.first_tick(self) && !begin<kList>(ticker, self)) return Status::Failure;
+Status tick_loop(Ticker& ticker, NodeIndex self) {
+  if (ticker.first_tick(self) && !begin_loop<kList>(ticker, self)) return Status::Failure;
   if (ticker.status(self + 1) != Status::Running) {
-    State& state = ticker.state<State>(self);
+    LoopState& state = ticker.state<LoopState>(self);
     auto item = item_of<T>(ticker.kept_value(self), state.next);
     if (!item) return if_empty(ticker, self);
     ++state.next;
@@ -97,36 +95,36 @@ std::size_t count_of(const Value& list) {
 }
 
 template <class T>
-double progress(Ticker& ticker, NodeIndex self) {
+double progress_of_loop(Ticker& ticker, NodeIndex self) {
   const auto all = static_cast<double>(count_of<T>(ticker.kept_value(self)));
   if (all == 0) return 0.0;
   const bool runs = ticker.status(self + 1) == Status::Running;
-  const double done = ticker.state<State>(self).next - (runs ? 1.0 : 0.0);
+  const double done = ticker.state<LoopState>(self).next - (runs ? 1.0 : 0.0);
   return (done + (runs ? ticker.progress(self + 1) : 0.0)) / all;
 }
 
 template <class T, ValueType kList, ValueType kItem>
-constexpr NodeKind kind_of(std::string_view id) {
+constexpr NodeKind kind_of_loop(std::string_view id) {
   return {.type = {.id = id,
                    .category = NodeCategory::Decorator,
                    .doc = "Ticks its child once for each item of a list, one after the other; "
                           "Failure as soon as it fails.",
                    .arity = {1, 1},
-                   .parameters = kParameters<kList, kItem>,
+                   .parameters = kLoopParameters<kList, kItem>,
                    .can_run = true,
                    .reads_ports = true},
-          .tick = tick<T, kList, kItem>,
-          .progress = progress<T>,
-          .state_size = sizeof(State)};
+          .tick = tick_loop<T, kList, kItem>,
+          .progress = progress_of_loop<T>,
+          .state_size = sizeof(LoopState)};
 }
 
 }  // namespace
 
-const NodeKind kLoopInt = kind_of<std::int64_t, ValueType::IntList, ValueType::Int>("LoopInt");
-const NodeKind kLoopBool = kind_of<Flag, ValueType::BoolList, ValueType::Bool>("LoopBool");
+const NodeKind kLoopInt = kind_of_loop<std::int64_t, ValueType::IntList, ValueType::Int>("LoopInt");
+const NodeKind kLoopBool = kind_of_loop<Flag, ValueType::BoolList, ValueType::Bool>("LoopBool");
 const NodeKind kLoopDouble =
-    kind_of<double, ValueType::DoubleList, ValueType::Double>("LoopDouble");
+    kind_of_loop<double, ValueType::DoubleList, ValueType::Double>("LoopDouble");
 const NodeKind kLoopString =
-    kind_of<std::string, ValueType::StringList, ValueType::String>("LoopString");
+    kind_of_loop<std::string, ValueType::StringList, ValueType::String>("LoopString");
 
 }  // namespace lockstep::btcpp

@@ -1,3 +1,4 @@
+#include "engine/nodes/btcpp/results.h"
 #include "engine/nodes/decorator.h"
 
 namespace lockstep::btcpp {
@@ -5,10 +6,7 @@ namespace {
 
 constexpr unsigned kIf = 0, kElse = 1;
 
-// Those that a node may return, in the order of Status.
-constexpr std::string_view kResults[] = {"RUNNING", "SUCCESS", "FAILURE", "SKIPPED"};
-
-constexpr Parameter kParameters[] = {
+constexpr Parameter kPreconditionParameters[] = {
     {.name = "if",
      .type = ValueType::String,
      .doc = "The script that decides, in each tick until the child is started.",
@@ -21,7 +19,7 @@ constexpr Parameter kParameters[] = {
      .choices = kResults},
 };
 
-struct State {
+struct PreconditionState {
   bool is_open;  // the script was true, and the child has not completed since
 };
 
@@ -29,8 +27,8 @@ Status otherwise(const Ticker& ticker, NodeIndex self) {
   return static_cast<Status>(ticker.parameter(self, kElse).integer + 1);
 }
 
-Status tick(Ticker& ticker, NodeIndex self) {
-  State& state = ticker.state<State>(self);
+Status tick_precondition(Ticker& ticker, NodeIndex self) {
+  PreconditionState& state = ticker.state<PreconditionState>(self);
   if (!state.is_open) {
     const auto holds = ticker.holds(self, ticker.script(self, kIf), "if");
     if (!holds) return Status::Failure;
@@ -42,8 +40,8 @@ Status tick(Ticker& ticker, NodeIndex self) {
   return status;
 }
 
-void forget(Ticker& ticker, NodeIndex self) {
-  ticker.state<State>(self).is_open = false;
+void forget_precondition(Ticker& ticker, NodeIndex self) {
+  ticker.state<PreconditionState>(self).is_open = false;
 }
 
 }  // namespace
@@ -54,12 +52,12 @@ const NodeKind kPrecondition{
              .doc = "Ticks its child to its end once a script is true; before that the result is "
                     "'else'.",
              .arity = {1, 1},
-             .parameters = kParameters,
+             .parameters = kPreconditionParameters,
              .can_run = true},
-    .tick = tick,
+    .tick = tick_precondition,
     .progress = decorator::child_progress,
-    .state_size = sizeof(State),
-    .halt = forget,
-    .forget = forget};
+    .state_size = sizeof(PreconditionState),
+    .halt = forget_precondition,
+    .forget = forget_precondition};
 
 }  // namespace lockstep::btcpp

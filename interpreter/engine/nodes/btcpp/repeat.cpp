@@ -20,14 +20,14 @@ constexpr Parameter kRetryParameters[] = {
      .required = true}};
 
 // The rounds that are over. Kept while the child is skipped, so not cleared by a first tick.
-struct State {
+struct RepeatState {
   std::int64_t done;
 };
 
 // A child that completed at once lets the tree be ticked again; another one is ticked again here.
 template <Status kGoOn>
-Status tick(Ticker& ticker, NodeIndex self) {
-  State& state = ticker.state<State>(self);
+Status tick_repeat(Ticker& ticker, NodeIndex self) {
+  RepeatState& state = ticker.state<RepeatState>(self);
   const auto has_more = [&] {
     const std::int64_t times = ticker.parameter(self, 0).integer;
     return times == kEndless || state.done < times;
@@ -52,21 +52,21 @@ Status tick(Ticker& ticker, NodeIndex self) {
   return kGoOn;
 }
 
-void forget(Ticker& ticker, NodeIndex self) {
-  ticker.state<State>(self).done = 0;
+void forget_repeat(Ticker& ticker, NodeIndex self) {
+  ticker.state<RepeatState>(self).done = 0;
 }
 
-double progress(Ticker& ticker, NodeIndex self) {
+double progress_of_repeat(Ticker& ticker, NodeIndex self) {
   const std::int64_t times = ticker.parameter(self, 0).integer;
   const double child = ticker.status(self + 1) == Status::Running ? ticker.progress(self + 1) : 0.0;
   if (times <= 0) return child;
-  const auto done = static_cast<double>(ticker.state<State>(self).done);
+  const auto done = static_cast<double>(ticker.state<RepeatState>(self).done);
   return std::min(1.0, (done + child) / static_cast<double>(times));
 }
 
-Round round(Ticker& ticker, NodeIndex self) {
+Round round_of_repeat(Ticker& ticker, NodeIndex self) {
   const std::int64_t times = ticker.parameter(self, 0).integer;
-  return {ticker.state<State>(self).done + 1, std::max(times, std::int64_t{0})};
+  return {ticker.state<RepeatState>(self).done + 1, std::max(times, std::int64_t{0})};
 }
 
 }  // namespace
@@ -79,12 +79,12 @@ const NodeKind kRepeat{
              .arity = {1, 1},
              .parameters = kRepeatParameters,
              .can_run = true},
-    .tick = tick<Status::Success>,
-    .progress = progress,
-    .state_size = sizeof(State),
-    .halt = forget,
-    .forget = forget,
-    .round = round};
+    .tick = tick_repeat<Status::Success>,
+    .progress = progress_of_repeat,
+    .state_size = sizeof(RepeatState),
+    .halt = forget_repeat,
+    .forget = forget_repeat,
+    .round = round_of_repeat};
 
 const NodeKind kRetryUntilSuccessful{
     .type = {.id = "RetryUntilSuccessful",
@@ -94,11 +94,11 @@ const NodeKind kRetryUntilSuccessful{
              .arity = {1, 1},
              .parameters = kRetryParameters,
              .can_run = true},
-    .tick = tick<Status::Failure>,
+    .tick = tick_repeat<Status::Failure>,
     .progress = decorator::child_progress,  // of this attempt
-    .state_size = sizeof(State),
-    .halt = forget,
-    .forget = forget,
-    .round = round};
+    .state_size = sizeof(RepeatState),
+    .halt = forget_repeat,
+    .forget = forget_repeat,
+    .round = round_of_repeat};
 
 }  // namespace lockstep::btcpp

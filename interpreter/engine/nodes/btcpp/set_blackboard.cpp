@@ -8,7 +8,7 @@
 namespace lockstep::btcpp {
 namespace {
 
-constexpr unsigned kValue = 0, kOutputKey = 1;
+constexpr unsigned kNewValue = 0, kOutputKey = 1;
 constexpr unsigned kKey = 0;
 
 constexpr Parameter kSetParameters[] = {{.name = "value",
@@ -48,11 +48,11 @@ bool store_text(Ticker& ticker, NodeIndex self, Entry& target, const Value& text
 
 Status tick_set(Ticker& ticker, NodeIndex self) {
   const auto named = ticker.named_entry(self, kOutputKey);
-  const Value* const value = ticker.port_value(self, kValue);
+  const Value* const value = ticker.port_value(self, kNewValue);
   if (!named || value == nullptr) return Status::Failure;
   Entry* const target = *named;
   if (target == nullptr) return Status::Success;  // without a name
-  if (const Entry* source = ticker.port_entry(self, kValue)) {
+  if (const Entry* source = ticker.port_entry(self, kNewValue)) {
     if (source == target) return Status::Success;
     if (!target->is_present) make_entry(*target, source->typing, source->type, source->object);
     target->value = *value;

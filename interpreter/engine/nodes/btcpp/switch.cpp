@@ -16,7 +16,7 @@ constexpr Parameter kVariableParameter{
     .name = "variable", .type = ValueType::String, .doc = "What the cases are compared with."};
 
 template <std::size_t... kCases>
-constexpr auto parameters_of(std::index_sequence<kCases...>) {
+constexpr auto parameters_of_switch(std::index_sequence<kCases...>) {
   constexpr std::array<std::string_view, 6> kNames = {"case_1", "case_2", "case_3",
                                                       "case_4", "case_5", "case_6"};
   return std::array<Parameter, sizeof...(kCases) + 1>{
@@ -27,9 +27,9 @@ constexpr auto parameters_of(std::index_sequence<kCases...>) {
 }
 
 template <std::size_t kCount>
-constexpr auto kParameters = parameters_of(std::make_index_sequence<kCount>());
+constexpr auto kSwitchParameters = parameters_of_switch(std::make_index_sequence<kCount>());
 
-struct State {
+struct SwitchState {
   NodeIndex current;  // the child that runs
 };
 
@@ -91,38 +91,38 @@ NodeIndex choose(Ticker& ticker, NodeIndex self) {
   return child;
 }
 
-Status tick(Ticker& ticker, NodeIndex self) {
-  State& state = ticker.state<State>(self);
+Status tick_switch(Ticker& ticker, NodeIndex self) {
+  SwitchState& state = ticker.state<SwitchState>(self);
   const NodeIndex child = choose(ticker, self);
   if (!ticker.first_tick(self) && state.current != child) ticker.halt(state.current);
   state.current = child;
   return ticker.tick(child);
 }
 
-double progress(Ticker& ticker, NodeIndex self) {
-  return ticker.progress(ticker.state<State>(self).current);
+double progress_of_switch(Ticker& ticker, NodeIndex self) {
+  return ticker.progress(ticker.state<SwitchState>(self).current);
 }
 
 template <std::uint32_t kCases>
-constexpr NodeKind kind_of(std::string_view id) {
+constexpr NodeKind kind_of_switch(std::string_view id) {
   return {.type = {.id = id,
                    .category = NodeCategory::Control,
                    .doc = "Ticks the child of the first case that equals the variable, else the "
                           "last child.",
                    .arity = {kCases + 1, kCases + 1},
-                   .parameters = kParameters<kCases>,
+                   .parameters = kSwitchParameters<kCases>,
                    .reads_ports = true},
-          .tick = tick,
-          .progress = progress,
-          .state_size = sizeof(State)};
+          .tick = tick_switch,
+          .progress = progress_of_switch,
+          .state_size = sizeof(SwitchState)};
 }
 
 }  // namespace
 
-const NodeKind kSwitch2 = kind_of<2>("Switch2");
-const NodeKind kSwitch3 = kind_of<3>("Switch3");
-const NodeKind kSwitch4 = kind_of<4>("Switch4");
-const NodeKind kSwitch5 = kind_of<5>("Switch5");
-const NodeKind kSwitch6 = kind_of<6>("Switch6");
+const NodeKind kSwitch2 = kind_of_switch<2>("Switch2");
+const NodeKind kSwitch3 = kind_of_switch<3>("Switch3");
+const NodeKind kSwitch4 = kind_of_switch<4>("Switch4");
+const NodeKind kSwitch5 = kind_of_switch<5>("Switch5");
+const NodeKind kSwitch6 = kind_of_switch<6>("Switch6");
 
 }  // namespace lockstep::btcpp

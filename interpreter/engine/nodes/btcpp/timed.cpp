@@ -33,34 +33,34 @@ Nanoseconds time_of(const Ticker& ticker, NodeIndex self) {
 }
 
 // Kept while the child is skipped, so not cleared by a first tick.
-struct State {
+struct TimedState {
   Nanoseconds start;
   bool started;  // the time is counted
   bool over;     // it was over once
 };
 
-Nanoseconds begin(Ticker& ticker, State& state) {
+Nanoseconds begin(Ticker& ticker, TimedState& state) {
   if (!state.started) state = {ticker.now(), true, false};
   return ticker.now() - state.start;
 }
 
-void forget(Ticker& ticker, NodeIndex self) {
-  ticker.state<State>(self) = {};
+void forget_timed(Ticker& ticker, NodeIndex self) {
+  ticker.state<TimedState>(self) = {};
 }
 
 Status tick_sleep(Ticker& ticker, NodeIndex self) {
-  Nanoseconds& start = ticker.state<State>(self).start;
+  Nanoseconds& start = ticker.state<TimedState>(self).start;
   if (ticker.first_tick(self)) start = ticker.now();
   return ticker.now() - start >= time_of(ticker, self) ? Status::Success : Status::Running;
 }
 
 double progress_of_sleep(Ticker& ticker, NodeIndex self) {
-  const Nanoseconds elapsed = ticker.now() - ticker.state<State>(self).start;
+  const Nanoseconds elapsed = ticker.now() - ticker.state<TimedState>(self).start;
   return std::min(1.0, to_seconds(elapsed) / to_seconds(time_of(ticker, self)));
 }
 
 Status tick_delay(Ticker& ticker, NodeIndex self) {
-  State& state = ticker.state<State>(self);
+  TimedState& state = ticker.state<TimedState>(self);
   const Nanoseconds waited = begin(ticker, state);
   if (!state.over && waited < time_of(ticker, self)) return Status::Running;
   state.over = true;
@@ -71,7 +71,7 @@ Status tick_delay(Ticker& ticker, NodeIndex self) {
 
 // A child that begins after the time is over runs as long as it likes.
 Status tick_timeout(Ticker& ticker, NodeIndex self) {
-  State& state = ticker.state<State>(self);
+  TimedState& state = ticker.state<TimedState>(self);
   const Nanoseconds waited = begin(ticker, state);
   const Nanoseconds limit = time_of(ticker, self);
   if (!state.over && limit > Nanoseconds(0) && waited >= limit) {
@@ -97,7 +97,7 @@ const NodeKind kSleep{.type = {.id = "Sleep",
                                .can_run = true},
                       .tick = tick_sleep,
                       .progress = progress_of_sleep,
-                      .state_size = sizeof(State)};
+                      .state_size = sizeof(TimedState)};
 
 const NodeKind kDelay{.type = {.id = "Delay",
                                .category = NodeCategory::Decorator,
@@ -107,9 +107,9 @@ const NodeKind kDelay{.type = {.id = "Delay",
                                .can_run = true},
                       .tick = tick_delay,
                       .progress = decorator::child_progress,
-                      .state_size = sizeof(State),
-                      .halt = forget,
-                      .forget = forget};
+                      .state_size = sizeof(TimedState),
+                      .halt = forget_timed,
+                      .forget = forget_timed};
 
 const NodeKind kTimeout{.type = {.id = "Timeout",
                                  .category = NodeCategory::Decorator,
@@ -118,8 +118,8 @@ const NodeKind kTimeout{.type = {.id = "Timeout",
                                  .parameters = kTimeoutParameters},
                         .tick = tick_timeout,
                         .progress = decorator::child_progress,
-                        .state_size = sizeof(State),
-                        .halt = forget,
-                        .forget = forget};
+                        .state_size = sizeof(TimedState),
+                        .halt = forget_timed,
+                        .forget = forget_timed};
 
 }  // namespace lockstep::btcpp

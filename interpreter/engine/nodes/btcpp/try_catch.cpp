@@ -7,13 +7,13 @@ namespace {
 
 constexpr unsigned kCatchOnHalt = 0;
 
-constexpr Parameter kParameters[] = {
+constexpr Parameter kTryCatchParameters[] = {
     {.name = "catch_on_halt",
      .type = ValueType::Bool,
      .doc = "Tick the last child once when the node is halted while another one runs.",
      .default_text = "false"}};
 
-struct State {
+struct TryCatchState {
   NodeIndex current;
   std::uint32_t done, skipped;
 };
@@ -29,8 +29,8 @@ Status tick_last(Ticker& ticker, NodeIndex last) {
   return status == Status::Running ? status : Status::Failure;
 }
 
-Status tick(Ticker& ticker, NodeIndex self) {
-  State& state = ticker.state<State>(self);
+Status tick_try_catch(Ticker& ticker, NodeIndex self) {
+  TryCatchState& state = ticker.state<TryCatchState>(self);
   const NodeIndex last = last_child(ticker, self);
   if (ticker.first_tick(self)) state = {self + 1, 0, 0};
   while (state.current != last) {
@@ -51,17 +51,17 @@ Status tick(Ticker& ticker, NodeIndex self) {
   return tick_last(ticker, last);
 }
 
-void halt(Ticker& ticker, NodeIndex self) {
+void halt_try_catch(Ticker& ticker, NodeIndex self) {
   const NodeIndex last = last_child(ticker, self);
-  const bool tries = ticker.state<State>(self).current != last;
+  const bool tries = ticker.state<TryCatchState>(self).current != last;
   if (!tries || !ticker.parameter(self, kCatchOnHalt).boolean) return;
   ticker.halt_range(self + 1, last);
   if (ticker.faulted()) return;
   if (ticker.tick(last) == Status::Running) ticker.halt(last);
 }
 
-double progress(Ticker& ticker, NodeIndex self) {
-  const auto& state = ticker.state<State>(self);
+double progress_of_try_catch(Ticker& ticker, NodeIndex self) {
+  const auto& state = ticker.state<TryCatchState>(self);
   const NodeIndex last = last_child(ticker, self);
   if (state.current == last) return ticker.progress(last);
   return (state.done + ticker.progress(state.current)) / (ticker.node(self).children - 1.0);
@@ -75,10 +75,10 @@ const NodeKind kTryCatch{
              .doc = "Ticks all children but the last as a Sequence. When one fails, ticks the last "
                     "until it completes, and is a Failure.",
              .arity = {2},
-             .parameters = kParameters},
-    .tick = tick,
-    .progress = progress,
-    .state_size = sizeof(State),
-    .halt = halt};
+             .parameters = kTryCatchParameters},
+    .tick = tick_try_catch,
+    .progress = progress_of_try_catch,
+    .state_size = sizeof(TryCatchState),
+    .halt = halt_try_catch};
 
 }  // namespace lockstep::btcpp

@@ -8,18 +8,18 @@ namespace {
 
 constexpr unsigned kEntry = 0;
 
-constexpr Parameter kParameters[] = {{.name = "entry",
-                                      .type = ValueType::String,
-                                      .doc = "The entry to look at.",
-                                      .required = true,
-                                      .names_entry = true}};
+constexpr Parameter kUpdatedParameters[] = {{.name = "entry",
+                                             .type = ValueType::String,
+                                             .doc = "The entry to look at.",
+                                             .required = true,
+                                             .names_entry = true}};
 
-struct State {
+struct UpdatedState {
   std::uint32_t seen;  // Entry::writes
   bool runs;           // the child was ticked and has not completed
 };
 
-bool was_written(Ticker& ticker, NodeIndex self, State& state) {
+bool was_written(Ticker& ticker, NodeIndex self, UpdatedState& state) {
   const Entry* entry = ticker.port_entry(self, kEntry);
   if (entry == nullptr || !entry->is_present || entry->writes == state.seen) return false;
   state.seen = entry->writes;
@@ -27,20 +27,20 @@ bool was_written(Ticker& ticker, NodeIndex self, State& state) {
 }
 
 template <Status kElse>
-Status tick(Ticker& ticker, NodeIndex self) {
-  State& state = ticker.state<State>(self);
+Status tick_updated(Ticker& ticker, NodeIndex self) {
+  UpdatedState& state = ticker.state<UpdatedState>(self);
   if (!state.runs && !was_written(ticker, self, state)) return kElse;
   const Status status = ticker.tick(self + 1);
   state.runs = status == Status::Running;
   return status;
 }
 
-void halt(Ticker& ticker, NodeIndex self) {
-  ticker.state<State>(self).runs = false;
+void halt_updated(Ticker& ticker, NodeIndex self) {
+  ticker.state<UpdatedState>(self).runs = false;
 }
 
 Status tick_condition(Ticker& ticker, NodeIndex self) {
-  const bool written = was_written(ticker, self, ticker.state<State>(self));
+  const bool written = was_written(ticker, self, ticker.state<UpdatedState>(self));
   return written ? Status::Success : Status::Failure;
 }
 
@@ -52,12 +52,12 @@ const NodeKind kSkipUnlessUpdated{
              .doc = "Ticks its child when the entry was written since the last time; else it is "
                     "skipped.",
              .arity = {1, 1},
-             .parameters = kParameters,
+             .parameters = kUpdatedParameters,
              .reads_ports = true},
-    .tick = tick<Status::Skipped>,
+    .tick = tick_updated<Status::Skipped>,
     .progress = decorator::child_progress,
-    .state_size = sizeof(State),
-    .halt = halt};
+    .state_size = sizeof(UpdatedState),
+    .halt = halt_updated};
 
 const NodeKind kWaitValueUpdate{
     .type = {.id = "WaitValueUpdate",
@@ -65,23 +65,23 @@ const NodeKind kWaitValueUpdate{
              .doc = "Ticks its child when the entry was written since the last time; Running until "
                     "then.",
              .arity = {1, 1},
-             .parameters = kParameters,
+             .parameters = kUpdatedParameters,
              .can_run = true,
              .reads_ports = true},
-    .tick = tick<Status::Running>,
+    .tick = tick_updated<Status::Running>,
     .progress = decorator::child_progress,
-    .state_size = sizeof(State),
-    .halt = halt};
+    .state_size = sizeof(UpdatedState),
+    .halt = halt_updated};
 
 const NodeKind kWasEntryUpdated{
     .type = {.id = "WasEntryUpdated",
              .category = NodeCategory::Condition,
              .doc = "Success when the entry was written since this node asked last.",
              .arity = {0, 0},
-             .parameters = kParameters,
+             .parameters = kUpdatedParameters,
              .reads_ports = true},
     .tick = tick_condition,
     .progress = no_progress,
-    .state_size = sizeof(State)};
+    .state_size = sizeof(UpdatedState)};
 
 }  // namespace lockstep::btcpp

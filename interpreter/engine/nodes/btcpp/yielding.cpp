@@ -18,7 +18,7 @@ void begin(Ticker& ticker, NodeIndex self, State& state, Place place) {
 }
 
 template <Status kGoOn, Place kPlace>
-Status tick(Ticker& ticker, NodeIndex self) {
+Status tick_yielding(Ticker& ticker, NodeIndex self) {
   State& state = ticker.state<State>(self);
   begin(ticker, self, state, kPlace);
   while (state.current != ticker.end_of(self)) {
@@ -50,7 +50,7 @@ const NodeKind kAsyncSequence{
              .sign = "→",
              .goes_on_after = Status::Success,
              .can_run = true},
-    .tick = tick<Status::Success, Place::Forgotten>,
+    .tick = tick_yielding<Status::Success, Place::Forgotten>,
     .progress = ordered::progress_of_sequence,
     .state_size = sizeof(State)};
 
@@ -63,7 +63,7 @@ const NodeKind kAsyncFallback{
              .sign = "?",
              .goes_on_after = Status::Failure,
              .can_run = true},
-    .tick = tick<Status::Failure, Place::Forgotten>,
+    .tick = tick_yielding<Status::Failure, Place::Forgotten>,
     .progress = ordered::progress_of_fallback,
     .state_size = sizeof(State)};
 
@@ -76,7 +76,7 @@ const NodeKind kSequenceWithMemory{
              .sign = "→",
              .goes_on_after = Status::Success,
              .can_run = true},
-    .tick = tick<Status::Success, Place::Kept>,
+    .tick = tick_yielding<Status::Success, Place::Kept>,
     .progress = ordered::progress_of_sequence,
     .state_size = sizeof(State)};
 
