@@ -62,6 +62,16 @@ Output = _Directed("output")
 InOut = _Directed("inout")
 
 
+def _plain(value):
+    "A value as it is written in a tree."
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (list, tuple)):
+        return ";".join(it.replace("\\", "\\\\").replace(";", "\\;") if isinstance(it, str) else _plain(it)
+                        for it in value)
+    return str(value)
+
+
 class _Attribute:
     "A port of a class: what its leaves read is what lockstep said last."
 
@@ -75,7 +85,7 @@ class _Attribute:
         self.fact = {"name": name, "type": _TYPES[directed.type], "direction": self.direction}
         if port.default is not None:
             default = port.default
-            self.fact["default"] = ";".join(map(str, default)) if isinstance(default, list) else default
+            self.fact["default"] = _plain(default) if isinstance(default, list) else default
         if port.optional:
             self.fact["optional"] = True
         self.fact.update({key: value for key, value in port.facts.items() if value not in (None, "")})
@@ -116,7 +126,10 @@ class _Leaf:
         raise NotImplementedError(f"{type(self).__name__} has no tick")
 
     def log(self, text, level="info"):
-        _say(leaf=self._number, log=str(text), level=level)
+        self._log(str(text), level)
+
+    def _log(self, text, level):
+        _say(leaf=self._number, log=text, level=level)
 
     @classmethod
     def _fact(cls):
@@ -142,6 +155,25 @@ _ANSWERS = {None: "running", True: "success", False: "failure", Skipped: "skippe
             "running": "running", "success": "success", "failure": "failure", "skipped": "skipped"}
 
 
+def _status(result):
+    "The word for what a tick has returned."
+    try:
+        return _ANSWERS[result]
+    except (KeyError, TypeError):
+        raise ValueError(f"tick returned {result!r}, expected None (running), True (success) or "
+                         "False (failure)") from None
+
+
+def _new(cls, number, seed, **facts):
+    "A leaf whose __init__ is still to be called: it may use what lockstep has said."
+    leaf = cls.__new__(cls)
+    leaf._number, leaf._values, leaf._set, leaf._has_begun = number, {}, {}, False
+    for name, value in facts.items():
+        setattr(leaf, name, value)
+    leaf.random = random.Random(seed)
+    return leaf
+
+
 class _Server:
     "One process: its leaves by their numbers, and an answer to each request."
 
@@ -150,11 +182,8 @@ class _Server:
         self.broken = set()  # those that had an error; the next start mends it
 
     def create(self, number, request):
-        leaf = _classes[request["type"]].__new__(_classes[request["type"]])
-        leaf._number, leaf._values, leaf._set, leaf._has_begun = number, {}, {}, False
-        for name in ("name", "path", "clock", "period"):
-            setattr(leaf, name, request[name])
-        leaf.random = random.Random(request["seed"])
+        leaf = _new(_classes[request["type"]], number, request["seed"],
+                    **{name: request[name] for name in ("name", "path", "clock", "period")})
         self.leaves[number] = leaf
         leaf.__init__()
         _say(leaf=number, done=True)
@@ -169,20 +198,12 @@ class _Server:
     def tick(self, leaf, request):
         self.update(leaf, request)
         result = leaf.tick()
-        answer = {"leaf": leaf._number, "status": self.status(leaf, result)}
+        answer = {"leaf": leaf._number, "status": _status(result)}
         if hasattr(leaf, "progress"):
             answer["progress"] = float(leaf.progress())
         if leaf._set:
             answer["set"], leaf._set = leaf._set, {}
         _say(**answer)
-
-    @staticmethod
-    def status(leaf, result):
-        try:
-            return _ANSWERS[result]
-        except (KeyError, TypeError):
-            raise ValueError(f"tick returned {result!r}, expected None (running), True (success) or "
-                             "False (failure)") from None
 
     def halt(self, leaf, request):
         if leaf._has_begun:  # there is nothing to halt when its start has failed
@@ -224,10 +245,10 @@ class _Server:
             _say(leaf=number, error=_blame(error))
 
 
-def _blame(error):
-    "What went wrong, and where in the author's file."
+def _blame(error, *inner):
+    "What went wrong, and where in the author's file; `inner` are files of lockstep, as this one is."
     mine = [frame for frame in traceback.extract_tb(error.__traceback__)
-            if frame.filename != __file__]
+            if frame.filename not in (__file__, *inner)]
     where = f" ({os.path.basename(mine[-1].filename)}:{mine[-1].lineno})" if mine else ""
     return f"{type(error).__name__}: {error}{where}"
 
@@ -248,8 +269,9 @@ _out = 1
 def serve(version="", doc=""):
     "Speaks to lockstep until it has nothing more to say. At the end of the author's file."
     global _out
-    if _by_hand:
-        return
+    caller = sys._getframe(1)
+    if _by_hand or (caller.f_code.co_name == "<module>" and caller.f_globals.get("__name__") != "__main__"):
+        return  # the file is imported: its leaves are for this process
     # What the leaves print is for people.
     _out = os.dup(1)
     os.dup2(2, 1)

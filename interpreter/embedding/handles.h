@@ -19,8 +19,8 @@ namespace lockstep {
 // What a project has loaded. Runs share it.
 struct Program {
   Runnable runnable;
-  // Of the nodes, as strings that end in a NUL.
-  std::vector<std::string> paths, names, ids;
+  // Of the nodes, and the types of the entries, as strings that end in a NUL.
+  std::vector<std::string> paths, names, ids, types;
 };
 
 }  // namespace lockstep

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "core/parameter_value.h"
 #include "embedding/handles.h"
 
 namespace lockstep::embedding {
@@ -44,6 +45,9 @@ bool load_with(lockstep_project* project, const void* argument, Load load) {
              auto program = std::make_shared<Program>();
              program->runnable = make_runnable(std::move(*loaded));
              const Tree& tree = program->runnable.tree;
+             for (const Slot& slot : tree.slots) {
+               program->types.emplace_back(type_name(slot.type, slot.object));
+             }
              for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
                program->paths.push_back(tree.path(node));
                program->names.emplace_back(tree.labels[node].name);
@@ -59,6 +63,13 @@ bool load_with(lockstep_project* project, const void* argument, Load load) {
 
 const Tree* tree_of(const lockstep_project* project) {
   return project == nullptr || !project->program ? nullptr : &project->program->runnable.tree;
+}
+
+// The types of the contract have the numbers of the interpreter's, but for those that only entries
+// have.
+lockstep_type type_of(const Slot& slot) {
+  if (slot.typing == Typing::Any) return LOCKSTEP_ANY;
+  return slot.type == ValueType::Number ? LOCKSTEP_NUMBER : static_cast<lockstep_type>(slot.type);
 }
 
 }  // namespace
@@ -201,5 +212,24 @@ bool lockstep_project_find_node(const lockstep_project* project, const char* pat
     if (found == paths.end()) return fail(fmt::format("there is no node '{}'", path));
     *index = static_cast<uint32_t>(found - paths.begin());
     return true;
+  });
+}
+
+uint32_t lockstep_project_entry_count(const lockstep_project* project) {
+  const Tree* const tree = tree_of(project);
+  return tree == nullptr ? 0 : static_cast<uint32_t>(tree->slots.size());
+}
+
+bool lockstep_project_entry(const lockstep_project* project, uint32_t index,
+                            lockstep_entry* entry) {
+  return guarded([&] {
+    if (index >= lockstep_project_entry_count(project)) return fail("no such entry");
+    const Slot& slot = project->program->runnable.tree.slots[index];
+    const bool is_any = slot.typing == Typing::Any;
+    return write_struct({.struct_size = 0,
+                         .type = type_of(slot),
+                         .key = slot.name.c_str(),
+                         .type_name = is_any ? "any" : project->program->types[index].c_str()},
+                        entry);
   });
 }

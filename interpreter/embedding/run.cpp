@@ -41,6 +41,10 @@ const Tree& tree_of(const lockstep_run& run) {
   return run.program->runnable.tree;
 }
 
+std::string fault_text(const lockstep_run& run, const Fault& fault) {
+  return fmt::format("{}: {}", run.program->paths[fault.node], fault.message);
+}
+
 Entry* find_entry(lockstep_run* run, const char* key) {
   if (run == nullptr || key == nullptr) {
     fail("an argument is NULL");
@@ -253,8 +257,7 @@ lockstep_run* lockstep_run_new(lockstep_project* project, const lockstep_run_opt
     }
     auto run = std::make_unique<lockstep_run>(project->program, run_options);
     if (run->run.fault() != nullptr) {
-      const Fault& fault = *run->run.fault();
-      fail(fmt::format("{}: {}", tree_of(*run).path(fault.node), fault.message));
+      fail(fault_text(*run, *run->run.fault()));
       return nullptr;
     }
     return run.release();
@@ -270,7 +273,7 @@ bool lockstep_run_restart(lockstep_run* run, uint64_t seed) {
     if (run == nullptr) return fail("an argument is NULL");
     run->last = Nanoseconds(0);
     run->run.restart(seed);
-    return run->run.fault() == nullptr || fail(run->run.fault()->message);
+    return run->run.fault() == nullptr || fail(fault_text(*run, *run->run.fault()));
   });
 }
 
@@ -284,6 +287,7 @@ lockstep_status lockstep_run_tick(lockstep_run* run, double seconds) {
   guarded([&] {
     if (*time < run->last) return fail("the time is before that of the last tick");
     run->last = *time;
+    if (run->run.fault() != nullptr) return true;  // a leaf may be missing
     status = static_cast<lockstep_status>(run->run.tick(*time));
     run->notify(seconds, status);
     return true;
@@ -303,7 +307,7 @@ const char* lockstep_run_fault(lockstep_run* run, uint32_t* node) {
     const Fault* const fault = run == nullptr ? nullptr : run->run.fault();
     if (fault == nullptr) return nullptr;
     if (node != nullptr) *node = fault->node;
-    run->text = fmt::format("{}: {}", run->program->paths[fault->node], fault->message);
+    run->text = fault_text(*run, *fault);
     return run->text.c_str();
   });
 }
@@ -414,6 +418,14 @@ bool lockstep_run_set_text_list(lockstep_run* run, const char* key, const lockst
       texts.emplace_back(values[i].length == 0 ? "" : values[i].text, values[i].length);
     }
     return set(run, key, std::move(texts));
+  });
+}
+
+lockstep_type lockstep_run_value_type(lockstep_run* run, const char* key) {
+  return guarded([&]() -> lockstep_type {
+    const Entry* const entry = find_entry(run, key);
+    // The types of the contract have the numbers of the alternatives.
+    return entry == nullptr ? 0 : static_cast<lockstep_type>(entry->value.index());
   });
 }
 

@@ -14,19 +14,17 @@ import io
 import json
 import os
 import pathlib
-import shutil
 import subprocess
 import tempfile
 
-__all__ = ["Error", "Run", "program", "read", "read_study", "run", "study"]
+from lockstep_leaf import _plain
 
+from ._error import Error
+from ._program import library, program
+from ._trees import Diagnostic, Entries, Node, Project, Tree
 
-class Error(Exception):
-    "lockstep has ended with an exit code that is no result of a tree; `code`, and its words."
-
-    def __init__(self, code, text):
-        super().__init__(text.strip() or f"exit code {code}")
-        self.code = code
+__all__ = ["Diagnostic", "Entries", "Error", "Node", "Project", "Run", "Tree", "library", "program", "read",
+           "read_study", "run", "study"]
 
 
 class Run:
@@ -45,17 +43,6 @@ class Run:
         return f"<lockstep run: {self.result} after {self.ticks} ticks>"
 
 
-def program():
-    "The path of the program lockstep."
-    here = pathlib.Path(__file__).resolve()
-    beside = [parent / "bin" / "lockstep" for parent in here.parents[:6]]
-    found = os.environ.get("LOCKSTEP") or next((str(it) for it in beside if it.is_file()), None)
-    found = found or shutil.which("lockstep")
-    if found is None:
-        raise FileNotFoundError("lockstep is not found: set the variable LOCKSTEP to its path")
-    return found
-
-
 def _call(words, good=(0,)):
     done = subprocess.run([program(), *map(str, words)], capture_output=True, text=True)
     if done.returncode not in good:
@@ -72,19 +59,13 @@ def _options(**options):
             words.append(option)
         elif isinstance(value, dict):
             for key, it in value.items():
-                words += [option, f"{key}={_text(it)}"]
+                words += [option, f"{key}={_plain(it)}"]
         elif isinstance(value, (list, tuple)):
             for it in value:
-                words += [option, _text(it)]
+                words += [option, _plain(it)]
         elif value is not None and value is not False:
-            words += [option, _text(value)]
+            words += [option, _plain(value)]
     return words
-
-
-def _text(value):
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    return ";".join(map(_text, value)) if isinstance(value, (list, tuple)) else str(value)
 
 
 def run(tree, args=None, *, set=None, seed=0, clock="virtual", plugins=(), plugin_path=(), record=None,
@@ -100,7 +81,7 @@ def run(tree, args=None, *, set=None, seed=0, clock="virtual", plugins=(), plugi
 def study(tree, *, runs=None, grid=None, args=None, measure=(), out=None, plots=False, **options):
     """Makes a study, and returns a row for each run, as read_study does. `grid` has lists of values:
     {"noise": [0, 0.05]}. Without `out` its directory is temporary."""
-    axes = {name: ",".join(map(_text, values)) for name, values in (grid or {}).items()}
+    axes = {name: ",".join(map(_plain, values)) for name, values in (grid or {}).items()}
     words = _options(runs=runs, grid=axes, arg=args or {}, measure=measure, no_plots=not plots, **options)
     with tempfile.TemporaryDirectory() as directory:
         where = out or os.path.join(directory, "study")

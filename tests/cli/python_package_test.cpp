@@ -48,6 +48,33 @@ except lockstep.Error as error:
         "3 none.xml: error: cannot be read: No such file or directory\n");
 }
 
+TEST_CASE("docs/programs.md: a tree in Python with the leaves of a program") {
+  const std::string page = read_file(LOCKSTEP_SOURCE_DIR "/docs/programs.md");
+  const auto block = [&](const std::string& heading) {
+    const std::string open = "\n```python\n";
+    const auto begin = page.find(open, page.find("\n## " + heading + "\n")) + open.size();
+    return page.substr(begin, page.find("```\n", begin) - begin);
+  };
+  const TemporaryDirectory directory;
+  directory.file("grip.py", block("In Python"));
+  directory.file("tree.xml",
+                 "<root lockstep=\"1\"><plugin name=\"grip\" program=\"grip.py\"/>"
+                 "<BehaviorTree ID=\"Main\"><Sequence memory=\"true\"><Grip width=\"{w}\"/>"
+                 "<IsClosed width=\"{w}\"/></Sequence></BehaviorTree></root>");
+  const Outcome outcome =
+      run({.arguments = {"-c", "cd '" + directory.path("") + "' && /usr/bin/python3 use.py"},
+           .environment = {{"PYTHONPATH", kPackage},
+                           {"LOCKSTEP", LOCKSTEP_BINARY_DIR "/lockstep"},
+                           {"LD_PRELOAD", LOCKSTEP_PRELOAD},
+                           {"ASAN_OPTIONS", "detect_leaks=0"},
+                           {"USE", directory.file("use.py", block("Trees in Python"))}},
+           .program = "/bin/sh"});
+  INFO(outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK(contains(outcome.out, "0.03 {'w': 0.095}\n0.05 {'w': 0.09}\n"));
+  CHECK(lines(outcome.out).size() == 19);
+}
+
 TEST_CASE("docs/paper/figure3.py makes the figure: more barriers, better predictability") {
   const Outcome outcome = python({LOCKSTEP_SOURCE_DIR "/docs/paper/figure3.py", "5"}, kPackage);
   INFO(outcome.err);
@@ -73,5 +100,14 @@ TEST_CASE("the package installs into a venv without an index") {
       python({"-c", "import lockstep, lockstep_leaf; print(lockstep.__file__, lockstep.program())"},
              "", venv + "/bin/python3");
   CHECK(contains(outcome.out, venv));
+  const std::string tree = LOCKSTEP_SOURCE_DIR "/trees/door_pulling.xml";
+  const Outcome ticked =
+      run({.arguments = {"-c", "import lockstep; print(lockstep.Tree('" + tree + "').run())"},
+           .environment = {{"LOCKSTEP", LOCKSTEP_BINARY_DIR "/lockstep"},
+                           {"LD_PRELOAD", LOCKSTEP_PRELOAD},
+                           {"ASAN_OPTIONS", "detect_leaks=0"}},
+           .program = venv + "/bin/python3"});
+  INFO(ticked.err);
+  CHECK(ticked.out == "<lockstep run: success after 701 ticks>\n");
   CHECK(contains(outcome.out, LOCKSTEP_BINARY_DIR "/lockstep"));
 }

@@ -50,6 +50,16 @@ class Counts : public lockstep::Condition<> {
   }
 };
 
+// The second one cannot be made.
+class Once : public lockstep::Action<> {
+ public:
+  Once() {
+    if (made++ > 0) throw std::runtime_error("is there already");
+  }
+  Status tick() override { return Status::Running; }
+  static inline int made = 0;
+};
+
 struct Pose {
   double x = 0, y = 0;
 };
@@ -247,6 +257,39 @@ TEST_CASE("entries that are lists, numbers of either kind and objects") {
   CHECK(run.get<std::vector<double>>("points").empty());
 }
 
+TEST_CASE("entries are listed with their types, and a run knows what they have now") {
+  runtime::Project project;
+  project.add_leaf<Carry>("Carry", "Adds something to each of its ports");
+  project.load_text(
+      tree(R"(<Carry points="{points}" words="{words}" number="{number}" from="{from}"/>)"));
+  std::vector<std::string> entries;
+  std::vector<lockstep_type> types;
+  for (std::uint32_t i = 0; i < lockstep_project_entry_count(project.get()); ++i) {
+    lockstep_entry entry{};
+    entry.struct_size = sizeof entry;
+    REQUIRE(lockstep_project_entry(project.get(), i, &entry));
+    entries.push_back(std::string(entry.key) + ": " + entry.type_name);
+    types.push_back(entry.type);
+  }
+  CHECK(entries == Strings{"points: list of double", "words: list of string",
+                           "number: int or double", "from: test.Pose"});
+  CHECK(types == std::vector<lockstep_type>{LOCKSTEP_DOUBLE_LIST, LOCKSTEP_STRING_LIST,
+                                            LOCKSTEP_NUMBER, LOCKSTEP_OBJECT});
+  lockstep_entry entry{};
+  entry.struct_size = sizeof entry;
+  CHECK_FALSE(lockstep_project_entry(project.get(), 4, &entry));
+  CHECK(lockstep_project_entry_count(nullptr) == 0);
+  runtime::Run run(project);
+  CHECK(lockstep_run_value_type(run.get(), "number") == 0);
+  run.set("number", 3);
+  CHECK(lockstep_run_value_type(run.get(), "number") == LOCKSTEP_INT);
+  run.set("number", 0.5);
+  CHECK(lockstep_run_value_type(run.get(), "number") == LOCKSTEP_DOUBLE);
+  CHECK(lockstep_run_value_type(run.get(), "numbr") == 0);
+  CHECK(std::string(lockstep_last_error()) ==
+        "no node uses an entry 'numbr'; did you mean 'number'?");
+}
+
 TEST_CASE("lists and objects that do not fit their entry are errors") {
   runtime::Project project;
   project.add_leaf<Carry>("Carry", "Adds something to each of its ports");
@@ -280,6 +323,22 @@ TEST_CASE("a fault of a leaf is an error with everything halted, or a failure") 
 
   runtime::Run tolerant(project, {0, 0.01, true});
   CHECK(tolerant.tick(0) == Status::Failure);
+}
+
+TEST_CASE("a run whose leaves cannot be made again says so, and is not ticked") {
+  runtime::Project project;
+  project.add_leaf<Once>("Once", "Is made once");
+  project.load_text(tree("<Once name=\"one\"/>"));
+  Once::made = 0;
+  runtime::Run run(project);
+  const auto error = error_of([&] { run.restart(1); });
+  CHECK(error.find("Main/one: ") == 0);
+  CHECK(error.find("is there already") != std::string::npos);
+  CHECK(lockstep_run_tick(run.get(), 0) == LOCKSTEP_RUNNING);
+  CHECK(run.fault() == error);
+  Once::made = 0;
+  run.restart(1);
+  CHECK(run.tick(0) == Status::Running);
 }
 
 TEST_CASE("observers see each tick, and what they throw comes out of it") {

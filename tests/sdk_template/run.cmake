@@ -105,6 +105,12 @@ if(EXISTS ${BUILD}/liblockstep-runtime.so AND NOT SANITIZED)
   if(NOT output MATCHES "100 %\nsuccess")
     message(FATAL_ERROR "in_c printed:\n${output}")
   endif()
+  run(${CMAKE_COMMAND} -E env --unset=LOCKSTEP PYTHONPATH=${WORK}/moved/share/lockstep/python
+      PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 -c
+      "from lockstep import *\nprint(library(), Tree('${trees}/door_pulling.xml').run())")
+  if(NOT output MATCHES "^${WORK}/moved/lib.*<lockstep run: success after 701 ticks>")
+    message(FATAL_ERROR "the package for Python printed:\n${output}")
+  endif()
   file(GLOB library ${WORK}/moved/lib*/liblockstep-runtime.so ${WORK}/moved/lib/*/liblockstep-runtime.so)
   run(${NM} -D --defined-only ${library})
   string(REGEX REPLACE "[0-9a-f]+ [A-Za-z] lockstep_[a-z_]+\n" "" others "${output}")

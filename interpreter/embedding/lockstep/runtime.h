@@ -27,7 +27,7 @@ extern "C" {
 #endif
 
 #define LOCKSTEP_RUNTIME_MAJOR 1u
-#define LOCKSTEP_RUNTIME_MINOR 0u
+#define LOCKSTEP_RUNTIME_MINOR 1u
 
 /* The library's own (major << 16 | minor), which may be newer than the header's. */
 LOCKSTEP_EXPORT uint32_t lockstep_runtime_version(void);
@@ -108,6 +108,20 @@ LOCKSTEP_EXPORT bool lockstep_project_node(const lockstep_project* project, uint
                                            lockstep_node* node);
 LOCKSTEP_EXPORT bool lockstep_project_find_node(const lockstep_project* project, const char* path,
                                                 uint32_t* index);
+
+/* Since 1.1: the blackboard entries that nodes of the tree use. Strings are valid as long as the
+ * project. */
+typedef struct lockstep_entry {
+  uint32_t struct_size;  /* set by the program */
+  lockstep_type type;    /* LOCKSTEP_ANY: nothing declares one */
+  const char* key;       /* "height", or "Deliver/height" in a SubTree */
+  const char* type_name; /* "double", "list of int", "nav.Path" */
+} lockstep_entry;
+
+/* 0 before it was loaded. */
+LOCKSTEP_EXPORT uint32_t lockstep_project_entry_count(const lockstep_project* project);
+LOCKSTEP_EXPORT bool lockstep_project_entry(const lockstep_project* project, uint32_t index,
+                                            lockstep_entry* entry);
 
 /* ---- Runs --------------------------------------------------------------------------------------
  */
@@ -195,6 +209,9 @@ LOCKSTEP_EXPORT bool lockstep_run_set_double_list(lockstep_run* run, const char*
                                                   const double* values, size_t count);
 LOCKSTEP_EXPORT bool lockstep_run_set_text_list(lockstep_run* run, const char* key,
                                                 const lockstep_text* values, size_t count);
+/* Since 1.1: the type of the value that an entry has now, of which the get of that type returns it.
+ * 0 while nothing has written the entry; and when no node uses it, with lockstep_last_error. */
+LOCKSTEP_EXPORT lockstep_type lockstep_run_value_type(lockstep_run* run, const char* key);
 
 /* Called after each tick, also of the loop, in the thread that ticks. It may read the run, and must
  * not tick, halt or free it. Several may observe; NULL as `observe` removes those of this `user`.

@@ -1,0 +1,225 @@
+"Classes of lockstep_leaf as leaves of this process: tables of lockstep/leaf.h whose functions call them."
+import ctypes
+import itertools
+import os
+import sys
+import threading
+import types
+from ctypes import POINTER, cast, pointer
+
+import lockstep_leaf
+
+from . import _native as native
+
+_KINDS = {"action": 1, "condition": 2}
+_DIRECTIONS = {"input": 1, "output": 2, "inout": 3}
+_MAY_RUN, _REAL_TIME, _OPTIONAL = 2, 1, 1
+_RESULTS = {word: number for number, word in enumerate(native.STATUSES)}
+
+# Whose leaves this thread makes: the state of a tree.
+making = threading.local()
+
+
+class _Ports:
+    "The values that a leaf reads: what it has set in this tick, else what the host has."
+
+    def __init__(self, leaf, host, caller, ports, state):
+        self.leaf, self.host, self.caller, self.ports, self.state = leaf, host, caller, ports, state
+
+    def get(self, name):
+        if name in self.leaf._set:
+            return self.leaf._set[name]
+        if threading.get_ident() != self.state.thread:
+            raise RuntimeError(f"the port '{name}' can be read in the thread that ticks only, during a tick")
+        index, type_ = self.ports[name]
+        return type_.read(self.host.getters[type_.name], self.caller, index)
+
+    def __setitem__(self, name, value):
+        pass  # _Attribute keeps it in _set, too
+
+
+class _Host:
+    "The functions of a lockstep_host, looked up once."
+
+    known = {}
+
+    def __init__(self, table):
+        self.now, self.set_error, self.random_bits = table.now, table.set_error, table.random_bits
+        self.tick_period = table.tick_period
+        self.place = cast(table.get_extension(b"lockstep.place"), POINTER(native.Place)).contents
+        self.getters = {name: getattr(table, "get_" + native.function_name(it)) for name, it in native.TYPES.items()}
+        self.setters = {name: getattr(table, "set_" + native.function_name(it)) for name, it in native.TYPES.items()}
+
+    @classmethod
+    def at(cls, table):
+        address = ctypes.addressof(table.contents)
+        if address not in cls.known:
+            cls.known[address] = cls(table.contents)
+        return cls.known[address]
+
+
+class _Class:
+    "A class of leaves: its table, and its leaves by their numbers."
+
+    numbers = itertools.count(1)
+
+    def __init__(self, cls):
+        self.cls, self.leaves = cls, {}
+        fact = cls._fact()
+        self.ports = {port["name"]: (index, native.TYPES[port["type"]]) for index, port in enumerate(fact["ports"])}
+        self.kept = [_port(port) for port in fact["ports"]]
+        pointers = (POINTER(native.Port) * len(self.kept))(*map(pointer, self.kept))
+        kind = _KINDS[fact["kind"]]
+        may_run = _MAY_RUN if fact["kind"] == "condition" else 0  # as of a program
+        self.table = native.sized(
+            native.LeafType, kind=kind, id=native.bytes_of(fact["id"]), doc=native.bytes_of(fact["doc"]),
+            port_count=len(self.kept), ports=cast(pointers, POINTER(POINTER(native.Port))),
+            create=native.CREATE(self.create), destroy=native.CALL(self.destroy),
+            start=native.CALL(self.caller_of(self.start)),
+            tick=native.TICK(self.caller_of(self.tick, native.RUNNING)), flags=may_run | (_REAL_TIME if fact.get("real_time") else 0))
+        for name in ("halt", "pause", "resume"):
+            if hasattr(cls, name):
+                setattr(self.table, name, native.CALL(self.caller_of(_do(name))))
+        if hasattr(cls, "progress"):
+            self.table.progress = native.PROGRESS(self.caller_of(lambda leaf: float(leaf.progress()), 0.0))
+        self.kept.append(pointers)
+
+    def create(self, table, caller, _context):
+        host, state = _Host.at(table), making.state
+        number = next(self.numbers)
+        leaf = None
+        try:
+            state.inside = True
+            leaf = lockstep_leaf._new(
+                self.cls, number, host.random_bits(caller) >> 11, name=native.text_of(host.place.name(caller)),
+                path=native.text_of(host.place.path(caller)), period=host.tick_period(caller), clock=state.clock)
+            leaf._host, leaf._caller, leaf._state = host, caller, state
+            leaf._values = _Ports(leaf, host, caller, self.ports, state)
+            leaf._log = state.log_of(leaf.path)
+            self.leaves[number] = leaf
+            leaf.__init__()
+            state.inside = False
+        except BaseException as error:
+            host.set_error(caller, state.blame(error))
+        return number if leaf is not None else None
+
+    def destroy(self, number):
+        leaf = self.leaves.pop(number, None)
+        if leaf is not None:  # which somebody may have kept
+            leaf._values, leaf._caller = {}, None
+
+    # Of Ctrl-C: an exception may come out of any line of the author's, and of none outside of try.
+    def caller_of(self, function, otherwise=None):
+        leaves = self.leaves
+
+        def call(number):
+            leaf = leaves[number]
+            state = leaf._state
+            try:
+                state.inside = True
+                leaf.now = leaf._host.now(leaf._caller)
+                result = function(leaf)
+                state.inside = False
+                return result
+            except BaseException as error:
+                leaf._host.set_error(leaf._caller, state.blame(error))
+                return otherwise
+        return call
+
+    def start(self, leaf):
+        leaf._set = {}
+        if hasattr(leaf, "start"):
+            leaf.start()
+
+    def tick(self, leaf):
+        result = _RESULTS[lockstep_leaf._status(leaf.tick())]
+        if leaf._set:
+            values, leaf._set = leaf._set, {}
+            for name, value in values.items():
+                self.set_port(leaf, name, value)
+        return result
+
+    def set_port(self, leaf, name, value):
+        index, type_ = self.ports[name]
+        try:
+            done = type_.write(leaf._host.setters[type_.name], leaf._caller, index, value=value)
+        except TypeError:
+            raise TypeError(f"set '{name}', a port of type {type_.name}, to {value!r}") from None
+        # An output that the tree leaves out is nobody's. Of two errors the first counts: the host's.
+        if not done and leaf._host.place.given(leaf._caller, index) is not None:
+            leaf._host.set_error(leaf._caller, f"set '{name}', which is not bound to an entry that takes it".encode())
+
+
+def _do(name):
+    def do(leaf):
+        getattr(leaf, name)()
+    return do
+
+
+def _port(fact):
+    least, most = fact.get("min"), fact.get("max")
+    if least is not None or most is not None:
+        least = -float("inf") if least is None else least
+        most = float("inf") if most is None else most
+    default, choices = fact.get("default"), fact.get("choices")
+    return native.sized(
+        native.Port, type=native.TYPES[fact["type"]].number, direction=_DIRECTIONS[fact["direction"]],
+        name=native.bytes_of(fact["name"]),
+        default_value=None if default is None else native.bytes_of(lockstep_leaf._plain(default)),
+        unit=native.bytes_of(fact.get("unit", "")), doc=native.bytes_of(fact.get("doc", "")),
+        choices=native.bytes_of(";".join(choices)) if choices else None, min=least or 0, max=most or 0,
+        flags=_OPTIONAL if fact.get("optional") else 0)
+
+
+def blame(error):
+    "What went wrong in a leaf, and where in its author's file."
+    return lockstep_leaf._blame(error, __file__, native.__file__, os.path.join(os.path.dirname(__file__), "_trees.py"))
+
+
+def _class_of(cls):
+    if "_native" not in cls.__dict__:
+        cls._native = _Class(cls)
+    return cls._native
+
+
+def _classes_of(given):
+    "Classes of leaves, from classes and modules."
+    for it in given if isinstance(given, (list, tuple, set, frozenset)) else (given,):
+        if isinstance(it, types.ModuleType):
+            found = [cls for cls in vars(it).values() if _is_leaf(cls) and cls.__module__ == it.__name__]
+            if not found:
+                raise ValueError(f"the module {it.__name__} has no leaves: subclasses of lockstep_leaf.Action or "
+                                 "Condition")
+            yield from found
+        elif _is_leaf(it):
+            yield it
+        else:
+            raise TypeError(f"{it!r} is no leaf, expected a subclass of lockstep_leaf.Action or Condition, or a "
+                            "module with some")
+
+
+def _is_leaf(it):
+    return isinstance(it, type) and issubclass(it, lockstep_leaf._Leaf) and it.kind != "" and (
+        it.__module__ != lockstep_leaf.__name__)
+
+
+def _plugin_name(module):
+    "That of its file, as for a program: it takes the place of <plugin name=…> of that name."
+    if module == "__main__":
+        module = os.path.splitext(os.path.basename(getattr(sys.modules[module], "__file__", None) or "main"))[0]
+    name = module.rpartition(".")[2]
+    return "".join(it if it.isascii() and (it.isalnum() or it in "_-") else "_" for it in name)
+
+
+def plugins_of(given):
+    "A lockstep_plugin for each module with leaves. Each keeps what it points to."
+    modules = {}
+    for cls in _classes_of(given):
+        modules.setdefault(_plugin_name(cls.__module__), []).append(_class_of(cls))
+    for name, classes in modules.items():
+        tables = (POINTER(native.LeafType) * len(classes))(*(pointer(it.table) for it in classes))
+        plugin = native.sized(native.Plugin, abi_major=1, abi_minor=1, name=native.bytes_of(name),
+                              doc=b"Leaves in Python", leaf_type_count=len(classes),
+                              leaf_types=cast(tables, POINTER(POINTER(native.LeafType))))
+        plugin.kept = tables, classes
+        yield plugin
