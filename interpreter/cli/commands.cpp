@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <exception>
+#include <map>
 #include <new>
 #include <sstream>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
+#include "cli/groot_sockets.h"
 #include "cli/usage.h"
 #include "core/descriptors.h"
 #include "core/own_thread.h"
@@ -41,14 +43,18 @@ std::vector<std::string> words_of(int argc, char** argv) {
   return words;
 }
 
-// The value of --monitor may be left out, and what follows may be a file: gives it its value.
-std::vector<std::string> complete_monitor(const std::vector<std::string>& words) {
+// The value of these options may be left out, and what follows may be a file: gives them their
+// values.
+std::vector<std::string> complete_addresses(const std::vector<std::string>& words) {
+  const std::map<std::string_view, std::string_view> defaults{{"--monitor", kAnyLoopback},
+                                                              {"--groot2", kGrootAddress}};
   std::vector<std::string> complete;
   for (std::size_t i = 0; i < words.size(); ++i) {
     complete.push_back(words[i]);
-    if (words[i] != "--monitor") continue;
+    const auto option = defaults.find(words[i]);
+    if (option == defaults.end()) continue;
     const bool has_value = i + 1 < words.size() && looks_like_address(words[i + 1]);
-    complete.back() += '=' + (has_value ? words[++i] : std::string(kAnyLoopback));
+    complete.back() += '=' + (has_value ? words[++i] : std::string(option->second));
   }
   return complete;
 }
@@ -80,7 +86,7 @@ int run_command_line(int argc, char** argv) {
     subcommands.push_back(subcommand);
   }
   app.add_subcommand(kHelp, "Show the help of a command: lockstep help log info");
-  const auto words = complete_monitor(words_of(argc, argv));
+  const auto words = complete_addresses(words_of(argc, argv));
   if (const auto error = find_unknown_command(app, words)) return refuse(*error);
   try {
     parse(app, words);

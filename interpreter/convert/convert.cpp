@@ -231,14 +231,12 @@ class Converter {
   Place place_of(std::uint32_t element) const { return document_.elements()[element].place; }
 
   const NodePair* find_pair(std::uint32_t element, std::string_view type) const {
-    for (const NodePair& pair : node_pairs()) {
-      if ((to_ours() ? pair.theirs : pair.ours) != type) continue;
-      const FixedAttribute& fixed = to_ours() ? pair.in_theirs : pair.in_ours;
-      if (fixed.name.empty()) return &pair;
-      const Attribute* given = document_.find_attribute(element, fixed.name);
-      if (given == nullptr ? fixed.is_default : given->value == fixed.value) return &pair;
-    }
-    return nullptr;
+    const auto given = [&](std::string_view name) -> std::optional<std::string_view> {
+      const Attribute* it = document_.find_attribute(element, name);
+      return it == nullptr ? std::nullopt : std::optional(it->value);
+    };
+    return lockstep::find_pair(to_ours() ? Language::BehaviorTreeCpp : Language::Lockstep, type,
+                               given);
   }
 
   // If one with another attribute can be said.

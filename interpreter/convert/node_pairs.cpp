@@ -80,6 +80,18 @@ std::span<const NodePair> node_pairs() {
   return kPairs;
 }
 
+const NodePair* find_pair(Language from, std::string_view type, const GivenAttribute& given) {
+  const bool is_ours = from == Language::Lockstep;
+  for (const NodePair& pair : kPairs) {
+    if ((is_ours ? pair.ours : pair.theirs) != type) continue;
+    const FixedAttribute& fixed = is_ours ? pair.in_ours : pair.in_theirs;
+    if (fixed.name.empty()) return &pair;
+    const auto value = given(fixed.name);
+    if (value ? *value == fixed.value : fixed.is_default) return &pair;
+  }
+  return nullptr;
+}
+
 std::optional<std::string> value_there(Conversions conversion, std::string_view ours) {
   if (conversion != Conversions::Milliseconds) return std::string(ours);
   const auto seconds = parse_double(ours);

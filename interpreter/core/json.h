@@ -55,6 +55,8 @@ class Json {
   std::string text(std::size_t indent = 0) const;
   // The same for terminals: characters that control one are escaped, so values do not change.
   std::string printable(std::size_t indent = 0) const;
+  // The same value as MessagePack, in bytes; members are sorted.
+  std::string message_pack() const;
 
  private:
   using List = std::vector<Json>;

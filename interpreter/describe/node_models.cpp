@@ -32,7 +32,11 @@ std::string port_model(const Parameter& it) {
 }  // namespace
 
 std::string nodes_as_models(NodeTypes types) {
-  std::string text = "<root BTCPP_format=\"4\">\n  <TreeNodesModel>\n";
+  return fmt::format("<root BTCPP_format=\"4\">\n{}</root>\n", tree_nodes_model(types));
+}
+
+std::string tree_nodes_model(NodeTypes types) {
+  std::string text = "  <TreeNodesModel>\n";
   for (const NodeType* type : types) {
     const auto tag = explicit_tag(type->category);
     if (tag.empty()) continue;
@@ -40,7 +44,7 @@ std::string nodes_as_models(NodeTypes types) {
     for (const Parameter& it : type->parameters) text += port_model(it);
     text += fmt::format("    </{}>\n", tag);
   }
-  return text + "  </TreeNodesModel>\n</root>\n";
+  return text + "  </TreeNodesModel>\n";
 }
 
 }  // namespace lockstep

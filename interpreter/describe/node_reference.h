@@ -20,6 +20,8 @@ std::string nodes_as_json(NodeTypes types);
 std::string nodes_as_markdown(NodeTypes types);
 // A document for BehaviorTree.CPP with a TreeNodesModel, as its editors read it.
 std::string nodes_as_models(NodeTypes types);
+// Its TreeNodesModel alone.
+std::string tree_nodes_model(NodeTypes types);
 
 // Shared by the functions above: the categories in the order of the pages, with their headings.
 struct NodeGroup {

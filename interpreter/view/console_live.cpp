@@ -41,6 +41,10 @@ void ConsoleLive::after_tick(Ticker& ticker, const TickReport& report) {
   feed_.after_tick(ticker, report);
 }
 
+void ConsoleLive::standing(Ticker& ticker) {
+  feed_.standing(ticker);
+}
+
 void ConsoleLive::run_ended(Ticker& ticker, const RunEnd& end) {
   feed_.run_ended(ticker, end);
   stop();

@@ -39,6 +39,7 @@ class ConsoleLive final : public Observer {
 
   void run_started(Ticker& ticker, const RunStart& start) override;
   void after_tick(Ticker& ticker, const TickReport& report) override;
+  void standing(Ticker& ticker) override;
   void run_ended(Ticker& ticker, const RunEnd& end) override;
 
   // A line that scrolls by above the view. May be called from any thread; the line appears with the

@@ -51,10 +51,15 @@ void SnapshotFeed::after_tick(Ticker& ticker, const TickReport& report) {
   activity_ = ticker.run_state().activity;
   take_entries(ticker, report.tick);
   take_logs();
+  is_shown_ = false;
   const auto now = real_time_();
   if (now - published_ < kPeriod) return;
   published_ = now;
   publish(ticker);
+}
+
+void SnapshotFeed::standing(Ticker& ticker) {
+  if (!is_shown_) publish(ticker);
 }
 
 void SnapshotFeed::run_ended(Ticker& ticker, const RunEnd& end) {
@@ -88,6 +93,7 @@ void SnapshotFeed::publish(Ticker& ticker) {
     back.logs.earlier += left_out;
   }
   snapshots_.publish();
+  is_shown_ = true;
 }
 
 void SnapshotFeed::take_entries(Ticker& ticker, std::uint64_t tick) {

@@ -28,6 +28,8 @@ class SnapshotFeed final : public Observer {
 
   void run_started(Ticker& ticker, const RunStart& start) override;
   void after_tick(Ticker& ticker, const TickReport& report) override;
+  // What was held back is due: nothing follows for a while.
+  void standing(Ticker& ticker) override;
   // Everything has been halted by then; the last snapshot is that of the last tick.
   void run_ended(Ticker& ticker, const RunEnd& end) override;
 
@@ -51,6 +53,7 @@ class SnapshotFeed final : public Observer {
   LeafLines lines_;
   RecentLines logs_;
   Nanoseconds published_{0};
+  bool is_shown_ = true;  // the last tick is published
   TripleBuffer<Snapshot> snapshots_;
 };
 

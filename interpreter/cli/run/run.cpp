@@ -5,6 +5,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
+#include "cli/groot_sockets.h"
 #include "cli/load/real_time_leaves.h"
 #include "cli/monitor_link.h"
 #include "cli/outputs.h"
@@ -14,6 +15,7 @@
 #include "core/freed_memory.h"
 #include "core/suggest.h"
 #include "core/wording.h"
+#include "groot/publisher.h"
 #include "recording/write/recorder.h"
 #include "runtime/crash_report.h"
 #include "runtime/loop.h"
@@ -78,11 +80,17 @@ bool knows_recorded_keys(const RunCommandOptions& options, const Tree& tree) {
   return true;
 }
 
+// What --groot2 needs.
+struct ForGroot {
+  GrootTree tree;
+  GrootSockets sockets;
+};
+
 // There is one, and its members end in the order in which they may.
 class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
  public:
   RunCommand(const RunCommandOptions& options, const Runnable& runnable,
-             std::optional<ServerSocket> listener)
+             std::optional<ServerSocket> listener, std::optional<ForGroot> for_groot)
       : options_(options),
         tree_(runnable.tree),
         view_(options.view, tree_, options.log_level),
@@ -96,6 +104,9 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
       monitor_.emplace(tree_,
                        MonitorOptions{description, options.record, control_ ? &*control_ : nullptr},
                        std::move(*listener));
+    }
+    if (for_groot) {
+      groot_.emplace(tree_, std::move(for_groot->tree), std::move(for_groot->sockets));
     }
     if (!options.record.empty()) {
       recorder_.emplace(tree_, recorder_options(std::move(description)));
@@ -202,6 +213,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   std::span<Observer* const> observers() {
     observers_ = {&statistics_};
     if (recorder_) observers_.push_back(&*recorder_);
+    if (groot_) observers_.push_back(&*groot_);
     if (monitor_) observers_.push_back(&*monitor_);
     if (stall_) observers_.push_back(&*stall_);
     if (view_.observer() != nullptr) observers_.push_back(view_.observer());
@@ -234,6 +246,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   std::optional<RunControl> control_;
   std::optional<Monitor> monitor_;
   std::optional<MonitorLink> link_;
+  std::optional<GrootPublisher> groot_;
   std::optional<StallObserver> stall_;
   CappedNotes standstills_{"standstill"};
   std::vector<Observer*> observers_;
@@ -274,6 +287,17 @@ Result<std::optional<ServerSocket>> listen(const RunCommandOptions& options) {
   return std::move(*listener);
 }
 
+// Likewise, for Groot2.
+Result<std::optional<ForGroot>> prepare_groot(const RunCommandOptions& options,
+                                              const Definition& definition) {
+  if (!options.groot2) return std::nullopt;
+  auto tree = groot_tree(definition);
+  if (!tree) return problem("--groot2: " + tree.error().message, tree.error().hint);
+  auto sockets = listen_for_groot(*options.groot2);
+  if (!sockets) return tl::unexpected(std::move(sockets.error()));
+  return ForGroot{std::move(*tree), std::move(*sockets)};
+}
+
 int run(const RunCommandOptions& options) {
   // First, while /dev/stdout still is what the user means by it.
   if (!options.record.empty() && would_overwrite("--record", options.record, standard_outputs())) {
@@ -296,6 +320,11 @@ int run(const RunCommandOptions& options) {
     print_error(listener.error().message, listener.error().hint);
     return kExitUsage;
   }
+  auto for_groot = prepare_groot(options, loaded->definition);
+  if (!for_groot) {
+    print_error(for_groot.error().message, for_groot.error().hint);
+    return kExitUsage;
+  }
   Runnable runnable = make_runnable(std::move(*loaded));
   return_freed_memory();
   if (!knows_recorded_keys(options, runnable.tree)) return kExitUsage;
@@ -305,7 +334,8 @@ int run(const RunCommandOptions& options) {
                              warnings);
     print_diagnostics(warnings, Severity::Warning);
   }
-  return RunCommand(options, runnable, std::move(*listener)).run(runnable.plugins);
+  return RunCommand(options, runnable, std::move(*listener), std::move(*for_groot))
+      .run(runnable.plugins);
 }
 
 std::function<int()> define_run(CLI::App& app) {

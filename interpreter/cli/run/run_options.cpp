@@ -112,6 +112,12 @@ void define_monitor_options(CLI::App& app, RunCommandOptions& options) {
   app.add_flag("--monitor-open", options.opens_browser, "Open the page of the run in the browser");
 }
 
+void define_groot_options(CLI::App& app, RunCommandOptions& options) {
+  app.add_option("--groot2", options.groot2,
+                 "Show the run in Groot2 (default: 127.0.0.1:1667; it also takes the next port)")
+      ->type_name("[ADDRESS:PORT]");
+}
+
 }  // namespace
 
 std::optional<Nanoseconds> RunCommandOptions::tick_budget() const {
@@ -163,6 +169,7 @@ void define_run_options(CLI::App& app, RunCommandOptions& options) {
                                  "What leaves log that is shown on stderr, in any view: this "
                                  "level and what is more urgent");
   define_monitor_options(app, options);
+  define_groot_options(app, options);
   app.add_flag("--json", options.json, "Print the summary as JSON");
   add_load_options(app, options.load);
   options.load.plugins.run_programs = true;

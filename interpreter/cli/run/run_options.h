@@ -40,6 +40,8 @@ struct RunCommandOptions {
   bool begins_paused = false;
   bool opens_browser = false;
 
+  std::optional<std::string> groot2;  // where Groot2 finds it; none: nowhere
+
   bool is_wall() const { return clock == "wall"; }
   // None on the virtual clock and with --tick-budget 0.
   std::optional<Nanoseconds> tick_budget() const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "core/differences.h"
 #include "engine/resources.h"
 #include "engine/ticker.h"
 #include "measure/synchronized_measure.h"
@@ -12,27 +13,6 @@ namespace {
 
 constexpr std::uint8_t kMoved = 32;     // above NodeChange::kTicked
 constexpr std::uint8_t kUnknown = 255;  // no Activity
-
-std::uint64_t eight(const void* bytes) {
-  std::uint64_t block = 0;
-  std::memcpy(&block, bytes, sizeof block);
-  return block;
-}
-
-// Visits each index at which two arrays of bytes differ.
-template <class Byte, class Visit>
-void for_each_difference(std::span<const Byte> one, const std::uint8_t* other, Visit visit) {
-  std::size_t at = 0;
-  for (; at + 8 <= one.size(); at += 8) {
-    if (eight(&one[at]) == eight(other + at)) continue;
-    for (std::size_t i = at; i < at + 8; ++i) {
-      if (static_cast<std::uint8_t>(one[i]) != other[i]) visit(static_cast<NodeIndex>(i));
-    }
-  }
-  for (; at < one.size(); ++at) {
-    if (static_cast<std::uint8_t>(one[at]) != other[at]) visit(static_cast<NodeIndex>(at));
-  }
-}
 
 // Simple enough for the compiler to do many nodes at a time.
 void put_states(const RunState& run, std::uint32_t tick, const std::uint8_t* moved,

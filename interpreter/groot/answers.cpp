@@ -1,0 +1,59 @@
+#include "groot/answers.h"
+
+#include <chrono>
+#include <utility>
+
+namespace lockstep {
+
+GrootAnswers::GrootAnswers(const Tree& tree, GrootTree shown, GrootStatusFeed& statuses,
+                           SnapshotFeed& snapshots)
+    : document_(std::move(shown.document)),
+      boards_(tree, std::move(shown.boards)),
+      status_feed_(statuses),
+      snapshots_(snapshots),
+      statuses_(tree.nodes[0].end) {}
+
+GrootMessage GrootAnswers::answer(const GrootMessage& request) {
+  status_feed_.take([&](NodeIndex node, Status status, Nanoseconds time) {
+    statuses_.change(node, status, time);
+  });
+  snapshots_.take();
+  const auto header = request.empty() ? std::nullopt : read_groot_header(request.front());
+  if (!header) return groot_error("expected a header of 6 bytes");
+  return answer(*header, request);
+}
+
+GrootMessage GrootAnswers::answer(GrootHeader header, const GrootMessage& request) {
+  const bool has_value = request.size() == 2;
+  const GrootMessage no_value = groot_error("expected a second part");
+  std::string begin = reply_header(header, id_);
+  switch (header.request) {
+    case GrootRequest::FullTree:
+      return {std::move(begin), document_};
+    case GrootRequest::Status:
+      return {std::move(begin), statuses_.bytes()};
+    case GrootRequest::Blackboard:
+      if (!has_value) return no_value;
+      return {std::move(begin), boards_.dump(request[1], snapshots_.newest())};
+    case GrootRequest::ToggleRecording:
+      return has_value ? toggle_recording(request[1], std::move(begin)) : no_value;
+    case GrootRequest::GetTransitions:
+      return {std::move(begin), statuses_.take_transitions()};
+    default:
+      return groot_error("unknown request");
+  }
+}
+
+GrootMessage GrootAnswers::toggle_recording(std::string_view word, std::string header) {
+  if (word == "stop") {
+    statuses_.stop_recording();
+    return {std::move(header)};
+  }
+  if (word != "start") return groot_error("expected 'start' or 'stop'");
+  statuses_.start_recording(snapshots_.newest().header.time);
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  const auto since = std::chrono::duration_cast<std::chrono::microseconds>(now);
+  return {std::move(header), std::to_string(since.count())};
+}
+
+}  // namespace lockstep

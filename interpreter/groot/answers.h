@@ -1,0 +1,36 @@
+// Answers what Groot2 asks. For one thread, which takes what the tick thread passes on.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "groot/boards.h"
+#include "groot/message.h"
+#include "groot/status_feed.h"
+#include "groot/statuses.h"
+#include "groot/tree.h"
+#include "view/snapshot_feed.h"
+
+namespace lockstep {
+
+class GrootAnswers {
+ public:
+  GrootAnswers(const Tree& tree, GrootTree shown, GrootStatusFeed& statuses,
+               SnapshotFeed& snapshots);
+
+  // Whatever the request is.
+  GrootMessage answer(const GrootMessage& request);
+
+ private:
+  GrootMessage answer(GrootHeader header, const GrootMessage& request);
+  GrootMessage toggle_recording(std::string_view word, std::string header);
+
+  const GrootTreeId id_ = make_groot_tree_id();
+  const std::string document_;
+  const GrootBoards boards_;
+  GrootStatusFeed& status_feed_;
+  SnapshotFeed& snapshots_;
+  GrootStatuses statuses_;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,107 @@
+#include "groot/boards.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include "engine/synchronized.h"
+#include "measure/synchronized_measure.h"
+
+namespace lockstep {
+namespace {
+
+struct ToJson {
+  Json operator()(const NoValue&) const { return {}; }
+  Json operator()(const Object&) const { return {}; }
+  Json operator()(Flag flag) const { return flag.is_set; }
+  template <class T>
+  Json operator()(const std::vector<T>& list) const {
+    Json array = Json::array();
+    for (const T& it : list) array.push_back((*this)(it));
+    return array;
+  }
+  template <class T>
+  Json operator()(const T& it) const {
+    return it;
+  }
+};
+
+// A value of any type is shown as the number that it looks like, else as a text.
+Json entry_json(const Slot& slot, const EntryState& entry) {
+  if (entry.is_long) return "(too long to be shown)";
+  if (slot.type == ValueType::Object) return entry.text;
+  if (slot.typing != Typing::Any && slot.type != ValueType::Number) {
+    const auto value = parse_value(slot.type, entry.text);
+    return value ? std::visit(ToJson(), *value) : Json(entry.text);
+  }
+  if (const auto whole = parse_int(entry.text)) return *whole;
+  if (const auto number = parse_double(entry.text)) return *number;
+  return entry.text;
+}
+
+}  // namespace
+
+GrootBoards::GrootBoards(const Tree& tree, std::vector<GrootBoardKeys> boards)
+    : tree_(tree), boards_(std::move(boards)), shown_(boards_.size()) {
+  for (std::size_t number = 0; number < boards_.size(); ++number) {
+    by_name_.emplace(boards_[number].name, number);
+    if (number > 0) by_node_.emplace(boards_[number].node, number);
+  }
+  for (const NodeIndex node : synchronized_nodes(tree)) {
+    if (compares_progress(synchronization(tree.nodes[node]))) show_synchronized(node);
+  }
+}
+
+void GrootBoards::show_synchronized(NodeIndex node) {
+  const bool is_relative = synchronization(tree_.nodes[node]) == Synchronization::Relative;
+  show(node, is_relative ? "delta/" : "barrier/", What::Limit);
+  for_each_child(tree_, node, [&](NodeIndex child) {
+    show(child, "progress/", What::Progress);
+    show(child, "held/", What::Held);
+  });
+}
+
+// Under its path within its subtree.
+void GrootBoards::show(NodeIndex node, std::string_view prefix, What what) {
+  std::string path = tree_.segment(node);
+  std::size_t board = 0;
+  for (NodeIndex at = node; tree_.labels[at].parent != at && board == 0;) {
+    at = tree_.labels[at].parent;
+    const auto found = by_node_.find(at);
+    if (found != by_node_.end()) board = found->second;
+    if (board == 0) path.insert(0, tree_.segment(at) + "/");
+  }
+  shown_[board].push_back({std::string(prefix) + path, node, what});
+}
+
+Json GrootBoards::board(std::size_t number, const Snapshot& snapshot) const {
+  Json json = Json::object();
+  for (const Shown& it : shown_[number]) {
+    const NodeView& node = snapshot.nodes[it.node];
+    Json& shown = json[it.key];
+    if (it.what == What::Progress) shown = node.progress;
+    if (it.what == What::Held) shown = node.activity == Activity::Paused;
+    // Where no barrier is left, a child may go to its end.
+    if (it.what == What::Limit) shown = std::isfinite(node.limit) ? node.limit : 1.0;
+  }
+  for (const auto& [key, slot] : boards_[number].slots) {
+    const EntryState& entry = snapshot.entries[slot];
+    if (entry.changed) json[key] = entry_json(tree_.slots[slot], entry);
+  }
+  return json;
+}
+
+// Nothing, as the library says it, if no name is one of a board.
+std::string GrootBoards::dump(std::string_view names, const Snapshot& snapshot) const {
+  Json json = Json::object();
+  while (!names.empty()) {
+    const std::size_t end = std::min(names.find(';'), names.size());
+    const auto found = by_name_.find(names.substr(0, end));
+    names.remove_prefix(std::min(end + 1, names.size()));
+    if (found != by_name_.end()) json[found->first] = board(found->second, snapshot);
+  }
+  return (json.members().empty() ? Json() : json).message_pack();
+}
+
+}  // namespace lockstep

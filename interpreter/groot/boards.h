@@ -1,0 +1,44 @@
+// The blackboards that Groot2 asks for: one for each subtree. What Groot2 has no picture for is in
+// them too: the progress of nodes, who is held, barriers and deltas.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/json.h"
+#include "engine/tree.h"
+#include "groot/board_keys.h"
+#include "view/snapshot.h"
+
+namespace lockstep {
+
+class GrootBoards {
+ public:
+  GrootBoards(const Tree& tree, std::vector<GrootBoardKeys> boards);
+
+  // The boards of some subtrees, "A;B", as MessagePack: {"A":{"key":value}}.
+  std::string dump(std::string_view names, const Snapshot& snapshot) const;
+
+ private:
+  enum class What : std::uint8_t { Progress, Held, Limit };
+  // What a node shows as an entry.
+  struct Shown {
+    std::string key;
+    NodeIndex node;
+    What what;
+  };
+  void show_synchronized(NodeIndex node);
+  void show(NodeIndex node, std::string_view prefix, What what);
+  Json board(std::size_t number, const Snapshot& snapshot) const;
+
+  const Tree& tree_;
+  std::vector<GrootBoardKeys> boards_;
+  std::vector<std::vector<Shown>> shown_;  // of each board
+  std::map<std::string_view, std::size_t> by_name_;
+  std::map<NodeIndex, std::size_t> by_node_;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,155 @@
+#include "groot/document.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "convert/node_pairs.h"
+#include "core/identifier.h"
+#include "definition/node_check.h"
+#include "describe/node_reference.h"
+#include "describe/xsd.h"
+#include "engine/node_kind.h"
+#include "groot/statuses.h"
+
+namespace lockstep {
+namespace {
+
+class Writer {
+ public:
+  Writer(const Definition& definition, std::span<const GrootSubtree> subtrees)
+      : definition_(definition), subtrees_(subtrees) {
+    for (const NodeKind* kind : built_in_kinds(Language::BehaviorTreeCpp)) {
+      theirs_.emplace(kind->type.id, &kind->type);
+    }
+    for (const GrootSubtree& it : subtrees.subspan(1)) by_node_.emplace(it.node, &it);
+  }
+
+  std::string write() {
+    text_ = "<root BTCPP_format=\"4\">\n";
+    for (const GrootSubtree& it : subtrees_) add_tree(it);
+    std::vector<const NodeType*> models;
+    for (const auto& [id, type] : models_) models.push_back(type);
+    return std::move(text_.append(tree_nodes_model(models)).append("</root>\n"));
+  }
+
+ private:
+  void add_tree(const GrootSubtree& tree) {
+    text_ += "<BehaviorTree";
+    add("ID", tree.id);
+    add("_fullpath", tree.path);
+    text_ += ">\n";
+    for_each_node(definition_, tree, [&](std::uint32_t node) {
+      close_until(node);
+      add_node(node);
+    });
+    close_until(definition_.nodes[tree.root].end);
+    text_ += "</BehaviorTree>\n";
+  }
+
+  struct Open {
+    std::uint32_t end;  // one past the last descendant
+    std::string tag;
+  };
+
+  void close_until(std::uint32_t node) {
+    for (; !open_.empty() && open_.back().end <= node; open_.pop_back()) {
+      text_ += fmt::format("</{}>\n", open_.back().tag);
+    }
+  }
+
+  void add_node(std::uint32_t index) {
+    const DefinitionNode& node = definition_.nodes[index];
+    const bool is_subtree = node.type->category == NodeCategory::SubTree;
+    const NodePair* pair = is_ours() ? pair_of(node) : nullptr;
+    const std::string_view id = pair != nullptr ? pair->theirs : node.type->id;
+    const std::string tag(is_identifier(id) ? id : explicit_tag(node.type->category));
+    text_ += '<' + tag;
+    if (is_subtree) {
+      add("ID", written_value(definition_, node, "ID"));
+      add("_fullpath", by_node_.at(index)->path);
+    } else {
+      keep_model(id, *node.type);
+      if (tag != id) add("ID", id);
+      add("name", node.name);
+    }
+    add("_uid", fmt::format("{}", groot_uid(index)));
+    add_attributes(node, pair);
+    const bool is_leaf = is_subtree || node.end == index + 1;
+    text_ += is_leaf ? "/>\n" : ">\n";
+    if (!is_leaf) open_.push_back({node.end, tag});
+  }
+
+  bool is_ours() const { return definition_.language == Language::Lockstep; }
+
+  const NodePair* pair_of(const DefinitionNode& node) const {
+    const auto written = definition_.attributes(node);
+    return find_pair(Language::Lockstep, node.type->id,
+                     [&](std::string_view name) -> std::optional<std::string_view> {
+                       const auto found = std::ranges::find(written, name, &WrittenAttribute::name);
+                       return found == written.end() ? std::nullopt : std::optional(found->value);
+                     });
+  }
+
+  // Those that Groot2 knows are described as the library has them.
+  void keep_model(std::string_view id, const NodeType& type) {
+    const auto known = theirs_.find(id);
+    models_.emplace(id, known != theirs_.end() ? known->second : &type);
+  }
+
+  void add_attributes(const DefinitionNode& node, const NodePair* pair) {
+    if (pair != nullptr && !pair->in_theirs.name.empty() && !pair->in_theirs.is_default) {
+      add(pair->in_theirs.name, pair->in_theirs.value);
+    }
+    if (pair != nullptr) add_rounds(node, *pair);
+    for (const WrittenAttribute& it : definition_.attributes(node)) {
+      const auto hook = hook_named(it.name, definition_.language);
+      if (hook) {
+        add(attribute_of(*hook, Language::BehaviorTreeCpp), it.value);
+      } else if (it.name != "ID" && !it.name.starts_with('_')) {
+        add_parameter(it, pair);
+      }
+    }
+  }
+
+  // Without a number, a node of ours goes on for ever.
+  void add_rounds(const DefinitionNode& node, const NodePair& pair) {
+    for (const AttributePair& it : pair.attributes) {
+      const bool is_given = !written_value(definition_, node, it.ours).empty();
+      if (it.conversion == Conversions::Rounds && !is_given) add(it.theirs, "-1");
+    }
+  }
+
+  // What has no value there is shown as it is written.
+  void add_parameter(const WrittenAttribute& it, const NodePair* pair) {
+    if (pair == nullptr) return add(it.name, it.value);
+    if (pair->in_ours.name == it.name) return;
+    const auto other = std::ranges::find(pair->attributes, it.name, &AttributePair::ours);
+    if (other == pair->attributes.end()) return add(it.name, it.value);
+    const auto value = value_there(other->conversion, it.value);
+    if (!value) return add(it.name, it.value);
+    if (!value->empty()) add(other->theirs, *value);
+  }
+
+  void add(std::string_view name, std::string_view value) {
+    text_ += fmt::format(" {}=\"{}\"", name, xsd_escaped(value));
+  }
+
+  const Definition& definition_;
+  std::span<const GrootSubtree> subtrees_;
+  std::map<std::string_view, const NodeType*> theirs_;
+  std::map<std::uint32_t, const GrootSubtree*> by_node_;
+  std::map<std::string_view, const NodeType*> models_;
+  std::vector<Open> open_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string groot_document(const Definition& definition, std::span<const GrootSubtree> subtrees) {
+  return Writer(definition, subtrees).write();
+}
+
+}  // namespace lockstep

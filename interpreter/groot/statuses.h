@@ -1,0 +1,52 @@
+// What Groot2 knows of the statuses of nodes: those of now, and the changes while it records. A
+// node is known by its uid, which counts from 1 in pre-order.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <string>
+
+#include "core/clock.h"
+#include "core/status.h"
+#include "engine/node_kind.h"
+
+namespace lockstep {
+
+// It has 16 bits.
+constexpr std::size_t kMostGrootNodes = 65'535;
+constexpr std::uint16_t groot_uid(NodeIndex node) {
+  return static_cast<std::uint16_t>(node + 1);
+}
+
+class GrootStatuses {
+ public:
+  static constexpr std::size_t kMostTransitions = 1000;
+
+  // The first `nodes` of a tree.
+  explicit GrootStatuses(std::size_t nodes);
+
+  // At this time of the run.
+  void change(NodeIndex node, Status status, Nanoseconds time);
+  // Of each node uid and status, 3 bytes.
+  const std::string& bytes() const { return bytes_; }
+
+  // Forgets the changes so far; their times count from `now`.
+  void start_recording(Nanoseconds now);
+  void stop_recording() { is_recording_ = false; }
+  // The last changes since they were taken, 9 bytes each: µs, uid, status.
+  std::string take_transitions();
+
+ private:
+  struct Transition {
+    std::uint64_t time;  // µs
+    std::uint16_t uid;
+    Status status;
+  };
+
+  std::string bytes_;
+  Nanoseconds start_{0};
+  bool is_recording_ = false;
+  std::deque<Transition> transitions_;
+};
+
+}  // namespace lockstep

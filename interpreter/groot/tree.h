@@ -1,0 +1,21 @@
+// What Groot2 is to see of a tree: its document, and the keys of its blackboards.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/problem.h"
+#include "definition/definition.h"
+#include "groot/board_keys.h"
+
+namespace lockstep {
+
+struct GrootTree {
+  std::string document;
+  std::vector<GrootBoardKeys> boards;
+};
+
+// Refuses a tree with more nodes than the protocol has numbers for.
+Result<GrootTree> groot_tree(const Definition& definition);
+
+}  // namespace lockstep
