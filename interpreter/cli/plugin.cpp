@@ -35,25 +35,37 @@ int save_leaves(const std::string& program, const std::string& line) {
   return kExitUsage;
 }
 
+// A file, else a name that is searched as `--plugin` does; "" when there is no program.
+std::string find_program(const PluginCheckOptions& options) {
+  if (is_executable(options.file)) return options.file;
+  if (options.file.find('/') != std::string::npos) return {};
+  const auto directories = plugin_directories(options.plugins);
+  const std::string file = program_named(options.file, directories);
+  return file.empty() ? file : find_program_file(file, directories).value_or("");
+}
+
 int check_program(const PluginCheckOptions& options) {
   keep_stdout_for_results();
-  if (!is_executable(options.file)) {
-    print_error(fmt::format("'{}' is not a program", printable(options.file)),
-                "give an executable file: chmod +x, and #! in the first line of a script");
+  const std::string program = find_program(options);
+  if (program.empty()) {
+    print_error(
+        fmt::format("'{}' is not a program", printable(options.file)),
+        "give an executable file, with chmod +x and #! in the first line of a script; or the "
+        "name of one in a directory of --plugin-path or LOCKSTEP_PLUGIN_PATH");
     return kExitUsage;
   }
-  const Conformance found = check_conformance(options.file, isolation_options(options.plugins));
+  const Conformance found = check_conformance(program, isolation_options(options.plugins));
   std::string text;
   for (const ConformanceStep& step : found.steps) {
     text += fmt::format("{} {}\n", step.is_good ? "ok   " : "wrong", printable(step.text));
   }
-  const std::string name = printable(options.file);
+  const std::string name = printable(program);
   text += found.is_good()
               ? fmt::format("{}: ok\n", name)
               : fmt::format("{}: does not keep the protocol (docs/programs.md)\n", name);
   const int code = found.is_good() ? kExitSuccess : kExitPluginRefused;
   const int saved =
-      options.save && found.is_good() ? save_leaves(options.file, found.first_line) : kExitSuccess;
+      options.save && found.is_good() ? save_leaves(program, found.first_line) : kExitSuccess;
   return first_failure(first_failure(write_results(text), saved), code);
 }
 
@@ -63,12 +75,17 @@ std::function<int()> define_plugin(CLI::App& app) {
   CLI::App* check = app.add_subcommand(
       "check",
       "Start a program that is a plugin, and ask each of its leaves all that a run may ask");
-  check->add_option("program", options->file, "The file of the program")
-      ->type_name("FILE")
+  check->add_option("program", options->file, "The file of the program, or a name to search for")
+      ->type_name("FILE|NAME")
       ->required();
   check->add_flag("--save", options->save,
                   "Write what leaves it has to a file beside it, grip.leaves.json for grip.py, "
                   "which commands read that run no programs");
+  check
+      ->add_option("--plugin-path", options->plugins.directories,
+                   "Search the program in this directory first; may be repeated")
+      ->type_name("DIR")
+      ->allow_extra_args(false);
   check
       ->add_option("--hang-limit", options->plugins.hang_limit,
                    "Wait for an answer so many seconds; 0 = for ever")
@@ -85,6 +102,7 @@ const Command kPluginCommand{"plugin", "Check a plugin that is a program",
                              "\n"
                              "Examples:\n"
                              "  lockstep plugin check ./grip.py\n"
+                             "  lockstep plugin check grip --plugin-path leaves\n"
                              "  lockstep plugin check ./grip.py --save",
                              define_plugin};
 

@@ -9,6 +9,7 @@
 #include "definition/plugin_requests.h"
 #include "engine/node_kind.h"
 #include "loading/plugin_directories.h"
+#include "plugin/plugin_path.h"
 
 namespace lockstep {
 namespace {
@@ -26,6 +27,18 @@ Hold hold_of(std::string_view word) {
   if (word.empty()) return Hold::AsItSays;
   if (word == "signal") return Hold::Signal;
   return word == "message" ? Hold::Message : Hold::None;
+}
+
+// By its name, also a program: nothing else could say so.
+bool load_searched(const std::string& name, const std::vector<std::string>& directories,
+                   PluginSet& plugins, Diagnostics& diagnostics) {
+  if (!find_plugin_file(name, directories)) {
+    if (const std::string file = program_named(name, directories); !file.empty()) {
+      const std::string plugin = std::filesystem::path(file).stem().string();
+      return plugins.load_program({plugin, file}, directories, diagnostics);
+    }
+  }
+  return plugins.load_named(name, directories, diagnostics);
 }
 
 }  // namespace
@@ -51,7 +64,7 @@ bool load_given_plugins(const PluginOptions& options, PluginSet& plugins,
   const auto directories = plugin_directories(options);
   for (const std::string& plugin : options.plugins) {
     good &= is_plugin_file(plugin) ? plugins.load_file(plugin, diagnostics)
-                                   : plugins.load_named(plugin, directories, diagnostics);
+                                   : load_searched(plugin, directories, plugins, diagnostics);
   }
   return good;
 }

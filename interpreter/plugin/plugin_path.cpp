@@ -63,11 +63,33 @@ Result<std::string> find_plugin_file(std::string_view name,
                                         "lockstep_add_plugin, or PREFIX \"\")",
                                         file, name));
   }
+  if (const std::string program = program_named(name, directories); !program.empty()) {
+    return problem(
+        message,
+        fmt::format("'{0}' is a program: <plugin name=\"{1}\" program=\"{0}\"/>", program, name));
+  }
   const std::vector<std::string> names = available(directories);
   const std::vector<std::string_view> candidates(names.begin(), names.end());
   std::string hint = did_you_mean(name, candidates);
   if (hint.empty()) hint = kAddDirectory;
   return problem(message, std::move(hint));
+}
+
+std::string program_named(std::string_view name, std::span<const std::string> directories) {
+  std::vector<std::string> found;
+  for (const std::string& directory : directories) {
+    std::error_code error;
+    fs::directory_iterator entry(directory, error);
+    for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+      const fs::path& path = entry->path();
+      const bool is_called_so = path.filename() == name || path.stem() == name;
+      if (is_called_so && path.extension() != ".so" && is_executable(path)) {
+        found.push_back(path.filename().string());
+      }
+    }
+    if (!found.empty()) return std::ranges::min(found);  // of several the same in each run
+  }
+  return {};
 }
 
 bool is_executable(const std::string& path) {

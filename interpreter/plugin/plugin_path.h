@@ -16,6 +16,10 @@ namespace lockstep {
 // The same of a program, by the name of its file, which must be executable.
 [[nodiscard]] Result<std::string> find_program_file(std::string_view file,
                                                     std::span<const std::string> directories);
+// The file of a program that is called like the plugin, "grip.py" for "grip", or for "grip.py"
+// itself, in the first of `directories` that has one; "" when none has.
+[[nodiscard]] std::string program_named(std::string_view name,
+                                        std::span<const std::string> directories);
 bool is_executable(const std::string& path);  // a regular file that this user may execute
 
 }  // namespace lockstep

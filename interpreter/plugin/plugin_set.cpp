@@ -201,6 +201,16 @@ bool PluginSet::open_program(const Request& request, Hold hold, Diagnostics& dia
                      .hint = "let 'lockstep plugin check --save' write it again",
                      .excerpt = {}});
   }
+  if ((*opened)->is_file_older()) {
+    diagnostics.add(
+        {.severity = Severity::Note,
+         .location = request.where,
+         .message = fmt::format("'{}' is older than the program: plugin '{}' may have "
+                                "other leaves now",
+                                leaves_file_of(request.origin), request.expected_name),
+         .hint = "give --run-programs, or let 'lockstep plugin check --save' write it again",
+         .excerpt = {}});
+  }
   auto plugin = std::make_unique<Plugin>(Plugin{&(*opened)->entry(), request.origin});
   plugin->program = std::move(*opened);
   plugin->descriptors.plugin.program = plugin->program.get();

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """Runs a command as a leaf: success is exit code 0, and progress comes from what it prints."""
+import itertools
 import os
 import re
 import shlex
@@ -16,23 +17,33 @@ LINES, LONGEST = 10, 400  # of the output that is kept for the case of a failure
 GRACE = 0.5               # seconds between SIGTERM and SIGKILL
 
 
-def others():
-    "The processes of our group but this one."
-    mine, found = os.getpgid(0), []
-    for name in filter(str.isdigit, os.listdir("/proc")):
-        try:
-            if int(name) != os.getpid() and os.getpgid(int(name)) == mine:
-                found.append(int(name))
-        except ProcessLookupError:
-            pass
+MARK = "LOCKSTEP_EXEC"    # in the environment of a command: whose it is
+counter = itertools.count(1)
+
+
+def read(pid, name):
+    try:
+        with open(f"/proc/{pid}/{name}", "rb") as file:
+            return file.read()
+    except OSError:
+        return b""
+
+
+def started_by(mark):
+    "The processes of a command: those with its mark, and what these have started without it."
+    pids = [int(name) for name in os.listdir("/proc") if name.isdigit() and int(name) != os.getpid()]
+    found = {pid for pid in pids if mark.encode() in read(pid, "environ").split(b"\0")}
+    parents = {pid: int(stat.rpartition(b")")[2].split()[1]) for pid in pids if (stat := read(pid, "stat"))}
+    while more := {pid for pid, parent in parents.items() if parent in found and pid not in found}:
+        found |= more
     return found
 
 
-def send(number):
-    for pid in others():
+def send(number, mark):
+    for pid in started_by(mark):
         try:
             os.kill(pid, number)
-        except ProcessLookupError:
+        except OSError:
             pass
 
 
@@ -62,7 +73,9 @@ class Exec(Action):
             words = [re.sub(r"\{([abcd])\}", lambda it: values[it[1]], word) for word in shlex.split(words)]
             if not words:
                 raise ValueError("the port 'command' is empty")
-        self.process = subprocess.Popen(words, shell=self.shell, env=os.environ | values, bufsize=0,
+        self.mark = f"{MARK}={os.getpid()}.{next(counter)}"
+        environment = os.environ | values | dict([self.mark.split("=")])
+        self.process = subprocess.Popen(words, shell=self.shell, env=environment, bufsize=0,
                                         stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                         stderr=subprocess.STDOUT)
         os.set_blocking(self.process.stdout.fileno(), False)
@@ -101,12 +114,12 @@ class Exec(Action):
         return self.done
 
     def halt(self):
-        send(signal.SIGTERM)
-        send(signal.SIGCONT)
+        send(signal.SIGTERM, self.mark)
+        send(signal.SIGCONT, self.mark)
         end = time.monotonic() + GRACE
         while self.process.poll() is None and time.monotonic() < end:
             time.sleep(0.005)
-        send(signal.SIGKILL)
+        send(signal.SIGKILL, self.mark)
         self.process.wait()
         self.process.stdout.close()
 

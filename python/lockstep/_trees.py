@@ -1,11 +1,9 @@
 "Trees that run in this process, over lockstep/runtime.h."
 import collections
 import collections.abc
-import contextlib
 import ctypes
 import difflib
 import logging
-import math
 import os
 import signal
 import threading
@@ -31,6 +29,16 @@ def _log(who, level, text):
     _logger.log(_LEVELS[level], "%s: %s", who, text)
 
 
+class _Held:
+    "The project of the library, until nobody has it: a thread may be making a tree of it while another closes it."
+
+    def __init__(self, library, leaves):
+        self.handle = library.project_new()
+        if not self.handle:
+            raise Error(9, library.why())
+        weakref.finalize(self, _free_project, library, self.handle, os.getpid(), leaves)
+
+
 class Project:
     """A tree file (or `text`) with its includes, plugins and leaves. Trees are made of it: `Tree(project)`.
 
@@ -43,10 +51,7 @@ class Project:
             raise TypeError("a project has a file or a text, one of the two")
         self._library = library = native.load()
         self._leaves = list(leaves_.plugins_of(leaves))
-        self._handle = handle = library.project_new()
-        if not handle:
-            raise Error(9, library.why())
-        self._finalizer = weakref.finalize(self, _free, library.project_free, handle, os.getpid())
+        self._held = _Held(library, self._leaves)
         try:
             self._configure(args or {}, set or {}, plugins, plugin_path, main_tree, isolate)
             self._load(tree, text)
@@ -55,7 +60,7 @@ class Project:
             raise
 
     def _configure(self, args, values, plugins, plugin_path, main_tree, isolate):
-        library, handle = self._library, self._handle
+        library, handle = self._library, self._held.handle
         steps = [(library.project_add_leaves, ctypes.byref(it)) for it in self._leaves]
         steps += [(library.project_add_plugin_path, os.fsencode(it)) for it in _list(plugin_path)]
         steps += [(library.project_add_plugin, os.fsencode(it)) for it in _list(plugins)]
@@ -71,7 +76,7 @@ class Project:
                 raise Error(4, library.why())
 
     def _load(self, tree, text):
-        library, handle = self._library, self._handle
+        library, handle = self._library, self._held.handle
         if text is None:
             good = library.project_load_file(handle, os.fsencode(tree))
         else:
@@ -88,24 +93,23 @@ class Project:
 
     def _diagnostic(self, index):
         it = native.sized(native.Diagnostic)
-        self._library.project_diagnostic(self._handle, index, it)
+        self._library.project_diagnostic(self._held.handle, index, it)
         return Diagnostic(native.SEVERITIES[it.severity], native.text_of(it.file), it.line, it.column,
                           native.text_of(it.message), native.text_of(it.hint))
 
     def _node(self, index):
         it = native.sized(native.Node)
-        self._library.project_node(self._handle, index, it)
+        self._library.project_node(self._held.handle, index, it)
         return _Fact(index, it.parent, it.end, *map(native.text_of, (it.path, it.name, it.id)))
 
     def _entry(self, index):
         it = native.sized(native.Entry)
-        self._library.project_entry(self._handle, index, it)
+        self._library.project_entry(self._held.handle, index, it)
         return native.text_of(it.key), (it.type, native.text_of(it.type_name))
 
     def close(self):
         "Its trees live on."
-        self._handle = None
-        self._finalizer()
+        self._held = None
 
     def __enter__(self):
         return self
@@ -127,10 +131,12 @@ def _free(function, handle, process, state=None):
         return
     if state is None:
         return function(handle)
-    if state.lock.acquire(blocking=False):  # else a thread ticks it while the process ends
-        with state.calling():
-            function(handle)
-        state.lock.release()
+    with state.guard:
+        if state.user is not None:
+            return  # a thread ticks it while the process ends
+        state.user = "the end"
+    with state:
+        function(handle)
 
 
 class _State:
@@ -141,7 +147,8 @@ class _State:
 
     def __init__(self, log, clock):
         self.log, self.clock = log, clock
-        self.lock = threading.Lock()
+        self.guard = threading.Lock()  # of user
+        self.user = None               # who uses the tree
         self.thread = None      # that is in a call
         self.observers = []
         self.observes = False   # observers are being called
@@ -150,24 +157,26 @@ class _State:
         self.inside = False     # an exception would be caught
         self.pending = None     # a signal that was put off
         self.handler = None     # of Python, for SIGINT
+        self.own_handler = self.on_signal
 
-    @contextlib.contextmanager
-    def calling(self):
-        "Around each call that may call leaves."
-        self.thread, self.thrown, self.cause, self.pending = threading.get_ident(), None, None, None
-        before, leaves_.making.state = getattr(leaves_.making, "state", None), self
-        on_signal = self.on_signal
-        self.handler = signal.getsignal(signal.SIGINT) if _is_main() else None
-        if callable(self.handler):
-            signal.signal(signal.SIGINT, on_signal)
-        try:
-            yield
-        finally:
-            if callable(self.handler) and signal.getsignal(signal.SIGINT) is on_signal:
-                signal.signal(signal.SIGINT, self.handler)
-            leaves_.making.state, self.thread = before, None
-            if self.pending is not None:
-                self.handler(*self.pending)
+    # Around each call that may call leaves. Ctrl-C may come out of every line before the handler is changed, and after
+    # it is what it was.
+    def __enter__(self):
+        self.handler, self.thrown, self.cause, self.pending = None, None, None, None
+        if threading.get_ident() == threading.main_thread().ident:
+            handler = signal.getsignal(signal.SIGINT)
+            if callable(handler):
+                self.handler = handler
+                signal.signal(signal.SIGINT, self.own_handler)
+        self.thread = threading.get_ident()
+        self.outer, leaves_.making.state = getattr(leaves_.making, "state", None), self
+
+    def __exit__(self, *_):
+        leaves_.making.state, self.thread, self.outer = self.outer, None, None
+        if self.handler is not None and signal.getsignal(signal.SIGINT) is self.own_handler:
+            signal.signal(signal.SIGINT, self.handler)
+        if self.pending is not None:
+            self.handler(*self.pending)
         if self.thrown is not None:
             thrown, self.thrown = self.thrown, None
             raise thrown
@@ -217,10 +226,6 @@ class _State:
 
     def stops(self, _user):
         return self.pending is not None or self.thrown is not None
-
-
-def _is_main():
-    return threading.current_thread() is threading.main_thread()
 
 
 class Node:
@@ -303,8 +308,7 @@ class Entries(collections.abc.Mapping):
             return type_.write(set_, handle, data, value=value)
 
         try:
-            with self._tree._entered() as handle:
-                good = write(handle)
+            good = self._tree._using(write)
         except TypeError:
             raise TypeError(f"the entry '{key}' is of type {name}, not {value!r}") from None
         if not good:
@@ -379,25 +383,26 @@ class Tree:
             project = tree
         else:
             project = Project(tree, **project)
-        if project._handle is None:
+        held = project._held
+        if held is None:
             raise Error(2, "the project is closed")
         self._library, self._handle = project._library, None
         self._entries, self._seed, self._period, self._clock = project.entries, seed, period, clock
         self._on_fault = on_fault
         self._state = state = _State(log or _log, clock)
         self._callbacks = native.LOG(state.on_log), native.OBSERVE(state.on_tick), native.STOP(state.stops)
-        self._begin(project)
+        self._begin(project, held)
         self.nodes = [Node(self, it) for it in project.nodes]
         self._by_path = {it.path: it for it in self.nodes}
         self.entries = Entries(self)
 
-    def _begin(self, project):
+    def _begin(self, project, held):
         library, state = self._library, self._state
         options = native.sized(native.RunOptions, on_fault=int(self._on_fault == "fail"), seed=_seed(self._seed),
                                tick_period=self._period, virtual_time=self._clock == "virtual",
                                log=self._callbacks[0])
-        with state.calling():
-            handle = library.run_new(project._handle, options)
+        with state:
+            handle = library.run_new(held.handle, options)
         if not handle:
             raise Error(5, library.why()) from state.cause
         self._handle = handle
@@ -425,15 +430,15 @@ class Tree:
     def tick(self, seconds=None):
         """One tick, and the status of the root after it. After success or failure the next one begins the tree
         again. `seconds` is the time since the tree began; without it that of the clock."""
-        with self._entered() as handle:
-            seconds = self._time() if seconds is None else seconds
-            if not (isinstance(seconds, (int, float)) and math.isfinite(seconds) and self._last <= seconds <= 9e9):
-                raise ValueError(f"the time of a tick is {seconds!r}, expected seconds, and not before the last "
-                                 f"tick ({self._last:g})")
-            self._last, self._ticks = seconds, self._ticks + 1
-            with self._calling(handle):
-                status = self._library.run_tick(handle, seconds)
-            return native.STATUSES[status]
+        return self._using(self._tick, seconds)
+
+    def _tick(self, handle, seconds):
+        seconds = self._time() if seconds is None else seconds
+        if not (isinstance(seconds, (int, float)) and self._last <= seconds <= 9e9):  # which NaN is not
+            raise ValueError(f"the time of a tick is {seconds!r}, expected seconds, and not before the last tick "
+                             f"({self._last:g})")
+        self._last, self._ticks = seconds, self._ticks + 1
+        return native.STATUSES[self._call(handle, self._library.run_tick, seconds)]
 
     def _time(self):
         if self._clock == "virtual":
@@ -445,37 +450,35 @@ class Tree:
     def run(self, *, max_ticks=None, timeout=None):
         """Ticks once in each period until the tree completes, or until a limit. A tree that was ticked begins
         again. The result has `result`, `reason`, `ticks`, `time_s` and `overruns`."""
+        return self._using(self._run, max_ticks or 0, timeout or 0.0)
+
+    def _run(self, handle, max_ticks, timeout):
         from . import Run
-        with self._entered() as handle:
-            if self._ticks:
-                self._restart(handle, self._seed)
-            options = native.sized(native.LoopOptions, max_ticks=max_ticks or 0, timeout=timeout or 0.0,
-                                   virtual_clock=self._clock == "virtual", stop=self._callbacks[2])
-            end = native.sized(native.LoopResult)
-            self._ticks = 1
-            with self._calling(handle):
-                good = self._library.run_loop(handle, options, end)
-            if not good:
-                raise ValueError(self._library.why())
-            self._ticks, self._last = end.ticks, end.seconds
-            reason, result = native.REASONS[end.reason], native.STATUSES[end.status]
-            summary = {"result": result if reason == "completed" else "stopped", "reason": reason, "ticks": end.ticks,
-                       "time_s": end.seconds, "overruns": end.overruns}
-            code = {"success": 0, "failure": 1}.get(result, 124) if reason == "completed" else 124
-            return Run(summary, code, "")
+        if self._ticks:
+            self._restart(handle, self._seed)
+        options = native.sized(native.LoopOptions, max_ticks=max_ticks, timeout=timeout,
+                               virtual_clock=self._clock == "virtual", stop=self._callbacks[2])
+        end = native.sized(native.LoopResult)
+        self._ticks = 1  # also when it ends in an exception
+        if not self._call(handle, self._library.run_loop, options, end):
+            raise ValueError(self._library.why())
+        self._ticks, self._last = end.ticks, end.seconds
+        reason, result = native.REASONS[end.reason], native.STATUSES[end.status]
+        completed = reason == "completed"
+        summary = {"result": result if completed else "stopped", "reason": reason, "ticks": end.ticks,
+                   "time_s": end.seconds, "overruns": end.overruns}
+        return Run(summary, _CODES.get(result, 124) if completed else 124, "")
 
     def halt(self):
         "Halts every leaf that runs, in the order of the tree. The next tick begins the tree again."
-        with self._entered() as handle, self._calling(handle):
-            self._library.run_halt(handle)
+        self._using(self._call, self._library.run_halt)
 
     def restart(self, seed=None):
         "Begins as a new tree would, with this seed or that of before."
-        with self._entered() as handle:
-            self._restart(handle, self._seed if seed is None else seed)
+        self._using(self._restart, self._seed if seed is None else seed)
 
     def _restart(self, handle, seed):
-        with self._state.calling():
+        with self._state:
             good = self._library.run_restart(handle, _seed(seed))
         if not good:
             raise Error(5, self._library.why()) from self._state.cause
@@ -490,9 +493,11 @@ class Tree:
     def close(self):
         "Halts what runs and ends the leaves. Without it that happens when nobody has the tree any more."
         if self._handle is not None:
-            with self._entered():
-                self._handle = None
+            self._using(self._forget_handle)
             self._finalizer()
+
+    def _forget_handle(self, _handle):
+        self._handle = None
 
     def __enter__(self):
         return self
@@ -503,45 +508,51 @@ class Tree:
     def __repr__(self):
         return "<lockstep tree, closed>" if self.closed else f"<lockstep tree: {self.nodes[0].path}>"
 
-    @contextlib.contextmanager
-    def _entered(self):
-        if not self._state.lock.acquire(blocking=False):
-            raise Error(2, "the tree is in use: it is being ticked, here or in another thread")
+    def _using(self, work, *arguments):
+        "work(handle, …), for one user at a time. Nothing is called in `finally`: out of a call Ctrl-C may come."
+        state, me = self._state, object()
         try:
+            with state.guard:
+                if state.user is not None:
+                    raise Error(2, "the tree is in use: it is being ticked, here or in another thread")
+                state.user = me
             if self._handle is None:
                 raise Error(2, "the tree is closed")
-            yield self._handle
+            return work(self._handle, *arguments)
         finally:
-            self._state.lock.release()
+            if state.user is me:
+                state.user = None
+
+    def _is_observed(self):
+        return self._state.observes and self._state.thread == threading.get_ident()
 
     def _read(self, work):
-        if self._state.observes and self._state.thread == threading.get_ident():
-            return work(self._library, self._handle)
-        with self._entered() as handle:
-            return work(self._library, handle)
+        read = lambda handle: work(self._library, handle)
+        return read(self._handle) if self._is_observed() else self._using(read)
 
     def _ask(self, index, answer):
         "For the state of a node. Leaves are asked for their progress, and may have a fault."
-        state = self._state
-        if state.observes and state.thread == threading.get_ident():
+        if self._is_observed():
             self._library.run_node(self._handle, index, answer)
-            return
-        with self._entered() as handle:
-            with state.calling():
-                self._library.run_node(handle, index, answer)
-            if state.cause is not None:
-                self._raise_fault(handle)
+        else:
+            self._using(self._ask_alone, index, answer)
 
-    @contextlib.contextmanager
-    def _calling(self, handle):
+    def _ask_alone(self, handle, index, answer):
+        with self._state:
+            self._library.run_node(handle, index, answer)
+        if self._state.cause is not None:
+            self._raise_fault(handle)
+
+    def _call(self, handle, function, *arguments):
         "A call that ticks or halts."
         try:
-            with self._state.calling():
-                yield
+            with self._state:
+                result = function(handle, *arguments)
         except BaseException:  # Ctrl-C in a leaf
             self._halt_after_fault(handle)
             raise
         self._raise_fault(handle)
+        return result
 
     def _raise_fault(self, handle):
         cause = self._state.cause
@@ -551,18 +562,26 @@ class Tree:
 
     def _halt_after_fault(self, handle):
         "When a leaf has a fault, halts everything."
-        node = ctypes.c_uint32()
-        fault = self._library.run_fault(handle, node)
+        fault = self._library.run_fault(handle, None)
         if fault is None:
             return None
+        node = ctypes.c_uint32()
+        fault = self._library.run_fault(handle, node)
         error = Error(5, native.text_of(fault), node=self.nodes[node.value].path)
-        with self._state.calling():
+        with self._state:
             self._library.run_halt(handle)
         return error
 
 
+def _free_project(library, handle, process, _leaves):
+    _free(library.project_free, handle, process)
+
+
 def _free_run(library, handle, process, state, _kept):
     _free(library.run_free, handle, process, state)
+
+
+_CODES = {"success": 0, "failure": 1}
 
 
 def _seed(seed):

@@ -45,6 +45,28 @@ TEST_CASE("no shell reads a command, unless it is asked for") {
   CHECK(std::filesystem::exists(victim));
 }
 
+TEST_CASE("a command that is halted ends with all that it has started, and no other command does") {
+  const TemporaryDirectory directory;
+  const std::string other = directory.path("other"), survivor = directory.path("survivor");
+  const Outcome outcome = lockstep::test::lockstep(
+      {"run",
+       directory.file(
+           "tree.xml",
+           R"(<root lockstep="1"><plugin name="exec" program="exec.py"/><BehaviorTree ID="Main">
+<Parallel><Fallback><Timeout seconds="0.3"><Exec name="long" shell="true"
+command="(trap '' TERM; sleep 0.8; touch ')" +
+               survivor + R"(') &amp; env -i sleep 98 &amp; wait"/></Timeout><AlwaysSuccess/></Fallback>
+<Exec name="other" shell="true" command="sleep 1.5; touch ')" +
+               other + R"('"/>
+<Wait seconds="1"/></Parallel></BehaviorTree></root>)"),
+       "--timeout", "8"});
+  INFO(outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK(contains(outcome.err, "long: halted"));
+  CHECK(std::filesystem::exists(other));
+  CHECK(!std::filesystem::exists(survivor));
+}
+
 TEST_CASE("the output of a command is its progress, and a command that is halted ends") {
   const TemporaryDirectory directory;
   const Outcome outcome = lockstep::test::lockstep(

@@ -62,7 +62,7 @@ TEST_CASE("docs/programs.md: what it says works word for word") {
   CHECK(contains(outcome.err, "Sweep: waits for Advance at barrier 0.5"));
 }
 
-TEST_CASE("leaves in Python, bash, node and Rust give the recording of those in C++") {
+TEST_CASE("leaves in Python, bash, node, C and Rust give the recording of those in C++") {
   const std::string expected = door_recording("name=\"motion\"", kProgramsFolder);
   CHECK(expected.size() > 1000);
   for (const std::string program : {"advance.py", "advance_class.py", "advance.sh", "advance.js"}) {
@@ -70,6 +70,7 @@ TEST_CASE("leaves in Python, bash, node and Rust give the recording of those in 
     CHECK(door_recording("name=\"motion\" program=\"" + program + "\"", kProgramsFolder) ==
           expected);
   }
+  CHECK(door_recording("name=\"advance_c\"", LOCKSTEP_BINARY_DIR "/tests/cli") == expected);
   if (!is_installed("rustc")) return;
   const TemporaryDirectory built;
   const Outcome compiled =

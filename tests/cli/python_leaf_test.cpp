@@ -2,6 +2,8 @@
 #include <sys/stat.h>
 
 #include <catch2/catch.hpp>
+#include <chrono>
+#include <filesystem>
 
 #include "cli/program.h"
 #include "support/paths.h"
@@ -74,6 +76,70 @@ TEST_CASE("plugin check finds what a program does against the protocol, and save
   CHECK(wrong.code == 4);
   CHECK(contains(wrong.out, "wrong it does not say what leaves it has: not JSON"));
   CHECK(nodes().code == 0);  // it was not run
+}
+
+TEST_CASE("a program is found by its name, or it is said what to type") {
+  const PythonLeaves leaves;
+  const std::string path = leaves.directory.path("");
+  const auto ask = [&](std::vector<std::string> words) {
+    words.insert(words.end(), {"--plugin-path", path});
+    return lockstep::test::lockstep(words);
+  };
+  for (const std::string name : {"grip", "grip.py"}) {
+    const Outcome checked = ask({"plugin", "check", name});
+    INFO(name << checked.out << checked.err);
+    CHECK(checked.code == 0);
+    CHECK(contains(checked.out, "grip.py: ok\n"));
+    const Outcome nodes = ask({"nodes", "Grip", "--run-programs", "--plugin", name});
+    INFO(nodes.err);
+    CHECK(nodes.code == 0);
+    CHECK(contains(nodes.out, "Closes the gripper."));
+    CHECK(contains(ask({"nodes", "Grip", "--plugin", name}).err,
+                   "grip.py' is a program, which this command does not run"));
+  }
+  const Outcome none = ask({"plugin", "check", "grap"});
+  CHECK(none.code == 2);
+  CHECK(contains(none.err, "'grap' is not a program"));
+  const std::string tree = leaves.directory.file(
+      "tree.xml",
+      "<root lockstep=\"1\"><plugin name=\"grip\"/><BehaviorTree ID=\"Main\"><Grip/>"
+      "</BehaviorTree></root>");
+  const Outcome asked = ask({"check", tree});
+  CHECK(asked.code == 4);
+  CHECK(contains(asked.err, R"('grip.py' is a program: <plugin name="grip" program="grip.py"/>)"));
+}
+
+TEST_CASE("leaves that were saved before the program has changed are named") {
+  const PythonLeaves leaves;
+  REQUIRE(lockstep::test::lockstep({"plugin", "check", leaves.program, "--save"}).code == 0);
+  const std::string nodes = R"(<Grip width="{w}"/>)";
+  CHECK(!contains(leaves.run_tree(nodes).err, "grip.leaves.json"));
+  std::string text = read_file(leaves.program);
+  text.replace(text.find("force: float"), 12, "power: float");
+  text.replace(text.find("self.force"), 10, "self.power");
+  leaves.directory.file("grip.py", text);
+  const Outcome run = leaves.run_tree(nodes);
+  CHECK(run.code == 0);
+  CHECK(contains(run.err, "has other leaves than"));
+  CHECK(contains(run.err, "let 'lockstep plugin check --save' write it again"));
+  const auto check = [&](bool runs) {
+    std::vector<std::string> words = {"check", leaves.directory.path("tree.xml"), "--plugin-path",
+                                      leaves.directory.path("")};
+    if (runs) words.push_back("--run-programs");
+    return lockstep::test::lockstep(words);
+  };
+  CHECK(contains(check(true).err, "has other leaves than"));
+  // Without running it, the time of the file says that it may be so.
+  const auto age = [&](std::chrono::seconds older) {
+    using std::filesystem::last_write_time;
+    last_write_time(leaves.directory.path("grip.leaves.json"),
+                    last_write_time(leaves.program) - older);
+  };
+  age(std::chrono::seconds(5));
+  CHECK(contains(check(false).err, "is older than the program"));
+  CHECK(check(false).code == 0);
+  age(std::chrono::seconds(0));
+  CHECK(!contains(check(false).err, "is older than"));
 }
 
 TEST_CASE("python3 -m lockstep_leaf tries leaves by hand") {

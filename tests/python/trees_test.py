@@ -9,6 +9,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 import unittest
 import weakref
 
@@ -468,6 +469,38 @@ class TreesTest(unittest.TestCase):
         self.assertEqual((plain.ticks, plain.result), (program.ticks, program.result))
         self.assertEqual(isolated.ticks, program.ticks)
 
+    def test_the_process_of_a_held_program_is_stopped(self):
+        with tempfile.TemporaryDirectory() as directory:
+            pids = pathlib.Path(directory) / "pids"
+            os.environ["PIDS"] = str(pids)
+            nodes = '<ParallelAbsolute barriers="0.002"><Steady/><Count ticks="100000"/></ParallelAbsolute>'
+            with lockstep.Tree(text=text_of(nodes, '<plugin name="steady" program="steady.py" hold="signal"/>'),
+                               leaves=Count, plugin_path=SOURCES / "tests/programs") as it:
+                stat = pathlib.Path("/proc") / pids.read_text().split()[-1] / "stat"
+                while not it.nodes[1].held:
+                    self.assertNotIn(") T ", stat.read_text())
+                    began = time.perf_counter()
+                    it.tick()
+                while ") T " not in stat.read_text():
+                    self.assertLess(time.perf_counter() - began, 60)
+                print(f"stopped {1e6 * (time.perf_counter() - began):.0f} us after the begin of the tick")
+            self.assertFalse(stat.exists())
+
+    def test_a_leaf_ticks_another_tree(self):
+        inner = tree('<Count label="broken"/>')
+
+        def todo(leaf):
+            return {"running": None, "success": True}[inner.tick()]
+        Does.todo = todo
+        with tree("<Does/>") as it, self.assertRaisesRegex(
+                lockstep.Error, "Main/Does: Error: Main/Count: ValueError: cannot count .trees_test.py") as caught:
+            it.tick()
+        self.assertIsInstance(caught.exception.__cause__.__cause__, ValueError)
+        inner.close()
+        inner = tree('<Count ticks="3"/>')
+        with tree("<Does/>") as it:
+            self.assertEqual(it.run().ticks, 3)
+
     def test_ctrl_c_where_no_python_runs(self):
         # The signal comes while lockstep sleeps between two ticks, or before a function of the leaf has begun.
         Does.todo = lambda leaf: None
@@ -480,6 +513,45 @@ class TreesTest(unittest.TestCase):
             timer.join()
             self.assertEqual((it.status, calls), ("idle", ["start Count", "halt Count"]))
         self.assertIs(signal.getsignal(signal.SIGINT), before)
+
+    def test_ctrl_c_again_and_again(self):
+        script = """
+import os, signal, sys, threading, time
+import lockstep
+from lockstep_leaf import Action
+class Quick(Action):
+    def tick(self):
+        return None
+    def progress(self):
+        return 0.5
+def shoot():
+    while time.time() < end:
+        time.sleep(0.001)
+        os.kill(os.getpid(), signal.SIGINT)
+tree = lockstep.Tree(text='<root lockstep="1"><BehaviorTree ID="Main"><Parallel><Quick/><Quick/></Parallel></BehaviorTree></root>',
+                     leaves=[Quick])
+hits = ticks = 0
+end = time.time() + 0.5
+thread = threading.Thread(target=shoot)
+while True:
+    try:
+        if thread.ident is None:
+            thread.start()
+        while thread.is_alive():
+            try:
+                tree.tick()
+                ticks += 1
+            except lockstep.Error as error:
+                assert "KeyboardInterrupt" in str(error), error
+                tree.restart()
+        break
+    except KeyboardInterrupt:
+        hits += 1
+tree.restart()
+print(tree.tick(), hits > 9, ticks > 9, signal.getsignal(signal.SIGINT) is signal.default_int_handler)
+"""
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+        self.assertEqual((done.stdout, done.stderr), ("running True True True\n", ""))
 
     def test_ctrl_c_in_a_leaf_that_never_returns(self):
         def todo(leaf):

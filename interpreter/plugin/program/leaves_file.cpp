@@ -1,5 +1,6 @@
 #include "plugin/program/leaves_file.h"
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 
@@ -20,6 +21,15 @@ std::optional<std::string> read_leaves_file(const std::string& program) {
   std::string line;
   if (!std::getline(file, line)) return std::nullopt;
   return line;
+}
+
+bool is_older_than_program(const std::string& program) {
+  std::error_code error;
+  const auto written = std::filesystem::last_write_time(leaves_file_of(program), error);
+  if (error) return false;
+  const auto changed = std::filesystem::last_write_time(program, error);
+  // A checkout or an installation writes both at about the same time.
+  return !error && written + std::chrono::seconds(2) < changed;
 }
 
 }  // namespace lockstep

@@ -12,4 +12,7 @@ std::string leaves_file_of(const std::string& program);
 // Its first line; nothing when there is no such file, or none that a program could have said.
 std::optional<std::string> read_leaves_file(const std::string& program);
 
+// The program was changed after its file was written.
+bool is_older_than_program(const std::string& program);
+
 }  // namespace lockstep

@@ -28,6 +28,7 @@ Result<std::unique_ptr<ProgramPlugin>> ProgramPlugin::open(const std::string& pa
 Result<std::string> ProgramPlugin::first_line() {
   auto written = read_leaves_file(path_);
   if (!options_.run_programs) {
+    is_file_older_ = is_older_than_program(path_);
     if (written) return *std::move(written);
     return problem("is a program, which this command does not run: its leaves are not known",
                    fmt::format("give --run-programs, or let 'lockstep plugin check --save' write "

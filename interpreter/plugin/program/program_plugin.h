@@ -27,8 +27,9 @@ class ProgramPlugin {
   // Valid as long as this object.
   const lockstep_plugin& entry() const { return hello_->plugin(); }
   const Hello& hello() const { return *hello_; }
-  // The file beside it says something else.
+  // The file beside it says something else; or was read, and may do so.
   bool is_file_stale() const { return is_file_stale_; }
+  bool is_file_older() const { return is_file_older_; }
 
   // A process that has said the same as the first; null on failure, with the reason in `failure`.
   // May be called from any thread.
@@ -41,7 +42,7 @@ class ProgramPlugin {
   std::string path_;
   IsolationOptions options_;
   std::unique_ptr<Hello> hello_;
-  bool is_file_stale_ = false;
+  bool is_file_stale_ = false, is_file_older_ = false;
 
   std::mutex mutex_;
   std::unique_ptr<Conversation> first_;  // until a run takes it
