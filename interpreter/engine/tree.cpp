@@ -59,9 +59,14 @@ std::string Tree::segment(NodeIndex node) const {
 }
 
 std::string Tree::path(NodeIndex node) const {
-  std::string path = id;
-  append_path(*this, node, 0, path);
-  return path;
+  std::string text;
+  path(node, text);
+  return text;
+}
+
+void Tree::path(NodeIndex node, std::string& text) const {
+  text = id;
+  append_path(*this, node, 0, text);
 }
 
 }  // namespace lockstep

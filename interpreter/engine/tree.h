@@ -165,6 +165,8 @@ struct Tree {
   std::string segment(NodeIndex node) const;
   // "OpenDoor/pull/arm": the tree's id and the segments down to the node.
   std::string path(NodeIndex node) const;
+  // The same, in the memory of `text`.
+  void path(NodeIndex node, std::string& text) const;
 };
 
 // The cell of a value that is no list; of an absent one: 0.

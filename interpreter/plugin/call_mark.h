@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "core/fork_guard.h"
 
@@ -48,15 +49,25 @@ struct CallSite {
   static constexpr const char* kDecorator = "decorator";
   static constexpr const char* kObjectType = "object type";
 
-  std::string leaf;    // "'Main/arm' (Advance of plugin 'motion')"; "": a function of the plugin
-  std::string plugin;  // its name
-  const char* kind = kLeaf;  // what `leaf` is
-  bool is_local = false;     // the plugin cannot be isolated
+  // What identifies one.
+  struct Words {
+    std::string_view path = {};  // of the node, or the name of the object type; "": the plugin's
+    std::string_view id = {};    // of the node's type
+    std::string_view plugin = {};
+    const char* kind = kLeaf;  // what `path` is
+    bool is_local = false;     // the plugin cannot be isolated
 
-  static const CallSite& of(CallSite site);
-  static const CallSite& of(std::string leaf, std::string plugin) {
-    return of(CallSite{std::move(leaf), std::move(plugin)});
-  }
+    bool operator==(const Words& other) const;
+  };
+
+  std::string path, id, plugin;
+  const char* kind = kLeaf;
+  bool is_local = false;
+  std::string text = {};  // "'Main/arm' (Advance of plugin 'motion')"; "": a function of the plugin
+
+  static const CallSite& of(const Words& words);
+  static const CallSite& of_plugin(std::string_view name) { return of({.plugin = name}); }
+  Words words() const { return {path, id, plugin, kind, is_local}; }
 };
 
 // One for each thread; see this_thread().

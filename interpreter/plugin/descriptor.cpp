@@ -45,7 +45,7 @@ std::optional<Problem> describe(lockstep_plugin& plugin) {
   const char* why = nullptr;
   const lockstep_plugin* described = nullptr;
   const char* const name = plugin.name == nullptr ? "" : plugin.name;
-  const MarkedCall mark(CallSite::of("", name), PluginFunction::Describe);
+  const MarkedCall mark(CallSite::of_plugin(name), PluginFunction::Describe);
   const std::string thrown = thrown_by([&] { described = plugin.describe(&why); });
   constexpr const char* kHint = "ask the author of the plugin what it needs";
   if (!thrown.empty()) return Problem{"cannot be used: its describe " + thrown, kHint};

@@ -394,8 +394,13 @@ const Parameter* limits_of(const Parameter& port) {
 void take_error(const lockstep_caller& caller, const Shortened& message) {
   lockstep_caller& it = mine(&caller);
   if (it.slot->error != nullptr) return;
-  it.error = with_entry(caller, message);
-  it.slot->error = it.error.c_str();
+  if (it.error == nullptr) it.error.reset(new (std::nothrow) Shortened);
+  if (it.error == nullptr) {
+    it.slot->error = "an error, and no memory is left for its text";
+    return;
+  }
+  *it.error = with_entry(caller, message);
+  it.slot->error = it.error->c_str();
 }
 
 const lockstep_host& host_table() {

@@ -50,7 +50,7 @@ struct ChildLabel {
 
 // A leaf of a run, or (without ports) a run itself.
 struct lockstep_caller {
-  std::string who;  // its path, or the plugin's name
+  std::string_view who;  // its path, or the plugin's name, which ends with a NUL
   std::vector<lockstep::BoundPort> ports;
   lockstep::RandomStream random;
   const lockstep::LeafTime* time;
@@ -62,11 +62,12 @@ struct lockstep_caller {
   const lockstep::CallSite* site = nullptr;
   // Collects the entries that are set, for a process that only mirrors them; null: not collected.
   std::vector<lockstep::Entry*>* written = nullptr;
-  lockstep::Shortened error = {};
-  lockstep::NodeIndex node = 0;        // in the tree of its ticker
-  std::string name = {}, id = {};      // of the node, and of its type
-  std::string_view plugin_name = {};   // of its type
-  bool opens_entries = false;          // lockstep_place::open
+  std::unique_ptr<lockstep::Shortened> error = {};  // the last; null: none yet
+  lockstep::NodeIndex node = 0;                     // in the tree of its ticker
+  std::string name = {};                            // of the node
+  std::string_view id = {};                         // of its type, which ends with a NUL
+  std::string_view plugin_name = {};                // of its type
+  bool opens_entries = false;                       // lockstep_place::open
   std::list<std::string> opened = {};  // the keys of the ports behind those of its type
   std::vector<lockstep::ChildLabel> labels = {};
 

@@ -36,7 +36,7 @@ std::string call_init(const lockstep_plugin& plugin) {
   static const LeafLog no_log;
   LeafSlot slot;
   lockstep_caller caller{plugin.name, {}, RandomStream(0, 0), &no_time, &no_log, &slot};
-  const MarkedCall mark(CallSite::of("", plugin.name), PluginFunction::Init);
+  const MarkedCall mark(CallSite::of_plugin(plugin.name), PluginFunction::Init);
   bool works = false;
   const std::string thrown = thrown_by([&] { works = plugin.init(&host_table(), &caller); });
   if (!thrown.empty()) return fmt::format("refuses to work: its init {}", thrown);
@@ -57,7 +57,7 @@ std::string initialize_plugin(const lockstep_plugin& plugin) {
 void deinitialize_plugin(const lockstep_plugin& plugin) {
   const std::lock_guard lock(users().mutex);
   if (--users().counts[functions_of(plugin)] > 0 || plugin.deinit == nullptr) return;
-  const MarkedCall mark(CallSite::of("", plugin.name), PluginFunction::Deinit);
+  const MarkedCall mark(CallSite::of_plugin(plugin.name), PluginFunction::Deinit);
   thrown_by(plugin.deinit);  // the work is done; there is no one to report to
 }
 

@@ -36,10 +36,9 @@ bool is_local(const NodeType& type) {
 }
 
 const CallSite& site_of(const LeafNode& leaf, std::string_view path) {
-  std::string text = "'" + printable(path);
-  text.append("' (").append(leaf.type->id).append(" of plugin '").append(leaf.type->plugin);
-  return CallSite::of({.leaf = std::move(text.append("')")),
-                       .plugin = std::string(leaf.type->plugin),
+  return CallSite::of({.path = path,
+                       .id = leaf.type->id,
+                       .plugin = leaf.type->plugin,
                        .kind = kind_of(leaf.type->category),
                        .is_local = is_local(*leaf.type)});
 }
@@ -78,7 +77,7 @@ std::vector<BoundPort> bind_ports(const Tree& tree, const LeafNode& leaf, Blackb
 void name_place(const Tree& tree, const LeafNode& leaf, lockstep_caller& caller) {
   caller.node = leaf.node;
   caller.name = tree.labels[leaf.node].name;
-  caller.id = leaf.type->id;
+  caller.id = leaf.type->leaf->id;
   caller.plugin_name = leaf.type->plugin;
   caller.opens_entries = leaf.type->opens_entries && !tree.boards.empty();
   for (const NodeIndex child : children_of(tree, leaf)) {
@@ -96,9 +95,9 @@ struct LeafSet::Implementation {
   struct Context {
     const lockstep_plugin* plugin;
     NodeIndex node;  // the first leaf of the plugin
-    std::unique_ptr<lockstep_caller> caller;
     const CallSite* site;
-    LeafSlot slot;  // `self` is the context
+    LeafSlot slot = {};  // `self` is the context
+    std::unique_ptr<lockstep_caller> caller = {};
     bool created = false;
   };
 
@@ -115,7 +114,7 @@ struct LeafSet::Implementation {
   void destroy_leaf(std::size_t index);
   void destroy_context(const Context& context);
   Context* find_context(const void* plugin);
-  std::unique_ptr<lockstep_caller> make_caller(std::string who, LeafSlot& slot);
+  lockstep_caller make_caller(std::string_view who, LeafSlot& slot);
   bool fail(NodeIndex node, std::string message);
   void warn(const lockstep_caller& caller, const std::string& message);
   // Calls a function that is not called while ticking. Returns why it failed, or "".
@@ -131,8 +130,8 @@ struct LeafSet::Implementation {
   // Plugins keep pointers to callers, and callers to slots: once made, none of them moves.
   std::vector<std::unique_ptr<Context>> contexts_;
   std::vector<LeafSlot> slots_;
-  std::vector<std::unique_ptr<lockstep_caller>> callers_;  // of the leaves
-  std::vector<const CallSite*> sites_;                     // of the leaves
+  std::vector<lockstep_caller> callers_;  // of the leaves
+  std::vector<const CallSite*> sites_;    // of the leaves
   std::optional<Fault> fault_;
   bool is_destroyed_ = false;
 };
@@ -147,27 +146,28 @@ LeafSet::Implementation::Implementation(const Tree& tree, Blackboard& blackboard
       slots_(tree.leaves.size()) {
   callers_.reserve(tree.leaves.size());
   sites_.reserve(tree.leaves.size());
+  std::string path;
   for (const LeafNode& leaf : tree.leaves) {
     if (find_context(leaf.type->origin) == nullptr) {
       const lockstep_plugin* const plugin = leaf.type->origin;
       contexts_.push_back(std::make_unique<Context>(Context{
-          plugin,
-          leaf.node,
-          nullptr,
-          &CallSite::of({.leaf = "", .plugin = plugin->name, .is_local = is_local(*leaf.type)}),
-          {}}));
-      contexts_.back()->caller = make_caller(plugin->name, contexts_.back()->slot);
-      contexts_.back()->caller->plugin = plugin;
+          .plugin = plugin,
+          .node = leaf.node,
+          .site = &CallSite::of({.plugin = plugin->name, .is_local = is_local(*leaf.type)})}));
+      Context& context = *contexts_.back();
+      context.caller = std::make_unique<lockstep_caller>(make_caller(plugin->name, context.slot));
+      context.caller->plugin = plugin;
     }
     LeafSlot& slot = slots_[callers_.size()];
     slot.type = leaf.type->leaf;
-    std::string path = tree.path(leaf.node);
-    sites_.push_back(&site_of(leaf, path));
-    callers_.push_back(make_caller(std::move(path), slot));
-    callers_.back()->site = sites_.back();
-    callers_.back()->children = children_of(tree, leaf);
-    callers_.back()->ports = bind_ports(tree, leaf, blackboard);
-    name_place(tree, leaf, *callers_.back());
+    tree.path(leaf.node, path);
+    const CallSite& site = site_of(leaf, path);
+    sites_.push_back(&site);
+    lockstep_caller& caller = callers_.emplace_back(make_caller(site.path, slot));
+    caller.site = &site;
+    caller.children = children_of(tree, leaf);
+    caller.ports = bind_ports(tree, leaf, blackboard);
+    name_place(tree, leaf, caller);
   }
 }
 
@@ -184,8 +184,8 @@ void LeafSet::Implementation::destroy_all() {
   for (Entry& entry : blackboard_.entries) {
     if (std::holds_alternative<Object>(entry.value)) entry.value = NoValue();
   }
-  for (const auto& caller : callers_) {
-    for (BoundPort& port : caller->ports) {
+  for (lockstep_caller& caller : callers_) {
+    for (BoundPort& port : caller.ports) {
       port.packed = port.unpacked = Object();
       const bool is_opened = port.is_generic && port.write != nullptr;
       if (is_opened && std::holds_alternative<Object>(port.write->value)) {
@@ -203,9 +203,9 @@ void LeafSet::Implementation::destroy_all() {
 
 void LeafSet::Implementation::destroy_leaf(std::size_t index) {
   const LeafSlot& slot = slots_[index];
-  const std::string reason = call(*callers_[index], *sites_[index], PluginFunction::Destroy,
+  const std::string reason = call(callers_[index], *sites_[index], PluginFunction::Destroy,
                                   [&] { slot.type->destroy(slot.self); });
-  if (!reason.empty()) warn(*callers_[index], "its destroy " + reason);
+  if (!reason.empty()) warn(callers_[index], "its destroy " + reason);
 }
 
 void LeafSet::Implementation::destroy_context(const Context& context) {
@@ -244,15 +244,13 @@ LeafSet::Implementation::Context* LeafSet::Implementation::find_context(const vo
   return nullptr;
 }
 
-std::unique_ptr<lockstep_caller> LeafSet::Implementation::make_caller(std::string who,
-                                                                      LeafSlot& slot) {
-  // Made where it stays: it is large.
-  return std::unique_ptr<lockstep_caller>(new lockstep_caller{.who = std::move(who),
-                                                              .ports = {},
-                                                              .random = RandomStream(0, 0),
-                                                              .time = &time_,
-                                                              .log = &log_,
-                                                              .slot = &slot});
+lockstep_caller LeafSet::Implementation::make_caller(std::string_view who, LeafSlot& slot) {
+  return {.who = who,
+          .ports = {},
+          .random = RandomStream(0, 0),
+          .time = &time_,
+          .log = &log_,
+          .slot = &slot};
 }
 
 bool LeafSet::Implementation::create_context(Context& context) {
@@ -273,8 +271,8 @@ bool LeafSet::Implementation::create_leaf(std::uint32_t index) {
   const LeafNode& leaf = tree_.leaves[index];
   LeafSlot& slot = slots_[index];
   void* const context = find_context(leaf.type->origin)->slot.self;
-  std::string reason = call(*callers_[index], *sites_[index], PluginFunction::Create, [&] {
-    slot.self = slot.type->create(&host_table(), callers_[index].get(), context);
+  std::string reason = call(callers_[index], *sites_[index], PluginFunction::Create, [&] {
+    slot.self = slot.type->create(&host_table(), &callers_[index], context);
   });
   if (reason.empty() && slot.error != nullptr) reason = slot.error;
   if (reason.empty() && slot.self == nullptr) reason = "its create returned NULL without an error";
@@ -289,7 +287,7 @@ void LeafSet::Implementation::create_all(std::uint64_t seed) {
     if (!create_context(*contexts_[index])) return;
   }
   for (std::uint32_t index = 0; index < tree_.leaves.size(); ++index) {
-    callers_[index]->random = RandomStream(seed, index + std::uint64_t{1});
+    callers_[index].random = RandomStream(seed, index + std::uint64_t{1});
     if (!create_leaf(index)) return;
   }
   if (watch_ != nullptr) watch_->insert(tree_, slots_, sites_);
@@ -313,7 +311,7 @@ std::span<LeafSlot> LeafSet::slots() {
   return it_->slots_;
 }
 void LeafSet::set_ticker(Ticker& ticker) {
-  for (const auto& caller : it_->callers_) caller->ticker = &ticker;
+  for (lockstep_caller& caller : it_->callers_) caller.ticker = &ticker;
 }
 const std::optional<Fault>& LeafSet::fault() const {
   return it_->fault_;

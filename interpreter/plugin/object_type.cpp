@@ -41,8 +41,8 @@ class PluginObjectType final : public ObjectType {
   PluginObjectType(const lockstep_object_type& declared, std::string_view plugin)
       : ObjectType(declared.name),
         it_(declared),
-        site_(CallSite::of({.leaf = fmt::format("'{}' (of plugin '{}')", declared.name, plugin),
-                            .plugin = std::string(plugin),
+        site_(CallSite::of({.path = declared.name,
+                            .plugin = plugin,
                             .kind = CallSite::kObjectType,
                             .is_local = !has_both(declared)})) {}
 

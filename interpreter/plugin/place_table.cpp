@@ -12,11 +12,11 @@ const char* name(const lockstep_caller* caller) {
 }
 
 const char* id(const lockstep_caller* caller) {
-  return caller->id.c_str();
+  return caller->id.data();
 }
 
 const char* path(const lockstep_caller* caller) {
-  return caller->who.c_str();
+  return caller->who.data();
 }
 
 const ChildLabel* child_of(const lockstep_caller* caller, std::uint32_t child) {

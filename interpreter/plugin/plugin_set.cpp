@@ -261,7 +261,7 @@ std::map<std::string, double, std::less<>> PluginSet::words() const {
     const lockstep_plugin& it = plugin->descriptors.plugin;
     if (it.get_extension == nullptr) continue;
     const void* table = nullptr;
-    const MarkedCall mark(CallSite::of("", it.name), PluginFunction::Describe);
+    const MarkedCall mark(CallSite::of_plugin(it.name), PluginFunction::Describe);
     thrown_by([&] { table = it.get_extension(LOCKSTEP_WORDS); });
     const auto* const words = static_cast<const lockstep_words*>(table);
     for (std::uint32_t i = 0; words != nullptr && i < words->count; ++i) {

@@ -43,7 +43,7 @@ void note_opened(const std::string& path) {
   static std::set<std::string> paths;
   const std::lock_guard lock(mutex);
   if (!paths.insert(path).second) return;
-  g_opened = &CallSite::of("", fmt::format("{}", fmt::join(paths, "' or '")));
+  g_opened = &CallSite::of_plugin(fmt::format("{}", fmt::join(paths, "' or '")));
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ Result<SharedObject> open_shared_object(const std::string& path) {
   SharedObject object;
   const FloatMode mode = FloatMode::current();
   {
-    const MarkedCall mark(CallSite::of("", path), PluginFunction::Load);
+    const MarkedCall mark(CallSite::of_plugin(path), PluginFunction::Load);
     object.handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   }
   mode.restore();

@@ -10,10 +10,10 @@ bool is_inside_call(const Crash& crash) {
 }
 
 void put_site(const CallSite& site, SignalText& text) {
-  if (site.leaf.empty()) {
+  if (site.text.empty()) {
     text << "the plugin '" << site.plugin << "'";
   } else {
-    text << "the " << site.kind << " " << site.leaf;
+    text << "the " << site.kind << " " << site.text;
   }
 }
 

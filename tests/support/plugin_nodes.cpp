@@ -35,13 +35,14 @@ PluginNodes::PluginNodes(const Tree& tree, Blackboard& board, std::vector<LeafSl
     : time{.period = std::chrono::milliseconds(100), .thread = this_thread_id()},
       tree_(tree),
       slots_(slots) {
+  for (const LeafNode& node : tree.leaves) paths_.push_back(tree.path(node.node));
   for (std::size_t index = 0; index < slots_.size(); ++index) {
     const LeafNode& node = tree.leaves[index];
     callers_.emplace_back();
     if (node.type->origin == nullptr) continue;
     slots_[index].type = node.type->leaf;
     callers_.back() =
-        std::make_unique<lockstep_caller>(lockstep_caller{.who = tree.path(node.node),
+        std::make_unique<lockstep_caller>(lockstep_caller{.who = paths_[index],
                                                           .ports = bind_ports(tree, node, board),
                                                           .random = RandomStream(0, index + 1),
                                                           .time = &time,

@@ -38,6 +38,7 @@ class PluginNodes {
   const Tree& tree_;
   std::vector<LeafSlot>& slots_;
   LeafLog log_;
+  std::vector<std::string> paths_;
   std::vector<std::unique_ptr<lockstep_caller>> callers_;  // null for a scripted leaf
 };
 

@@ -64,7 +64,7 @@ WatchdogOptions RunWatch::watchdog_options() {
                            .on_hang = {}};
   watchdog.on_long_halt = [this](const CallMark::Look& call, Nanoseconds lasts) {
     print_(fmt::format("the {} {} has not returned from halt for {:.1f} s", call.site->kind,
-                       call.site->leaf, to_seconds(lasts)));
+                       call.site->text, to_seconds(lasts)));
   };
   return watchdog;
 }

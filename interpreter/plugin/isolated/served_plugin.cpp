@@ -54,7 +54,7 @@ void watch_host(int descriptor) {
 }
 
 std::optional<Problem> load(const std::string& path, Descriptors& descriptors) {
-  const MarkedCall mark(CallSite::of("", path), PluginFunction::Load);
+  const MarkedCall mark(CallSite::of_plugin(path), PluginFunction::Load);
   const auto constant = open_shared_object(path).and_then(
       [](const SharedObject& object) { return find_constant(object, LOCKSTEP_PLUGIN_ENTRY); });
   if (!constant) return constant.error();
@@ -145,7 +145,7 @@ class Server {
     answer_.put(std::uint8_t{1});
     const auto deinit = descriptors_.plugin.deinit;
     if (!initialized_ || deinit == nullptr) return;
-    const MarkedCall mark(CallSite::of("", descriptors_.plugin.name), PluginFunction::Deinit);
+    const MarkedCall mark(CallSite::of_plugin(descriptors_.plugin.name), PluginFunction::Deinit);
     thrown_by(deinit);  // the work is done; there is no one to report to
   }
 

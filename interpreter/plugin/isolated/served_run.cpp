@@ -24,14 +24,15 @@ bool is_destroy(PluginFunction function) {
 
 }  // namespace
 
-std::unique_ptr<ServedRun::Object> ServedRun::make_object(std::uint32_t number, std::string who,
+std::unique_ptr<ServedRun::Object> ServedRun::make_object(std::uint32_t number,
+                                                          std::string_view who,
                                                           RandomStream random) {
   auto object = std::make_unique<Object>();
   object->number = number;
   object->log = [this, number](std::string_view, lockstep_log_level level, std::string_view text) {
     log_.write(number, level, text);
   };
-  object->caller = std::make_unique<lockstep_caller>(lockstep_caller{.who = std::move(who),
+  object->caller = std::make_unique<lockstep_caller>(lockstep_caller{.who = who,
                                                                      .ports = {},
                                                                      .random = random,
                                                                      .time = &time_,
@@ -48,7 +49,7 @@ ServedRun::Object* ServedRun::create_run(MessageReader& request) {
   numbers_.clear();
   const auto random = request.get<std::uint64_t>();
   auto run = make_object(0, descriptors_.plugin.name, std::bit_cast<RandomStream>(random));
-  run->site = &CallSite::of("", descriptors_.plugin.name);
+  run->site = &CallSite::of_plugin(descriptors_.plugin.name);
   return (objects_[0] = std::move(run)).get();
 }
 
@@ -95,17 +96,17 @@ bool ServedRun::read_ports(MessageReader& request, Object& leaf,
 ServedRun::Object* ServedRun::create_leaf(std::uint32_t number, MessageReader& request) {
   const auto random = request.get<std::uint64_t>();
   const auto type = request.get<std::uint32_t>();
-  std::string who(request.text());
+  const std::string_view who = request.text();
   std::string name(request.text());
   if (type >= descriptors_.leaves.size() || number == 0) return nullptr;
-  auto leaf = make_object(number, std::move(who), std::bit_cast<RandomStream>(random));
+  const lockstep_leaf_type& declared = descriptors_.leaves[type]->type;
+  const CallSite& site =
+      CallSite::of({.path = who, .id = declared.id, .plugin = descriptors_.plugin.name});
+  auto leaf = make_object(number, site.path, std::bit_cast<RandomStream>(random));
   leaf->caller->name = std::move(name);
-  leaf->type = &descriptors_.leaves[type]->type;
-  leaf->caller->id = leaf->type->id;
-  leaf->site = &CallSite::of(fmt::format("'{}' ({} of plugin '{}')", printable(leaf->caller->who),
-                                         leaf->type->id, descriptors_.plugin.name),
-                             descriptors_.plugin.name);
-  leaf->caller->site = leaf->site;
+  leaf->type = &declared;
+  leaf->caller->id = declared.id;
+  leaf->site = leaf->caller->site = &site;
   if (!read_ports(request, *leaf, descriptors_.leaves[type]->parameters)) return nullptr;
   return (objects_[number] = std::move(leaf)).get();
 }

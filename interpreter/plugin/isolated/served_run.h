@@ -36,7 +36,8 @@ class ServedRun {
     std::unique_ptr<lockstep_caller> caller;
     std::deque<std::string> entry_names;  // of its ports; none of them moves
   };
-  std::unique_ptr<Object> make_object(std::uint32_t number, std::string who, RandomStream random);
+  std::unique_ptr<Object> make_object(std::uint32_t number, std::string_view who,
+                                      RandomStream random);
   Object* create_run(MessageReader& request);
   Object* create_leaf(std::uint32_t number, MessageReader& request);
   Object* find(std::uint32_t number);

@@ -32,16 +32,16 @@ Value sample(const Parameter& port) {
 class Trial {
  public:
   Trial(const Descriptors::Leaf& type, std::uint32_t number, Conversation& conversation, Hold hold)
-      : type_(type) {
+      : type_(type), name_(fmt::format("{} {}", type.type.id, number)) {
     slot_.type = &type.type;
     caller_.id = caller_.name = type.type.id;
-    caller_.who = fmt::format("{} {}", type.type.id, number);
+    caller_.who = name_;
     for (const Parameter& port : type.parameters) bind(port);
     leaf_ = std::make_unique<ProgramLeaf>(caller_, conversation, hold, nullptr);
   }
 
   ProgramLeaf& leaf() { return *leaf_; }
-  const std::string& name() const { return caller_.who; }
+  const std::string& name() const { return name_; }
   void pass_time() { time_.now += time_.period; }
   // What the leaf has been blamed for; "" for nothing.
   std::string take_error() {
@@ -61,6 +61,7 @@ class Trial {
   }
 
   const Descriptors::Leaf& type_;
+  const std::string name_;
   LeafSlot slot_;
   LeafTime time_{.period = std::chrono::milliseconds(10)};
   LeafLog log_;

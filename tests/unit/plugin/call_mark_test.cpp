@@ -19,15 +19,16 @@ TEST_CASE("functions are called as the contract spells them") {
 }
 
 TEST_CASE("the same words are the same site, for ever") {
-  const CallSite& site = CallSite::of("leaf", "plugin");
-  CHECK(&CallSite::of("leaf", "plugin") == &site);
-  CHECK(&CallSite::of("leaf", "other") != &site);
-  CHECK(&CallSite::of("", "plugin") != &site);
+  const CallSite& site = CallSite::of({.path = "leaf", .plugin = "plugin"});
+  CHECK(&CallSite::of({.path = "leaf", .plugin = "plugin"}) == &site);
+  CHECK(&CallSite::of({.path = "leaf", .plugin = "other"}) != &site);
+  CHECK(&CallSite::of({.path = "leaf", .id = "Other", .plugin = "plugin"}) != &site);
+  CHECK(&CallSite::of_plugin("plugin") != &site);
 }
 
 TEST_CASE("a call is marked for as long as it lasts, also when it throws") {
   const CallMark& here = CallMark::this_thread();
-  const CallSite& site = CallSite::of("leaf", "plugin");
+  const CallSite& site = CallSite::of({.path = "leaf", .plugin = "plugin"});
   CHECK(here.look().function() == PluginFunction::None);
   CallMark::Look first, second;
   try {
@@ -47,15 +48,15 @@ TEST_CASE("a call is marked for as long as it lasts, also when it throws") {
 }
 
 TEST_CASE("each thread has a mark of its own") {
-  const MarkedCall call(CallSite::of("leaf", "plugin"), PluginFunction::Tick);
+  const MarkedCall call(CallSite::of({.path = "leaf", .plugin = "plugin"}), PluginFunction::Tick);
   PluginFunction of_other = PluginFunction::Load;
   std::thread([&] { of_other = CallMark::this_thread().look().function(); }).join();
   CHECK(of_other == PluginFunction::None);
 }
 
 TEST_CASE("a look from another thread never mixes two calls") {
-  const CallSite& ticked = CallSite::of("ticked", "plugin");
-  const CallSite& halted = CallSite::of("halted", "plugin");
+  const CallSite& ticked = CallSite::of({.path = "ticked", .plugin = "plugin"});
+  const CallSite& halted = CallSite::of({.path = "halted", .plugin = "plugin"});
   std::atomic<const CallMark*> watched{nullptr};
   std::atomic<bool> enough{false};
   std::thread caller([&] {
@@ -88,7 +89,7 @@ TEST_CASE("creating and destroying are marked, with a watch and without") {
     const CallMark::Look look = CallMark::this_thread().look();
     REQUIRE(look.function() == function);
     seen.push_back(std::string(name_of(function)) + " of " + look.site->plugin + ": " +
-                   look.site->leaf);
+                   look.site->text);
   };
   { const LeafSet set(probe.tree(), blackboard, time, 1); }
   on_probe_call = nullptr;

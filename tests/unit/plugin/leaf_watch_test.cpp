@@ -115,7 +115,7 @@ TEST_CASE("every call reaches its leaf, marked with its function, site and tick"
     const CallMark& mark = CallMark::this_thread();
     REQUIRE(mark.look().function() == function);
     seen.push_back(std::string(name_of(function)) + (self == leaves[1] ? " 1 " : " 0 ") +
-                   mark.look().site->leaf + " " + std::to_string(mark.tick()));
+                   mark.look().site->text + " " + std::to_string(mark.tick()));
   };
   fixture.set->destroy_all();
   fixture.set->create_all(1);
@@ -145,7 +145,7 @@ TEST_CASE("a call within a call of a control node is marked and timed by itself"
     fixture.slot(1).type->tick(fixture.slot(1).self);
     const CallMark::Look look = CallMark::this_thread().look();
     CHECK(look.function() == PluginFunction::Tick);
-    CHECK(look.site->leaf == "'Main/leaf0' (Full of plugin 'probe')");
+    CHECK(look.site->text == "'Main/leaf0' (Full of plugin 'probe')");
     fixture.clock.time += 10ms;
   };
   fixture.slot(0).type->tick(fixture.slot(0).self);

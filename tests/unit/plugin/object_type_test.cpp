@@ -17,7 +17,7 @@ std::string g_seen;  // the function that the thread was marked to be in
 
 void note() {
   const CallMark::Look look = CallMark::this_thread().look();
-  g_seen = std::string(look.site->kind) + " " + look.site->leaf + " " + name_of(look.function());
+  g_seen = std::string(look.site->kind) + " " + look.site->text + " " + name_of(look.function());
 }
 
 void ignore(void* /*object*/) {}

@@ -23,7 +23,7 @@ namespace lockstep::test {
 namespace {
 
 constexpr int kCrashed = 42;
-const CallSite& leaf = CallSite::of("'Main/arm' (Advance of plugin 'motion')", "motion");
+const CallSite& leaf = CallSite::of({.path = "Main/arm", .id = "Advance", .plugin = "motion"});
 const std::string kLeaf = "lockstep: error: the leaf 'Main/arm' (Advance of plugin 'motion') ";
 
 void say(const char* text) {
@@ -153,7 +153,7 @@ struct ExitsWithItsThread {
 
 TEST_CASE("exit of a plugin within our own exit is a crash, whatever its code") {
   const auto end = [] {
-    CallMark::this_thread().enter(CallSite::of("", "motion"), PluginFunction::End);
+    CallMark::this_thread().enter(CallSite::of_plugin("motion"), PluginFunction::End);
     CrashReport::exit(7);
   };
   const std::string line =
@@ -177,7 +177,7 @@ TEST_CASE("what a plugin gave to atexit is watched") {
       while (true) pause();
     });
     const Watchdog watchdog(ends_process(std::chrono::milliseconds(100)));
-    CallMark::this_thread().enter(CallSite::of("", "motion"), PluginFunction::End);
+    CallMark::this_thread().enter(CallSite::of_plugin("motion"), PluginFunction::End);
     CrashReport::exit(7);
   });
   CHECK(ended.exit_code == kCrashed);

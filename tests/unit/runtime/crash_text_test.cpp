@@ -9,8 +9,8 @@
 namespace lockstep::test {
 namespace {
 
-const CallSite& kLeaf = CallSite::of("'Main/arm' (Advance of plugin 'motion')", "motion");
-const CallSite& kPlugin = CallSite::of("", "motion");
+const CallSite& kLeaf = CallSite::of({.path = "Main/arm", .id = "Advance", .plugin = "motion"});
+const CallSite& kPlugin = CallSite::of_plugin("motion");
 
 CallMark::Look in(const CallSite& site, PluginFunction function) {
   return {&site, static_cast<std::uint32_t>(function)};
@@ -54,7 +54,8 @@ TEST_CASE("a crash names what it was in, and isolation only where it would help"
     describe(segv(in(site, PluginFunction::Tick)), text);
     return std::string(text.text());
   };
-  const CallSite& node = CallSite::of({.leaf = "'Main/retry' (RecoveryNode of plugin 'nav')",
+  const CallSite& node = CallSite::of({.path = "Main/retry",
+                                       .id = "RecoveryNode",
                                        .plugin = "nav",
                                        .kind = CallSite::kControlNode,
                                        .is_local = true});
@@ -62,7 +63,8 @@ TEST_CASE("a crash names what it was in, and isolation only where it would help"
   CHECK(said(node).find("--isolate") == std::string::npos);
   CHECK(said(node).find("the author of the plugin needs the backtrace") != std::string::npos);
   CHECK(said(kLeaf).find("with --isolate, the run survives") != std::string::npos);
-  const CallSite& leaf = CallSite::of({.leaf = kLeaf.leaf, .plugin = "motion", .is_local = true});
+  const CallSite& leaf =
+      CallSite::of({.path = "Main/arm", .id = "Advance", .plugin = "motion", .is_local = true});
   CHECK(said(leaf).find("--isolate") == std::string::npos);
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-const CallSite& site = CallSite::of("'Main' (Stuck of plugin 'probe')", "probe");
+const CallSite& site = CallSite::of({.path = "Main", .id = "Stuck", .plugin = "probe"});
 
 struct Told {
   CallMark::Look call;
