@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <deque>
 #include <new>
+#include <unordered_map>
 
 #include "document/language_of.h"
 #include "document/references.h"
@@ -84,12 +85,18 @@ bool Document::Implementation::check(Diagnostics& diagnostics) {
   return written.readable;
 }
 
-// All of them at once, as the attributes of a text that is made for it.
+// All of them at once, equal ones once, as the attributes of a text that is made for it.
 bool Document::Implementation::read_coded(Diagnostics& diagnostics) {
   if (coded.empty()) return true;
   std::string text = "<r>";
+  std::unordered_map<std::string_view, std::uint32_t> numbers;
+  std::vector<std::uint32_t> number_of;  // of each in `coded`
+  number_of.reserve(coded.size());
   for (const auto index : coded) {
     const std::string_view value = attributes[index].value;
+    const auto [number, is_new] = numbers.try_emplace(value, numbers.size());
+    number_of.push_back(number->second);
+    if (!is_new) continue;
     const char quote = value.data()[-1];
     (text += "<a v=") += quote;
     append_with_known_references(value, text);
@@ -102,9 +109,11 @@ bool Document::Implementation::read_coded(Diagnostics& diagnostics) {
     return false;
   }
   const auto* read = xml->FirstChildElement()->FirstChildElement();
-  for (const auto index : coded) {
-    attributes[index].value = values.emplace_back(read->Attribute("v"));
-    read = read->NextSiblingElement();
+  for (std::size_t i = 0; i < numbers.size(); ++i, read = read->NextSiblingElement()) {
+    values.emplace_back(read->Attribute("v"));
+  }
+  for (std::size_t i = 0; i < coded.size(); ++i) {
+    attributes[coded[i]].value = values[number_of[i]];
   }
   return true;
 }

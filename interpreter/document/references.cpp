@@ -12,8 +12,9 @@ bool is_xml_character(std::uint32_t code) {
   return (code < 0xD800 || code > 0xDFFF) && code != 0xFFFE && code != 0xFFFF && code <= 0x10FFFF;
 }
 
-constexpr std::string_view kInReference =
-    "#0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+constexpr bool is_in_reference(char c) {
+  return c == '#' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
 
 std::optional<RawUnit> read_number(std::string_view digits, std::size_t raw) {
   const int base = digits.starts_with('x') ? 16 : 10;
@@ -37,7 +38,8 @@ RawUnit read_unit(std::string_view raw) {
 
 std::optional<RawUnit> read_reference(std::string_view raw) {
   // Zeros may lead a number, so it may be long.
-  const auto end = std::min(raw.find_first_not_of(kInReference, 1), raw.size());
+  std::size_t end = 1;
+  while (end < raw.size() && is_in_reference(raw[end])) ++end;
   if (!raw.substr(end).starts_with(';')) return std::nullopt;
   const auto name = raw.substr(1, end - 1);
   if (name.starts_with('#')) return read_number(name.substr(1), end + 1);

@@ -34,9 +34,11 @@ class Checker {
   }
 
   WellFormed run() {
-    for (auto token = scanner_.next(); !stopped_; token = scanner_.next()) {
+    bool is_end = false;
+    while (!stopped_ && !is_end) {
+      const XmlToken token = scanner_.next();  // made where it is read: a copy waits for its parts
       check(token);
-      if (token.kind == TokenKind::End) break;
+      is_end = token.kind == TokenKind::End;
     }
     return std::move(result_);
   }

@@ -7,8 +7,11 @@
 #include <cstring>
 #include <exception>
 #include <memory>
+#include <mutex>
 #include <new>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "embedding/lockstep/runtime.h"
@@ -16,11 +19,27 @@
 
 namespace lockstep {
 
-// What a project has loaded. Runs share it.
-struct Program {
-  Runnable runnable;
-  // Of the nodes, and the types of the entries, as strings that end in a NUL.
+// Of the nodes of a tree, and the types of its entries, as strings that end in a NUL.
+struct TreeTexts {
+  explicit TreeTexts(const Tree& tree);
   std::vector<std::string> paths, names, ids, types;
+};
+
+// What a project has loaded. Runs, on any threads, share it.
+class Program {
+ public:
+  explicit Program(Runnable loaded) : runnable(std::move(loaded)) {}
+
+  const Runnable runnable;
+  // Made when somebody asks for the first time.
+  const TreeTexts& texts() const {
+    std::call_once(has_texts_, [this] { texts_.emplace(runnable.tree); });
+    return *texts_;
+  }
+
+ private:
+  mutable std::once_flag has_texts_;
+  mutable std::optional<TreeTexts> texts_;
 };
 
 }  // namespace lockstep

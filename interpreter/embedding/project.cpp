@@ -7,6 +7,19 @@
 #include "core/parameter_value.h"
 #include "embedding/handles.h"
 
+namespace lockstep {
+
+TreeTexts::TreeTexts(const Tree& tree) {
+  for (const Slot& slot : tree.slots) types.emplace_back(type_name(slot.type, slot.object));
+  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
+    paths.push_back(tree.path(node));
+    names.emplace_back(tree.labels[node].name);
+    ids.emplace_back(tree.labels[node].type->id);
+  }
+}
+
+}  // namespace lockstep
+
 namespace lockstep::embedding {
 namespace {
 
@@ -42,18 +55,7 @@ bool load_with(lockstep_project* project, const void* argument, Load load) {
            project->load_tried = true;
            auto loaded = load();
            if (loaded && project->plugins->initialize(project->diagnostics)) {
-             auto program = std::make_shared<Program>();
-             program->runnable = make_runnable(std::move(*loaded));
-             const Tree& tree = program->runnable.tree;
-             for (const Slot& slot : tree.slots) {
-               program->types.emplace_back(type_name(slot.type, slot.object));
-             }
-             for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
-               program->paths.push_back(tree.path(node));
-               program->names.emplace_back(tree.labels[node].name);
-               program->ids.emplace_back(tree.labels[node].type->id);
-             }
-             project->program = std::move(program);
+             project->program = std::make_shared<Program>(make_runnable(std::move(*loaded)));
            }
            project->diagnostics.sort();
            return project->program != nullptr ||
@@ -191,13 +193,14 @@ bool lockstep_project_node(const lockstep_project* project, uint32_t index, lock
   return guarded([&] {
     if (index >= lockstep_project_node_count(project)) return fail("no such node");
     const Program& program = *project->program;
+    const TreeTexts& texts = program.texts();
     const NodeLabel& label = program.runnable.tree.labels[index];
     return write_struct({.struct_size = 0,
                          .parent = label.parent,
                          .end = program.runnable.tree.nodes[index].end,
-                         .path = program.paths[index].c_str(),
-                         .name = program.names[index].c_str(),
-                         .id = program.ids[index].c_str()},
+                         .path = texts.paths[index].c_str(),
+                         .name = texts.names[index].c_str(),
+                         .id = texts.ids[index].c_str()},
                         node);
   });
 }
@@ -207,7 +210,7 @@ bool lockstep_project_find_node(const lockstep_project* project, const char* pat
   return guarded([&] {
     if (tree_of(project) == nullptr) return fail("the project has not been loaded");
     if (path == nullptr || index == nullptr) return fail("an argument is NULL");
-    const auto& paths = project->program->paths;
+    const auto& paths = project->program->texts().paths;
     const auto found = std::ranges::find(paths, path);
     if (found == paths.end()) return fail(fmt::format("there is no node '{}'", path));
     *index = static_cast<uint32_t>(found - paths.begin());
@@ -229,7 +232,7 @@ bool lockstep_project_entry(const lockstep_project* project, uint32_t index,
     return write_struct({.struct_size = 0,
                          .type = type_of(slot),
                          .key = slot.name.c_str(),
-                         .type_name = is_any ? "any" : project->program->types[index].c_str()},
+                         .type_name = is_any ? "any" : project->program->texts().types[index].c_str()},
                         entry);
   });
 }

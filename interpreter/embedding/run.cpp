@@ -42,7 +42,7 @@ const Tree& tree_of(const lockstep_run& run) {
 }
 
 std::string fault_text(const lockstep_run& run, const Fault& fault) {
-  return fmt::format("{}: {}", run.program->paths[fault.node], fault.message);
+  return fmt::format("{}: {}", run.program->texts().paths[fault.node], fault.message);
 }
 
 Entry* find_entry(lockstep_run* run, const char* key) {
