@@ -20,6 +20,7 @@ BoundScripts::BoundScripts(const Tree& tree, Blackboard& board, NamedEntries& na
       continue;
     }
     bound.entries = {entries_.data() + entries_.size(), script.slots.size()};
+    bound.comparison = script.code->comparison();
     for (const std::uint32_t slot : script.slots) entries_.push_back(&board.entries[slot]);
   }
 }
@@ -33,9 +34,9 @@ bool BoundScripts::evaluate(NodeIndex node, std::uint32_t script) {
   return evaluator_.evaluate(*it.code, it.entries, value_);
 }
 
-Truth BoundScripts::test_from_entry(NodeIndex node, std::uint32_t script) {
+Truth BoundScripts::test_all(NodeIndex node, std::uint32_t script) {
   const Bound& it = scripts_[script];
-  if (!compile(node, script)) return Truth::Error;
+  if (it.source != nullptr && !compile(node, script)) return Truth::Error;
   if (it.code != nullptr) return evaluator_.test(*it.code, it.entries);
   evaluator_.fail("the script is empty");
   return Truth::Error;

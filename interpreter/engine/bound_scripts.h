@@ -12,6 +12,7 @@
 #include "engine/named_entries.h"
 #include "engine/tree.h"
 #include "expression/evaluator.h"
+#include "expression/relation.h"
 
 namespace lockstep {
 
@@ -27,8 +28,12 @@ class BoundScripts {
   // The same, of one that is a condition.
   Truth test(NodeIndex node, std::uint32_t script) {
     const Bound& it = scripts_[script];
-    if (it.source != nullptr) return test_from_entry(node, script);
-    return evaluator_.test(*it.code, it.entries);
+    double number = 0;
+    if (it.comparison == nullptr || !take(it.entries.front()->value, number)) {
+      return test_all(node, script);
+    }
+    return are_related(number, it.comparison->relation, it.comparison->real) ? Truth::Yes
+                                                                             : Truth::No;
   }
   // What was wrong in the last one that failed.
   const std::string& error() const { return evaluator_.error(); }
@@ -46,10 +51,11 @@ class BoundScripts {
   struct Bound {
     const Expression* code;  // null: there is none now
     std::span<Entry* const> entries = {};
+    const Instruction* comparison = nullptr;  // that it is, if no more
     std::unique_ptr<FromEntry> source = {};
   };
   bool compile(NodeIndex node, std::uint32_t script);
-  Truth test_from_entry(NodeIndex node, std::uint32_t script);
+  Truth test_all(NodeIndex node, std::uint32_t script);
 
   const Tree& tree_;
   NamedEntries& names_;

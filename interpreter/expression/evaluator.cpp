@@ -11,22 +11,10 @@
 #include "expression/assign.h"
 #include "expression/equal.h"
 #include "expression/operator_words.h"
+#include "expression/relation.h"
 
 namespace lockstep {
 namespace {
-
-// NaN is neither "less or equal" nor "more or equal", and so both less and more. Without branches:
-// a bit for each relation.
-inline bool are_related(double left, Relation relation, double right) {
-  const unsigned equal = is_equal(left, right) ? 1 : 0;
-  const unsigned not_above = equal | (left < right ? 1 : 0);
-  const unsigned not_below = equal | (left > right ? 1 : 0);
-  const auto bit = [](Relation of, unsigned holds) { return holds << static_cast<unsigned>(of); };
-  const unsigned all = bit(Relation::Equal, equal) | bit(Relation::NotEqual, equal ^ 1) |
-                       bit(Relation::LessEqual, not_above) | bit(Relation::Greater, not_above ^ 1) |
-                       bit(Relation::GreaterEqual, not_below) | bit(Relation::Less, not_below ^ 1);
-  return ((all >> static_cast<unsigned>(relation)) & 1) != 0;
-}
 
 bool are_related(const std::string& left, Relation relation, const std::string& right) {
   switch (relation) {
@@ -52,20 +40,7 @@ bool take(const Operand& operand, double& number) {
     number = operand.real;
     return true;
   }
-  const bool is_exact = operand.kind == Operand::Kind::Whole && operand.whole <= kLargestExact &&
-                        operand.whole >= -kLargestExact;
-  if (is_exact) number = static_cast<double>(operand.whole);
-  return is_exact;
-}
-
-// Of an entry.
-bool take(const Value& value, double& number) {
-  if (const auto* real = std::get_if<double>(&value)) {
-    number = *real;
-    return true;
-  }
-  const auto* whole = std::get_if<std::int64_t>(&value);
-  return whole != nullptr && take(Operand::of(*whole), number);
+  return operand.kind == Operand::Kind::Whole && take_exactly(operand.whole, number);
 }
 
 bool take(const Operand& operand, std::int64_t& number) {

@@ -49,6 +49,13 @@ class Expression {
   std::span<const Error> remarks() const { return remarks_; }
 
   const ScriptProgram& program() const { return program_; }
+  // Of one that only compares a name, its first, with a number: the instruction that does it. Most
+  // conditions do no more.
+  const Instruction* comparison() const {
+    const std::vector<Instruction>& code = program_.code;
+    const bool is_one = code.size() == 4 && code[0].operation == Operation::LoadToCompare;
+    return is_one ? code.data() : nullptr;
+  }
   // Of each instruction: where in the text it comes from.
   std::span<const std::uint32_t> offsets() const { return offsets_; }
   const ScriptEnums* enums() const { return enums_.get(); }

@@ -144,16 +144,17 @@ Status tick_leaf(Ticker& ticker, NodeIndex self) {
   LeafSlot& leaf = ticker.leaf(self);
   if (!prepare(ticker, self, leaf)) [[unlikely]]
     return out<kKind>(ticker, self);
-  lockstep_status result = LOCKSTEP_RUNNING;
+  lockstep_status result = LOCKSTEP_IDLE;  // no result, as after an exception
+  bool is_out_now = false;                 // what a node without children reports is its error
   if constexpr (kKind == Kind::Control) {
     const Reach reach(leaf, ChildAccess::Tick);
     guarded(ticker, self, [&] { result = leaf.type->tick(leaf.self); });
+    is_out_now = is_out(ticker, leaf);
   } else {
     guarded(ticker, self, [&] { result = leaf.type->tick(leaf.self); });
   }
-  if (leaf.error == nullptr && !is_out(ticker, leaf) && is_result<kKind>(result)) [[likely]] {
+  if (leaf.error == nullptr && !is_out_now && is_result<kKind>(result)) [[likely]]
     return static_cast<Status>(result);
-  }
   return spoiled<kKind>(ticker, self, leaf, result);
 }
 

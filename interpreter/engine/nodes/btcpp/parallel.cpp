@@ -60,9 +60,6 @@ std::optional<RuleBreak> all_rule(const ParameterValues& given) {
 Status tick_parallel(Ticker& ticker, NodeIndex self) {
   Tally& tally = begin_tick(ticker, self);
   const std::int64_t all = ticker.node(self).children;
-  const std::int64_t given = ticker.parameter(self, kSuccessCount).integer;
-  const std::int64_t wanted = count_of(given, all);
-  const std::int64_t failures = count_of(ticker.parameter(self, kFailureCount).integer, all);
   bool may_decide = true;
   for (NodeIndex child = self + 1; child != ticker.end_of(self); child = ticker.end_of(child)) {
     if (!is_complete(ticker.status(child))) {
@@ -74,6 +71,9 @@ Status tick_parallel(Ticker& ticker, NodeIndex self) {
       }
     }
     if (!std::exchange(may_decide, false)) continue;
+    const std::int64_t given = ticker.parameter(self, kSuccessCount).integer;
+    const std::int64_t wanted = count_of(given, all);
+    const std::int64_t failures = count_of(ticker.parameter(self, kFailureCount).integer, all);
     const std::int64_t counted = tally.succeeded + (given < 0 ? tally.skipped : 0);
     const bool success = counted >= wanted;
     if (success || all - tally.failed < wanted || tally.failed == failures) {
