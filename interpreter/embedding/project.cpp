@@ -229,10 +229,11 @@ bool lockstep_project_entry(const lockstep_project* project, uint32_t index,
     if (index >= lockstep_project_entry_count(project)) return fail("no such entry");
     const Slot& slot = project->program->runnable.tree.slots[index];
     const bool is_any = slot.typing == Typing::Any;
-    return write_struct({.struct_size = 0,
-                         .type = type_of(slot),
-                         .key = slot.name.c_str(),
-                         .type_name = is_any ? "any" : project->program->texts().types[index].c_str()},
-                        entry);
+    return write_struct(
+        {.struct_size = 0,
+         .type = type_of(slot),
+         .key = slot.name.c_str(),
+         .type_name = is_any ? "any" : project->program->texts().types[index].c_str()},
+        entry);
   });
 }
