@@ -239,20 +239,24 @@ TEST_CASE("layers: no stage after the check sees a document") {
   }
 }
 
-// fmt 11 has fmt::join there and no longer in format.h.
-TEST_CASE("layers: who joins a range includes fmt/ranges.h") {
+// fmt::format is compiled in the library of fmt. Each unit that uses another one compiles all of
+// formatting again, which takes seconds.
+TEST_CASE("layers: one unit, and the recorder, format without fmt::format") {
   int seen = 0;
-  for (const char* folder : {"interpreter", "plugins", "tests"}) {
+  for (const char* folder : {"interpreter", "plugins"}) {
     for (const std::string& file : sources_under(folder)) {
       std::ifstream stream(fs::path(LOCKSTEP_SOURCE_DIR) / file);
       const std::string text{std::istreambuf_iterator<char>(stream), {}};
-      if (text.find("fmt::join(") == std::string::npos) continue;
-      ++seen;
-      INFO(file);
-      CHECK(text.find("#include <fmt/ranges.h>") != std::string::npos);
+      for (const char* other : {"fmt::format_to", "fmt::to_string(", "fmt::join(", "fmt::print("}) {
+        if (text.find(other) == std::string::npos) continue;
+        ++seen;
+        INFO(file << ": " << other);
+        const bool is_apart = file == "interpreter/recording/write/json_lines.cpp";
+        CHECK((is_apart || file.starts_with("interpreter/core/")));
+      }
     }
   }
-  CHECK(seen > 10);
+  CHECK(seen > 0);
 }
 
 }  // namespace lockstep::test

@@ -1,7 +1,6 @@
 #include "cli/checks.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -59,10 +58,10 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
     if (std::ranges::find(words, text) != words.end()) return "";
     const std::vector<std::string_view> candidates(words.begin(), words.end());
     const std::string near = did_you_mean(text, candidates);
-    return fmt::format("'{}' is not one of {}{}{}", brief(text), fmt::join(words, ", "),
+    return fmt::format("'{}' is not one of {}{}{}", brief(text), joined(words, ", "),
                        near.empty() ? "" : "; ", near);
   };
-  return {check, fmt::format("{}", fmt::join(words, "|"))};
+  return {check, joined(words, "|")};
 }
 
 }  // namespace lockstep

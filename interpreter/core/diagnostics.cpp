@@ -27,9 +27,9 @@ std::size_t append_visible(std::string& out, std::string_view text, Tabs tabs) {
   if (plain_tab || (length > 0 && !is_obeyed_by_terminals(code))) {
     out += character;
   } else if (length > 1) {
-    fmt::format_to(std::back_inserter(out), "\\u{:04X}", static_cast<unsigned>(code));
+    out += fmt::format("\\u{:04X}", static_cast<unsigned>(code));
   } else {
-    fmt::format_to(std::back_inserter(out), "\\x{:02X}", static_cast<unsigned char>(character[0]));
+    out += fmt::format("\\x{:02X}", static_cast<unsigned char>(character[0]));
   }
   return character.size();
 }

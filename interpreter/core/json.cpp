@@ -30,7 +30,7 @@ std::string escaped(std::string_view json) {
     const auto [length, code] = first_character(json);
     const auto character = json.substr(0, std::max<std::size_t>(length, 1));
     if (code >= kDelete && is_obeyed_by_terminals(code)) {
-      fmt::format_to(std::back_inserter(out), "\\u{:04x}", static_cast<unsigned>(code));
+      out += fmt::format("\\u{:04x}", static_cast<unsigned>(code));
     } else {
       out += character;
     }

@@ -1,6 +1,8 @@
 // Names, lists and numbers for messages: short, even if those of a document or a plugin are long.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <span>
 #include <string>
@@ -10,6 +12,18 @@ namespace lockstep {
 
 // `name`, or its first letters and "…": no more than 256.
 std::string brief(std::string_view name);
+
+// "a, b, c" with ", " between. With fmt::join each unit would compile formatting again.
+template <class Items>
+std::string joined(const Items& items, std::string_view between) {
+  std::string text;
+  std::string_view before;
+  for (const auto& item : items) {
+    text += fmt::format("{}{}", before, item);
+    before = between;
+  }
+  return text;
+}
 
 // "'a', 'b' and 3 more": at most ten names, and no more of them than fit a line or two.
 std::string listed(std::span<const std::string_view> names);

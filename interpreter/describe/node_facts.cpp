@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/hook.h"
 #include "core/parameter_value.h"
@@ -64,7 +63,7 @@ std::string facts_text(const Parameter& parameter) {
   if (parameter.direction != Direction::Input) {
     text += fmt::format(", {}put to a blackboard entry", to_string(parameter.direction));
   }
-  if (!parameter.choices.empty()) text += fmt::format(", {}", fmt::join(parameter.choices, " or "));
+  if (!parameter.choices.empty()) text += fmt::format(", {}", joined(parameter.choices, " or "));
   const std::string range = range_text(parameter.range);
   if (!range.empty()) text += ", " + range;
   if (parameter.default_text) {

@@ -1,11 +1,11 @@
 #include "describe/tree_drawing.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
 #include "core/diagnostics.h"
+#include "core/wording.h"
 
 namespace lockstep {
 namespace {
@@ -23,7 +23,9 @@ const Value* constant(const Definition& definition, const DefinitionNode& node,
 std::string barriers_text(const std::vector<double>& barriers) {
   if (barriers.empty()) return "no barriers";
   if (barriers.size() > kMostBarriers) return fmt::format("{} barriers", barriers.size());
-  return fmt::format("{{{:.4g}}}", fmt::join(barriers, ", "));
+  std::vector<std::string> texts;
+  for (const double barrier : barriers) texts.push_back(fmt::format("{:.4g}", barrier));
+  return fmt::format("{{{}}}", joined(texts, ", "));
 }
 
 // What the sign of a control node does not say.

@@ -1,7 +1,6 @@
 #include "plots/box_plot.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -10,6 +9,7 @@
 
 #include "core/diagnostics.h"
 #include "core/utf8.h"
+#include "core/wording.h"
 #include "measure/measure_spec.h"
 #include "plots/gnuplot.h"
 #include "plots/plot_style.h"
@@ -107,7 +107,7 @@ std::vector<BoxPlot> box_plots(const std::vector<GridAxis>& grid,
     key.insert(key.end(), {row.node, row.measure});
     const auto [place, is_new] = places.emplace(std::move(key), plots.size());
     if (is_new) plots.push_back(empty_plot(grid, row));
-    const std::string label = fmt::format("{}", fmt::join(last, row.grid.end(), ":"));
+    const std::string label = joined(std::ranges::subrange(last, row.grid.end()), ":");
     const bool is_there = row.summary.count > 0;
     BoxPlot& plot = plots[place->second];
     plot.groups.push_back(
@@ -154,9 +154,9 @@ std::string box_plot_script(const BoxPlot& plot, PlotSize size) {
       fmt::format("title = {}\nx_label = {}\ny_label = {}\n", plot_title(plot.title, size),
                   gnuplot_string(shortened(plot.x_label, letters)), gnuplot_string(plot.y_label));
   text += fmt::format("groups = {}\ncrowded = {:d}\n", groups.size(), length > 64);
-  text += fmt::format("array group[groups] = [{}]\n", fmt::join(groups, ", "));
-  text += fmt::format("array n[groups] = [{}]\n", fmt::join(n, ", "));
-  text += fmt::format("array success[groups] = [{}]\n", fmt::join(success, ", "));
+  text += fmt::format("array group[groups] = [{}]\n", joined(groups, ", "));
+  text += fmt::format("array n[groups] = [{}]\n", joined(n, ", "));
+  text += fmt::format("array success[groups] = [{}]\n", joined(success, ", "));
   text +=
       fmt::format("row_font = ',{}'\nset yrange {}\n\n", row_letters(plot, size), y_range(plot));
   return text + kBoxPlotTemplate + gnuplot_terminal(plot.stem + ".png", size) + "replot\n";

@@ -1,13 +1,13 @@
 #include "plots/progress_plot.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "core/diagnostics.h"
+#include "core/wording.h"
 #include "plots/gnuplot.h"
 #include "plots/plot_style.h"
 #include "plots/templates.h"
@@ -28,7 +28,7 @@ std::string sample_lines(const ProgressPlot& plot) {
     if (sample.begins && &sample != plot.samples.data()) text += "\n";
     const double most = farthest(plot.node.synchronization, sample.limit, sample.least);
     text += fmt::format("{} {} {} {}\n", sample.time, sample.least, std::min(1.0, most),
-                        fmt::join(sample.progress, " "));
+                        joined(sample.progress, " "));
   }
   return text;
 }
@@ -117,7 +117,7 @@ std::string progress_plot_script(const ProgressPlot& plot, const std::filesystem
   std::vector<std::string> names, held;
   for (std::size_t child = 0; child < plot.children.size(); ++child) {
     names.push_back(gnuplot_string(shortened(plot.children[child], legend.name)));
-    if (!held_lines(plot, child).empty()) held.push_back(fmt::to_string(child + 1));
+    if (!held_lines(plot, child).empty()) held.push_back(std::to_string(child + 1));
   }
   std::string text = "# Made by lockstep. ";
   text += fmt::format("To draw it again: gnuplot {}.gp\n", printable(stem));
@@ -126,10 +126,10 @@ std::string progress_plot_script(const ProgressPlot& plot, const std::filesystem
                       title.find("\"\\n\"") == std::string::npos ? 1 : 2);
   text += fmt::format("begin = {}\nend = {}\n", begin, end > begin ? end : begin + 1);
   text += fmt::format("legend_font = ',{}'\nchildren = {}\n", legend.letter, names.size());
-  text += fmt::format("array name[children] = [{}]\n", fmt::join(names, ", "));
-  text += fmt::format("held = '{}'  # each has a block in the data\n", fmt::join(held, " "));
+  text += fmt::format("array name[children] = [{}]\n", joined(names, ", "));
+  text += fmt::format("held = '{}'  # each has a block in the data\n", joined(held, " "));
   text += fmt::format("kind = '{}'\nbarriers = '{}'\n\n", kind_of(plot),
-                      fmt::join(plot.node.barriers.value_or(std::vector<double>()), " "));
+                      joined(plot.node.barriers.value_or(std::vector<double>()), " "));
   return text + kProgressPlotTemplate;
 }
 

@@ -1,7 +1,6 @@
 #include "plugin/plugin_path.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -57,7 +56,7 @@ Result<std::string> find_plugin_file(std::string_view name,
     return problem(kNoDirectory, kAddDirectory);
   }
   const std::string message =
-      fmt::format("is not found: '{}.so' is not in {}", brief(name), fmt::join(directories, ", "));
+      fmt::format("is not found: '{}.so' is not in {}", brief(name), joined(directories, ", "));
   if (const std::string file = with_prefix(name, directories); !file.empty()) {
     return problem(message, fmt::format("'{0}' exists: rename it to '{1}.so' (in CMake: "
                                         "lockstep_add_plugin, or PREFIX \"\")",
@@ -109,7 +108,7 @@ Result<std::string> find_program_file(std::string_view file,
   }
   if (directories.empty()) return problem(kNoDirectory, kAddDirectory);
   return problem(fmt::format("is not found: the program '{}' is not in {}", brief(file),
-                             fmt::join(directories, ", ")),
+                             joined(directories, ", ")),
                  kAddDirectory);
 }
 

@@ -2,7 +2,6 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <link.h>
 
 #include <atomic>
@@ -10,6 +9,7 @@
 #include <set>
 #include <string_view>
 
+#include "core/wording.h"
 #include "plugin/call_mark.h"
 #include "plugin/elf_file.h"
 #include "plugin/float_mode.h"
@@ -43,7 +43,7 @@ void note_opened(const std::string& path) {
   static std::set<std::string> paths;
   const std::lock_guard lock(mutex);
   if (!paths.insert(path).second) return;
-  g_opened = &CallSite::of_plugin(fmt::format("{}", fmt::join(paths, "' or '")));
+  g_opened = &CallSite::of_plugin(joined(paths, "' or '"));
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "runtime/outlet.h"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <cerrno>
 #include <condition_variable>
 #include <cstddef>
+#include <cstdio>
 #include <cstring>
 #include <ctime>
 #include <mutex>
@@ -82,12 +82,11 @@ void Outlet::State::lose(std::uint64_t count, int why) {
 bool Outlet::State::tell_gap() {
   if (gap.lines == 0) return true;
   std::array<char, 200> note;
-  const auto end =
-      fmt::format_to_n(note.data(), note.size(), "lockstep: warning: {} {} lost here: {}\n",
-                       gap.lines, gap.lines == 1 ? "line is" : "lines are",
-                       text_of_reason(gap.reason))
-          .out;
-  if (!write_all(file, {note.data(), static_cast<std::size_t>(end - note.data())})) return false;
+  const int size =
+      std::snprintf(note.data(), note.size(), "lockstep: warning: %ju %s lost here: %s\n",
+                    std::uintmax_t{gap.lines}, gap.lines == 1 ? "line is" : "lines are",
+                    text_of_reason(gap.reason));
+  if (!write_all(file, {note.data(), static_cast<std::size_t>(size)})) return false;
   gap = {};
   return true;
 }

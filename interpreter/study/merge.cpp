@@ -1,11 +1,11 @@
 #include "study/merge.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <map>
 #include <memory>
 
+#include "core/wording.h"
 #include "study/plan_json.h"
 #include "study/row_reader.h"
 
@@ -69,7 +69,7 @@ Result<void> Merger::check_complete() const {
   for (std::uint64_t number = 1; number <= of_ && named.size() < kMostNamed; ++number) {
     if (!parts_.contains(number)) named.push_back(number);
   }
-  return problem(fmt::format("of {} parts these are missing: {}{}", of_, fmt::join(named, ", "),
+  return problem(fmt::format("of {} parts these are missing: {}{}", of_, joined(named, ", "),
                              missing > named.size() ? ", …" : ""));
 }
 

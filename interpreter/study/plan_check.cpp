@@ -1,12 +1,13 @@
 #include "study/plan_check.h"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 #include <functional>
 #include <set>
 
+#include "core/wording.h"
 #include "measure/measure_spec.h"
 #include "study/column_names.h"
 
@@ -131,7 +132,7 @@ std::string value_twice(std::span<const GridAxis> together) {
   for (std::size_t i = 0; i < together.front().values.size(); ++i) {
     std::vector<std::string> values;
     for (const GridAxis& axis : together) values.push_back(axis.values[i]);
-    if (!seen.insert(values).second) return fmt::format("{}", fmt::join(values, ":"));
+    if (!seen.insert(values).second) return joined(values, ":");
   }
   return {};
 }

@@ -75,9 +75,9 @@ void RowReader::expect_row() {
 }
 
 bool RowReader::is_expected() {
-  const std::string_view beginning(beginning_.data(), beginning_.size());
-  return !beginning.empty() && line_.starts_with(beginning) &&
-         read_row_end(std::string_view(line_).substr(beginning.size()), row_) && rules_.allow(row_);
+  return !beginning_.empty() && line_.starts_with(beginning_) &&
+         read_row_end(std::string_view(line_).substr(beginning_.size()), row_) &&
+         rules_.allow(row_);
 }
 
 std::string_view RowReader::next() {

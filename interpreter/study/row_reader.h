@@ -44,8 +44,8 @@ class RowReader {
   std::string line_;
   std::uint64_t cell_ = ~std::uint64_t{0};
   std::string cell_text_;
-  std::uint64_t seed_ = 0;        // of the cell
-  fmt::memory_buffer beginning_;  // of the line that comes next
+  std::uint64_t seed_ = 0;  // of the cell
+  std::string beginning_;   // of the line that comes next
   RowResult row_;
   std::string error_;
   RowSequence rows_;

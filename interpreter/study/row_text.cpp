@@ -1,14 +1,14 @@
 #include "study/row_text.h"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <iterator>
 #include <limits>
 
 #include "core/csv_field.h"
+#include "core/wording.h"
 #include "study/column_names.h"
 
 namespace lockstep {
@@ -36,7 +36,7 @@ std::string row_header(const StudyPlan& plan) {
   const std::span<const std::string_view> names = kRowColumns;
   std::string header = fmt::format("{},", names.front());
   for (const std::string& name : grid_columns(plan)) header += name + ',';
-  header += fmt::format("{}", fmt::join(names.subspan(1), ","));
+  header += joined(names.subspan(1), ",");
   for (const StudyColumn& column : plan.columns) {
     header += ',' + csv_field(column_name(column));
   }
@@ -50,16 +50,16 @@ std::string row_cell(const StudyPlan& plan, std::uint64_t cell) {
 }
 
 void append_row_beginning(const std::string& cell, std::uint64_t run, std::uint64_t seed,
-                          fmt::memory_buffer& out) {
-  fmt::format_to(std::back_inserter(out), "{}{},{},", cell, run, seed);
+                          std::string& out) {
+  out += fmt::format("{}{},{},", cell, run, seed);
 }
 
-void append_row_end(const RowResult& row, fmt::memory_buffer& out) {
+void append_row_end(const RowResult& row, std::string& out) {
   const auto result = kResultNames[static_cast<std::size_t>(row.result)];
-  fmt::format_to(std::back_inserter(out), "{},{}", row.ticks, result);
+  out += fmt::format("{},{}", row.ticks, result);
   for (const double value : row.values) {
     out.push_back(',');
-    if (!std::isnan(value)) fmt::format_to(std::back_inserter(out), "{}", value);
+    if (!std::isnan(value)) append_text(value, out);
   }
   out.push_back('\n');
 }
@@ -81,9 +81,9 @@ bool read_row_end(std::string_view text, RowResult& row) {
     if (!field.empty() && !read_number(field, value)) return false;
   }
   // Numbers that could be written in other ways, missing ends of lines, further fields.
-  fmt::memory_buffer again;
+  std::string again;
   append_row_end(row, again);
-  return text == std::string_view(again.data(), again.size());
+  return text == again;
 }
 
 }  // namespace lockstep

@@ -1,8 +1,6 @@
 // The text of runs.csv, a line at a time.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,9 +24,9 @@ std::string row_header(const StudyPlan& plan);
 // cell: "cell,<grid>,".
 std::string row_cell(const StudyPlan& plan, std::uint64_t cell);
 void append_row_beginning(const std::string& cell, std::uint64_t run, std::uint64_t seed,
-                          fmt::memory_buffer& out);
+                          std::string& out);
 // "ticks,result,<columns>" and the end of the line.
-void append_row_end(const RowResult& row, fmt::memory_buffer& out);
+void append_row_end(const RowResult& row, std::string& out);
 
 // Parses what append_row_end() has written; `row` has a value for each column. Returns false if
 // append_row_end() would have written it differently.

@@ -1,10 +1,11 @@
 #include "study/table.h"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <iterator>
 
 #include "core/csv_field.h"
+#include "core/wording.h"
 #include "study/cell_values.h"
 #include "study/column_names.h"
 #include "study/row_reader.h"
@@ -67,7 +68,7 @@ Result<std::vector<SummaryRow>> summarize_runs(const std::string& path, const St
 std::string summary_csv(const StudyPlan& plan, const std::vector<SummaryRow>& rows) {
   std::string text;
   for (const std::string& name : grid_columns(plan)) text += name + ',';
-  text += fmt::format("{},{}\n", fmt::join(kSummaryColumns, ","), fmt::join(kIntervalColumns, ","));
+  text += fmt::format("{},{}\n", joined(kSummaryColumns, ","), joined(kIntervalColumns, ","));
   for (const SummaryRow& row : rows) {
     for (const std::string& value : row.grid) text += csv_field(value) + ',';
     const SampleSummary& it = row.summary;

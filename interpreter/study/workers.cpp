@@ -21,7 +21,7 @@ constexpr std::uint64_t kChunksPerThread = 1024;  // that may wait for an earlie
 constexpr std::chrono::milliseconds kWriteInterval{50};
 
 struct Chunk {
-  fmt::memory_buffer lines;
+  std::string lines;
   std::vector<RowResult> made;  // of which the first `rows` count
   std::size_t rows = 0;
   bool complete = true;  // false: nothing after it counts
@@ -149,8 +149,7 @@ void Workshop::make(std::uint64_t number, Chunk& chunk, std::optional<StudyRun>&
 
 void Workshop::write(Chunk& chunk) {
   if (closed_) return;
-  if (!work_.write({chunk.lines.data(), chunk.lines.size()},
-                   std::span(chunk.made).first(chunk.rows))) {
+  if (!work_.write(chunk.lines, std::span(chunk.made).first(chunk.rows))) {
     closed_ = true;
     limit_ = 0;
   }

@@ -55,12 +55,12 @@ std::string worst_tick(const Summary& summary) {
 
 void write_over_budget(const Summary& summary, std::string& out, bool color) {
   for (const LeafTimingSummary& leaf : summary.over_budget) {
-    fmt::format_to(std::back_inserter(out),
-                   "  {} of {:.6g} ms: {} in {}, max {:.3f} ms; {}: p50 {:.3f} ms, p99 {:.3f} ms\n",
-                   styled("over the tick budget", Style::Warning, color),
-                   summary.tick_budget.value_or(0) * 1e3, printable(leaf.path),
-                   counted(leaf.over_budget, "call"), leaf.max * 1e3, counted(leaf.calls, "tick"),
-                   leaf.p50 * 1e3, leaf.p99 * 1e3);
+    out += fmt::format(
+        "  {} of {:.6g} ms: {} in {}, max {:.3f} ms; {}: p50 {:.3f} ms, p99 {:.3f} ms\n",
+        styled("over the tick budget", Style::Warning, color),
+        summary.tick_budget.value_or(0) * 1e3, printable(leaf.path),
+        counted(leaf.over_budget, "call"), leaf.max * 1e3, counted(leaf.calls, "tick"),
+        leaf.p50 * 1e3, leaf.p99 * 1e3);
   }
 }
 
@@ -71,17 +71,15 @@ std::string waited(const ChildSummary& child) {
 }
 
 void write_distance(const SynchronizedSummary& node, std::string& out) {
-  fmt::format_to(std::back_inserter(out),
-                 "    progress distance {:.6g}, mean {:.6g} a tick; largest spread {:.6g}{}, ",
-                 node.distance_sum, node.distance_mean, node.largest_spread,
-                 node.spread_bound ? fmt::format(" (bound {:.6g})", *node.spread_bound) : "");
-  fmt::format_to(std::back_inserter(out), "longest step {:.6g}\n", node.step_length);
+  out += fmt::format("    progress distance {:.6g}, mean {:.6g} a tick; largest spread {:.6g}{}, ",
+                     node.distance_sum, node.distance_mean, node.largest_spread,
+                     node.spread_bound ? fmt::format(" (bound {:.6g})", *node.spread_bound) : "");
+  out += fmt::format("longest step {:.6g}\n", node.step_length);
 }
 
 void write_node(const SynchronizedSummary& node, std::string& out, bool color) {
   const auto name = styled(printable(node.path), Style::Strong, color);
-  fmt::format_to(std::back_inserter(out), "  {} ({}, {})\n", name, printable(node.kind),
-                 counted(node.samples, "tick"));
+  out += fmt::format("  {} ({}, {})\n", name, printable(node.kind), counted(node.samples, "tick"));
   if (!node.is_pool) write_distance(node, out);
   std::vector<TableRow> rows;
   for (const ChildSummary& child : node.children) {
@@ -93,11 +91,10 @@ void write_node(const SynchronizedSummary& node, std::string& out, bool color) {
 void write_deciding(const DecidingSummary& node, std::size_t indent, std::string& out, bool color) {
   const std::string name = last_segment(node.path);
   const Style style = node.status == Status::Success ? Style::Good : Style::Bad;
-  fmt::format_to(std::back_inserter(out), "{:{}}{}", "", indent, printable(name));
-  if (name != node.kind) fmt::format_to(std::back_inserter(out), " ({})", printable(node.kind));
-  fmt::format_to(std::back_inserter(out), ": {}", styled(to_string(node.status), style, color));
-  if (node.agreeing > 1)
-    fmt::format_to(std::back_inserter(out), " ({} of {} children)", node.agreeing, node.children);
+  out += fmt::format("{:{}}{}", "", indent, printable(name));
+  if (name != node.kind) out += fmt::format(" ({})", printable(node.kind));
+  out += fmt::format(": {}", styled(to_string(node.status), style, color));
+  if (node.agreeing > 1) out += fmt::format(" ({} of {} children)", node.agreeing, node.children);
   out += '\n';
 }
 
@@ -165,21 +162,20 @@ void write_text(std::span<const SynchronizedSummary> nodes, std::size_t never_re
                 std::string& out, bool color) {
   for (const SynchronizedSummary& node : nodes) write_node(node, out, color);
   if (never_reached == 0) return;
-  fmt::format_to(std::back_inserter(out), "  {} {} never reached\n",
-                 counted(never_reached, "synchronized node"), never_reached == 1 ? "was" : "were");
+  out += fmt::format("  {} {} never reached\n", counted(never_reached, "synchronized node"),
+                     never_reached == 1 ? "was" : "were");
 }
 
 // Of a deep tree the first and the last nodes: in between a result is mostly passed on.
 void write_text(std::span<const DecidingSummary> why_failed, std::string& out, bool color) {
   constexpr std::size_t kFirst = 5, kLast = 15;
   if (why_failed.empty()) return;
-  fmt::format_to(std::back_inserter(out), "  decided by {}:\n", printable(why_failed.back().path));
+  out += fmt::format("  decided by {}:\n", printable(why_failed.back().path));
   const std::size_t left_out = why_failed.size() - std::min(why_failed.size(), kFirst + kLast);
   std::size_t indent = 4;
   for (std::size_t i = 0; i < why_failed.size(); ++i, indent += 2) {
     if (left_out > 0 && i == kFirst) {
-      fmt::format_to(std::back_inserter(out), "{:{}}... {} more\n", "", indent,
-                     counted(left_out, "node"));
+      out += fmt::format("{:{}}... {} more\n", "", indent, counted(left_out, "node"));
       i += left_out;
       indent += 2;
     }
@@ -190,16 +186,14 @@ void write_text(std::span<const DecidingSummary> why_failed, std::string& out, b
 void write_text(const Summary& summary, std::string& out, bool color) {
   const auto result = styled(to_string(summary.result), style_of(summary.result), color);
   const std::string reason = why(summary);
-  fmt::format_to(std::back_inserter(out), "{}{}{} after {}, {:.3f} s\n", result,
-                 reason.empty() ? "" : ": ", reason, counted(summary.ticks, "tick"),
-                 summary.seconds);
+  out += fmt::format("{}{}{} after {}, {:.3f} s\n", result, reason.empty() ? "" : ": ", reason,
+                     counted(summary.ticks, "tick"), summary.seconds);
   write_text(summary.why_failed, out, color);
   out += timing(summary) + worst_tick(summary);
   write_over_budget(summary, out, color);
   write_text(summary.synchronized_nodes, summary.never_reached, out, color);
   for (const std::string& note : summary.notes) {
-    fmt::format_to(std::back_inserter(out), "{} {}\n", styled("note:", Style::Warning, color),
-                   printable(note));
+    out += fmt::format("{} {}\n", styled("note:", Style::Warning, color), printable(note));
   }
 }
 

@@ -31,13 +31,13 @@ StudyPlan plan_of(std::uint64_t runs) {
 
 // runs.csv with these values, row after row.
 std::string runs_csv(const StudyPlan& plan, const std::vector<double>& values) {
-  fmt::memory_buffer lines;
+  std::string lines;
   for (std::uint64_t row = 0; row < values.size(); ++row) {
     const StudyRow at = row_at(plan, row);
     append_row_beginning(row_cell(plan, at.cell), at.run, run_seed(plan, at), lines);
     append_row_end({.ticks = 7, .values = {values[row]}}, lines);
   }
-  return row_header(plan) + std::string(lines.data(), lines.size());
+  return row_header(plan) + lines;
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ TEST_CASE("studies: what no run reached has no numbers, and every run is counted
   const std::string measure = "predictability:task@0.6";
   plan.columns = {{measure, "Main/task"}, {measure, "Main/task", true}};
   plan.columns.push_back({"progress-distance", "Main/sync", false, {0}});
-  fmt::memory_buffer lines;
+  std::string lines;
   const double none = std::nan("");
   const auto add = [&](std::uint64_t row, StudyResult result, std::vector<double> values) {
     const StudyRow at = row_at(plan, row);
@@ -90,8 +90,7 @@ TEST_CASE("studies: what no run reached has no numbers, and every run is counted
   add(2, StudyResult::Limit, {none, 0.3, 2});
   add(3, StudyResult::Failure, {none, none, 3});
   for (std::uint64_t row = 4; row < 8; ++row) add(row, StudyResult::Failure, {none, 0.6, none});
-  const auto file =
-      directory.file("runs.csv", row_header(plan) + std::string(lines.data(), lines.size()));
+  const auto file = directory.file("runs.csv", row_header(plan) + lines);
   const auto rows = summarize_runs(file, plan).value();
   CHECK(summary_csv(plan, rows) ==
         "grid_n,node,measure,min,q1,median,q3,max,mean,n,runs,success,failure,limit,gap," INTERVALS

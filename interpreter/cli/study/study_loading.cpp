@@ -1,7 +1,6 @@
 #include "cli/study/study_loading.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -12,6 +11,7 @@
 #include "cli/load/real_time_leaves.h"
 #include "core/freed_memory.h"
 #include "core/suggest.h"
+#include "core/wording.h"
 #include "study/column_names.h"
 #include "study/grid_text.h"
 #include "study/plan_check.h"
@@ -113,7 +113,7 @@ void StudyLoader::name_axis(GridAxis& axis, const std::vector<DeclaredArgument>&
   if (found == std::ssize(names)) {
     std::string hint = did_you_mean(axis.name, names);
     if (!hint.empty()) hint += ' ';
-    hint += fmt::format("there are: '{}'", fmt::join(names, "', '"));
+    hint += fmt::format("there are: '{}'", joined(names, "', '"));
     error(fmt::format("unknown name '{}' in --grid", axis.name), std::move(hint));
   } else if (found >= count) {
     axis.kind = found == count ? GridAxis::Kind::Seed : GridAxis::Kind::Rate;

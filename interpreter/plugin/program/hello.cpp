@@ -1,7 +1,6 @@
 #include "plugin/program/hello.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cmath>
 #include <initializer_list>
@@ -47,8 +46,8 @@ std::string scalar_text(JsonValue value) {
   double number = 0;
   if (value.get(text)) return std::string(text);
   if (value.get(flag)) return flag ? "true" : "false";
-  if (value.get(whole)) return fmt::to_string(whole);
-  if (value.get(number)) return fmt::to_string(number);
+  if (value.get(whole)) return std::to_string(whole);
+  if (value.get(number)) return fmt::format("{}", number);
   throw JsonError("a default is not a string, a number, true or false");
 }
 
@@ -95,7 +94,7 @@ struct Hello::Reader {
     port.direction = one_of<lockstep_direction>(
         "direction of a port", direction,
         {{"input", LOCKSTEP_INPUT}, {"output", LOCKSTEP_OUTPUT}, {"inout", LOCKSTEP_INOUT}});
-    port.choices = keep_or_null(fmt::format("{}", fmt::join(choices, ";")));
+    port.choices = keep_or_null(joined(choices, ";"));
     const bool is_limited = least != -HUGE_VAL || most != HUGE_VAL;
     port.min = is_limited ? least : 0;
     port.max = is_limited ? most : 0;

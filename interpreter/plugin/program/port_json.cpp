@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
 #include <type_traits>
 
 #include "core/json.h"
@@ -49,10 +48,10 @@ void append_item(std::string& to, Flag item) {
   append_item(to, item.is_set);
 }
 void append_item(std::string& to, std::int64_t item) {
-  fmt::format_to(std::back_inserter(to), "{}", item);
+  append_text(item, to);
 }
 void append_item(std::string& to, double item) {
-  fmt::format_to(std::back_inserter(to), "{}", item);
+  append_text(item, to);
 }
 void append_item(std::string& to, const std::string& item) {
   append_json(to, item);

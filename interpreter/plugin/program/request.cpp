@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
-
 #include "core/json.h"
 #include "plugin/host.h"
 #include "plugin/program/port_json.h"
@@ -11,7 +9,8 @@
 namespace lockstep {
 
 Request& Request::begin(std::string_view what, std::uint32_t leaf) {
-  fmt::format_to(std::back_inserter(text_), R"({{"do":"{}","leaf":{})", what, leaf);
+  ((text_ += R"({"do":")") += what) += R"(","leaf":)";
+  text_ += fmt::format_int(leaf).c_str();
   return *this;
 }
 
@@ -23,13 +22,13 @@ void Request::name(std::string_view name) {
 
 Request& Request::field(std::string_view name, double number) {
   this->name(name);
-  fmt::format_to(std::back_inserter(text_), "{}", number);
+  append_text(number, text_);
   return *this;
 }
 
 Request& Request::field(std::string_view name, std::uint64_t number) {
   this->name(name);
-  fmt::format_to(std::back_inserter(text_), "{}", number);
+  text_ += fmt::format_int(number).c_str();
   return *this;
 }
 

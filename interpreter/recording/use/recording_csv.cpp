@@ -27,9 +27,9 @@ bool write_csv(RecordingReader& reader, const CsvSink& write, CsvNames names) {
     for (std::size_t index = 0; index < tick->nodes.size(); ++index) {
       const RecordedState& node = tick->nodes[index];
       if (!is_active(node)) continue;
-      fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{},{:d},{:d}\n", tick->tick,
-                     tick->time, index, paths[index], to_string(node.status), node.progress,
-                     node.ticked, node.held);
+      rows +=
+          fmt::format("{},{},{},{},{},{},{:d},{:d}\n", tick->tick, tick->time, index, paths[index],
+                      to_string(node.status), node.progress, node.ticked, node.held);
     }
     if (rows.size() < kFull) continue;
     if (!write(rows)) return false;

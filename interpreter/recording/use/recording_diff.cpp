@@ -1,13 +1,13 @@
 #include "recording/use/recording_diff.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
 #include <utility>
 
+#include "core/wording.h"
 #include "summary/summary.h"
 
 namespace lockstep {
@@ -22,11 +22,11 @@ void add(Values& values, std::string what, std::optional<std::string> a,
 
 std::string describe(const RecordedNode& node) {
   if (!node.resources.empty()) {
-    return fmt::format("{} resources={}", node.kind, fmt::join(node.resources, ";"));
+    return fmt::format("{} resources={}", node.kind, joined(node.resources, ";"));
   }
   if (node.synchronization == Synchronization::Absolute) {
     if (!node.barriers) return node.kind + " barriers from an entry";
-    return fmt::format("{} barriers={}", node.kind, fmt::join(*node.barriers, ";"));
+    return fmt::format("{} barriers={}", node.kind, joined(*node.barriers, ";"));
   }
   if (node.synchronization == Synchronization::Relative) {
     if (!node.delta) return node.kind + " delta from an entry";
@@ -70,9 +70,9 @@ std::vector<Pair> pair_nodes(const RecordingHeader& a, const RecordingHeader& b,
 Values compare_headers(const RecordingHeader& a, const RecordingHeader& b) {
   Values values;
   add(values, "tree", a.tree, b.tree);
-  add(values, "rate_hz", fmt::to_string(a.rate_hz), fmt::to_string(b.rate_hz));
+  add(values, "rate_hz", fmt::format("{}", a.rate_hz), fmt::format("{}", b.rate_hz));
   add(values, "clock", a.clock, b.clock);
-  add(values, "seed", fmt::to_string(a.seed), fmt::to_string(b.seed));
+  add(values, "seed", std::to_string(a.seed), std::to_string(b.seed));
   auto names = a.arguments;
   names.insert(b.arguments.begin(), b.arguments.end());
   for (const auto& [name, value] : names) {
@@ -93,17 +93,17 @@ Values compare_ends(const std::optional<RecordedEnd>& a, const std::optional<Rec
   compare("fault",
           [](const RecordedEnd& end) { return end.fault.empty() ? Text() : Text(end.fault); });
   compare("notes", [](const RecordedEnd& end) {
-    return end.notes.empty() ? Text() : Text(fmt::format("{}", fmt::join(end.notes, "; ")));
+    return end.notes.empty() ? Text() : Text(joined(end.notes, "; "));
   });
   compare("signal", [](const RecordedEnd& end) {
-    return end.signal ? Text(fmt::to_string(*end.signal)) : Text();
+    return end.signal ? Text(std::to_string(*end.signal)) : Text();
   });
-  compare("ticks", [](const RecordedEnd& end) { return Text(fmt::to_string(end.ticks)); });
-  compare("lost", [](const RecordedEnd& end) { return Text(fmt::to_string(end.lost)); });
+  compare("ticks", [](const RecordedEnd& end) { return Text(std::to_string(end.ticks)); });
+  compare("lost", [](const RecordedEnd& end) { return Text(std::to_string(end.lost)); });
   if (options.ignore_time) return values;
-  compare("time_s", [](const RecordedEnd& end) { return Text(fmt::to_string(end.time)); });
-  compare("overruns", [](const RecordedEnd& end) { return Text(fmt::to_string(end.overruns)); });
-  compare("skipped", [](const RecordedEnd& end) { return Text(fmt::to_string(end.skipped)); });
+  compare("time_s", [](const RecordedEnd& end) { return Text(fmt::format("{}", end.time)); });
+  compare("overruns", [](const RecordedEnd& end) { return Text(std::to_string(end.overruns)); });
+  compare("skipped", [](const RecordedEnd& end) { return Text(std::to_string(end.skipped)); });
   return values;
 }
 

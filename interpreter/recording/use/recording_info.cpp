@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
-
 #include "core/diagnostics.h"
 #include "measure/decision.h"
 #include "recording/use/recorded_probe.h"
@@ -14,33 +12,29 @@ namespace lockstep {
 namespace {
 
 void write_header(const RecordingHeader& header, std::string& out, bool color) {
-  fmt::format_to(std::back_inserter(out), "{} from {}, recorded by lockstep {}\n",
-                 styled(printable(header.tree), Style::Strong, color), printable(header.file),
-                 printable(header.version));
-  fmt::format_to(std::back_inserter(out), "  {}, {} Hz, {} clock, seed {}\n",
-                 counted(header.nodes.size(), "node"), header.rate_hz, printable(header.clock),
-                 header.seed);
+  out += fmt::format("{} from {}, recorded by lockstep {}\n",
+                     styled(printable(header.tree), Style::Strong, color), printable(header.file),
+                     printable(header.version));
+  out += fmt::format("  {}, {} Hz, {} clock, seed {}\n", counted(header.nodes.size(), "node"),
+                     header.rate_hz, printable(header.clock), header.seed);
   for (const auto& [name, value] : header.arguments) {
-    fmt::format_to(std::back_inserter(out), "  argument {} = {}\n", printable(name),
-                   printable(value));
+    out += fmt::format("  argument {} = {}\n", printable(name), printable(value));
   }
 }
 
 void write_end(const RecordingReader& reader, std::uint64_t ticks, double time, std::string& out,
                bool color) {
   if (const auto& end = reader.end()) {
-    fmt::format_to(std::back_inserter(out), "  {} ({}) after {}, {:.3f} s", printable(end->result),
-                   printable(end->reason), counted(end->ticks, "tick"), end->time);
-    fmt::format_to(std::back_inserter(out), "; {}, {} skipped\n", counted(end->overruns, "overrun"),
-                   counted(end->skipped, "deadline"));
-    if (!end->fault.empty())
-      fmt::format_to(std::back_inserter(out), "  fault: {}\n", printable(end->fault));
-    for (const std::string& note : end->notes)
-      fmt::format_to(std::back_inserter(out), "  note: {}\n", printable(note));
+    out += fmt::format("  {} ({}) after {}, {:.3f} s", printable(end->result),
+                       printable(end->reason), counted(end->ticks, "tick"), end->time);
+    out += fmt::format("; {}, {} skipped\n", counted(end->overruns, "overrun"),
+                       counted(end->skipped, "deadline"));
+    if (!end->fault.empty()) out += fmt::format("  fault: {}\n", printable(end->fault));
+    for (const std::string& note : end->notes) out += fmt::format("  note: {}\n", printable(note));
     return;
   }
-  fmt::format_to(std::back_inserter(out), "  {}, {:.3f} s; {} {}\n", counted(ticks, "tick"), time,
-                 styled("the recording is cut:", Style::Warning, color), reader.cut());
+  out += fmt::format("  {}, {:.3f} s; {} {}\n", counted(ticks, "tick"), time,
+                     styled("the recording is cut:", Style::Warning, color), reader.cut());
 }
 
 // Nothing when the last tick is lost: what comes before it does not say.
@@ -65,12 +59,12 @@ std::vector<DecidingSummary> why_failed(const RecordingReader& reader, const Rec
 void write_warnings(const RecordingReader& reader, std::uint64_t faults, std::string& out,
                     bool color) {
   if (const std::string gaps = reader.gaps(); !gaps.empty()) {
-    fmt::format_to(std::back_inserter(out), "  {}\n", styled(gaps, Style::Warning, color));
+    out += fmt::format("  {}\n", styled(gaps, Style::Warning, color));
   }
   if (faults > 0) {
-    fmt::format_to(std::back_inserter(out), "  {}\n",
-                   styled(counted(faults, "fault") + " of leaves after which the run went on",
-                          Style::Warning, color));
+    out += fmt::format("  {}\n",
+                       styled(counted(faults, "fault") + " of leaves after which the run went on",
+                              Style::Warning, color));
   }
 }
 
@@ -106,7 +100,7 @@ std::string info_text(RecordingReader& reader, bool color) {
     reached.push_back(summarize(measure, node.path, node.kind, probe.names()));
   }
   for (const std::string& note : notes) {
-    fmt::format_to(std::back_inserter(out), "  note: {}\n", printable(note));
+    out += fmt::format("  note: {}\n", printable(note));
   }
   write_text(reached, nodes.size() - reached.size(), out, color);
   return out;
