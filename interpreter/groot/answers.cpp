@@ -6,12 +6,14 @@
 namespace lockstep {
 
 GrootAnswers::GrootAnswers(const Tree& tree, GrootTree shown, GrootStatusFeed& statuses,
-                           SnapshotFeed& snapshots)
+                           SnapshotFeed& snapshots, RunControl* control)
     : document_(std::move(shown.document)),
       boards_(tree, std::move(shown.boards)),
       status_feed_(statuses),
       snapshots_(snapshots),
-      statuses_(tree.nodes[0].end) {}
+      statuses_(shown.order),
+      hooks_(tree, control),
+      has_control_(control != nullptr) {}
 
 GrootMessage GrootAnswers::answer(const GrootMessage& request) {
   status_feed_.take([&](NodeIndex node, Status status, Nanoseconds time) {
@@ -39,9 +41,33 @@ GrootMessage GrootAnswers::answer(GrootHeader header, const GrootMessage& reques
       return has_value ? toggle_recording(request[1], std::move(begin)) : no_value;
     case GrootRequest::GetTransitions:
       return {std::move(begin), statuses_.take_transitions()};
+    case GrootRequest::InsertHooks:
+    case GrootRequest::RemoveHook:
+    case GrootRequest::Unlock:
+      return has_value ? change_hooks(header.request, request[1], std::move(begin)) : no_value;
+    case GrootRequest::RemoveAllHooks:
+      hooks_.remove_all();
+      return {std::move(begin)};
+    case GrootRequest::DisableAllHooks:
+      hooks_.disable_all();
+      return {std::move(begin)};
+    case GrootRequest::DumpHooks:
+      return {std::move(begin), hooks_.dump()};
     default:
       return groot_error("unknown request");
   }
+}
+
+GrootMessage GrootAnswers::change_hooks(GrootRequest what, const std::string& json,
+                                        std::string header) {
+  if (!has_control_) {
+    return groot_error("this run can only be watched: start it with --groot2-control");
+  }
+  const std::string problem = what == GrootRequest::InsertHooks  ? hooks_.insert(json)
+                              : what == GrootRequest::RemoveHook ? hooks_.remove(json)
+                                                                 : hooks_.unlock(json);
+  if (!problem.empty()) return groot_error(problem);
+  return {std::move(header)};
 }
 
 GrootMessage GrootAnswers::toggle_recording(std::string_view word, std::string header) {

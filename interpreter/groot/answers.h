@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "groot/boards.h"
+#include "groot/hooks.h"
 #include "groot/message.h"
 #include "groot/status_feed.h"
 #include "groot/statuses.h"
@@ -16,13 +17,15 @@ namespace lockstep {
 class GrootAnswers {
  public:
   GrootAnswers(const Tree& tree, GrootTree shown, GrootStatusFeed& statuses,
-               SnapshotFeed& snapshots);
+               SnapshotFeed& snapshots, RunControl* control);
 
   // Whatever the request is.
   GrootMessage answer(const GrootMessage& request);
+  GrootHooks& hooks() { return hooks_; }
 
  private:
   GrootMessage answer(GrootHeader header, const GrootMessage& request);
+  GrootMessage change_hooks(GrootRequest what, const std::string& json, std::string header);
   GrootMessage toggle_recording(std::string_view word, std::string header);
 
   const GrootTreeId id_ = make_groot_tree_id();
@@ -31,6 +34,8 @@ class GrootAnswers {
   GrootStatusFeed& status_feed_;
   SnapshotFeed& snapshots_;
   GrootStatuses statuses_;
+  GrootHooks hooks_;
+  const bool has_control_;
 };
 
 }  // namespace lockstep

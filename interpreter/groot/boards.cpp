@@ -11,6 +11,9 @@
 namespace lockstep {
 namespace {
 
+// Of the main tree's board, where it is not asked for by its own.
+constexpr std::string_view kMain = "ROOT";
+
 struct ToJson {
   Json operator()(const NoValue&) const { return {}; }
   Json operator()(const Object&) const { return {}; }
@@ -89,17 +92,20 @@ Json GrootBoards::board(std::size_t number, const Snapshot& snapshot) const {
     const EntryState& entry = snapshot.entries[slot];
     if (entry.changed) json[key] = entry_json(tree_.slots[slot], entry);
   }
-  return json;
+  return json.members().empty() ? Json() : json;
 }
 
-// Nothing, as the library says it, if no name is one of a board.
+// As the library says it: a board without entries is null, and so is an answer without boards. One
+// who asks for a board inside gets the main tree's too.
 std::string GrootBoards::dump(std::string_view names, const Snapshot& snapshot) const {
   Json json = Json::object();
   while (!names.empty()) {
     const std::size_t end = std::min(names.find(';'), names.size());
     const auto found = by_name_.find(names.substr(0, end));
     names.remove_prefix(std::min(end + 1, names.size()));
-    if (found != by_name_.end()) json[found->first] = board(found->second, snapshot);
+    if (found == by_name_.end()) continue;
+    json[found->first] = board(found->second, snapshot);
+    if (found->second != 0 && !by_name_.contains(kMain)) json[kMain] = board(0, snapshot);
   }
   return (json.members().empty() ? Json() : json).message_pack();
 }

@@ -71,7 +71,7 @@ class Writer {
       add("ID", written_value(definition_, node, "ID"));
       add("_fullpath", by_node_.at(index)->path);
     } else {
-      keep_model(id, *node.type);
+      keep_model(id, *node.type, pair != nullptr || !is_ours());
       if (tag != id) add("ID", id);
       add("name", node.name);
     }
@@ -84,18 +84,30 @@ class Writer {
 
   bool is_ours() const { return definition_.language == Language::Lockstep; }
 
+  // Null also if a value of the node cannot be said there.
   const NodePair* pair_of(const DefinitionNode& node) const {
     const auto written = definition_.attributes(node);
-    return find_pair(Language::Lockstep, node.type->id,
-                     [&](std::string_view name) -> std::optional<std::string_view> {
-                       const auto found = std::ranges::find(written, name, &WrittenAttribute::name);
-                       return found == written.end() ? std::nullopt : std::optional(found->value);
-                     });
+    const auto given = [&](std::string_view name) -> std::optional<std::string_view> {
+      const auto found = std::ranges::find(written, name, &WrittenAttribute::name);
+      return found == written.end() ? std::nullopt : std::optional(found->value);
+    };
+    const NodePair* pair = find_pair(Language::Lockstep, node.type->id, given);
+    const bool can_be_said =
+        pair != nullptr && std::ranges::all_of(written, [&](const WrittenAttribute& it) {
+          const AttributePair* other = attribute_pair(*pair, it.name);
+          return other == nullptr || value_there(other->conversion, it.value);
+        });
+    return can_be_said ? pair : nullptr;
   }
 
-  // Those that Groot2 knows are described as the library has them.
-  void keep_model(std::string_view id, const NodeType& type) {
-    const auto known = theirs_.find(id);
+  static const AttributePair* attribute_pair(const NodePair& pair, std::string_view ours) {
+    const auto found = std::ranges::find(pair.attributes, ours, &AttributePair::ours);
+    return found == pair.attributes.end() ? nullptr : &*found;
+  }
+
+  // Those of the library are described as it has them.
+  void keep_model(std::string_view id, const NodeType& type, bool is_theirs) {
+    const auto known = is_theirs ? theirs_.find(id) : theirs_.end();
     models_.emplace(id, known != theirs_.end() ? known->second : &type);
   }
 
@@ -122,15 +134,13 @@ class Writer {
     }
   }
 
-  // What has no value there is shown as it is written.
   void add_parameter(const WrittenAttribute& it, const NodePair* pair) {
     if (pair == nullptr) return add(it.name, it.value);
     if (pair->in_ours.name == it.name) return;
-    const auto other = std::ranges::find(pair->attributes, it.name, &AttributePair::ours);
-    if (other == pair->attributes.end()) return add(it.name, it.value);
-    const auto value = value_there(other->conversion, it.value);
-    if (!value) return add(it.name, it.value);
-    if (!value->empty()) add(other->theirs, *value);
+    const AttributePair* other = attribute_pair(*pair, it.name);
+    if (other == nullptr) return add(it.name, it.value);
+    const std::string value = *value_there(other->conversion, it.value);
+    if (!value.empty()) add(other->theirs, value);
   }
 
   void add(std::string_view name, std::string_view value) {

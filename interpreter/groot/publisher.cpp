@@ -1,7 +1,9 @@
 #include "groot/publisher.h"
 
+#include <fmt/format.h>
 #include <sys/eventfd.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "core/own_thread.h"
@@ -10,13 +12,20 @@ namespace lockstep {
 namespace {
 
 constexpr std::chrono::milliseconds kLook{100};
+// A client that has not asked for so long is gone.
+constexpr std::chrono::seconds kAbsent{5};
+// One that has asked since then gets the end of the run, if it asks within kPatience.
+constexpr std::chrono::seconds kPresent{1};
+constexpr std::chrono::milliseconds kPatience{500};
 
 }  // namespace
 
-GrootPublisher::GrootPublisher(const Tree& tree, GrootTree shown, GrootSockets sockets)
-    : statuses_(tree),
+GrootPublisher::GrootPublisher(const Tree& tree, GrootOptions options, GrootSockets sockets)
+    : tree_(tree),
+      print_(std::move(options.print)),
+      statuses_(tree),
       snapshots_(tree),
-      answers_(tree, std::move(shown), statuses_, snapshots_),
+      answers_(tree, std::move(options.shown), statuses_, snapshots_, options.control),
       sockets_(std::move(sockets)),
       wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
 
@@ -44,21 +53,59 @@ void GrootPublisher::run_ended(Ticker& ticker, const RunEnd& end) {
 }
 
 void GrootPublisher::stop() {
-  if (!thread_.joinable()) return;
-  stopping_ = true;
-  eventfd_write(wake_.number(), 1);
-  thread_.join();
+  if (thread_.joinable()) {
+    stopping_ = true;
+    eventfd_write(wake_.number(), 1);
+    thread_.join();
+  }
+  sockets_.reset();
 }
 
 void GrootPublisher::serve() {
-  while (!stopping_.load(std::memory_order_acquire)) serve_one(kLook);
+  while (!stopping_.load(std::memory_order_acquire)) {
+    serve_one(kLook);
+    watch_hooks();
+  }
+  serve_to_the_end();
 }
 
-bool GrootPublisher::serve_one(std::chrono::milliseconds longest) {
-  const auto request = sockets_.receive(wake_.number(), longest);
-  if (!request) return false;
-  sockets_.reply(answers_.answer(*request));
-  return true;
+// The statuses after the last tick are what a client waits for.
+void GrootPublisher::serve_to_the_end() {
+  eventfd_t rung = 0;
+  eventfd_read(wake_.number(), &rung);
+  const Nanoseconds now = monotonic_now();
+  if (!heard_ || now - *heard_ > kPresent) return;
+  for (auto left = kPatience; left.count() > 0;) {
+    if (serve_one(left) == GrootRequest::Status) return;
+    left = std::chrono::duration_cast<std::chrono::milliseconds>(now + kPatience - monotonic_now());
+  }
+}
+
+std::optional<GrootRequest> GrootPublisher::serve_one(std::chrono::milliseconds longest) {
+  const auto request = sockets_->receive(wake_.number(), longest);
+  if (!request) return std::nullopt;
+  heard_ = monotonic_now();
+  sockets_->reply(answers_.answer(*request));
+  const auto header = read_groot_header(request->front());
+  return header ? std::optional(header->request) : std::nullopt;
+}
+
+// A run is not paused where nobody sees it; but one that stands does not go on because somebody has
+// gone.
+void GrootPublisher::watch_hooks() {
+  GrootHooks& hooks = answers_.hooks();
+  if (const auto node = hooks.reached()) {
+    sockets_->publish(
+        {to_bytes({GrootRequest::BreakpointReached, 0}), fmt::format("{}", groot_uid(*node))});
+  }
+  const bool is_absent = heard_ && monotonic_now() - *heard_ > kAbsent;
+  if (is_absent == is_absent_) return;
+  is_absent_ = is_absent;
+  hooks.set_absent(is_absent);
+  const auto node = is_absent ? hooks.paused_at() : std::nullopt;
+  if (!node) return;
+  print_(fmt::format("warning: --groot2: the run is paused at '{}', and nobody has asked for {} s",
+                     tree_.path(*node), kAbsent.count()));
 }
 
 }  // namespace lockstep

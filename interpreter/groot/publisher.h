@@ -3,8 +3,12 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
 #include <thread>
 
+#include "core/clock.h"
 #include "core/file_descriptor.h"
 #include "groot/answers.h"
 #include "groot/sockets.h"
@@ -14,9 +18,16 @@
 
 namespace lockstep {
 
+struct GrootOptions {
+  GrootTree shown;
+  RunControl* control = nullptr;  // null: clients may only look
+  // Shows a line to the person; from another thread.
+  std::function<void(const std::string& line)> print;
+};
+
 class GrootPublisher final : public Observer {
  public:
-  GrootPublisher(const Tree& tree, GrootTree shown, GrootSockets sockets);
+  GrootPublisher(const Tree& tree, GrootOptions options, GrootSockets sockets);
   ~GrootPublisher() override;
 
   void run_started(Ticker& ticker, const RunStart& start) override;
@@ -26,15 +37,21 @@ class GrootPublisher final : public Observer {
 
  private:
   void serve();
-  bool serve_one(std::chrono::milliseconds longest);
+  void serve_to_the_end();
+  std::optional<GrootRequest> serve_one(std::chrono::milliseconds longest);
+  void watch_hooks();
   void stop();
 
+  const Tree& tree_;
+  const std::function<void(const std::string& line)> print_;
   GrootStatusFeed statuses_;
   SnapshotFeed snapshots_;
   GrootAnswers answers_;
-  GrootSockets sockets_;
+  std::optional<GrootSockets> sockets_;
   FileDescriptor wake_;  // an eventfd
   std::atomic<bool> stopping_{false};
+  std::optional<Nanoseconds> heard_;  // the last request came at this time
+  bool is_absent_ = false;            // nobody has asked for long
   std::thread thread_;
 };
 

@@ -10,20 +10,20 @@ namespace {
 
 // An idle node has what it was before: 10 and that status.
 constexpr char kWas = 10;
-constexpr std::size_t kRow = 3, kStatus = 2;  // bytes of a node, and where its status is
 
 }  // namespace
 
-GrootStatuses::GrootStatuses(std::size_t nodes) {
-  for (std::size_t node = 0; node < nodes; ++node) {
-    append_number(bytes_, groot_uid(static_cast<NodeIndex>(node)), 2);
+GrootStatuses::GrootStatuses(std::span<const NodeIndex> order) : places_(order.size()) {
+  for (const NodeIndex node : order) {
+    append_number(bytes_, groot_uid(node), 2);
+    places_[node] = bytes_.size();
     bytes_ += static_cast<char>(Status::Idle);
   }
 }
 
 void GrootStatuses::change(NodeIndex node, Status status, Nanoseconds time) {
-  if (node * kRow >= bytes_.size()) return;  // a group, which Groot2 has no place for
-  char& shown = bytes_[node * kRow + kStatus];
+  if (node >= places_.size()) return;  // a group, which Groot2 has no place for
+  char& shown = bytes_[places_[node]];
   const bool is_idle = shown == 0 || shown >= kWas;
   if (status != Status::Idle) {
     // Running, and paused or not: to Groot2, that is the same.

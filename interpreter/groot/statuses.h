@@ -4,7 +4,9 @@
 
 #include <cstdint>
 #include <deque>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "core/clock.h"
 #include "core/status.h"
@@ -22,8 +24,8 @@ class GrootStatuses {
  public:
   static constexpr std::size_t kMostTransitions = 1000;
 
-  // The first `nodes` of a tree.
-  explicit GrootStatuses(std::size_t nodes);
+  // Of these nodes, in this order.
+  explicit GrootStatuses(std::span<const NodeIndex> order);
 
   // At this time of the run.
   void change(NodeIndex node, Status status, Nanoseconds time);
@@ -44,6 +46,7 @@ class GrootStatuses {
   };
 
   std::string bytes_;
+  std::vector<std::size_t> places_;  // in `bytes_`, of the status of each node
   Nanoseconds start_{0};
   bool is_recording_ = false;
   std::deque<Transition> transitions_;

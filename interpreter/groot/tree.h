@@ -1,6 +1,7 @@
 // What Groot2 is to see of a tree: its document, and the keys of its blackboards.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@ namespace lockstep {
 
 struct GrootTree {
   std::string document;
+  std::vector<std::uint32_t> order;  // of the nodes in the document
   std::vector<GrootBoardKeys> boards;
 };
 

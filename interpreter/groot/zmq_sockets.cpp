@@ -1,13 +1,19 @@
 #include <fcntl.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
 #include <zmq.h>
 
+#include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstdint>
+#include <cstring>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
+#include "groot/connection_guard.h"
 #include "groot/sockets.h"
 
 namespace lockstep {
@@ -16,9 +22,11 @@ namespace {
 // A request is larger only if it is not one of Groot2.
 constexpr std::int64_t kLargest = 64 << 10;  // bytes of a part
 constexpr std::size_t kMostParts = 8;
-constexpr int kQueue = 16;     // messages for or from one client
-constexpr int kLinger = 200;   // ms
-constexpr int kHandshake = 2;  // s
+constexpr int kQueue = 16;        // messages for or from one client
+constexpr int kLinger = 200;      // ms
+constexpr int kHandshake = 2000;  // ms
+// How often clients that are there are looked at.
+constexpr std::chrono::milliseconds kGlance{20};
 
 struct CloseContext {
   void operator()(void* it) const { zmq_ctx_term(it); }
@@ -38,19 +46,44 @@ void set(const Socket& socket, int option, T value) {
   if (zmq_setsockopt(socket.get(), option, &value, sizeof value) != 0) fail("an option");
 }
 
-// It closes the descriptor.
-Socket listening(const Context& context, int type, FileDescriptor listener) {
+Socket new_socket(const Context& context, int type) {
   Socket socket(zmq_socket(context.get(), type));
   if (socket == nullptr) fail("a socket");
+  return socket;
+}
+
+// It takes the listener.
+Socket listening(const Context& context, int type, const FileDescriptor& listener) {
+  Socket socket = new_socket(context, type);
   set(socket, ZMQ_LINGER, kLinger);
   set(socket, ZMQ_MAXMSGSIZE, kLargest);
   set(socket, ZMQ_RCVHWM, kQueue);
   set(socket, ZMQ_SNDHWM, kQueue);
-  set(socket, ZMQ_HANDSHAKE_IVL, kHandshake * 1000);
+  set(socket, ZMQ_HANDSHAKE_IVL, kHandshake);
   set(socket, ZMQ_IPV6, 1);
   set(socket, ZMQ_USE_FD, fcntl(listener.number(), F_DUPFD_CLOEXEC, 0));
-  if (zmq_bind(socket.get(), "tcp://127.0.0.1:*") != 0) fail("listening");
   return socket;
+}
+
+void listen(const Socket& socket) {
+  if (zmq_bind(socket.get(), "tcp://127.0.0.1:*") != 0) fail("listening");
+}
+
+// Hears of the connections of a socket that does not listen yet.
+Socket watching(const Context& context, const Socket& socket, const char* name) {
+  if (zmq_socket_monitor(socket.get(), name, ZMQ_EVENT_ACCEPTED) != 0) fail("watching");
+  Socket watcher = new_socket(context, ZMQ_PAIR);
+  set(watcher, ZMQ_RCVHWM, 0);  // else the threads of ZeroMQ would wait for it
+  if (zmq_connect(watcher.get(), name) != 0) fail("watching");
+  return watcher;
+}
+
+std::uint16_t port_of(const FileDescriptor& listener) {
+  sockaddr_storage name{};
+  socklen_t size = sizeof name;
+  getsockname(listener.number(), reinterpret_cast<sockaddr*>(&name), &size);
+  // Of IPv4 and of IPv6 it is at the same place.
+  return reinterpret_cast<const sockaddr_in*>(&name)->sin_port;
 }
 
 void send(const Socket& socket, const GrootMessage& message) {
@@ -60,11 +93,50 @@ void send(const Socket& socket, const GrootMessage& message) {
   }
 }
 
+// A part of a message; nothing: there is none.
+struct Part {
+  Part() { zmq_msg_init(&it); }
+  ~Part() { zmq_msg_close(&it); }
+  Part(const Part&) = delete;
+  Part& operator=(const Part&) = delete;
+
+  bool receive(const Socket& socket) { return zmq_msg_recv(&it, socket.get(), ZMQ_DONTWAIT) >= 0; }
+  std::string_view bytes() {
+    return {static_cast<const char*>(zmq_msg_data(&it)), zmq_msg_size(&it)};
+  }
+  bool is_last() { return zmq_msg_more(&it) == 0; }
+  int source() { return zmq_msg_get(&it, ZMQ_SRCFD); }
+
+  zmq_msg_t it;
+};
+
 }  // namespace
 
 struct GrootSockets::Implementation {
+  explicit Implementation(std::vector<std::uint16_t> ports) : guard(std::move(ports)) {}
+  // Else the threads of ZeroMQ would go on to tell who is no longer there.
+  ~Implementation() {
+    for (const Socket* socket : {&requests, &events}) {
+      if (*socket != nullptr) zmq_socket_monitor(socket->get(), nullptr, 0);
+    }
+  }
+
+  void take_connections() {
+    for (const Socket* watcher : {&request_watcher, &event_watcher}) {
+      for (Part event, address; event.receive(*watcher) && address.receive(*watcher);) {
+        std::uint32_t descriptor = 0;  // behind the 16 bits that say what has happened
+        if (event.bytes().size() < 6) continue;
+        std::memcpy(&descriptor, event.bytes().data() + 2, sizeof descriptor);
+        guard.accepted(static_cast<int>(descriptor), monotonic_now());
+      }
+    }
+    guard.look(monotonic_now());
+  }
+
   Context context;
   Socket requests, events;
+  Socket request_watcher, event_watcher;
+  ConnectionGuard guard;
 };
 
 bool has_groot_sockets() {
@@ -72,11 +144,16 @@ bool has_groot_sockets() {
 }
 
 GrootSockets::GrootSockets(FileDescriptor requests, FileDescriptor events)
-    : it_(std::make_unique<Implementation>()) {
+    : it_(std::make_unique<Implementation>(
+          std::vector<std::uint16_t>{port_of(requests), port_of(events)})) {
   it_->context.reset(zmq_ctx_new());
   if (it_->context == nullptr) fail("a context");
-  it_->requests = listening(it_->context, ZMQ_REP, std::move(requests));
-  it_->events = listening(it_->context, ZMQ_PUB, std::move(events));
+  it_->requests = listening(it_->context, ZMQ_REP, requests);
+  it_->events = listening(it_->context, ZMQ_PUB, events);
+  it_->request_watcher = watching(it_->context, it_->requests, "inproc://requests");
+  it_->event_watcher = watching(it_->context, it_->events, "inproc://events");
+  listen(it_->requests);
+  listen(it_->events);
 }
 
 GrootSockets::~GrootSockets() = default;
@@ -84,24 +161,22 @@ GrootSockets::GrootSockets(GrootSockets&&) noexcept = default;
 GrootSockets& GrootSockets::operator=(GrootSockets&&) noexcept = default;
 
 std::optional<GrootMessage> GrootSockets::receive(int wake, std::chrono::milliseconds longest) {
-  std::array<zmq_pollitem_t, 2> items{
-      {{it_->requests.get(), -1, ZMQ_POLLIN, 0}, {nullptr, wake, ZMQ_POLLIN, 0}}};
-  zmq_poll(items.data(), static_cast<int>(items.size()), static_cast<long>(longest.count()));
+  const auto wait = it_->guard.has_any() ? std::min(longest, kGlance) : longest;
+  std::array<zmq_pollitem_t, 4> items{{{it_->requests.get(), -1, ZMQ_POLLIN, 0},
+                                       {it_->request_watcher.get(), -1, ZMQ_POLLIN, 0},
+                                       {it_->event_watcher.get(), -1, ZMQ_POLLIN, 0},
+                                       {nullptr, wake, ZMQ_POLLIN, 0}}};
+  zmq_poll(items.data(), static_cast<int>(items.size()), static_cast<long>(wait.count()));
+  it_->take_connections();
   GrootMessage message;
-  for (bool has_more = true; has_more;) {
-    zmq_msg_t part;
-    zmq_msg_init(&part);
-    if (zmq_msg_recv(&part, it_->requests.get(), ZMQ_DONTWAIT) < 0) {
-      zmq_msg_close(&part);
-      return std::nullopt;
-    }
-    if (message.size() < kMostParts) {
-      message.emplace_back(static_cast<const char*>(zmq_msg_data(&part)), zmq_msg_size(&part));
-    }
-    has_more = zmq_msg_more(&part) != 0;
-    zmq_msg_close(&part);
+  while (true) {
+    Part part;
+    if (!part.receive(it_->requests)) return std::nullopt;
+    if (message.size() < kMostParts) message.emplace_back(part.bytes());
+    if (!part.is_last()) continue;
+    it_->guard.heard(part.source(), monotonic_now());
+    return message;
   }
-  return message;
 }
 
 void GrootSockets::reply(const GrootMessage& message) {

@@ -85,6 +85,7 @@ void RunControl::report_standing(bool stands) {
   const std::lock_guard lock(mutex_);
   state_.is_paused = stands;
   state_.breakpoint = stands ? reached_ : std::nullopt;
+  if (stands) pauses_.fetch_add(1, std::memory_order_release);
 }
 
 void RunControl::wait(Nanoseconds longest) {

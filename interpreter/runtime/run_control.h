@@ -41,6 +41,8 @@ class RunControl {
     friend bool operator==(const State&, const State&) = default;
   };
   State state() const;
+  // How often the run has come to stand.
+  std::uint64_t pauses() const { return pauses_.load(std::memory_order_acquire); }
 
   // --- for the loop ------------------------------------------------------------------------------
 
@@ -69,6 +71,7 @@ class RunControl {
   mutable std::mutex mutex_;  // for the next two
   std::vector<Order> new_;
   State state_;
+  std::atomic<std::uint64_t> pauses_{0};
   Bell bell_;
 
   // The loop's.

@@ -20,6 +20,7 @@
 #include "definition/resolve.h"
 #include "engine/compile.h"
 #include "expression/evaluator.h"
+#include "groot/status_feed.h"
 #include "measure/entry_changes.h"
 #include "measure/measure_spec.h"
 #include "plugin/plugin_set.h"
@@ -239,6 +240,20 @@ TEST_CASE(
     run.tick(1000);
     feed.want_full();
   }
+  t_counting = false;
+  CHECK(run.fault() == nullptr);
+  CHECK(g_allocations == 0);
+  CHECK(g_locks == 0);
+}
+
+TEST_CASE("statuses for Groot2 are passed on likewise") {
+  const TickingTree tree;
+  GrootStatusFeed feed(tree.tree());
+  WatchedRun run(tree.tree(), &feed);
+  run.tick(10);
+  g_allocations = g_locks = 0;
+  t_counting = true;
+  run.tick(20'000);
   t_counting = false;
   CHECK(run.fault() == nullptr);
   CHECK(g_allocations == 0);

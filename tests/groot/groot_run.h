@@ -19,22 +19,22 @@ class GrootRun {
   explicit GrootRun(const std::string& tree, std::vector<std::string> more = {});
 
   unsigned port() const { return port_; }
-  std::vector<nlohmann::json> ask(std::vector<std::string> requests) const {
+  std::vector<nlohmann::json> ask_all(std::vector<std::string> requests) const {
     return ask_groot(port_, std::move(requests));
   }
   // The value of one answer.
-  nlohmann::json ask(const std::string& request) const { return ask(std::vector{request})[0]; }
+  nlohmann::json ask(const std::string& request) const { return ask_all({request})[0]; }
   // Asks again until the value of the answer is this.
   void wait_for(const std::string& request, const nlohmann::json& value) const;
   // So many ticks; returns when they are over.
   void step(int ticks);
+  // What the page of the monitor orders.
+  void order(const nlohmann::json& body) const;
   // To its end.
   Outcome resume();
   Process& process() { return process_; }
 
  private:
-  void order(const nlohmann::json& body) const;
-
   TemporaryDirectory directory_;
   Process process_;
   unsigned port_ = 0, monitor_port_ = 0;

@@ -31,7 +31,7 @@ TEST_CASE("the tree is a document for BehaviorTree.CPP, and its statuses those o
       "<root BTCPP_format=\"4\">\n"
       "<BehaviorTree ID=\"Main\" _fullpath=\"\">\n"
       "<Sequence name=\"all\" _uid=\"1\">\n"
-      "<Sleep name=\"rest\" _uid=\"2\" seconds=\"{pause}\"/>\n"
+      "<Wait name=\"rest\" _uid=\"2\" seconds=\"{pause}\"/>\n"
       "<ParallelAbsolute name=\"pull\" _uid=\"3\" barriers=\"0.5\">\n"
       "<Advance name=\"arm\" _uid=\"4\" step=\"0.1\"/>\n"
       "<Advance name=\"base\" _uid=\"5\" step=\"0.25\"/>\n"
@@ -48,9 +48,122 @@ TEST_CASE("the tree is a document for BehaviorTree.CPP, and its statuses those o
   CHECK(it.resume().code == 0);
 }
 
+TEST_CASE("each SubTree is a tree, with the names by which its nodes know entries") {
+  GrootRun it(
+      "<root lockstep=\"1\" main_tree_to_execute=\"Main\"><plugin name=\"motion\"/>"
+      "<BehaviorTree ID=\"Main\"><Sequence memory=\"true\">"
+      "<Script code=\"far := 2.5; who := 'me &amp; you'\"/>"
+      "<SubTree ID=\"Go\" way=\"{far}\" on_success=\"done := true\"/>"
+      "<SubTree ID=\"Go\" name=\"back\" way=\"7\"/>"
+      "</Sequence></BehaviorTree>"
+      "<BehaviorTree ID=\"Go\"><ParallelRelative name=\"go\" delta=\"0.2\">"
+      "<Wait name=\"&lt;a&gt;\" seconds=\"{way}\"/><Wait name=\"b\" seconds=\"1\"/>"
+      "</ParallelRelative></BehaviorTree></root>");
+  const std::string document = it.ask("T")["value"];
+  for (const std::string part :
+       {"<BehaviorTree ID=\"Main\" _fullpath=\"\">\n<Sequence name=\"Sequence\" _uid=\"1\">\n"
+        "<Script name=\"Script\" _uid=\"2\" code=\"far := 2.5; who := 'me &amp; you'\"/>\n"
+        "<SubTree ID=\"Go\" _fullpath=\"Go::3\" _uid=\"3\" way=\"{far}\" "
+        "_onSuccess=\"done := true\"/>\n"
+        "<SubTree ID=\"Go\" _fullpath=\"back\" _uid=\"7\" way=\"7\"/>\n"
+        "</Sequence>\n</BehaviorTree>\n"
+        "<BehaviorTree ID=\"Go\" _fullpath=\"Go::3\">\n"
+        "<ParallelRelative name=\"go\" _uid=\"4\" delta=\"0.2\">\n"
+        "<Wait name=\"&lt;a&gt;\" _uid=\"5\" seconds=\"{way}\"/>\n"
+        "<Sleep name=\"b\" _uid=\"6\" msec=\"1000\"/>\n",
+        "<BehaviorTree ID=\"Go\" _fullpath=\"back\">\n"
+        "<ParallelRelative name=\"go\" _uid=\"8\""}) {
+    INFO(document);
+    CHECK(contains(document, part));
+  }
+  std::vector<int> order;
+  const json rows = it.ask("S")["value"];
+  for (const json& row : rows) order.push_back(row[0]);
+  CHECK(order == std::vector<int>{1, 2, 3, 7, 4, 5, 6, 8, 9, 10});
+  it.step(2);
+  const json main{{"far", 2.5}, {"who", "me & you"}};
+  it.wait_for("B:Go::3;back", {{"ROOT", main},
+                               {"Go::3",
+                                {{"way", 2.5},
+                                 {"delta/go", 0.2},
+                                 {"progress/go/<a>", 0.004},
+                                 {"progress/go/b", 0.01},
+                                 {"held/go/<a>", false},
+                                 {"held/go/b", false}}},
+                               {"back",
+                                {{"way", 7},
+                                 {"delta/go", 0.0},
+                                 {"progress/go/<a>", 0.0},
+                                 {"progress/go/b", 0.0},
+                                 {"held/go/<a>", false},
+                                 {"held/go/b", false}}}});
+}
+
+TEST_CASE("a client that asks gets the statuses after the last tick") {
+  GrootRun it(kPull, kPause);
+  it.step(1);
+  Process client({.arguments = {LOCKSTEP_SOURCE_DIR "/tests/groot/client.py",
+                                std::to_string(it.port()), "S", "end"},
+                  .program = "/usr/bin/python3"});
+  REQUIRE(client.wait_for("}\n"));
+  CHECK(it.resume().code == 0);
+  const Outcome outcome = client.finish();
+  INFO(outcome.err);
+  CHECK(json::parse(lines(outcome.out).back())["value"] ==
+        statuses({kSuccess, kSuccess, kSuccess, kSuccess, kSuccess}));
+}
+
+TEST_CASE("a run that ends by a fault ends as always") {
+  GrootRun it(
+      "<root BTCPP_format=\"4\"><BehaviorTree ID=\"Main\"><Sequence><Script code=\"y:='hi'\"/>"
+      "<Sleep msec=\"20\"/><ScriptCondition code=\"y != 7\"/></Sequence></BehaviorTree></root>");
+  it.step(1);
+  CHECK(it.ask("B:Main")["value"] == json{{"Main", {{"y", "hi"}}}});
+  CHECK(it.resume().code == 5);
+}
+
+TEST_CASE("a tree with more nodes than Groot2 can number is refused") {
+  const TemporaryDirectory directory;
+  const auto run_with = [&](int leaves) {
+    std::string tree = "<root lockstep=\"1\"><BehaviorTree ID=\"Main\"><Sequence>";
+    for (int leaf = 0; leaf < leaves; ++leaf) tree += "<AlwaysSuccess/>";
+    tree += "</Sequence></BehaviorTree></root>";
+    return lockstep::test::lockstep({"run", directory.file("tree.xml", tree), "--groot2", "0"});
+  };
+  CHECK(run_with(65'534).code == 0);
+  const Outcome refused = run_with(65'535);
+  CHECK(refused.code == 2);
+  CHECK(contains(refused.err,
+                 "--groot2: the tree has 65536 nodes, and Groot2 can number 65535 of them"));
+}
+
+TEST_CASE("a place that is none is an error") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("tree.xml", kPull);
+  for (const auto& [value, said] :
+       std::vector<std::pair<std::string, std::string>>{{"65535", "the largest is 65534"},
+                                                        {"65536", "the largest port is 65535"},
+                                                        {"127.0.0.1:x", "ADDRESS:PORT"},
+                                                        {"192.0.2.1:0", "cannot listen on"}}) {
+    const Outcome outcome = lockstep::test::lockstep({"run", tree, "--groot2=" + value});
+    CHECK(outcome.code == 2);
+    CHECK(contains(outcome.err, "--groot2: "));
+    CHECK(contains(outcome.err, said));
+  }
+  CHECK(lockstep::test::lockstep({"run", tree, "--groot"}).code == 2);
+}
+
+TEST_CASE("an address that other machines reach is warned of") {
+  const TemporaryDirectory directory;
+  const Outcome outcome = lockstep::test::lockstep(
+      {"run", directory.file("tree.xml", tree_text("<AlwaysSuccess/>")), "--groot2", "0.0.0.0:0"});
+  CHECK(outcome.code == 0);
+  CHECK(contains(outcome.err, "can be reached from other machines"));
+}
+
 TEST_CASE("each answer repeats its request, and the tree has another name in each run") {
   GrootRun it(kPull, kPause);
-  const auto answers = it.ask({"T", "S", "S"});
+  const auto answers = it.ask_all({"T", "S", "S"});
   for (const json& answer : answers) {
     CHECK(answer["repeats"] == true);
     CHECK(answer["tree"] == answers[0]["tree"]);
@@ -92,7 +205,7 @@ TEST_CASE("what is no request gets an error, and the run goes on") {
   const std::vector<std::string> wrong{
       "--raw",        "00",           "02540000000000",          "0253000000",
       "025100000000", "024200000000", "027200000000,7061757365", "00,00,00,00"};
-  for (const json& answer : it.ask(wrong)) CHECK(answer.contains("error"));
+  for (const json& answer : it.ask_all(wrong)) CHECK(answer.contains("error"));
   CHECK(it.ask("S")["value"].size() == 5);
   CHECK(it.resume().code == 0);
 }

@@ -98,15 +98,16 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
                [this](const std::string& line) { view_.print("warning: " + line); }),
         statistics_(tree_) {
     RunDescription description = describe_run(runnable.arguments);
+    if (options.monitor_control || options.groot2_control) control_.emplace();
     if (listener) {
-      if (options.monitor_control) control_.emplace();
       if (options.begins_paused) control_->give({.what = RunControl::Order::What::Pause});
-      monitor_.emplace(tree_,
-                       MonitorOptions{description, options.record, control_ ? &*control_ : nullptr},
+      RunControl* const control = options.monitor_control ? &*control_ : nullptr;
+      monitor_.emplace(tree_, MonitorOptions{description, options.record, control},
                        std::move(*listener));
     }
     if (for_groot) {
-      groot_.emplace(tree_, std::move(for_groot->tree), std::move(for_groot->sockets));
+      groot_.emplace(tree_, groot_options(std::move(for_groot->tree)),
+                     std::move(for_groot->sockets));
     }
     if (!options.record.empty()) {
       recorder_.emplace(tree_, recorder_options(std::move(description)));
@@ -141,6 +142,12 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   }
 
  private:
+  GrootOptions groot_options(GrootTree tree) {
+    return {.shown = std::move(tree),
+            .control = options_.groot2_control ? &*control_ : nullptr,
+            .print = [this](const std::string& line) { view_.print(line); }};
+  }
+
   // Nothing when the system refuses what the user asks of it.
   std::optional<RunEnd> run_tree() {
     WallClock wall_clock;
@@ -290,6 +297,9 @@ Result<std::optional<ServerSocket>> listen(const RunCommandOptions& options) {
 // Likewise, for Groot2.
 Result<std::optional<ForGroot>> prepare_groot(const RunCommandOptions& options,
                                               const Definition& definition) {
+  if (options.groot2_control && !options.groot2) {
+    return problem("--groot2-control needs --groot2");
+  }
   if (!options.groot2) return std::nullopt;
   auto tree = groot_tree(definition);
   if (!tree) return problem("--groot2: " + tree.error().message, tree.error().hint);
@@ -359,6 +369,7 @@ const Command kRunCommand{
     "  lockstep run trees/door_pulling.xml\n"
     "  lockstep run trees/door_pulling.xml --arg barriers=0.5 --rate 50 --record run.jsonl\n"
     "  lockstep run trees/door_pulling.xml --clock virtual --seed 7 --json\n"
+    "  lockstep run trees/door_pulling.xml --monitor 8080 --groot2 1667\n"
     "  lockstep run trees/door_pulling.xml --isolate --on-fault fail --realtime --cpu 1",
     define_run};
 

@@ -116,6 +116,8 @@ void define_groot_options(CLI::App& app, RunCommandOptions& options) {
   app.add_option("--groot2", options.groot2,
                  "Show the run in Groot2 (default: 127.0.0.1:1667; it also takes the next port)")
       ->type_name("[ADDRESS:PORT]");
+  app.add_flag("--groot2-control", options.groot2_control,
+               "Let everyone who reaches that address pause the run, by the breakpoints of Groot2");
 }
 
 }  // namespace

@@ -41,6 +41,7 @@ struct RunCommandOptions {
   bool opens_browser = false;
 
   std::optional<std::string> groot2;  // where Groot2 finds it; none: nowhere
+  bool groot2_control = false;        // it may pause the run
 
   bool is_wall() const { return clock == "wall"; }
   // None on the virtual clock and with --tick-budget 0.

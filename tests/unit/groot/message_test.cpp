@@ -2,6 +2,7 @@
 #include "groot/message.h"
 
 #include <catch2/catch.hpp>
+#include <numeric>
 
 #include "groot/statuses.h"
 
@@ -32,7 +33,8 @@ TEST_CASE("the name of a tree is random, and says so") {
 }
 
 TEST_CASE("an idle node says what it was before") {
-  GrootStatuses it(2);
+  const NodeIndex order[] = {0, 1};
+  GrootStatuses it(order);
   CHECK(it.bytes() == "\x01\0\0\x02\0\0"s);
   it.change(1, Status::Running, Nanoseconds(0));
   it.change(0, Status::Skipped, Nanoseconds(0));
@@ -47,15 +49,25 @@ TEST_CASE("an idle node says what it was before") {
   CHECK(it.bytes() == "\x01\0\x0e\x02\0\x0d"s);
 }
 
+TEST_CASE("nodes come in the order of the document") {
+  const NodeIndex order[] = {0, 3, 1, 2};
+  GrootStatuses it(order);
+  it.change(1, Status::Running, Nanoseconds(0));
+  CHECK(it.bytes() == "\x01\0\0\x04\0\0\x02\0\x01\x03\0\0"s);
+}
+
 TEST_CASE("uids have two bytes") {
-  const GrootStatuses it(kMostGrootNodes);
+  std::vector<NodeIndex> order(kMostGrootNodes);
+  std::iota(order.begin(), order.end(), 0u);
+  const GrootStatuses it(order);
   CHECK(it.bytes().size() == 3 * kMostGrootNodes);
   CHECK(it.bytes().substr(3 * 255, 3) == "\x00\x01\x00"s);
   CHECK(it.bytes().substr(3 * (kMostGrootNodes - 1)) == "\xff\xff\x00"s);
 }
 
 TEST_CASE("a recording has the last changes, each with its time since it was started") {
-  GrootStatuses it(2);
+  const NodeIndex order[] = {0, 1};
+  GrootStatuses it(order);
   it.change(0, Status::Running, std::chrono::seconds(1));
   it.start_recording(std::chrono::seconds(2));
   it.change(1, Status::Running, std::chrono::microseconds(2'000'259));
