@@ -38,7 +38,7 @@ std::vector<std::pair<std::string, std::string>> options_in(const std::string& p
       "lockstep ((?:run|check|show|nodes|schema|plugin check|replay|study merge|study|log "
       "[a-z]+)\\b)"
       "([^`\\n#|&;>]*)");
-  const std::regex option("[ [](--[a-z][a-z-]*)");
+  const std::regex option("[ [](--[a-z][a-z0-9-]*)");
   std::vector<std::pair<std::string, std::string>> found;
   for (std::sregex_iterator it(page.begin(), page.end(), call), end; it != end; ++it) {
     const std::string words = (*it)[2];
