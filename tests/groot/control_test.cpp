@@ -77,7 +77,7 @@ TEST_CASE("without --groot2-control, breakpoints are refused") {
   CHECK(it.resume().code == 0);
 }
 
-TEST_CASE("--groot2-control without --groot2 is an error") {
+TEST_CASE("control without a place where Groot2 finds the run is an error") {
   const TemporaryDirectory directory;
   const Outcome outcome =
       lockstep::test::lockstep({"run", directory.file("tree.xml", kTree), "--groot2-control"});
