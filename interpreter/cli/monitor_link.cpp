@@ -6,18 +6,32 @@
 
 namespace lockstep {
 
-Result<ServerSocket> listen_for_monitor(const std::string& address) {
+namespace {
+
+// What `make` gives. An error names the option.
+template <class Make>
+auto if_built(const std::string& option, Make make) -> decltype(make()) {
   if (!has_http_server()) {
-    return problem("--monitor: this lockstep was built without it",
+    return problem(option + ": this lockstep was built without it",
                    "build it with libmicrohttpd and -DLOCKSTEP_MONITOR=ON");
   }
-  auto socket = listen_on(address);
-  if (!socket) return problem("--monitor: " + socket.error().message, socket.error().hint);
-  return socket;
+  auto made = make();
+  if (!made) return problem(option + ": " + made.error().message, made.error().hint);
+  return made;
 }
 
-MonitorLink::MonitorLink(const std::string& link, const std::string& file, bool opens)
-    : registration_(link, file) {
+}  // namespace
+
+Result<ServerSocket> listen_for_monitor(const std::string& address) {
+  return if_built("--monitor", [&] { return listen_on(address); });
+}
+
+Result<AttachSocket> make_monitor_socket(const std::string& path) {
+  return if_built("--monitor-socket", [&] { return AttachSocket::at(path); });
+}
+
+void MonitorLink::tell(const std::string& link, bool opens) {
+  registration_.set_link(link);
   messages().say("monitor: " + link + "\n");
   if (opens && !open_in_browser(link)) {
     messages().say("lockstep: warning: --monitor-open: there is no xdg-open\n");

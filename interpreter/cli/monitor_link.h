@@ -5,21 +5,28 @@
 #include <string>
 
 #include "core/problem.h"
+#include "web/attach_socket.h"
 #include "web/registry.h"
 #include "web/server_socket.h"
 
 namespace lockstep {
 
-// The value of --monitor; refused if this lockstep has no monitor.
+// The values of --monitor and --monitor-socket; refused if this lockstep has no monitor.
 Result<ServerSocket> listen_for_monitor(const std::string& address);
+Result<AttachSocket> make_monitor_socket(const std::string& path);
 
-// Prints the link, lists it for `lockstep monitor` while it exists, and opens it if `opens`.
+// Lists the run, or the recording, for `lockstep monitor` while it exists.
 class MonitorLink {
  public:
-  MonitorLink(const std::string& link, const std::string& file, bool opens);
+  // `socket`: as that of a Registration.
+  explicit MonitorLink(const std::string& file, const std::string& socket = "")
+      : registration_(file, socket) {}
+
+  // Prints the link, lists it, and opens it if `opens`.
+  void tell(const std::string& link, bool opens);
 
  private:
-  const Registration registration_;
+  Registration registration_;
 };
 
 }  // namespace lockstep

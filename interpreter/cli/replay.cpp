@@ -117,7 +117,8 @@ int serve(const ReplayOptions& options) {
   return with_page(options.file, [&](std::string page) {
     PageServer server(std::move(page), std::move(*socket));
     StopSignals::install();
-    const MonitorLink link(server.link(), options.file, options.opens_browser);
+    MonitorLink link(options.file);
+    link.tell(server.link(), options.opens_browser);
     server.serve_until([] { return StopSignals::received() != 0; });
     return kExitSignal + StopSignals::received();
   });

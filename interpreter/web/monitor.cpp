@@ -69,15 +69,23 @@ class Events final : public WebStream {
 
 }  // namespace
 
-Monitor::Monitor(const Tree& tree, MonitorOptions options, ServerSocket listener)
+Monitor::Entrance::Entrance(ServerSocket listener, bool has_control, Answering& answering)
+    : gate(std::move(listener.name),
+           has_control || !listener.is_loopback ? make_token() : std::string()),
+      address(std::move(listener.address)),
+      server(std::move(listener.socket), answering) {}
+
+std::string Monitor::Entrance::link() const {
+  const bool has_token = !gate.token().empty();
+  return fmt::format("http://{}/{}{}", address, has_token ? "#token=" : "", gate.token());
+}
+
+Monitor::Monitor(const Tree& tree, MonitorOptions options)
     : tree_(tree),
-      gate_(std::move(listener.name),
-            options.control != nullptr || !listener.is_loopback ? make_token() : std::string()),
-      address_(std::move(listener.address)),
       recording_(std::move(options.recording)),
       control_(options.control),
       feed_(tree, std::move(options.run)),
-      server_(std::move(listener.socket), *this),
+      on_attached_(std::move(options.on_attached)),
       wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
 
 Monitor::~Monitor() {
@@ -87,9 +95,23 @@ Monitor::~Monitor() {
   thread_.join();
 }
 
-std::string Monitor::link() const {
-  const bool has_token = !gate_.token().empty();
-  return fmt::format("http://{}/{}{}", address_, has_token ? "#token=" : "", gate_.token());
+std::string Monitor::open(ServerSocket listener) {
+  entrance_.emplace(std::move(listener), control_ != nullptr, static_cast<Answering&>(*this));
+  return entrance_->link();
+}
+
+// One that is open stays as it is.
+Result<std::string> Monitor::attach(const std::string& address) {
+  if (entrance_) return entrance_->link();
+  auto listener = listen_on(address);
+  if (!listener) return tl::unexpected(std::move(listener.error()));
+  const std::string link = open(std::move(*listener));
+  if (on_attached_) on_attached_(link);
+  return link;
+}
+
+void Monitor::wake_streams() {
+  if (entrance_) entrance_->server.wake_streams();
 }
 
 void Monitor::log(std::string_view who, std::string_view level, std::string_view text) {
@@ -129,7 +151,7 @@ void Monitor::run_ended(Ticker& ticker, const RunEnd& end) {
 void Monitor::serve() {
   while (!stopping_.load(std::memory_order_acquire)) {
     tell_status();
-    server_.run();
+    if (entrance_) entrance_->server.run();
     wait(kNap);
   }
   serve_to_the_end();
@@ -141,9 +163,11 @@ void Monitor::serve_to_the_end() {
   if (!feed_.end().empty()) log_.add(feed_.end());
   log_.add_event("end", "{}");
   log_.close();
-  server_.wake_streams();
+  if (!entrance_) return;
+  HttpServer& server = entrance_->server;
+  server.wake_streams();
   const Nanoseconds until = monotonic_now() + kPatience;
-  for (server_.run(); server_.streams() > 0 && monotonic_now() < until; server_.run()) wait(kNap);
+  for (server.run(); server.streams() > 0 && monotonic_now() < until; server.run()) wait(kNap);
 }
 
 // A pause is reported after the line of the last tick before it.
@@ -153,11 +177,11 @@ void Monitor::tell_status() {
   const Nanoseconds now = monotonic_now();
   if (const auto status = status_.next(state, feed_, is_real_time_, now)) {
     log_.add_event("state", *status);
-    server_.wake_streams();
+    wake_streams();
   }
   if (now - woken_ < kLook) return;
   woken_ = now;
-  server_.wake_streams();
+  wake_streams();
 }
 
 void Monitor::take_lines() {
@@ -169,18 +193,24 @@ void Monitor::take_lines() {
     rest.remove_prefix(length);
   }
   if (log_.wants_full()) feed_.want_full();
-  if (!lines_.empty()) server_.wake_streams();
+  if (!lines_.empty()) wake_streams();
 }
 
 void Monitor::wait(std::chrono::milliseconds longest) {
-  pollfd files[] = {{server_.descriptor(), POLLIN, 0}, {wake_.number(), POLLIN, 0}};
-  poll(files, 2, server_.has_more() ? 0 : static_cast<int>(longest.count()));
+  // A negative one is passed over.
+  pollfd files[] = {{wake_.number(), POLLIN, 0},
+                    {entrance_ ? entrance_->server.descriptor() : -1, POLLIN, 0},
+                    {socket_ ? socket_->descriptor() : -1, POLLIN, 0}};
+  const bool has_more = entrance_ && entrance_->server.has_more();
+  poll(files, std::size(files), has_more ? 0 : static_cast<int>(longest.count()));
   eventfd_t rung = 0;
   eventfd_read(wake_.number(), &rung);
+  if ((files[2].revents & POLLIN) == 0) return;
+  socket_->answer([this](const std::string& address) { return attach(address); });
 }
 
 std::optional<WebAnswer> Monitor::refuse(const WebRequest& head) {
-  return gate_.refuse(head);
+  return entrance_->gate.refuse(head);
 }
 
 WebAnswer Monitor::answer(const WebRequest& request) {

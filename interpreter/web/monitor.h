@@ -3,12 +3,15 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
+#include <optional>
 #include <string>
 #include <thread>
 
 #include "core/file_descriptor.h"
 #include "core/problem.h"
 #include "web/answer.h"
+#include "web/attach_socket.h"
 #include "web/feed.h"
 #include "web/gate.h"
 #include "web/http_server.h"
@@ -22,15 +25,20 @@ struct MonitorOptions {
   RunDescription run;
   std::string recording = {};     // the file that the run writes; "": none
   RunControl* control = nullptr;  // what clients may order; null: they may only look
+  // Called on the monitor's thread when it was opened through the socket.
+  std::function<void(const std::string& link)> on_attached = {};
 };
 
 class Monitor final : public Observer, private Answering {
  public:
-  Monitor(const Tree& tree, MonitorOptions options, ServerSocket listener);
+  // Nobody reaches it until it is opened.
+  Monitor(const Tree& tree, MonitorOptions options);
   ~Monitor() override;
 
-  // For a person: where it is.
-  std::string link() const;
+  // Lets clients in, before the run starts. Returns the link, for a person.
+  std::string open(ServerSocket listener);
+  // The same later, when somebody asks for it.
+  void open_when_asked(AttachSocket socket) { socket_.emplace(std::move(socket)); }
   // What a leaf logs; from any thread.
   void log(std::string_view who, std::string_view level, std::string_view text);
 
@@ -41,6 +49,18 @@ class Monitor final : public Observer, private Answering {
   void run_ended(Ticker& ticker, const RunEnd& end) override;
 
  private:
+  // Where clients come in.
+  struct Entrance {
+    Entrance(ServerSocket listener, bool has_control, Answering& answering);
+    std::string link() const;
+
+    const Gate gate;
+    const std::string address;
+    HttpServer server;
+  };
+
+  Result<std::string> attach(const std::string& address);
+  void wake_streams();
   void serve();
   void serve_to_the_end();
   void take_lines();
@@ -53,15 +73,15 @@ class Monitor final : public Observer, private Answering {
   WebAnswer obey(const std::string& order);
 
   const Tree& tree_;
-  const Gate gate_;
-  const std::string address_;
   const std::string recording_;
   RunControl* const control_;
   bool is_real_time_ = true;
   MonitorFeed feed_;
   RunStatus status_;
   LineLog log_;
-  HttpServer server_;
+  std::optional<Entrance> entrance_;
+  std::optional<AttachSocket> socket_;
+  const std::function<void(const std::string& link)> on_attached_;
   FileDescriptor wake_;  // an eventfd
   std::atomic<bool> stopping_{false};
   std::string lines_;  // for its room

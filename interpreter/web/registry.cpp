@@ -51,9 +51,11 @@ std::vector<RegisteredRun> registered_runs() {
       fs::remove(entry.path(), error);
       continue;
     }
-    RegisteredRun run{.process = static_cast<pid_t>(*process), .link = {}, .tree_file = {}};
+    RegisteredRun run{
+        .process = static_cast<pid_t>(*process), .link = {}, .tree_file = {}, .socket = {}};
     std::ifstream file(entry.path());
-    if (std::getline(file, run.link) && std::getline(file, run.tree_file)) {
+    if (std::getline(file, run.link) && std::getline(file, run.tree_file) &&
+        std::getline(file, run.socket)) {
       runs.push_back(std::move(run));
     }
   }
@@ -61,7 +63,7 @@ std::vector<RegisteredRun> registered_runs() {
   return runs;
 }
 
-Registration::Registration(const std::string& link, const std::string& tree_file) {
+Registration::Registration(const std::string& tree_file, const std::string& socket) {
   const std::string path = directory();
   if (path.empty()) return;
   path_ = fmt::format("{}/{}", path, getpid());
@@ -69,9 +71,16 @@ Registration::Registration(const std::string& link, const std::string& tree_file
   file_ = FileDescriptor(open(path_.c_str(), kFlags, S_IRUSR | S_IWUSR));
   if (file_.number() < 0 || flock(file_.number(), LOCK_EX | LOCK_NB) != 0) return;
   std::error_code error;
-  const fs::path absolute = fs::absolute(tree_file, error);
-  const std::string text = fmt::format("{}\n{}\n", link, absolute.string());
-  if (write(file_.number(), text.data(), text.size()) < 0) unlink(path_.c_str());
+  tree_file_ = fs::absolute(tree_file, error).string();
+  if (!socket.empty()) socket_ = fs::absolute(socket, error).string();
+  set_link("");
+}
+
+void Registration::set_link(const std::string& link) {
+  if (file_.number() < 0) return;
+  const std::string text = fmt::format("{}\n{}\n{}\n", link, tree_file_, socket_);
+  // Never shorter: who reads it meanwhile finds no rest of the text before.
+  if (pwrite(file_.number(), text.data(), text.size(), 0) < 0) unlink(path_.c_str());
 }
 
 Registration::~Registration() {

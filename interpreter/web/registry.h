@@ -13,7 +13,8 @@ namespace lockstep {
 
 struct RegisteredRun {
   pid_t process = 0;
-  std::string link, tree_file;
+  std::string link;  // "": it has only a socket, through which it can be asked for a monitor
+  std::string tree_file, socket;
 };
 
 // In the order of their numbers.
@@ -22,13 +23,17 @@ std::vector<RegisteredRun> registered_runs();
 // Of this process, as long as it exists. Where there is no place for it, the run is not listed.
 class Registration {
  public:
-  Registration(const std::string& link, const std::string& tree_file);
+  // `socket`: the path of an AttachSocket, or "".
+  Registration(const std::string& tree_file, const std::string& socket);
   ~Registration();
   Registration(const Registration&) = delete;
   Registration& operator=(const Registration&) = delete;
 
+  void set_link(const std::string& link);
+
  private:
   std::string path_;
+  std::string tree_file_, socket_;  // absolute
   FileDescriptor file_;
 };
 

@@ -282,8 +282,8 @@ void observed_by_monitor(benchmark::State& state, const char* control, const cha
   const BenchTree bench = with_changes(control, attributes, state.range(0));
   auto socket = listen_on(kAnyLoopback);
   if (!socket) std::abort();
-  Monitor monitor(bench.tree(), {.run = {.tree_file = "bench.xml", .rate_hz = 1000}},
-                  std::move(*socket));
+  Monitor monitor(bench.tree(), {.run = {.tree_file = "bench.xml", .rate_hz = 1000}});
+  monitor.open(std::move(*socket));
   observe(state, bench, &monitor);
 }
 void changing(benchmark::internal::Benchmark* benchmark) {

@@ -80,6 +80,14 @@ bool knows_recorded_keys(const RunCommandOptions& options, const Tree& tree) {
   return true;
 }
 
+// What the monitor needs: at most one of them.
+struct ForMonitor {
+  std::optional<ServerSocket> listener = {};
+  std::optional<AttachSocket> socket = {};
+
+  bool is_wanted() const { return listener || socket; }
+};
+
 // What --groot2 needs.
 struct ForGroot {
   GrootTree tree;
@@ -89,8 +97,8 @@ struct ForGroot {
 // There is one, and its members end in the order in which they may.
 class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
  public:
-  RunCommand(const RunCommandOptions& options, const Runnable& runnable,
-             std::optional<ServerSocket> listener, std::optional<ForGroot> for_groot)
+  RunCommand(const RunCommandOptions& options, const Runnable& runnable, ForMonitor for_monitor,
+             std::optional<ForGroot> for_groot)
       : options_(options),
         tree_(runnable.tree),
         view_(options.view, tree_, options.log_level),
@@ -99,12 +107,15 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
         statistics_(tree_) {
     RunDescription description = describe_run(runnable.arguments);
     if (options.monitor_control || options.groot2_control) control_.emplace();
-    if (listener) {
+    if (for_monitor.is_wanted()) {
       if (options.begins_paused) control_->give({.what = RunControl::Order::What::Pause});
       RunControl* const control = options.monitor_control ? &*control_ : nullptr;
-      monitor_.emplace(tree_, MonitorOptions{description, options.record, control},
-                       std::move(*listener));
+      monitor_.emplace(tree_,
+                       MonitorOptions{description, options.record, control,
+                                      [this](const auto& link) { link_->tell(link, false); }});
     }
+    if (for_monitor.listener) opened_ = monitor_->open(std::move(*for_monitor.listener));
+    if (for_monitor.socket) monitor_->open_when_asked(std::move(*for_monitor.socket));
     if (for_groot) {
       groot_.emplace(tree_, groot_options(std::move(for_groot->tree)),
                      std::move(for_groot->sockets));
@@ -128,7 +139,8 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
       const int signal = StopSignals::received();  // while no reader has opened a pipe
       return signal == 0 ? kExitUsage : kExitSignal + signal;
     }
-    if (monitor_) link_.emplace(monitor_->link(), options_.tree, options_.opens_browser);
+    if (monitor_) link_.emplace(options_.tree, options_.monitor_socket);
+    if (!opened_.empty()) link_->tell(opened_, options_.opens_browser);
     Diagnostics refused;
     if (!plugins->initialize(refused)) {
       view_.close();
@@ -251,8 +263,9 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   Statistics statistics_;
   std::optional<Recorder> recorder_;
   std::optional<RunControl> control_;
+  std::string opened_;               // the link of the monitor, if it is open from the beginning
+  std::optional<MonitorLink> link_;  // used by the thread of the monitor
   std::optional<Monitor> monitor_;
-  std::optional<MonitorLink> link_;
   std::optional<GrootPublisher> groot_;
   std::optional<StallObserver> stall_;
   CappedNotes standstills_{"standstill"};
@@ -277,24 +290,34 @@ std::vector<NamedFile> inputs_of_run(const RunCommandOptions& options, const Loa
   return inputs;
 }
 
-// Nothing: there is to be none, or it was refused.
-Result<std::optional<ServerSocket>> listen(const RunCommandOptions& options) {
+Result<ForMonitor> prepare_monitor(const RunCommandOptions& options) {
+  const bool has_socket = !options.monitor_socket.empty();
   if (options.begins_paused && !options.monitor_control) {
     return problem("--monitor-paused needs --monitor-control", "else nobody can let it go on");
   }
-  if (options.monitor_control && !options.monitor) {
-    return problem("--monitor-control needs --monitor");
+  if (options.monitor_control && !options.monitor && !has_socket) {
+    return problem("--monitor-control needs --monitor or --monitor-socket");
   }
   if (options.opens_browser && !options.monitor) {
     return problem("--monitor-open needs --monitor");
   }
-  if (!options.monitor) return std::nullopt;
-  auto listener = listen_for_monitor(*options.monitor);
-  if (!listener) return tl::unexpected(std::move(listener.error()));
-  return std::move(*listener);
+  if (options.monitor && has_socket) {
+    return problem("--monitor-socket is for a run without --monitor");
+  }
+  ForMonitor it;
+  if (options.monitor) {
+    auto listener = listen_for_monitor(*options.monitor);
+    if (!listener) return tl::unexpected(std::move(listener.error()));
+    it.listener = std::move(*listener);
+  } else if (has_socket) {
+    auto socket = make_monitor_socket(options.monitor_socket);
+    if (!socket) return tl::unexpected(std::move(socket.error()));
+    it.socket.emplace(std::move(*socket));
+  }
+  return it;
 }
 
-// Likewise, for Groot2.
+// Nothing: there is to be none, or it was refused.
 Result<std::optional<ForGroot>> prepare_groot(const RunCommandOptions& options,
                                               const Definition& definition) {
   if (options.groot2_control && !options.groot2) {
@@ -325,9 +348,9 @@ int run(const RunCommandOptions& options) {
   if (!options.record.empty() &&
       would_overwrite("--record", options.record, inputs_of_run(options, *loaded)))
     return kExitUsage;
-  auto listener = listen(options);
-  if (!listener) {
-    print_error(listener.error().message, listener.error().hint);
+  auto for_monitor = prepare_monitor(options);
+  if (!for_monitor) {
+    print_error(for_monitor.error().message, for_monitor.error().hint);
     return kExitUsage;
   }
   auto for_groot = prepare_groot(options, loaded->definition);
@@ -344,7 +367,7 @@ int run(const RunCommandOptions& options) {
                              warnings);
     print_diagnostics(warnings, Severity::Warning);
   }
-  return RunCommand(options, runnable, std::move(*listener), std::move(*for_groot))
+  return RunCommand(options, runnable, std::move(*for_monitor), std::move(*for_groot))
       .run(runnable.plugins);
 }
 

@@ -104,6 +104,10 @@ void define_monitor_options(CLI::App& app, RunCommandOptions& options) {
                  "Show the run in a browser (default: 127.0.0.1 and a free port); the link is on "
                  "stderr")
       ->type_name("[ADDRESS:PORT]");
+  app.add_option("--monitor-socket", options.monitor_socket,
+                 "Without --monitor: make a socket through which `lockstep monitor --attach` opens "
+                 "one while the run goes on")
+      ->type_name("PATH");
   app.add_flag("--monitor-control", options.monitor_control,
                "Let those who have the link pause the run, tick it step by step, halt it and set "
                "entries");
