@@ -21,6 +21,7 @@
 
 docs/programs.md has the rest. `python3 -m lockstep_leaf sweep.py` tries the leaves by hand.
 """
+import atexit
 import json
 import os
 import random
@@ -72,6 +73,11 @@ def _plain(value):
     return str(value)
 
 
+# What a leaf has beside its ports.
+_TAKEN = {"clock", "halt", "kind", "log", "name", "now", "path", "pause", "period", "progress", "random", "real_time",
+          "resume", "start", "tick"}
+
+
 class _Attribute:
     "A port of a class: what its leaves read is what lockstep said last."
 
@@ -81,6 +87,8 @@ class _Attribute:
         if directed.type not in _TYPES:
             raise TypeError(f"the port '{name}' is a {directed.type}, expected bool, int, float, str "
                             "or a list of them: list[float]")
+        if name in _TAKEN:
+            raise TypeError(f"a port cannot be called '{name}', as leaves have a {name} already")
         self.name, self.direction = name, directed.direction
         self.fact = {"name": name, "type": _TYPES[directed.type], "direction": self.direction}
         if port.default is not None:
@@ -95,7 +103,8 @@ class _Attribute:
             return self
         value = leaf._values.get(self.name)
         if value is None:
-            raise AttributeError(f"the port '{self.name}' has no value")
+            raise AttributeError(f"the port '{self.name}' has no value" +
+                                 ("" if leaf._has_ports else " yet: start and tick can read it"))
         return value
 
     def __set__(self, leaf, value):
@@ -119,6 +128,9 @@ class _Leaf:
                 annotation = eval(annotation, vars(sys.modules[cls.__module__]))
             cls._ports[name] = _Attribute(name, annotation, cls.__dict__.get(name))
             setattr(cls, name, cls._ports[name])
+        for name, value in vars(cls).items():
+            if isinstance(value, Port):
+                raise TypeError(f"the port '{name}' has no type: {name}: float = Port(…)")
         if cls.__module__ != __name__:
             _classes[cls.__name__] = cls
 
@@ -164,10 +176,17 @@ def _status(result):
                          "False (failure)") from None
 
 
+def _progress(leaf):
+    done = leaf.progress()
+    if hasattr(done, "__float__"):
+        return float(done)
+    raise TypeError(f"progress returned {done!r}, expected a number from 0 to 1")
+
+
 def _new(cls, number, seed, **facts):
     "A leaf whose __init__ is still to be called: it may use what lockstep has said."
     leaf = cls.__new__(cls)
-    leaf._number, leaf._values, leaf._set, leaf._has_begun = number, {}, {}, False
+    leaf._number, leaf._values, leaf._set, leaf._has_ports, leaf._has_started = number, {}, {}, False, False
     for name, value in facts.items():
         setattr(leaf, name, value)
     leaf.random = random.Random(seed)
@@ -190,23 +209,23 @@ class _Server:
 
     def start(self, leaf, request):
         self.broken.discard(leaf._number)
-        leaf._values, leaf._set, leaf._has_begun = {}, {}, False
+        leaf._values, leaf._set, leaf._has_started, leaf._has_ports = {}, {}, False, True
         self.update(leaf, request)
         self.call(leaf, "start")
-        leaf._has_begun = True
+        leaf._has_started = True
 
     def tick(self, leaf, request):
         self.update(leaf, request)
         result = leaf.tick()
         answer = {"leaf": leaf._number, "status": _status(result)}
         if hasattr(leaf, "progress"):
-            answer["progress"] = float(leaf.progress())
+            answer["progress"] = _progress(leaf)
         if leaf._set:
             answer["set"], leaf._set = leaf._set, {}
         _say(**answer)
 
     def halt(self, leaf, request):
-        if leaf._has_begun:  # there is nothing to halt when its start has failed
+        if leaf._has_started:  # there is nothing to halt when its start has failed
             self.call(leaf, "halt")
         _say(leaf=leaf._number, done=True)
 
@@ -268,10 +287,13 @@ _out = 1
 
 def serve(version="", doc=""):
     "Speaks to lockstep until it has nothing more to say. At the end of the author's file."
-    global _out
+    global _out, _is_served
+    _is_served = True
     caller = sys._getframe(1)
     if _by_hand or (caller.f_code.co_name == "<module>" and caller.f_globals.get("__name__") != "__main__"):
         return  # the file is imported: its leaves are for this process
+    if sys.stdin.isatty():
+        return _Prompt().run()
     # What the leaves print is for people.
     _out = os.dup(1)
     os.dup2(2, 1)
@@ -283,7 +305,16 @@ def serve(version="", doc=""):
         server.answer(json.loads(line))
 
 
-_by_hand = False
+_by_hand = _is_served = False
+
+
+@atexit.register
+def _remind():
+    "Of what is forgotten easily; a file that uses the package lockstep ticks its leaves itself."
+    is_program = any(cls.__module__ == "__main__" for cls in _classes.values()) and not hasattr(sys, "ps1")
+    is_program = is_program and not hasattr(sys, "last_type")  # what has ended in an exception has said so
+    if is_program and not _is_served and "lockstep" not in sys.modules:
+        print("lockstep_leaf: this file has leaves, but does not call serve() at its end", file=sys.stderr)
 
 
 class _Prompt:

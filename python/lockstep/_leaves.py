@@ -81,7 +81,7 @@ class _Class:
             if hasattr(cls, name):
                 setattr(self.table, name, native.CALL(self.caller_of(_do(name))))
         if hasattr(cls, "progress"):
-            self.table.progress = native.PROGRESS(self.caller_of(lambda leaf: float(leaf.progress()), 0.0))
+            self.table.progress = native.PROGRESS(self.caller_of(lockstep_leaf._progress, 0.0))
         self.kept.append(pointers)
 
     def create(self, table, caller, _context):
@@ -127,7 +127,7 @@ class _Class:
         return call
 
     def start(self, leaf):
-        leaf._set = {}
+        leaf._set, leaf._has_ports = {}, True
         if hasattr(leaf, "start"):
             leaf.start()
 

@@ -78,6 +78,47 @@ TEST_CASE("plugin check finds what a program does against the protocol, and save
   CHECK(nodes().code == 0);  // it was not run
 }
 
+TEST_CASE("what the author of a leaf in Python gets wrong is said in a sentence") {
+  const PythonLeaves leaves;
+  const auto say = [&](const std::string& body, const std::string& end = "serve()") {
+    const std::string file =
+        leaves.directory.file("grip.py",
+                              "#!/usr/bin/python3\nfrom lockstep_leaf import Action, Port, serve\n"
+                              "class Grip(Action):\n" +
+                                  body + "\n" + end + "\n");
+    chmod(file.c_str(), 0755);
+    return leaves.run_tree("<Grip/>").err;
+  };
+  const std::string tick = "    def tick(self): return None\n";
+  CHECK(contains(say(tick, ""), "this file has leaves, but does not call serve() at its end"));
+  const std::string unfinished = say(tick, "1/0");
+  CHECK(contains(unfinished, "ZeroDivisionError"));
+  CHECK(!contains(unfinished, "serve()"));
+  CHECK(contains(say("    progress: float = 0.0\n" + tick),
+                 "a port cannot be called 'progress', as leaves have a progress already"));
+  CHECK(contains(say("    force = Port(3)\n" + tick),
+                 "the port 'force' has no type: force: float = Port("));
+  CHECK(contains(say("    force: float = 3\n    def __init__(self): self.force\n" + tick),
+                 "the port 'force' has no value yet: start and tick can read it (grip.py:5)"));
+  CHECK(contains(say(tick + "    def progress(self): pass\n"),
+                 "progress returned None, expected a number from 0 to 1"));
+  CHECK(
+      contains(say("    force: dict\n" + tick), "the port 'force' is a <class 'dict'>, expected"));
+}
+
+TEST_CASE("a program for lockstep that is started in a terminal asks for requests") {
+  const PythonLeaves leaves;
+  Process process({.arguments = {leaves.program},
+                   .environment = {{"PYTHONPATH", LOCKSTEP_SOURCE_DIR "/python"}},
+                   .program = "/usr/bin/python3"},
+                  Process::Output::Terminal);
+  REQUIRE(process.wait_for("> "));
+  process.type("start Grip\ntick\n");
+  CHECK(process.wait_for("\"progress\":0.05"));
+  process.type("quit\n");
+  CHECK(process.finish().code == 0);
+}
+
 TEST_CASE("a program is found by its name, or it is said what to type") {
   const PythonLeaves leaves;
   const std::string path = leaves.directory.path("");
