@@ -91,26 +91,41 @@ def study(tree, *, runs=None, grid=None, args=None, measure=(), out=None, plots=
 
 def read(recording):
     "A recording as a table: tick, time_s, node, path, status, progress, ticked, held."
-    return _table(_call(["log", "csv", recording]).stdout)
+    return _table(_call(["log", "csv", recording]).stdout, flags=("ticked", "held"))
 
 
 def read_study(directory, table="runs"):
     'The runs of a study ("runs"), or what its cells have in common ("summary").'
-    return _table((pathlib.Path(directory) / f"{table}.csv").read_text())
+    text = (pathlib.Path(directory) / f"{table}.csv").read_text(encoding="utf-8")
+    names = next(csv.reader(io.StringIO(text)), [])
+    begin, end = (1, "run") if table == "runs" else (0, "node")
+    return _table(text, arguments=names[begin:names.index(end)] if end in names else ())
 
 
-def _table(text):
+def _table(text, flags=(), arguments=()):
+    """A DataFrame, or a list of dicts. A column has numbers, or texts where one of its values is none. What is left
+    out of numbers is None, or NaN; an argument may be empty, which is a value like any other."""
     try:
         import pandas
     except ImportError:
-        return [{name: _value(it) for name, it in row.items()} for row in csv.DictReader(io.StringIO(text))]
-    return pandas.read_csv(io.StringIO(text))
+        names, *rows = csv.reader(io.StringIO(text))
+        columns = [_column(name, values, flags, arguments) for name, values in zip(names, zip(*rows))]
+        return [dict(zip(names, row)) for row in zip(*columns)]
+    names = next(csv.reader(io.StringIO(text)))
+    table = pandas.read_csv(io.StringIO(text), dtype=dict.fromkeys(arguments, str), keep_default_na=False,
+                            float_precision="round_trip",
+                            na_values={name: [""] for name in names if name not in arguments})
+    for name in arguments:
+        table[name] = _column(name, table[name], flags, arguments)
+    return table.astype(dict.fromkeys(flags, bool))
 
 
-def _value(text):
+def _column(name, values, flags, arguments):
+    if name in flags:
+        return [it == "1" for it in values]
     for kind in (int, float):
         try:
-            return kind(text)
+            return [None if it == "" and name not in arguments else kind(it) for it in values]
         except ValueError:
             pass
-    return text
+    return list(values)

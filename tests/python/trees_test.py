@@ -157,6 +157,34 @@ class TreesTest(unittest.TestCase):
             self.assertEqual([row for row in states if row[:2] in active], expected_states)
             self.assertEqual({key: progress[key] for key in expected_progress}, expected_progress)
 
+    def test_tables_are_the_same_with_pandas_and_without(self):
+        with tempfile.TemporaryDirectory() as directory:
+            file, recording = SOURCES / "trees/door_pulling.xml", os.path.join(directory, "run.jsonl")
+            lockstep.run(file, args={"barriers": [0.5]}, seed=3, record=recording)
+            grid = {"barriers": ["", "0.5", "0.25;0.5"], "slack": [0.4]}
+            out = os.path.join(directory, "study")
+            tables = [lockstep.read(recording), lockstep.study(file, runs=3, grid=grid, measure=["spread"], out=out),
+                      lockstep.read_study(out, "summary")]
+            if not isinstance(tables[0], list):
+                recorded, runs, summary = tables
+                self.assertEqual([str(recorded[it].dtype) for it in ("tick", "time_s", "status", "progress", "held")],
+                                 ["int64", "float64", "object", "float64", "bool"])
+                self.assertEqual([str(runs[it].dtype) for it in ("barriers", "slack", "seed")],
+                                 ["object", "float64", "uint64"])
+                self.assertEqual(dict(runs.groupby("barriers").size()), {"": 3, "0.5": 3, "0.25;0.5": 3})
+                self.assertGreater(recorded[recorded.held].progress.min(), 0)
+                self.assertTrue(summary.gap.isna().all())
+                tables = [it.astype(object).where(it.notna(), None).to_dict("records") for it in tables]
+            recorded, runs, summary = tables
+            self.assertEqual(recorded[0], {"tick": 0, "time_s": 0.0, "node": 0, "path": "OpenDoor/open", "ticked": True,
+                                           "status": "running", "progress": 0.0, "held": False})
+            self.assertEqual({row["barriers"] for row in runs}, {"", "0.5", "0.25;0.5"})
+            self.assertEqual({row["slack"] for row in runs}, {0.4})
+            self.assertIsInstance(runs[0]["spread OpenDoor/open/pull"], float)
+            self.assertEqual([(row["barriers"], row["measure"], row["gap"]) for row in summary],
+                             [("", "spread", None), ("0.5", "spread", None), ("0.25;0.5", "spread", None)])
+            self.assertEqual(summary[1]["success"], 1)
+
     def test_every_type_of_entry_and_port(self):
         names = ("flag", "number", "real", "text", "flags", "numbers", "reals", "texts")
         with tree("<Any " + " ".join(f'{it}="{{{it}}}"' for it in names) + "/>") as it:
