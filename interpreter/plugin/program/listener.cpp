@@ -4,11 +4,16 @@
 #include <sys/eventfd.h>
 
 #include <algorithm>
+#include <ctime>
 
 #include "core/own_thread.h"
 
 namespace lockstep {
 namespace {
+
+// What comes within this time is written, and read, at once. A tick asks many leaves, and each
+// thread that is woken for one of them may take the processor from the tick.
+constexpr timespec kGather{.tv_sec = 0, .tv_nsec = 100'000};
 
 std::optional<Nanoseconds> first_deadline(const std::vector<Conversation*>& conversations) {
   std::optional<Nanoseconds> first;
@@ -78,6 +83,7 @@ void Listener::listen() {
       descriptors.push_back({it->process().end(), POLLIN, 0});
     }
     await(descriptors, first_deadline(known));
+    if (!is_over_.load()) nanosleep(&kGather, nullptr);
     eventfd_t rings = 0;
     eventfd_read(bell_.number(), &rings);
     for (std::size_t i = 0; i < known.size(); ++i) {
