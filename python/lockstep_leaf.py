@@ -264,10 +264,10 @@ class _Server:
             _say(leaf=number, error=_blame(error))
 
 
-def _blame(error, *inner):
-    "What went wrong, and where in the author's file; `inner` are files of lockstep, as this one is."
+def _blame(error, folder=None):
+    "What went wrong, and where in the author's file; the files in `folder` are lockstep's, as this one is."
     mine = [frame for frame in traceback.extract_tb(error.__traceback__)
-            if frame.filename not in (__file__, *inner)]
+            if frame.filename != __file__ and os.path.dirname(frame.filename) != folder]
     where = f" ({os.path.basename(mine[-1].filename)}:{mine[-1].lineno})" if mine else ""
     return f"{type(error).__name__}: {error}{where}"
 

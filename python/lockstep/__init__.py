@@ -21,7 +21,9 @@ from lockstep_leaf import _plain
 
 from ._error import Error
 from ._program import library, program
-from ._trees import Diagnostic, Entries, Node, Project, Tree
+from ._nodes import Entries, Node
+from ._project import Diagnostic, Project
+from ._trees import Tree
 
 __all__ = ["Diagnostic", "Entries", "Error", "Node", "Project", "Run", "Tree", "library", "program", "read",
            "read_study", "run", "study"]

@@ -173,7 +173,7 @@ def _port(fact):
 
 def blame(error):
     "What went wrong in a leaf, and where in its author's file."
-    return lockstep_leaf._blame(error, __file__, native.__file__, os.path.join(os.path.dirname(__file__), "_trees.py"))
+    return lockstep_leaf._blame(error, os.path.dirname(__file__))
 
 
 def _class_of(cls):

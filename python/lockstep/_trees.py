@@ -1,361 +1,15 @@
 "Trees that run in this process, over lockstep/runtime.h."
-import collections
-import collections.abc
 import ctypes
-import difflib
-import logging
 import os
-import signal
 import threading
 import time
 import weakref
 
-import lockstep_leaf
-
-from . import _leaves as leaves_
 from . import _native as native
 from ._error import Error
-
-Diagnostic = collections.namedtuple("Diagnostic", "severity file line column message hint")
-Diagnostic.__doc__ = "What is wrong with a tree, or may be: severity is error, warning or note."
-Diagnostic.__str__ = lambda it: "".join(f"{place}:" for place in it[1:4] if place) + (" " if it.file else "") + (
-    f"{it.severity}: {it.message}" + (f" ({it.hint})" if it.hint else ""))
-
-_LEVELS = {"debug": logging.DEBUG, "info": logging.INFO, "warning": logging.WARNING}
-_logger = logging.getLogger("lockstep")
-
-
-def _log(who, level, text):
-    _logger.log(_LEVELS[level], "%s: %s", who, text)
-
-
-class _Held:
-    "The project of the library, until nobody has it: a thread may be making a tree of it while another closes it."
-
-    def __init__(self, library, leaves):
-        self.handle = library.project_new()
-        if not self.handle:
-            raise Error(9, library.why())
-        weakref.finalize(self, _free_project, library, self.handle, os.getpid(), leaves)
-
-
-class Project:
-    """A tree file (or `text`) with its includes, plugins and leaves. Trees are made of it: `Tree(project)`.
-
-    `leaves` are classes of lockstep_leaf, and modules that have some. They run in this process, and take the place
-    of a <plugin> that has the name of their module."""
-
-    def __init__(self, tree=None, *, text=None, leaves=(), args=None, set=None, plugins=(), plugin_path=(),
-                 main_tree=None, isolate=False):
-        if (tree is None) == (text is None):
-            raise TypeError("a project has a file or a text, one of the two")
-        self._library = library = native.load()
-        self._leaves = list(leaves_.plugins_of(leaves))
-        self._held = _Held(library, self._leaves)
-        try:
-            self._configure(args or {}, set or {}, plugins, plugin_path, main_tree, isolate)
-            self._load(tree, text)
-        except BaseException:
-            self.close()
-            raise
-
-    def _configure(self, args, values, plugins, plugin_path, main_tree, isolate):
-        library, handle = self._library, self._held.handle
-        steps = [(library.project_add_leaves, ctypes.byref(it)) for it in self._leaves]
-        steps += [(library.project_add_plugin_path, os.fsencode(it)) for it in _list(plugin_path)]
-        steps += [(library.project_add_plugin, os.fsencode(it)) for it in _list(plugins)]
-        for function, dictionary in ((library.project_set_argument, args), (library.project_set_value, values)):
-            steps += [(function, native.bytes_of(name), native.bytes_of(lockstep_leaf._plain(it)))
-                      for name, it in dictionary.items()]
-        if main_tree is not None:
-            steps.append((library.project_set_main_tree, native.bytes_of(main_tree)))
-        if isolate:
-            steps.append((library.project_isolate_all,))
-        for function, *arguments in steps:
-            if not function(handle, *arguments):
-                raise Error(4, library.why())
-
-    def _load(self, tree, text):
-        library, handle = self._library, self._held.handle
-        if text is None:
-            good = library.project_load_file(handle, os.fsencode(tree))
-        else:
-            data = text.encode("utf-8", "surrogateescape")
-            good = library.project_load_text(handle, b"text", data, len(data))
-        self.diagnostics = [self._diagnostic(i) for i in range(library.project_diagnostic_count(handle))]
-        if not good:
-            errors = [it for it in self.diagnostics if it.severity == "error"]
-            raise Error(3, "\n".join(map(str, errors)) or library.why(), self.diagnostics)
-        for it in self.diagnostics:
-            _logger.log(logging.WARNING if it.severity == "warning" else logging.INFO, "%s", it)
-        self.nodes = [self._node(i) for i in range(library.project_node_count(handle))]
-        self.entries = dict(self._entry(i) for i in range(library.project_entry_count(handle)))
-
-    def _diagnostic(self, index):
-        it = native.sized(native.Diagnostic)
-        self._library.project_diagnostic(self._held.handle, index, it)
-        return Diagnostic(native.SEVERITIES[it.severity], native.text_of(it.file), it.line, it.column,
-                          native.text_of(it.message), native.text_of(it.hint))
-
-    def _node(self, index):
-        it = native.sized(native.Node)
-        self._library.project_node(self._held.handle, index, it)
-        return _Fact(index, it.parent, it.end, *map(native.text_of, (it.path, it.name, it.id)))
-
-    def _entry(self, index):
-        it = native.sized(native.Entry)
-        self._library.project_entry(self._held.handle, index, it)
-        return native.text_of(it.key), (it.type, native.text_of(it.type_name))
-
-    def close(self):
-        "Its trees live on."
-        self._held = None
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.close()
-
-
-_Fact = collections.namedtuple("_Fact", "index parent end path name id")
-
-
-def _list(given):
-    return [given] if isinstance(given, (str, bytes, os.PathLike)) else given
-
-
-def _free(function, handle, process, state=None):
-    "When nobody has it any more, or at the end. The child of a fork leaves it to its parent."
-    if os.getpid() != process:
-        return
-    if state is None:
-        return function(handle)
-    with state.guard:
-        if state.user is not None:
-            return  # a thread ticks it while the process ends
-        state.user = "the end"
-    with state:
-        function(handle)
-
-
-class _State:
-    """What the functions that lockstep calls need of a tree. It does not keep the tree alive.
-
-    An exception cannot pass through lockstep: it is kept, and raised after the call. For Ctrl-C the handler of
-    Python is put off while no code runs out of which the exception could be caught."""
-
-    def __init__(self, log, clock):
-        self.log, self.clock = log, clock
-        self.guard = threading.Lock()  # of user
-        self.user = None               # who uses the tree
-        self.thread = None      # that is in a call
-        self.observers = []
-        self.observes = False   # observers are being called
-        self.thrown = None      # to be raised after the call
-        self.cause = None       # the exception of the leaf that has a fault
-        self.inside = False     # an exception would be caught
-        self.pending = None     # a signal that was put off
-        self.handler = None     # of Python, for SIGINT
-        self.own_handler = self.on_signal
-
-    # Around each call that may call leaves. Ctrl-C may come out of every line before the handler is changed, and after
-    # it is what it was.
-    def __enter__(self):
-        self.handler, self.thrown, self.cause, self.pending = None, None, None, None
-        if threading.get_ident() == threading.main_thread().ident:
-            handler = signal.getsignal(signal.SIGINT)
-            if callable(handler):
-                self.handler = handler
-                signal.signal(signal.SIGINT, self.own_handler)
-        self.thread = threading.get_ident()
-        self.outer, leaves_.making.state = getattr(leaves_.making, "state", None), self
-
-    def __exit__(self, *_):
-        leaves_.making.state, self.thread, self.outer = self.outer, None, None
-        if self.handler is not None and signal.getsignal(signal.SIGINT) is self.own_handler:
-            signal.signal(signal.SIGINT, self.handler)
-        if self.pending is not None:
-            self.handler(*self.pending)
-        if self.thrown is not None:
-            thrown, self.thrown = self.thrown, None
-            raise thrown
-
-    def on_signal(self, number, frame):
-        if self.inside:
-            self.handler(number, frame)
-        else:
-            self.pending = (number, frame)
-
-    def blame(self, error):
-        "For lockstep: what is wrong with a leaf that has raised it."
-        self.inside = False
-        if not isinstance(error, Exception):
-            self.thrown = self.thrown or error
-        elif self.cause is None:
-            self.cause = error
-        return leaves_.blame(error).replace("\0", "").encode("utf-8", "replace")
-
-    def keep(self, work):
-        "Of what is no leaf."
-        try:
-            self.inside = True
-            work()
-            self.inside = False
-        except BaseException as error:
-            self.inside = False
-            self.thrown = self.thrown or error
-
-    def log_of(self, who):
-        def log(text, level):
-            if level not in native.LEVELS:
-                raise ValueError(f"the level is {level!r}, expected debug, info or warning")
-            self.log(who, level, text)
-        return log
-
-    # What lockstep calls.
-
-    def on_log(self, _user, who, level, text):
-        self.keep(lambda: self.log(native.text_of(who), native.LEVELS[level], native.text_of(text)))
-
-    def on_tick(self, _user, _run, tick, seconds, status):
-        self.observes = True
-        for observe in self.observers:
-            self.keep(lambda: observe(tick, seconds, native.STATUSES[status]))
-        self.observes = False
-
-    def stops(self, _user):
-        return self.pending is not None or self.thrown is not None
-
-
-class Node:
-    "A node of a tree: what it is, and how it is now."
-
-    __slots__ = ("_tree", "_fact")
-
-    def __init__(self, tree, fact):
-        self._tree, self._fact = tree, fact
-
-    index = property(lambda self: self._fact.index, doc="its place in the order of the tree; the root is 0")
-    path = property(lambda self: self._fact.path, doc="Main/pull/arm")
-    name = property(lambda self: self._fact.name, doc="arm; without a name in the tree, its id")
-    id = property(lambda self: self._fact.id, doc="the tag: MoveArm")
-    status = property(lambda self: native.STATUSES[self._state().status],
-                      doc="idle, running, success, failure or skipped")
-    progress = property(lambda self: self._state().progress, doc="from 0 to 1; its leaves are asked")
-    held = property(lambda self: self._state().held, doc="a synchronized node withholds its ticks")
-    ticked = property(lambda self: self._state().ticked, doc="it was, in the last tick")
-
-    @property
-    def parent(self):
-        "None for the root."
-        nodes = self._tree.nodes
-        return nodes[self._fact.parent] if self._fact.parent != self.index else None
-
-    @property
-    def children(self):
-        found, index = [], self.index + 1
-        while index < self._fact.end:
-            found.append(self._tree.nodes[index])
-            index = found[-1]._fact.end
-        return found
-
-    def _state(self):
-        it = native.sized(native.NodeState)
-        self._tree._ask(self.index, it)
-        return it
-
-    def __repr__(self):
-        return f"<{self.id} {self.path}>"
-
-
-class Entries(collections.abc.Mapping):
-    """The entries of the blackboard, as a mapping of those that have a value. They are read and written between
-    ticks; observers may read them."""
-
-    def __init__(self, tree):
-        self._tree = tree
-
-    def _declared(self, key):
-        types = self._tree._entries
-        if key in types:
-            return types[key]
-        raise KeyError(f"no node uses an entry '{key}'" + _hint(key, types))
-
-    def __getitem__(self, key):
-        self._declared(key)
-        value = self._tree._read(lambda library, handle: _read_entry(library, handle, native.bytes_of(key)))
-        if value is None:
-            raise KeyError(f"nothing has written the entry '{key}'")
-        return value
-
-    def get(self, key, default=None):
-        self._declared(key)
-        try:
-            return self[key]
-        except KeyError:
-            return default
-
-    def __setitem__(self, key, value):
-        number, name = self._declared(key)
-        type_ = _type_for(value, number, name)
-        data, library = native.bytes_of(key), self._tree._library
-
-        def write(handle):
-            if type_ is None:
-                return library.run_set_text(handle, data, native.bytes_of(value))
-            set_ = getattr(library, "run_set_" + native.function_name(type_, "text"))
-            return type_.write(set_, handle, data, value=value)
-
-        try:
-            good = self._tree._using(write)
-        except TypeError:
-            raise TypeError(f"the entry '{key}' is of type {name}, not {value!r}") from None
-        if not good:
-            raise ValueError(library.why())
-
-    def __iter__(self):
-        types = self._tree._entries
-        return (key for key in types if self._tree._read(
-            lambda library, handle: library.run_value_type(handle, native.bytes_of(key))))
-
-    def __len__(self):
-        return sum(1 for _ in self)
-
-    def __contains__(self, key):
-        return any(it == key for it in self)
-
-    def __repr__(self):
-        return repr(dict(self))
-
-
-def _read_entry(library, handle, key):
-    number = library.run_value_type(handle, key)
-    if number in (native.OBJECT, 4):
-        return native.text_of(library.run_get_text(handle, key))
-    for type_ in native.TYPES.values():
-        if type_.number == number:
-            return type_.read(getattr(library, "run_get_" + native.function_name(type_, "text")), handle, key)
-    return None
-
-
-def _type_for(value, number, name):
-    "Of a value that is to be written; None: as a text."
-    if isinstance(value, str) or number == native.OBJECT:
-        if isinstance(value, str):
-            return None
-        raise TypeError(f"an entry of type {name} is written as a text, not as {value!r}")
-    if name in native.TYPES:
-        return native.TYPES[name]
-    first = value[0] if isinstance(value, (list, tuple)) and value else value
-    item = "bool" if isinstance(first, bool) else "int" if isinstance(first, int) else (
-        "string" if isinstance(first, str) else "double")
-    return native.TYPES[("list of " if isinstance(value, (list, tuple)) else "") + item]
-
-
-def _hint(name, names):
-    near = difflib.get_close_matches(name, list(names), 1)
-    return f"; did you mean '{near[0]}'?" if near else ""
+from ._nodes import Entries, Node, hint
+from ._project import Project, log as log_
+from ._state import State, free
 
 
 class Tree:
@@ -389,7 +43,7 @@ class Tree:
         self._library, self._handle = project._library, None
         self._entries, self._seed, self._period, self._clock = project.entries, seed, period, clock
         self._on_fault = on_fault
-        self._state = state = _State(log or _log, clock)
+        self._state = state = State(log or log_, clock)
         self._callbacks = native.LOG(state.on_log), native.OBSERVE(state.on_tick), native.STOP(state.stops)
         self._begin(project, held)
         self.nodes = [Node(self, it) for it in project.nodes]
@@ -425,7 +79,7 @@ class Tree:
         try:
             return self._by_path[path]
         except KeyError:
-            raise KeyError(f"there is no node '{path}'" + _hint(path, self._by_path)) from None
+            raise KeyError(f"there is no node '{path}'" + hint(path, self._by_path)) from None
 
     def tick(self, seconds=None):
         """One tick, and the status of the root after it. After success or failure the next one begins the tree
@@ -573,12 +227,8 @@ class Tree:
         return error
 
 
-def _free_project(library, handle, process, _leaves):
-    _free(library.project_free, handle, process)
-
-
 def _free_run(library, handle, process, state, _kept):
-    _free(library.run_free, handle, process, state)
+    free(library.run_free, handle, process, state)
 
 
 _CODES = {"success": 0, "failure": 1}

@@ -15,28 +15,15 @@ import tempfile
 import time
 
 import lockstep
-from lockstep_leaf import Action
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAMS = ROOT / "tests" / "programs"
 ROUNDS = int(sys.argv[1]) if len(sys.argv) > 1 else 7
 SECONDS, RATE, TICKS = 3, 100, 10000
+sys.path.insert(0, str(PROGRAMS))
+import advance_class  # noqa: E402: the same leaf in this process
+
 PYTHON = 'name="motion" program="advance_class.py"'
-
-
-class Advance(Action):
-    "That of advance_class.py, for this process."
-    step: float = 0.01
-
-    def start(self):
-        self.done = 0.0
-
-    def tick(self):
-        self.done = min(1.0, self.done + self.step)
-        return True if self.done >= 1 - 1e-9 else None
-
-    def progress(self):
-        return self.done
 
 
 def text(plugin, nodes):
@@ -134,7 +121,7 @@ def stops():
         nodes = (f'<ParallelAbsolute barriers="{barriers}"><Steady name="ahead"/><Advance step="0.0004"/>'
                  "</ParallelAbsolute>")
         times = []
-        with lockstep.Tree(text=text('name="steady" program="steady.py" hold="signal"', nodes), leaves=Advance,
+        with lockstep.Tree(text=text('name="steady" program="steady.py" hold="signal"', nodes), leaves=advance_class,
                            plugin_path=PROGRAMS, log=lambda *_: None) as tree:
             pid, ahead, was_held = int(pids.read_text().split()[-1]), tree.nodes[1], False
             while len(times) < 200:
@@ -155,7 +142,7 @@ def main():
         "Python, by hand (`tests/programs/advance.py`)": lambda: of_a_tick('name="motion" program="advance.py"'),
         "Python, with `lockstep_leaf`": lambda: of_a_tick(PYTHON),
         "node": lambda: of_a_tick('name="motion" program="advance.js"'),
-        "Python, in the process of Python (`lockstep.Tree`)": lambda: of_a_tick('name="programs"', leaves=Advance),
+        "Python, in the process of Python (`lockstep.Tree`)": lambda: of_a_tick('name="advance_class"', leaves=advance_class),
         "C++": lambda: of_a_tick('name="motion"')})
     for name, times in ticks.items():
         print(f"| {name} | {spread(times)} |")
