@@ -92,6 +92,18 @@ static void fail(BehaviorTreeFactory& factory) {
   }
 }
 
+// An ID is registered once, and no built-in node is replaced.
+static void register_again(BehaviorTreeFactory& factory) {
+  for (const char* id : {"Tell", "Sequence"}) {
+    try {
+      factory.registerNodeType<Tell>(id);
+      std::cout << id << " is replaced" << std::endl;
+    } catch (const BehaviorTreeException&) {
+      std::cout << id << " stays" << std::endl;
+    }
+  }
+}
+
 int main() {
   BehaviorTreeFactory factory;
   factory.registerNodeType<Tell>("Tell");
@@ -127,4 +139,5 @@ int main() {
   std::cout << tree.sleep(std::chrono::seconds(60)) << std::endl;
   fail(factory);
   share_objects(factory);
+  register_again(factory);
 }

@@ -73,6 +73,9 @@ class BehaviorTreeFactory {
   }
 
   void registerBuilder(const TreeNodeManifest& manifest, const NodeBuilder& builder) {
+    if (builtinNodes().count(manifest.registration_ID) != 0) {
+      throw BehaviorTreeException("ID [", manifest.registration_ID, "] is that of a built-in node");
+    }
     plugin_->add(manifest, builder);
   }
   template <class T>

@@ -2,4 +2,4 @@
 #pragma once
 
 #error \
-    "lockstep has neither the logs nor the protocol of Groot: 'lockstep run --record run.jsonl' records a run, --view live shows it"
+    "lockstep has the protocol of Groot2 as an option, not as a header: 'lockstep run --groot2' shows a run there, --record run.jsonl records it"

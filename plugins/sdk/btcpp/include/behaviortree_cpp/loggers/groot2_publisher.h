@@ -10,8 +10,8 @@ class Groot2Publisher {
   template <class... Arguments>
   explicit Groot2Publisher(Arguments&&...) {
     static_assert(sizeof...(Arguments) > 1000,
-                  "lockstep has no Groot2Publisher: 'lockstep run --view live' shows a tree while "
-                  "it runs, --record keeps the run");
+                  "lockstep has no Groot2Publisher: 'lockstep run --groot2' shows a run in Groot2, "
+                  "--monitor in a browser, --record keeps it");
   }
 };
 
