@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <stdexcept>
 #include <utility>
 
 #include "core/diagnostics.h"
@@ -66,7 +67,11 @@ Result<GrootSockets> listen_for_groot(const std::string& address) {
         shown));
   }
   messages().say(fmt::format("groot2: {}\n", shown));
-  return GrootSockets(std::move(pair->requests.socket), std::move(pair->events.socket));
+  try {
+    return GrootSockets(std::move(pair->requests.socket), std::move(pair->events.socket));
+  } catch (const std::runtime_error& error) {
+    return problem(std::string("--groot2: ") + error.what());
+  }
 }
 
 }  // namespace lockstep

@@ -80,6 +80,10 @@ Json& Json::operator[](std::string_view name) {
   return found != members.end() ? found->second : members.emplace_back(name, Json()).second;
 }
 
+void Json::add(std::string name, Json value) {
+  std::get<Members>(value_).emplace_back(std::move(name), std::move(value));
+}
+
 void Json::push_back(Json item) {
   std::get<List>(value_).push_back(std::move(item));
 }

@@ -45,6 +45,7 @@ class Json {
   static Json object();
 
   Json& operator[](std::string_view name);  // of an object; a new one is null
+  void add(std::string name, Json value);   // to an object that has no such member
   void push_back(Json item);                // to an array
   Json& back();                             // of an array
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 #include <variant>
 
@@ -78,19 +79,23 @@ void GrootBoards::show(NodeIndex node, std::string_view prefix, What what) {
   shown_[board].push_back({std::string(prefix) + path, node, what});
 }
 
+Json GrootBoards::shown(const Shown& it, const Snapshot& snapshot) const {
+  const NodeView& node = snapshot.nodes[it.node];
+  if (it.what == What::Progress) return node.progress;
+  if (it.what == What::Held) return node.activity == Activity::Paused;
+  // Where no barrier is left, a child may go to its end.
+  return std::isfinite(node.limit) ? node.limit : 1.0;
+}
+
 Json GrootBoards::board(std::size_t number, const Snapshot& snapshot) const {
+  const auto& slots = boards_[number].slots;
   Json json = Json::object();
   for (const Shown& it : shown_[number]) {
-    const NodeView& node = snapshot.nodes[it.node];
-    Json& shown = json[it.key];
-    if (it.what == What::Progress) shown = node.progress;
-    if (it.what == What::Held) shown = node.activity == Activity::Paused;
-    // Where no barrier is left, a child may go to its end.
-    if (it.what == What::Limit) shown = std::isfinite(node.limit) ? node.limit : 1.0;
+    if (!slots.contains(it.key)) json.add(it.key, shown(it, snapshot));
   }
-  for (const auto& [key, slot] : boards_[number].slots) {
+  for (const auto& [key, slot] : slots) {
     const EntryState& entry = snapshot.entries[slot];
-    if (entry.changed) json[key] = entry_json(tree_.slots[slot], entry);
+    if (entry.changed) json.add(key, entry_json(tree_.slots[slot], entry));
   }
   return json.members().empty() ? Json() : json;
 }
@@ -98,16 +103,19 @@ Json GrootBoards::board(std::size_t number, const Snapshot& snapshot) const {
 // As the library says it: a board without entries is null, and so is an answer without boards. One
 // who asks for a board inside gets the main tree's too.
 std::string GrootBoards::dump(std::string_view names, const Snapshot& snapshot) const {
-  Json json = Json::object();
+  std::set<std::size_t> asked;
   while (!names.empty()) {
     const std::size_t end = std::min(names.find(';'), names.size());
     const auto found = by_name_.find(names.substr(0, end));
     names.remove_prefix(std::min(end + 1, names.size()));
-    if (found == by_name_.end()) continue;
-    json[found->first] = board(found->second, snapshot);
-    if (found->second != 0 && !by_name_.contains(kMain)) json[kMain] = board(0, snapshot);
+    if (found != by_name_.end()) asked.insert(found->second);
   }
-  return (json.members().empty() ? Json() : json).message_pack();
+  if (asked.empty()) return Json().message_pack();
+  Json json = Json::object();
+  for (const std::size_t number : asked) json.add(boards_[number].name, board(number, snapshot));
+  const bool has_inner = *asked.rbegin() != 0;
+  if (has_inner && !by_name_.contains(kMain)) json.add(std::string(kMain), board(0, snapshot));
+  return json.message_pack();
 }
 
 }  // namespace lockstep

@@ -18,6 +18,8 @@ namespace lockstep {
 class GrootBoards {
  public:
   GrootBoards(const Tree& tree, std::vector<GrootBoardKeys> boards);
+  GrootBoards(const GrootBoards&) = delete;
+  GrootBoards& operator=(const GrootBoards&) = delete;
 
   // The boards of some subtrees, "A;B", as MessagePack: {"A":{"key":value}}.
   std::string dump(std::string_view names, const Snapshot& snapshot) const;
@@ -32,6 +34,7 @@ class GrootBoards {
   };
   void show_synchronized(NodeIndex node);
   void show(NodeIndex node, std::string_view prefix, What what);
+  Json shown(const Shown& it, const Snapshot& snapshot) const;
   Json board(std::size_t number, const Snapshot& snapshot) const;
 
   const Tree& tree_;

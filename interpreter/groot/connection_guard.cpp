@@ -37,8 +37,10 @@ std::uint64_t received(const FileDescriptor& socket) {
   return info.tcpi_bytes_received;
 }
 
+// Both sides see the end at once. After shutdown() a client whose window is full would not.
 void cut_off(const FileDescriptor& socket) {
-  shutdown(socket.number(), SHUT_RDWR);
+  const sockaddr nobody{.sa_family = AF_UNSPEC, .sa_data = {}};
+  connect(socket.number(), &nobody, sizeof nobody);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "bench/bench_tree.h"
+#include "groot/publisher.h"
 #include "recording/write/recorder.h"
 #include "runtime/run.h"
 #include "summary/statistics.h"
@@ -286,6 +287,18 @@ void observed_by_monitor(benchmark::State& state, const char* control, const cha
   monitor.open(std::move(*socket));
   observe(state, bench, &monitor);
 }
+// Likewise for Groot2.
+void observed_by_groot(benchmark::State& state, const char* control, const char* attributes) {
+  if (!has_groot_sockets()) return state.SkipWithError("built without it");
+  const BenchTree bench = with_changes(control, attributes, state.range(0));
+  auto requests = listen_on(kAnyLoopback), events = listen_on(kAnyLoopback);
+  if (!requests || !events) std::abort();
+  GrootTree shown{.document = {}, .order = {}, .boards = {{.name = "B"}}};
+  for (NodeIndex node = 0; node < bench.tree().nodes[0].end; ++node) shown.order.push_back(node);
+  GrootPublisher publisher(bench.tree(), {.shown = std::move(shown), .print = {}},
+                           GrootSockets(std::move(requests->socket), std::move(events->socket)));
+  observe(state, bench, &publisher);
+}
 void changing(benchmark::internal::Benchmark* benchmark) {
   for (const int leaves : {10, kLeaves}) benchmark->Arg(leaves);
 }
@@ -294,7 +307,8 @@ void changing(benchmark::internal::Benchmark* benchmark) {
   BENCHMARK_CAPTURE(observed_by_statistics, name, control, attributes)->Apply(changing); \
   BENCHMARK_CAPTURE(observed_by_recorder, name, control, attributes)->Apply(changing);   \
   BENCHMARK_CAPTURE(observed_by_live_view, name, control, attributes)->Apply(changing);  \
-  BENCHMARK_CAPTURE(observed_by_monitor, name, control, attributes)->Apply(changing)
+  BENCHMARK_CAPTURE(observed_by_monitor, name, control, attributes)->Apply(changing);    \
+  BENCHMARK_CAPTURE(observed_by_groot, name, control, attributes)->Apply(changing)
 OBSERVED(parallel, "Parallel", "");
 OBSERVED(synchronized, "ParallelRelative", "delta='1'");
 
