@@ -141,7 +141,9 @@ class TreesTest(unittest.TestCase):
             spec = importlib.util.spec_from_file_location("motion", SOURCES / "tests/programs/advance_class.py")
             motion = importlib.util.module_from_spec(spec)
             sys.modules["motion"] = motion
-            spec.loader.exec_module(motion)  # serve() at its end does nothing
+            before = sys.stdout
+            spec.loader.exec_module(motion)
+            self.assertIs(sys.stdout, before)  # serve() at its end does nothing
             states, progress = [], {}
 
             def observe(tick, seconds, status):
