@@ -5,17 +5,15 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
-#include "cli/groot_sockets.h"
 #include "cli/load/real_time_leaves.h"
-#include "cli/monitor_link.h"
 #include "cli/outputs.h"
 #include "cli/run/run_options.h"
 #include "cli/run/run_watch.h"
 #include "cli/run/view.h"
+#include "cli/run/watchers.h"
 #include "core/freed_memory.h"
 #include "core/suggest.h"
 #include "core/wording.h"
-#include "groot/publisher.h"
 #include "recording/write/recorder.h"
 #include "runtime/crash_report.h"
 #include "runtime/loop.h"
@@ -25,7 +23,6 @@
 #include "summary/stall_observer.h"
 #include "summary/statistics.h"
 #include "view/waiting.h"
-#include "web/monitor.h"
 
 namespace lockstep {
 namespace {
@@ -80,48 +77,21 @@ bool knows_recorded_keys(const RunCommandOptions& options, const Tree& tree) {
   return true;
 }
 
-// What the monitor needs: at most one of them.
-struct ForMonitor {
-  std::optional<ServerSocket> listener = {};
-  std::optional<AttachSocket> socket = {};
-
-  bool is_wanted() const { return listener || socket; }
-};
-
-// What --groot2 needs.
-struct ForGroot {
-  GrootTree tree;
-  GrootSockets sockets;
-};
-
 // There is one, and its members end in the order in which they may.
 class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
  public:
-  RunCommand(const RunCommandOptions& options, const Runnable& runnable, ForMonitor for_monitor,
-             std::optional<ForGroot> for_groot)
+  RunCommand(const RunCommandOptions& options, const Runnable& runnable, WatcherSockets sockets)
       : options_(options),
         tree_(runnable.tree),
         view_(options.view, tree_, options.log_level),
         watch_(tree_, options,
                [this](const std::string& line) { view_.print("warning: " + line); }),
-        statistics_(tree_) {
-    RunDescription description = describe_run(runnable.arguments);
-    if (options.monitor_control || options.groot2_control) control_.emplace();
-    if (for_monitor.is_wanted()) {
-      if (options.begins_paused) control_->give({.what = RunControl::Order::What::Pause});
-      RunControl* const control = options.monitor_control ? &*control_ : nullptr;
-      monitor_.emplace(tree_,
-                       MonitorOptions{description, options.record, control,
-                                      [this](const auto& link) { link_->tell(link, false); }});
-    }
-    if (for_monitor.listener) opened_ = monitor_->open(std::move(*for_monitor.listener));
-    if (for_monitor.socket) monitor_->open_when_asked(std::move(*for_monitor.socket));
-    if (for_groot) {
-      groot_.emplace(tree_, groot_options(std::move(for_groot->tree)),
-                     std::move(for_groot->sockets));
-    }
+        statistics_(tree_),
+        description_(describe_run(runnable.arguments)),
+        watchers_(tree_, options, description_, std::move(sockets),
+                  [this](const std::string& line) { view_.print(line); }) {
     if (!options.record.empty()) {
-      recorder_.emplace(tree_, recorder_options(std::move(description)));
+      recorder_.emplace(tree_, recorder_options());
     }
     if (options.stall > 0) {
       stall_.emplace(tree_, from_seconds(options.stall), [this](const Standstill& standstill) {
@@ -139,8 +109,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
       const int signal = StopSignals::received();  // while no reader has opened a pipe
       return signal == 0 ? kExitUsage : kExitSignal + signal;
     }
-    if (monitor_) link_.emplace(options_.tree, options_.monitor_socket);
-    if (!opened_.empty()) link_->tell(opened_, options_.opens_browser);
+    watchers_.tell();
     Diagnostics refused;
     if (!plugins->initialize(refused)) {
       view_.close();
@@ -154,12 +123,6 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   }
 
  private:
-  GrootOptions groot_options(GrootTree tree) {
-    return {.shown = std::move(tree),
-            .control = options_.groot2_control ? &*control_ : nullptr,
-            .print = [this](const std::string& line) { view_.print(line); }};
-  }
-
   // Nothing when the system refuses what the user asks of it.
   std::optional<RunEnd> run_tree() {
     WallClock wall_clock;
@@ -201,7 +164,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     return [this, view = view_.leaf_log()](std::string_view who, lockstep_log_level level,
                                            std::string_view text) {
       if (recorder_) recorder_->log(who, name_of(level), text);
-      if (monitor_) monitor_->log(who, name_of(level), text);
+      watchers_.log(who, name_of(level), text);
       view(who, level, text);
     };
   }
@@ -214,15 +177,15 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     return run;
   }
 
-  RecorderOptions recorder_options(RunDescription run) {
-    RecorderOptions recorder{.path = options_.record, .run = std::move(run)};
+  RecorderOptions recorder_options() {
+    RecorderOptions recorder{.path = options_.record, .run = description_};
     recorder.on_error = [this](const std::string& error) { view_.print("error: " + error); };
     return recorder;
   }
 
   LoopOptions loop_options() {
     LoopOptions loop = options_.loop();
-    if (control_) loop.control = &*control_;
+    loop.control = watchers_.control();
     if (recorder_ && options_.stop_on_record_error) {
       loop.recording_failed = [this] { return recorder_->failed(); };
     }
@@ -232,8 +195,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   std::span<Observer* const> observers() {
     observers_ = {&statistics_};
     if (recorder_) observers_.push_back(&*recorder_);
-    if (groot_) observers_.push_back(&*groot_);
-    if (monitor_) observers_.push_back(&*monitor_);
+    watchers_.add_to(observers_);
     if (stall_) observers_.push_back(&*stall_);
     if (view_.observer() != nullptr) observers_.push_back(view_.observer());
     observers_.push_back(&watch_);
@@ -261,12 +223,9 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   View view_;
   RunWatch watch_;
   Statistics statistics_;
+  const RunDescription description_;
   std::optional<Recorder> recorder_;
-  std::optional<RunControl> control_;
-  std::string opened_;               // the link of the monitor, if it is open from the beginning
-  std::optional<MonitorLink> link_;  // used by the thread of the monitor
-  std::optional<Monitor> monitor_;
-  std::optional<GrootPublisher> groot_;
+  Watchers watchers_;
   std::optional<StallObserver> stall_;
   CappedNotes standstills_{"standstill"};
   std::vector<Observer*> observers_;
@@ -290,47 +249,6 @@ std::vector<NamedFile> inputs_of_run(const RunCommandOptions& options, const Loa
   return inputs;
 }
 
-Result<ForMonitor> prepare_monitor(const RunCommandOptions& options) {
-  const bool has_socket = !options.monitor_socket.empty();
-  if (options.begins_paused && !options.monitor_control) {
-    return problem("--monitor-paused needs --monitor-control", "else nobody can let it go on");
-  }
-  if (options.monitor_control && !options.monitor && !has_socket) {
-    return problem("--monitor-control needs --monitor or --monitor-socket");
-  }
-  if (options.opens_browser && !options.monitor) {
-    return problem("--monitor-open needs --monitor");
-  }
-  if (options.monitor && has_socket) {
-    return problem("--monitor-socket is for a run without --monitor");
-  }
-  ForMonitor it;
-  if (options.monitor) {
-    auto listener = listen_for_monitor(*options.monitor);
-    if (!listener) return tl::unexpected(std::move(listener.error()));
-    it.listener = std::move(*listener);
-  } else if (has_socket) {
-    auto socket = make_monitor_socket(options.monitor_socket);
-    if (!socket) return tl::unexpected(std::move(socket.error()));
-    it.socket.emplace(std::move(*socket));
-  }
-  return it;
-}
-
-// Nothing: there is to be none, or it was refused.
-Result<std::optional<ForGroot>> prepare_groot(const RunCommandOptions& options,
-                                              const Definition& definition) {
-  if (options.groot2_control && !options.groot2) {
-    return problem("--groot2-control needs --groot2");
-  }
-  if (!options.groot2) return std::nullopt;
-  auto tree = groot_tree(definition);
-  if (!tree) return problem("--groot2: " + tree.error().message, tree.error().hint);
-  auto sockets = listen_for_groot(*options.groot2);
-  if (!sockets) return tl::unexpected(std::move(sockets.error()));
-  return ForGroot{std::move(*tree), std::move(*sockets)};
-}
-
 int run(const RunCommandOptions& options) {
   // First, while /dev/stdout still is what the user means by it.
   if (!options.record.empty() && would_overwrite("--record", options.record, standard_outputs())) {
@@ -348,14 +266,9 @@ int run(const RunCommandOptions& options) {
   if (!options.record.empty() &&
       would_overwrite("--record", options.record, inputs_of_run(options, *loaded)))
     return kExitUsage;
-  auto for_monitor = prepare_monitor(options);
-  if (!for_monitor) {
-    print_error(for_monitor.error().message, for_monitor.error().hint);
-    return kExitUsage;
-  }
-  auto for_groot = prepare_groot(options, loaded->definition);
-  if (!for_groot) {
-    print_error(for_groot.error().message, for_groot.error().hint);
+  auto sockets = listen_for_watchers(options, loaded->definition);
+  if (!sockets) {
+    print_error(sockets.error().message, sockets.error().hint);
     return kExitUsage;
   }
   Runnable runnable = make_runnable(std::move(*loaded));
@@ -367,8 +280,7 @@ int run(const RunCommandOptions& options) {
                              warnings);
     print_diagnostics(warnings, Severity::Warning);
   }
-  return RunCommand(options, runnable, std::move(*for_monitor), std::move(*for_groot))
-      .run(runnable.plugins);
+  return RunCommand(options, runnable, std::move(*sockets)).run(runnable.plugins);
 }
 
 std::function<int()> define_run(CLI::App& app) {

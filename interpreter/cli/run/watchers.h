@@ -1,0 +1,52 @@
+// Those who watch a run from outside, and may control it: browsers, and Groot2.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cli/monitor_link.h"
+#include "cli/run/run_options.h"
+#include "core/problem.h"
+#include "definition/definition.h"
+#include "groot/publisher.h"
+#include "web/monitor.h"
+
+namespace lockstep {
+
+// Where they come in. Made first, since a port may be taken.
+struct WatcherSockets {
+  std::optional<ServerSocket> monitor = {};
+  std::optional<AttachSocket> attach = {};  // instead of it
+  std::optional<GrootSockets> groot = {};
+  std::optional<GrootTree> groot_tree = {};
+};
+Result<WatcherSockets> listen_for_watchers(const RunCommandOptions& options,
+                                           const Definition& definition);
+
+class Watchers {
+ public:
+  // `print` shows a line to the person; from any thread.
+  Watchers(const Tree& tree, const RunCommandOptions& options, const RunDescription& run,
+           WatcherSockets sockets, std::function<void(const std::string& line)> print);
+
+  // Says where the monitor is, before the run starts.
+  void tell();
+  // What they may order; null: nothing.
+  RunControl* control() { return control_ ? &*control_ : nullptr; }
+  // What a leaf logs; from any thread.
+  void log(std::string_view who, std::string_view level, std::string_view text);
+  void add_to(std::vector<Observer*>& observers);
+
+ private:
+  const RunCommandOptions& options_;
+  std::optional<RunControl> control_;
+  std::string opened_;               // the link of the monitor, if it is open from the beginning
+  std::optional<MonitorLink> link_;  // used by the thread of the monitor
+  std::optional<Monitor> monitor_;
+  std::optional<GrootPublisher> groot_;
+};
+
+}  // namespace lockstep
