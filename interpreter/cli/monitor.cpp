@@ -8,6 +8,7 @@
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "core/diagnostics.h"
+#include "core/value.h"
 #include "terminal/text_table.h"
 #include "web/attach_socket.h"
 #include "web/browser.h"
@@ -39,8 +40,7 @@ int list(const std::vector<RegisteredRun>& runs) {
 
 // The link of a run, which gets a monitor if it has none.
 Result<std::string> link_of(const RegisteredRun& run, const MonitorCommandOptions& options) {
-  if (!run.link.empty()) return run.link;
-  return attach(run.socket, options.address);
+  return run.link.empty() ? attach(run.socket, options.address) : run.link;
 }
 
 int reach(const RegisteredRun& run, const MonitorCommandOptions& options) {
@@ -56,7 +56,7 @@ int reach(const RegisteredRun& run, const MonitorCommandOptions& options) {
 int monitor(const MonitorCommandOptions& options) {
   const bool reaches = options.opens || options.attaches;
   // One that is not listed, as that of another user, or of a run in a container.
-  if (reaches && options.run.find('/') != std::string::npos) {
+  if (reaches && !options.run.empty() && !parse_int(options.run)) {
     return reach({.link = {}, .tree_file = {}, .socket = options.run}, options);
   }
   auto runs = registered_runs();
@@ -84,7 +84,8 @@ std::function<int()> define_monitor(CLI::App& app) {
       "--attach", options->attaches,
       "Print the link of the run; one that has only a socket (run --monitor-socket) gets a "
       "monitor");
-  app.add_option("--at", options->address, "Where that monitor is reached")
+  app.add_option("--at", options->address,
+                 "Where that monitor is reached; one that is there already stays where it is")
       ->type_name("ADDRESS:PORT")
       ->capture_default_str();
   app.add_option("run", options->run,
