@@ -62,6 +62,7 @@ const XMLElement element;
 }  // namespace tinyxml2
 // NOLINTEND(misc-use-internal-linkage)
 
+#if !defined(__SANITIZE_ADDRESS__)  // with it comes a check of types, which this is meant to break
 TEST_CASE("a program may have another version of tinyxml2 in it") {
   lockstep::runtime::Project project;
   project.load_text(
@@ -69,3 +70,4 @@ TEST_CASE("a program may have another version of tinyxml2 in it") {
   CHECK(project.nodes().back().path == "Main/read by the other version");
   CHECK(tinyxml2::documents == 1);
 }
+#endif
