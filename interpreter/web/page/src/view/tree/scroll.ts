@@ -46,5 +46,5 @@ export function scrollTo(scroller: HTMLDivElement, extent: Extent | null, zoom: 
   };
   const x = fit(extent.left, extent.right, scroller.scrollLeft, scroller.clientWidth);
   const y = fit(extent.top, extent.bottom, scroller.scrollTop, scroller.clientHeight);
-  if (x !== scroller.scrollLeft || y !== scroller.scrollTop) scroller.scrollTo({ left: x, top: y });
+  scroller.scrollTo({ left: x, top: y }); // also to where it is: it may be on its way to what was wanted before
 }
