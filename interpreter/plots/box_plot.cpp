@@ -107,7 +107,7 @@ std::vector<BoxPlot> box_plots(const std::vector<GridAxis>& grid,
     key.insert(key.end(), {row.node, row.measure});
     const auto [place, is_new] = places.emplace(std::move(key), plots.size());
     if (is_new) plots.push_back(empty_plot(grid, row));
-    const std::string label = joined(std::ranges::subrange(last, row.grid.end()), ":");
+    const std::string label = joined(std::span(last, row.grid.end()), ":");
     const bool is_there = row.summary.count > 0;
     BoxPlot& plot = plots[place->second];
     plot.groups.push_back(
