@@ -234,11 +234,11 @@ std::optional<Value> convert_value(const Value& value, ValueType type, const Obj
 }
 
 void append_plain(std::int64_t number, std::string& out) {
-  fmt::format_to(std::back_inserter(out), "{}", number);
+  out += std::to_string(number);
 }
 
 void append_plain(double number, std::string& out) {
-  fmt::format_to(std::back_inserter(out), "{:f}", number);
+  out += fmt::format("{:f}", number);
 }
 
 }  // namespace lockstep

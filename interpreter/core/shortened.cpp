@@ -1,8 +1,8 @@
 #include "core/shortened.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <charconv>
+#include <limits>
 
 #include "core/utf8.h"
 
@@ -19,10 +19,12 @@ Shortened::Shortened(std::string_view text) : Shortened() {
   const std::string_view front = utf8_front(text, kLongest);
   append(front);
   if (front.size() == text.size()) return;
-  std::array<char, 48> rest{};
-  const auto end = fmt::format_to_n(rest.data(), rest.size(), " ... ({} more bytes)",
-                                    text.size() - front.size());
-  append({rest.data(), end.size});
+  std::array<char, std::numeric_limits<std::size_t>::digits10 + 1> rest{};
+  const auto digits =
+      std::to_chars(rest.data(), rest.data() + rest.size(), text.size() - front.size());
+  append(" ... (");
+  append({rest.data(), digits.ptr});
+  append(" more bytes)");
 }
 
 Shortened Shortened::as_it_is(std::string_view text) {

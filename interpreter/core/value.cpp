@@ -1,7 +1,5 @@
 #include "core/value.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -125,7 +123,12 @@ class Writer {
   void operator()(bool flag) const { out_ += flag ? "true" : "false"; }
   void operator()(Flag flag) const { (*this)(flag.is_set); }
   void operator()(std::int64_t number) const { put(number); }
-  void operator()(double number) const { put(number); }
+  void operator()(double number) const {
+    // As fmt does, which would allocate.
+    const double size = std::abs(number);
+    const bool is_fixed = size == 0 || (size >= 1e-4 && size < 1e16);
+    put(number, is_fixed ? std::chars_format::fixed : std::chars_format::scientific);
+  }
   void operator()(const std::string& text) const { out_ += text; }
   void operator()(const Object& object) const {
     if (object.get() != nullptr) object.type()->append_text(object.get(), out_);
@@ -142,9 +145,11 @@ class Writer {
   }
 
  private:
-  template <class Number>
-  void put(Number number) const {
-    fmt::format_to(std::back_inserter(out_), "{}", number);
+  template <class Number, class... Format>
+  void put(Number number, Format... format) const {
+    std::array<char, 32> text;  // the longest number has 24 characters
+    char* const end = text.data() + text.size();
+    out_.append(text.data(), std::to_chars(text.data(), end, number, format...).ptr);
   }
   template <class T>
   void put_item(const T& item) const {

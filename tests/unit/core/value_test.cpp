@@ -1,8 +1,12 @@
 #include "core/value.h"
 
+#include <fmt/format.h>
+
+#include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <random>
 
 using namespace lockstep;
 
@@ -99,6 +103,30 @@ TEST_CASE("a value written as text reads back to the same value") {
     CHECK(parse_value(type, to_text(value)) == value);
   }
   CHECK(to_text(Value()).empty());
+}
+
+TEST_CASE("the text of a number is the shortest that is that number, as fmt writes it") {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> exponents(-7, 19);
+  std::vector<double> numbers{0, -0.0, 1, 0.1, 1e-4, 1e-5, 1e15, 1e16, 123456789012345680, -2.5e-7};
+  for (const double edge : {1e-4, 1e16}) {
+    numbers.push_back(std::nextafter(edge, 0));
+    numbers.push_back(std::nextafter(edge, 1e300));
+  }
+  for (int i = 0; i < 20'000; ++i) {
+    numbers.push_back(std::bit_cast<double>(random()));
+    numbers.push_back(std::pow(10, exponents(random)));
+    numbers.push_back(std::round(std::pow(10, exponents(random))));
+  }
+  for (const double number : numbers) {
+    if (to_text(Value(number)) != fmt::format("{}", number)) {
+      CHECK(to_text(Value(number)) == fmt::format("{}", number));
+    }
+  }
+  for (const auto number : {std::numeric_limits<std::int64_t>::min(), std::int64_t{-1},
+                            std::int64_t{0}, std::numeric_limits<std::int64_t>::max()}) {
+    CHECK(to_text(Value(number)) == fmt::format("{}", number));
+  }
 }
 
 TEST_CASE("a value holds its type, and a number is an int or a double") {
