@@ -21,7 +21,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr std::size_t kLongest = 4096;  // bytes of a packet
+constexpr std::size_t kLongestPacket = 4096;  // bytes
 // The asker has sent its packet before the run looks; one that has not does not get in the way.
 constexpr milliseconds kAskerTakes{100};
 constexpr milliseconds kRunTakes{5000};
@@ -38,9 +38,13 @@ FileDescriptor make_socket() {
   return FileDescriptor(socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
 }
 
-// Nothing: the path is too long.
+// Nothing: the path is empty, which would be a name of no file, or too long.
 std::optional<sockaddr_un> unix_address(const std::string& path) {
   sockaddr_un address{.sun_family = AF_UNIX, .sun_path = {}};
+  if (path.empty()) {
+    errno = ENOENT;
+    return std::nullopt;
+  }
   if (path.size() >= sizeof address.sun_path) {
     errno = ENAMETOOLONG;
     return std::nullopt;
@@ -78,14 +82,14 @@ bool is_readable(int socket, milliseconds longest) {
 
 // "": nothing came, or too much.
 std::string receive(int socket) {
-  std::array<char, kLongest> packet{};
+  std::array<char, kLongestPacket> packet{};
   const ssize_t size = recv(socket, packet.data(), packet.size(), MSG_TRUNC);
   if (size <= 0 || static_cast<std::size_t>(size) > packet.size()) return {};
   return {packet.data(), static_cast<std::size_t>(size)};
 }
 
 bool send_packet(int socket, const std::string& packet) {
-  const std::size_t size = std::min(packet.size(), kLongest);
+  const std::size_t size = std::min(packet.size(), kLongestPacket);
   return send(socket, packet.data(), size, MSG_NOSIGNAL | MSG_DONTWAIT) >= 0;
 }
 

@@ -133,6 +133,8 @@ TEST_CASE("a socket that a run has left is replaced, nothing else is") {
   CHECK(contains(robot.lockstep(words).err, "tree.xml' exists"));
   words.back() = robot.directory.path(std::string(120, 'x'));
   CHECK(contains(robot.lockstep(words).err, "name too long"));
+  words.back() = "";
+  CHECK(robot.lockstep(words).code == 2);
   words.back() = robot.directory.path("other.sock");
   words.emplace_back("--monitor");
   CHECK(contains(robot.lockstep(words).err, "is for a run without --monitor"));
