@@ -20,6 +20,9 @@ struct Command {
   std::function<int()> (*define)(CLI::App& app);
 };
 
+// One that this build leaves out: it says so, whatever its arguments are.
+Command absent(const char* name);
+
 extern const Command kRunCommand, kCheckCommand, kShowCommand, kNodesCommand, kSchemaCommand,
     kConvertCommand, kPluginCommand, kLogCommand, kReplayCommand, kStudyCommand, kMonitorCommand;
 

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
@@ -10,7 +12,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
-#include "cli/groot_sockets.h"
+#include "cli/run/groot.h"
 #include "cli/usage.h"
 #include "core/descriptors.h"
 #include "core/own_thread.h"
@@ -57,6 +59,16 @@ std::vector<std::string> complete_addresses(const std::vector<std::string>& word
     complete.back() += '=' + (has_value ? words[++i] : std::string(option->second));
   }
   return complete;
+}
+
+constexpr const char* kHowToGetAll = "./dev build, or cmake -DLOCKSTEP_TOOLS=ON and build again";
+
+std::function<int()> define_absent(CLI::App& app) {
+  app.allow_extras();
+  return [name = app.get_name()] {
+    print_error(fmt::format("this lockstep was built without '{}'", name), kHowToGetAll);
+    return kExitUsage;
+  };
 }
 
 int refuse(const UsageError& error) {
@@ -130,6 +142,10 @@ bool is_in_plugin() {
 }
 
 }  // namespace
+
+Command absent(const char* name) {
+  return {name, "Not in this build", kHowToGetAll, define_absent};
+}
 
 int run_program(int argc, char** argv) {
   std::set_terminate(on_terminate);

@@ -11,9 +11,6 @@
 
 namespace lockstep {
 
-// False: lockstep was built without ZeroMQ.
-bool has_groot_sockets();
-
 class GrootSockets {
  public:
   // Of what listens already. Starts the threads of ZeroMQ.

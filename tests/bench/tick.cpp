@@ -289,7 +289,6 @@ void observed_by_monitor(benchmark::State& state, const char* control, const cha
 }
 // Likewise for Groot2.
 void observed_by_groot(benchmark::State& state, const char* control, const char* attributes) {
-  if (!has_groot_sockets()) return state.SkipWithError("built without it");
   const BenchTree bench = with_changes(control, attributes, state.range(0));
   auto requests = listen_on(kAnyLoopback), events = listen_on(kAnyLoopback);
   if (!requests || !events) std::abort();

@@ -35,9 +35,9 @@ struct RunCommandOptions {
   std::string record_entries = "all";
   bool json = false;
 
-  std::optional<std::string> monitor;  // where it is reached; none: there is no monitor
-  std::string monitor_socket;          // where one can be asked for; "": nowhere
-  bool monitor_control = false;        // who watches may pause the run, and more
+  std::optional<std::string> monitor;         // where it is reached; none: there is no monitor
+  std::optional<std::string> monitor_socket;  // where one can be asked for; none: nowhere
+  bool monitor_control = false;               // who watches may pause the run, and more
   bool begins_paused = false;
   bool opens_browser = false;
 

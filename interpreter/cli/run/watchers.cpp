@@ -2,23 +2,20 @@
 
 #include <utility>
 
-#include "cli/groot_sockets.h"
-
 namespace lockstep {
 namespace {
 
 std::optional<Problem> misuse(const RunCommandOptions& options) {
-  const bool has_socket = !options.monitor_socket.empty();
   if (options.begins_paused && !options.monitor_control) {
     return Problem{"--monitor-paused needs --monitor-control", "else nobody can let it go on"};
   }
-  if (options.monitor_control && !options.monitor && !has_socket) {
+  if (options.monitor_control && !options.monitor && !options.monitor_socket) {
     return Problem{"--monitor-control needs --monitor or --monitor-socket"};
   }
   if (options.opens_browser && !options.monitor) {
     return Problem{"--monitor-open needs --monitor"};
   }
-  if (options.monitor && has_socket) {
+  if (options.monitor && options.monitor_socket) {
     return Problem{"--monitor-socket is for a run without --monitor"};
   }
   if (options.groot2_control && !options.groot2) {
@@ -35,14 +32,6 @@ std::optional<Problem> keep(Result<Made> made, Place& place) {
   return std::nullopt;
 }
 
-std::optional<Problem> prepare_groot(const RunCommandOptions& options, const Definition& definition,
-                                     WatcherSockets& sockets) {
-  auto tree = groot_tree(definition);
-  if (!tree) return Problem{"--groot2: " + tree.error().message, tree.error().hint};
-  sockets.groot_tree.emplace(std::move(*tree));
-  return keep(listen_for_groot(*options.groot2), sockets.groot);
-}
-
 }  // namespace
 
 Result<WatcherSockets> listen_for_watchers(const RunCommandOptions& options,
@@ -52,10 +41,12 @@ Result<WatcherSockets> listen_for_watchers(const RunCommandOptions& options,
   if (!wrong && options.monitor) {
     wrong = keep(listen_for_monitor(*options.monitor), sockets.monitor);
   }
-  if (!wrong && !options.monitor_socket.empty()) {
-    wrong = keep(make_monitor_socket(options.monitor_socket), sockets.attach);
+  if (!wrong && options.monitor_socket) {
+    wrong = keep(make_monitor_socket(*options.monitor_socket), sockets.attach);
   }
-  if (!wrong && options.groot2) wrong = prepare_groot(options, definition, sockets);
+  if (!wrong && options.groot2) {
+    wrong = keep(listen_for_groot(*options.groot2, definition), sockets.groot);
+  }
   if (wrong) return tl::unexpected(std::move(*wrong));
   return sockets;
 }
@@ -75,16 +66,13 @@ Watchers::Watchers(const Tree& tree, const RunCommandOptions& options, const Run
   if (sockets.monitor) opened_ = monitor_->open(std::move(*sockets.monitor));
   if (sockets.attach) monitor_->open_when_asked(std::move(*sockets.attach));
   if (sockets.groot) {
-    groot_.emplace(tree,
-                   GrootOptions{.shown = std::move(*sockets.groot_tree),
-                                .control = options.groot2_control ? control() : nullptr,
-                                .print = std::move(print)},
-                   std::move(*sockets.groot));
+    groot_ = (*sockets.groot)
+                 ->show(tree, options.groot2_control ? control() : nullptr, std::move(print));
   }
 }
 
 void Watchers::tell() {
-  if (monitor_) link_.emplace(options_.tree, options_.monitor_socket);
+  if (monitor_) link_.emplace(options_.tree, options_.monitor_socket.value_or(""));
   if (!opened_.empty()) link_->tell(opened_, options_.opens_browser);
 }
 
@@ -93,7 +81,7 @@ void Watchers::log(std::string_view who, std::string_view level, std::string_vie
 }
 
 void Watchers::add_to(std::vector<Observer*>& observers) {
-  if (groot_) observers.push_back(&*groot_);
+  if (groot_) observers.push_back(groot_.get());
   if (monitor_) observers.push_back(&*monitor_);
 }
 

@@ -2,16 +2,17 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "cli/monitor_link.h"
+#include "cli/run/groot.h"
 #include "cli/run/run_options.h"
 #include "core/problem.h"
 #include "definition/definition.h"
-#include "groot/publisher.h"
 #include "web/monitor.h"
 
 namespace lockstep {
@@ -20,8 +21,7 @@ namespace lockstep {
 struct WatcherSockets {
   std::optional<ServerSocket> monitor = {};
   std::optional<AttachSocket> attach = {};  // instead of it
-  std::optional<GrootSockets> groot = {};
-  std::optional<GrootTree> groot_tree = {};
+  std::optional<std::unique_ptr<GrootListener>> groot = {};
 };
 Result<WatcherSockets> listen_for_watchers(const RunCommandOptions& options,
                                            const Definition& definition);
@@ -46,7 +46,7 @@ class Watchers {
   std::string opened_;               // the link of the monitor, if it is open from the beginning
   std::optional<MonitorLink> link_;  // used by the thread of the monitor
   std::optional<Monitor> monitor_;
-  std::optional<GrootPublisher> groot_;
+  std::unique_ptr<Observer> groot_;
 };
 
 }  // namespace lockstep

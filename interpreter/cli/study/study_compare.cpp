@@ -10,6 +10,7 @@
 #include "cli/exit_code.h"
 #include "core/diagnostics.h"
 #include "core/json.h"
+#include "core/wording.h"
 #include "study/comparison.h"
 #include "study/folder.h"
 #include "terminal/text_table.h"

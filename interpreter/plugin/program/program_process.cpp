@@ -37,7 +37,7 @@ bool await(std::initializer_list<int> descriptors, std::optional<Nanoseconds> pa
 }
 
 // What the program reads is a socket: to write to one whose reader is gone sends no signal.
-struct Channel {
+struct Ends {
   FileDescriptor reading, writing;
 
   bool open_pipe() {
@@ -65,7 +65,7 @@ std::string text_of(int error) {
 }  // namespace
 
 std::string ProgramProcess::start(const std::string& leafhost, const std::string& path) {
-  Channel requests, answers;
+  Ends requests, answers;
   int control[2];
   const FileDescriptor parent = ChildProcess::own_end();
   if (parent.number() < 0 || !requests.open_socket() || !answers.open_pipe() ||

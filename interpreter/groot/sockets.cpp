@@ -139,10 +139,6 @@ struct GrootSockets::Implementation {
   ConnectionGuard guard;
 };
 
-bool has_groot_sockets() {
-  return true;
-}
-
 GrootSockets::GrootSockets(FileDescriptor requests, FileDescriptor events)
     : it_(std::make_unique<Implementation>(
           std::vector<std::uint16_t>{port_of(requests), port_of(events)})) {

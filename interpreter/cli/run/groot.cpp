@@ -1,4 +1,4 @@
-#include "cli/groot_sockets.h"
+#include "cli/run/groot.h"
 
 #include <fmt/format.h>
 
@@ -7,6 +7,7 @@
 
 #include "core/diagnostics.h"
 #include "core/value.h"
+#include "groot/publisher.h"
 #include "runtime/outlet.h"
 #include "web/server_socket.h"
 
@@ -50,25 +51,49 @@ Result<Pair> listen_on_any_pair(const std::string& address) {
   return pair;
 }
 
-}  // namespace
+class Listener final : public GrootListener {
+ public:
+  Listener(GrootTree shown, GrootSockets sockets)
+      : shown_(std::move(shown)), sockets_(std::move(sockets)) {}
 
-Result<GrootSockets> listen_for_groot(const std::string& address) {
-  if (!has_groot_sockets()) {
-    return problem("--groot2: this lockstep was built without it",
-                   "build it with libzmq and -DLOCKSTEP_GROOT2=ON");
+  std::unique_ptr<Observer> show(const Tree& tree, RunControl* control,
+                                 std::function<void(const std::string& line)> print) override {
+    GrootOptions options{.shown = std::move(shown_), .control = control, .print = std::move(print)};
+    return std::make_unique<GrootPublisher>(tree, std::move(options), std::move(sockets_));
   }
+
+ private:
+  GrootTree shown_;
+  GrootSockets sockets_;
+};
+
+// Throws std::runtime_error where ZeroMQ does not start.
+Result<std::unique_ptr<GrootListener>> listen(const std::string& address,
+                                              const Definition& definition) {
+  auto shown = groot_tree(definition);
+  if (!shown) return tl::unexpected(std::move(shown.error()));
   auto pair = listen_on_any_pair(address);
-  if (!pair) return problem("--groot2: " + pair.error().message, pair.error().hint);
-  const std::string& shown = pair->requests.address;
-  if (!pair->requests.is_loopback) {
+  if (!pair) return tl::unexpected(std::move(pair.error()));
+  auto& [requests, events] = *pair;
+  GrootSockets sockets(std::move(requests.socket), std::move(events.socket));
+  if (!requests.is_loopback) {
     messages().say(fmt::format(
         "lockstep: warning: --groot2: '{}' can be reached from other machines, and its protocol "
         "asks nobody for a password\n",
-        shown));
+        requests.address));
   }
-  messages().say(fmt::format("groot2: {}\n", shown));
+  messages().say(fmt::format("groot2: {}\n", requests.address));
+  return std::make_unique<Listener>(std::move(*shown), std::move(sockets));
+}
+
+}  // namespace
+
+Result<std::unique_ptr<GrootListener>> listen_for_groot(const std::string& address,
+                                                        const Definition& definition) {
   try {
-    return GrootSockets(std::move(pair->requests.socket), std::move(pair->events.socket));
+    auto listener = listen(address, definition);
+    if (listener) return listener;
+    return problem("--groot2: " + listener.error().message, listener.error().hint);
   } catch (const std::runtime_error& error) {
     return problem(std::string("--groot2: ") + error.what());
   }

@@ -1,0 +1,11 @@
+// In place of groot.cpp, where Groot2 is left out.
+#include "cli/run/groot.h"
+
+namespace lockstep {
+
+Result<std::unique_ptr<GrootListener>> listen_for_groot(const std::string&, const Definition&) {
+  return problem("--groot2: this lockstep was built without it",
+                 "build it with libzmq and -DLOCKSTEP_GROOT2=ON");
+}
+
+}  // namespace lockstep
