@@ -72,7 +72,7 @@ const std::vector<Layer> kThirdParty{
     {"dlfcn.h", {"interpreter/plugin/", "interpreter/embedding/project.cpp"}},
     {"CLI/", {"interpreter/cli/"}},
     {"simdjson.h", {"interpreter/core/json_reader.h", "plugins/motion/recorded.cpp"}},
-    {"nlohmann/", {"interpreter/core/json.cpp"}},
+    {"nlohmann/", {"interpreter/core/json.cpp", "interpreter/core/json_message_pack.cpp"}},
     {"utf8proc.h", {"interpreter/core/utf8.cpp"}},
     {"microhttpd.h", {"interpreter/web/http_server.cpp"}},
     {"zmq.h", {"interpreter/groot/sockets.cpp"}},

@@ -102,12 +102,6 @@ std::string Json::printable(std::size_t indent) const {
   return escaped(text(indent));
 }
 
-std::string Json::message_pack() const {
-  std::string bytes;
-  Scalar::to_msgpack(Scalar::parse(text()), bytes);
-  return bytes;
-}
-
 void Json::add_text(std::string& text, std::size_t indent, std::size_t depth) const {
   if (const auto* words = std::get_if<std::string>(&value_)) {
     append_json(text, *words);
