@@ -239,6 +239,22 @@ TEST_CASE("layers: no stage after the check sees a document") {
   }
 }
 
+// Where files are compiled as one, another one's #include hides that it is missing.
+TEST_CASE("layers: a file that formats includes fmt") {
+  int seen = 0;
+  for (const std::string& file : sources_under("interpreter")) {
+    std::ifstream stream(fs::path(LOCKSTEP_SOURCE_DIR) / file);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    if (text.find("fmt::") == std::string::npos) continue;
+    ++seen;
+    INFO(file);
+    CHECK(std::ranges::any_of(includes_of(file), [](const Include& include) {
+      return include.path.starts_with("fmt/");
+    }));
+  }
+  CHECK(seen > 100);
+}
+
 // fmt::format is compiled in the library of fmt. Each unit that uses another one compiles all of
 // formatting again, which takes seconds.
 TEST_CASE("layers: only the recorder formats without fmt::format") {

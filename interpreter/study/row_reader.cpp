@@ -1,5 +1,7 @@
 #include "study/row_reader.h"
 
+#include <fmt/format.h>
+
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
