@@ -96,19 +96,19 @@ std::function<int()> define_monitor(CLI::App& app) {
 
 }  // namespace
 
-const Command kMonitorCommand{"monitor",
-                              "List your runs that have a monitor, open the page of one, or give it one",
-                              "A row for each run of `lockstep run --monitor` or --monitor-socket: "
-                              "the number of its process,\n"
-                              "the link of its page, its tree.\n"
-                              "Exit code: 0 there is one, 2 usage, or there is none.\n"
-                              "\n"
-                              "Examples:\n"
-                              "  lockstep monitor\n"
-                              "  lockstep monitor --open\n"
-                              "  lockstep monitor --open 4711\n"
-                              "  lockstep run tree.xml --monitor-socket /tmp/robot.sock &\n"
-                              "  lockstep monitor --attach /tmp/robot.sock",
-                              define_monitor};
+const Command kMonitorCommand{
+    "monitor", "List your runs that have a monitor, open the page of one, or give it one",
+    "A row for each run of `lockstep run --monitor` or --monitor-socket: "
+    "the number of its process,\n"
+    "the link of its page, its tree.\n"
+    "Exit code: 0 there is one, 2 usage, or there is none.\n"
+    "\n"
+    "Examples:\n"
+    "  lockstep monitor\n"
+    "  lockstep monitor --open\n"
+    "  lockstep monitor --open 4711\n"
+    "  lockstep run tree.xml --monitor-socket /tmp/robot.sock &\n"
+    "  lockstep monitor --attach /tmp/robot.sock",
+    define_monitor};
 
 }  // namespace lockstep
