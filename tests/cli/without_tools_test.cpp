@@ -45,7 +45,8 @@ TEST_CASE("a program without tools says what it leaves out, and how to get it") 
   }
   const auto groot = without_tools({"run", kDoor, "--groot2"});
   CHECK(groot.code == 2);
-  CHECK(groot.err.find("--groot2: this lockstep was built without it") != std::string::npos);
+  CHECK(groot.err.find("--groot2: this lockstep was built without it\n  hint: ./dev build") !=
+        std::string::npos);
   CHECK(without_tools({"--help"}).out.find("Not in this build") != std::string::npos);
   CHECK(without_tools({"stduy"}).err.find("did you mean 'study'?") != std::string::npos);
 }

@@ -5,7 +5,7 @@ namespace lockstep {
 
 Result<std::unique_ptr<GrootListener>> listen_for_groot(const std::string&, const Definition&) {
   return problem("--groot2: this lockstep was built without it",
-                 "build it with libzmq and -DLOCKSTEP_GROOT2=ON");
+                 "./dev build, or cmake with libzmq, -DLOCKSTEP_TOOLS=ON and -DLOCKSTEP_GROOT2=ON");
 }
 
 }  // namespace lockstep
