@@ -9,8 +9,8 @@ void StepLength::after_tick(const TickView& view) {
     for (std::size_t child = 0; child < last_.size(); ++child) {
       const double progress = tick.progress[child];
       if (running_) longest_ = std::fmax(longest_, std::abs(progress - last_[child]));
-      // When the parallel has succeeded, each child's last step led to 1.
-      if (tick.status == Status::Success) longest_ = std::fmax(longest_, std::abs(1 - progress));
+      // The next snapshot would show it, but there may be none.
+      if (tick.succeeded[child]) longest_ = std::fmax(longest_, std::abs(1 - progress));
       last_[child] = progress;
     }
   }
@@ -20,7 +20,9 @@ void StepLength::after_tick(const TickView& view) {
 extern const Measure kStepLength{.name = "step-length",
                                  .of = MeasureOf::Parallel,
                                  .axis = "step length",
-                                 .doc = "the largest change of a child's progress in one tick",
+                                 .doc =
+                                     "the largest change of a child's own progress in one tick; a "
+                                     "child that succeeds goes to 1",
                                  .make = make_accumulator<StepLength>,
                                  .is_possible = is_share};
 

@@ -1,5 +1,6 @@
 // The largest change of the progress of one child of a parallel from one tick to the next, within
-// an activation of the parallel.
+// an activation of the parallel. A parallel that ends does not change the progress of the children
+// that have not succeeded.
 #pragma once
 
 #include <vector>

@@ -110,22 +110,20 @@ SynchronizedProbe::SynchronizedProbe(const Tree& tree, NodeIndex node, bool with
       is_group_(tree.is_group(node)),
       with_held_(with_held),
       is_pool_(is_pool(tree, node)),
-      held_(children_.size()) {
+      held_(children_.size()),
+      succeeded_(children_.size()) {
   if (!compares_progress(synchronization(tree.nodes[node]))) {
     progress_.resize(children_.size());
   }
 }
 
-// A node that does not run will start again: none of its children has progress then. A child that
-// was skipped is left out.
+// A node that does not run will start again: none of its children has progress then. Else as in
+// the snapshot of a synchronized node: a child that was skipped is left out, and one that has
+// failed for good counts as 1.
 void SynchronizedProbe::before_tick(Ticker& ticker) {
   const bool runs = ticker.status(node_) == Status::Running;
   for (std::size_t child = 0; child < progress_.size(); ++child) {
-    const NodeIndex node = children_[child];
-    const bool skipped = runs && ticker.activity(node) == Activity::Skipped;
-    progress_[child] = skipped ? std::numeric_limits<double>::quiet_NaN()
-                       : runs  ? ticker.progress(node)
-                               : 0;
+    progress_[child] = runs ? snapshot_of(ticker, children_[child]) : 0;
   }
 }
 
@@ -147,10 +145,17 @@ SynchronizedTick SynchronizedProbe::read(Ticker& ticker, Nanoseconds time) {
   if (!tick.ticked) return tick;
   if (with_held_) tick.held = {held_.data(), children_.size()};
   tick.progress = progress_;
-  if (!progress_.empty()) return tick;
-  if (succeeded(ticker, node_)) tick.status = Status::Success;
-  tick.limit = limit(ticker, node_);
-  tick.progress = child_progress(ticker, node_);
+  if (progress_.empty()) {
+    if (succeeded(ticker, node_)) tick.status = Status::Success;
+    tick.limit = limit(ticker, node_);
+    tick.progress = child_progress(ticker, node_);
+  }
+  const bool has_been_ended =
+      tick.status == Status::Success && ticker.status(node_) == Status::Idle;
+  for (std::size_t child = 0; child < children_.size(); ++child) {
+    succeeded_.set(child, ticker.status(children_[child]), has_been_ended);
+  }
+  tick.succeeded = {succeeded_.data(), children_.size()};
   return tick;
 }
 

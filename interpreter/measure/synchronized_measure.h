@@ -49,6 +49,22 @@ class HeldChildren {
   std::unique_ptr<bool[]> held_;
 };
 
+// Finds which children have succeeded: SynchronizedTick::succeeded.
+class SucceededChildren {
+ public:
+  explicit SucceededChildren(std::size_t children)
+      : succeeded_(std::make_unique<bool[]>(children)) {}
+
+  // `all`: an ancestor has ended the node after its success.
+  void set(std::size_t child, Status status, bool all) {
+    succeeded_[child] = all || status == Status::Success;
+  }
+  const bool* data() const { return succeeded_.get(); }
+
+ private:
+  std::unique_ptr<bool[]> succeeded_;
+};
+
 class SynchronizedMeasure {
  public:
   SynchronizedMeasure(std::size_t children, Synchronization synchronization);
@@ -97,6 +113,7 @@ class SynchronizedProbe {
   bool with_held_;
   bool is_pool_;
   HeldChildren held_;
+  SucceededChildren succeeded_;
   std::vector<double> progress_;  // only where the node does not synchronize
 };
 

@@ -23,6 +23,9 @@ struct SynchronizedTick {
   // Of each child: it was running and did not get this tick. It may have been halted since. Empty
   // if no measure asks for it.
   std::span<const bool> held = {};
+  // Of each child: it has succeeded. All have where nobody knows, since an ancestor has ended the
+  // node after its success.
+  std::span<const bool> succeeded = {};
 };
 
 // Of any node, after a tick of the run.

@@ -31,6 +31,7 @@ RecordedProbe::RecordedProbe(const RecordingHeader& header, NodeIndex node,
     : node_(node),
       children_(std::move(children)),
       held_(children_.size()),
+      succeeded_(children_.size()),
       synchronizes_(header.nodes[node].synchronization != Synchronization::None) {
   const RecordedNode& it = header.nodes[node];
   ignores_idle_ = it.ignores_idle;
@@ -41,18 +42,44 @@ RecordedProbe::RecordedProbe(const RecordingHeader& header, NodeIndex node,
     if (!it.members.empty()) members_.push_back(held.parent.value_or(0));
   }
   if (!it.members.empty()) names_ = names_of(names_);
+  find_around(header);
   last_.resize(children_.size(), Status::Idle);
   progress_.resize(children_.size());
+  in_skipped_.resize(children_.size());
+}
+
+// Nodes are in pre-order, so of two nodes the later one is never above the other.
+void RecordedProbe::find_around(const RecordingHeader& header) {
+  if (members_.empty()) return;
+  const auto parent = [&](NodeIndex node) { return header.nodes[node].parent.value_or(0); };
+  NodeIndex ancestor = members_.front();
+  for (NodeIndex other : members_) {
+    while (other != ancestor)
+      (other > ancestor ? other : ancestor) = parent(std::max(other, ancestor));
+  }
+  for (const NodeIndex member : members_) {
+    auto& around = around_.emplace_back();
+    for (NodeIndex node = parent(member); node > ancestor; node = parent(node)) {
+      around.push_back(node);
+    }
+  }
+}
+
+bool RecordedProbe::is_in_skipped(std::size_t child, const RecordedTick& tick) const {
+  if (around_.empty()) return false;
+  return std::ranges::any_of(
+      around_[child], [&](NodeIndex node) { return tick.nodes[node].status == Status::Skipped; });
 }
 
 SynchronizedTick RecordedProbe::read(const RecordedTick& tick) {
+  const bool has_been_ended = std::ranges::find(tick.succeeded, node_) != tick.succeeded.end();
   for (std::size_t child = 0; child < children_.size(); ++child) {
     const RecordedState& state = tick.nodes[children_[child]];
-    // A parallel that does not synchronize is judged by what was there before its tick, and none of
-    // its children has progress when it starts again.
-    progress_[child] = synchronizes_ || runs_ ? state.progress : 0;
-    if (is_left_out(child)) progress_[child] = std::numeric_limits<double>::quiet_NaN();
+    progress_[child] = synchronizes_ ? state.progress : in_plain_parallel(child, state);
+    if (is_left_out(child)) progress_[child] = kLeftOut;
     last_[child] = tick.nodes[(members_.empty() ? children_ : members_)[child]].status;
+    in_skipped_[child] = is_in_skipped(child, tick);
+    succeeded_.set(child, state.status, has_been_ended);
     if (is_pool_) {
       const RecordedState& member = tick.nodes[members_[child]];
       held_.set(child, member.ticked && waits(member.limit));
@@ -62,20 +89,29 @@ SynchronizedTick RecordedProbe::read(const RecordedTick& tick) {
     held_.set(child, state.status, state.ticked || !asked, state.held && asked);
   }
   runs_ = tick.nodes[node_].status == Status::Running;
-  const bool succeeded = std::ranges::find(tick.succeeded, node_) != tick.succeeded.end();
   return {.time = from_seconds(tick.time),
           .ticked = tick.nodes[node_].ticked,
-          .status = succeeded ? Status::Success : tick.nodes[node_].status,
+          .status = has_been_ended ? Status::Success : tick.nodes[node_].status,
           .limit = tick.nodes[node_].limit,
           .progress = progress_,
-          .held = {held_.data(), children_.size()}};
+          .held = {held_.data(), children_.size()},
+          .succeeded = {succeeded_.data(), children_.size()}};
 }
 
-// Who was skipped in the last tick; of some groups also a member that did not run, and had not
-// succeeded, when the tick began.
+// A parallel that does not synchronize is judged by what was there before its tick, and none of its
+// children has progress when it starts again. A child that it does not tick again counts as 1.
+double RecordedProbe::in_plain_parallel(std::size_t child, const RecordedState& state) const {
+  if (!runs_) return 0;
+  return last_[child] == Status::Failure && !state.ticked ? 1 : state.progress;
+}
+
+// Who was skipped in the last tick, or is in what was; of some groups also a member that did not
+// run, and had not succeeded, when the tick began.
 bool RecordedProbe::is_left_out(std::size_t child) const {
   if (runs_ && last_[child] == Status::Skipped) return true;
-  return ignores_idle_ && progress_[child] == 0 && (!runs_ || last_[child] == Status::Idle);
+  if (members_.empty() || progress_[child] != 0) return false;
+  if (runs_ && in_skipped_[child]) return true;
+  return ignores_idle_ && (!runs_ || last_[child] == Status::Idle);
 }
 
 std::vector<RecordedMeasure> measures_of(const RecordingHeader& header) {

@@ -67,6 +67,28 @@ TEST_CASE("the tick in which a synchronized node ends counts as held") {
   CHECK(measured("success", "ParallelAbsolute[barriers=.5](a b)", "a=R.1RRF b+.6") == 0);
 }
 
+TEST_CASE("the longest step is of a child's own progress") {
+  const auto steps = [](std::string_view tree, std::string_view leaves) {
+    return measured("step-length", tree, leaves);
+  };
+  // A node that ends does not change the progress of its unfinished children …
+  CHECK(steps("ParallelRelative[delta=1 success_count=1](a b)", "a+.5 b+.125") == Approx(.5));
+  CHECK(steps("Parallel[success_count=1](a b)", "a+.5 b+.125") == Approx(.5));
+  CHECK(steps("ParallelAbsolute[barriers=](a b)", "a+.125 b=R.25F") == Approx(.25));
+  // … but one that succeeds goes to 1, whatever it had reported, and so does one that is latched.
+  CHECK(steps("ParallelRelative[delta=1 success_count=1](a b)", "a=RS b+.125") == Approx(1));
+  CHECK(steps("ParallelAbsolute[barriers=](a b)", "a=R.25S b=R.5F") == Approx(.75));
+  CHECK(steps("ParallelRelative[delta=1 failure_count=2 success_count=1](a b)",
+              "a=R.25F b=R.25R.5R.75S") == Approx(.75));
+}
+
+TEST_CASE("in a plain Parallel, too, a child that has failed for good counts as 1") {
+  CHECK(measured("spread", "Parallel[failure_count=2 success_count=1](a b)", "a=F b=R.5R.5S") ==
+        Approx(1));
+  CHECK(measured("spread", "Parallel[failure_count=2 success_count=1](c? b)", "c=F... b=R.5R.5S") ==
+        Approx(.5));
+}
+
 TEST_CASE("a child whose node no tick has reached was not held 0 times") {
   CHECK(
       std::isnan(measured("held:a", "Fallback(c ParallelRelative[delta=0](a b))", "c=S a=R b=R")));
