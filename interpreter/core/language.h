@@ -11,4 +11,7 @@ enum class Language : std::uint8_t {
   BehaviorTreeCpp  // <root BTCPP_format="4">, and older files without a format
 };
 
+// The version of what trees mean: docs/language.md has what each has changed. Recordings name it.
+inline constexpr std::uint64_t kLawVersion = 2;
+
 }  // namespace lockstep

@@ -39,6 +39,7 @@ struct RecordingHeader {
   std::string tree;     // the id of the tree
   std::string file;     // as the user named it
   std::string version;  // of the program
+  std::uint64_t law = 1;  // of the program: core/language.h; recordings of the first do not name it
   double rate_hz = 0;
   std::string clock;  // "wall" or "virtual"
   std::uint64_t seed = 0;

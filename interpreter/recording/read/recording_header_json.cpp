@@ -194,6 +194,7 @@ RecordingHeader RecordingJson::header(std::string& line) {
         {{"tree", into(header.tree)},
          {"file", into(header.file)},
          {"version", into(header.version)},
+         {"law", [&](JsonValue value) { header.law = value.whole(); }, kMayLack},
          {"rate_hz", [&](JsonValue value) { header.rate_hz = rate_from(value); }},
          {"clock", into(header.clock)},
          {"seed", into(header.seed)},

@@ -15,8 +15,9 @@ void write_header(const RecordingHeader& header, std::string& out, bool color) {
   out += fmt::format("{} from {}, recorded by lockstep {}\n",
                      styled(printable(header.tree), Style::Strong, color), printable(header.file),
                      printable(header.version));
-  out += fmt::format("  {}, {} Hz, {} clock, seed {}\n", counted(header.nodes.size(), "node"),
-                     header.rate_hz, printable(header.clock), header.seed);
+  out += fmt::format("  {}, {} Hz, {} clock, seed {}, law {}\n",
+                     counted(header.nodes.size(), "node"), header.rate_hz, printable(header.clock),
+                     header.seed, header.law);
   for (const auto& [name, value] : header.arguments) {
     out += fmt::format("  argument {} = {}\n", printable(name), printable(value));
   }

@@ -172,6 +172,7 @@ class JsonLines final : public RecordingFormat {
                  {"tree", header.tree},
                  {"file", header.file},
                  {"version", header.version},
+                 {"law", header.law},
                  {"rate_hz", header.rate_hz},
                  {"clock", header.clock},
                  {"seed", header.seed}};

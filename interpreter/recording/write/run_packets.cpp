@@ -45,6 +45,7 @@ std::string RunPackets::header(const RunStart& start) const {
   return format_.header({.tree = tree_.id,
                          .file = run_.tree_file,
                          .version = LOCKSTEP_VERSION,
+                         .law = kLawVersion,
                          .rate_hz = run_.rate_hz,
                          .clock = start.real_time ? "wall" : "virtual",
                          .seed = run_.seed,

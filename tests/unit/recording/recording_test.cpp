@@ -35,7 +35,7 @@ std::string record(std::string_view tree, std::string_view leaves, std::uint64_t
 
 constexpr const char* kRecording =
     R"({"lockstep_recording":1,"tree":"Test","file":"trees/a.xml","version":"0.1.0",)"
-    R"("rate_hz":10.0,"clock":"virtual","seed":18446744073709551615,)"
+    R"("law":2,"rate_hz":10.0,"clock":"virtual","seed":18446744073709551615,)"
     R"("arguments":{"barriers":"0.5;1"},"nodes":[)"
     R"({"index":0,"path":"Test/ParallelAbsolute","kind":"ParallelAbsolute",)"
     R"("name":"ParallelAbsolute","parent":null,"barriers":[0.5,1.0]},)"

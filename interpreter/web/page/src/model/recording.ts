@@ -22,6 +22,7 @@ export interface Header {
   tree: string;
   file: string;
   version: string;
+  law?: number;
   rate_hz: number;
   clock: "wall" | "virtual";
   seed: number;
