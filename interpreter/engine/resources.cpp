@@ -59,6 +59,11 @@ void ask(Ticker& ticker, NodeIndex node) {
   answer(ticker, member, wanted, (owned & wanted) == 0 ? Grant::Owned : Grant::Denied);
 }
 
+bool keeps(Ticker& ticker, NodeIndex node) {
+  const bool may_keep = ticker.parameter(node, kKeep).boolean;
+  return may_keep && ticker.status(node + 1) == Status::Running;
+}
+
 void keep(Ticker& ticker, NodeIndex node) {
   answer(ticker, ticker.membership(node), ticker.state<ResourceUse>(node).owned, Grant::Owned);
 }

@@ -68,7 +68,9 @@ inline bool has_asked(const Ticker& ticker, const ResourceUse& use) {
 
 // Decides for this tick whether a member gets its resources: those that no other member owns.
 void ask(Ticker& ticker, NodeIndex member);
-// The same for one that goes on with what it owns.
+// A child that runs keeps its set until it completes or is halted, if its member says so.
+bool keeps(Ticker& ticker, NodeIndex member);
+// Decides so.
 void keep(Ticker& ticker, NodeIndex member);
 // The child of a member was skipped, so others may have its resources in this tick.
 void give_back(Ticker& ticker, NodeIndex member);

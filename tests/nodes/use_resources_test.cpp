@@ -173,4 +173,31 @@ TEST_CASE("UseResources") {
   check_rows(kResourceRows);
 }
 
+TEST_CASE("UseResources: what a child keeps does not depend on what its entry says meanwhile") {
+  ScriptedRun run(
+      "Parallel(UseResources[pool=p resources={set} keep=true](a) UseResources[pool=p resources=A](b)"
+      " UseResources[pool=p resources=B](c)) resources[name=p]",
+      "a=RRS b=RRRR c=RRRR");
+  const auto who_with = [&](const char* set) {
+    run.set("set", std::string(set));
+    run.tick(Nanoseconds(0));
+    CHECK(run.ticker().fault() == nullptr);
+    return who_owns(run);
+  };
+  CHECK(who_with("A") == "1.3");
+  CHECK(who_with("B") == "1.3");
+  CHECK(who_with("nothing that the pool has") == "1.3");
+  CHECK(who_with("nothing that the pool has") == ".23");
+}
+
+TEST_CASE("UseResources: a priority rises to twice what all members can wait") {
+  ScriptedRun run(
+      "Parallel(UseResources[pool=p resources=A keep=true](a) UseResources[pool=p resources=A](b))"
+      " resources[name=p increment=5]",
+      "a=R... b=R...");
+  for (int tick = 0; tick < 10; ++tick) run.tick(Nanoseconds(0));
+  const NodeIndex waits = run.tree().members[1].node;
+  CHECK(run.ticker().state<ResourceUse>(waits).priority == 2 * 2 * 5);
+}
+
 }  // namespace lockstep::test

@@ -29,12 +29,6 @@ std::optional<RuleBreak> rule_of_resources(const ParameterValues& given) {
   return resources::check_list(given, kNames);
 }
 
-// A child that runs keeps its set, until it completes or is halted.
-bool keeps(Ticker& ticker, NodeIndex member) {
-  const bool may_keep = ticker.parameter(member, resources::kKeep).boolean;
-  return may_keep && ticker.status(member + 1) == Status::Running;
-}
-
 // Of a node that runs: a synchronized parallel has withheld its last tick, and may do so again.
 // Such a member asks when a tick reaches it.
 bool is_held_by_parallel(const Ticker& ticker, NodeIndex node) {
@@ -51,7 +45,7 @@ std::span<std::uint32_t> who_asks(Ticker& ticker, NodeIndex self, std::span<cons
   for (const Member& member : members) {
     ticker.state<ResourceUse>(member.node).limit = 0;
     if (ticker.status(member.node) != Status::Running) continue;
-    if (keeps(ticker, member.node)) {
+    if (resources::keeps(ticker, member.node)) {
       resources::keep(ticker, member.node);
     } else if (!is_held_by_parallel(ticker, member.node) && ticker.refresh(member.node)) {
       numbers[count++] = member.number;

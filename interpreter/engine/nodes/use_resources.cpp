@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "engine/nodes/decorator.h"
 #include "engine/resources.h"
 
@@ -29,8 +31,15 @@ std::optional<RuleBreak> rule_of_use_resources(const ParameterValues& given) {
   return resources::check_list(given, resources::kResources);
 }
 
-std::int64_t increment(const Ticker& ticker, NodeIndex self) {
-  return ticker.parameter(ticker.membership(self).group, resources::kIncrement).integer;
+// A priority is at most this many increments for each member, so that the states of a run are
+// finite. Nobody who is reached in every tick waits so long.
+constexpr std::int64_t kMostWaits = 2;
+
+void raise_priority(Ticker& ticker, NodeIndex self, ResourceUse& use) {
+  const NodeIndex pool = ticker.membership(self).group;
+  const std::int64_t increment = ticker.parameter(pool, resources::kIncrement).integer;
+  const std::int64_t most = kMostWaits * ticker.node(pool).children * increment;
+  use.priority = std::min(use.priority + increment, most);
 }
 
 Status tick_child(Ticker& ticker, NodeIndex self) {
@@ -40,7 +49,7 @@ Status tick_child(Ticker& ticker, NodeIndex self) {
     if (status == Status::Skipped) resources::give_back(ticker, self);
     return status;
   }
-  if (use.grant == Grant::Denied) use.priority += increment(ticker, self);
+  if (use.grant == Grant::Denied) raise_priority(ticker, self, use);
   if (ticker.activity(self + 1) == Activity::Running) ticker.pause(self + 1);
   return Status::Running;
 }
@@ -48,6 +57,8 @@ Status tick_child(Ticker& ticker, NodeIndex self) {
 Status tick_use_resources(Ticker& ticker, NodeIndex self) {
   auto& use = ticker.state<ResourceUse>(self);
   ticker.reach(ticker.membership(self).group);
+  // What a child keeps does not depend on what the entry says meanwhile.
+  if (!resources::keeps(ticker, self) && !ticker.reread(self)) return ticker.give_up(self);
   if (!resources::has_asked(ticker, use)) resources::ask(ticker, self);
   return tick_child(ticker, self);
 }
@@ -62,9 +73,11 @@ const NodeKind kUseResources{
              .arity = {1, 1},
              .parameters = kUseResourcesParameters,
              .rule = rule_of_use_resources,
+             .begins_child_once = true,
              .can_run = true},
     .tick = tick_use_resources,
     .progress = decorator::child_progress,
-    .state_size = sizeof(ResourceUse)};
+    .state_size = sizeof(ResourceUse),
+    .chooses_to_read = true};
 
 }  // namespace lockstep
