@@ -54,6 +54,7 @@ bool BoundParameters::is_current(const BoundNode& node, const Values& values) co
 
 std::string BoundParameters::take_values(const BoundNode& node, Values& values) const {
   const NodeType& type = node.kind->type;
+  std::optional<unsigned> absent;  // the first that only an entry gives, which has no value
   for (unsigned i = 0; i < values.values.size(); ++i) {
     const PortBinding& port = tree_.ports[node.first_port + i];
     const Entry* entry = port.slot == PortBinding::kUnbound ? nullptr : &board_.entries[port.slot];
@@ -73,18 +74,25 @@ std::string BoundParameters::take_values(const BoundNode& node, Values& values) 
       values.values[i] = tree_.constants[port.constant];
     } else {
       values.values[i] = {};
-      if (entry == nullptr || !type.parameters[i].required) continue;
-      std::string text = "'";  // g++ 12 warns falsely of "'" + std::string(…)
-      text.append(type.parameters[i].name)
-          .append("' has no value: nothing has written the entry '{");
-      return text.append(tree_.slots[port.slot].name).append("}'");
+      if (entry == nullptr) continue;
+      if (type.parameters[i].required) return missing(node, i);
+      if (!absent) absent = i;
     }
   }
   if (type.rule == nullptr) return {};
   const auto broken =
       type.rule({.values = values.values, .children = tree_.nodes[node.node].children});
   if (!broken) return {};
+  // Where nothing is wrong with one parameter, that is why one is missing.
+  if (broken->parameter < 0 && absent) return missing(node, *absent);
   return refusal(node, static_cast<unsigned>(broken->parameter), *broken);
+}
+
+std::string BoundParameters::missing(const BoundNode& node, unsigned parameter) const {
+  std::string text = "'";  // g++ 12 warns falsely of "'" + std::string(…)
+  text.append(node.kind->type.parameters[parameter].name)
+      .append("' has no value: nothing has written the entry '{");
+  return text.append(tree_.slots[tree_.ports[node.first_port + parameter].slot].name).append("}'");
 }
 
 // As a value of the parameter's type. False: it has none.

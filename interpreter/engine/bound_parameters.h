@@ -40,6 +40,7 @@ class BoundParameters {
   bool is_current(const BoundNode& node, const Values& values) const;
   std::string take_values(const BoundNode& node, Values& values) const;
   static bool take_value(const Parameter& parameter, const Value& from, Value& value);
+  std::string missing(const BoundNode& node, unsigned parameter) const;
   std::string unreadable(const BoundNode& node, unsigned parameter) const;
   std::span<const std::string> pool_of(const BoundNode& node) const {
     return tree_.group(tree_.membership(node.node).group).resources;

@@ -41,14 +41,16 @@ const NodeKind* kind_of(const NodeType& type, Language language) {
   return by_type.at(&type);
 }
 
-// The same kind with a tick that reads the entries of its parameters first.
+// The same kind for parameters from entries. Most kinds read them before each tick.
 const NodeKind* bound_kind_of(const NodeKind* kind) {
   static const auto by_kind = [] {
     std::unordered_map<const NodeKind*, NodeKind> map;
     for (const Language language : {Language::Lockstep, Language::BehaviorTreeCpp}) {
       for (const NodeKind* it : built_in_kinds(language)) {
         NodeKind bound = *it;
-        bound.tick = [](Ticker& ticker, NodeIndex self) { return ticker.tick_bound(self); };
+        if (!it->chooses_to_read) {
+          bound.tick = [](Ticker& ticker, NodeIndex self) { return ticker.tick_bound(self); };
+        }
         bound.reads_entries = true;
         map.emplace(it, bound);
       }
@@ -103,6 +105,7 @@ class Compiler {
     order_groups();
     find_gates();
     find_guards();
+    find_begun_once();
     list_children();
     for (const BlackboardEntry& entry : definition_.entries) {
       tree_.slots.push_back(
@@ -127,7 +130,7 @@ class Compiler {
     const auto self = static_cast<NodeIndex>(tree_.nodes.size());
     Node node{.kind = kind(*from.type),
               .end = from.end,
-              .children = children_of(from) & 0xfffffffu,  // kMaxNodes is far less
+              .children = children_of(from) & 0x7ffffffu,  // kMaxNodes is far less
               .synchronizes = static_cast<unsigned>(definition_.synchronization(from)) & 3u,
               .is_guard = from.type->category != NodeCategory::Action,
               .is_latched = false,
@@ -270,6 +273,46 @@ class Compiler {
         tree_.nodes[child].is_latched = 0;
       }
     }
+  }
+
+  // A barrier needs to know it of the nodes around its members.
+  void find_begun_once() {
+    if (tree_.groups.empty()) return;
+    for (NodeIndex node = 1; node < definition_.nodes[0].end; ++node) {
+      tree_.nodes[node].is_begun_once = !has_while(node) && parent_begins_once(node);
+    }
+  }
+
+  bool has_while(NodeIndex node) const {
+    if (tree_.hooks.empty() || tree_.hooks[node] == HookedNode::kNoScript) return false;
+    return tree_.hooked[tree_.hooks[node]].script(Hook::While) != HookedNode::kNoScript;
+  }
+
+  bool parent_begins_once(NodeIndex node) const {
+    const NodeIndex parent = definition_.nodes[node].parent;
+    const NodeType& type = *definition_.nodes[parent].type;
+    if (type.latches) return tree_.nodes[node].is_latched != 0;
+    if (type.goes_on_after == Status::Idle) return type.begins_child_once;
+    return has_memory(parent) || is_last_behind_conditions(parent, node);
+  }
+
+  bool has_memory(NodeIndex node) const {
+    const DefinitionNode& it = definition_.nodes[node];
+    const Value* memory = definition_.constant(it, "memory");
+    return memory != nullptr && *memory == Value(true);
+  }
+
+  // An earlier child that takes time would halt the last one when its turn comes again.
+  bool is_last_behind_conditions(NodeIndex parent, NodeIndex node) const {
+    const auto is_plain_condition = [this](NodeIndex child) {
+      const DefinitionNode& it = definition_.nodes[child];
+      return it.type->category == NodeCategory::Condition && it.children == 0 &&
+             it.hooks == Port::kNone;
+    };
+    for (NodeIndex child = parent + 1; child != node; child = tree_.nodes[child].end) {
+      if (!is_plain_condition(child)) return false;
+    }
+    return tree_.nodes[node].end == tree_.nodes[parent].end;
   }
 
   // Control nodes of plugins name their children by index.

@@ -1,24 +1,10 @@
 // The scripts around the ticks of a node, and how any script runs.
-#include <algorithm>
 #include <utility>
 
 #include "core/conversion.h"
-#include "engine/synchronized.h"
+#include "engine/ticker.h"
 
 namespace lockstep {
-namespace {
-
-// What measures see of a synchronized node that a script has decided before it began: that its
-// children are all as far as it is.
-void set_snapshot(Ticker& ticker, NodeIndex node, Status decided) {
-  if (!compares_progress(synchronization(ticker.node(node)))) return;
-  const bool succeeded = decided == Status::Success;
-  std::ranges::fill(ticker.child_numbers(node), succeeded ? 1.0 : 0.0);
-  ticker.state<SynchronizedState>(node).succeeded = succeeded;
-}
-
-}  // namespace
-
 Status Ticker::tick_hooked(NodeIndex node) {
   const HookedNode& hooked = tree_.hooked[tree_.hooks[node]];
   const bool begins = first_tick(node);
@@ -26,7 +12,8 @@ Status Ticker::tick_hooked(NodeIndex node) {
   if (!decided && hooked.script(Hook::While) != HookedNode::kNoScript) {
     decided = ask_while(node, hooked);
   }
-  if (decided && begins) set_snapshot(*this, node, *decided);
+  const auto note = hooked.kind->decided;
+  if (decided && begins && note != nullptr) note(*this, node, *decided);
   const Status status = decided ? *decided : hooked.kind->tick(*this, node);
   return hooked.ends ? finish(node, hooked, status) : status;
 }

@@ -38,7 +38,11 @@ struct NodeKind {
   // May be null. What the node keeps while it is skipped is over: its parent begins again, or was
   // halted.
   void (*forget)(Ticker& ticker, NodeIndex self) = nullptr;
+  // May be null. A script has decided the result of an activation before its first tick.
+  void (*decided)(Ticker& ticker, NodeIndex self, Status result) = nullptr;
   bool reads_entries = false;  // before each tick: its parameters are Tree::bound
+  bool chooses_to_read =
+      false;  // not before each tick: it calls Ticker::reread where it needs them
   // For views. Null if the child runs once. Called only while the node is Running.
   Round (*round)(Ticker& ticker, NodeIndex self) = nullptr;
 };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -59,6 +60,19 @@ inline std::span<const double> child_progress(Ticker& ticker, NodeIndex node) {
 // ancestor that ended in the same tick has made it idle again.
 inline bool succeeded(Ticker& ticker, NodeIndex node) {
   return ticker.state<SynchronizedState>(node).succeeded;
+}
+
+// What stands for the progress of a child that is left out: nobody waits for it, and it is not
+// held.
+inline constexpr double kLeftOut = std::numeric_limits<double>::quiet_NaN();
+
+// The progress of a child as its parallel counts it. One that was skipped in the last tick is left
+// out. Nobody waits for one that has failed and is not ticked again: it counts as 1.
+inline double snapshot_of(Ticker& ticker, NodeIndex child) {
+  const Activity activity = ticker.activity(child);
+  if (activity == Activity::Skipped) return kLeftOut;
+  if (activity == Activity::Failure && ticker.is_latched(child)) return 1.0;
+  return ticker.progress(child);
 }
 
 // Of the children that were not left out; 1 if all were.

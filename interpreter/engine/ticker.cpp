@@ -64,31 +64,26 @@ Status Ticker::tick_with_groups() {
 }
 
 bool Ticker::refresh(NodeIndex node) {
-  const auto bound =
-      static_cast<std::uint32_t>(parameters_.cells()[nodes_[node].params - 1].integer);
-  if (bound >= tree_.bound.size() || tree_.bound[bound].node != node) return true;
-  return parameters_.read(bound).empty();
+  return !nodes_[node].kind->reads_entries || parameters_.read(bound_of(node)).empty();
 }
 
 bool Ticker::reread(NodeIndex node) {
   if (!nodes_[node].kind->reads_entries) return true;
-  const auto bound =
-      static_cast<std::uint32_t>(parameters_.cells()[nodes_[node].params - 1].integer);
-  std::string wrong = parameters_.read(bound);
+  std::string wrong = parameters_.read(bound_of(node));
   if (wrong.empty()) return true;
   set_fault(node, std::move(wrong));
   return false;
 }
 
-Status Ticker::tick_bound(NodeIndex node) {
-  const auto bound =
-      static_cast<std::uint32_t>(parameters_.cells()[nodes_[node].params - 1].integer);
-  std::string wrong = parameters_.read(bound);
-  if (wrong.empty()) return tree_.bound[bound].kind->tick(*this, node);
-  set_fault(node, std::move(wrong));
+Status Ticker::give_up(NodeIndex node) {
   if (faulted_) return Status::Running;
   halt_running_children(node);
   return Status::Failure;
+}
+
+Status Ticker::tick_bound(NodeIndex node) {
+  if (!reread(node)) return give_up(node);
+  return tree_.bound[bound_of(node)].kind->tick(*this, node);
 }
 
 // A subtree that was not reached costs nothing, however large it is: below an idle node all are

@@ -123,12 +123,13 @@ class Ticker {
   Status tick_bound(NodeIndex node);
   // Ticks a node of Tree::hooked with its scripts.
   Status tick_hooked(NodeIndex node);
-  // For the group of a member that runs: reads its entries. False if it does not accept a value;
-  // its tick reports that.
+  // The same before the node's tick: false without a fault, which is that of its tick.
   bool refresh(NodeIndex node);
   // Of a node that may be bound: reads its entries in the middle of its tick. A value that it does
   // not accept is a fault, and the result is false.
   bool reread(NodeIndex node);
+  // After such a fault: the status that the node's tick returns.
+  Status give_up(NodeIndex node);
 
   // Of a list of texts that is a constant.
   std::span<const std::string> texts(NodeIndex node, unsigned index) const {
@@ -252,6 +253,9 @@ class Ticker {
   void forget_descendants(NodeIndex node);
   NodeIndex end_activation(NodeIndex node);
   void keep_ancestors_running(NodeIndex node);
+  std::uint32_t bound_of(NodeIndex node) const {  // in Tree::bound
+    return static_cast<std::uint32_t>(parameters_.cells()[nodes_[node].params - 1].integer);
+  }
   std::byte* state_bytes() { return reinterpret_cast<std::byte*>(state_.bytes.data()); }
 
   const Tree& tree_;

@@ -22,10 +22,12 @@ namespace lockstep {
 struct Node {
   const NodeKind* kind;
   NodeIndex end;                       // one past the last descendant
-  std::uint32_t children : 28;         // how many; of a group: members
+  std::uint32_t children : 27;         // how many; of a group: members
   std::uint32_t synchronizes : 2 = 0;  // Synchronization: see engine/synchronized.h
   std::uint32_t is_guard : 1;          // no action is in it: a parallel asks it in every tick
   std::uint32_t is_latched : 1;        // a parallel does not tick it again after it has completed
+  // It has one activation at most in each of its parent. Only in trees with groups; false: unknown.
+  std::uint32_t is_begun_once : 1 = 0;
   std::uint32_t params;  // first cell in Tree::cells; of a plugin leaf: its place in Tree::leaves
   std::uint32_t state;   // first byte in RunState's node states
 };

@@ -71,6 +71,44 @@ constexpr TickRow kMemberRows[] = {
   {"the others wait for one that is tried again",
    "Parallel(Retry[attempts=2](SyncProgress[barrier=g](a)) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5]",
    "a=R.1FR.1 b=R.7", "R[a b] R[a] pause[b] R{start a, tick a}"},
+  {"X4: a parallel that is begun again latches nobody for good",
+   "Parallel(Retry[attempts=1000000](Parallel(SyncProgress[barrier=g](a))) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5]",
+   "a=R.01R.02R.03FR.01R.02R.03F b=R.1R.2R.3R.4R.5R.6",
+   "R[a b] R[a b] R[a b] R[a b] R{start a, tick a, tick b} R[a] pause[b] R[a] R[a] R{start a, tick a}"},
+  {"X4, idle=ignore: what has failed is not idle",
+   "Parallel(Retry[attempts=1000000](Parallel(SyncProgress[barrier=g](a))) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5 idle=ignore]",
+   "a=R.01R.02R.03FR.01R.02R.03F b=R.1R.2R.3R.4R.5R.6",
+   "R[a b] R[a b] R[a b] R[a b] R{start a, tick a, tick b} R[a] pause[b] R[a] R[a] R{start a, tick a}"},
+  {"nobody waits for it below a parallel that is begun once",
+   "Parallel(Inverter(Parallel[success_count=1 failure_count=2](SyncProgress[barrier=g](a) x)) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5]",
+   "a=R.1F x=R... b=R.7", "R[a x b] R[a x] pause[b] R[x b] resume[b]"},
+  {"the others wait where the parallel may be begun again: Repeat",
+   "Parallel(Repeat(Parallel[success_count=1 failure_count=2](SyncProgress[barrier=g](a) x)) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5]",
+   "a=R.1F x=R... b=R.7", "R[a x b] R[a x] pause[b] R[x] R[x]"},
+  {"the others wait where the parallel may be begun again: memory=false",
+   "Parallel[memory=false](Parallel[success_count=1 failure_count=2](SyncProgress[barrier=g](a) x) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5]",
+   "a=R.1F x=R... b=R.7", "R[a x b] R[a x] pause[b] R[x] R[x]"},
+  {"the others wait where the parallel may be begun again: a script may halt it",
+   "Sequence[memory=true](Script[code=y:=1] Parallel(Parallel[success_count=1 failure_count=2 while=y==1](SyncProgress[barrier=g](a) x) SyncProgress[barrier=g](b))) barrier[name=g barriers=.5]",
+   "a=R.1F x=R... b=R.7", "R[a x b] R[a x] pause[b] R[x] R[x]"},
+  {"nobody waits for it below the last child behind conditions",
+   "Parallel(Sequence(c? Parallel[success_count=1 failure_count=2](SyncProgress[barrier=g](a) x)) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5]",
+   "c=S... a=R.1F x=R... b=R.7", "R[c a x b] R[c a x] pause[b] R[c x b] resume[b]"},
+  {"the others wait where an action comes before it in every tick",
+   "Parallel(Sequence(z Parallel[success_count=1 failure_count=2](SyncProgress[barrier=g](a) x)) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5]",
+   "z=S... a=R.1F x=R... b=R.7", "R[z a x b] R{start z, tick z, tick a, tick x, pause b} R{start z, tick z, tick x}"},
+  {"nobody waits for a member that was halted for good",
+   "Parallel[success_count=1 failure_count=2](Parallel(SyncProgress[barrier=g](a) x) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5]",
+   "a=R.1R.2 x=RF b=R.7", "R[a x b] R[a x] halt[a] pause[b] R[b] resume[b]"},
+  {"a member that never began is idle, also below what has ended for good",
+   "Parallel[success_count=1 failure_count=2](Sequence[memory=true](x SyncProgress[barrier=g](a)) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5]",
+   "a=R x=RF b=R.7", "R[x b] R[x] pause[b] R[]"},
+  {"a member in what a script skips is left out",
+   "Sequence[memory=true](Script[code=y:=1] Parallel(Sequence[memory=true skip_if=y==1](SyncProgress[barrier=g](a)) SyncProgress[barrier=g](b))) barrier[name=g barriers=.5]",
+   "a=R b=R.7R.8R.9S", "R[b] R[b] R[b] S[b]"},
+  {"a script that decides for a member decides for the barrier",
+   "Sequence[memory=true](Script[code=y:=1] Parallel[success_count=2 failure_count=2](SyncProgress[barrier=g success_if=y==1](a) SyncProgress[barrier=g failure_if=y==1](x) SyncProgress[barrier=g](b))) barrier[name=g barriers=.5]",
+   "a=R x=R b=R.7R.8S", "R[b] R[b] S[b]"},
   {"a halted member that was held is not resumed",
    "Parallel(SyncProgress[barrier=g](a) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5]",
    "a=R.1R.1F b=R.6", "R[a b] R[a] pause[b] F[a] halt[b]"},
@@ -118,6 +156,43 @@ TEST_CASE("SyncProgress: the limits of a barrier may come from entries") {
   CHECK(run.ticker().held(4));
   CHECK(limit(run.ticker(), 5) == 0.2);
   CHECK(barrier_fault(run).empty());
+}
+
+TEST_CASE("SyncProgress: the tree may write the limits before a member runs") {
+  constexpr std::string_view kWrites =
+      "Sequence[memory=true](Script[code=d:=0.2] Parallel(%) x)";
+  const auto trace_of = [](std::string tree) {
+    ScriptedRun run(tree, "a=R.1R.2R.3S b=R.6S x=RRS");
+    std::string trace;
+    for (int tick = 0; tick < 9; ++tick) {
+      trace += std::to_string(static_cast<int>(run.tick(from_seconds(0.1 * tick))));
+      CHECK(barrier_fault(run).empty());
+      for (const LeafNode& leaf : run.tree().leaves) {
+        trace += run.ticker().ticked(leaf.node) ? '1' : '-';
+      }
+    }
+    return trace;
+  };
+  const auto with = [&](std::string_view parallel) {
+    return std::string(kWrites).replace(kWrites.find("Parallel(%)"), 11, parallel);
+  };
+  CHECK(trace_of(with("ParallelRelative[delta={d}](a b)")) ==
+        trace_of(with("Parallel(SyncProgress[barrier=g](a) SyncProgress[barrier=g](b))") +
+                 " barrier[name=g delta={d}]"));
+}
+
+TEST_CASE("SyncProgress: a limit without a value is a fault once a member runs, and named") {
+  ScriptedRun run(kFromEntry, "a=R.1... b=R.6...");
+  CHECK(run.tick(from_seconds(0)) == Status::Running);
+  CHECK(barrier_fault(run).empty());
+  run.tick(from_seconds(0.1));
+  CHECK(barrier_fault(run) ==
+        "Test/g: 'delta' has no value: nothing has written the entry '{d}'");
+
+  ScriptedRun barriers("ParallelAbsolute[barriers={d}](a b)", "a=R.1... b=R.6...");
+  barriers.tick(from_seconds(0));
+  CHECK(barrier_fault(barriers).ends_with(
+      "'barriers' has no value: nothing has written the entry '{d}'"));
 }
 
 TEST_CASE("SyncProgress: an entry that the barrier does not accept is its fault") {

@@ -1,6 +1,8 @@
 // A barrier beside the trees, and the nodes that wait at it for each other wherever they are. It
 // holds as ParallelAbsolute and ParallelRelative do, from one snapshot before the root is ticked.
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 #include "engine/nodes/barrier_list.h"
 #include "engine/nodes/decorator.h"
@@ -13,7 +15,6 @@ constexpr unsigned kIdle = 4;
 
 constexpr std::string_view kIdleChoices[] = {"wait", "ignore"};
 constexpr std::int64_t kIgnore = 1;
-constexpr double kLeftOut = std::numeric_limits<double>::quiet_NaN();
 
 constexpr Parameter kBarrierParameters[] = {
     absolute::kBarriersParameter, absolute::kBarrierCountParameter, absolute::kAtBarrierParameter,
@@ -50,10 +51,11 @@ struct BarrierState {
 };
 static_assert(sizeof(BarrierState) % sizeof(double) == 0);
 
-// Of a member.
+// Of a member, since the common ancestor began its activation.
 struct Place {
-  bool succeeded;  // since the common ancestor began its activation
-  bool held;       // in this tick
+  bool succeeded;
+  bool begun;
+  bool held;  // in this tick
 };
 
 Place& place_of(Ticker& ticker, NodeIndex barrier, std::uint32_t number) {
@@ -61,39 +63,70 @@ Place& place_of(Ticker& ticker, NodeIndex barrier, std::uint32_t number) {
   return reinterpret_cast<Place*>(numbers.data() + numbers.size())[number];
 }
 
-// Whether no node will tick a member that has failed again, in this activation of the ancestor: a
-// parallel keeps its result, or that of a node around it.
-bool is_over(const Ticker& ticker, NodeIndex node, NodeIndex ancestor) {
-  for (const Tree& tree = ticker.tree(); node != ancestor; node = tree.labels[node].parent) {
-    if (is_complete(ticker.status(node)) && ticker.is_latched(node)) return true;
+NodeIndex parent_of(const Ticker& ticker, NodeIndex node) {
+  return ticker.tree().labels[node].parent;
+}
+
+// Whether no tick reaches a member that does not run again, in this activation of the ancestor: a
+// parallel that runs has latched the child with the member, and itself cannot begin again. In doubt
+// it can: a barrier that stays closed is seen and reported, one that opens for a member that comes
+// back is a collision.
+bool cannot_come_back(const Ticker& ticker, NodeIndex member, NodeIndex ancestor) {
+  NodeIndex child = member;
+  while (ticker.status(parent_of(ticker, child)) != Status::Running) {
+    child = parent_of(ticker, child);
+    if (child == ancestor) return false;
+  }
+  if (!ticker.is_latched(child) || !is_complete(ticker.status(child))) return false;
+  for (NodeIndex node = parent_of(ticker, child); node != ancestor;
+       node = parent_of(ticker, node)) {
+    if (ticker.node(node).is_begun_once == 0) return false;
+    if (ticker.status(parent_of(ticker, node)) != Status::Running) return false;
+  }
+  return true;
+}
+
+// A script has skipped the member, or a node around it.
+bool is_skipped(const Ticker& ticker, NodeIndex member, NodeIndex ancestor) {
+  for (NodeIndex node = member; node != ancestor; node = parent_of(ticker, node)) {
+    if (ticker.activity(node) == Activity::Skipped) return true;
   }
   return false;
 }
 
-// A member that has failed for good is waited for by nobody, like such a child of a parallel, and
-// one that was skipped in its last tick is left out.
-double reached(Ticker& ticker, NodeIndex member, const Place& place, const Group& group) {
+// What a member counts in the snapshot.
+double reached(Ticker& ticker, NodeIndex member, const Place& place, NodeIndex ancestor,
+               double of_idle) {
   if (place.succeeded && !ticker.is_guard(member)) return 1.0;
-  if (ticker.activity(member) == Activity::Skipped) return kLeftOut;
-  if (ticker.status(member) == Status::Failure && is_over(ticker, member, group.ancestor)) {
-    return 1.0;
-  }
-  return ticker.progress(member);
+  const Status status = ticker.status(member);
+  if (status == Status::Running || status == Status::Success) return ticker.progress(member);
+  if (is_skipped(ticker, member, ancestor)) return kLeftOut;
+  if (place.begun && cannot_come_back(ticker, member, ancestor)) return 1.0;
+  return status == Status::Idle ? of_idle : 0.0;
 }
 
-// Returns the least progress of the members that are not left out.
-double take_snapshot(Ticker& ticker, NodeIndex self, double of_idle) {
+// The progress of all members before the root is ticked.
+struct Snapshot {
+  double least;       // of those that are not left out
+  bool runs = false;  // some member does
+};
+
+Snapshot take_snapshot(Ticker& ticker, NodeIndex self) {
   const Tree& tree = ticker.tree();
-  const Group& group = tree.groups[self - tree.nodes[0].end];
+  const bool ignores_idle = ticker.parameter(self, kIdle).integer == kIgnore;
+  const double of_idle = ignores_idle ? kLeftOut : 0.0;
   const bool begins = ticker.status(self) == Status::Idle;
   const auto progress = ticker.child_numbers(self);
+  Snapshot snapshot{};
   for (const Member& it : tree.members_of(self)) {
     Place& place = place_of(ticker, self, it.number);
     if (begins) place = {};
-    const bool is_idle = begins || (!place.succeeded && ticker.status(it.node) == Status::Idle);
-    progress[it.number] = is_idle ? of_idle : reached(ticker, it.node, place, group);
+    progress[it.number] =
+        begins ? of_idle : reached(ticker, it.node, place, tree.group(self).ancestor, of_idle);
+    snapshot.runs |= !begins && ticker.status(it.node) == Status::Running;
   }
-  return least_progress(progress);
+  snapshot.least = least_progress(progress);
+  return snapshot;
 }
 
 template <class Held>
@@ -105,21 +138,38 @@ void hold(Ticker& ticker, NodeIndex self, Held held) {
   }
 }
 
-Status tick_barrier(Ticker& ticker, NodeIndex self) {
-  BarrierState& state = ticker.state<BarrierState>(self);
-  if (ticker.status(self) == Status::Idle) state = {};
-  const bool ignores_idle = ticker.parameter(self, kIdle).integer == kIgnore;
-  const double least = take_snapshot(ticker, self, ignores_idle ? kLeftOut : 0);
+// Finds the limit of this tick, and who is held.
+void set_limit(Ticker& ticker, NodeIndex self, double least) {
+  double& limit = ticker.state<BarrierState>(self).synchronized.limit;
   if (synchronization(ticker.node(self)) == Synchronization::Relative) {
-    state.synchronized.limit = ticker.parameter(self, kBarrierDelta).number;
-    const double most = least + state.synchronized.limit + kProgressEpsilon;
+    limit = ticker.parameter(self, kBarrierDelta).number;
+    const double most = least + limit + kProgressEpsilon;
     hold(ticker, self, [most](double reached) { return reached > most; });
   } else {
     const auto barriers = ticker.numbers(ticker.parameter(self, absolute::kBarriers));
-    state.synchronized.limit = absolute::current_barrier(barriers, least);
+    limit = absolute::current_barrier(barriers, least);
     const bool ticks =
         ticker.parameter(self, absolute::kAtBarrier).integer == absolute::kTickAtBarrier;
-    hold(ticker, self, absolute::Held{state.synchronized.limit, ticks});
+    hold(ticker, self, absolute::Held{limit, ticks});
+  }
+}
+
+// While the limits are unknown.
+void hold_nobody(Ticker& ticker, NodeIndex self) {
+  ticker.state<BarrierState>(self).synchronized.limit = std::numeric_limits<double>::infinity();
+  hold(ticker, self, [](double) { return false; });
+}
+
+// An entry that has the limits is needed while a member runs. Before that the tree may write it.
+Status tick_barrier(Ticker& ticker, NodeIndex self) {
+  BarrierState& state = ticker.state<BarrierState>(self);
+  if (ticker.status(self) == Status::Idle) state = {};
+  const Snapshot snapshot = take_snapshot(ticker, self);
+  if (snapshot.runs && !ticker.reread(self)) return ticker.give_up(self);
+  if (snapshot.runs || ticker.refresh(self)) {
+    set_limit(ticker, self, snapshot.least);
+  } else {
+    hold_nobody(ticker, self);
   }
   return state.synchronized.succeeded ? Status::Success : Status::Running;
 }
@@ -135,11 +185,9 @@ constexpr Parameter kMemberParameters[] = {
               .constant = true,
               .group = "barrier"}};
 
-void note_success(Ticker& ticker, const Member& member) {
+void note_success(Ticker& ticker, const Member& member, Place& place) {
+  if (std::exchange(place.succeeded, true)) return;
   BarrierState& state = ticker.state<BarrierState>(member.group);
-  bool& succeeded = place_of(ticker, member.group, member.number).succeeded;
-  if (succeeded) return;
-  succeeded = true;
   state.synchronized.succeeded = ++state.succeeded == ticker.node(member.group).children;
   if (state.synchronized.succeeded) ticker.complete(member.group);
 }
@@ -148,17 +196,28 @@ Status tick_member(Ticker& ticker, NodeIndex self) {
   const Member& member = ticker.membership(self);
   const NodeIndex child = self + 1;
   ticker.reach(member.group);
+  Place& place = place_of(ticker, member.group, member.number);
+  place.begun = true;
   if (ticker.status(member.group) == Status::Failure) {  // an entry has no value that it accepts
     ticker.halt_running_children(self);
     return Status::Failure;
   }
-  if (place_of(ticker, member.group, member.number).held) {
+  if (place.held) {
     if (ticker.activity(child) == Activity::Running) ticker.pause(child);
     return Status::Running;
   }
   const Status status = ticker.tick(child);
-  if (status == Status::Success && !ticker.faulted()) note_success(ticker, member);
+  if (status == Status::Success && !ticker.faulted()) note_success(ticker, member, place);
   return status;
+}
+
+// A script has decided for it, so it has begun and ended.
+void member_decided(Ticker& ticker, NodeIndex self, Status result) {
+  if (!is_complete(result)) return;
+  const Member& member = ticker.membership(self);
+  Place& place = place_of(ticker, member.group, member.number);
+  place.begun = true;
+  if (result == Status::Success) note_success(ticker, member, place);
 }
 
 }  // namespace
@@ -183,7 +242,8 @@ const NodeKind kBarrier{
     .progress = [](Ticker& ticker,
                    NodeIndex self) { return least_progress(ticker.child_numbers(self)); },
     .state_size = sizeof(BarrierState),
-    .state_per_child = sizeof(double) + sizeof(Place)};
+    .state_per_child = sizeof(double) + sizeof(Place),
+    .chooses_to_read = true};
 
 const NodeKind kSyncProgress{
     .type = {.id = "SyncProgress",
@@ -192,8 +252,10 @@ const NodeKind kSyncProgress{
                     "SyncProgress nodes of that barrier, wherever they are. Returns what its child "
                     "returns, and Running while the child is held.",
              .arity = {1, 1},
-             .parameters = kMemberParameters},
+             .parameters = kMemberParameters,
+             .begins_child_once = true},
     .tick = tick_member,
-    .progress = decorator::child_progress};
+    .progress = decorator::child_progress,
+    .decided = member_decided};
 
 }  // namespace lockstep

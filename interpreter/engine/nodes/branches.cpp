@@ -91,7 +91,8 @@ constexpr NodeKind kIf{
              .doc = "Ticks its first child until it completes, then the second if it succeeded, "
                     "else the third. The result is that of the branch; Failure without a third "
                     "child.",
-             .arity = {2, 3}},
+             .arity = {2, 3},
+             .begins_child_once = kLanguage == Language::Lockstep},
     .tick = tick_if<kLanguage>,
     .progress = progress_of_branch,
     .state_size = sizeof(BranchState)};

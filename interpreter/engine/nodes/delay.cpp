@@ -26,6 +26,7 @@ const NodeKind kDelay{
              .doc = "Running for a time, then ticks its child and returns what it returns.",
              .arity = {1, 1},
              .parameters = kDelayParameters,
+             .begins_child_once = true,
              .can_run = true},
     .tick = tick_delay,
     .progress = decorator::child_progress,

@@ -49,6 +49,7 @@ const NodeKind kParallelAbsolute{
     .tick = tick_absolute,
     .progress = synchronized::least_progress,
     .state_size = sizeof(SynchronizedState),
-    .state_per_child = sizeof(double)};
+    .state_per_child = sizeof(double),
+    .decided = synchronized::decided};
 
 }  // namespace lockstep

@@ -48,6 +48,7 @@ const NodeKind kParallelRelative{
     .tick = tick_relative,
     .progress = synchronized::least_progress,
     .state_size = sizeof(SynchronizedState),
-    .state_per_child = sizeof(double)};
+    .state_per_child = sizeof(double),
+    .decided = synchronized::decided};
 
 }  // namespace lockstep

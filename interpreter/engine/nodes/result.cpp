@@ -19,6 +19,7 @@ const NodeKind kInverter{
              .category = NodeCategory::Decorator,
              .doc = "Success of its child becomes Failure, and Failure Success.",
              .arity = {1, 1},
+             .begins_child_once = true,
              .inverts = true},
     .tick = tick_result<Status::Failure, Status::Success>,
     .progress = decorator::child_progress};
@@ -27,7 +28,8 @@ const NodeKind kForceSuccess{
     .type = {.id = "ForceSuccess",
              .category = NodeCategory::Decorator,
              .doc = "Success when its child completes, whatever the result.",
-             .arity = {1, 1}},
+             .arity = {1, 1},
+             .begins_child_once = true},
     .tick = tick_result<Status::Success, Status::Success>,
     .progress = decorator::child_progress};
 
@@ -35,7 +37,8 @@ const NodeKind kForceFailure{
     .type = {.id = "ForceFailure",
              .category = NodeCategory::Decorator,
              .doc = "Failure when its child completes, whatever the result.",
-             .arity = {1, 1}},
+             .arity = {1, 1},
+             .begins_child_once = true},
     .tick = tick_result<Status::Failure, Status::Failure>,
     .progress = decorator::child_progress};
 

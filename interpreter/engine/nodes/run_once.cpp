@@ -42,6 +42,7 @@ const NodeKind kRunOnce{
              .doc = "Ticks its child until it has completed once in this run; from then on returns "
                     "that result without ticking it.",
              .arity = {1, 1},
+             .begins_child_once = true,
              .acts_again = false},
     .tick = tick_run_once,
     .progress = decorator::child_progress,

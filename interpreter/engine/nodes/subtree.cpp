@@ -12,7 +12,8 @@ Status tick_subtree(Ticker& ticker, NodeIndex self) {
 // Its attributes (ID, remapping, _autoremap) are resolved before the tree is compiled.
 const NodeKind kSubTree{.type = {.id = "SubTree",
                                  .category = NodeCategory::SubTree,
-                                 .doc = "The tree with this ID, with a separate blackboard scope."},
+                                 .doc = "The tree with this ID, with a separate blackboard scope.",
+                                 .begins_child_once = true},
                         .tick = tick_subtree,
                         .progress = decorator::child_progress};
 

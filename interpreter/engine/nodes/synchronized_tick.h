@@ -4,31 +4,18 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
 
 #include "engine/nodes/parallel_rule.h"
 #include "engine/synchronized.h"
 
 namespace lockstep::synchronized {
 
-// The progress of a child as the node counts it. A child that has failed for good counts as 1, so
-// that no other child waits for it.
-inline double reached(Ticker& ticker, NodeIndex child) {
-  const Status status = ticker.status(child);
-  if (status == Status::Failure && ticker.is_latched(child)) return 1.0;
-  return ticker.progress(child);
-}
-
-// What stands for the progress of a child that was skipped in the last tick.
-inline constexpr double kLeftOut = std::numeric_limits<double>::quiet_NaN();
-
-// One snapshot before any child is ticked; returns its minimum. A child that was skipped is left
-// out: no other waits for it, and it is not held.
+// One snapshot before any child is ticked; returns its minimum.
 inline double take_snapshot(Ticker& ticker, NodeIndex self) {
   double least = 1.0;
   NodeIndex child = self + 1;
   for (double& number : ticker.child_numbers(self)) {
-    number = ticker.activity(child) == Activity::Skipped ? kLeftOut : reached(ticker, child);
+    number = snapshot_of(ticker, child);
     if (number < least) least = number;
     child = ticker.end_of(child);
   }
@@ -63,12 +50,19 @@ Status tick_children(Ticker& ticker, NodeIndex self, const parallel::Places& pla
   return status;
 }
 
+// What measures see of a node that a script has decided before it began: its children are as far as
+// it is.
+inline void decided(Ticker& ticker, NodeIndex self, Status result) {
+  const bool succeeded = result == Status::Success;
+  std::ranges::fill(ticker.child_numbers(self), succeeded ? 1.0 : 0.0);
+  ticker.state<SynchronizedState>(self).succeeded = succeeded;
+}
+
 // The progress of the least progressed child, so that synchronized nodes can be nested.
 inline double least_progress(Ticker& ticker, NodeIndex self) {
   double least = 1.0;
   for (NodeIndex child = self + 1; child != ticker.end_of(self); child = ticker.end_of(child)) {
-    if (ticker.activity(child) == Activity::Skipped) continue;
-    least = std::min(least, reached(ticker, child));
+    if (const double number = snapshot_of(ticker, child); number < least) least = number;
   }
   return least;
 }
