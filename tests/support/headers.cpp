@@ -1,0 +1,1 @@
+// A unit for the precompiled header of all test programs.
