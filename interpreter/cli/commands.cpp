@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
@@ -12,6 +14,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
+#include "cli/help_text.h"
 #include "cli/run/groot.h"
 #include "cli/usage.h"
 #include "core/descriptors.h"
@@ -20,6 +23,7 @@
 #include "runtime/fuse.h"
 #include "runtime/outlet.h"
 #include "terminal/raw_terminal.h"
+#include "terminal/terminal.h"
 #include "web/server_socket.h"
 
 namespace lockstep {
@@ -84,10 +88,15 @@ void parse(CLI::App& app, std::vector<std::string> words) {
 int run_command_line(int argc, char** argv) {
   CLI::App app{"lockstep: behavior trees that move several things at once and keep them in step",
                "lockstep"};
+  app.formatter(help_formatter(terminal_size(STDOUT_FILENO).width));
   app.require_subcommand(1);
   app.set_version_flag("--version", "lockstep " LOCKSTEP_VERSION);
   app.footer(
-      "Example: lockstep run trees/door_pulling.xml\n"
+      "Exit code: 0 all is well, 1 the run failed or what was compared differs, 2 usage or a file "
+      "that cannot be used, 3 invalid tree, 4 plugin refused, 5 leaf fault, 6 a plugin crashed or "
+      "hung, 9 lockstep failed, 124 a limit was reached, 128 + N signal N. The help of a command "
+      "has those that it uses.\n\n"
+      "Example: lockstep run trees/door_pulling.xml\n\n"
       "`lockstep help COMMAND` shows the options of a command and examples.");
   std::vector<std::function<int()>> actions;
   std::vector<CLI::App*> subcommands;

@@ -55,7 +55,7 @@ const Command kShowCommand{
     "Examples:\n"
     "  lockstep show trees/door_pulling.xml\n"
     "  lockstep show trees/door_pulling.xml --arg barriers=0.5\n"
-    "  lockstep show --format dot trees/door_pulling.xml | dot -Tsvg > door_pulling.svg",
+    "  lockstep show --format dot trees/door_pulling.xml | dot -Tsvg > door.svg",
     define_show};
 
 }  // namespace lockstep

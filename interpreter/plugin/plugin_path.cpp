@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kAddDirectory = "add the directory that has it to the plugin path";
+constexpr const char* kAddDirectory = "add the directory that has it to the plugin path: --plugin-path, or LOCKSTEP_PLUGIN_PATH";
 
 constexpr const char* kNoDirectory = "is not found: there is no directory to search";
 

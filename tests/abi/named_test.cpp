@@ -58,10 +58,11 @@ TEST_CASE("a plugin that is not found: where it was searched, and the nearest na
                 " | did you mean 'init_refuses'?"});
   CHECK(refusal_of_name("zzzz") ==
         Strings{"plugin 'zzzz' is not found: 'zzzz.so' is not in " + searched +
-                " | add the directory that has it to the plugin path"});
+                " | add the directory that has it to the plugin path: --plugin-path, or "
+                "LOCKSTEP_PLUGIN_PATH"});
   CHECK(refusal_of_name("good", {}) ==
         Strings{"plugin 'good' is not found: there is no directory to search | add the directory "
-                "that has it to the plugin path"});
+                "that has it to the plugin path: --plugin-path, or LOCKSTEP_PLUGIN_PATH"});
 }
 
 TEST_CASE("a leaf works in real time if its plugin says so, and none of ABI 1.0 does") {

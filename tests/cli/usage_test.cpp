@@ -1,5 +1,7 @@
 // Command lines that are wrong: the word that is named, what was meant, and the help that is named.
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <sstream>
 
 #include "cli/program.h"
 
@@ -103,6 +105,39 @@ TEST_CASE("what is right is not blamed for a likeness") {
     const Outcome outcome = lockstep::test::lockstep(arguments);
     INFO(outcome.err);
     CHECK(outcome.code == 0);
+  }
+}
+
+TEST_CASE("help fits into 80 columns where there is no terminal") {
+  for (const std::vector<std::string>& command : {std::vector<std::string>{},
+                                                  {"run"},
+                                                  {"check"},
+                                                  {"show"},
+                                                  {"nodes"},
+                                                  {"schema"},
+                                                  {"convert"},
+                                                  {"plugin"},
+                                                  {"plugin", "check"},
+                                                  {"log"},
+                                                  {"log", "info"},
+                                                  {"log", "csv"},
+                                                  {"log", "diff"},
+                                                  {"log", "measure"},
+                                                  {"log", "page"},
+                                                  {"log", "plot"},
+                                                  {"replay"},
+                                                  {"study"},
+                                                  {"study", "merge"},
+                                                  {"study", "compare"},
+                                                  {"monitor"}}) {
+    std::vector<std::string> words = {"help"};
+    words.insert(words.end(), command.begin(), command.end());
+    std::istringstream lines(lockstep::test::lockstep(words).out);
+    std::size_t longest = 0;
+    for (std::string line; std::getline(lines, line);) longest = std::max(longest, line.size());
+    INFO((command.empty() ? "lockstep" : command.back()));
+    CHECK(longest > 40);
+    CHECK(longest <= 80);
   }
 }
 

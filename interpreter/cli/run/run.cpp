@@ -302,10 +302,10 @@ const Command kRunCommand{
     "\n"
     "Examples:\n"
     "  lockstep run trees/door_pulling.xml\n"
-    "  lockstep run trees/door_pulling.xml --arg barriers=0.5 --rate 50 --record run.jsonl\n"
+    "  lockstep run trees/door_pulling.xml --arg barriers=0.5 --record run.jsonl\n"
     "  lockstep run trees/door_pulling.xml --clock virtual --seed 7 --json\n"
     "  lockstep run trees/door_pulling.xml --monitor 8080 --groot2 1667\n"
-    "  lockstep run trees/door_pulling.xml --isolate --on-fault fail --realtime --cpu 1",
+    "  lockstep run trees/door_pulling.xml --isolate --realtime --cpu 1",
     define_run};
 
 }  // namespace lockstep

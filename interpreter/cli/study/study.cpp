@@ -235,7 +235,7 @@ std::function<int()> define_study(CLI::App& app) {
   app.add_option("tree", options->study.tree, "Tree file")->type_name("TREE.xml");
   define_runs(app, options->study);
   options->jobs = std::max(1u, std::thread::hardware_concurrency());
-  app.add_option("--jobs", options->jobs, "Threads; the result does not depend on it")
+  app.add_option("-j,--jobs", options->jobs, "Threads; the result does not depend on it")
       ->type_name("J")
       ->transform(whole_number(1, 1024))
       ->capture_default_str();
@@ -276,8 +276,10 @@ const Command kStudyCommand{
     "  lockstep study trees/paper/example6.xml --runs 1000 --grid delta=0:0.1:0.01\n"
     "  lockstep study trees/paper/example6.xml --runs 1000 \\\n"
     "      --grid noise,delta=0.01:0.02,0.02:0.05,0.05:0.1\n"
-    "  lockstep study trees/paper/example5.xml --runs 100 --paired --grid barrier_count=5,10\n"
-    "  lockstep study trees/paper/example5.xml --runs 100000 --until-ci 2% --grid noise=0,0.05\n"
+    "  lockstep study trees/paper/example5.xml --runs 100 --paired \\\n"
+    "      --grid barrier_count=5,10\n"
+    "  lockstep study trees/paper/example5.xml --runs 100000 --until-ci 2% \\\n"
+    "      --grid noise=0,0.05\n"
     "  lockstep study trees/predictability.xml --runs 1000 --shard 1/4 --out part-1\n"
     "  lockstep study merge part-* --out study\n"
     "  lockstep study compare study-example5 --cells 0 1",
