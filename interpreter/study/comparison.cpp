@@ -40,10 +40,8 @@ Values without_missing(const Values& values) {
 void compare(const Values& first, const Values& second, Comparison& comparison) {
   comparison.count = {first.size(), second.size()};
   if (first.empty() || second.empty()) return;
-  const std::pair medians{summarize(first).median, summarize(second).median};
-  comparison.found = {.medians = medians,
-                      .difference = medians.second - medians.first,
-                      .interval = {},
+  comparison.found = {.medians = {summarize(first).median, summarize(second).median},
+                      .shift = shift_between(first, second),
                       .test = mann_whitney(first, second)};
 }
 
@@ -59,10 +57,8 @@ void compare_pairs(const Values& first, const Values& second, Comparison& compar
   }
   comparison.count = {differences.size(), differences.size()};
   if (differences.empty()) return;
-  const SampleSummary summary = summarize(differences);
   comparison.found = {.medians = {summarize(both_first).median, summarize(both_second).median},
-                      .difference = summary.median,
-                      .interval = summary.median_interval,
+                      .shift = shift_of(differences),
                       .test = signed_rank(differences)};
 }
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/problem.h"
-#include "study/intervals.h"
 #include "study/plan.h"
 #include "study/rank_tests.h"
+#include "study/shift.h"
 
 namespace lockstep {
 
@@ -21,8 +21,7 @@ struct Comparison {
   // Without a value on one side there is nothing more.
   struct Found {
     std::pair<double, double> medians;
-    double difference = 0;  // of the medians; of a paired study, the median of the differences
-    std::optional<Interval> interval;  // of a paired study: of the median of the differences
+    Shift shift;  // of the second cell; of the same test
     RankTest test;
     double p_holm = 1;
   };

@@ -4,44 +4,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "study/distributions.h"
+#include "study/ranks.h"
 
 namespace lockstep {
-namespace {
-
-struct Ranks {
-  std::vector<double> of;  // each value, from 1; equal ones share theirs
-  double ties = 0;         // the sum of t^3 - t over groups of t equal values
-};
-
-template <class Key>
-std::vector<std::size_t> order_by(std::size_t count, Key key) {
-  std::vector<std::size_t> order(count);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::sort(order, {}, key);
-  return order;
-}
-
-Ranks ranks_of(std::span<const double> values) {
-  const auto order = order_by(values.size(), [&](std::size_t i) { return values[i]; });
-  Ranks ranks{.of = std::vector<double>(values.size())};
-  for (std::size_t first = 0, end = 0; first < order.size(); first = end) {
-    while (end < order.size() && values[order[end]] == values[order[first]]) ++end;
-    const double rank = static_cast<double>(first + 1 + end) / 2;
-    for (std::size_t i = first; i < end; ++i) ranks.of[order[i]] = rank;
-    const auto equal = static_cast<double>(end - first);
-    ranks.ties += equal * equal * equal - equal;
-  }
-  return ranks;
-}
-
-// Of a sum of ranks that is `off` its mean.
-double two_sided(double off, double variance) {
-  if (variance <= 0) return 1;  // all values are equal
-  return normal_two_sided(std::max(0.0, std::abs(off) - 0.5) / std::sqrt(variance));
-}
-
-}  // namespace
 
 RankTest mann_whitney(std::span<const double> first, std::span<const double> second) {
   std::vector<double> all(first.begin(), first.end());
@@ -50,31 +15,33 @@ RankTest mann_whitney(std::span<const double> first, std::span<const double> sec
   const auto m = static_cast<double>(first.size()), n = static_cast<double>(second.size());
   const double sum = std::accumulate(ranks.of.end() - std::ssize(second), ranks.of.end(), 0.0);
   const double off = sum - n * (n + m + 1) / 2;
-  const double variance = m * n / 12 * (m + n + 1 - ranks.ties / ((m + n) * (m + n - 1)));
-  return {.effect = 2 * off / (m * n), .p = two_sided(off, variance)};
+  return {.effect = 2 * off / (m * n), .p = rank_sum_p(off, rank_sum_variance(m, n, ranks.ties))};
 }
 
 RankTest signed_rank(std::span<const double> differences) {
-  std::vector<double> sizes, signs;
-  for (const double difference : differences) {
-    if (difference == 0) continue;
-    sizes.push_back(std::abs(difference));
-    signs.push_back(difference > 0 ? 1 : -1);
-  }
+  std::vector<double> sizes;
+  for (const double difference : differences) sizes.push_back(std::abs(difference));
   const Ranks ranks = ranks_of(sizes);
-  const auto n = static_cast<double>(sizes.size());
-  const double off = std::inner_product(signs.begin(), signs.end(), ranks.of.begin(), 0.0) / 2;
-  const double variance = n * (n + 1) * (2 * n + 1) / 24 - ranks.ties / 48;
-  const double larger = std::accumulate(signs.begin(), signs.end(), 0.0);
-  return {.effect = larger / static_cast<double>(differences.size()),
-          .p = two_sided(off, variance)};
+  double off = 0, larger = 0, zeros = 0;
+  for (std::size_t i = 0; i < differences.size(); ++i) {
+    const double sign = differences[i] > 0 ? 1 : differences[i] < 0 ? -1 : 0;
+    off += sign * ranks.of[i] / 2;
+    larger += sign;
+    zeros += sign == 0 ? 1 : 0;
+  }
+  const auto n = static_cast<double>(differences.size());
+  const double ties = ranks.ties - (zeros * zeros * zeros - zeros);
+  return {.effect = larger / n, .p = rank_sum_p(off, signed_rank_variance(n, zeros, ties))};
 }
 
 std::vector<double> holm(std::span<const double> p) {
+  std::vector<std::size_t> order(p.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return p[i]; });
   std::vector<double> adjusted(p.size());
   double before = 0;
   auto left = static_cast<double>(p.size());
-  for (const std::size_t i : order_by(p.size(), [&](std::size_t at) { return p[at]; })) {
+  for (const std::size_t i : order) {
     before = adjusted[i] = std::clamp(left * p[i], before, 1.0);
     --left;
   }

@@ -18,7 +18,8 @@ struct RankTest {
 RankTest mann_whitney(std::span<const double> first, std::span<const double> second);
 
 // Wilcoxon's signed ranks, of the differences within pairs, second less first; at least one. Pairs
-// without a difference count in the effect only.
+// without a difference have ranks and no sign, as Pratt (1959) has it. Without their ranks, the
+// test may reject a shift of 0 but not the shifts around it.
 RankTest signed_rank(std::span<const double> differences);
 
 // Holm: what each p is when all are looked at.

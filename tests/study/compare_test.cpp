@@ -58,8 +58,10 @@ TEST_CASE("two cells that differ are found to differ, in either order") {
   CHECK(distance["measure"] == "progress-distance");
   CHECK(distance["median_a"] == medians.at(0));
   CHECK(distance["median_b"] == medians.at(3));
-  CHECK(distance["difference"] == medians.at(3) - medians.at(0));
-  CHECK(distance["difference_low"].is_null());
+  CHECK(distance["difference"].get<double>() == Approx(medians.at(3) - medians.at(0)).epsilon(0.1));
+  CHECK(distance["difference_low"] < distance["difference"]);
+  CHECK(distance["difference"] < distance["difference_high"]);
+  CHECK(distance["difference_high"] < 0);
   CHECK(distance["effect"] < -0.9);
   CHECK(distance["p"] < 1e-6);
   CHECK(distance["p_holm"] == 3 * distance["p"].get<double>());
@@ -69,6 +71,8 @@ TEST_CASE("two cells that differ are found to differ, in either order") {
   const auto turned = compared(it, "out", "1", "0")["measures"][0];
   CHECK(turned["effect"] == -distance["effect"].get<double>());
   CHECK(turned["p"] == distance["p"]);
+  CHECK(turned["difference"] == -distance["difference"].get<double>());
+  CHECK(turned["difference_low"] == -distance["difference_high"].get<double>());
 }
 
 TEST_CASE("the cells of a paired study are compared run by run") {
@@ -85,12 +89,16 @@ TEST_CASE("the cells of a paired study are compared run by run") {
     differences.push_back(values[80 + run] - values[40 + run]);
     larger += differences.back() > 0 ? 1 : -1;
   }
-  std::sort(differences.begin(), differences.end());
+  std::vector<double> means;  // of each two, and of each with itself
+  for (std::size_t i = 0; i < 40; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) means.push_back((differences[i] + differences[j]) / 2);
+  }
+  std::sort(means.begin(), means.end());
   CHECK(distance["n_a"] == 40);
   CHECK(distance["effect"].get<double>() == Approx(larger / 40.0));
-  CHECK(distance["difference"].get<double>() == Approx((differences[19] + differences[20]) / 2));
-  CHECK(distance["difference_low"] == differences[13]);  // ranks 14 and 27 of 40
-  CHECK(distance["difference_high"] == differences[26]);
+  CHECK(distance["difference"].get<double>() == Approx((means[409] + means[410]) / 2));
+  CHECK(distance["difference_low"] == means[263]);  // the 264th of 820 from either end
+  CHECK(distance["difference_high"] == means[556]);
   CHECK(distance["p"] < 1e-4);
 }
 
@@ -120,8 +128,44 @@ TEST_CASE("a comparison is a table") {
   CHECK(all[1] == "B: cell 2, noise=0.05, barrier_count=20");
   CHECK(all[2] == "paired runs, Wilcoxon signed-rank test");
   CHECK(all[4].starts_with("node "));
+  CHECK(contains(all[4], "  B - A  "));
+  CHECK(contains(all[4], "  95 % of B - A  "));
   CHECK(all[4].ends_with("p (Holm)"));
   CHECK(all[5].starts_with("Example5/parallel "));
+}
+
+TEST_CASE("the interval of the difference has 0 exactly if p is not below 0.05") {
+  const StudyCase it;
+  for (const Strings& more : {Strings{}, Strings{"--paired"}}) {
+    Strings arguments{kPaper + "example5.xml",
+                      "--runs",
+                      "60",
+                      "--grid",
+                      "noise=0.05",
+                      "--grid",
+                      "barrier_count=0,1,2,3,4,10,11,12,20,21,22,23"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const std::string out = more.empty() ? "independent" : "paired";
+    it.make(arguments, out);
+    int different = 0;
+    for (int cell = 1; cell < 12; ++cell) {
+      const auto distance =
+          compared(it, out, std::to_string(cell - 1), std::to_string(cell))["measures"][0];
+      INFO(distance);
+      const bool has_zero = distance["difference_low"] <= 0 && 0 <= distance["difference_high"];
+      CHECK(has_zero == (distance["p"] >= 0.05));
+      different += has_zero ? 0 : 1;
+    }
+    CHECK(different > 0);
+    CHECK(different < 11);
+  }
+}
+
+TEST_CASE("a p that is too small for a double is not printed as 0") {
+  const StudyCase it;
+  it.make({kPaper + "example5.xml", "--runs", "1500", "--grid", "barrier_count=0,50"}, "out");
+  CHECK(compared(it, "out", "0", "1")["measures"][0]["p"] == 0);
+  CHECK(contains(compare(it, "out", {"--cells", "0", "1"}).out, "<1e-300   <1e-300"));
 }
 
 TEST_CASE("what has no value in a cell is compared with nothing") {
@@ -136,7 +180,8 @@ TEST_CASE("what has no value in a cell is compared with nothing") {
   const auto json = compared(it, "out", "0", "1");
   const auto& missing = json["measures"][0];
   CHECK(missing["n_b"] == 0);
-  for (const char* key : {"median_a", "median_b", "difference", "effect", "p", "p_holm"})
+  for (const char* key :
+       {"median_a", "median_b", "difference", "difference_low", "effect", "p", "p_holm"})
     CHECK(missing[key].is_null());
   CHECK(json["measures"][1]["p_holm"] == json["measures"][1]["p"]);  // one test was made
   CHECK(compare(it, "out", {"--cells", "0", "1"}).code == 0);

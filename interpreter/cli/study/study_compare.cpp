@@ -33,6 +33,10 @@ std::string_view test_name(const StudyPlan& plan) {
   return plan.paired ? "Wilcoxon signed-rank" : "Mann-Whitney";
 }
 
+std::string p_text(double p) {
+  return p < 1e-300 ? "<1e-300" : fmt::format("{:.2g}", p);
+}
+
 TableRow table_row(const Comparison& it) {
   TableRow row{printable(it.node), printable(it.measure), fmt::format("{}", it.count.first),
                fmt::format("{}", it.count.second)};
@@ -41,21 +45,20 @@ TableRow table_row(const Comparison& it) {
     return row;
   }
   const Comparison::Found& found = *it.found;
-  for (const double value : {found.medians.first, found.medians.second, found.difference})
+  for (const double value : {found.medians.first, found.medians.second, found.shift.estimate})
     row.push_back(fmt::format("{:.6g}", value));
-  row.push_back(found.interval
-                    ? fmt::format("[{:.6g}, {:.6g}]", found.interval->low, found.interval->high)
-                    : "-");
+  const auto& interval = found.shift.interval;
+  row.push_back(interval ? fmt::format("[{:.6g}, {:.6g}]", interval->low, interval->high) : "-");
   row.push_back(fmt::format("{:.3g}", found.test.effect));
-  row.push_back(fmt::format("{:.2g}", found.test.p));
-  row.push_back(fmt::format("{:.2g}", found.p_holm));
+  row.push_back(p_text(found.test.p));
+  row.push_back(p_text(found.p_holm));
   return row;
 }
 
 std::string comparison_table(const StudyPlan& plan, CellPair cells,
                              const std::vector<Comparison>& all) {
   std::vector<TableRow> rows{{"node", "measure", "n A", "n B", "median A", "median B", "B - A",
-                              "95 %", "effect", "p", "p (Holm)"}};
+                              "95 % of B - A", "effect", "p", "p (Holm)"}};
   for (const Comparison& it : all) rows.push_back(table_row(it));
   return cell_line(plan, 'A', cells.first) + cell_line(plan, 'B', cells.second) +
          fmt::format("{} runs, {} test\n\n", plan.paired ? "paired" : "independent",
@@ -82,9 +85,10 @@ Json measure_json(const Comparison& it) {
   const Comparison::Found numbers = found.value_or(Comparison::Found{});
   add("median_a", numbers.medians.first);
   add("median_b", numbers.medians.second);
-  add("difference", numbers.difference);
-  json["difference_low"] = numbers.interval ? Json(numbers.interval->low) : Json();
-  json["difference_high"] = numbers.interval ? Json(numbers.interval->high) : Json();
+  add("difference", numbers.shift.estimate);
+  const auto& interval = numbers.shift.interval;
+  json["difference_low"] = interval ? Json(interval->low) : Json();
+  json["difference_high"] = interval ? Json(interval->high) : Json();
   add("effect", numbers.test.effect);
   add("p", numbers.test.p);
   add("p_holm", numbers.p_holm);
@@ -141,7 +145,9 @@ std::function<int()> define_compare(CLI::App& app) {
       ->required();
   app.add_flag("--json", options->json, "Print the comparison as JSON");
   app.footer(
-      "Says whether the cells differ by more than chance; see docs/studies.md.\n"
+      "Says whether the cells differ by more than chance, and by how much: B - A is the shift\n"
+      "of Hodges and Lehmann. Its 95 % interval are the shifts that the test does not reject,\n"
+      "so it leaves out 0 when p is below 0.05. See docs/studies.md.\n"
       "Exit code: 0 compared, 2 usage or a study that cannot be read or is not complete.\n"
       "\n"
       "Example:\n"

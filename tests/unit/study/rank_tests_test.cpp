@@ -72,6 +72,25 @@ TEST_CASE("rank tests: signed ranks are near to what all signs give") {
   }
 }
 
+TEST_CASE("rank tests: a pair without a difference has a rank") {
+  // By hand: ranks 4 to 9 for 2 to 7, 3 for -1; half of their sum with signs is 18, of the variance
+  // (9 * 10 * 19 - 2 * 3 * 5) / 24 = 70.
+  const Values few{0, 0, 2, 3, 4, 5, 6, 7, -1};
+  CHECK(signed_rank(few).p == Approx(std::erfc(17.5 / std::sqrt(2 * 70.0))));
+  CHECK(signed_rank(few).effect == Approx(5.0 / 9));
+  // Without it, p would be 0.017 of these, and 0.12 or more when all are a little larger or
+  // smaller.
+  Values many(20, 0.0);
+  for (int size = 1; size <= 100; ++size) many.push_back(size <= 60 ? -size : size);
+  const auto p_after = [&](double by) {
+    Values shifted = many;
+    for (double& value : shifted) value += by;
+    return signed_rank(shifted).p;
+  };
+  CHECK(p_after(1e-9) < p_after(0));
+  CHECK(p_after(0) < p_after(-1e-9));
+}
+
 TEST_CASE("rank tests: equal values say nothing") {
   CHECK(mann_whitney(Values{2, 2, 2}, Values{2, 2}).p == 1);
   CHECK(mann_whitney(Values{2, 2, 2}, Values{2, 2}).effect == 0);

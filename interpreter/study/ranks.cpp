@@ -1,0 +1,41 @@
+#include "study/ranks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "study/distributions.h"
+
+namespace lockstep {
+
+Ranks ranks_of(std::span<const double> values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return values[i]; });
+  Ranks ranks{.of = std::vector<double>(values.size())};
+  for (std::size_t first = 0, end = 0; first < order.size(); first = end) {
+    while (end < order.size() && values[order[end]] == values[order[first]]) ++end;
+    const double rank = static_cast<double>(first + 1 + end) / 2;
+    for (std::size_t i = first; i < end; ++i) ranks.of[order[i]] = rank;
+    const auto equal = static_cast<double>(end - first);
+    ranks.ties += equal * equal * equal - equal;
+  }
+  return ranks;
+}
+
+double rank_sum_variance(double first, double second, double ties) {
+  const double all = first + second;
+  return first * second / 12 * (all + 1 - ties / (all * (all - 1)));
+}
+
+double signed_rank_variance(double count, double zeros, double ties) {
+  const auto squares = [](double n) { return n * (n + 1) * (2 * n + 1); };  // of 1 to n, six times
+  return (squares(count) - squares(zeros)) / 24 - ties / 48;
+}
+
+double rank_sum_p(double off, double variance) {
+  if (variance <= 0) return 1;
+  return normal_two_sided(std::max(0.0, std::abs(off) - 0.5) / std::sqrt(variance));
+}
+
+}  // namespace lockstep

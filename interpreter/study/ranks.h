@@ -1,0 +1,28 @@
+// Ranks of values, and how far a sum of them is from its mean by chance. What the tests of ranks
+// and the intervals of shifts have in common, so that they agree.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace lockstep {
+
+struct Ranks {
+  std::vector<double> of;  // each value, from 1; equal ones share theirs
+  double ties = 0;         // the sum of t^3 - t over groups of t equal values
+};
+
+Ranks ranks_of(std::span<const double> values);
+
+// Of the ranks that one of two samples of these sizes has among both (Hollander, Wolfe 1999, 4.1).
+double rank_sum_variance(double first, double second, double ties);
+// Of half of the ranks of |differences|, each with the sign of its difference. Zeros have ranks,
+// but no sign (Pratt 1959); `ties` are those of the others (Hollander, Wolfe 1999, 3.1).
+double signed_rank_variance(double count, double zeros, double ties);
+
+// How likely a sum is so far from its mean, two-sided: from the normal distribution, with a
+// correction for continuity. 1 without variance: all values are equal.
+double rank_sum_p(double off, double variance);
+
+}  // namespace lockstep
