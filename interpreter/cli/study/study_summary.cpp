@@ -16,8 +16,6 @@ namespace {
 
 constexpr char kNone[] = "-";
 
-constexpr char kInterval[] = "95 %";  // of the column before it
-
 std::string interval_text(const Interval& it, double unit, int digits) {
   return fmt::format("[{:.{}g}, {:.{}g}]", it.low * unit, digits, it.high * unit, digits);
 }
@@ -28,7 +26,7 @@ TableRow head_of(const StudyPlan& plan) {
   for (const std::string_view name : kSummaryColumns) {
     head.emplace_back(name);
     if (name == "median" || std::ranges::find(kResultNames, name) != kResultNames.end())
-      head.emplace_back(kInterval);
+      head.push_back(fmt::format("95 % of {}", name));
   }
   return head;
 }
