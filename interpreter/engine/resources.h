@@ -39,6 +39,9 @@ inline bool is_pool(const Tree& tree, NodeIndex node) {
 inline bool waits(double limit) {
   return limit < 0;
 }
+inline bool owns(double limit) {
+  return limit > 0;
+}
 // The set that it waits for, or owns.
 inline ResourceSet resource_set(double limit) {
   return static_cast<ResourceSet>(std::fabs(limit));

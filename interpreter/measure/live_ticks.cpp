@@ -34,10 +34,12 @@ MeasuredTree measured_tree(const Tree& tree) {
 }
 
 LiveTicks::LiveTicks(const Tree& tree, const Measuring& measuring)
-    : slots_(measuring.entries().begin(), measuring.entries().end()),
+    : users_(measuring.users().begin(), measuring.users().end()),
+      slots_(measuring.entries().begin(), measuring.entries().end()),
       numbers_(slots_.size()),
       parallel_ticks_(measuring.parallels().size()),
-      node_ticks_(measuring.nodes().size()) {
+      node_ticks_(measuring.nodes().size()),
+      user_ticks_(users_.size()) {
   for (const NodeIndex node : measuring.parallels()) {
     parallels_.emplace_back(tree, node, measuring.needs_held());
   }
@@ -76,6 +78,9 @@ TickView LiveTicks::read(Ticker& ticker, std::uint64_t tick, Nanoseconds time) {
       if (!is_left_out(used)) node_ticks_[i].progress = used;
     }
   }
+  for (std::size_t i = 0; i < users_.size(); ++i) {
+    user_ticks_[i] = {ticker.ticked(users_[i]), limit(ticker, users_[i])};
+  }
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     numbers_[i] = number_of(ticker.blackboard().entries[slots_[i]].value);
   }
@@ -83,6 +88,7 @@ TickView LiveTicks::read(Ticker& ticker, std::uint64_t tick, Nanoseconds time) {
           .time = time,
           .parallels = parallel_ticks_,
           .nodes = node_ticks_,
+          .users = user_ticks_,
           .entries = numbers_};
 }
 

@@ -28,10 +28,12 @@ class LiveTicks {
   };
   std::vector<SynchronizedProbe> parallels_;
   std::vector<Node> nodes_;
+  std::vector<NodeIndex> users_;
   std::vector<std::size_t> slots_;
   std::vector<double> numbers_;  // in them
   std::vector<SynchronizedTick> parallel_ticks_;
   std::vector<NodeTick> node_ticks_;
+  std::vector<ResourceTick> user_ticks_;
 };
 
 }  // namespace lockstep

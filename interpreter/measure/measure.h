@@ -31,16 +31,21 @@ enum class MeasureOf : std::uint8_t {
   Run,
   Parallel,  // each parallel of the tree, synchronized or not
   Child,     // the child of a synchronized node that the argument names
+  Pair,      // a child of a synchronized node, and another one, which the argument names too
+  User,      // the node that uses resources that the argument names
+  Pool,      // the pool of resources that the argument names
   Node,      // the node that the argument names
   Entry,     // the blackboard entry that the argument names
 };
 
 // Where an accumulator finds its input.
 struct MeasureTarget {
-  // In TickView::parallels (Parallel, Child), TickView::nodes (Node) or TickView::entries (Entry).
+  // In TickView::parallels (Parallel, Child, Pair), TickView::users (User; Pool: its first member,
+  // the others follow), TickView::nodes (Node) or TickView::entries (Entry).
   std::size_t place = 0;
-  std::size_t children = 0;  // of the parallel
+  std::size_t children = 0;  // of the parallel or the pool
   std::size_t child = 0;     // which of them
+  std::size_t other = 0;     // which of them the argument names second
 };
 
 struct Measure;
@@ -49,7 +54,8 @@ struct Measure;
 struct MeasureSpec {
   const Measure* measure = nullptr;
   std::string argument = {};         // as to_text() writes it: ":arm@0.6=600"
-  std::string name = {};             // of the node or the entry
+  std::string name = {};             // of the node, the pool or the entry
+  std::string other = {};            // of the second node, if it names two
   std::vector<double> numbers = {};  // the rest of the argument; the row knows their meaning
 
   friend bool operator==(const MeasureSpec&, const MeasureSpec&) = default;

@@ -74,8 +74,14 @@ std::string axis_label(const MeasureSpec& spec) {
 }
 
 std::string_view to_string(MeasureOf of) {
-  constexpr std::string_view kNames[] = {"the run", "each parallel",
-                                         "a child of a synchronized node", "a node", "the run"};
+  constexpr std::string_view kNames[] = {"the run",
+                                         "each parallel",
+                                         "a child of a synchronized node",
+                                         "two children of a synchronized node",
+                                         "a UseResources",
+                                         "a pool of resources",
+                                         "a node",
+                                         "the run"};
   return kNames[static_cast<unsigned>(of)];
 }
 

@@ -3,7 +3,8 @@
 namespace lockstep {
 
 extern const Measure kProgressDistance, kProgressDistanceMean, kProgressDistanceSeconds, kSpread,
-    kStepLength, kHeld, kPauses, kDuration, kTicks, kSuccess, kEntry, kPredictability;
+    kStepLength, kHeld, kHeldBy, kPauses, kWaits, kFairness, kDuration, kTicks, kSuccess, kEntry,
+    kPredictability;
 
 // In the order in which they are documented.
 std::span<const Measure* const> all_measures() {
@@ -13,7 +14,10 @@ std::span<const Measure* const> all_measures() {
                                                  &kSpread,
                                                  &kStepLength,
                                                  &kHeld,
+                                                 &kHeldBy,
                                                  &kPauses,
+                                                 &kWaits,
+                                                 &kFairness,
                                                  &kDuration,
                                                  &kTicks,
                                                  &kSuccess,

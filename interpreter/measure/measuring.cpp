@@ -1,6 +1,7 @@
 #include "measure/measuring.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "measure/measure_spec.h"
 
@@ -18,6 +19,91 @@ bool is_number(std::string_view type) {
   return std::ranges::any_of(kTypes, [&](ValueType it) { return type == to_string(it); });
 }
 
+// A node, and who may hold it.
+struct Kept {
+  NodeIndex keeper = 0;
+  std::size_t child = 0;  // its place among the children of the keeper
+};
+
+// By the first one that may. A SyncProgress stands for its child.
+std::optional<Kept> find_kept(const MeasuredTree& tree, std::size_t node) {
+  for (NodeIndex keeper = 0; keeper < tree.nodes.size(); ++keeper) {
+    if (tree.nodes[keeper].synchronization == Synchronization::None) continue;
+    const auto& children = tree.nodes[keeper].children;
+    const auto child = std::ranges::find_if(children, [&](NodeIndex held) {
+      const NodeIndex around = tree.nodes[held].parent;
+      return held == node || (around == node && around != keeper);
+    });
+    if (child == children.end()) continue;
+    return Kept{.keeper = keeper, .child = static_cast<std::size_t>(child - children.begin())};
+  }
+  return std::nullopt;
+}
+
+// Nodes to choose from by the ends of their paths.
+class Choice {
+ public:
+  explicit Choice(const MeasuredTree& tree) : tree_(tree), is_in_(tree.paths.size()) {}
+
+  // `node` is named, `what` is meant. The first for a node counts.
+  void add(NodeIndex node, NodeIndex what) {
+    if (is_in_[node]) return;
+    is_in_[node] = true;
+    paths.push_back(tree_.paths[node]);
+    meant.push_back(what);
+  }
+
+  std::vector<std::string> paths;
+  std::vector<NodeIndex> meant;
+
+ private:
+  const MeasuredTree& tree_;
+  std::vector<bool> is_in_;
+};
+
+// The other children of a keeper, by their places among them.
+Choice neighbors(const MeasuredTree& tree, const Kept& kept) {
+  Choice choice(tree);
+  const auto& children = tree.nodes[kept.keeper].children;
+  for (NodeIndex other = 0; other < children.size(); ++other) {
+    if (other == kept.child) continue;
+    choice.add(children[other], other);
+    const NodeIndex around = tree.nodes[children[other]].parent;
+    if (around != kept.keeper) choice.add(around, other);
+  }
+  return choice;
+}
+
+Choice all_pools(const MeasuredTree& tree) {
+  Choice choice(tree);
+  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
+    if (tree.nodes[node].synchronization == Synchronization::Resources) choice.add(node, node);
+  }
+  return choice;
+}
+
+// The nodes that use resources of a pool are the parents of what it holds.
+std::vector<NodeIndex> users_of(const MeasuredTree& tree, NodeIndex pool) {
+  std::vector<NodeIndex> users;
+  for (const NodeIndex child : tree.nodes[pool].children) users.push_back(tree.nodes[child].parent);
+  return users;
+}
+
+// Of all pools. One also goes by its child, which often has the better name.
+Choice all_users(const MeasuredTree& tree) {
+  Choice choice(tree);
+  const Choice all = all_pools(tree);
+  for (const NodeIndex pool : all.meant) {
+    for (const NodeIndex user : users_of(tree, pool)) choice.add(user, user);
+  }
+  for (const NodeIndex pool : all.meant) {
+    for (const NodeIndex child : tree.nodes[pool].children) {
+      choice.add(child, tree.nodes[child].parent);
+    }
+  }
+  return choice;
+}
+
 }  // namespace
 
 Measuring::Measuring(const MeasuredTree& tree, std::span<const MeasureSpec> specs) {
@@ -31,6 +117,15 @@ Measuring::Measuring(const MeasuredTree& tree, std::span<const MeasureSpec> spec
         break;
       case MeasureOf::Child:
         add_child(spec, tree);
+        break;
+      case MeasureOf::Pair:
+        add_pair(spec, tree);
+        break;
+      case MeasureOf::User:
+        add_user(spec, tree);
+        break;
+      case MeasureOf::Pool:
+        add_pool(spec, tree);
         break;
       case MeasureOf::Node:
         add_node(spec, tree);
@@ -66,24 +161,68 @@ void Measuring::add_child(const MeasureSpec& spec, const MeasuredTree& tree) {
     error_ = node.error().message;
     return;
   }
-  for (NodeIndex keeper = 0; keeper < tree.nodes.size(); ++keeper) {
-    if (tree.nodes[keeper].synchronization == Synchronization::None) continue;
-    const auto& children = tree.nodes[keeper].children;
-    // A SyncProgress stands for its child.
-    const auto child = std::ranges::find_if(children, [&](NodeIndex held) {
-      const NodeIndex around = tree.nodes[held].parent;
-      return held == *node || (around == *node && around != keeper);
-    });
-    if (child == children.end()) continue;
-    needs_held_ = true;
-    MeasureTarget target = target_of(tree, keeper);
-    target.child = static_cast<std::size_t>(child - children.begin());
-    add(spec, tree.paths[*node], target);
+  const auto kept = find_kept(tree, *node);
+  if (!kept) {
+    error_ = "'" + tree.paths[*node] +
+             "' is not a child of a synchronized node, of a SyncProgress or of a UseResources, so "
+             "it is never held";
     return;
   }
-  error_ = "'" + tree.paths[*node] +
-           "' is not a child of a synchronized node, of a SyncProgress or of a UseResources, so it "
-           "is never held";
+  needs_held_ = true;
+  MeasureTarget target = target_of(tree, kept->keeper);
+  target.child = kept->child;
+  add(spec, tree.paths[*node], target);
+}
+
+void Measuring::add_pair(const MeasureSpec& spec, const MeasuredTree& tree) {
+  const auto node = find_path(tree.paths, spec.name);
+  if (!node) {
+    error_ = node.error().message;
+    return;
+  }
+  const std::string& path = tree.paths[*node];
+  const auto kept = find_kept(tree, *node);
+  if (!kept || !compares_progress(tree.nodes[kept->keeper].synchronization)) {
+    error_ = "'" + path +
+             "' is not a child of a synchronized node or of a SyncProgress, so no other child "
+             "holds it";
+    return;
+  }
+  const Choice others = neighbors(tree, *kept);
+  const auto other = find_path(others.paths, spec.other, "child beside '" + path + "' named");
+  if (!other) {
+    error_ = other.error().message;
+    return;
+  }
+  needs_held_ = true;
+  MeasureTarget target = target_of(tree, kept->keeper);
+  target.child = kept->child;
+  target.other = others.meant[*other];
+  add(spec, path, target);
+}
+
+void Measuring::add_user(const MeasureSpec& spec, const MeasuredTree& tree) {
+  const Choice choice = all_users(tree);
+  const auto user = find_path(choice.paths, spec.name, "UseResources");
+  if (!user) {
+    error_ = user.error().message;
+    return;
+  }
+  const NodeIndex node = choice.meant[*user];
+  add(spec, tree.paths[node], {.place = users_.size()});
+  users_.push_back(node);
+}
+
+void Measuring::add_pool(const MeasureSpec& spec, const MeasuredTree& tree) {
+  const Choice choice = all_pools(tree);
+  const auto pool = find_path(choice.paths, spec.name, "pool");
+  if (!pool) {
+    error_ = pool.error().message;
+    return;
+  }
+  const auto members = users_of(tree, choice.meant[*pool]);
+  add(spec, choice.paths[*pool], {.place = users_.size(), .children = members.size()});
+  users_.insert(users_.end(), members.begin(), members.end());
 }
 
 void Measuring::add_node(const MeasureSpec& spec, const MeasuredTree& tree) {

@@ -46,6 +46,7 @@ class Measuring {
   // What a TickView must contain, in this order.
   std::span<const NodeIndex> parallels() const { return parallels_; }
   std::span<const NodeIndex> nodes() const { return nodes_; }
+  std::span<const NodeIndex> users() const { return users_; }
   std::span<const std::size_t> entries() const { return entries_; }
   // Whether it must also contain which children are held.
   bool needs_held() const { return needs_held_; }
@@ -60,13 +61,16 @@ class Measuring {
   void add(const MeasureSpec& spec, std::string node, const MeasureTarget& target);
   void add_parallels(const MeasureSpec& spec, const MeasuredTree& tree);
   void add_child(const MeasureSpec& spec, const MeasuredTree& tree);
+  void add_pair(const MeasureSpec& spec, const MeasuredTree& tree);
+  void add_user(const MeasureSpec& spec, const MeasuredTree& tree);
+  void add_pool(const MeasureSpec& spec, const MeasuredTree& tree);
   void add_node(const MeasureSpec& spec, const MeasuredTree& tree);
   void add_entry(const MeasureSpec& spec, const MeasuredTree& tree);
   MeasureTarget target_of(const MeasuredTree& tree, NodeIndex parallel);
 
   std::vector<Column> columns_;
   std::vector<std::unique_ptr<Accumulator>> accumulators_;  // of each column
-  std::vector<NodeIndex> parallels_, nodes_;
+  std::vector<NodeIndex> parallels_, nodes_, users_;
   std::vector<std::size_t> entries_;
   std::map<NodeIndex, std::size_t> places_;  // of the parallels
   bool needs_held_ = false;

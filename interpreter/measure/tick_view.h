@@ -35,12 +35,19 @@ struct NodeTick {
   double progress = 0;  // before the tick, as its parent used it
 };
 
+// Of a node that uses resources, after a tick of the run.
+struct ResourceTick {
+  bool ticked = false;  // did the tick reach it?
+  double limit = 0;     // what it owns or waits for: engine/resources.h
+};
+
 struct TickView {
   std::uint64_t tick = 0;  // the first is 0
   Nanoseconds time{0};     // when it began, since the run began
   // Only what is measured, in the order of MeasureTarget::place.
   std::span<const SynchronizedTick> parallels = {};
   std::span<const NodeTick> nodes = {};
+  std::span<const ResourceTick> users = {};
   std::span<const double> entries = {};  // after the tick; NaN: it has no number
 };
 

@@ -67,6 +67,48 @@ TEST_CASE("studies: step length, duration and predictability of a known run") {
   CHECK(column(runs, "predictability:a@1 Main/sync/a") == std::vector<double>{10});
 }
 
+TEST_CASE("studies: how long the members of a pool waited, and how evenly they shared it") {
+  const StudyCase it;
+  const std::string tree = LOCKSTEP_SOURCE_DIR "/trees/sequel/philosophers.xml";
+  it.make({tree, "--runs", "1", "--grid", "increment=0,1", "--max-ticks", "15", "--measure",
+           "waits:first", "--measure", "waits:second", "--measure", "waits:table/UseResources#3",
+           "--measure", "fairness:forks"},
+          "out");
+  const std::string runs = it.read("out", "runs.csv");
+  const std::string user = " Philosophers/table/UseResources";
+  CHECK(column(runs, "waits:first" + user) == std::vector<double>{0, 2});
+  CHECK(column(runs, "waits:second" + user + "#2") == std::vector<double>{10, 2});
+  CHECK(column(runs, "waits:table/UseResources#3" + user + "#3") == std::vector<double>{15, 2});
+  const auto fairness = column(runs, "fairness:forks Philosophers/forks");
+  CHECK(fairness.at(0) == Approx(225. / (3 * 125)));
+  CHECK(fairness.at(1) == 1);
+}
+
+TEST_CASE("studies: names with a colon are in quotes, as a measure and as a column") {
+  const StudyCase it;
+  const auto tree =
+      it.file("tree.xml", tree_text("<ParallelAbsolute barriers=\"0.5;1\" name=\"lift\">"
+                                    "<Advance name=\"lift:left\" step=\"0.1\"/>"
+                                    "<Advance name=\"lift:right\" step=\"0.3\"/>"
+                                    "</ParallelAbsolute>"));
+  const std::string by = "held-by:\"lift:right\":\"lift:left\"";
+  const Strings study{tree, "--runs", "2", "--measure", by, "--measure", "held:lift:right"};
+  it.make(study, "out");
+  const std::string runs = it.read("out", "runs.csv");
+  const std::string name = "\"held-by:\"\"lift:right\"\":\"\"lift:left\"\" Main/lift/lift:right\"";
+  CHECK(column(runs, name) == std::vector<double>{3, 3});
+  CHECK(column(runs, "held:lift:right Main/lift/lift:right") == std::vector<double>{3, 3});
+  const std::string before = it.bytes("out");
+  auto again = study;
+  again.emplace_back("--resume");
+  it.make(again, "out");
+  CHECK(it.bytes("out") == before);
+  const Outcome unquoted =
+      it.study({tree, "--runs", "1", "--measure", "held-by:lift:right:lift:left"}, "no");
+  CHECK(unquoted.code == 2);
+  CHECK(contains(unquoted.err, "one that contains ':' is written in quotes"));
+}
+
 TEST_CASE("studies: the seed of a run gives the same run to lockstep run, bit for bit") {
   const StudyCase it;
   const std::string tree = kPaper + "example5.xml";

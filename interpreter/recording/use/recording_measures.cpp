@@ -53,6 +53,7 @@ class RecordedTicks {
       : measuring_(measuring),
         parallel_ticks_(measuring.parallels().size()),
         node_ticks_(measuring.nodes().size()),
+        user_ticks_(measuring.users().size()),
         numbers_(header.entries.size(), kNoValue),
         measured_numbers_(measuring.entries().size()) {
     auto children = children_of(header);
@@ -71,11 +72,16 @@ class RecordedTicks {
       const RecordedState& state = tick.nodes[measuring_.nodes()[i]];
       node_ticks_[i] = {state.ticked, state.status, state.progress};
     }
+    for (std::size_t i = 0; i < user_ticks_.size(); ++i) {
+      const RecordedState& state = tick.nodes[measuring_.users()[i]];
+      user_ticks_[i] = {state.ticked, state.limit};
+    }
     for (const RecordedEntry& entry : tick.entries) numbers_[entry.entry] = number_of(entry);
     for (std::size_t i = 0; i < measured_numbers_.size(); ++i) {
       measured_numbers_[i] = numbers_[measuring_.entries()[i]];
     }
-    return {tick.tick, from_seconds(tick.time), parallel_ticks_, node_ticks_, measured_numbers_};
+    return {tick.tick,   from_seconds(tick.time), parallel_ticks_, node_ticks_,
+            user_ticks_, measured_numbers_};
   }
 
  private:
@@ -83,6 +89,7 @@ class RecordedTicks {
   std::vector<RecordedProbe> parallels_;
   std::vector<SynchronizedTick> parallel_ticks_;
   std::vector<NodeTick> node_ticks_;
+  std::vector<ResourceTick> user_ticks_;
   std::vector<double> numbers_;  // of all entries
   std::vector<double> measured_numbers_;
 };

@@ -45,50 +45,73 @@ constexpr Case kCases[] = {
     {"a child that is skipped, at first and later, and begins again",
      "Repeat[times=2](ParallelAbsolute[barriers=.3;1](a b c))", "a+.2 b+.5 c=KKR.3KR.8SKKS"},
     {"the same in a plain parallel",
-     "Sequence[memory=true](ParallelAbsolute[barriers=.5](b) Repeat[times=2](Parallel(a c)))",
-     "a+.2 b+.5 c=KKR.3KR.8SKKS"},
+     "Sequence[memory=true](ParallelAbsolute[barriers=.5](a b) Repeat[times=2](Parallel(d c)))",
+     "a+.2 b+.5 c=KKR.3KR.8SKKS d+.2"},
 };
+
+constexpr Case kPools[] = {
+    {"members that take turns",
+     "Parallel(UseResources[pool=p resources=A](a) UseResources[pool=p resources=A](b))"
+     " resources[name=p]",
+     "a+.2 b+.3"},
+    {"one that is not reached in each tick, and one that is halted",
+     "Parallel[success_count=1](UseResources[pool=p resources=A;B](a)"
+     " Fallback(Sequence(g? UseResources[pool=p resources=A](b)) c)) resources[name=p increment=0]",
+     "a+.2 b+.3 g=FSSSFS c=R"},
+    {"one that nobody reaches",
+     "Fallback(UseResources[pool=p resources=A](a)"
+     " UseResources[pool=p resources=A](b)) resources[name=p]",
+     "a+.2 b+.3"},
+};
+
+// In all cases; -1: not reached.
+using ValuesOfMeasures = std::map<std::string, std::vector<double>>;
+
+void compare(const Case& it, std::span<const MeasureSpec> measures, ValuesOfMeasures& of_measure) {
+  INFO(it.law);
+  const TemporaryPath file;
+  WatchedRun run(it.tree, it.leaves);
+  Recorder recorder(run.run.tree(),
+                    {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
+  RunMeasures of_run(run.run.tree(), measures, 10);
+  REQUIRE(of_run.error() == "");
+  run.watch({&recorder, &of_run});
+
+  std::istringstream text(file.text());
+  RecordingReader reader(text, "run.jsonl");
+  const auto of_recording = measure_recording(reader, measures).value();
+  CHECK(reader.error() == "");
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < of_run.columns().size(); ++i) {
+    const StudyColumn& column = of_run.columns()[i];
+    INFO(column.measure << ' ' << column.node);
+    if (column.is_gap) {
+      CHECK(of_recording.at(at - 1).gap == of_run.values()[i]);
+      continue;
+    }
+    const MeasuredValue& measured = of_recording.at(at++);
+    CHECK(to_text(*measured.measure) == column.measure);
+    CHECK(measured.node == column.node);
+    const double expected = of_run.values()[i];
+    CHECK((measured.value == expected || (std::isnan(measured.value) && std::isnan(expected))));
+    of_measure[column.measure].push_back(std::isnan(expected) ? -1 : expected);
+  }
+  CHECK(at == of_recording.size());
+}
 
 }  // namespace
 
 TEST_CASE("a recording has the measures of its run") {
   const auto measures =
       measures_of({"progress-distance", "progress-distance[1:3]", "progress-distance-mean",
-                   "progress-distance-seconds", "spread", "step-length", "held:b", "pauses:b",
-                   "duration", "ticks", "success", "predictability:b@0.4=1"});
-  REQUIRE(measures.size() == all_measures().size());      // entry: below; twice progress-distance
-  std::map<std::string, std::vector<double>> of_measure;  // in all cases; -1: not reached
-  for (const Case& it : kCases) {
-    INFO(it.law);
-    const TemporaryPath file;
-    WatchedRun run(it.tree, it.leaves);
-    Recorder recorder(run.run.tree(),
-                      {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
-    RunMeasures of_run(run.run.tree(), measures, 10);
-    REQUIRE(of_run.error() == "");
-    run.watch({&recorder, &of_run});
-
-    std::istringstream text(file.text());
-    RecordingReader reader(text, "run.jsonl");
-    const auto of_recording = measure_recording(reader, measures).value();
-    CHECK(reader.error() == "");
-    std::size_t at = 0;
-    for (std::size_t i = 0; i < of_run.columns().size(); ++i) {
-      const StudyColumn& column = of_run.columns()[i];
-      INFO(column.measure << ' ' << column.node);
-      if (column.is_gap) {
-        CHECK(of_recording.at(at - 1).gap == of_run.values()[i]);
-        continue;
-      }
-      const MeasuredValue& measured = of_recording.at(at++);
-      CHECK(to_text(*measured.measure) == column.measure);
-      CHECK(measured.node == column.node);
-      const double expected = of_run.values()[i];
-      CHECK((measured.value == expected || (std::isnan(measured.value) && std::isnan(expected))));
-      of_measure[column.measure].push_back(std::isnan(expected) ? -1 : expected);
-    }
-    CHECK(at == of_recording.size());
-  }
+                   "progress-distance-seconds", "spread", "step-length", "held:b", "held-by:b:a",
+                   "pauses:b", "duration", "ticks", "success", "predictability:b@0.4=1"});
+  const auto of_pools = measures_of({"waits:a", "waits:b", "held:b", "fairness:p"});
+  // entry: below; twice progress-distance, and waits, and held
+  REQUIRE(measures.size() + of_pools.size() == all_measures().size() + 2);
+  ValuesOfMeasures of_measure;
+  for (const Case& it : kCases) compare(it, measures, of_measure);
+  for (const Case& it : kPools) compare(it, of_pools, of_measure);
   // None of them can pass for another.
   std::set<std::vector<double>> different;
   for (const auto& [measure, numbers] : of_measure) {

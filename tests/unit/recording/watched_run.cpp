@@ -17,7 +17,7 @@ RunEnd WatchedRun::watch(std::initializer_list<Observer*> observers, std::uint64
     const std::uint64_t tick = end.ticks++;
     const Nanoseconds now = start.period * static_cast<std::int64_t>(tick);
     for (Observer* observer : observers) observer->before_tick(ticker, tick, now);
-    end.status = ticker.tick_root(now);
+    end.status = run.tick_root(now);
     end.time = now;
     const TickReport report{
         .tick = tick, .time = now, .status = end.status, .skipped = 0, .faults = faults[tick]};

@@ -1,0 +1,99 @@
+// Measures on random trees: a recording has those of its run, and they keep their laws.
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include "measure/measure_spec.h"
+#include "property/random_tree.h"
+#include "recording/use/recording_measures.h"
+#include "recording/write/recorder.h"
+#include "study/run_measures.h"
+#include "unit/recording/watched_run.h"
+
+namespace lockstep::test {
+namespace {
+
+constexpr int kTrees = 1500;
+constexpr double kRate = 10;  // of WatchedRun
+
+// All measures of a tree with all their arguments, as far as it has such nodes.
+std::vector<MeasureSpec> all_of(const Tree& tree) {
+  const MeasuredTree measured = measured_tree(tree);
+  std::vector<MeasureSpec> specs;
+  const auto add = [&](const std::string& text) {
+    const MeasureSpec spec = parse_measure(text).value();
+    if (Measuring(measured, {&spec, 1}).error().empty()) specs.push_back(spec);
+  };
+  for (const char* text : {"progress-distance", "progress-distance[1:3]", "spread", "step-length",
+                           "duration", "ticks", "success"}) {
+    add(text);
+  }
+  for (const std::string& path : measured.paths) {
+    for (const char* measure : {"held", "pauses", "waits", "fairness"}) {
+      add(fmt::format("{}:{}", measure, path));
+    }
+    add(fmt::format("predictability:{}@0.5", path));
+    for (const std::string& other : measured.paths) add(fmt::format("held-by:{}:{}", path, other));
+  }
+  return specs;
+}
+
+bool are_same(double one, double other) {
+  return one == other || (std::isnan(one) && std::isnan(other));
+}
+
+// What was measured of a run, by the path of the node.
+struct Measured {
+  std::map<std::string, double> held, held_by;  // by all others
+};
+
+}  // namespace
+
+TEST_CASE("a recording of a random tree has the measures of its run") {
+  std::map<std::string_view, int> above_zero;  // how often each measure was
+  for (std::uint64_t seed = 0; seed < kTrees; ++seed) {
+    const Trial trial = random_trial(seed);
+    INFO("seed " << seed << ": " << tree_text(trial.plan) << ", " << leaves_text(trial.plan));
+    WatchedRun run(tree_text(trial.plan), leaves_text(trial.plan));
+    const TemporaryPath file;
+    Recorder recorder(run.run.tree(),
+                      {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = kRate}});
+    const auto specs = all_of(run.run.tree());
+    RunMeasures of_run(run.run.tree(), specs, kRate);
+    REQUIRE(of_run.error() == "");
+    run.watch({&recorder, &of_run}, static_cast<std::uint64_t>(trial.ticks));
+
+    std::istringstream text(file.text());
+    RecordingReader reader(text, "run.jsonl");
+    const auto of_recording = measure_recording(reader, specs);
+    REQUIRE(of_recording);
+    Measured measured;
+    std::size_t at = 0;
+    for (const MeasuredValue& value : *of_recording) {
+      const std::string name = to_text(*value.measure);
+      const double expected = of_run.values()[at++];
+      INFO(name << " of " << value.node << ": " << value.value << ", of the run " << expected);
+      CHECK(are_same(value.value, expected));
+      if (value.gap) CHECK(are_same(*value.gap, of_run.values()[at++]));
+      above_zero[value.measure->measure->name] += expected > 0;
+      if (name.starts_with("held:")) measured.held[value.node] = expected;
+      if (name.starts_with("held-by:")) measured.held_by[value.node] += expected;
+    }
+    if (run.run.ticker().fault() != nullptr) continue;  // who was not ticked then was not held
+    for (const auto& [node, sum] : measured.held_by) {
+      INFO("held-by of " << node);
+      CHECK(are_same(sum, measured.held.at(node)));
+    }
+  }
+  for (const Measure* measure : all_measures()) {
+    if (measure->of == MeasureOf::Entry || measure->name.starts_with("progress-distance-"))
+      continue;
+    INFO(measure->name);
+    CHECK(above_zero[measure->name] > 100);
+  }
+}
+
+}  // namespace lockstep::test
