@@ -13,6 +13,9 @@ void FallWatch::after_tick(const SynchronizedTick& tick) {
       std::optional<Fall>& first = was_held_[child] ? while_held_ : while_ticked_;
       if (!first) first = Fall{child, tick.time};
     }
+    if (runs_ && was_held_[child] && tick.progress[child] > last_[child] + kRounding) {
+      if (!rise_while_held_) rise_while_held_ = Fall{child, tick.time};
+    }
     last_[child] = tick.progress[child];
     was_held_[child] = tick.held[child];
   }

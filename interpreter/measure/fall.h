@@ -1,6 +1,7 @@
-// Notes that the progress of a child of a synchronized node fell, and whether it did while it was
-// held. What delta and barriers promise holds only where no progress falls: then the distance of
-// the children is bounded, and where none falls while held and all rise, the node ends.
+// Notes that the progress of a child of a synchronized node fell, and whether it fell or rose while
+// it was held. What delta and barriers promise holds only where no progress falls, and none rises
+// while it is held: then the distance of the children is bounded. Where none falls while held and
+// all rise, the node ends.
 #pragma once
 
 #include <optional>
@@ -24,12 +25,14 @@ class FallWatch {
   // The first of each kind.
   const std::optional<Fall>& while_ticked() const { return while_ticked_; }
   const std::optional<Fall>& while_held() const { return while_held_; }
+  // A held child moved on, or what it reports was late.
+  const std::optional<Fall>& rise_while_held() const { return rise_while_held_; }
 
  private:
   std::vector<double> last_;
   std::vector<bool> was_held_;
   bool runs_ = false;
-  std::optional<Fall> while_ticked_, while_held_;
+  std::optional<Fall> while_ticked_, while_held_, rise_while_held_;
 };
 
 }  // namespace lockstep

@@ -96,7 +96,9 @@ void SynchronizedMeasure::after_tick(const SynchronizedTick& tick) {
 }
 
 std::optional<double> SynchronizedMeasure::bound() const {
-  if (falls_.while_ticked() || falls_.while_held() || left_out_) return std::nullopt;
+  if (falls_.while_ticked() || falls_.while_held() || falls_.rise_while_held() || left_out_) {
+    return std::nullopt;
+  }
   return std::min(1.0, widest_ + step_length());
 }
 

@@ -76,7 +76,7 @@ class SynchronizedMeasure {
   double largest_spread() const { return spread_.value({}); }
   double step_length() const { return step_length_.value({}); }
   // The spread cannot be larger: what the limits allowed, and the longest step. Nothing if progress
-  // fell, or a child that was left out may have joined from far behind.
+  // fell, or rose while it was held, or a child that was left out may have joined from far behind.
   std::optional<double> bound() const;
   bool is_pool() const { return synchronization_ == Synchronization::Resources; }
   const FallWatch& falls() const { return falls_; }

@@ -148,14 +148,15 @@ SynchronizedSummary summarize(const SynchronizedMeasure& measure, std::string pa
 
 void append_fall_notes(const FallWatch& falls, std::span<const std::string> paths,
                        std::vector<std::string>& notes) {
-  const auto add = [&](const std::optional<FallWatch::Fall>& fall, std::string_view when,
+  const auto add = [&](const std::optional<FallWatch::Fall>& fall, std::string_view what,
                        std::string_view consequence) {
     if (!fall) return;
-    notes.push_back(fmt::format("the progress of '{}' fell{}, first at {:.3f} s: {}",
-                                paths[fall->child], when, to_seconds(fall->time), consequence));
+    notes.push_back(fmt::format("the progress of '{}' {}, first at {:.3f} s: {}",
+                                paths[fall->child], what, to_seconds(fall->time), consequence));
   };
-  add(falls.while_ticked(), "", "the spread has no bound then");
-  add(falls.while_held(), " while it was held", "the others may wait for ever then");
+  add(falls.while_ticked(), "fell", "the spread has no bound then");
+  add(falls.while_held(), "fell while it was held", "the others may wait for ever then");
+  add(falls.rise_while_held(), "rose while it was held", "the spread has no bound then");
 }
 
 void write_text(std::span<const SynchronizedSummary> nodes, std::size_t never_reached,

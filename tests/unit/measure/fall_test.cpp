@@ -14,7 +14,8 @@ std::string text(const std::optional<FallWatch::Fall>& fall) {
          std::to_string(fall->time.count() / 100'000'000);
 }
 
-// Who fell first while ticked, and who while held, and in which tick, at 10 Hz.
+// Who fell first while ticked, who while held, and who rose first while held, and in which tick, at
+// 10 Hz.
 std::string falls(std::string_view tree, std::string_view leaves, NodeIndex node = 0) {
   test::ScriptedRun run(tree, leaves);
   SynchronizedProbe probe(run.tree(), node);
@@ -24,22 +25,28 @@ std::string falls(std::string_view tree, std::string_view leaves, NodeIndex node
     run.tick(now);
     watch.after_tick(probe.read(run.ticker(), now));
   }
-  return text(watch.while_ticked()) + " " + text(watch.while_held());
+  return text(watch.while_ticked()) + " " + text(watch.while_held()) + " " +
+         text(watch.rise_while_held());
 }
 
 TEST_CASE("progress that rises is no fall") {
-  CHECK(falls("ParallelRelative[delta=.1](a b)", "a+.05 b+.2") == "- -");
+  CHECK(falls("ParallelRelative[delta=.1](a b)", "a+.05 b+.2") == "- - -");
 }
 
 TEST_CASE("a fall while it is ticked is not one while it is held") {
-  CHECK(falls("ParallelRelative[delta=1](a b)", "a+.1 b=R.4R.3R") == "b@2 -");
-  CHECK(falls("ParallelRelative[delta=0](a b)", "a=R.1 b=R~0,.5,.5,.3") == "- b@3");
-  CHECK(falls("ParallelRelative[delta=0](a b)", "a=R~0,.1,.05 b=R~0,.5,.5,.3") == "a@2 b@3");
+  CHECK(falls("ParallelRelative[delta=1](a b)", "a+.1 b=R.4R.3R") == "b@2 - -");
+  CHECK(falls("ParallelRelative[delta=0](a b)", "a=R.1 b=R~0,.5,.5,.3") == "- b@3 -");
+  CHECK(falls("ParallelRelative[delta=0](a b)", "a=R~0,.1,.05 b=R~0,.5,.5,.3") == "a@2 b@3 -");
 }
 
 TEST_CASE("the beginning of another activation is no fall") {
-  CHECK(falls("Repeat(ParallelRelative[delta=1](a b))", "a+.4 b+.5", 1) == "- -");
-  CHECK(falls("Sequence(c? ParallelRelative[delta=1](a b))", "c=SSSFSS a+.05 b+.1", 2) == "- -");
+  CHECK(falls("Repeat(ParallelRelative[delta=1](a b))", "a+.4 b+.5", 1) == "- - -");
+  CHECK(falls("Sequence(c? ParallelRelative[delta=1](a b))", "c=SSSFSS a+.05 b+.1", 2) == "- - -");
+}
+
+TEST_CASE("a rise while it is held is noted, one while it is ticked is none") {
+  CHECK(falls("ParallelRelative[delta=0](a b)", "a=R.1 b=R~0,.5,.5,.6") == "- - b@3");
+  CHECK(falls("ParallelRelative[delta=1](a b)", "a=R.1 b=R~0,.5,.5,.6") == "- - -");
 }
 
 }  // namespace

@@ -66,6 +66,18 @@ TEST_CASE("a progress that falls takes the bound away") {
   CHECK(summary.notes[0].starts_with("the progress of 'Test/ParallelRelative/a' fell, first at"));
 }
 
+TEST_CASE("a progress that rises while it is held takes the bound away") {
+  WatchedRun run("ParallelRelative[delta=.1](a b)", "a+.1 b=R~0,.3,.5,.7,.9");
+  const Summary summary = summary_of(run);
+  const SynchronizedSummary& node = summary.synchronized_nodes.at(0);
+  CHECK_FALSE(node.spread_bound);
+  CHECK(node.largest_spread > .1 + node.step_length);
+  REQUIRE(summary.notes.size() == 1);
+  CHECK(summary.notes[0] ==
+        "the progress of 'Test/ParallelRelative/b' rose while it was held, first at 0.200 s: the "
+        "spread has no bound then");
+}
+
 TEST_CASE("tick periods are measured on a real clock only") {
   WatchedRun run(kTree, "a+.1 b+.3");
   run.start.real_time = true;
