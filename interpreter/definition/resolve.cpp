@@ -8,6 +8,7 @@
 #include "definition/btcpp/read_trees.h"
 #include "definition/btcpp/unused_trees.h"
 #include "definition/check_trees.h"
+#include "definition/group_advice.h"
 #include "definition/groups.h"
 #include "definition/references.h"
 #include "definition/resources.h"
@@ -71,6 +72,7 @@ std::optional<Definition> resolve(const Project& project, const Catalog& catalog
   check_groups(definition, report);
   if (report.has_errors()) return std::nullopt;
   advise(definition, report);
+  warn_of_circle(definition, report);
   advise_resources(definition, report);
   return definition;
 }
