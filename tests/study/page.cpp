@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <regex>
 
 #include "study/choice.h"
+#include "study/comparisons.h"
 #include "study/study_case.h"
 
 namespace lockstep::test {
@@ -51,32 +54,85 @@ int check_cell(const std::string& cell, const Summary& summary, std::vector<Choi
   return static_cast<int>(numbers.size());
 }
 
+// Below this, p is below 0.05 even if all comparisons of a page are looked at.
+constexpr double kClear = 0.0002;
+
+// "−2.34 [−2.42, −2.25]": the shift between two cells and its interval; or one number for all
+// three. With "*?*" where p is below 0.05, but not clearly.
+int check_shift(const std::string& cell, const Summary& summary, const Choice& from,
+                const Choice& to, Comparisons& comparisons) {
+  const auto numbers = numbers_in(cell);
+  const Words *first = from.row(summary), *second = to.row(summary);
+  REQUIRE(first != nullptr);
+  REQUIRE(second != nullptr);
+  const auto found = comparisons.between(*first, *second);
+  INFO(found);
+  CHECK((numbers.size() == 1 || numbers.size() == 3));
+  const Words names{"difference", "difference_low", "difference_high"};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const Shown& shown = numbers.at(numbers.size() == 1 ? 0 : i);
+    CHECK(found[names[i]].get<double>() == Approx(shown.value).margin(shown.tolerance).epsilon(0));
+  }
+  CHECK(contains(cell, "*?*") == (found["p"] < 0.05 && found["p"] >= kClear));
+  return static_cast<int>(numbers.size());
+}
+
 // "1, not synchronized" is the value 1, "none" is "".
 std::string axis_value(const std::string& cell) {
   const std::string value = cell.substr(0, cell.find_first_of(", "));
   return value == "none" ? "" : value;
 }
 
-int check_row(const std::string& line, const std::string& comment, const Summary& summary) {
+// A table, as its comment describes it.
+struct Table {
+  bool is_compare = false;
+  Words columns, common;
+};
+
+// Nothing without a comment.
+std::optional<Table> table_of(const std::string& line) {
+  static const std::regex comment("<!-- (table|compare): ([^;]*)(?:;(.*))? -->");
+  std::smatch found;
+  if (!std::regex_match(line, found, comment)) return std::nullopt;
+  return Table{found[1] == "compare", split(found[2], '|'), words_of(found[3])};
+}
+
+// The choice of a column's words, on one side of "→". `labels` are those of the row, by axis.
+std::vector<Choice> chosen(const Words& words, const std::map<std::string, std::string>& labels,
+                           const Summary& summary, Side side) {
+  Words on_this;
+  for (const std::string& word : words) on_this.push_back(on_side(word, side));
+  auto choices = choices_of(on_this, summary);
+  for (Choice& it : choices) {
+    for (const auto& [axis, label] : labels)
+      it.values.emplace_back(axis, axis_value(on_side(label, side)));
+  }
+  return choices;
+}
+
+int check_row(const std::string& line, const Table& table, const Summary& summary,
+              Comparisons& comparisons) {
   INFO(line);
-  const auto end = comment.find(';');
-  const Words cells = split(line.substr(1), '|'), columns = split(comment.substr(0, end), '|');
-  const Words common = end == std::string::npos ? Words{} : words_of(comment.substr(end + 1));
-  REQUIRE(cells.size() == columns.size());
-  std::vector<std::pair<std::string, std::string>> axes;
+  const Words cells = split(line.substr(1), '|');
+  REQUIRE(cells.size() == table.columns.size());
+  std::map<std::string, std::string> labels;
   int count = 0;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     INFO(cells[i]);
-    Words words = words_of(columns[i]);
-    if (columns[i] == "-") continue;
+    Words words = words_of(table.columns[i]);
+    if (table.columns[i] == "-") continue;
     if (words.size() == 1 && summary.is_axis(words[0])) {
-      axes.emplace_back(words[0], axis_value(cells[i]));
+      labels[words[0]] = cells[i];
       continue;
     }
-    words.insert(words.end(), common.begin(), common.end());
-    auto choices = choices_of(words, summary);
-    for (Choice& it : choices) it.values.insert(it.values.end(), axes.begin(), axes.end());
-    count += check_cell(cells[i], summary, choices);
+    words.insert(words.end(), table.common.begin(), table.common.end());
+    const auto from = chosen(words, labels, summary, Side::From);
+    if (table.is_compare) {
+      const auto to = chosen(words, labels, summary, Side::To);
+      count += check_shift(cells[i], summary, from.at(0), to.at(0), comparisons);
+    } else {
+      count += check_cell(cells[i], summary, from);
+    }
   }
   return count;
 }
@@ -99,8 +155,9 @@ Words study_of(const std::string& command) {
 void check_page(const std::string& file, int studies, int numbers) {
   const StudyCase it;
   Summary summary;
-  std::string comment, previous;
-  const std::string open = "<!-- table: ", close = " -->";
+  std::optional<Comparisons> comparisons;
+  std::optional<Table> table;
+  std::string previous;
   std::string page = std::regex_replace(read_file(file), std::regex(" \\\\\n +"), " ");
   for (const std::string& line : lines(page)) {
     INFO(file << ": " << line);
@@ -108,15 +165,14 @@ void check_page(const std::string& file, int studies, int numbers) {
       const std::string out = fmt::format("study{}", --studies);
       it.make(study_of(line), out);
       summary = Summary(it.read(out, "summary.csv"));
+      comparisons.emplace(it.path(out), summary);
     }
     const bool is_table = line.starts_with("| ");
     if (is_table && !previous.starts_with("|")) {
-      comment = previous.starts_with(open)
-                    ? previous.substr(open.size(), previous.find(close) - open.size())
-                    : "";
-      CHECK((summary.rows.empty() || !comment.empty()));
-    } else if (is_table && !comment.empty()) {
-      numbers -= check_row(line, comment, summary);
+      table = table_of(previous);
+      CHECK((summary.rows.empty() || table));
+    } else if (is_table && table) {
+      numbers -= check_row(line, *table, summary, *comparisons);
     }
     previous = line;
   }

@@ -11,6 +11,12 @@
 // quartile, upper quartile] minimum … maximum", or one number if all are the same. What stands
 // after ";" belongs to every column. "a/b" makes two numbers of a cell: "noise=0
 // at_barrier=wait/tick median" is "80.0, 80.4".
+//
+//   <!-- compare: barrier_count | noise=0→0.01; progress-distance -->
+//
+// compares two cells for each cell of the table: "→" in a column, or in the first cell of a row, is
+// between their values. The cell has what `lockstep study compare` prints of them: the shift, and
+// in brackets its interval; or one number if all are the same.
 #pragma once
 
 #include <string>
