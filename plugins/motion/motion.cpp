@@ -7,6 +7,7 @@
 
 #include "profile.hpp"
 #include "recorded.hpp"
+#include "report.hpp"
 
 namespace motion {
 
@@ -15,12 +16,15 @@ struct AdvancePorts : lockstep::Ports {
   Input<double> noise{this, "noise", "0", "each tick adds step + uniform(-noise, noise)"};
   Input<std::string> noise_per{this, "noise_per", "tick",
                                "tick, or run: the noise is drawn once, and the pace is constant"};
+  ReportPorts report{this};
+  Output<double> actual{this, "actual", "its progress after each tick, neither late nor in steps"};
 };
 
 class Advance : public lockstep::Action<AdvancePorts> {
  public:
   void start() override {
     progress_ = 0;
+    report_.start(report);
     is_constant_ = noise_per.view() == "run";
     if (!is_constant_ && noise_per.view() != "tick") {
       throw std::runtime_error("port 'noise_per' is neither 'tick' nor 'run'");
@@ -29,16 +33,20 @@ class Advance : public lockstep::Action<AdvancePorts> {
   }
 
   Status tick() override {
+    report_.sample(now(), progress_);
     const double half_width = noise.get();
     const double change =
         step.get() + (is_constant_ ? half_width * *of_run_ : uniform(-half_width, half_width));
     progress_ = std::clamp(progress_ + change, 0.0, 1.0);
+    actual.set(progress_);
     return progress_ >= kDone ? Status::Success : Status::Running;
   }
 
-  double progress() const override { return progress_; }
+  void pause() override { report_.sample(now(), progress_); }
+  double progress() const override { return report_.of_ticks(now(), progress_); }
 
  private:
+  Report report_;
   double progress_ = 0;
   bool is_constant_ = false;
   std::optional<double> of_run_;  // in [-1, 1)

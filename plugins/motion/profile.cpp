@@ -36,6 +36,7 @@ Curve curve_of(lockstep::ListView numbers) {
 
 void Profile::start() {
   pace_.start(clock.view(), now());
+  report_.start(report);
   curve_ = curve_of(points.view());
   step_ = step.get();
   const double most = pace_.is_time() ? std::numeric_limits<double>::max() : 1;
@@ -47,18 +48,24 @@ void Profile::start() {
 }
 
 Profile::Status Profile::tick() {
+  report_.sample(now(), progress_at(pace_.elapsed(now())));
   pace_.tick();
-  const bool done = curve_.empty() ? position() >= kDone : pace_.has_reached(curve_.end(), now());
+  const bool done = curve_.empty() ? position(pace_.elapsed(now())) >= kDone
+                                   : pace_.has_reached(curve_.end(), now());
   return done ? Status::Success : Status::Running;
 }
 
-double Profile::progress() const {
-  if (!curve_.empty()) return curve_.progress(pace_.elapsed(now()));
-  return is_sigmoid_ ? sigmoid(position()) : position();
+void Profile::pause() {
+  report_.sample(now(), progress_at(pace_.elapsed(now())));
 }
 
-double Profile::position() const {
-  return std::min(1.0, pace_.elapsed(now()) * step_);
+double Profile::progress() const {
+  return report_.of(pace_, now(), [this](double elapsed) { return progress_at(elapsed); });
+}
+
+double Profile::progress_at(double elapsed) const {
+  if (!curve_.empty()) return curve_.progress(elapsed);
+  return is_sigmoid_ ? sigmoid(position(elapsed)) : position(elapsed);
 }
 
 }  // namespace motion

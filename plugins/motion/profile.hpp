@@ -3,8 +3,11 @@
 
 #include <lockstep/leaf.hpp>
 
+#include <algorithm>
+
 #include "curve.hpp"
 #include "pace.hpp"
+#include "report.hpp"
 
 namespace motion {
 
@@ -17,18 +20,23 @@ struct ProfilePorts : lockstep::Ports {
       "instead of shape and step: when, and the progress there, as 0 0;5 0.2;10 1, with straight "
       "lines in between; the progress ends at 1"};
   Input<std::string> clock{this, "clock", "ticks", kClockDoc};
+  ReportPorts report{this};
 };
 
 class Profile : public lockstep::Action<ProfilePorts> {
  public:
   void start() override;
   Status tick() override;
+  void pause() override;
   double progress() const override;
 
  private:
-  double position() const;
+  // Ticks or seconds after its start.
+  double progress_at(double elapsed) const;
+  double position(double elapsed) const { return std::min(1.0, elapsed * step_); }
 
   Pace pace_;
+  Report report_;
   Curve curve_;  // of points
   double step_ = 0;
   bool is_sigmoid_ = false;

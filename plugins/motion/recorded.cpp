@@ -162,19 +162,25 @@ void Recorded::read(const std::string& from, const std::string& of) {
 void Recorded::start() {
   read(file.get(), node.get());
   pace_.start(clock.view(), now());
+  report_.start(report);
 }
 
 // The tick that ended the node then ends it now: the one after as many as came before it.
 Recorded::Status Recorded::tick() {
   using End = RecordedProgress::End;
   const bool is_last = pace_.has_reached(curve().end(), now());
+  report_.sample(now(), curve().progress(pace_.elapsed(now())));
   pace_.tick();
   if (!is_last || recorded_.end == End::None) return Status::Running;
   return recorded_.end == End::Success ? Status::Success : Status::Failure;
 }
 
+void Recorded::pause() {
+  report_.sample(now(), curve().progress(pace_.elapsed(now())));
+}
+
 double Recorded::progress() const {
-  return curve().progress(pace_.elapsed(now()));
+  return report_.of(pace_, now(), [this](double elapsed) { return curve().progress(elapsed); });
 }
 
 }  // namespace motion

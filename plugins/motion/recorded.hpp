@@ -5,6 +5,7 @@
 
 #include "curve.hpp"
 #include "pace.hpp"
+#include "report.hpp"
 
 namespace motion {
 
@@ -24,6 +25,7 @@ struct RecordedPorts : lockstep::Ports {
                           "a recording of lockstep run; from the current directory"};
   Input<std::string> node{this, "node", required, "the path of the node in it: Door/pull/arm"};
   Input<std::string> clock{this, "clock", "ticks", kClockDoc};
+  ReportPorts report{this};
 };
 
 class Recorded : public lockstep::Action<RecordedPorts> {
@@ -31,6 +33,7 @@ class Recorded : public lockstep::Action<RecordedPorts> {
   Recorded();
   void start() override;
   Status tick() override;
+  void pause() override;
   double progress() const override;
 
  private:
@@ -40,6 +43,7 @@ class Recorded : public lockstep::Action<RecordedPorts> {
   std::string file_, node_;  // that were read
   RecordedProgress recorded_;
   Pace pace_;
+  Report report_;
 };
 
 }  // namespace motion

@@ -13,20 +13,31 @@
 
 namespace {
 
-using sdk_test::FakeLeaf;
-
 const lockstep_leaf_type& kAdvance = *motion_plugin.leaf_types[0];
 const lockstep_leaf_type& kProfile = *motion_plugin.leaf_types[1];
 const lockstep_leaf_type& kRecorded = *motion_plugin.leaf_types[2];
 
 using Numbers = std::vector<double>;
 
-FakeLeaf profile_of(Numbers points, const std::string& clock) {
-  return FakeLeaf(kProfile, {std::string("line"), 0.001, std::move(points), clock});
+// The ports behind those that are given: what it reports is neither late nor in steps.
+class MotionLeaf : public sdk_test::FakeLeaf {
+ public:
+  MotionLeaf(const lockstep_leaf_type& type, std::vector<sdk_test::PortValue> ports)
+      : FakeLeaf(type, with_late_ports(std::move(ports))) {}
+
+ private:
+  static std::vector<sdk_test::PortValue> with_late_ports(std::vector<sdk_test::PortValue> ports) {
+    ports.insert(ports.end(), {0.0, 0.0});
+    return ports;
+  }
+};
+
+MotionLeaf profile_of(Numbers points, const std::string& clock) {
+  return MotionLeaf(kProfile, {std::string("line"), 0.001, std::move(points), clock});
 }
 
 // Starts the leaf and ticks it to its end; its progress before each tick.
-std::vector<double> progress_to_success(FakeLeaf& leaf) {
+std::vector<double> progress_to_success(MotionLeaf& leaf) {
   std::vector<double> progress;
   leaf.start();
   lockstep_status status = LOCKSTEP_RUNNING;
@@ -41,32 +52,32 @@ std::vector<double> progress_to_success(FakeLeaf& leaf) {
 }  // namespace
 
 TEST_CASE("ten steps of 0.1 are one", "[sdk][motion]") {
-  FakeLeaf advance(kAdvance, {0.1, 0.0, std::string("tick")});
+  MotionLeaf advance(kAdvance, {0.1, 0.0, std::string("tick")});
   CHECK(progress_to_success(advance).size() == 10);
   CHECK(progress_to_success(advance).size() == 10);
 }
 
 TEST_CASE("Advance adds its step and its noise, and stays from 0 to 1", "[sdk][motion]") {
-  FakeLeaf advance(kAdvance, {0.25, 0.5, std::string("tick")});
+  MotionLeaf advance(kAdvance, {0.25, 0.5, std::string("tick")});
   // The fake host draws 0, 1/4, 2/4, 3/4, …: the changes are -0.25, 0, 0.25, 0.5.
   CHECK(progress_to_success(advance) == std::vector<double>{0, 0, 0, 0.25, 0.75, 0.5, 0.5, 0.75});
 }
 
 TEST_CASE("a step that is too large ends at 1", "[sdk][motion]") {
-  FakeLeaf advance(kAdvance, {7.0, 0.0, std::string("tick")});
+  MotionLeaf advance(kAdvance, {7.0, 0.0, std::string("tick")});
   advance.start();
   CHECK(advance.tick() == LOCKSTEP_SUCCESS);
   CHECK(advance.progress() == 1);
 }
 
 TEST_CASE("a line rises by its step", "[sdk][motion]") {
-  FakeLeaf profile(kProfile, {std::string("line"), 0.25, Numbers(), std::string("ticks")});
+  MotionLeaf profile(kProfile, {std::string("line"), 0.25, Numbers(), std::string("ticks")});
   CHECK(progress_to_success(profile) == std::vector<double>{0, 0.25, 0.5, 0.75});
   CHECK(profile.progress() == 1);
 }
 
 TEST_CASE("a sigmoid takes as long as a line: slow, fast, slow", "[sdk][motion]") {
-  FakeLeaf profile(kProfile, {std::string("sigmoid"), 0.001, Numbers(), std::string("ticks")});
+  MotionLeaf profile(kProfile, {std::string("sigmoid"), 0.001, Numbers(), std::string("ticks")});
   const auto progress = progress_to_success(profile);
   REQUIRE(progress.size() == 1000);
   CHECK(progress[0] == 0);
@@ -78,34 +89,34 @@ TEST_CASE("a sigmoid takes as long as a line: slow, fast, slow", "[sdk][motion]"
 }
 
 TEST_CASE("a profile refuses what it cannot follow", "[sdk][motion]") {
-  FakeLeaf unknown(kProfile, {std::string("circle"), 0.1, Numbers(), std::string("ticks")});
+  MotionLeaf unknown(kProfile, {std::string("circle"), 0.1, Numbers(), std::string("ticks")});
   unknown.start();
   CHECK(unknown.host.take_error() == "port 'shape' is neither 'line' nor 'sigmoid'");
   const double step = GENERATE(0.0, -0.1, 1.5);
-  FakeLeaf still(kProfile, {std::string("line"), step, Numbers(), std::string("ticks")});
+  MotionLeaf still(kProfile, {std::string("line"), step, Numbers(), std::string("ticks")});
   still.start();
   CHECK(still.host.take_error() == "port 'step' is not in (0, 1]");
 }
 
 TEST_CASE("noise_per=run draws once in the run, for a constant pace", "[sdk][motion]") {
   // The fake host draws 0, which is -1 times the noise.
-  FakeLeaf advance(kAdvance, {0.5, 0.25, std::string("run")});
+  MotionLeaf advance(kAdvance, {0.5, 0.25, std::string("run")});
   CHECK(progress_to_success(advance) == Numbers{0, 0.25, 0.5, 0.75});
   CHECK(progress_to_success(advance) == Numbers{0, 0.25, 0.5, 0.75});
   CHECK(advance.host.draws == 1);
-  FakeLeaf unknown(kAdvance, {0.5, 0.25, std::string("activation")});
+  MotionLeaf unknown(kAdvance, {0.5, 0.25, std::string("activation")});
   unknown.start();
   CHECK(unknown.host.take_error() == "port 'noise_per' is neither 'tick' nor 'run'");
 }
 
 TEST_CASE("a profile goes through its points, in straight lines", "[sdk][motion]") {
-  FakeLeaf profile = profile_of({0, 0, 2, 0.5, 4, 0.25, 5, 1}, "ticks");
+  MotionLeaf profile = profile_of({0, 0, 2, 0.5, 4, 0.25, 5, 1}, "ticks");
   CHECK(progress_to_success(profile) == Numbers{0, 0.25, 0.5, 0.375, 0.25});
   CHECK(profile.progress() == 1);
 }
 
 TEST_CASE("a profile by the time goes on while it is held", "[sdk][motion]") {
-  FakeLeaf profile = profile_of({0, 0, 5, 0.2, 10, 1}, "time");
+  MotionLeaf profile = profile_of({0, 0, 5, 0.2, 10, 1}, "time");
   profile.host.time = 100;
   profile.start();
   CHECK(profile.tick() == LOCKSTEP_RUNNING);
@@ -119,7 +130,7 @@ TEST_CASE("a profile by the time goes on while it is held", "[sdk][motion]") {
   CHECK(profile.progress() == 1);
   CHECK(profile.tick() == LOCKSTEP_SUCCESS);
 
-  FakeLeaf line(kProfile, {std::string("line"), 2.0, Numbers(), std::string("time")});
+  MotionLeaf line(kProfile, {std::string("line"), 2.0, Numbers(), std::string("time")});
   line.start();
   line.host.time = 0.25;
   CHECK(line.progress() == 0.5);
@@ -140,10 +151,10 @@ TEST_CASE("a profile refuses points that are no progress over time", "[sdk][moti
       {{0, 0, 1, 1.5, 2, 1}, "has a progress outside of [0, 1]"},
       {{0, 0, 1, 0.5}, "does not end at progress 1"},
   }));
-  FakeLeaf profile = profile_of(row.points, "ticks");
+  MotionLeaf profile = profile_of(row.points, "ticks");
   profile.start();
   CHECK(profile.host.take_error() == "port 'points' " + row.reason);
-  FakeLeaf clock = profile_of({}, "wall");
+  MotionLeaf clock = profile_of({}, "wall");
   clock.start();
   CHECK(clock.host.take_error() == "port 'clock' is neither 'ticks' nor 'time'");
 }
@@ -158,11 +169,11 @@ class RecordedFile {
   explicit RecordedFile(const std::string& lines) : path_(directory_ / "run.jsonl") {
     directory_.write("run.jsonl", std::string(kHeader) + "\n" + lines);
   }
-  FakeLeaf leaf(const std::string& node, const std::string& clock = "ticks") const {
-    return FakeLeaf(kRecorded, {path_, node, clock});
+  MotionLeaf leaf(const std::string& node, const std::string& clock = "ticks") const {
+    return MotionLeaf(kRecorded, {path_, node, clock});
   }
   std::string error(const std::string& node) const {
-    FakeLeaf it = leaf(node);
+    MotionLeaf it = leaf(node);
     const std::string error = it.host.take_error();
     CHECK(it.exists() == error.empty());
     return error.substr(std::min(error.size(), path_.size() + 2));  // behind the name of the file
@@ -186,22 +197,22 @@ constexpr const char* kTicks = R"({"tick":0,"time_s":0.0,"nodes":[[0,"running",0
 
 TEST_CASE("a recorded node is played tick by tick, to the end that it had", "[sdk][motion]") {
   const RecordedFile file(kTicks);
-  FakeLeaf a = file.leaf("T/p/a");
+  MotionLeaf a = file.leaf("T/p/a");
   CHECK(progress_to_success(a) == Numbers{0, 0.5, 0.5, 0.625, 0.75});
   CHECK(progress_to_success(a) == Numbers{0, 0.5, 0.5, 0.625, 0.75});
-  FakeLeaf b = file.leaf("T/p/b");
+  MotionLeaf b = file.leaf("T/p/b");
   b.start();
   CHECK(b.tick() == LOCKSTEP_RUNNING);
   CHECK(b.progress() == 0.25);
   CHECK(b.tick() == LOCKSTEP_FAILURE);
-  FakeLeaf p = file.leaf("T/p");
+  MotionLeaf p = file.leaf("T/p");
   p.start();
   for (int tick = 0; tick < 100; ++tick) CHECK(p.tick() == LOCKSTEP_RUNNING);
 }
 
 TEST_CASE("a recorded node is played by the time that it took", "[sdk][motion]") {
   const RecordedFile file(kTicks);
-  FakeLeaf a = file.leaf("T/p/a", "time");
+  MotionLeaf a = file.leaf("T/p/a", "time");
   a.host.time = 7;
   a.start();
   CHECK(a.tick() == LOCKSTEP_RUNNING);
@@ -217,7 +228,7 @@ TEST_CASE("a recorded node is played by the time that it took", "[sdk][motion]")
 TEST_CASE("a recording that is cut is played as far as it goes", "[sdk][motion]") {
   const std::string ticks(kTicks);
   const RecordedFile file(ticks.substr(0, ticks.find("[2,\"failure")));
-  FakeLeaf a = file.leaf("T/p/a");
+  MotionLeaf a = file.leaf("T/p/a");
   a.start();
   for (int tick = 0; tick < 10; ++tick) CHECK(a.tick() == LOCKSTEP_RUNNING);
   CHECK(a.progress() == 0);
@@ -235,9 +246,10 @@ TEST_CASE("what is no recording is refused, with its line", "[sdk][motion]") {
         ":2: not a line of a recording");
   CHECK(error(ticks.substr(0, ticks.find("{\"lost")) + ticks) ==
         ":6: a tick that does not come after the one before");
-  FakeLeaf missing(kRecorded,
-                   {std::string("/nowhere.jsonl"), std::string("T/p"), std::string("ticks")});
+  MotionLeaf missing(kRecorded,
+                     {std::string("/nowhere.jsonl"), std::string("T/p"), std::string("ticks")});
   CHECK(missing.host.take_error() == "'/nowhere.jsonl': cannot be read");
-  FakeLeaf endless(kRecorded, {std::string("/dev/zero"), std::string("T/p"), std::string("ticks")});
+  MotionLeaf endless(kRecorded,
+                     {std::string("/dev/zero"), std::string("T/p"), std::string("ticks")});
   CHECK(endless.host.take_error() == "'/dev/zero': cannot be read");
 }
