@@ -1,5 +1,5 @@
-// The pages that measure the claims of papers: their commands are run as they stand, and the
-// numbers in their tables are what comes out of them.
+// The pages that measure claims, those of papers and our own: their commands are run as they stand,
+// and the numbers in their tables are what comes out of them.
 #include <catch2/catch.hpp>
 
 #include "study/page.h"
@@ -13,6 +13,10 @@ TEST_CASE("the numbers of docs/paper.md are those of its studies") {
 
 TEST_CASE("the numbers of docs/sequel.md are those of its studies") {
   check_page(LOCKSTEP_SOURCE_DIR "/docs/sequel.md", 4, 414);
+}
+
+TEST_CASE("the numbers of docs/late_progress.md are those of its studies") {
+  check_page(LOCKSTEP_SOURCE_DIR "/docs/late_progress.md", 3, 184);
 }
 
 }  // namespace lockstep::test
