@@ -183,6 +183,12 @@ struct Definition {
     return ancestor;
   }
 
+  // A member of a pool that owns its resources until its child completes.
+  bool keeps(const DefinitionNode& member) const {
+    const Value* keep = constant(member, "keep");
+    return keep != nullptr && *keep == Value(true);
+  }
+
   // A control node with memory="false".
   bool forgets(const DefinitionNode& node) const {
     if (node.type->category != NodeCategory::Control) return false;

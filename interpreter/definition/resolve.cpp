@@ -72,8 +72,11 @@ std::optional<Definition> resolve(const Project& project, const Catalog& catalog
   check_groups(definition, report);
   if (report.has_errors()) return std::nullopt;
   advise(definition, report);
-  warn_of_circle(definition, report);
   advise_resources(definition, report);
+  warn_of_circle(definition, report);
+  warn_of_keepers(definition, report);
+  note_idle_members(definition, report);
+  note_unfairness(definition, report);
   return definition;
 }
 
