@@ -104,8 +104,11 @@ constexpr const char* kTree = R"(
 
 constexpr const char* kMeasuredTree = R"(
 <root lockstep="1" main_tree_to_execute="Main">
+  <resources name="pool"/>
   <BehaviorTree ID="Main">
     <Parallel>
+      <UseResources pool="pool" resources="left"><Advance name="c" step="1e-9"/></UseResources>
+      <UseResources pool="pool" resources="left"><Advance name="d" step="1e-9"/></UseResources>
       <ParallelRelative delta="1e-8"><Advance name="a" step="1e-9"/><Advance name="b" step="9e-9"/></ParallelRelative>
       <SubTree ID="Rest" seconds="1e6"/>
     </Parallel>
@@ -364,8 +367,8 @@ TEST_CASE("measuring the runs of a study allocates nothing and locks nothing") {
   std::vector<MeasureSpec> measures;
   for (const char* text :
        {"progress-distance[2:5]", "progress-distance-mean", "progress-distance-seconds", "spread",
-        "step-length", "held:b", "pauses:b", "duration", "ticks", "success", "predictability:b@0.5",
-        "entry:seconds"}) {
+        "step-length", "held:b", "held-by:b:a", "pauses:b", "waits:c", "fairness:pool", "duration",
+        "ticks", "success", "predictability:b@0.5", "entry:seconds"}) {
     measures.push_back(parse_measure(text).value());
   }
   REQUIRE(measures.size() == all_measures().size());
