@@ -36,18 +36,16 @@ class CircleReport {
  private:
   const DefinitionNode& at(std::uint32_t node) const { return definition_.nodes[node]; }
   std::string name(std::uint32_t node) const { return fmt::format("'{}'", brief(at(node).name)); }
-  std::string place(std::uint32_t node) const {
-    return to_text(report_.sources().locate(at(node).place));
+  std::string with_place(std::uint32_t node) const {
+    return fmt::format("{} at {}", name(node), to_text(report_.sources().locate(at(node).place)));
   }
   bool is_inside(std::uint32_t node, std::uint32_t outer) const {
     return outer < node && node < at(outer).end;
   }
 
-  // The place of who waits is enough: each that is awaited is, or is near to, the next one.
   std::string explained(const HoldingLink& link, const HoldingLink& next) const {
-    return fmt::format("{} at {} is held by {} {} until {} is there{}", name(link.held),
-                       place(link.held), name(link.keeper), where(link), name(link.awaited),
-                       why(link, next.held));
+    return fmt::format("{} is held by {} {} until {} is there{}", with_place(link.held),
+                       name(link.keeper), where(link), with_place(link.awaited), why(link, next));
   }
 
   std::string where(const HoldingLink& link) const {
@@ -56,14 +54,17 @@ class CircleReport {
   }
 
   // What the awaited node has to do with the one that is held next.
-  std::string why(const HoldingLink& link, std::uint32_t held) const {
+  std::string why(const HoldingLink& link, const HoldingLink& next) const {
     std::string text;
     if (link.sequence != link.awaited) {
       text = fmt::format(", which comes after {} in {}", name(link.before), name(link.sequence));
     }
     const std::uint32_t stands = link.before;
-    if (is_inside(stands, held)) return text + fmt::format(", which is inside of {}", name(held));
-    if (is_inside(held, stands)) return text + fmt::format(", which has {} in it", name(held));
+    if (is_inside(stands, next.held)) {
+      text += fmt::format(", which is inside of what {} holds", name(next.keeper));
+    } else if (is_inside(next.held, stands)) {
+      text += fmt::format(", in which {} holds a node", name(next.keeper));
+    }
     return text;
   }
 

@@ -109,6 +109,16 @@ constexpr Row kRows[] = {
            <SyncProgress barrier="g"><Advance step="0.05"/></SyncProgress></Sequence>
        </ParallelAbsolute></Parallel>)",
      ""},
+    {"the first of two rounds comes to half of the progress",
+     R"(<barrier name="coarse" barriers="0.4"/><barrier name="fine" barriers="0.25"/>)",
+     R"(<Parallel>
+       <SyncProgress barrier="coarse"><SyncProgress barrier="fine">
+         <Advance step="0.05"/></SyncProgress></SyncProgress>
+       <SyncProgress barrier="coarse"><Repeat times="2"><Sequence memory="true">
+         <Advance step="0.1"/>
+         <SyncProgress barrier="fine"><Advance step="0.1"/></SyncProgress></Sequence></Repeat>
+       </SyncProgress></Parallel>)",
+     ""},
     {"rounds of a Repeat are parts of its progress", kCoarseAndFine, R"(<Parallel>
        <SyncProgress barrier="coarse"><Repeat times="2"><SyncProgress barrier="fine">
          <Advance step="0.05"/></SyncProgress></Repeat></SyncProgress>
@@ -135,6 +145,14 @@ constexpr Row kRows[] = {
          <Sequence memory="true"><Advance step="0.05"/>
            <SyncProgress name="f2" barrier="fine"><Advance step="0.05"/></SyncProgress>
          </Sequence></Parallel></SyncProgress></Parallel>)",
+     "fine -> coarse -> fine"},
+    {"in whatever order they stand", kCoarseAndFine, R"(<Parallel>
+       <SyncProgress name="c1" barrier="coarse"><SyncProgress name="f1" barrier="fine">
+         <Advance step="0.05"/></SyncProgress></SyncProgress>
+       <SyncProgress name="c2" barrier="coarse"><Parallel>
+         <Sequence memory="true"><Advance step="0.05"/>
+           <SyncProgress name="f2" barrier="fine"><Advance step="0.05"/></SyncProgress>
+         </Sequence><Advance step="0.05"/></Parallel></SyncProgress></Parallel>)",
      "fine -> coarse -> fine"},
     {"not where one of them is before the barrier until the other member has come", kCoarseAndFine,
      R"(<Parallel>
@@ -187,9 +205,9 @@ TEST_CASE("held nodes: the hint explains the circle, with places") {
   CHECK(told.severity == Severity::Warning);
   CHECK(told.location.line == 2);
   CHECK(told.hint ==
-        "'f1' at tree.xml:2:49 is held by 'fine' at 0.25 until 'f2' is there, which is inside of "
-        "'c2'; 'c2' at tree.xml:4:8 is held by 'coarse' at 0.5 until 'c1' is there, which has 'f1' "
-        "in it");
+        "'f1' at tree.xml:2:49 is held by 'fine' at 0.25 until 'f2' at tree.xml:5:10 is there, "
+        "which is inside of what 'coarse' holds; 'c2' at tree.xml:4:8 is held by 'coarse' at 0.5 "
+        "until 'c1' at tree.xml:2:8 is there, in which 'fine' holds a node");
 }
 
 // The first tree, with y and its member inside of `%`.
@@ -204,6 +222,30 @@ std::string with_inner(std::string_view around, std::string_view barriers, std::
     <SyncProgress barrier="coarse"><Sequence memory="true"><Advance step="0.05"/>{}</Sequence>
     </SyncProgress></Parallel></BehaviorTree></root>)",
                      barriers, inner);
+}
+
+TEST_CASE("held nodes: the hint says what comes before whom in a Sequence") {
+  const Pipeline pipeline(document(kRows[4]));
+  REQUIRE(pipeline.diagnostics().all().size() == 1);
+  CHECK(
+      pipeline.diagnostics().all().front().hint ==
+      "'g1' at tree.xml:3:10 is held by 'g' at 0.5 until 'g2' at tree.xml:9:10 is there, which "
+      "comes after 'h2' in 't'; 'h2' at tree.xml:8:10 is held by 'h' at 0.5 until 'h1' at "
+      "tree.xml:5:12 is there, which is inside of what 'r' holds; 's' at tree.xml:4:10 is held by "
+      "'r' beyond 0.6 until 'g1' at tree.xml:3:10 is there");
+}
+
+TEST_CASE("held nodes: an action without progress is at no barrier before it succeeds") {
+  const Pipeline pipeline(R"(<root lockstep="1"><plugin name="motion"/><plugin name="robot"/>
+    <barrier name="coarse" barriers="0.5"/><barrier name="fine" barriers="0.25"/>
+    <BehaviorTree ID="T"><Parallel>
+    <SyncProgress barrier="coarse"><SyncProgress barrier="fine"><Say text="x"/></SyncProgress>
+    </SyncProgress>
+    <SyncProgress barrier="coarse"><Sequence memory="true"><Advance step="0.05"/>
+      <SyncProgress barrier="fine"><Advance step="0.05"/></SyncProgress></Sequence></SyncProgress>
+    </Parallel></BehaviorTree></root>)");
+  CHECK(pipeline.told().find("warning") == std::string::npos);
+  CHECK(pipeline.run().starts_with("success"));
 }
 
 TEST_CASE("held nodes: nobody waits for a member that a node may do without") {
