@@ -176,7 +176,7 @@ void Ticker::set_fault(NodeIndex node, std::string message) {
     return;
   }
   if (faulted_) return;  // the first is the cause
-  faulted_ = true;
+  faulted_ = interrupted_ = true;
   fault_ = std::move(fault);
 }
 
@@ -201,8 +201,9 @@ void Ticker::reset() {
   tick_number_ = 0;
   asked_by_ = 0;
   kept_values_.clear();
-  faulted_ = false;
+  interrupted_ = faulted_ = false;
   fault_ = {};
+  failing_.clear();
   tolerated_.clear();
   out_of_range_.clear();
   for (LeafSlot& leaf : leaves_) leaf.out_of_range = false;

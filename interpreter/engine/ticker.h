@@ -54,7 +54,9 @@ class Ticker {
   // nothing, and the control nodes that are in their tick do not complete: all of them stay
   // Running.
   Status tick(NodeIndex node) {
-    if (faulted_) return Status::Running;
+    if (interrupted_) [[unlikely]] {
+      if (const auto status = tick_interrupted(node)) return *status;
+    }
     Activity& activity = state_.activity[node];
     const Node& it = nodes_[node];
     if (has_ended(status_of(activity)) && it.children != 0) forget_descendants(node);
@@ -218,6 +220,12 @@ class Ticker {
     return node == 0 ? std::nullopt : std::optional(node - 1);
   }
 
+  // A running node's next tick halts what runs in it and returns Failure, if the next tick of the
+  // tree reaches it. It is no fault.
+  void fail_next(NodeIndex node);
+  // After that tick: takes back what it did not reach. True if the node has failed so.
+  bool take_failed(NodeIndex node);
+
   // Halts every running leaf. A leaf with a fault in this halt may not have stopped, so the fault
   // becomes that of the run, whatever the policy. If the run already has a fault, tolerated() has
   // the new one.
@@ -242,6 +250,8 @@ class Ticker {
 
  private:
   Status tick_with_groups();
+  std::optional<Status> tick_interrupted(NodeIndex node);
+  Status fail(NodeIndex node);
   Truth ask(NodeIndex node, const HookedNode& hooked, Hook hook);
   std::optional<Status> ask_first(NodeIndex node, const HookedNode& hooked);
   std::optional<Status> ask_while(NodeIndex node, const HookedNode& hooked);
@@ -272,8 +282,10 @@ class Ticker {
   std::uint32_t asked_by_ = 0;           // a node and 1 more; 0: nobody
   std::vector<NodeIndex> halting_ = {};  // that were halted and have a script for it
   bool in_last_halt_ = false;
+  bool interrupted_ = false;  // faulted_, or a node is to fail: a tick is not as any other
   bool faulted_ = false;
   Fault fault_;
+  std::vector<NodeIndex> failing_ = {};  // in their next tick
   std::unordered_map<NodeIndex, Value> kept_values_;
   std::vector<Fault> tolerated_;
   std::vector<OutOfRange> out_of_range_;

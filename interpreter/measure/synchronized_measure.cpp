@@ -134,13 +134,16 @@ SynchronizedTick SynchronizedProbe::read(Ticker& ticker, Nanoseconds time) {
   tick.time = time;
   tick.ticked = ticker.ticked(node_);
   tick.status = ticker.status(node_);
+  const bool any_reached = std::ranges::any_of(
+      children_, [&](NodeIndex node) { return with_held_ && ticker.ticked(node); });
   for (std::size_t child = 0; with_held_ && child < children_.size(); ++child) {
     const NodeIndex node = children_[child];
     if (is_pool_) {
       held_.set(child, ticker.ticked(node - 1) && waits(limit(ticker, node - 1)));
       continue;
     }
-    const bool asked = !is_group_ || ticker.ticked(ticker.tree().labels[node].parent);
+    const bool asked = is_group_ ? ticker.ticked(ticker.tree().labels[node].parent)
+                                 : any_reached || held_.data()[child];
     held_.set(child, ticker.status(node), ticker.ticked(node) || !asked,
               ticker.held(node) && asked);
   }

@@ -35,7 +35,8 @@ class HeldChildren {
   explicit HeldChildren(std::size_t children)
       : running_(std::make_unique<bool[]>(children)), held_(std::make_unique<bool[]>(children)) {}
 
-  // `reached`: by the tick, or nobody asked; `held`: its ticks are still withheld.
+  // `reached`: by the tick, or nobody asked; `held`: its ticks are still withheld. A parallel that
+  // ends before it ticks any child asks only those that it held before.
   void set(std::size_t child, Status status, bool reached, bool held) {
     held_[child] = held || (status == Status::Idle && running_[child] && !reached);
     running_[child] = status == Status::Running;

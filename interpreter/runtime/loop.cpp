@@ -8,6 +8,7 @@
 #include "core/own_thread.h"
 #include "runtime/pace.h"
 #include "runtime/run_control.h"
+#include "runtime/stall_fail.h"
 
 namespace lockstep {
 namespace {
@@ -126,7 +127,9 @@ class Loop {
     Ticker& ticker = run_.ticker();
     run_.set_now(now);
     for (Observer* observer : observers_) observer->before_tick(ticker, end_.ticks, now);
+    if (options_.stall_fail != nullptr) options_.stall_fail->before_tick(ticker, now);
     end_.status = run_.tick(now);
+    if (options_.stall_fail != nullptr) options_.stall_fail->after_tick(ticker, now);
     if (is_real_) note_worst(clock_.now() - start_ - now);
     // Of the loop's own: an observer that asks for progress may add to the ticker's.
     std::vector<Fault> faults;

@@ -16,6 +16,7 @@
 namespace lockstep {
 
 class RunControl;
+class StallFail;
 
 // What happens to missed deadlines.
 enum class OverrunPolicy : std::uint8_t {
@@ -36,6 +37,7 @@ struct LoopOptions {
   OverrunPolicy overrun = OverrunPolicy::Skip;
   std::function<bool()> recording_failed = {};  // called before each tick: true = stop
   RunControl* control = nullptr;                // who may pause the run, and more; or nobody
+  StallFail* stall_fail = nullptr;              // who ends standstills, or nobody
 };
 
 // Runs to the end: halts every running leaf and notifies every observer.

@@ -58,6 +58,8 @@ Summary Statistics::summary() const {
                   .over_budget = {},
                   .synchronized_nodes = {},
                   .never_reached = 0,
+                  .standstills = {},
+                  .more_standstills = 0,
                   .notes = {}};
   faults_.append_to(summary.notes);
   summary.notes.insert(summary.notes.end(), out_of_range_notes_.begin(), out_of_range_notes_.end());

@@ -9,6 +9,7 @@
 
 #include "core/diagnostics.h"
 #include "measure/measure_spec.h"
+#include "summary/capped_notes.h"
 #include "terminal/text_table.h"
 
 namespace lockstep {
@@ -95,7 +96,17 @@ void write_deciding(const DecidingSummary& node, std::size_t indent, std::string
   if (name != node.kind) out += fmt::format(" ({})", printable(node.kind));
   out += fmt::format(": {}", styled(to_string(node.status), style, color));
   if (node.agreeing > 1) out += fmt::format(" ({} of {} children)", node.agreeing, node.children);
+  if (node.stood_still) out += ", it stood still (--stall-fail)";
   out += '\n';
+}
+
+void write_note(std::span<const std::string> lines, std::string& out, bool color) {
+  out += styled("note:", Style::Warning, color);
+  std::string_view indent = " ";
+  for (const std::string& line : lines) {
+    out += fmt::format("{}{}\n", indent, printable(line));
+    indent = "  ";
+  }
 }
 
 }  // namespace
@@ -122,7 +133,8 @@ DecidingSummary summarize(const DecidingNode& node, std::string path, std::strin
           .kind = std::move(kind),
           .status = node.status,
           .children = node.children,
-          .agreeing = node.agreeing};
+          .agreeing = node.agreeing,
+          .stood_still = false};
 }
 
 SynchronizedSummary summarize(const SynchronizedMeasure& measure, std::string path,
@@ -193,9 +205,18 @@ void write_text(const Summary& summary, std::string& out, bool color) {
   out += timing(summary) + worst_tick(summary);
   write_over_budget(summary, out, color);
   write_text(summary.synchronized_nodes, summary.never_reached, out, color);
-  for (const std::string& note : summary.notes) {
-    out += fmt::format("{} {}\n", styled("note:", Style::Warning, color), printable(note));
+  for (const std::string& note : summary.notes) write_note({&note, 1}, out, color);
+  for (const auto& note : standstill_notes(summary)) write_note(note, out, color);
+}
+
+std::vector<std::vector<std::string>> standstill_notes(const Summary& summary) {
+  std::vector<std::vector<std::string>> notes;
+  for (const StandstillSummary& it : summary.standstills) {
+    if (notes.size() < CappedNotes::kMost) notes.push_back(it.lines);
   }
+  const std::uint64_t more = summary.standstills.size() + summary.more_standstills - notes.size();
+  if (more > 0) notes.push_back({fmt::format("and {} more", counted(more, "standstill"))});
+  return notes;
 }
 
 }  // namespace lockstep

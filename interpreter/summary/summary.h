@@ -46,6 +46,7 @@ struct DecidingSummary {
   std::string path, kind;
   Status status = Status::Idle;
   std::size_t children = 0, agreeing = 0;
+  bool stood_still = false;  // it failed because of --stall-fail
 };
 
 DecidingSummary summarize(const DecidingNode& node, std::string path, std::string kind);
@@ -74,6 +75,23 @@ struct WorstTickSummary {
   double leaf_took = 0;
 };
 
+// Who waits for whom: measure/wait_chain.h.
+struct StandstillLinkSummary {
+  std::string node, kind, waiting, awaited;  // of nodes: their paths
+  double waiting_at = 0, awaited_at = 0;
+  Status awaited_status = Status::Idle;
+  std::string resources = {};  // of a pool
+};
+
+struct StandstillSummary {
+  std::string cause;               // "circle", "idle", "failed", "resources" or "running"
+  double since = 0, reported = 0;  // seconds
+  std::vector<StandstillLinkSummary> links;
+  std::vector<std::string> lines;  // in words
+  std::string failed = {};         // the node that --stall-fail ended, if any
+  double failed_at = 0;            // seconds
+};
+
 struct Summary {
   RunResult result = RunResult::Stopped;
   StopReason reason = StopReason::Completed;
@@ -90,6 +108,8 @@ struct Summary {
   std::vector<LeafTimingSummary> over_budget;
   std::vector<SynchronizedSummary> synchronized_nodes;  // that a tick reached
   std::size_t never_reached = 0;                        // of the synchronized nodes
+  std::vector<StandstillSummary> standstills;           // the first ones
+  std::uint64_t more_standstills = 0;                   // than these
   std::vector<std::string> notes;  // other facts for the user: a recording that is cut, …
 };
 
@@ -98,6 +118,9 @@ void write_text(const Summary& summary, std::string& out, bool color);
 void write_text(std::span<const DecidingSummary> why_failed, std::string& out, bool color);
 void write_text(std::span<const SynchronizedSummary> nodes, std::size_t never_reached,
                 std::string& out, bool color);
+
+// The first few standstills, and how many more there are; each is some lines.
+std::vector<std::vector<std::string>> standstill_notes(const Summary& summary);
 
 // One line, no newline. docs/recording.md describes the keys.
 std::string to_json(const Summary& summary);

@@ -61,8 +61,44 @@ Json json_of(const std::vector<DecidingSummary>& path) {
                     {"status", to_string(node.status)},
                     {"children", node.children},
                     {"agreeing", node.agreeing}});
+    if (node.stood_still) list.back()["stood_still"] = true;
   }
   return list;
+}
+
+Json json_of(const StandstillLinkSummary& link) {
+  Json json = {{"node", link.node},
+               {"kind", link.kind},
+               {"waiting", link.waiting},
+               {"waiting_at", link.waiting_at},
+               {"awaited", link.awaited},
+               {"awaited_at", link.awaited_at},
+               {"awaited_status", to_string(link.awaited_status)}};
+  if (!link.resources.empty()) json["resources"] = link.resources;
+  return json;
+}
+
+Json json_of(const std::vector<StandstillSummary>& standstills) {
+  Json list = Json::array();
+  for (const StandstillSummary& it : standstills) {
+    Json links = Json::array();
+    for (const StandstillLinkSummary& link : it.links) links.push_back(json_of(link));
+    list.push_back({{"cause", it.cause},
+                    {"since_s", it.since},
+                    {"time_s", it.reported},
+                    {"links", std::move(links)}});
+    if (it.failed.empty()) continue;
+    list.back()["failed"] = it.failed;
+    list.back()["failed_s"] = it.failed_at;
+  }
+  return list;
+}
+
+// Of the run, and what stood still.
+std::vector<std::string> all_notes(const Summary& summary) {
+  std::vector<std::string> notes = summary.notes;
+  for (const auto& lines : standstill_notes(summary)) notes.push_back(joined(lines, "; "));
+  return notes;
 }
 
 }  // namespace
@@ -87,7 +123,8 @@ std::string to_json(const Summary& summary) {
     json[node.is_pool ? "pools" : "synchronized_nodes"].push_back(json_of(node));
   }
   json["never_reached"] = summary.never_reached;
-  json["notes"] = summary.notes;
+  json["standstills"] = json_of(summary.standstills);
+  json["notes"] = all_notes(summary);
   return json.printable();
 }
 

@@ -52,21 +52,4 @@ std::string ownership_text(const OwnedFrom& pool, std::size_t child) {
   return text;
 }
 
-std::string standstill_text(const Tree& tree, const Standstill& standstill) {
-  constexpr double kNoChange = 1e-9;
-  const std::string others =
-      fmt::format("the other {} of '{}'", tree.is_group(standstill.node) ? "members" : "children",
-                  tree.segment(standstill.node));
-  if (standstill.progress < standstill.best - kNoChange) {
-    return fmt::format(
-        "{} moves, but is at {:.6g} and has not come beyond {:.6g} since {:.3f} s, and holds {} "
-        "back",
-        tree.path(standstill.child), standstill.progress, standstill.best,
-        to_seconds(standstill.since), others);
-  }
-  return fmt::format("{} stands still at {:.6g} since {:.3f} s and holds {} back",
-                     tree.path(standstill.child), standstill.progress, to_seconds(standstill.since),
-                     others);
-}
-
 }  // namespace lockstep

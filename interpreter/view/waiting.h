@@ -1,5 +1,4 @@
-// Texts for why a child of a synchronized node is held, and which child stands still, for the
-// console views and the command line.
+// Texts for why a child of a synchronized node is held, for the views.
 #pragma once
 
 #include <functional>
@@ -7,7 +6,6 @@
 #include <string>
 
 #include "engine/resources.h"
-#include "measure/stall.h"
 
 namespace lockstep {
 
@@ -34,8 +32,5 @@ struct OwnedFrom {
 
 // "owns left;gripper", "waits for left (Plato/eat)", or "".
 std::string ownership_text(const OwnedFrom& pool, std::size_t child);
-
-// "Door/pull/base stands still at 0.31 since 2.4 s and holds the other children of 'pull' back".
-std::string standstill_text(const Tree& tree, const Standstill& standstill);
 
 }  // namespace lockstep

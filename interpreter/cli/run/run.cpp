@@ -18,11 +18,11 @@
 #include "runtime/crash_report.h"
 #include "runtime/loop.h"
 #include "runtime/outlet.h"
+#include "runtime/stall_fail.h"
 #include "runtime/stop_signals.h"
-#include "summary/capped_notes.h"
-#include "summary/stall_observer.h"
+#include "summary/standstills.h"
 #include "summary/statistics.h"
-#include "view/waiting.h"
+#include "view/line_budget.h"
 
 namespace lockstep {
 namespace {
@@ -93,13 +93,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     if (!options.record.empty()) {
       recorder_.emplace(tree_, recorder_options());
     }
-    if (options.stall > 0) {
-      stall_.emplace(tree_, from_seconds(options.stall), [this](const Standstill& standstill) {
-        const std::string text = standstill_text(tree_, standstill);
-        view_.print("warning: " + text);
-        standstills_.add([&] { return text; });
-      });
-    }
+    if (options.stall > 0 || options.stall_fail > 0) watch_standstills();
   }
 
   // Runs the tree to its end; initializes `plugins` before and deinitializes them after.
@@ -183,8 +177,37 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     return recorder;
   }
 
+  void watch_standstills() {
+    std::optional<Nanoseconds> limit;
+    if (options_.stall > 0) limit = from_seconds(options_.stall);
+    standstills_.emplace(tree_, limit, [this](NodeIndex node, const auto& lines) {
+      if (recorder_) recorder_->log(tree_.path(node), "warning", joined(lines, "; "));
+      watchers_.log(tree_.path(node), "warning", joined(lines, "; "));
+      tell_standstill(lines);
+    });
+    if (options_.stall_fail <= 0) return;
+    stall_fail_.emplace(tree_, from_seconds(options_.stall_fail),
+                        [this](const Standstill& standstill, NodeIndex failed) {
+                          standstills_->failed(standstill, failed);
+                        });
+  }
+
+  // A Retry may come to stand again and again.
+  void tell_standstill(const std::vector<std::string>& lines) {
+    if (!standstill_budget_.take(monotonic_now())) return;
+    if (const std::uint64_t left_out = standstill_budget_.take_left_out(); left_out > 0) {
+      view_.print(fmt::format("... {} left out", counted(left_out, "standstill")));
+    }
+    std::string_view begin = "warning: ";
+    for (const std::string& line : lines) {
+      view_.print(fmt::format("{}{}", begin, line));
+      begin = "  ";
+    }
+  }
+
   LoopOptions loop_options() {
     LoopOptions loop = options_.loop();
+    if (stall_fail_) loop.stall_fail = &*stall_fail_;
     loop.control = watchers_.control();
     if (recorder_ && options_.stop_on_record_error) {
       loop.recording_failed = [this] { return recorder_->failed(); };
@@ -194,9 +217,9 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
 
   std::span<Observer* const> observers() {
     observers_ = {&statistics_};
+    if (standstills_) observers_.push_back(&*standstills_);  // before those that it tells
     if (recorder_) observers_.push_back(&*recorder_);
     watchers_.add_to(observers_);
-    if (stall_) observers_.push_back(&*stall_);
     if (view_.observer() != nullptr) observers_.push_back(view_.observer());
     observers_.push_back(&watch_);
     return observers_;
@@ -209,7 +232,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
       summary.notes.push_back(fmt::format("the recording lacks {}: the disk was too slow",
                                           counted(recorder_->lost(), "tick")));
     }
-    standstills_.append_to(summary.notes);
+    if (standstills_) standstills_->add_to(summary);
     watch_.add_to(summary);
     if (const std::string lost = lost_messages(); !lost.empty()) summary.notes.push_back(lost);
     if (options_.json) return write_results(to_json(summary) + "\n", summary.signal);
@@ -226,8 +249,9 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   const RunDescription description_;
   std::optional<Recorder> recorder_;
   Watchers watchers_;
-  std::optional<StallObserver> stall_;
-  CappedNotes standstills_{"standstill"};
+  std::optional<Standstills> standstills_;
+  std::optional<StallFail> stall_fail_;
+  LineBudget standstill_budget_{ConsolePlain::kBurstOfFaults};
   std::vector<Observer*> observers_;
 };
 

@@ -54,8 +54,14 @@ void define_loop_options(CLI::App& app, RunCommandOptions& options) {
       ->type_name("S")
       ->check(number_between(0.0, 1e9));
   app.add_option("--stall", options.stall,
-                 "Report a child that stands still for S seconds while others wait for it; 0 = "
-                 "never")
+                 "Report a child that stands still for S seconds while others wait for it, and "
+                 "barriers that wait for each other; 0 = never")
+      ->type_name("S")
+      ->check(number_between(0.0, 1e9))
+      ->capture_default_str();
+  app.add_option("--stall-fail", options.stall_fail,
+                 "After S seconds of such a standstill, halt the node that stands still; it fails; "
+                 "0 = never")
       ->type_name("S")
       ->check(number_between(0.0, 1e9))
       ->capture_default_str();

@@ -21,6 +21,7 @@ struct RunCommandOptions {
   std::optional<std::uint64_t> max_ticks;
   std::optional<double> timeout;
   double stall = 5;
+  double stall_fail = 0;
 
   OverrunPolicy overrun = OverrunPolicy::Skip;
   bool exactly_once = false;  // a tick of the tree in each period, also when a node asks for more

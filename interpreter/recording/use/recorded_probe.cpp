@@ -73,6 +73,8 @@ bool RecordedProbe::is_in_skipped(std::size_t child, const RecordedTick& tick) c
 
 SynchronizedTick RecordedProbe::read(const RecordedTick& tick) {
   const bool has_been_ended = std::ranges::find(tick.succeeded, node_) != tick.succeeded.end();
+  const bool any_reached =
+      std::ranges::any_of(children_, [&](NodeIndex node) { return tick.nodes[node].ticked; });
   for (std::size_t child = 0; child < children_.size(); ++child) {
     const RecordedState& state = tick.nodes[children_[child]];
     progress_[child] = synchronizes_ ? state.progress : in_plain_parallel(child, state);
@@ -85,7 +87,8 @@ SynchronizedTick RecordedProbe::read(const RecordedTick& tick) {
       held_.set(child, member.ticked && waits(member.limit));
       continue;
     }
-    const bool asked = members_.empty() || tick.nodes[members_[child]].ticked;
+    const bool asked =
+        members_.empty() ? any_reached || held_.data()[child] : tick.nodes[members_[child]].ticked;
     held_.set(child, state.status, state.ticked || !asked, state.held && asked);
   }
   runs_ = tick.nodes[node_].status == Status::Running;

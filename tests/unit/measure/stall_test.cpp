@@ -13,7 +13,9 @@ std::string watch(std::string_view tree, std::string_view leaves, int ticks, dou
   std::string reports;
   int tick = 0;
   StallWatch watch(run.tree(), from_seconds(limit), [&](const Standstill& found) {
-    reports += std::string(run.tree().labels[found.child].name) + "@" + std::to_string(tick) +
+    const NodeIndex awaited =
+        found.link().awaited + (run.tree().is_group(found.link().node) ? 1 : 0);
+    reports += std::string(run.tree().labels[awaited].name) + "@" + std::to_string(tick) +
                " since " + std::to_string(found.since.count() / 100'000'000) + ";";
   });
   for (; tick < ticks; ++tick) {
@@ -78,6 +80,56 @@ TEST_CASE("who is held is not to blame") {
 
 TEST_CASE("time before anybody waited does not count") {
   CHECK(watch("ParallelRelative[delta=.5](a b)", "a=R b+.1", 20, 0.35) == "a@10 since 6;");
+}
+
+TEST_CASE("a circle is one standstill, as old as its youngest node") {
+  // coarse holds its member from tick 7 on, fine from tick 10 on.
+  constexpr const char* kCircle =
+      "Parallel(SyncProgress[barrier=coarse](SyncProgress[barrier=fine](x))"
+      " SyncProgress[barrier=coarse](Sequence[memory=true](a SyncProgress[barrier=fine](y))))"
+      " barrier[name=coarse barriers=.5] barrier[name=fine barriers=.25]";
+  CHECK(watch(kCircle, "x+.05 a+.2 y+.001", 40, 0.55) == "y@11 since 5;");
+}
+
+TEST_CASE("nodes that wait for the same one are one standstill") {
+  constexpr const char* kChain =
+      "Parallel(SyncProgress[barrier=one](SyncProgress[barrier=two](x)) "
+      "SyncProgress[barrier=one](a)"
+      " SyncProgress[barrier=two](b)) barrier[name=one barriers=.5] barrier[name=two barriers=.25]";
+  CHECK(watch(kChain, "x+.05 a+.25 b=R.1", 40, 0.55) == "b@11 since 5;");
+}
+
+TEST_CASE("time in which a node is held itself does not count") {
+  // b is held from tick 1 on, and the outer node holds the inner one in the ticks 4 to 13.
+  CHECK(watch("ParallelAbsolute[barriers=.2](o ParallelAbsolute[barriers=.5](a b))",
+              "o=R~.5,.5,.5,.5,0,0,0,0,0,0,0,0,0,0,.5 a=R.3R b=R.6", 40,
+              0.55) == "o@10 since 4;a@17 since 11;");
+}
+
+TEST_CASE("who holds an inner node back and with it the outer one is reported once") {
+  CHECK(watch("ParallelAbsolute[barriers=.5](Inverter(ParallelRelative[delta=.1](p q)) b)",
+              "p=R.2R q+.1 b+.25", 40, 0.55) == "p@10 since 4;");
+}
+
+TEST_CASE("who waits for a slow one is reported, but later than one that waits for nothing") {
+  // one waits for x, which two holds until y comes on; that is slow.
+  CHECK(watch("Parallel(SyncProgress[barrier=one](SyncProgress[barrier=two](x))"
+              " SyncProgress[barrier=one](a) SyncProgress[barrier=two](y))"
+              " barrier[name=one barriers=.5] barrier[name=two barriers=.25]",
+              "x+.25 a+.5 y+.01", 20, 0.55) == "SyncProgress@13 since 1;");
+}
+
+TEST_CASE("a member that holds a barrier's child and gives its resources away waits, too") {
+  CHECK(watch("Parallel(UseResources[pool=p resources=A](SyncProgress[barrier=b](x))"
+              " UseResources[pool=p resources=A](SyncProgress[barrier=b](y)))"
+              " resources[name=p] barrier[name=b barriers=.5]",
+              "x+.25 y=R.1", 40, 0.55) != "");
+}
+
+TEST_CASE("a long task of an owner that keeps is no standstill") {
+  CHECK(watch("Parallel(UseResources[pool=p resources=A keep=true](x)"
+              " UseResources[pool=p resources=A](y)) resources[name=p]",
+              "x+.01 y+.25", 90, 0.55) == "");
 }
 
 }  // namespace

@@ -234,7 +234,7 @@ TEST_CASE("synchronized nodes that no tick reached are only counted") {
   REQUIRE(summary.synchronized_nodes.size() == 1);
   CHECK(summary.synchronized_nodes[0].path == "Test/Sequence/ParallelAbsolute");
   CHECK(text_of(summary).ends_with("  1 synchronized node was never reached\n"));
-  CHECK(to_json(summary).ends_with(R"("never_reached":1,"notes":[]})"));
+  CHECK(to_json(summary).ends_with(R"("never_reached":1,"standstills":[],"notes":[]})"));
 }
 
 TEST_CASE("why a run stopped") {
@@ -268,7 +268,7 @@ TEST_CASE("the summary as JSON") {
       R"("step_length":0.5,"children":[)"
       R"({"name":"a","held_s":0.0,"held_ticks":0,"waits":0},)"
       R"({"name":"b","held_s":0.0,"held_ticks":0,"waits":0}]}],)"
-      R"("pools":[],"never_reached":0,"notes":[]})");
+      R"("pools":[],"never_reached":0,"standstills":[],"notes":[]})");
 }
 
 }  // namespace

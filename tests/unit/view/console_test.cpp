@@ -1,11 +1,9 @@
 // The plain lines, and the thread of the live view.
 #include <catch2/catch.hpp>
 
-#include "summary/stall_observer.h"
 #include "unit/recording/watched_run.h"
 #include "view/console_live.h"
 #include "view/console_plain.h"
-#include "view/waiting.h"
 
 namespace lockstep {
 namespace {
@@ -159,19 +157,6 @@ TEST_CASE("after the burst there is a line for each second") {
   CHECK(budget.take(at(60'000)));
   CHECK(budget.take(at(60'000)));
   CHECK_FALSE(budget.take(at(60'000)));
-}
-
-TEST_CASE("a standstill in words") {
-  WatchedRun run("ParallelAbsolute[barriers=.5](a b)", "a=R.25 b=R.75");
-  std::string told;
-  StallObserver stall(run.run.tree(), std::chrono::milliseconds(250), [&](const Standstill& found) {
-    told += standstill_text(run.run.tree(), found) + "\n";
-  });
-  run.watch({&stall}, 10);
-  CHECK(
-      told ==
-      "Test/ParallelAbsolute/a stands still at 0.25 since 0.100 s and holds the other children of "
-      "'ParallelAbsolute' back\n");
 }
 
 TEST_CASE("the live view leaves the last state and the cursor on the screen") {

@@ -1,0 +1,65 @@
+// What keeps a node from coming on, from the state of the tree after a tick.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/tree.h"
+
+namespace lockstep {
+
+class Ticker;
+
+// Something that gets no ticks. A barrier and a pool call it by their member.
+struct Withheld {
+  NodeIndex node;  // a synchronized node, a barrier or a pool
+  NodeIndex from;  // its child or member
+};
+
+// Why a node does not come on if nobody withholds anything from it.
+enum class Obstacle : std::uint8_t {
+  Idle,     // it does not run
+  Failed,   // and counts as 0
+  Running,  // it gets ticks
+  Denied,   // others own its resources
+  Circle,   // it waits for itself
+};
+
+class Hindrance {
+ public:
+  Hindrance(Ticker& ticker, NodeIndex node);
+
+  // From the node, what it is inside of, what it lacks inside, or what runs before its turn.
+  const std::vector<Withheld>& withheld() const { return withheld_; }
+  // It can come no further than something in it that gets ticks.
+  bool runs() const { return runs_; }
+  // The synchronized nodes in it, and the barriers of members in it, on the way to that.
+  const std::vector<NodeIndex>& passed() const { return passed_; }
+  Obstacle obstacle() const { return obstacle_; }
+
+ private:
+  void look_at(NodeIndex node);
+  void look_around(NodeIndex node);
+  void look_inside(NodeIndex node);
+  void look_before(NodeIndex node);
+  void pass(NodeIndex node);
+  bool lacks_resources(NodeIndex node) const;
+  void add(const Member& member);
+  void add_user(const Member& member);
+  void add_gates(const Member& user);
+  std::vector<NodeIndex> running_children(NodeIndex node) const;
+
+  Ticker& ticker_;
+  const Tree& tree_;
+  std::vector<Withheld> withheld_;
+  std::vector<NodeIndex> passed_;
+  bool runs_ = false;
+  Obstacle obstacle_ = Obstacle::Running;
+};
+
+// Of the resources that a member of a pool is denied, the owners that have them as long as they
+// run: one with `keep`, and without an increment one before it in the tree. From all others it gets
+// them in one of the next ticks.
+std::vector<NodeIndex> lasting_owners(Ticker& ticker, const Member& denied);
+
+}  // namespace lockstep
