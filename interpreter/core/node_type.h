@@ -108,7 +108,7 @@ struct NodeType {
   Synchronization synchronization = Synchronization::None;
   Status goes_on_after = Status::Idle;  // children are ticked from the left, each after this result
   bool latches = false;                 // a parallel: a child with actions is not ticked again
-  bool begins_child_once = false;       // while it runs, no child begins a second activation
+  bool begins_child_once = false;       // no child begins again, but for the first of several
   bool inverts = false;                 // a decorator that swaps Success and Failure
   bool can_run = false;                 // Running is its own result, not only a child's
   bool acts_again = true;               // false: after it completed once, a tick of it does nothing

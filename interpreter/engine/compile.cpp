@@ -292,7 +292,11 @@ class Compiler {
     const NodeIndex parent = definition_.nodes[node].parent;
     const NodeType& type = *definition_.nodes[parent].type;
     if (type.latches) return tree_.nodes[node].is_latched != 0;
-    if (type.goes_on_after == Status::Idle) return type.begins_child_once;
+    if (type.goes_on_after == Status::Idle) {
+      // If its branch is skipped, so is an IfThenElse, and its condition may begin again.
+      const bool is_condition = node == parent + 1 && definition_.nodes[parent].children > 1;
+      return type.begins_child_once && !is_condition;
+    }
     return has_memory(parent) || is_last_behind_conditions(parent, node);
   }
 

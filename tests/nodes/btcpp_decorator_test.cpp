@@ -149,6 +149,10 @@ constexpr TickRow kNames[] = {
    "Sequence(Script[code=n:=0] SetBlackboard[value=n:=1;k:='n:=2' output_key=k] Script[code={k}]"
    " Script[code={k}] ScriptCondition[code=n==2])",
    "", "S[]"},
+  {"Script: code={k} has the entries of its new text alone, when that changes",
+   "Sequence(Script[code=n:=0;m:=0;k:='n:=1'] Repeat[num_cycles=2](Sequence(Script[code={k}]"
+   " Script[code=k:='m:=5'])) ScriptCondition[code=n==1&&m==5])",
+   "", "S[]"},
   {"Script: code={k} makes entries that nothing else names",
    "Sequence(SetBlackboard[value=fresh:=1 output_key=k] Script[code={k}]"
    " SetBlackboard[value=fresh==1 output_key=k] ScriptCondition[code={k}])",

@@ -97,6 +97,13 @@ constexpr TickRow kMemberRows[] = {
   {"the others wait where an action comes before it in every tick",
    "Parallel(Sequence(z Parallel[success_count=1 failure_count=2](SyncProgress[barrier=g](a) x)) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5]",
    "z=S... a=R.1F x=R... b=R.7", "R[z a x b] R{start z, tick z, tick a, tick x, pause b} R{start z, tick z, tick x}"},
+  {"nobody waits for it below a branch",
+   "Parallel(IfThenElse(c? Parallel[success_count=1 failure_count=2](SyncProgress[barrier=g](a) x)) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5]",
+   "c=S a=R.1F x=R... b=R.7", "R[c a x b] R[a x] pause[b] R[x b] resume[b]"},
+  {"the others wait where a skipped branch begins the condition again",
+   "Parallel(IfThenElse(Parallel[success_count=1 failure_count=2](SyncProgress[barrier=g](a) x) y) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5]",
+   "a=R.1FR.1 x=RRRSR y=K b=R.7",
+   "R[a x b] R[a x] pause[b] R[x] R[x y] R{start a, tick a, start x, tick x, resume b, tick b} R[a x] pause[b]"},
   {"nobody waits for a member that was halted for good",
    "Parallel[success_count=1 failure_count=2](Parallel(SyncProgress[barrier=g](a) x) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5]",
    "a=R.1R.2 x=RF b=R.7", "R[a x b] R[a x] halt[a] pause[b] R[b] resume[b]"},
@@ -159,8 +166,7 @@ TEST_CASE("SyncProgress: the limits of a barrier may come from entries") {
 }
 
 TEST_CASE("SyncProgress: the tree may write the limits before a member runs") {
-  constexpr std::string_view kWrites =
-      "Sequence[memory=true](Script[code=d:=0.2] Parallel(%) x)";
+  constexpr std::string_view kWrites = "Sequence[memory=true](Script[code=d:=0.2] Parallel(%) x)";
   const auto trace_of = [](std::string tree) {
     ScriptedRun run(tree, "a=R.1R.2R.3S b=R.6S x=RRS");
     std::string trace;
@@ -186,8 +192,7 @@ TEST_CASE("SyncProgress: a limit without a value is a fault once a member runs, 
   CHECK(run.tick(from_seconds(0)) == Status::Running);
   CHECK(barrier_fault(run).empty());
   run.tick(from_seconds(0.1));
-  CHECK(barrier_fault(run) ==
-        "Test/g: 'delta' has no value: nothing has written the entry '{d}'");
+  CHECK(barrier_fault(run) == "Test/g: 'delta' has no value: nothing has written the entry '{d}'");
 
   ScriptedRun barriers("ParallelAbsolute[barriers={d}](a b)", "a=R.1... b=R.6...");
   barriers.tick(from_seconds(0));

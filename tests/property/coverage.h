@@ -28,4 +28,19 @@ class Coverage {
   std::vector<bool> paused_;  // leaves of the current run
 };
 
+// The same of the law of barriers and resources: cases that the reference interpreter met.
+class GroupCoverage {
+ public:
+  // `refused`: why the checks of its document refuse a tree, or "".
+  void count_tree(const std::string& refused);
+  void count(const std::map<std::string, long>& cases);
+  // Of so many trees as ./dev test has.
+  void check() const;
+
+ private:
+  std::map<std::string, long> seen_;
+  std::map<std::string, long> refusals_;  // by message
+  long trees_ = 0;
+};
+
 }  // namespace lockstep::test

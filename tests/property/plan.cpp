@@ -9,37 +9,71 @@
 namespace lockstep::test {
 namespace {
 
+// Those of one node, as written in a document.
+class AttributeList {
+ public:
+  explicit AttributeList(const Plan& plan) : plan_(plan) {
+    add_control();
+    if (plan.kind == "barrier") add_barrier();
+    add_group();
+    add_others();
+    for (const auto& [attribute, script] : plan.hooks) add(attribute, script);
+  }
+  Attributes list;
+
+ private:
+  template <class Value>
+  void add(const std::string& name, const Value& value) {
+    const auto key = plan_.from_entries.find(name);
+    const bool is_entry = key != plan_.from_entries.end();
+    list.emplace_back(name, is_entry ? "{" + key->second + "}" : fmt::format("{}", value));
+  }
+
+  void add_control() {
+    if (plan_.memory) add("memory", "true");
+    if (plan_.forgets) add("memory", "false");
+    if (plan_.success_count >= 0) add("success_count", plan_.success_count);
+    if (plan_.failure_count >= 0) add("failure_count", plan_.failure_count);
+    if (plan_.has_barriers) add("barriers", fmt::format("{}", fmt::join(plan_.barriers, ";")));
+    if (plan_.barrier_count >= 0) add("barrier_count", plan_.barrier_count);
+    const bool may_tick = plan_.tick_at_barrier || plan_.from_entries.contains("at_barrier");
+    if (may_tick) add("at_barrier", "tick");
+    if (plan_.kind == "ParallelRelative") add("delta", plan_.delta);
+  }
+
+  void add_barrier() {
+    if (!plan_.has_barriers && plan_.barrier_count < 0) add("delta", plan_.delta);
+    if (plan_.ignores_idle) add("idle", "ignore");
+  }
+
+  void add_group() {
+    if (plan_.kind == "barrier" || plan_.kind == "resources") add("name", plan_.name);
+    if (plan_.kind == "resources") add("increment", plan_.increment);
+    if (plan_.kind == "UseResources") add("pool", plan_.pool);
+    const bool has_names = !plan_.resources.empty() || plan_.from_entries.contains("resources");
+    if (has_names) add("resources", plan_.resources);
+    if (plan_.keep) add("keep", "true");
+    if (plan_.kind == "SyncProgress") add("barrier", plan_.barrier);
+  }
+
+  void add_others() {
+    if (plan_.times >= 0) add(plan_.kind == "Retry" ? "attempts" : "times", plan_.times);
+    constexpr std::array kTimed{"Wait", "Delay", "Timeout", "Cooldown", "Rate"};
+    if (std::ranges::find(kTimed, plan_.kind) != kTimed.end()) add("seconds", plan_.seconds);
+    if (plan_.wall_clock) add("clock", "wall");
+    const bool is_switch = plan_.kind == "Switch";
+    if (!plan_.code.empty()) add(is_switch ? "on" : "code", plan_.code);
+    if (is_switch) add("cases", fmt::format("{}", fmt::join(plan_.cases, ";")));
+  }
+
+  const Plan& plan_;
+};
+
 std::string parameters(const Plan& plan) {
   std::string text;
-  const auto add = [&text](std::string_view name, const auto& value) {
+  for (const auto& [name, value] : attributes_of(plan)) {
     text += fmt::format("{}{}={}", text.empty() ? "" : " ", name, value);
-  };
-  if (plan.memory) add("memory", "true");
-  if (plan.forgets) add("memory", "false");
-  if (plan.success_count >= 0) add("success_count", plan.success_count);
-  if (plan.failure_count >= 0) add("failure_count", plan.failure_count);
-  if (plan.has_barriers) add("barriers", fmt::format("{}", fmt::join(plan.barriers, ";")));
-  if (plan.barrier_count >= 0) add("barrier_count", plan.barrier_count);
-  if (plan.tick_at_barrier) add("at_barrier", "tick");
-  const bool is_delta = plan.kind == "barrier" && !plan.has_barriers && plan.barrier_count < 0;
-  if (plan.kind == "ParallelRelative" || is_delta) add("delta", plan.delta);
-  if (plan.ignores_idle) add("idle", "ignore");
-  if (plan.kind == "barrier" || plan.kind == "resources") add("name", plan.name);
-  if (plan.kind == "resources") add("increment", plan.increment);
-  if (plan.kind == "UseResources") {
-    add("pool", plan.pool);
-    add("resources", plan.resources);
-    if (plan.keep) add("keep", "true");
   }
-  if (plan.kind == "SyncProgress") add("barrier", plan.barrier);
-  if (plan.times >= 0) add(plan.kind == "Retry" ? "attempts" : "times", plan.times);
-  constexpr std::array kTimed{"Wait", "Delay", "Timeout", "Cooldown", "Rate"};
-  if (std::ranges::find(kTimed, plan.kind) != kTimed.end()) add("seconds", plan.seconds);
-  if (plan.wall_clock) add("clock", "wall");
-  const bool is_switch = plan.kind == "Switch";
-  if (!plan.code.empty()) add(is_switch ? "on" : "code", plan.code);
-  if (is_switch) add("cases", fmt::format("{}", fmt::join(plan.cases, ";")));
-  for (const auto& [attribute, script] : plan.hooks) add(attribute, script);
   return text.empty() ? text : "[" + text + "]";
 }
 
@@ -57,18 +91,36 @@ std::string node_text(const Plan& plan) {
   return text + ')';
 }
 
-bool has_member(const Plan& plan, std::string_view group) {
-  return plan.barrier == group || plan.pool == group ||
+// `names`: of the groups, inside of the SubTrees around `plan`.
+bool has_member(const Plan& plan, const std::string& group, const GroupNames& names) {
+  const GroupNames inside = names_inside(plan, names);
+  return (!plan.barrier.empty() && meaning(names, plan.barrier) == group) ||
+         (!plan.pool.empty() && meaning(names, plan.pool) == group) ||
          std::ranges::any_of(plan.children,
-                             [&](const Plan& child) { return has_member(child, group); });
+                             [&](const Plan& child) { return has_member(child, group, inside); });
 }
 
 }  // namespace
 
+Attributes attributes_of(const Plan& plan) {
+  return AttributeList(plan).list;
+}
+
+std::string meaning(const GroupNames& names, const std::string& name) {
+  const auto other = names.find(name);
+  return other == names.end() ? name : other->second;
+}
+
+GroupNames names_inside(const Plan& plan, const GroupNames& names) {
+  GroupNames inside = names;
+  for (const auto& [name, outside] : plan.renames) inside[name] = meaning(names, outside);
+  return inside;
+}
+
 std::vector<const Plan*> groups_of(const Plan& plan) {
   std::vector<const Plan*> used;
   for (const Plan& group : plan.beside) {
-    if (has_member(plan, group.name)) used.push_back(&group);
+    if (has_member(plan, group.name, {})) used.push_back(&group);
   }
   return used;
 }

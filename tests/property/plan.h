@@ -4,6 +4,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lockstep::test {
@@ -34,6 +35,9 @@ struct Plan {
   std::string code = {};  // Script, Check; of Switch, what it is on
   std::vector<std::string> cases = {};
 
+  // SubTree: what names of barriers and pools mean inside.
+  std::map<std::string, std::string> renames = {};
+
   std::string pool = {};  // UseResources: likewise
   std::string resources = {};
   bool keep = false;
@@ -46,13 +50,26 @@ struct Plan {
   std::vector<Plan> beside = {};
   bool ignores_idle = false;
   int increment = 1;
+
+  // Of a barrier or a UseResources: the parameters that are entries, with their keys.
+  std::map<std::string, std::string> from_entries = {};
 };
+
+// What the names of groups mean in a tree; those that are not there mean themselves.
+using GroupNames = std::map<std::string, std::string>;
+std::string meaning(const GroupNames& names, const std::string& name);
+GroupNames names_inside(const Plan& plan, const GroupNames& names);
+
+// Of a node, with their texts: all but its name.
+using Attributes = std::vector<std::pair<std::string, std::string>>;
+Attributes attributes_of(const Plan& plan);
 
 // As tree_from_text and ScriptedRun read them.
 std::string tree_text(const Plan& plan);
 std::string leaves_text(const Plan& plan);
 
-// Of the root: the barriers and pools beside the tree that have members, in order.
+// Of the root: the barriers and pools beside the tree that have members, in order, whatever names
+// these have for them.
 std::vector<const Plan*> groups_of(const Plan& plan);
 
 // No action is in it.

@@ -1,219 +1,16 @@
 #include "property/reference.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <functional>
-#include <limits>
-#include <map>
-#include <set>
-#include <sstream>
 #include <stdexcept>
 
+#include "property/reference_barrier.h"
+#include "property/reference_pool.h"
 #include "support/scripted_leaf.h"
 
 namespace lockstep::test {
 namespace {
-
-constexpr double kEpsilon = 1e-9;
-constexpr double kLeftOut = std::numeric_limits<double>::quiet_NaN();
-
-// Thrown where a leaf breaks its contract: nothing else happens in that tick.
-struct LeafFault {
-  std::size_t node;
-};
-
-}  // namespace
-
-class ReferenceBarrier;
-
-namespace {
-
-// The few forms of scripts in random trees: "x>=y", "x:=1-x;y+=2".
-class MiniScript {
- public:
-  MiniScript(std::map<std::string, double>& entries, std::size_t node)
-      : entries_(entries), node_(node) {}
-
-  bool holds(const std::string& text) const {
-    for (const std::string sign : {">=", "==", "!=", "<", ">"}) {
-      const auto at = text.find(sign);
-      if (at == std::string::npos) continue;
-      const double left = value(text.substr(0, at)), right = value(text.substr(at + sign.size()));
-      if (sign == ">=") return left >= right;
-      if (sign == "==") return left == right;
-      if (sign == "!=") return left != right;
-      return sign == "<" ? left < right : left > right;
-    }
-    throw std::logic_error("what is the condition " + text);
-  }
-
-  // "x" or "x+y".
-  double number(const std::string& text) const {
-    const auto plus = text.find('+');
-    if (plus == std::string::npos) return value(text);
-    return value(text.substr(0, plus)) + value(text.substr(plus + 1));
-  }
-
-  void run(const std::string& text) const {
-    std::istringstream statements(text);
-    for (std::string it; std::getline(statements, it, ';');) {
-      const bool adds = it[1] == '+';
-      const double right = sum(it.substr(3));
-      const std::string name = it.substr(0, 1);
-      entries_[name] = adds ? value(name) + right : right;
-    }
-  }
-
- private:
-  double sum(const std::string& text) const {
-    const auto minus = text.find('-');
-    if (minus == std::string::npos) return value(text);
-    return value(text.substr(0, minus)) - value(text.substr(minus + 1));
-  }
-  double value(const std::string& text) const {
-    if (std::isdigit(static_cast<unsigned char>(text[0])) != 0) return std::stod(text);
-    const auto entry = entries_.find(text);
-    if (entry == entries_.end()) throw LeafFault{node_};
-    return entry->second;
-  }
-
-  std::map<std::string, double>& entries_;
-  std::size_t node_;
-};
-
-}  // namespace
-
-struct Reference::World {
-  Nanoseconds now{0};
-  std::uint32_t tick = 0;
-  std::optional<std::size_t> fault;
-  std::uint32_t leaves = 0;
-  std::map<std::string, ReferenceGroup*> groups;  // by name
-  std::map<std::string, double> entries;
-};
-
-class ReferenceNode {
- public:
-  using Children = std::vector<std::unique_ptr<ReferenceNode>>;
-
-  ReferenceNode(Reference& tree, const Plan& its_plan)
-      : plan(its_plan), world(*tree.world_), events(tree.events), number(tree.nodes_.size()) {
-    tree.nodes_.push_back(this);
-    for (const Plan& child : plan.children) {
-      children.push_back(make(tree, child));
-      children.back()->parent = this;
-    }
-  }
-  virtual ~ReferenceNode() = default;
-  static std::unique_ptr<ReferenceNode> make(Reference& tree, const Plan& plan);
-
-  Status tick() {
-    if (has_ended(status)) {
-      for (auto& child : children) child->make_idle();
-    }
-    status = tick_with_scripts();
-    paused = false;
-    last_tick = world.tick;
-    return status;
-  }
-
-  Status tick_with_scripts() {
-    const bool first = status != Status::Running;
-    if (first && asks("failure_if", false)) return ended(decided(Status::Failure));
-    if (first && asks("success_if", false)) return ended(decided(Status::Success));
-    if (first && asks("skip_if", false)) return decided(Status::Skipped);
-    if (asks("while", true)) return ended(on_tick(first));
-    make_idle();
-    return first ? decided(Status::Skipped) : Status::Skipped;
-  }
-
-  // Before it began: to measures, all children of a synchronized node are as far as it is.
-  Status decided(Status result) {
-    std::ranges::fill(snapshot, result == Status::Success ? 1.0 : 0.0);
-    return result;
-  }
-
-  Status ended(Status result) {
-    if (!is_complete(result)) return result;
-    run(result == Status::Success ? "on_success" : "on_failure");
-    run("on_end");
-    return result;
-  }
-
-  bool asks(const char* hook, bool otherwise) const {
-    const auto script = plan.hooks.find(hook);
-    return script == plan.hooks.end() ? otherwise : this->script().holds(script->second);
-  }
-  void run(const char* hook) const {
-    const auto script = plan.hooks.find(hook);
-    if (script != plan.hooks.end()) this->script().run(script->second);
-  }
-  MiniScript script() const { return {world.entries, number}; }
-
-  // Halts what runs; all of the subtree is idle then.
-  void make_idle() {
-    const bool was_running = status == Status::Running;
-    status = Status::Idle;
-    paused = false;
-    if (was_running) on_halt();
-    for (auto& child : children) child->make_idle();
-    if (was_running) run("on_halt");
-  }
-
-  void pause() {
-    if (status == Status::Running && !paused) {
-      paused = true;
-      on_pause();
-    }
-    for (auto& child : children) child->pause();
-  }
-
-  double progress() {
-    if (status == Status::Running) return on_progress();
-    return status == Status::Success ? 1 : 0;
-  }
-
-  virtual Status on_tick(bool first) = 0;
-  virtual double on_progress() = 0;
-  virtual void on_halt() {}
-  virtual void on_pause() {}
-
-  ReferenceNode& child() { return *children.front(); }
-
-  ReferenceNode* parent = nullptr;
-  const Plan& plan;
-  Reference::World& world;
-  EventLog& events;
-  std::size_t number;
-  Children children;
-  Status status = Status::Idle;
-  bool paused = false;
-  std::uint32_t last_tick = 0;
-  std::vector<double> snapshot;
-};
-
-namespace {
-
-std::optional<double> next_barrier(const Plan& plan, double least) {
-  std::vector<double> barriers = plan.barriers;
-  for (int i = 1; i <= plan.barrier_count; ++i) {
-    barriers.push_back(static_cast<double>(i) / plan.barrier_count);
-  }
-  for (const double barrier : barriers) {
-    if (barrier > least + kEpsilon) return barrier;
-  }
-  return std::nullopt;
-}
-
-// By the parameters of a synchronized parallel, or of a barrier beside the tree.
-bool is_held(const Plan& plan, double progress, double least) {
-  if (std::isnan(progress)) return false;
-  if (!plan.has_barriers && plan.barrier_count < 0) return progress > least + plan.delta + kEpsilon;
-  const auto barrier = next_barrier(plan, least);
-  if (!barrier) return false;
-  return plan.tick_at_barrier ? progress > *barrier + kEpsilon : progress >= *barrier - kEpsilon;
-}
 
 class Leaf : public ReferenceNode {
  public:
@@ -233,13 +30,13 @@ class Leaf : public ReferenceNode {
       const bool may_be = row.status == Status::Running ? may_run : row.status != Status::Idle;
       if (may_be && result == static_cast<std::int32_t>(row.status)) return row.status;
     }
-    throw LeafFault{number};
+    throw ReferenceFault{number};
   }
 
   double on_progress() override {
     if (plan.kind == "bare") return 0;
     const double progress = leaf_.progress();
-    if (std::isnan(progress)) throw LeafFault{number};
+    if (std::isnan(progress)) throw ReferenceFault{number};
     return std::min(1.0, std::max(0.0, progress));
   }
 
@@ -258,9 +55,9 @@ class Leaf : public ReferenceNode {
     try {
       function();
     } catch (const std::exception&) {
-      throw LeafFault{number};
+      throw ReferenceFault{number};
     }
-    if (error_ != nullptr) throw LeafFault{number};
+    if (error_ != nullptr) throw ReferenceFault{number};
   }
 
   const char* error_ = nullptr;
@@ -458,17 +255,16 @@ class Synchronized : public Parallel {
   using Parallel::Parallel;
   Status on_tick(bool) override {
     snapshot.clear();
-    double least = 1;
     for (auto& child : children) {
       snapshot.push_back(child->status == Status::Skipped ? kLeftOut : reached(*child));
-      if (!std::isnan(snapshot.back())) least = std::min(least, snapshot.back());
     }
+    const ProgressLimit limit(plan);
     for (std::size_t i = 0; i < children.size(); ++i) {
       if (!may_be_ticked(*children[i])) continue;
-      if (is_guard(children[i]->plan) || !is_held(plan, snapshot[i], least)) {
+      if (is_guard(children[i]->plan) || !limit.holds(snapshot[i], least_of(snapshot))) {
         children[i]->tick();
-      } else if (children[i]->status == Status::Running && !children[i]->paused) {
-        children[i]->pause();
+      } else {
+        withhold(*children[i]);
       }
     }
     return judge();
@@ -483,22 +279,16 @@ class Synchronized : public Parallel {
   }
 
  private:
+  void withhold(ReferenceNode& child) const {
+    child.withheld_in = world.tick;
+    if (child.runs() && !child.paused) child.pause();
+  }
+
   // Nobody waits for a child that has failed and is not ticked again.
   double reached(ReferenceNode& child) const {
     if (child.status == Status::Failure && !may_be_ticked(child)) return 1;
     return child.progress();
   }
-};
-
-class SyncProgress : public ReferenceNode {
- public:
-  using ReferenceNode::ReferenceNode;
-  Status on_tick(bool first) override;
-  double on_progress() override { return child().progress(); }
-  bool is_held() const;
-
- private:
-  ReferenceBarrier& barrier() const;
 };
 
 // Inverter, ForceSuccess, ForceFailure, KeepRunningUntilFailure, SubTree.
@@ -638,248 +428,6 @@ std::unique_ptr<ReferenceNode> node(Reference& tree, const Plan& plan) {
 
 }  // namespace
 
-// A node of its own behind the tree: it looks before the root is ticked.
-class ReferenceGroup : public ReferenceNode {
- public:
-  ReferenceGroup(Reference& tree, const Plan& its_plan, ReferenceNode& root)
-      : ReferenceNode(tree, its_plan) {
-    std::vector<ReferenceNode*> way;
-    find_members(root, way);
-    world.groups[plan.name] = this;
-  }
-
-  virtual void before_tick() = 0;
-  void after_tick() {
-    if (ancestor().status != Status::Running && status == Status::Running) status = Status::Idle;
-  }
-  Status on_tick(bool) override { throw std::logic_error("a group is not in the tree"); }
-
-  std::vector<ReferenceNode*> members;
-
- protected:
-  // The last node on the way to every member; the root, when that is the only member.
-  ReferenceNode& ancestor() const {
-    ReferenceNode* last = members[0];
-    for (std::size_t level = 0;; ++level) {
-      for (const auto& way : ways_) {
-        if (level >= way.size() || way[level] != ways_[0][level]) return *last;
-      }
-      last = ways_[0][level];
-    }
-  }
-
-  std::vector<std::vector<ReferenceNode*>> ways_;  // to each member, from the root
-
- private:
-  void find_members(ReferenceNode& node, std::vector<ReferenceNode*>& way) {
-    if (node.plan.barrier == plan.name || node.plan.pool == plan.name) {
-      members.push_back(&node);
-      ways_.push_back(way);
-    }
-    way.push_back(&node);
-    for (auto& child : node.children) find_members(*child, way);
-    way.pop_back();
-  }
-};
-
-class ReferenceBarrier : public ReferenceGroup {
- public:
-  ReferenceBarrier(Reference& tree, const Plan& its_plan, ReferenceNode& root)
-      : ReferenceGroup(tree, its_plan, root) {
-    held.resize(members.size());
-    succeeded.resize(members.size());
-  }
-
-  void before_tick() override {
-    const bool begins = ancestor().status != Status::Running;
-    if (begins) succeeded.assign(members.size(), false);
-    snapshot.clear();
-    double least = 1;
-    for (std::size_t i = 0; i < members.size(); ++i) {
-      snapshot.push_back(reached(i, begins));
-      if (!std::isnan(snapshot[i])) least = std::min(least, snapshot[i]);
-    }
-    for (std::size_t i = 0; i < members.size(); ++i) {
-      held[i] = !succeeded[i] && !is_guard(members[i]->plan) && !std::isnan(snapshot[i]) &&
-                is_held(plan, snapshot[i], least);
-    }
-    status = all_succeeded() ? Status::Success : Status::Running;
-  }
-
-  void succeed(std::size_t member) {
-    succeeded[member] = true;
-    if (all_succeeded()) status = Status::Success;
-  }
-
-  std::size_t place_of(const ReferenceNode& member) const {
-    return static_cast<std::size_t>(std::ranges::find(members, &member) - members.begin());
-  }
-
-  double on_progress() override {
-    double least = 1;
-    for (const double one : snapshot) {
-      if (one < least) least = one;
-    }
-    return least;
-  }
-
-  std::vector<bool> held, succeeded;
-
- private:
-  bool all_succeeded() const { return std::ranges::find(succeeded, false) == succeeded.end(); }
-
-  double reached(std::size_t i, bool begins) {
-    ReferenceNode& member = *members[i];
-    if (begins || (!succeeded[i] && member.status == Status::Idle)) {
-      return plan.ignores_idle ? kLeftOut : 0;
-    }
-    if (succeeded[i] && !is_guard(member.plan)) return 1;
-    if (member.status == Status::Skipped) return kLeftOut;
-    if (member.status == Status::Failure && is_over(i)) return 1;
-    return member.progress();
-  }
-
-  // It failed, and a parallel below the ancestor keeps that result, or one that came of it.
-  bool is_over(std::size_t i) const {
-    std::vector<ReferenceNode*> way = ways_[i];
-    way.push_back(members[i]);
-    for (std::size_t at = way.size() - 1; way[at] != &ancestor() && at > 0; --at) {
-      const Plan& around = way[at - 1]->plan;
-      if (!around.kind.starts_with("Parallel") || around.forgets) continue;
-      if (is_complete(way[at]->status) && !is_guard(way[at]->plan)) return true;
-    }
-    return false;
-  }
-};
-
-Status SyncProgress::on_tick(bool) {
-  ReferenceBarrier& barrier = this->barrier();
-  barrier.last_tick = world.tick;
-  const std::size_t place = barrier.place_of(*this);
-  if (barrier.held[place]) {
-    if (child().status == Status::Running && !child().paused) child().pause();
-    return Status::Running;
-  }
-  const Status result = child().tick();
-  if (result == Status::Success) barrier.succeed(place);
-  return result;
-}
-
-ReferenceBarrier& SyncProgress::barrier() const {
-  return dynamic_cast<ReferenceBarrier&>(*world.groups.at(plan.barrier));
-}
-
-bool SyncProgress::is_held() const {
-  return barrier().held[barrier().place_of(*this)];
-}
-
-class ReferencePool : public ReferenceGroup {
- public:
-  using ReferenceGroup::ReferenceGroup;
-  void before_tick() override;
-  double on_progress() override { return 0; }
-
-  std::set<std::string> owned;  // in this tick
-};
-
-class UseResources : public ReferenceNode {
- public:
-  using ReferenceNode::ReferenceNode;
-
-  Status on_tick(bool) override {
-    pool().last_tick = world.tick;
-    if (asked_ != world.tick) ask();
-    if (owns_) {
-      const Status result = child().tick();
-      if (result == Status::Skipped) give_back();
-      return result;
-    }
-    if (is_open()) priority += pool().plan.increment;
-    if (child().status == Status::Running && !child().paused) child().pause();
-    return Status::Running;
-  }
-  double on_progress() override { return child().progress(); }
-
-  void ask() {
-    asked_ = world.tick;
-    owns_ = is_open() && std::ranges::none_of(names(), [this](const std::string& name) {
-              return pool().owned.contains(name);
-            });
-    if (owns_) own();
-  }
-
-  bool keeps() { return plan.keep && child().status == Status::Running; }
-  void keep() {
-    asked_ = world.tick;
-    owns_ = true;
-    own();
-  }
-
-  // What a parallel does in this tick is not known before its tick.
-  bool is_held_by_parallel() const {
-    if (!paused) return false;
-    const ReferenceNode* holder = this;
-    while (holder->paused) holder = holder->parent;
-    return holder->plan.kind.starts_with("Parallel");
-  }
-
-  int priority = 0;
-
- private:
-  ReferencePool& pool() const { return dynamic_cast<ReferencePool&>(*world.groups.at(plan.pool)); }
-
-  std::set<std::string> names() const {
-    std::set<std::string> names;
-    std::istringstream text(plan.resources);
-    for (std::string name; std::getline(text, name, ';');) names.insert(name);
-    return names;
-  }
-  void own() {
-    for (const std::string& name : names()) pool().owned.insert(name);
-    priority = 0;
-  }
-
-  void give_back() {
-    for (const std::string& name : names()) pool().owned.erase(name);
-  }
-
-  // No barrier and no other pool withholds ticks, as far as is known before the tick.
-  bool is_open() const {
-    for (const ReferenceNode* node = parent; node != nullptr; node = node->parent) {
-      const auto* barrier = dynamic_cast<const SyncProgress*>(node);
-      if (barrier != nullptr && barrier->is_held()) return false;
-      const auto* outer = dynamic_cast<const UseResources*>(node);
-      if (outer != nullptr && !(outer->asked_ == world.tick && outer->owns_)) return false;
-    }
-    const ReferenceNode* below = children.front().get();
-    while (below->children.size() == 1 && below->plan.barrier.empty() && below->plan.pool.empty()) {
-      below = below->children.front().get();
-    }
-    const auto* barrier = dynamic_cast<const SyncProgress*>(below);
-    return barrier == nullptr || !barrier->is_held();
-  }
-
-  std::uint32_t asked_ = 0;
-  bool owns_ = false;
-};
-
-void ReferencePool::before_tick() {
-  status = Status::Running;
-  owned.clear();
-  std::vector<UseResources*> asking;
-  for (ReferenceNode* node : members) {
-    auto* member = dynamic_cast<UseResources*>(node);
-    if (member->status != Status::Running) continue;
-    if (member->keeps()) {
-      member->keep();
-    } else if (!member->is_held_by_parallel()) {
-      asking.push_back(member);
-    }
-  }
-  std::ranges::stable_sort(asking, std::greater<>(), &UseResources::priority);
-  for (UseResources* member : asking) member->ask();
-}
-
 std::unique_ptr<ReferenceNode> ReferenceNode::make(Reference& tree, const Plan& plan) {
   const std::string& kind = plan.kind;
   if (!plan.script.empty()) return std::make_unique<Leaf>(tree, plan, tree.world_->leaves++);
@@ -912,6 +460,25 @@ Reference::Reference(const Plan& plan)
       groups_.push_back(std::make_unique<ReferencePool>(*this, *group, *root_));
     }
   }
+  order_groups();
+}
+
+// What a barrier holds owns nothing, and a member of a pool owns only while those around it do: the
+// barriers come first, and each pool comes after those that it is inside of.
+void Reference::order_groups() {
+  std::vector<ReferenceGroup*> ordered, pools;
+  for (ReferenceGroup* group : world_->groups) {
+    (group->plan.kind == "barrier" ? ordered : pools).push_back(group);
+  }
+  while (!pools.empty()) {
+    const auto outermost = std::ranges::find_if(pools, [&](const ReferenceGroup* pool) {
+      return std::ranges::none_of(pools, [&](auto* other) { return pool->is_inside_of(*other); });
+    });
+    if (outermost == pools.end()) throw std::logic_error("pools inside of each other");
+    ordered.push_back(*outermost);
+    pools.erase(outermost);
+  }
+  world_->groups = ordered;
 }
 
 Reference::~Reference() = default;
@@ -920,11 +487,11 @@ Status Reference::tick(Nanoseconds now) {
   world_->now = now;
   ++world_->tick;
   try {
-    for (auto& group : groups_) group->before_tick();
+    for (ReferenceGroup* group : world_->groups) group->before_tick();
     const Status status = root_->tick();
-    for (auto& group : groups_) group->after_tick();
+    for (ReferenceGroup* group : world_->groups) group->after_tick();
     return status;
-  } catch (const LeafFault& fault) {
+  } catch (const ReferenceFault& fault) {
     world_->fault = fault.node;
     halt();
     return Status::Running;
@@ -939,7 +506,7 @@ void Reference::halt() {
     node->paused = false;
     try {
       if (was_running) node->on_halt();
-    } catch (const LeafFault& fault) {
+    } catch (const ReferenceFault& fault) {
       if (!world_->fault) world_->fault = fault.node;
     }
   }
@@ -967,10 +534,22 @@ const std::optional<std::size_t>& Reference::fault() const {
   return world_->fault;
 }
 
+const std::map<std::string, long>& Reference::cases() const {
+  return world_->cases;
+}
+
+void Reference::write(const std::string& entry, const std::variant<double, std::string>& value) {
+  if (const auto* number = std::get_if<double>(&value)) {
+    world_->entries.numbers[entry] = *number;
+  } else {
+    world_->entries.texts[entry] = std::get<std::string>(value);
+  }
+}
+
 double Reference::progress(std::size_t node) {
   try {
     return nodes_[node]->progress();
-  } catch (const LeafFault& fault) {
+  } catch (const ReferenceFault& fault) {
     if (!world_->fault) world_->fault = fault.node;
     return 0;
   }

@@ -2,8 +2,11 @@
 // children. It shares nothing with engine/; the property tests hold the two against each other.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
+#include <variant>
 #include <vector>
 
 #include "core/clock.h"
@@ -27,6 +30,8 @@ class Reference {
   // The root's status. After a fault, everything has been halted.
   Status tick(Nanoseconds now);
   void halt();
+  // As a leaf would.
+  void write(const std::string& entry, const std::variant<double, std::string>& value);
 
   // Nodes are numbered in pre-order.
   Status status(std::size_t node) const;
@@ -39,10 +44,14 @@ class Reference {
   // The leaf at fault.
   const std::optional<std::size_t>& fault() const;
 
+  // Cases of the law by name, and how often they came up.
+  const std::map<std::string, long>& cases() const;
+
   EventLog events;  // since it was last cleared
 
  private:
   friend class ReferenceNode;
+  void order_groups();
   // After a halt, of the nodes that ran: those of children before those of their parents.
   void run_halt_scripts(const ReferenceNode& node, const std::vector<bool>& ran);
 

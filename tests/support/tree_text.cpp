@@ -10,29 +10,10 @@
 #include "definition/script_entries.h"
 #include "engine/compile.h"
 #include "support/plugin_nodes.h"
-#include "support/scripted_leaf.h"
+#include "support/scripted_types.h"
 
 namespace lockstep::test {
 namespace {
-
-const NodeType kScriptedActionType{.id = "Scripted",
-                                   .category = NodeCategory::Action,
-                                   .doc = "",
-                                   .arity = {0, 0},
-                                   .can_run = true,
-                                   .leaf = &kScriptedAction};
-const NodeType kScriptedConditionType{.id = "ScriptedCondition",
-                                      .category = NodeCategory::Condition,
-                                      .doc = "",
-                                      .arity = {0, 0},
-                                      .leaf = &kScriptedCondition};
-const NodeType kBareActionType{.id = "Bare",
-                               .category = NodeCategory::Action,
-                               .doc = "",
-                               .arity = {0, 0},
-                               .can_run = true,
-                               .has_progress = false,
-                               .leaf = &kBareAction};
 
 struct Attribute {
   std::string_view name, value;

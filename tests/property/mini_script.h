@@ -1,0 +1,40 @@
+// The few forms of scripts in random trees: "x>=y", "x+y", "x:=1-x;y+=2", "r:='A;B'".
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace lockstep::test {
+
+// Thrown where a node meets a fault: nothing else happens in that tick.
+struct ReferenceFault {
+  std::size_t node;
+};
+
+// The blackboard. An entry that is not in it has no value.
+struct Entries {
+  std::map<std::string, double> numbers;
+  std::map<std::string, std::string> texts;  // also lists
+};
+
+class MiniScript {
+ public:
+  // An entry without a value is a fault of `node`.
+  MiniScript(Entries& entries, std::size_t node) : entries_(entries), node_(node) {}
+
+  bool holds(const std::string& text) const;
+  double number(const std::string& text) const;  // "x" or "x+y"
+  void run(const std::string& text) const;
+
+ private:
+  void assign(const std::string& statement) const;
+  double difference(const std::string& text) const;
+  double value(const std::string& text) const;
+
+  Entries& entries_;
+  std::size_t node_;
+};
+
+}  // namespace lockstep::test

@@ -1,0 +1,66 @@
+// The law of "progress across branches" once more: barriers beside the tree, and SyncProgress.
+#pragma once
+
+#include "property/progress_limit.h"
+#include "property/reference_group.h"
+
+namespace lockstep::test {
+
+// Among the cases, this one is an error of the law itself.
+inline constexpr auto kGoneComesBack = "a member that cannot come back does";
+
+class ReferenceBarrier : public ReferenceGroup {
+ public:
+  ReferenceBarrier(Reference& tree, const Plan& its_plan, ReferenceNode& root);
+
+  void before_tick() override;
+  void was_ticked(const ReferenceNode& node) override;
+  double on_progress() override { return least_of(snapshot); }
+
+  bool has_member(const ReferenceNode& node) const { return place_of(node) < count(); }
+  bool holds(const ReferenceNode& node) const { return members_[place_of(node)].is_held; }
+  // A tick has reached a member.
+  void reach(const ReferenceNode& member);
+
+ private:
+  // Since C began its activation.
+  struct Member {
+    bool was_begun = false;
+    bool has_succeeded = false;
+    bool is_held = false;     // in this tick
+    bool has_failed = false;  // its last result
+    bool is_gone = false;     // it has counted as one that cannot come back
+  };
+
+  double counted(std::size_t place);
+  double idle() const { return plan.ignores_idle ? kLeftOut : 0; }
+  bool is_left_out(std::size_t place) const;
+  bool cannot_come_back(std::size_t place) const;
+  std::string doubt(std::size_t place, std::size_t parallel) const;
+  bool never_begins_again(const ReferenceNode& node, const ReferenceNode& below) const;
+  ProgressLimit limit() const;
+  bool somebody_runs() const;
+  void hold(std::size_t place, const ProgressLimit& limit);
+  bool all_succeeded() const;
+
+  // The cases that came up.
+  void note_counted(std::size_t place, double progress);
+  void note_gone(std::size_t place, std::size_t parallel) const;
+  void note_wrong_limit() const;
+  void note_held(std::size_t place) const;
+
+  std::vector<Member> members_;
+};
+
+class SyncProgress : public ReferenceNode {
+ public:
+  using ReferenceNode::ReferenceNode;
+  Status on_tick(bool first) override;
+  double on_progress() override { return child().progress(); }
+  bool is_held() const { return barrier().holds(*this); }
+
+ private:
+  ReferenceBarrier& barrier() const;
+};
+
+}  // namespace lockstep::test

@@ -1,0 +1,84 @@
+#include "property/reference_node.h"
+
+#include <algorithm>
+
+#include "property/reference_group.h"
+
+namespace lockstep::test {
+
+ReferenceNode::ReferenceNode(Reference& tree, const Plan& its_plan)
+    : plan(its_plan), world(*tree.world_), events(tree.events), number(tree.nodes_.size()) {
+  tree.nodes_.push_back(this);
+  for (const Plan& child : plan.children) {
+    children.push_back(make(tree, child));
+    children.back()->parent = this;
+  }
+}
+
+Status ReferenceNode::tick() {
+  if (has_ended(status)) {
+    for (auto& child : children) child->make_idle();
+  }
+  status = tick_with_scripts();
+  paused = false;
+  last_tick = world.tick;
+  for (ReferenceGroup* group : world.groups) group->was_ticked(*this);
+  return status;
+}
+
+Status ReferenceNode::tick_with_scripts() {
+  const bool first = !runs();
+  if (first && asks("failure_if", false)) return ended(decided(Status::Failure));
+  if (first && asks("success_if", false)) return ended(decided(Status::Success));
+  if (first && asks("skip_if", false)) return decided(Status::Skipped);
+  if (asks("while", true)) return ended(on_tick(first));
+  make_idle();
+  return first ? decided(Status::Skipped) : Status::Skipped;
+}
+
+// Before it began: to measures, all children of a synchronized node are as far as it is.
+Status ReferenceNode::decided(Status result) {
+  std::ranges::fill(snapshot, result == Status::Success ? 1.0 : 0.0);
+  return result;
+}
+
+Status ReferenceNode::ended(Status result) {
+  if (!is_complete(result)) return result;
+  run(result == Status::Success ? "on_success" : "on_failure");
+  run("on_end");
+  return result;
+}
+
+bool ReferenceNode::asks(const char* hook, bool otherwise) const {
+  const auto script = plan.hooks.find(hook);
+  return script == plan.hooks.end() ? otherwise : this->script().holds(script->second);
+}
+
+void ReferenceNode::run(const char* hook) const {
+  const auto script = plan.hooks.find(hook);
+  if (script != plan.hooks.end()) this->script().run(script->second);
+}
+
+void ReferenceNode::make_idle() {
+  const bool was_running = runs();
+  status = Status::Idle;
+  paused = false;
+  if (was_running) on_halt();
+  for (auto& child : children) child->make_idle();
+  if (was_running) run("on_halt");
+}
+
+void ReferenceNode::pause() {
+  if (runs() && !paused) {
+    paused = true;
+    on_pause();
+  }
+  for (auto& child : children) child->pause();
+}
+
+double ReferenceNode::progress() {
+  if (runs()) return on_progress();
+  return status == Status::Success ? 1 : 0;
+}
+
+}  // namespace lockstep::test

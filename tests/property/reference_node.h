@@ -1,0 +1,70 @@
+// Of the reference interpreter: a node that calls its children, and what all nodes share.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "property/mini_script.h"
+#include "property/reference.h"
+
+namespace lockstep::test {
+
+struct Reference::World {
+  Nanoseconds now{0};
+  std::uint32_t tick = 0;  // the first is 1
+  std::optional<std::size_t> fault;
+  std::uint32_t leaves = 0;
+  Entries entries;
+  std::vector<ReferenceGroup*> groups;
+  std::map<std::string, long> cases;  // of the law, by name: how often they came up
+};
+
+class ReferenceNode {
+ public:
+  using Children = std::vector<std::unique_ptr<ReferenceNode>>;
+
+  ReferenceNode(Reference& tree, const Plan& its_plan);
+  virtual ~ReferenceNode() = default;
+  static std::unique_ptr<ReferenceNode> make(Reference& tree, const Plan& plan);
+
+  Status tick();
+  // Halts what runs; all of the subtree is idle then.
+  void make_idle();
+  void pause();
+  double progress();
+
+  bool asks(const char* hook, bool otherwise) const;
+  void run(const char* hook) const;
+  MiniScript script() const { return {world.entries, number}; }
+  void note(const std::string& what) const { ++world.cases[what]; }
+
+  virtual Status on_tick(bool first) = 0;
+  virtual double on_progress() = 0;
+  virtual void on_halt() {}
+  virtual void on_pause() {}
+
+  ReferenceNode& child() { return *children.front(); }
+  bool runs() const { return status == Status::Running; }
+
+  ReferenceNode* parent = nullptr;
+  const Plan& plan;
+  Reference::World& world;
+  EventLog& events;
+  std::size_t number;
+  Children children;
+  Status status = Status::Idle;
+  bool paused = false;
+  std::uint32_t last_tick = 0;
+  std::uint32_t withheld_in = 0;  // the last tick in which its synchronized parallel held it
+  std::vector<double> snapshot;
+
+ private:
+  Status tick_with_scripts();
+  Status decided(Status result);
+  Status ended(Status result);
+};
+
+}  // namespace lockstep::test

@@ -1,0 +1,188 @@
+#include "property/reference_pool.h"
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+#include "property/reference_barrier.h"
+
+namespace lockstep::test {
+namespace {
+
+// "left;gripper"
+Resources names_in(const std::string& list) {
+  Resources names;
+  std::istringstream text(list);
+  for (std::string name; std::getline(text, name, ';');) names.insert(name);
+  return names;
+}
+
+}  // namespace
+
+ReferencePool::ReferencePool(Reference& tree, const Plan& its_plan, ReferenceNode& root)
+    : ReferenceGroup(tree, its_plan, root), names_(names_in(plan.resources)) {
+  if (!names_.empty()) return;
+  for (std::size_t place = 0; place < count(); ++place) {
+    const Plan& user = member(place).plan;
+    if (user.from_entries.contains("resources")) continue;
+    names_.merge(names_in(user.resources));
+  }
+}
+
+bool ReferencePool::is_free(const Resources& set) const {
+  return std::ranges::none_of(set, [this](const auto& name) { return owned_.contains(name); });
+}
+
+void ReferencePool::take_back(const Resources& set) {
+  for (const std::string& name : set) owned_.erase(name);
+}
+
+// "Before the root is ticked: of the members that are active and unfinished, by (priority falling,
+// document order), grant each whose set is disjoint from what is granted in this tick and whose
+// gates are open". Those that keep their set come before all others.
+void ReferencePool::before_tick() {
+  status = Status::Running;
+  owned_.clear();
+  std::vector<UseResources*> asking;
+  for (std::size_t place = 0; place < count(); ++place) {
+    auto& it = dynamic_cast<UseResources&>(member(place));
+    if (it.runs() && it.keeps()) {
+      it.keep();
+    } else if (it.is_active() && it.is_right(it.wanted())) {
+      asking.push_back(&it);
+    }
+  }
+  std::ranges::stable_sort(asking, std::greater<>(), &UseResources::priority);
+  for (UseResources* it : asking) it->ask();
+}
+
+ReferencePool& UseResources::pool() const {
+  for (ReferenceGroup* group : world.groups) {
+    auto* pool = dynamic_cast<ReferencePool*>(group);
+    if (pool != nullptr && pool->has_member(*this)) return *pool;
+  }
+  throw std::logic_error("a UseResources without a pool");
+}
+
+// "`resources` may be `{key}`, read in each tick."
+Resources UseResources::wanted() const {
+  const auto key = plan.from_entries.find("resources");
+  if (key == plan.from_entries.end()) return names_in(plan.resources);
+  note("resources come from an entry");
+  const auto entry = world.entries.texts.find(key->second);
+  return entry == world.entries.texts.end() ? Resources() : names_in(entry->second);
+}
+
+bool UseResources::is_right(const Resources& names) const {
+  return !names.empty() &&
+         std::ranges::all_of(names, [&](const auto& it) { return pool().knows(it); });
+}
+
+void UseResources::ask() {
+  if (is_granted_ && last_tick < asked_in_) note("a grant is not used");
+  if (pool().increment() == 0) note("an increment of 0");
+  asked_in_ = world.tick;
+  is_granted_ = false;
+  owned_.clear();
+  is_open_ = has_open_gates();
+  if (!is_open_) return;
+  const Resources set = wanted();
+  if (!pool().is_free(set)) return note("a member is denied");
+  is_granted_ = true;
+  owned_ = set;
+  pool().give(owned_);
+  // "A grant sets the priority to 0, used or not"
+  priority_ = 0;
+}
+
+// "a child that runs keeps its set until it completes or is halted (all or nothing)"
+void UseResources::keep() {
+  note_kept();
+  asked_in_ = world.tick;
+  is_granted_ = true;
+  pool().give(owned_);
+}
+
+void UseResources::note_kept() const {
+  note("a member keeps its resources");
+  if (was_held_by_parallel()) note("a member keeps its resources while a parallel holds it");
+  if (!has_open_gates()) note("a member keeps its resources behind a closed gate");
+  if (wanted() != owned_) note("a member keeps its resources when its entry has others");
+}
+
+// "the barriers around it, the SyncProgress directly inside of it if that is held, and each outer
+// UseResources"
+bool UseResources::has_open_gates() const {
+  for (const ReferenceNode* node = parent; node != nullptr; node = node->parent) {
+    const auto* around = dynamic_cast<const SyncProgress*>(node);
+    if (around != nullptr && around->is_held()) return is_closed("a barrier around it");
+    const auto* outer = dynamic_cast<const UseResources*>(node);
+    if (outer != nullptr) note("nested pools");
+    if (outer != nullptr && !outer->is_granted()) return is_closed("an outer UseResources");
+  }
+  const auto* inside = dynamic_cast<const SyncProgress*>(directly_inside());
+  const bool is_open = inside == nullptr || !inside->is_held();
+  return is_open || is_closed("the SyncProgress directly inside of it");
+}
+
+// Nodes of one child, such as a SubTree, are nothing in between.
+const ReferenceNode* UseResources::directly_inside() const {
+  const auto is_member = [](const Plan& it) { return !it.barrier.empty() || !it.pool.empty(); };
+  const ReferenceNode* below = children.front().get();
+  while (below->children.size() == 1 && !is_member(below->plan)) {
+    below = below->children.front().get();
+  }
+  return below;
+}
+
+bool UseResources::is_closed(const std::string& gate) const {
+  note("a gate is closed: " + gate);
+  return false;
+}
+
+// "a synchronized parallel held in the last one"
+bool UseResources::was_held_by_parallel() const {
+  for (const ReferenceNode* node = this; node != nullptr; node = node->parent) {
+    if (node->withheld_in != 0 && node->withheld_in + 1 == world.tick) return true;
+  }
+  return false;
+}
+
+Status UseResources::on_tick(bool first) {
+  pool().reach();
+  // "it is read in each tick, and what is out of range is a fault"
+  if (!keeps() && !is_right(wanted())) {
+    note("an entry names no resource of the pool");
+    throw ReferenceFault{number};
+  }
+  // "A member that is first reached in this tick, or that a synchronized parallel held in the last
+  // one, asks when it is reached, for what is left."
+  if (asked_in_ != world.tick) {
+    note(first ? "a member asks when it is first reached"
+               : "a member asks after a parallel has held it");
+    ask();
+  }
+  if (!is_granted_) return deny();
+  // "Granted: tick the child, return its status."
+  const Status result = child().tick();
+  // As if the node were not there: members after it may have its resources.
+  if (result == Status::Skipped) {
+    note("a member is skipped and gives back what it owned");
+    pool().take_back(owned_);
+  }
+  return result;
+}
+
+// "Reached and denied: pause a child that runs, priority += increment (saturating at 2 N x
+// increment), return Running. A member that a barrier holds neither owns nor ages."
+Status UseResources::deny() {
+  if (is_open_) {
+    const int older = priority_ + pool().increment();
+    if (older > pool().most_priority()) note("a priority saturates");
+    priority_ = std::min(older, pool().most_priority());
+  }
+  child().pause();
+  return Status::Running;
+}
+
+}  // namespace lockstep::test

@@ -1,0 +1,26 @@
+#include "support/scripted_types.h"
+
+#include "support/scripted_leaf.h"
+
+namespace lockstep::test {
+
+const NodeType kScriptedActionType{.id = "Scripted",
+                                   .category = NodeCategory::Action,
+                                   .doc = "",
+                                   .arity = {0, 0},
+                                   .can_run = true,
+                                   .leaf = &kScriptedAction};
+const NodeType kScriptedConditionType{.id = "ScriptedCondition",
+                                      .category = NodeCategory::Condition,
+                                      .doc = "",
+                                      .arity = {0, 0},
+                                      .leaf = &kScriptedCondition};
+const NodeType kBareActionType{.id = "Bare",
+                               .category = NodeCategory::Action,
+                               .doc = "",
+                               .arity = {0, 0},
+                               .can_run = true,
+                               .has_progress = false,
+                               .leaf = &kBareAction};
+
+}  // namespace lockstep::test

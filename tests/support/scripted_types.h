@@ -1,0 +1,12 @@
+// What tree texts and documents of tests call scripted leaves.
+#pragma once
+
+#include "core/node_type.h"
+
+namespace lockstep::test {
+
+extern const NodeType kScriptedActionType;
+extern const NodeType kScriptedConditionType;
+extern const NodeType kBareActionType;  // an action that has no function but tick
+
+}  // namespace lockstep::test
