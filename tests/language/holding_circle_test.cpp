@@ -189,7 +189,7 @@ std::string circle_of(const Pipeline& pipeline) {
   return at == std::string::npos ? told : told.substr(at + kWarning.size());
 }
 
-TEST_CASE("held nodes: a circle is warned of, and it stands still; what ends is not") {
+TEST_CASE("held nodes: a circle is warned of, and stands still, and what ends is not") {
   for (const Row& row : kRows) {
     INFO(row.claim);
     const Pipeline pipeline(document(row));

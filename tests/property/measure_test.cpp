@@ -25,7 +25,17 @@ std::vector<MeasureSpec> all_of(const Tree& tree) {
   std::vector<MeasureSpec> specs;
   const auto add = [&](const std::string& text) {
     const MeasureSpec spec = parse_measure(text).value();
-    if (Measuring(measured, {&spec, 1}).error().empty()) specs.push_back(spec);
+    const bool fits = Measuring(measured, {&spec, 1}).error().empty();
+    if (fits) specs.push_back(spec);
+    return fits;
+  };
+  // A SyncProgress also goes by its child, which comes behind it: one of the two is enough.
+  const auto add_held_by = [&](const std::string& path) {
+    bool has_child = false;
+    for (auto other = measured.paths.rbegin(); other != measured.paths.rend(); ++other) {
+      const bool is_child = has_child && other[-1].starts_with(*other + '/');
+      has_child = !is_child && add(fmt::format("held-by:{}:{}", path, *other));
+    }
   };
   for (const char* text : {"progress-distance", "progress-distance[1:3]", "spread", "step-length",
                            "duration", "ticks", "success"}) {
@@ -36,7 +46,7 @@ std::vector<MeasureSpec> all_of(const Tree& tree) {
       add(fmt::format("{}:{}", measure, path));
     }
     add(fmt::format("predictability:{}@0.5", path));
-    for (const std::string& other : measured.paths) add(fmt::format("held-by:{}:{}", path, other));
+    add_held_by(path);
   }
   return specs;
 }
@@ -84,7 +94,7 @@ TEST_CASE("a recording of a random tree has the measures of its run") {
     }
     if (run.run.ticker().fault() != nullptr) continue;  // who was not ticked then was not held
     for (const auto& [node, sum] : measured.held_by) {
-      INFO("held-by of " << node);
+      INFO("held-by of " << node << ": " << sum << ", held " << measured.held.at(node));
       CHECK(are_same(sum, measured.held.at(node)));
     }
   }

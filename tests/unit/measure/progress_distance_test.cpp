@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <memory>
 #include <string>
 
 #include "core/random.h"
@@ -86,10 +87,15 @@ const Trace kTraces[] = {
     {"R4", {{0, 0}, {.25, .5}, {.5, 1}, {.75, 1}}, 1.00, .5, .5},
 };
 
-// A parallel that is ticked and runs on, or ends with `status`.
+// A parallel that is ticked and runs on, or ends with `status`: with Success, all children have it.
 void sample(Accumulator& measure, const std::vector<double>& progress,
             Status status = Status::Running) {
-  const SynchronizedTick tick{.ticked = true, .status = status, .progress = progress};
+  const auto succeeded = std::make_unique<bool[]>(progress.size());
+  std::fill_n(succeeded.get(), progress.size(), status == Status::Success);
+  const SynchronizedTick tick{.ticked = true,
+                              .status = status,
+                              .progress = progress,
+                              .succeeded = {succeeded.get(), progress.size()}};
   measure.after_tick({.parallels = {&tick, 1}});
 }
 
@@ -157,7 +163,7 @@ TEST_CASE("no step leads from one activation to the next") {
   CHECK(step.value({}) == Approx(0.9));
 }
 
-TEST_CASE("the last step of a node that succeeds leads to 1") {
+TEST_CASE("the last step of a child that succeeds leads to 1") {
   StepLength step({.children = 2});
   sample(step, {0.2, 1.0}, Status::Success);
   CHECK(step.value({}) == Approx(0.8));

@@ -329,7 +329,7 @@ TEST_CASE("info measures a recording as the run was measured") {
   const std::string info = info_text(reader);
   CHECK(info ==
         "Test from trees/a.xml, recorded by lockstep 0.1.0\n"
-        "  3 nodes, 10 Hz, virtual clock, seed 18446744073709551615\n"
+        "  3 nodes, 10 Hz, virtual clock, seed 18446744073709551615, law 2\n"
         "  argument barriers = 0.5;1\n"
         "  success (completed) after 4 ticks, 0.300 s; 0 overruns, 0 deadlines skipped\n"
         "  Test/ParallelAbsolute (ParallelAbsolute, 4 ticks)\n"
