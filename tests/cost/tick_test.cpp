@@ -362,6 +362,26 @@ TEST_CASE("a copy of a value for which there is no memory throws, and that is al
   CHECK(thrown);
 }
 
+TEST_CASE("an action that reports its progress late allocates nothing after its first tick") {
+  const TickingTree tree(R"(
+<root lockstep="1">
+  <BehaviorTree ID="Main"><Advance step="1e-9" latency="0.5" quantize="1e-8"/></BehaviorTree>
+</root>)");
+  Run run(tree.tree(), {});
+  std::uint64_t tick = 0;
+  const auto tick_once = [&] {
+    run.tick(deadline_of(tick++, 100));
+    run.ticker().progress(0);
+  };
+  tick_once();
+  g_allocations = 0;
+  t_counting = true;
+  while (tick < 500) tick_once();
+  t_counting = false;
+  CHECK(run.fault() == nullptr);
+  CHECK(g_allocations == 0);
+}
+
 TEST_CASE("measuring the runs of a study allocates nothing and locks nothing") {
   const TickingTree tree(kMeasuredTree);
   std::vector<MeasureSpec> measures;
