@@ -17,13 +17,15 @@ void StepLength::after_tick(const TickView& view) {
   running_ = tick.status == Status::Running;
 }
 
-extern const Measure kStepLength{.name = "step-length",
-                                 .of = MeasureOf::Parallel,
-                                 .axis = "step length",
-                                 .doc =
-                                     "the largest change of a child's own progress in one tick; a "
-                                     "child that succeeds goes to 1",
-                                 .make = make_accumulator<StepLength>,
-                                 .is_possible = is_share};
+extern const Measure kStepLength{
+    .name = "step-length",
+    .of = MeasureOf::Parallel,
+    .axis = "step length",
+    .doc =
+        "the largest change of a child's own progress in one tick; a "
+        "child that succeeds goes to 1, one that has not when the parallel ends stays "
+        "where it is",
+    .make = make_accumulator<StepLength>,
+    .is_possible = is_share};
 
 }  // namespace lockstep
