@@ -75,7 +75,7 @@ TickView LiveTicks::read(Ticker& ticker, std::uint64_t tick, Nanoseconds time) {
     // What a synchronized node has seen counts more than what was seen before its tick.
     if (node.parent && ticker.ticked(*node.parent)) {
       const double used = child_progress(ticker, *node.parent)[node.child];
-      if (!is_left_out(used)) node_ticks_[i].progress = used;
+      node_ticks_[i].progress = is_left_out(used) ? 0 : used;  // as in recordings
     }
   }
   for (std::size_t i = 0; i < users_.size(); ++i) {
