@@ -56,10 +56,12 @@ namespace lockstep::embedding {
 
 // Keeps the reason for lockstep_last_error. Returns false.
 bool fail(std::string_view reason) noexcept;
+// Nothing is wrong with this call.
+void forget_error() noexcept;
 
 // The boundary: what `work` throws becomes an error, and the result is T().
 template <class Work>
-auto guarded(Work&& work) noexcept -> decltype(work()) {
+auto shielded(Work&& work) noexcept -> decltype(work()) {
   try {
     return work();
   } catch (const std::bad_alloc&) {
@@ -70,6 +72,13 @@ auto guarded(Work&& work) noexcept -> decltype(work()) {
     fail("an unknown exception");
   }
   return decltype(work())();
+}
+
+// Of a call that may fail: the error of an earlier one is over.
+template <class Work>
+auto guarded(Work&& work) noexcept -> decltype(work()) {
+  forget_error();
+  return shielded(work);
 }
 
 // The part of a struct of the program that its struct_size covers; the rest is 0.

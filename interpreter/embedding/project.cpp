@@ -85,6 +85,10 @@ bool fail(std::string_view reason) noexcept {
   return false;
 }
 
+void forget_error() noexcept {
+  t_error.clear();
+}
+
 }  // namespace lockstep::embedding
 
 using namespace lockstep;

@@ -3,10 +3,13 @@
 
 #include <cmath>
 #include <optional>
+#include <span>
+#include <utility>
 
 #include "core/parameter_value.h"
 #include "core/suggest.h"
 #include "embedding/handles.h"
+#include "embedding/warnings.h"
 #include "runtime/loop.h"
 #include "runtime/run.h"
 
@@ -17,10 +20,13 @@ struct lockstep_run {
   };
 
   lockstep_run(std::shared_ptr<const lockstep::Program> loaded, const lockstep::RunOptions& options)
-      : program(std::move(loaded)), run(program->runnable.tree, options) {}
+      : program(std::move(loaded)),
+        run(program->runnable.tree, options),
+        warnings(program->runnable.tree, options.log) {}
 
-  void notify(double seconds, lockstep_status status) {
+  void notify(double seconds, lockstep_status status, std::span<const lockstep::Fault> faults) {
     const std::uint64_t tick = run.ticker().tick_number() - 1;
+    warnings.tell(run.ticker(), faults, tick);
     for (std::size_t i = 0; i < watchers.size(); ++i) {
       watchers[i].observe(watchers[i].user, this, tick, seconds, status);
     }
@@ -28,8 +34,10 @@ struct lockstep_run {
 
   std::shared_ptr<const lockstep::Program> program;
   lockstep::Run run;
+  lockstep::Warnings warnings;
   std::vector<Watcher> watchers;
-  lockstep::Nanoseconds last{0};     // when it was ticked last
+  lockstep::Nanoseconds last{0};  // when it was ticked last
+  bool is_busy = false;           // in a call that calls back
   std::string text;                  // of the last get_text or fault
   std::vector<lockstep_text> texts;  // of the last get_text_list
 };
@@ -40,6 +48,27 @@ namespace {
 const Tree& tree_of(const lockstep_run& run) {
   return run.program->runnable.tree;
 }
+
+// A call that ticks, halts or restarts. What it calls back, a leaf, an observer or who gets the
+// log, must not do that again: it would meet a tick that is not over.
+class Busy {
+ public:
+  explicit Busy(lockstep_run& run) : run_(run) {
+    is_first_ = !std::exchange(run.is_busy, true);
+    if (!is_first_) fail("the run is in use: what it calls back cannot tick, halt or restart it");
+  }
+  ~Busy() {
+    if (is_first_) run_.is_busy = false;
+  }
+  Busy(const Busy&) = delete;
+  Busy& operator=(const Busy&) = delete;
+
+  bool is_refused() const { return !is_first_; }
+
+ private:
+  lockstep_run& run_;
+  bool is_first_ = false;
+};
 
 std::string fault_text(const lockstep_run& run, const Fault& fault) {
   return fmt::format("{}: {}", run.program->texts().paths[fault.node], fault.message);
@@ -160,7 +189,6 @@ bool set_list(lockstep_run* run, const char* key, const Item* items, std::size_t
   });
 }
 
-// In a leaf's function there is a run that is being ticked; to tick it again has no meaning.
 std::optional<Nanoseconds> time_from(double seconds) {
   constexpr double kMost = 9e9;  // in nanoseconds it must fit 64 bits
   if (!(seconds >= 0 && seconds <= kMost)) return std::nullopt;
@@ -171,7 +199,8 @@ class Observing final : public Observer {
  public:
   explicit Observing(lockstep_run& run) : run_(run) {}
   void after_tick(Ticker&, const TickReport& report) override {
-    run_.notify(to_seconds(report.time), static_cast<lockstep_status>(report.status));
+    run_.notify(to_seconds(report.time), static_cast<lockstep_status>(report.status),
+                report.faults);
   }
 
  private:
@@ -265,45 +294,58 @@ lockstep_run* lockstep_run_new(lockstep_project* project, const lockstep_run_opt
 }
 
 void lockstep_run_free(lockstep_run* run) {
-  delete run;
+  shielded([&] {
+    if (run != nullptr && run->is_busy) return fail("the run is in use: it is not freed");
+    delete run;
+    return true;
+  });
 }
 
 bool lockstep_run_restart(lockstep_run* run, uint64_t seed) {
   return guarded([&] {
     if (run == nullptr) return fail("an argument is NULL");
+    const Busy busy(*run);
+    if (busy.is_refused()) return false;
     run->last = Nanoseconds(0);
+    run->warnings.begin_again();
     run->run.restart(seed);
     return run->run.fault() == nullptr || fail(fault_text(*run, *run->run.fault()));
   });
 }
 
 lockstep_status lockstep_run_tick(lockstep_run* run, double seconds) {
-  const auto time = time_from(seconds);
-  if (run == nullptr || !time) {
-    fail(run == nullptr ? "an argument is NULL" : "the time is no number of seconds");
-    return LOCKSTEP_RUNNING;
-  }
   lockstep_status status = LOCKSTEP_RUNNING;
-  guarded([&] {
+  const bool is_good = guarded([&] {
+    const auto time = time_from(seconds);
+    if (run == nullptr) return fail("an argument is NULL");
+    if (!time) return fail("the time is no number of seconds");
     if (*time < run->last) return fail("the time is before that of the last tick");
+    const Busy busy(*run);
+    if (busy.is_refused()) return false;
     run->last = *time;
     if (run->run.fault() != nullptr) return true;  // a leaf may be missing
     status = static_cast<lockstep_status>(run->run.tick(*time));
-    run->notify(seconds, status);
+    run->notify(seconds, status, run->run.ticker().take_tolerated());
     return true;
   });
+  if (is_good) forget_error();  // of an observer
   return status;
 }
 
 void lockstep_run_halt(lockstep_run* run) {
   guarded([&] {
-    if (run != nullptr) run->run.halt();
+    if (run == nullptr) return true;
+    const Busy busy(*run);
+    if (busy.is_refused()) return false;
+    run->run.halt();
+    Ticker& ticker = run->run.ticker();
+    run->warnings.tell(ticker, ticker.take_tolerated(), ticker.tick_number());
     return true;
   });
 }
 
 const char* lockstep_run_fault(lockstep_run* run, uint32_t* node) {
-  return guarded([&]() -> const char* {
+  return shielded([&]() -> const char* {
     const Fault* const fault = run == nullptr ? nullptr : run->run.fault();
     if (fault == nullptr) return nullptr;
     if (node != nullptr) *node = fault->node;
@@ -316,12 +358,14 @@ bool lockstep_run_node(lockstep_run* run, uint32_t node, lockstep_node_state* st
   return guarded([&] {
     if (run == nullptr || node >= tree_of(*run).nodes.size()) return fail("no such node");
     Ticker& ticker = run->run.ticker();
-    return write_struct({.struct_size = 0,
-                         .status = static_cast<lockstep_status>(ticker.status(node)),
-                         .progress = ticker.progress(node),
-                         .held = ticker.held(node),
-                         .ticked = ticker.ticked(node)},
-                        state);
+    const bool is_good = write_struct({.struct_size = 0,
+                                       .status = static_cast<lockstep_status>(ticker.status(node)),
+                                       .progress = ticker.progress(node),
+                                       .held = ticker.held(node),
+                                       .ticked = ticker.ticked(node)},
+                                      state);
+    run->warnings.tell(ticker, {}, 0);
+    return is_good;
   });
 }
 
@@ -445,8 +489,11 @@ bool lockstep_run_loop(lockstep_run* run, const lockstep_loop_options* given,
                        lockstep_loop_result* result) {
   return guarded([&] {
     if (run == nullptr) return fail("an argument is NULL");
+    const Busy busy(*run);
+    if (busy.is_refused()) return false;
     RunEnd end;
     if (!embedding::run_loop(*run, read_struct(given), end)) return false;
+    forget_error();  // of an observer
     return result == nullptr || write_struct({.struct_size = 0,
                                               .reason = reason_of(end.reason),
                                               .status = static_cast<lockstep_status>(end.status),

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/synchronized.h"
+#include "runtime/progress_text.h"
 
 namespace lockstep {
 
@@ -126,12 +127,6 @@ std::string fault_text(const Tree& tree, const Fault& fault, std::uint64_t tick)
 std::string fault_text(const Tree& tree, const Fault& fault) {
   return fmt::format("{}: {}{}", tree.path(fault.node),
                      fault.in_last_halt ? "could not be halted: " : "", fault.message);
-}
-
-std::string out_of_range_text(double reported) {
-  return fmt::format(
-      "reported the progress {:.6g}: progress is a share from 0 to 1, so it counts as {}", reported,
-      reported < 0 ? 0 : 1);
 }
 
 std::vector<std::string> out_of_range_notes(const Ticker& ticker) {

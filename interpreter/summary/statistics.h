@@ -53,8 +53,6 @@ std::string fault_text(const Tree& tree, const Fault& fault, std::uint64_t tick)
 // "Door/pull/arm: threw …"
 std::string fault_text(const Tree& tree, const Fault& fault);
 
-// "reported the progress 42: progress is a share from 0 to 1, so it counts as 1"
-std::string out_of_range_text(double reported);
 // "the leaf 'Door/pull/arm' reported …" of the first few leaves, and how many there are.
 std::vector<std::string> out_of_range_notes(const Ticker& ticker);
 

@@ -154,7 +154,7 @@ class Library:
     def __init__(self, path):
         loaded = ctypes.CDLL(path)
         loaded.lockstep_runtime_version.restype = c_uint32
-        if loaded.lockstep_runtime_version() < (1 << 16 | 1):
+        if loaded.lockstep_runtime_version() < (1 << 16 | 2):
             raise Error(2, f"'{path}' is older than this package: install both from one version of lockstep")
         for name, (result, *arguments) in _FUNCTIONS.items():
             function = getattr(loaded, "lockstep_" + name)

@@ -92,7 +92,7 @@ class Tree:
             raise ValueError(f"the time of a tick is {seconds!r}, expected seconds, and not before the last tick "
                              f"({self._last:g})")
         self._last, self._ticks = seconds, self._ticks + 1
-        return native.STATUSES[self._call(handle, self._library.run_tick, seconds)]
+        return native.STATUSES[self._call_or_refuse(handle, self._library.run_tick, seconds)]
 
     def _time(self):
         if self._clock == "virtual":
@@ -125,7 +125,7 @@ class Tree:
 
     def halt(self):
         "Halts every leaf that runs, in the order of the tree. The next tick begins the tree again."
-        self._using(self._call, self._library.run_halt)
+        self._using(self._call_or_refuse, self._library.run_halt)
 
     def restart(self, seed=None):
         "Begins as a new tree would, with this seed or that of before."
@@ -206,6 +206,14 @@ class Tree:
             self._halt_after_fault(handle)
             raise
         self._raise_fault(handle)
+        return result
+
+    def _call_or_refuse(self, handle, function, *arguments):
+        "Of what has no result that says so: in a child of a fork, the tree is its parent's."
+        result = self._call(handle, function, *arguments)
+        why = self._library.why()
+        if why:
+            raise Error(2, why)
         return result
 
     def _raise_fault(self, handle):

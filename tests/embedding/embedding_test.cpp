@@ -3,6 +3,7 @@
 
 #include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdio>
 #include <lockstep/runtime.hpp>
 #include <thread>
@@ -37,6 +38,12 @@ class Step : public lockstep::Action<StepPorts> {
 
  private:
   double done_ = 0;
+};
+
+class Percent : public lockstep::Action<> {
+ public:
+  Status tick() override { return Status::Running; }
+  double progress() const override { return 37; }
 };
 
 struct Shared {
@@ -147,15 +154,90 @@ TEST_CASE("a program ticks a tree with leaves that it defines, when it likes") {
   CHECK_FALSE(run.node(0).status);
 }
 
-TEST_CASE("time that goes back is refused") {
+TEST_CASE("time that goes back, is negative or no number is refused at each call") {
+  const runtime::Project project = project_of("<Step step=\"0.125\"/>");
+  runtime::Run run(project);
+  int observed = 0;
+  run.on_tick([&](std::uint64_t, double, Status) { ++observed; });
+  const auto why = [] { return std::string(lockstep_last_error()); };
+  run.tick(2);
+  for (int call = 0; call < 3; ++call) {
+    CHECK(error_of([&] { run.tick(1); }) == "the time is before that of the last tick");
+    CHECK(lockstep_run_tick(run.get(), 1) == LOCKSTEP_RUNNING);
+    CHECK(why() == "the time is before that of the last tick");
+  }
+  CHECK(error_of([&] { run.tick(-1); }) == "the time is no number of seconds");
+  CHECK(error_of([&] { run.tick(std::nan("")); }) == "the time is no number of seconds");
+  CHECK(lockstep_run_tick(run.get(), -1) == LOCKSTEP_RUNNING);
+  CHECK(why() == "the time is no number of seconds");
+  CHECK(observed == 1);
+  CHECK(run.node(0).progress == 0.125);
+  // The run goes on, and an error is of the last call.
+  CHECK(lockstep_run_tick(run.get(), 2) == LOCKSTEP_RUNNING);
+  CHECK(why().empty());
+  CHECK(run.tick(3) == Status::Running);
+  CHECK(observed == 3);
+}
+
+TEST_CASE("an error that an observer meets is not that of the tick") {
   const runtime::Project project = project_of("<Step/>");
   runtime::Run run(project);
-  run.tick(2);
-  CHECK(lockstep_run_tick(run.get(), 1) == LOCKSTEP_RUNNING);
-  CHECK(std::string(lockstep_last_error()) == "the time is before that of the last tick");
-  CHECK(lockstep_run_tick(run.get(), -1) == LOCKSTEP_RUNNING);
-  CHECK(std::string(lockstep_last_error()) == "the time is no number of seconds");
-  CHECK(run.node(0).progress == 0.25);
+  run.on_tick([&](std::uint64_t, double, Status) {
+    CHECK_FALSE(lockstep_run_set_double(run.get(), "none", 1));
+  });
+  CHECK(run.tick(0) == Status::Running);
+  CHECK(std::string(lockstep_last_error()).empty());
+}
+
+TEST_CASE("what a run calls back cannot tick, halt, restart or free it") {
+  const runtime::Project project = project_of("<Step/>");
+  runtime::Run run(project);
+  const std::string busy = "the run is in use: what it calls back cannot tick, halt or restart it";
+  int observed = 0;
+  run.on_tick([&](std::uint64_t, double seconds, Status) {
+    ++observed;
+    CHECK(error_of([&] { run.tick(seconds); }) == busy);
+    CHECK(error_of([&] { run.halt(); }) == busy);
+    CHECK(error_of([&] { run.restart(1); }) == busy);
+    CHECK(error_of([&] { run.loop({true}); }) == busy);
+    lockstep_run_free(run.get());
+    CHECK(std::string(lockstep_last_error()) == "the run is in use: it is not freed");
+  });
+  CHECK(run.tick(0) == Status::Running);
+  CHECK(observed == 1);
+  CHECK(calls.empty());
+  run.restart(0);
+  CHECK(run.loop({true}).ticks == 4);
+  CHECK(observed == 5);
+}
+
+TEST_CASE("a progress that is no share, and a failure that the run goes on after, are told") {
+  runtime::Project project;
+  project.add_leaf<Step>("Step", "Makes a step in each tick").add_leaf<Percent>("Percent", "In %");
+  project.load_text(
+      tree("<Parallel><Percent/><Fallback><Step step=\"-1\"/><Step/></Fallback></Parallel>"));
+  Strings lines;
+  runtime::RunSettings settings;
+  settings.fail_on_fault = true;
+  settings.log = [&](const std::string& who, lockstep::LogLevel level, const std::string& text) {
+    CHECK(level == lockstep::LogLevel::Warning);
+    lines.push_back(who + ": " + text);
+  };
+  runtime::Run run(project, settings);
+  run.tick(0);
+  CHECK(lines == Strings{"Main/Parallel/Fallback/Step: failed in tick 0: cannot go back; counted "
+                         "as Failure"});
+  lines.clear();
+  for (int i = 0; i < 3; ++i) CHECK(run.node(1).progress == 1);
+  const Strings percent = {
+      "Main/Parallel/Percent: reported the progress 37: progress is a share from 0 to 1, so it "
+      "counts as 1"};
+  CHECK(lines == percent);
+  run.restart(0);
+  run.tick(0);
+  lines.clear();
+  run.node(1);
+  CHECK(lines == percent);
 }
 
 TEST_CASE("what is wrong with a tree is data") {

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "runtime/progress_text.h"
 #include "summary/statistics.h"
 
 namespace lockstep {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "runtime/progress_text.h"
 #include "summary/statistics.h"
 
 namespace lockstep {

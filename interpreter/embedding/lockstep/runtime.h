@@ -27,11 +27,13 @@ extern "C" {
 #endif
 
 #define LOCKSTEP_RUNTIME_MAJOR 1u
-#define LOCKSTEP_RUNTIME_MINOR 1u
+#define LOCKSTEP_RUNTIME_MINOR 2u
 
 /* The library's own (major << 16 | minor), which may be newer than the header's. */
 LOCKSTEP_EXPORT uint32_t lockstep_runtime_version(void);
-/* Why the last call of this thread that failed did. Valid until the next call that fails. */
+/* Why the last call of this thread failed; "" when it did not (since 1.2; before, the reason of an
+ * earlier call stayed). Questions that cannot fail, as lockstep_run_fault and the counts, leave it
+ * as it is. Valid until the next call. */
 LOCKSTEP_EXPORT const char* lockstep_last_error(void);
 
 /* ---- Projects: a tree file, its includes and plugins -------------------------------------------
@@ -142,7 +144,8 @@ typedef struct lockstep_run_options {
   /* The times of ticks are not real: a tick waits for the threads of leaves, which sleep in the
    * run's time. The loop on the virtual clock needs it. */
   bool virtual_time;
-  /* A line that a leaf logs; from any thread. */
+  /* A line that a leaf logs; from any thread. Since 1.2 also what the run has to say of a leaf:
+   * that it reported a progress outside [0, 1], or that it failed and the run goes on. */
   void (*log)(void* user, const char* who, lockstep_log_level level, const char* message);
   void* user;
 } lockstep_run_options;
@@ -157,11 +160,14 @@ LOCKSTEP_EXPORT bool lockstep_run_restart(lockstep_run* run, uint64_t seed);
 
 /* One tick of the tree. `seconds` is the time since the run began, which must not decrease; time
  * stands still within a tick. Returns LOCKSTEP_RUNNING also after a fault, when nothing is ticked
- * any more: ask lockstep_run_fault; and when the time is wrong, with lockstep_last_error. After
- * Success or Failure the next tick begins the tree again.
+ * any more: ask lockstep_run_fault. And it does when nothing was ticked, since the time is before
+ * that of the last tick (a recording that begins again), negative or no number: then
+ * lockstep_last_error is not "". A loop asks both after each tick. After Success or Failure the
+ * next tick begins the tree again.
  */
 LOCKSTEP_EXPORT lockstep_status lockstep_run_tick(lockstep_run* run, double seconds);
-/* Halts every leaf that runs, in the order of the tree. */
+/* Halts every leaf that runs, in the order of the tree. Refused, with lockstep_last_error, in what
+ * the run calls back, as lockstep_run_tick, _restart, _loop and _free are. */
 LOCKSTEP_EXPORT void lockstep_run_halt(lockstep_run* run);
 
 /* What ended the run ("Main/arm: threw an exception: …"), and the node; NULL when nothing did.

@@ -203,7 +203,8 @@ struct RunSettings {
   // The times of ticks are not real: a tick waits for threaded leaves, whose sleeps are in the
   // run's time. For the loop with virtual_clock.
   bool virtual_time = false;
-  // A line that a leaf logs; from any thread.
+  // A line that a leaf logs; from any thread. Also what the run has to say of a leaf: that it
+  // reported a progress outside [0, 1], or that it failed and the run goes on.
   std::function<void(const std::string& who, LogLevel level, const std::string& message)> log = {};
 };
 
@@ -255,14 +256,19 @@ class Run {
   }
 
   // One tick, `seconds` after the run began. Throws an Error after a fault of a leaf, with the path
-  // of the leaf, when everything that runs has been halted.
+  // of the leaf, when everything that runs has been halted; and when nothing was ticked, since the
+  // time is before that of the last tick, negative or no number: then the run may go on.
   Status tick(double seconds) {
     const auto status = static_cast<Status>(lockstep_run_tick(it_.get(), seconds));
+    throw_refusal();
     throw_failures();
     return status;
   }
   // Halts every leaf that runs, in the order of the tree.
-  void halt() { lockstep_run_halt(it_.get()); }
+  void halt() {
+    lockstep_run_halt(it_.get());
+    throw_refusal();
+  }
   // Begins again, as a new run with this seed would.
   void restart(std::uint64_t seed) { detail::require(lockstep_run_restart(it_.get(), seed)); }
   // Ticks at the run's period until the tree completes or has to stop.
@@ -375,6 +381,11 @@ class Run {
     void operator()(lockstep_run* run) const { lockstep_run_free(run); }
   };
 
+  // What has no other result.
+  static void throw_refusal() {
+    const char* const why = lockstep_last_error();
+    if (*why != '\0') throw Error(why);
+  }
   void rethrow() {
     if (hooks_->thrown) std::rethrow_exception(std::exchange(hooks_->thrown, nullptr));
   }

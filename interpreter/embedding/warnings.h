@@ -1,0 +1,32 @@
+// What a program is told about its run beside faults, with the lines that leaves log: what the
+// command prints while it runs.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "engine/ticker.h"
+#include "engine/tree.h"
+#include "plugin/leaf_set.h"
+
+namespace lockstep {
+
+class Warnings {
+ public:
+  Warnings(const Tree& tree, LeafLog log);
+
+  // After a tick or a halt: its faults that the run goes on after, and each leaf whose progress was
+  // found to be no share.
+  void tell(const Ticker& ticker, std::span<const Fault> faults, std::uint64_t tick);
+  // The run is as new.
+  void begin_again() { out_of_range_ = 0; }
+
+ private:
+  const Tree& tree_;
+  const LeafLog log_;
+  std::size_t out_of_range_ = 0;  // leaves that were told
+};
+
+}  // namespace lockstep
