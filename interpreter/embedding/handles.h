@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/own_process.h"
 #include "embedding/lockstep/runtime.h"
 #include "loading/load.h"
 
@@ -50,6 +51,7 @@ struct lockstep_project {
   lockstep::Diagnostics diagnostics;
   std::shared_ptr<const lockstep::Program> program;  // null until it is loaded
   bool load_tried = false;
+  lockstep::OwnProcess process;  // that has loaded it, or made it
 };
 
 namespace lockstep::embedding {

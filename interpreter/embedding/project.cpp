@@ -53,6 +53,7 @@ template <class Load>
 bool load_with(lockstep_project* project, const void* argument, Load load) {
   return set(project, argument, [] {}) && guarded([&] {
            project->load_tried = true;
+           project->process = OwnProcess();
            auto loaded = load();
            if (loaded && project->plugins->initialize(project->diagnostics)) {
              project->program = std::make_shared<Program>(make_runnable(std::move(*loaded)));
@@ -112,8 +113,9 @@ lockstep_project* lockstep_project_new(void) {
   });
 }
 
+// The processes of its plugins are those of the process that has loaded it.
 void lockstep_project_free(lockstep_project* project) {
-  delete project;
+  if (project != nullptr && project->process.is_this()) delete project;
 }
 
 bool lockstep_project_add_plugin_path(lockstep_project* project, const char* directory) {

@@ -38,6 +38,7 @@ struct lockstep_run {
   std::vector<Watcher> watchers;
   lockstep::Nanoseconds last{0};  // when it was ticked last
   bool is_busy = false;           // in a call that calls back
+  const lockstep::OwnProcess process;
   std::string text;                  // of the last get_text or fault
   std::vector<lockstep_text> texts;  // of the last get_text_list
 };
@@ -49,11 +50,18 @@ const Tree& tree_of(const lockstep_run& run) {
   return run.program->runnable.tree;
 }
 
+// A child that fork has made has the memory of the run, but the threads and processes of its leaves
+// are its parent's.
+bool is_own(const lockstep_run& run) {
+  return run.process.is_this() || fail("the run belongs to the process that has made it");
+}
+
 // A call that ticks, halts or restarts. What it calls back, a leaf, an observer or who gets the
 // log, must not do that again: it would meet a tick that is not over.
 class Busy {
  public:
   explicit Busy(lockstep_run& run) : run_(run) {
+    if (!is_own(run)) return;
     is_first_ = !std::exchange(run.is_busy, true);
     if (!is_first_) fail("the run is in use: what it calls back cannot tick, halt or restart it");
   }
@@ -69,6 +77,10 @@ class Busy {
   lockstep_run& run_;
   bool is_first_ = false;
 };
+
+bool has_processes(const lockstep_project& project) {
+  return std::ranges::any_of(project.plugins->list(), &PluginSet::Info::isolated);
+}
 
 std::string fault_text(const lockstep_run& run, const Fault& fault) {
   return fmt::format("{}: {}", run.program->texts().paths[fault.node], fault.message);
@@ -266,6 +278,12 @@ lockstep_run* lockstep_run_new(lockstep_project* project, const lockstep_run_opt
       fail("the project has not been loaded");
       return nullptr;
     }
+    if (!project->process.is_this() && has_processes(*project)) {
+      fail(
+          "the project has plugins with a process of their own, which belongs to the process that "
+          "has loaded it");
+      return nullptr;
+    }
     const lockstep_run_options options = read_struct(given);
     RunOptions run_options{.seed = options.seed};
     if (options.tick_period != 0) {
@@ -296,7 +314,7 @@ lockstep_run* lockstep_run_new(lockstep_project* project, const lockstep_run_opt
 void lockstep_run_free(lockstep_run* run) {
   shielded([&] {
     if (run != nullptr && run->is_busy) return fail("the run is in use: it is not freed");
-    delete run;
+    if (run != nullptr && run->process.is_this()) delete run;
     return true;
   });
 }
@@ -357,6 +375,7 @@ const char* lockstep_run_fault(lockstep_run* run, uint32_t* node) {
 bool lockstep_run_node(lockstep_run* run, uint32_t node, lockstep_node_state* state) {
   return guarded([&] {
     if (run == nullptr || node >= tree_of(*run).nodes.size()) return fail("no such node");
+    if (!is_own(*run)) return false;  // leaves are asked
     Ticker& ticker = run->run.ticker();
     const bool is_good = write_struct({.struct_size = 0,
                                        .status = static_cast<lockstep_status>(ticker.status(node)),

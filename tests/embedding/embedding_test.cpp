@@ -1,5 +1,7 @@
 // lockstep in a program, through lockstep/runtime.hpp and the shared library alone.
 #include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <catch2/catch.hpp>
@@ -541,6 +543,59 @@ TEST_CASE("no signal handler of the program is changed") {
   runtime::Run run(project);
   run.loop({true});
   CHECK(handlers() == before);
+}
+
+namespace {
+
+// In a child of fork; what it returns is the exit code.
+template <class Work>
+int code_of_child(Work work) {
+  const pid_t child = fork();
+  if (child == 0) _exit(work() ? 0 : 1);
+  int status = -1;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+constexpr const char* kProcesses =
+    "<root lockstep=\"1\"><plugin name=\"steady\" program=\"steady.py\"/>"
+    "<plugin name=\"motion\" isolate=\"true\"/><BehaviorTree ID=\"Main\"><Parallel><Steady/>"
+    "<Advance step=\"0.01\"/></Parallel></BehaviorTree></root>";
+
+}  // namespace
+
+TEST_CASE("a forked child does nothing to a run of its parent") {
+  runtime::Project project;
+  project.add_plugin_path(LOCKSTEP_SOURCE_DIR "/tests/programs");
+  project.add_plugin_path(LOCKSTEP_BINARY_DIR "/plugins");
+  project.load_text(kProcesses);
+  runtime::RunSettings settings;
+  settings.virtual_time = true;
+  runtime::Run run(project, settings);
+  run.tick(0);
+  CHECK(code_of_child([&] {
+          const std::string foreign = "the run belongs to the process that has made it";
+          const bool is_refused = error_of([&] { run.tick(0.01); }) == foreign &&
+                                  error_of([&] { run.halt(); }) == foreign &&
+                                  error_of([&] { run.restart(1); }) == foreign &&
+                                  error_of([&] { run.node(0); }) == foreign &&
+                                  error_of([&] { const runtime::Run other(project); }) ==
+                                      "the project has plugins with a process of their own, which "
+                                      "belongs to the process that has loaded it";
+          lockstep_run_free(run.get());
+          lockstep_project_free(project.get());
+          return is_refused;
+        }) == 0);
+  for (int tick = 1; tick < 20; ++tick) CHECK(run.tick(tick * 0.01) == Status::Running);
+  CHECK(run.node(2).progress > 0.15);
+}
+
+TEST_CASE("a forked child may use a project whose leaves are in the process") {
+  const runtime::Project project = project_of("<Step/>");
+  CHECK(code_of_child([&] {
+          runtime::Run run(project);
+          return run.loop({true}).ticks == 4;
+        }) == 0);
 }
 
 TEST_CASE("NULL is an error and no crash") {

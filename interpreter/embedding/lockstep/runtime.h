@@ -10,6 +10,11 @@
  * any more, and runs of it may be made and used in several threads. One run is used by one thread
  * at a time.
  *
+ * Processes. A run belongs to the process that has made it. In a child of fork, lockstep_run_free
+ * and lockstep_project_free leave it alone, whoever calls them, and all else but reading and
+ * writing entries is refused. The child may make runs of a project that was loaded before, if none
+ * of its plugins is isolated or a program.
+ *
  * Errors. A function that fails returns false or NULL, and lockstep_last_error() has the reason.
  * What is wrong with a tree is a list of diagnostics of its project. Nothing here prints, installs
  * signal handlers, changes malloc or ends the process. No exception comes out of it.

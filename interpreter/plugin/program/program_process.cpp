@@ -129,6 +129,12 @@ bool ProgramProcess::write(std::string_view text) {
   return unwritten_.size() <= kMostUnwritten;
 }
 
+// Also where a forked child of ours has a copy of it.
+void ProgramProcess::close_input() {
+  shutdown(input_.number(), SHUT_WR);
+  input_ = FileDescriptor();
+}
+
 bool ProgramProcess::await_output(std::optional<Nanoseconds> patience) const {
   return await({output_.number(), control_.number()}, patience);
 }

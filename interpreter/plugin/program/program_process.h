@@ -34,7 +34,7 @@ class ProgramProcess {
   bool write(std::string_view text);
   bool has_unwritten() const { return !unwritten_.empty(); }
   // It can read the end of its input.
-  void close_input() { input_ = FileDescriptor(); }
+  void close_input();
 
   // What it writes. `lines.fill(output())` takes what is there.
   int output() const { return output_.number(); }
