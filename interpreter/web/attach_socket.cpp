@@ -15,6 +15,7 @@
 #include <system_error>
 
 #include "core/diagnostics.h"
+#include "web/server_socket.h"
 
 namespace lockstep {
 namespace {
@@ -128,12 +129,14 @@ void AttachSocket::answer(
 }
 
 Result<std::string> attach(const std::string& path, const std::string& address) {
+  const auto resolved = resolve(address);
+  if (!resolved) return tl::unexpected(resolved.error());
   const auto place = unix_address(path);
   const FileDescriptor socket = make_socket();
   if (!place || !connect_to(socket.number(), *place)) {
     return tl::unexpected(cannot("attach to", path));
   }
-  if (!send_packet(socket.number(), address)) return tl::unexpected(cannot("attach to", path));
+  if (!send_packet(socket.number(), *resolved)) return tl::unexpected(cannot("attach to", path));
   const std::string answer =
       is_readable(socket.number(), kRunTakes) ? receive(socket.number()) : std::string();
   if (answer.starts_with(kLink)) return answer.substr(1);

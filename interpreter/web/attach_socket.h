@@ -1,5 +1,6 @@
 // Where a run without a monitor waits to be asked for one: a socket that only its user can reach.
-// A request is one packet, an address for listen_on; so is the answer.
+// A request is one packet, an address for listen_on_resolved; so is the answer. Names are looked up
+// by the one who asks, so that no run waits for a name server.
 #pragma once
 
 #include <functional>

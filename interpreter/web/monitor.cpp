@@ -103,7 +103,7 @@ std::string Monitor::open(ServerSocket listener) {
 // One that is open stays as it is.
 Result<std::string> Monitor::attach(const std::string& address) {
   if (entrance_) return entrance_->link();
-  auto listener = listen_on(address);
+  auto listener = listen_on_resolved(address);
   if (!listener) return tl::unexpected(std::move(listener.error()));
   const std::string link = open(std::move(*listener));
   if (on_attached_) on_attached_(link);

@@ -50,15 +50,19 @@ bool is_loopback(const sockaddr* address) {
   return IN6_IS_ADDR_LOOPBACK(&reinterpret_cast<const sockaddr_in6*>(address)->sin6_addr);
 }
 
+// As in a link.
+std::string text_of(const sockaddr* address, socklen_t size) {
+  char host[NI_MAXHOST] = "", port[NI_MAXSERV] = "";
+  getnameinfo(address, size, host, sizeof host, port, sizeof port, NI_NUMERICHOST | NI_NUMERICSERV);
+  return address->sa_family == AF_INET6 ? fmt::format("[{}]:{}", host, port)
+                                        : fmt::format("{}:{}", host, port);
+}
+
 std::string address_of(int socket) {
   sockaddr_storage own{};
   socklen_t size = sizeof own;
-  char host[NI_MAXHOST] = "", port[NI_MAXSERV] = "";
   getsockname(socket, reinterpret_cast<sockaddr*>(&own), &size);
-  getnameinfo(reinterpret_cast<const sockaddr*>(&own), size, host, sizeof host, port, sizeof port,
-              NI_NUMERICHOST | NI_NUMERICSERV);
-  return own.ss_family == AF_INET6 ? fmt::format("[{}]:{}", host, port)
-                                   : fmt::format("{}:{}", host, port);
+  return text_of(reinterpret_cast<const sockaddr*>(&own), size);
 }
 
 // The digits of a port. getaddrinfo takes larger numbers, and another port for them.
@@ -79,13 +83,12 @@ bool open(const addrinfo& it, FileDescriptor& socket) {
          listen(socket.number(), SOMAXCONN) == 0;
 }
 
-}  // namespace
+struct Found {
+  std::string shown, host;  // the text, and what of it is the name
+  std::unique_ptr<addrinfo, void (*)(addrinfo*)> addresses{nullptr, freeaddrinfo};
+};
 
-bool looks_like_address(std::string_view text) {
-  return text.find('/') == std::string_view::npos && split(text).has_value();
-}
-
-Result<ServerSocket> listen_on(std::string_view address_and_port) {
+Result<Found> look_up(std::string_view address_and_port, int flags) {
   const auto place = split(address_and_port);
   const std::string shown = printable(address_and_port);
   if (!place) {
@@ -95,7 +98,7 @@ Result<ServerSocket> listen_on(std::string_view address_and_port) {
     return problem(fmt::format("'{}' is not an address", shown), "the largest port is 65535");
   }
   addrinfo wanted{};
-  wanted.ai_flags = AI_PASSIVE | AI_NUMERICSERV;
+  wanted.ai_flags = AI_PASSIVE | AI_NUMERICSERV | flags;
   wanted.ai_socktype = SOCK_STREAM;
   addrinfo* found = nullptr;
   if (const int error = getaddrinfo(place->host.c_str(), place->port.c_str(), &wanted, &found);
@@ -103,17 +106,49 @@ Result<ServerSocket> listen_on(std::string_view address_and_port) {
     return problem(fmt::format("cannot listen on '{}': {}", shown, gai_strerror(error)),
                    std::string(kHint));
   }
-  const std::unique_ptr<addrinfo, void (*)(addrinfo*)> owner(found, freeaddrinfo);
+  Found result{.shown = shown, .host = place->host};
+  result.addresses.reset(found);
+  return result;
+}
+
+Result<ServerSocket> listen_at(const Found& found) {
   ServerSocket listener;
-  if (!open(*found, listener.socket)) {
-    return problem(
-        fmt::format("cannot listen on '{}': {}", shown, std::generic_category().message(errno)),
-        "another port, or 0 for a free one");
+  if (!open(*found.addresses, listener.socket)) {
+    return problem(fmt::format("cannot listen on '{}': {}", found.shown,
+                               std::generic_category().message(errno)),
+                   "another port, or 0 for a free one");
   }
-  listener.name = place->host;
+  listener.name = found.host;
   listener.address = address_of(listener.socket.number());
-  listener.is_loopback = is_loopback(found->ai_addr);
+  listener.is_loopback = is_loopback(found.addresses->ai_addr);
   return listener;
+}
+
+}  // namespace
+
+bool looks_like_address(std::string_view text) {
+  return text.find('/') == std::string_view::npos && split(text).has_value();
+}
+
+Result<ServerSocket> listen_on(std::string_view address_and_port) {
+  const auto found = look_up(address_and_port, 0);
+  if (!found) return tl::unexpected(found.error());
+  return listen_at(*found);
+}
+
+Result<std::string> resolve(std::string_view address_and_port) {
+  const auto found = look_up(address_and_port, 0);
+  if (!found) return tl::unexpected(found.error());
+  const addrinfo& it = *found->addresses;
+  return fmt::format("{} {}", text_of(it.ai_addr, it.ai_addrlen), found->host);
+}
+
+Result<ServerSocket> listen_on_resolved(std::string_view resolved) {
+  const auto blank = resolved.find(' ');
+  auto found = look_up(resolved.substr(0, blank), AI_NUMERICHOST);
+  if (!found) return tl::unexpected(found.error());
+  if (blank != std::string_view::npos) found->host = resolved.substr(blank + 1);
+  return listen_at(*found);
 }
 
 }  // namespace lockstep
