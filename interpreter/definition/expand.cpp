@@ -313,9 +313,10 @@ class Expander {
     return parameter.type != ValueType::Object || parameter.object->name() == entry.object->name();
   }
 
-  // An object of another process is bytes in this one.
+  // An object of another process is bytes in this one. What is no object yet, such as a text that a
+  // port of an object reads, becomes one where it is read.
   static bool can_cross(const Parameter& parameter, const BlackboardEntry& entry) {
-    if (parameter.object == nullptr) return true;
+    if (parameter.object == nullptr || entry.object == nullptr) return true;
     return parameter.object->is_packed() == entry.object->is_packed() ||
            (parameter.object->has_bytes() && entry.object->has_bytes());
   }

@@ -157,10 +157,12 @@ void put_hints(const Crash& crash, SignalText& text) {
     text << kForAuthor;
     return;
   }
-  text << "  hint: a plugin may have overwritten memory: with --isolate it cannot\n"
-          "  hint: otherwise it is a bug in lockstep: please report it, with the backtrace\n";
-  if (crash.call.site == nullptr) return;
-  text << "  hint: the last call was to ";
+  text << "  hint: it is a bug in lockstep: please report it, with the backtrace\n";
+  // Only what runs in a tree has had much occasion to do harm: the last call may be long ago.
+  if (crash.call.site == nullptr || crash.call.site->text.empty()) return;
+  text
+      << "  hint: unless a plugin has overwritten memory, which with --isolate it cannot; the last "
+         "call was to ";
   put_site(*crash.call.site, text);
   text << "\n";
 }

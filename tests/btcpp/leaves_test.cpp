@@ -145,3 +145,31 @@ TEST_CASE("leaves for BehaviorTree.CPP: a literal that its type does not read is
   CHECK(outcome.code == 3);
   CHECK(contains(outcome.err, "error: 'here' is not the text of a Position, which 'goal' must be"));
 }
+
+TEST_CASE(
+    "leaves for BehaviorTree.CPP: a port of an own type reads a text, wherever it comes from") {
+  const TemporaryDirectory directory;
+  const std::string in_subtree =
+      "<root BTCPP_format=\"4\" main_tree_to_execute=\"Main\"><BehaviorTree ID=\"Main\">"
+      "<SubTree ID=\"Go\" goal=\"1;2\"/></BehaviorTree><BehaviorTree ID=\"Go\">"
+      "<Move goal=\"{goal}\"/></BehaviorTree></root>";
+  const std::string text = "<SetBlackboard value=\"1;2\" output_key=\"goal\"/>";
+  const std::string move = "<Move goal=\"{goal}\"/>";
+  const std::string kTrees[] = {
+      in_subtree, tree_of("<Sequence>" + text + move + "</Sequence>"),
+      tree_of("<Sequence><Script code=\"goal := '1;2'\"/>" + move + "</Sequence>"),
+      // The first port makes it a text.
+      tree_of("<Sequence><Think text=\"{goal}\"/>" + text + move + "</Sequence>")};
+  for (const std::string& it : kTrees) {
+    INFO(it);
+    const auto tree = directory.file("tree.xml", it);
+    CHECK(lockstep::test::lockstep({"check", tree, "--plugin", plugin("first")}).code == 0);
+    CHECK(printed(run_tree(tree, "first")) == std::vector<std::string>{"move to 1 2", "success"});
+  }
+  const auto set = directory.file("set.xml", tree_of(move));
+  CHECK(printed(run_tree(set, "first", {"--set", "goal=3;4"})) ==
+        std::vector<std::string>{"move to 3 4", "success"});
+  const auto no_position = run_tree(set, "first", {"--set", "goal=here"});
+  CHECK(no_position.code == 1);
+  CHECK(contains(no_position.out, "failure"));
+}

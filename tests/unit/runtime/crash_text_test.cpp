@@ -76,11 +76,18 @@ TEST_CASE("a crash outside of all calls is somebody else's") {
   CHECK(first_line(crash) == "lockstep: error: a thread that a plugin has started" + end);
 }
 
-TEST_CASE("a crash of lockstep tells the last call, which may have overwritten memory") {
-  SignalText text;
-  describe(segv({&kLeaf, 0x500}), text);
-  CHECK(std::string(text.text()).find("the last call was to the leaf 'Main/arm'") !=
-        std::string::npos);
+TEST_CASE("a crash of lockstep is a bug in lockstep, and tells the last call to a leaf") {
+  const auto said = [](const CallSite& site) {
+    SignalText text;
+    describe(segv({&site, 0x500}), text);
+    return std::string(text.text());
+  };
+  CHECK(said(kLeaf).find("hint: it is a bug in lockstep") != std::string::npos);
+  CHECK(said(kLeaf).find("the last call was to the leaf 'Main/arm'") != std::string::npos);
+  // A plugin that was only opened is not blamed.
+  CHECK(said(kPlugin).find("hint: it is a bug in lockstep") != std::string::npos);
+  CHECK(said(kPlugin).find("motion") == std::string::npos);
+  CHECK(said(kPlugin).find("--isolate") == std::string::npos);
 }
 
 TEST_CASE("a crash in a study is told with its run") {
