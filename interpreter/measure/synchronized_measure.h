@@ -33,7 +33,7 @@ std::vector<std::string> child_names(const Tree& tree, NodeIndex node);
 class HeldChildren {
  public:
   explicit HeldChildren(std::size_t children)
-      : running_(std::make_unique<bool[]>(children)), held_(std::make_unique<bool[]>(children)) {}
+      : held_(std::make_unique<bool[]>(2 * children)), running_(held_.get() + children) {}
 
   // `reached`: by the tick, or nobody asked; `held`: its ticks are still withheld. A parallel that
   // ends before it ticks any child asks only those that it held before.
@@ -46,8 +46,8 @@ class HeldChildren {
   const bool* data() const { return held_.get(); }
 
  private:
-  std::unique_ptr<bool[]> running_;  // after the last tick
-  std::unique_ptr<bool[]> held_;
+  std::unique_ptr<bool[]> held_;  // and behind it:
+  bool* running_;                 // after the last tick
 };
 
 // Finds which children have succeeded: SynchronizedTick::succeeded.

@@ -119,7 +119,7 @@ TEST_CASE("barrier: --stall names who never comes, and the barrier") {
   const Outcome outcome = barrier_command(
       {"run", tree, "--clock", "virtual", "--view", "none", "--max-ticks", "300", "--stall", "2"});
   CHECK(contains(outcome.out + outcome.err,
-                 "arm stands still at 0 since 0.020 s and holds the other members of 'lift' back"));
+                 "arm does not run, and the other members of 'lift' wait for it since 0.020 s"));
 }
 
 TEST_CASE("barrier: its path is its own where the root has its name") {

@@ -45,7 +45,7 @@ RecordedProbe::RecordedProbe(const RecordingHeader& header, NodeIndex node,
   find_around(header);
   last_.resize(children_.size(), Status::Idle);
   progress_.resize(children_.size());
-  in_skipped_.resize(children_.size());
+  in_skipped_.resize(members_.size());
 }
 
 // Nodes are in pre-order, so of two nodes the later one is never above the other.
@@ -80,7 +80,7 @@ SynchronizedTick RecordedProbe::read(const RecordedTick& tick) {
     progress_[child] = synchronizes_ ? state.progress : in_plain_parallel(child, state);
     if (is_left_out(child)) progress_[child] = kLeftOut;
     last_[child] = tick.nodes[(members_.empty() ? children_ : members_)[child]].status;
-    in_skipped_[child] = is_in_skipped(child, tick);
+    if (!members_.empty()) in_skipped_[child] = is_in_skipped(child, tick);
     succeeded_.set(child, state.status, has_been_ended);
     if (is_pool_) {
       const RecordedState& member = tick.nodes[members_[child]];
