@@ -112,8 +112,7 @@ SynchronizedProbe::SynchronizedProbe(const Tree& tree, NodeIndex node, bool with
       is_group_(tree.is_group(node)),
       with_held_(with_held),
       is_pool_(is_pool(tree, node)),
-      held_(children_.size()),
-      succeeded_(children_.size()) {
+      held_(children_.size()) {
   if (!compares_progress(synchronization(tree.nodes[node]))) {
     progress_.resize(children_.size());
   }
@@ -143,12 +142,12 @@ SynchronizedTick SynchronizedProbe::read(Ticker& ticker, Nanoseconds time) {
       continue;
     }
     const bool asked = is_group_ ? ticker.ticked(ticker.tree().labels[node].parent)
-                                 : any_reached || held_.data()[child];
+                                 : any_reached || held_.held()[child];
     held_.set(child, ticker.status(node), ticker.ticked(node) || !asked,
               ticker.held(node) && asked);
   }
   if (!tick.ticked) return tick;
-  if (with_held_) tick.held = {held_.data(), children_.size()};
+  if (with_held_) tick.held = held_.held();
   tick.progress = progress_;
   if (progress_.empty()) {
     if (succeeded(ticker, node_)) tick.status = Status::Success;
@@ -158,9 +157,9 @@ SynchronizedTick SynchronizedProbe::read(Ticker& ticker, Nanoseconds time) {
   const bool has_been_ended =
       tick.status == Status::Success && ticker.status(node_) == Status::Idle;
   for (std::size_t child = 0; child < children_.size(); ++child) {
-    succeeded_.set(child, ticker.status(children_[child]), has_been_ended);
+    held_.set_succeeded(child, ticker.status(children_[child]), has_been_ended);
   }
-  tick.succeeded = {succeeded_.data(), children_.size()};
+  tick.succeeded = held_.succeeded();
   return tick;
 }
 

@@ -30,40 +30,31 @@ std::vector<std::string> names_of(std::span<const std::string> paths);
 std::vector<std::string> child_names(const Tree& tree, NodeIndex node);
 
 // Finds from the states after each tick which children their node held in that tick.
+// It also keeps which children have succeeded: SynchronizedTick::succeeded.
 class HeldChildren {
  public:
   explicit HeldChildren(std::size_t children)
-      : held_(std::make_unique<bool[]>(2 * children)), running_(held_.get() + children) {}
+      : flags_(std::make_unique<bool[]>(3 * children)), children_(children) {}
 
   // `reached`: by the tick, or nobody asked; `held`: its ticks are still withheld. A parallel that
   // ends before it ticks any child asks only those that it held before.
   void set(std::size_t child, Status status, bool reached, bool held) {
-    held_[child] = held || (status == Status::Idle && running_[child] && !reached);
-    running_[child] = status == Status::Running;
+    bool& running = flags_[children_ + child];  // after the last tick
+    flags_[child] = held || (status == Status::Idle && running && !reached);
+    running = status == Status::Running;
   }
   // Of a pool: the answer of the pool decides alone, also about a child that has not begun.
-  void set(std::size_t child, bool waits) { held_[child] = waits; }
-  const bool* data() const { return held_.get(); }
-
- private:
-  std::unique_ptr<bool[]> held_;  // and behind it:
-  bool* running_;                 // after the last tick
-};
-
-// Finds which children have succeeded: SynchronizedTick::succeeded.
-class SucceededChildren {
- public:
-  explicit SucceededChildren(std::size_t children)
-      : succeeded_(std::make_unique<bool[]>(children)) {}
-
+  void set(std::size_t child, bool waits) { flags_[child] = waits; }
   // `all`: an ancestor has ended the node after its success.
-  void set(std::size_t child, Status status, bool all) {
-    succeeded_[child] = all || status == Status::Success;
+  void set_succeeded(std::size_t child, Status status, bool all) {
+    flags_[2 * children_ + child] = all || status == Status::Success;
   }
-  const bool* data() const { return succeeded_.get(); }
+  std::span<const bool> held() const { return {flags_.get(), children_}; }
+  std::span<const bool> succeeded() const { return {flags_.get() + 2 * children_, children_}; }
 
  private:
-  std::unique_ptr<bool[]> succeeded_;
+  std::unique_ptr<bool[]> flags_;  // held, running, succeeded
+  std::size_t children_;
 };
 
 class SynchronizedMeasure {
@@ -114,7 +105,6 @@ class SynchronizedProbe {
   bool with_held_;
   bool is_pool_;
   HeldChildren held_;
-  SucceededChildren succeeded_;
   std::vector<double> progress_;  // only where the node does not synchronize
 };
 

@@ -293,5 +293,5 @@ TEST_CASE("standstill: however often it comes, the messages are bounded") {
   const json summary = json::parse(outcome.out);
   CHECK(summary["standstills"].size() == 20);
   REQUIRE(summary["notes"].size() == 6);
-  CHECK(contains(summary["notes"][5].get<std::string>(), " more standstills"));
+  CHECK(contains(summary["notes"][5].get<std::string>(), " standstills more"));
 }

@@ -31,7 +31,6 @@ RecordedProbe::RecordedProbe(const RecordingHeader& header, NodeIndex node,
     : node_(node),
       children_(std::move(children)),
       held_(children_.size()),
-      succeeded_(children_.size()),
       synchronizes_(header.nodes[node].synchronization != Synchronization::None) {
   const RecordedNode& it = header.nodes[node];
   ignores_idle_ = it.ignores_idle;
@@ -45,12 +44,13 @@ RecordedProbe::RecordedProbe(const RecordingHeader& header, NodeIndex node,
   find_around(header);
   last_.resize(children_.size(), Status::Idle);
   progress_.resize(children_.size());
-  in_skipped_.resize(members_.size());
 }
 
 // Nodes are in pre-order, so of two nodes the later one is never above the other.
 void RecordedProbe::find_around(const RecordingHeader& header) {
   if (members_.empty()) return;
+  skips_ = std::make_unique<Skips>();
+  skips_->found.resize(members_.size());
   const auto parent = [&](NodeIndex node) { return header.nodes[node].parent.value_or(0); };
   NodeIndex ancestor = members_.front();
   for (NodeIndex other : members_) {
@@ -58,7 +58,7 @@ void RecordedProbe::find_around(const RecordingHeader& header) {
       (other > ancestor ? other : ancestor) = parent(std::max(other, ancestor));
   }
   for (const NodeIndex member : members_) {
-    auto& around = around_.emplace_back();
+    auto& around = skips_->around.emplace_back();
     for (NodeIndex node = parent(member); node > ancestor; node = parent(node)) {
       around.push_back(node);
     }
@@ -66,9 +66,9 @@ void RecordedProbe::find_around(const RecordingHeader& header) {
 }
 
 bool RecordedProbe::is_in_skipped(std::size_t child, const RecordedTick& tick) const {
-  if (around_.empty()) return false;
-  return std::ranges::any_of(
-      around_[child], [&](NodeIndex node) { return tick.nodes[node].status == Status::Skipped; });
+  return std::ranges::any_of(skips_->around[child], [&](NodeIndex node) {
+    return tick.nodes[node].status == Status::Skipped;
+  });
 }
 
 SynchronizedTick RecordedProbe::read(const RecordedTick& tick) {
@@ -80,15 +80,15 @@ SynchronizedTick RecordedProbe::read(const RecordedTick& tick) {
     progress_[child] = synchronizes_ ? state.progress : in_plain_parallel(child, state);
     if (is_left_out(child)) progress_[child] = kLeftOut;
     last_[child] = tick.nodes[(members_.empty() ? children_ : members_)[child]].status;
-    if (!members_.empty()) in_skipped_[child] = is_in_skipped(child, tick);
-    succeeded_.set(child, state.status, has_been_ended);
+    if (skips_) skips_->found[child] = is_in_skipped(child, tick);
+    held_.set_succeeded(child, state.status, has_been_ended);
     if (is_pool_) {
       const RecordedState& member = tick.nodes[members_[child]];
       held_.set(child, member.ticked && waits(member.limit));
       continue;
     }
     const bool asked =
-        members_.empty() ? any_reached || held_.data()[child] : tick.nodes[members_[child]].ticked;
+        members_.empty() ? any_reached || held_.held()[child] : tick.nodes[members_[child]].ticked;
     held_.set(child, state.status, state.ticked || !asked, state.held && asked);
   }
   runs_ = tick.nodes[node_].status == Status::Running;
@@ -97,8 +97,8 @@ SynchronizedTick RecordedProbe::read(const RecordedTick& tick) {
           .status = has_been_ended ? Status::Success : tick.nodes[node_].status,
           .limit = tick.nodes[node_].limit,
           .progress = progress_,
-          .held = {held_.data(), children_.size()},
-          .succeeded = {succeeded_.data(), children_.size()}};
+          .held = held_.held(),
+          .succeeded = held_.succeeded()};
 }
 
 // A parallel that does not synchronize is judged by what was there before its tick, and none of its
@@ -113,7 +113,7 @@ double RecordedProbe::in_plain_parallel(std::size_t child, const RecordedState& 
 bool RecordedProbe::is_left_out(std::size_t child) const {
   if (runs_ && last_[child] == Status::Skipped) return true;
   if (members_.empty() || progress_[child] != 0) return false;
-  if (runs_ && in_skipped_[child]) return true;
+  if (runs_ && skips_->found[child]) return true;
   return ignores_idle_ && (!runs_ || last_[child] == Status::Idle);
 }
 

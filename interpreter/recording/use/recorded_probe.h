@@ -2,6 +2,7 @@
 // everything that measures or draws recordings.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -31,19 +32,24 @@ class RecordedProbe {
   bool is_left_out(std::size_t child) const;
   bool is_in_skipped(std::size_t child, const RecordedTick& tick) const;
 
+  // Of a group: what is around each member, below the node that has all members, and whether some
+  // of it was skipped in the last tick.
+  struct Skips {
+    std::vector<std::vector<NodeIndex>> around;
+    std::vector<bool> found;
+  };
+
   NodeIndex node_;
   std::vector<NodeIndex> children_;
   std::vector<std::string> names_;
-  std::vector<NodeIndex> members_;              // of a group: the parents of the children
-  std::vector<std::vector<NodeIndex>> around_;  // each member, below the node that has all members
+  std::vector<NodeIndex> members_;  // of a group: the parents of the children
+  std::unique_ptr<Skips> skips_;
   std::vector<double> progress_;
   HeldChildren held_;
-  SucceededChildren succeeded_;
   bool synchronizes_;
   bool ignores_idle_ = false, is_pool_ = false;
-  std::vector<Status> last_;      // of each child, or member, after the last tick
-  std::vector<bool> in_skipped_;  // likewise: a node around the member was skipped
-  bool runs_ = false;             // after the last tick
+  std::vector<Status> last_;  // of each child, or member, after the last tick
+  bool runs_ = false;         // after the last tick
 };
 
 // A synchronized node and its measures.
