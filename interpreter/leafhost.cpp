@@ -4,11 +4,11 @@
 
 #include <string_view>
 
-#include "core/descriptors.h"
 #include "plugin/isolated/served_plugin.h"
 #include "plugin/program/guardian.h"
 #include "runtime/crash_report.h"
 #include "runtime/plugin_thread.h"
+#include "system/descriptors.h"
 
 namespace {
 

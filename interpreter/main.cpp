@@ -3,10 +3,10 @@
 
 #include "cli/command.h"
 #include "cli/exit_code.h"
-#include "core/descriptors.h"
 #include "runtime/crash_report.h"
 #include "runtime/fuse.h"
 #include "runtime/plugin_thread.h"
+#include "system/descriptors.h"
 
 // NOLINTBEGIN(bugprone-reserved-identifier)
 // What plugins end the process with: a name of the program is found before that of the C library.

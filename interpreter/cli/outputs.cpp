@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "cli/console.h"
-#include "core/output_file.h"
+#include "system/output_file.h"
 
 namespace lockstep {
 namespace {

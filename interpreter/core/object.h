@@ -26,7 +26,8 @@ class ObjectType {
   // The name in parentheses if its objects have no text.
   virtual void append_text(const void* object, std::string& out) const = 0;
   virtual bool has_from_text() const = 0;
-  virtual std::optional<Object> from_text(std::string_view text) const = 0;
+  // A failure has what the plugin says of it, or "".
+  virtual Result<Object> from_text(std::string_view text) const = 0;
   // Whether its objects can leave their process, as bytes.
   virtual bool has_bytes() const = 0;
   // A failure begins with the name of the function.

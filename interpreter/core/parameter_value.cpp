@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "core/wording.h"
 
@@ -58,6 +60,13 @@ std::string expected_text(ValueType type, const ObjectType* object) {
   return fmt::format("an entry {{key}} that carries a {}", object->name());
 }
 
+std::string why_no_object(const ObjectType* object, std::string_view text) {
+  if (object == nullptr || !object->has_from_text()) return {};
+  const auto made = object->from_text(text);
+  if (made || made.error().message.empty()) return {};
+  return "its plugin says: " + made.error().message;
+}
+
 std::optional<RuleBreak> refuse_value(const Parameter& parameter, const Value& value) {
   if (const auto number = std::visit(OutOfRange(parameter.range), value)) {
     return RuleBreak{
@@ -72,6 +81,40 @@ std::optional<RuleBreak> refuse_value(const Parameter& parameter, const Value& v
   return RuleBreak{
       .message = fmt::format("'{}' is not a value of '{}'", brief(*word), parameter.name),
       .hint = "it must be one of " + listed(parameter.choices)};
+}
+
+ListErrors list_errors(const NodeType& type, const Parameter& parameter, std::string_view text) {
+  constexpr std::size_t kMostTold = 20;
+  ListErrors errors;
+  std::vector<double> numbers;
+  constexpr std::string_view kSeparators = "; ,\t\r\n";
+  for (auto begin = text.find_first_not_of(kSeparators); begin != std::string_view::npos;) {
+    const auto end = std::min(text.find_first_of(kSeparators, begin), text.size());
+    const std::string_view item = text.substr(begin, end - begin);
+    begin = text.find_first_not_of(kSeparators, end);
+    if (const auto number = parse_double(item)) {
+      numbers.push_back(*number);
+    } else if (errors.no_numbers.size() < kMostTold) {
+      errors.no_numbers.push_back(item);
+    }
+  }
+  std::set<double> told;
+  std::erase_if(numbers, [&](double number) {
+    auto refused = refuse_value(parameter, Value(number));
+    if (refused && told.size() < kMostTold && told.insert(number).second) {
+      errors.refused.push_back(*std::move(refused));
+    }
+    return refused.has_value();
+  });
+  if (type.rule == nullptr) return errors;
+  const auto place = static_cast<std::size_t>(&parameter - type.parameters.data());
+  std::vector<Value> values(type.parameters.size());
+  values[place] = std::move(numbers);
+  auto broken = type.rule({.values = values, .children = 0});
+  if (broken && broken->parameter == static_cast<int>(place)) {
+    errors.refused.push_back(*std::move(broken));
+  }
+  return errors;
 }
 
 std::string refusal_text(const RuleBreak& why, std::string_view parameter, const Value& value,

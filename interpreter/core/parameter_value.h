@@ -3,6 +3,8 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "core/node_type.h"
 
@@ -14,10 +16,21 @@ std::string_view type_name(ValueType type, const ObjectType* object);
 // parse_value and expected_text, also of objects.
 std::optional<Value> parse_value(ValueType type, const ObjectType* object, std::string_view text);
 std::string expected_text(ValueType type, const ObjectType* object);
+// What the plugin says of a text that is none of its objects, as a hint; "" when nothing, and of a
+// null type.
+std::string why_no_object(const ObjectType* object, std::string_view text);
 
 // The error in `value`, which has the parameter's type: outside of its range, or not among its
 // choices. The message does not mention where the value comes from.
 std::optional<RuleBreak> refuse_value(const Parameter& parameter, const Value& value);
+
+// Of a list that is wrong, all that is: items that are no numbers, those outside of the range, and
+// what the rule of the node says of the others. `parameter` is one of `type`.
+struct ListErrors {
+  std::vector<std::string_view> no_numbers;
+  std::vector<RuleBreak> refused;
+};
+ListErrors list_errors(const NodeType& type, const Parameter& parameter, std::string_view text);
 
 // The same as a text, with the value of the entry that a run has read: what, parameter, value,
 // entry, hint.

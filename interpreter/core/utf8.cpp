@@ -3,6 +3,8 @@
 #include <utf8proc.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <iterator>
 
 namespace lockstep {
@@ -25,6 +27,18 @@ Character first_character(std::string_view text) {
                        static_cast<utf8proc_ssize_t>(std::min<std::size_t>(text.size(), 4)), &code);
   if (bytes <= 0) return {};
   return {static_cast<std::size_t>(bytes), static_cast<char32_t>(code)};
+}
+
+bool is_utf8(std::string_view text) {
+  constexpr std::uint64_t kHighBits = 0x8080808080808080u;
+  while (!text.empty()) {
+    std::uint64_t block = kHighBits;
+    if (text.size() >= sizeof block) std::memcpy(&block, text.data(), sizeof block);
+    const std::size_t bytes = (block & kHighBits) == 0 ? sizeof block : utf8_length(text);
+    if (bytes == 0) return false;
+    text.remove_prefix(bytes);
+  }
+  return true;
 }
 
 std::string_view utf8_front(std::string_view text, std::size_t bytes) {

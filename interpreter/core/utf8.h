@@ -18,6 +18,9 @@ inline std::size_t utf8_length(std::string_view text) {
   return first_character(text).bytes;
 }
 
+// Whether it has nothing but such characters.
+bool is_utf8(std::string_view text);
+
 // The longest front part of `text` that has at most `bytes` bytes and does not cut a character.
 std::string_view utf8_front(std::string_view text, std::size_t bytes);
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/utf8.h"
@@ -54,6 +56,27 @@ std::string arity_text(std::uint32_t least, std::uint32_t most) {
     return fmt::format("{} to {} children", least, most);
   }
   return least <= 1 ? "one or more children" : fmt::format("{} or more children", least);
+}
+
+std::string rounded(double value) {
+  constexpr int kDigits = 4;
+  if (!std::isfinite(value) || value == 0) return fmt::format("{}", value);
+  const int before = static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1;
+  if (before > kDigits && before <= 15) return fmt::format("{:.0f}", value);
+  return fmt::format("{:.{}g}", value, kDigits);
+}
+
+std::string rounded_within(double value, double range) {
+  constexpr int kDigits = 3, kMostDecimals = 12;
+  if (!(range > 0) || !std::isfinite(range) || !std::isfinite(value)) {
+    return fmt::format("{:.6g}", value);
+  }
+  const int places = kDigits - 1 - static_cast<int>(std::floor(std::log10(range)));
+  const std::string text = fmt::format("{:.{}f}", value, std::clamp(places, 0, kMostDecimals));
+  const std::string exact = fmt::format("{:.10g}", value);
+  if (exact.size() < text.size()) return exact;
+  const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
+  return is_zero && text[0] == '-' ? text.substr(1) : text;
 }
 
 std::string counted(std::uint64_t count, std::string_view noun) {

@@ -34,6 +34,12 @@ std::string chained(std::span<const std::string_view> names);
 // "exactly one child", "one or more children", "2 to 4 children"; `most` of 2^32 - 1 is no limit.
 std::string arity_text(std::uint32_t least, std::uint32_t most);
 
+// "35.88": four digits, and all that stand before the point.
+std::string rounded(double value);
+// Among values that are `range` apart: three digits of that, and no more than it has. "37.80" from
+// 33 to 41.
+std::string rounded_within(double value, double range);
+
 // "1 tick", "2 ticks".
 std::string counted(std::uint64_t count, std::string_view noun);
 

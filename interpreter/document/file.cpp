@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <system_error>
 
-#include "core/file_descriptor.h"
+#include "system/file_descriptor.h"
 
 namespace lockstep {
 namespace {

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "core/file_descriptor.h"
+#include "system/file_descriptor.h"
 
 namespace lockstep {
 namespace {

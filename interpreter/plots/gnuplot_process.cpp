@@ -15,8 +15,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "core/file_descriptor.h"
 #include "runtime/stop_signals.h"
+#include "system/file_descriptor.h"
 
 namespace lockstep {
 namespace {

@@ -9,13 +9,13 @@
 #include <utility>
 
 #include "core/conversion.h"
-#include "core/fork_guard.h"
 #include "core/parameter_value.h"
 #include "core/utf8.h"
 #include "core/wording.h"
 #include "plugin/held.h"
 #include "plugin/packed_object.h"
 #include "plugin/workers.h"
+#include "system/fork_guard.h"
 
 namespace lockstep {
 namespace {

@@ -3,7 +3,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-#include "core/signal_mask.h"
+#include "system/signal_mask.h"
 
 namespace lockstep {
 namespace {

@@ -5,11 +5,11 @@
 #include <cstddef>
 #include <new>
 
-#include "core/own_thread.h"
 #include "plugin/call_mark.h"
 #include "plugin/shared_object.h"
 #include "runtime/crash_report.h"
 #include "runtime/watchdog.h"
+#include "system/own_thread.h"
 
 namespace lockstep {
 

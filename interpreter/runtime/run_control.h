@@ -8,10 +8,10 @@
 #include <optional>
 #include <vector>
 
-#include "core/bell.h"
 #include "core/value.h"
 #include "engine/ticker.h"
 #include "runtime/breakpoints.h"
+#include "system/bell.h"
 
 namespace lockstep {
 

@@ -8,8 +8,8 @@
 #include <iterator>
 
 #include "core/clock.h"
-#include "core/fork_guard.h"
 #include "runtime/fuse.h"
+#include "system/fork_guard.h"
 
 namespace lockstep {
 namespace {

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/own_thread.h"
 #include "core/running_time.h"
 #include "runtime/crash_report.h"
 #include "runtime/stop_signals.h"
+#include "system/own_thread.h"
 
 namespace lockstep {
 namespace {

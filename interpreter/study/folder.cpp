@@ -12,9 +12,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "core/descriptors.h"
 #include "study/plan_json.h"
 #include "study/row_reader.h"
+#include "system/descriptors.h"
 
 namespace lockstep {
 namespace {

@@ -7,11 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "core/file_descriptor.h"
 #include "core/problem.h"
 #include "study/plan.h"
 #include "study/row_sequence.h"
 #include "study/table.h"
+#include "system/file_descriptor.h"
 
 namespace lockstep {
 

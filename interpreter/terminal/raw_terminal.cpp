@@ -10,7 +10,7 @@
 #include <ctime>
 #include <utility>
 
-#include "core/signal_mask.h"
+#include "system/signal_mask.h"
 #include "terminal/screen.h"
 
 namespace lockstep {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "core/descriptors.h"
+#include "system/descriptors.h"
 
 namespace lockstep {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "core/signal_mask.h"
+#include "system/signal_mask.h"
 
 namespace lockstep {
 

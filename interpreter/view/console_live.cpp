@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "core/diagnostics.h"
-#include "core/own_thread.h"
 #include "summary/statistics.h"
+#include "system/own_thread.h"
 
 namespace lockstep {
 

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/file_descriptor.h"
+#include "system/file_descriptor.h"
 #include "terminal/keys.h"
 #include "terminal/raw_terminal.h"
 #include "terminal/screen.h"

@@ -6,8 +6,8 @@
 #include <functional>
 #include <string>
 
-#include "core/file_descriptor.h"
 #include "core/problem.h"
+#include "system/file_descriptor.h"
 
 namespace lockstep {
 

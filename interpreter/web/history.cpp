@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "core/file_descriptor.h"
+#include "system/file_descriptor.h"
 
 namespace lockstep {
 namespace {

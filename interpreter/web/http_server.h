@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "core/clock.h"
-#include "core/file_descriptor.h"
+#include "system/file_descriptor.h"
 #include "web/answer.h"
 
 namespace lockstep {

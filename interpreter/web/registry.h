@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/file_descriptor.h"
+#include "system/file_descriptor.h"
 
 namespace lockstep {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "core/file_descriptor.h"
 #include "core/problem.h"
+#include "system/file_descriptor.h"
 
 namespace lockstep {
 

@@ -15,11 +15,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/freed_memory.h"
 #include "definition/resolve.h"
 #include "document/file.h"
 #include "engine/compile.h"
 #include "engine/run_state.h"
+#include "system/freed_memory.h"
 
 namespace {
 

@@ -12,11 +12,11 @@
 #include <string>
 #include <string_view>
 
-#include "core/file_descriptor.h"
 #include "plugin/plugin_set.h"
 #include "plugin/program/hello.h"
 #include "plugin/program/line_input.h"
 #include "plugin/program/reply.h"
+#include "system/file_descriptor.h"
 
 namespace {
 

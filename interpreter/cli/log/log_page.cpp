@@ -9,8 +9,8 @@
 #include "cli/exit_code.h"
 #include "cli/log/log.h"
 #include "cli/outputs.h"
-#include "core/descriptors.h"
-#include "core/output_file.h"
+#include "system/descriptors.h"
+#include "system/output_file.h"
 #include "web/page.h"
 
 namespace lockstep {

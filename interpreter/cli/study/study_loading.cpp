@@ -9,13 +9,13 @@
 #include "cli/checks.h"
 #include "cli/exit_code.h"
 #include "cli/load/real_time_leaves.h"
-#include "core/freed_memory.h"
 #include "core/suggest.h"
 #include "core/wording.h"
 #include "study/column_names.h"
 #include "study/grid_text.h"
 #include "study/plan_check.h"
 #include "study/precision.h"
+#include "system/freed_memory.h"
 
 namespace lockstep {
 namespace {

@@ -10,8 +10,8 @@
 #include <bit>
 #include <cstring>
 
-#include "core/futex.h"
 #include "core/running_time.h"
+#include "system/futex.h"
 
 namespace lockstep {
 namespace {

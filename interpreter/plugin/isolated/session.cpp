@@ -7,10 +7,10 @@
 #include <cerrno>
 #include <cstring>
 
-#include "core/own_thread.h"
 #include "core/running_time.h"
 #include "plugin/host.h"
 #include "plugin/isolated/leafhost_descriptors.h"
+#include "system/own_thread.h"
 
 namespace lockstep {
 namespace {

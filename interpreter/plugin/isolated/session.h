@@ -13,12 +13,12 @@
 #include <thread>
 #include <vector>
 
-#include "core/file_descriptor.h"
 #include "plugin/call_mark.h"
 #include "plugin/child_process.h"
 #include "plugin/isolated/channel.h"
 #include "plugin/isolated/message.h"
 #include "plugin/plugin_set.h"
+#include "system/file_descriptor.h"
 
 namespace lockstep {
 

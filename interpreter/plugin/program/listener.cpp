@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <ctime>
 
-#include "core/own_thread.h"
+#include "system/own_thread.h"
 
 namespace lockstep {
 namespace {

@@ -7,8 +7,8 @@
 #include <thread>
 #include <vector>
 
-#include "core/file_descriptor.h"
 #include "plugin/program/conversation.h"
+#include "system/file_descriptor.h"
 
 namespace lockstep {
 

@@ -36,6 +36,28 @@ TEST_CASE("a long chain shows its beginning and its end") {
   CHECK(chained(twelve) == "0 -> 1 -> 2 -> 3 -> 4 -> … (2 more) … -> y -> 6 -> 7 -> 8 -> 9");
 }
 
+TEST_CASE("a number has four digits, and all that stand before the point") {
+  CHECK(rounded(0) == "0");
+  CHECK(rounded(0.25) == "0.25");
+  CHECK(rounded(35.8781) == "35.88");
+  CHECK(rounded(0.0749022) == "0.0749");
+  CHECK(rounded(-123456.7) == "-123457");
+  CHECK(rounded(1e300) == "1e+300");
+  CHECK(rounded(std::numeric_limits<double>::infinity()) == "inf");
+}
+
+TEST_CASE("numbers that differ by a range have three digits of it") {
+  CHECK(rounded_within(37.8036, 7.865) == "37.80");
+  CHECK(rounded_within(37, 7.865) == "37");
+  CHECK(rounded_within(37.8036, 0.7865) == "37.804");
+  CHECK(rounded_within(0.401809, 0.003) == "0.40181");
+  CHECK(rounded_within(4.4, 0.5) == "4.4");
+  CHECK(rounded_within(1234567, 100000) == "1234567");
+  CHECK(rounded_within(-0.0001, 20) == "0.0");
+  CHECK(rounded_within(0.1, 0) == "0.1");
+  CHECK(rounded_within(123.4567, 0) == "123.457");
+}
+
 TEST_CASE("one tick, two ticks") {
   CHECK(counted(0, "tick") == "0 ticks");
   CHECK(counted(1, "tick") == "1 tick");

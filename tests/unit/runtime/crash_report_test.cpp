@@ -15,8 +15,8 @@
 #include <string>
 #include <thread>
 
-#include "core/own_thread.h"
 #include "runtime/watchdog.h"
+#include "system/own_thread.h"
 #include "unit/runtime/forked_child.h"
 
 namespace lockstep::test {

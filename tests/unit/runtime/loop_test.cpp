@@ -10,7 +10,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "core/own_thread.h"
+#include "system/own_thread.h"
 #include "unit/runtime/forked_child.h"
 #include "unit/runtime/timed_leaf.h"
 

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/descriptors.h"
+#include "system/descriptors.h"
 
 namespace lockstep {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "core/fork_guard.h"
+#include "system/fork_guard.h"
 #include "unit/runtime/forked_child.h"
 
 namespace lockstep::test {

@@ -9,7 +9,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "core/own_thread.h"
+#include "system/own_thread.h"
 
 namespace lockstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/freed_memory.h"
+#include "system/freed_memory.h"
 
 #include <malloc.h>
 

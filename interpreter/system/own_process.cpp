@@ -1,4 +1,4 @@
-#include "core/own_process.h"
+#include "system/own_process.h"
 
 #include <pthread.h>
 

@@ -2,7 +2,7 @@
 // system call, so not for each tick.
 #pragma once
 
-#include "core/futex.h"
+#include "system/futex.h"
 
 namespace lockstep {
 

@@ -10,7 +10,7 @@
 namespace lockstep {
 
 // Marks the calling thread as one of lockstep's until it ends, and gives it a stack for reporting a
-// stack overflow.
+// stack overflow, to its last destructor.
 void adopt_thread();
 // Async-signal-safe.
 bool is_own_thread();

@@ -1,4 +1,4 @@
-#include "core/descriptors.h"
+#include "system/descriptors.h"
 
 #include <fcntl.h>
 #include <poll.h>

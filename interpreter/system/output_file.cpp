@@ -1,4 +1,4 @@
-#include "core/output_file.h"
+#include "system/output_file.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "core/fork_guard.h"
+#include "system/fork_guard.h"
 
 #include <sys/mman.h>
 

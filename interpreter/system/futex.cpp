@@ -1,4 +1,4 @@
-#include "core/futex.h"
+#include "system/futex.h"
 
 #include <linux/futex.h>
 #include <sys/syscall.h>
