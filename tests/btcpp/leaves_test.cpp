@@ -73,13 +73,22 @@ TEST_CASE("programs for BehaviorTree.CPP: they print what they print with the li
 }
 
 TEST_CASE("leaves for BehaviorTree.CPP: they print the same from a separate process") {
-  for (const std::string name : {"halts", "register", "waiting"}) {
+  for (const std::string name : {"asked", "halts", "register", "waiting"}) {
     INFO(name);
     CHECK(printed(run_tree(kSources + name + ".xml", name, {"--isolate"})) ==
           lines(read_file(kSources + name + ".txt")));
   }
-  const Outcome refused = run_tree(std::string(kSources) + "first.xml", "first", {"--isolate"});
-  CHECK(contains(refused.err, "the type 'Position' has no to_bytes and from_bytes"));
+  // Those that carry objects without bytes stay here.
+  const Outcome parts = run_tree(std::string(kSources) + "first.xml", "first", {"--isolate"});
+  CHECK(contains(parts.err, "first.so' is isolated only in part: "));
+  CHECK(contains(parts.err, "' has no to_bytes and from_bytes"));
+  // What does not work from there is told, not ignored.
+  const auto isolated = [](const std::string& name) {
+    return run_tree(std::string(kSources) + name + ".xml", name, {"--isolate"});
+  };
+  CHECK(contains(isolated("entries").err,
+                 "cannot be used by its name here: in a constructor, in an isolated plugin"));
+  CHECK(contains(isolated("words").err, "nothing makes the entry 'Red'"));
 }
 
 TEST_CASE("leaves for BehaviorTree.CPP: what a node does wrong is its fault") {
@@ -144,6 +153,27 @@ TEST_CASE("leaves for BehaviorTree.CPP: a literal that its type does not read is
   const Outcome outcome = lockstep::test::lockstep({"check", tree, "--plugin", plugin("first")});
   CHECK(outcome.code == 3);
   CHECK(contains(outcome.err, "error: 'here' is not the text of a Position, which 'goal' must be"));
+}
+
+TEST_CASE("leaves for BehaviorTree.CPP: a type without a conversion says so, by its name") {
+  const TemporaryDirectory directory;
+  const std::string type = "std::map<std::string, std::vector<Position>>";
+  const std::string lacks =
+      "there is no conversion from a text to " + type + "; specialize BT::convertFromString for it";
+  const auto literal = directory.file("literal.xml", tree_of("<Look places=\"a\"/>"));
+  const Outcome check = lockstep::test::lockstep({"check", literal, "--plugin", plugin("first")});
+  CHECK(
+      contains(check.err, "error: 'a' is not the text of a " + type + ", which 'places' must be"));
+  CHECK(contains(check.err, "hint: its plugin says: " + lacks));
+  const auto start = directory.file("start.xml", tree_of("<Look places=\"{p}\"/>"));
+  CHECK(contains(run_tree(start, "first", {"--set", "p=1"}).err, "its plugin says: " + lacks));
+  const auto text = directory.file(
+      "text.xml", tree_of("<Sequence><Think text=\"{p}\"/><Look places=\"{p}\"/></Sequence>"));
+  CHECK(contains(run_tree(text, "first").out, "Main/Sequence/Look: " + lacks));
+  // One that refuses a text says why.
+  const auto wrong = directory.file("wrong.xml", tree_of("<Move goal=\"1\"/>"));
+  CHECK(contains(lockstep::test::lockstep({"check", wrong, "--plugin", plugin("first")}).err,
+                 "hint: its plugin says: a position is two numbers"));
 }
 
 TEST_CASE(

@@ -69,6 +69,63 @@ TEST_CASE("run --mock is for lockstep's own trees, too, and for leaves of plugin
   CHECK(run_mocked(tree, {"--mock-leaf", "Advance=failure"}).code == 1);
 }
 
+TEST_CASE("run --mock takes a port that no plugin declares as the tree uses it") {
+  const TemporaryDirectory directory;
+  const std::string ports = directory.file(
+      "ports.xml", tree_text("<Sequence memory=\"true\"><MoveTo goal=\"home\"/>"
+                             "<MoveTo goal=\"{spot}\"/><Look at=\"{spot}\"/></Sequence>"));
+  CHECK(run_mocked(ports, {}).code == 0);
+  // Its entry has the type that a script or another node gives it.
+  const std::string entries = directory.file(
+      "entries.xml",
+      tree_text("<Sequence memory=\"true\"><Script code=\"x := 1\"/><Look at=\"{x}\"/>"
+                "<Check code=\"x + 1 == 2 &amp;&amp; charge > 20\"/><Measure charge=\"{charge}\" "
+                "plan=\"{plan}\"/><ParallelAbsolute barriers=\"{plan}\"><A/><B/>"
+                "</ParallelAbsolute></Sequence>"));
+  CHECK(run_mocked(entries, {"--set", "charge=30", "--set", "plan=0.5"}).code == 0);
+  const Outcome without = run_mocked(entries, {"--set", "plan=0.5"});
+  CHECK(without.code == 5);
+  CHECK(contains(without.out, "an entry without value"));
+}
+
+TEST_CASE("run --mock needs no plugin that is not there yet") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "tree.xml",
+      "<root lockstep=\"1\"><plugin name=\"arm\"/><plugin name=\"grip\" program=\"grip.py\"/>"
+      "<plugin name=\"motion\"/><BehaviorTree ID=\"Main\"><Sequence memory=\"true\"><Condition "
+      "ID=\"IsOpen\"/>"
+      "<Action ID=\"MoveTo\"/><Advance step=\"0.5\"/></Sequence></BehaviorTree></root>");
+  CHECK(lockstep::test::lockstep({"run", tree}).code == 4);
+  const Outcome outcome = run_mocked(tree, {});
+  CHECK(outcome.code == 0);
+  CHECK(contains(outcome.err, "warning: plugin 'arm' is not found"));
+  CHECK(contains(outcome.err, "warning: plugin 'grip' is not found"));
+  // One that is there is not mocked: its parameters are checked.
+  const std::string wrong = directory.file(
+      "wrong.xml",
+      "<root lockstep=\"1\"><plugin name=\"arm\"/><plugin name=\"motion\"/><BehaviorTree "
+      "ID=\"Main\"><Advance stpe=\"0.5\"/></BehaviorTree></root>");
+  CHECK(contains(run_mocked(wrong, {}).err, "error: 'Advance' has no parameter 'stpe'"));
+  // What the command line names must be there.
+  CHECK(run_mocked(tree, {"--plugin", "leg"}).code == 4);
+}
+
+TEST_CASE("run --mock and check say which leaves are taken for actions") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "tree.xml",
+      "<root BTCPP_format=\"4\"><BehaviorTree ID=\"A\"><Sequence><IsOpen/><Condition ID=\"IsFar\"/>"
+      "<Inverter><Dock/></Inverter></Sequence></BehaviorTree></root>");
+  const std::string all = "warning: no plugin has 'Dock', 'IsOpen': taken for actions";
+  CHECK(contains(run_mocked(tree, {}).err, ":1:55: " + all));
+  CHECK(contains(run_mocked(tree, {"--mock-leaf", "Dock=failure"}).err,
+                 "warning: no plugin has 'IsOpen': taken for an action"));
+  const Outcome check = lockstep::test::lockstep({"check", tree});
+  CHECK(contains(check.err, "note: no plugin has 'IsOpen'; it is taken for an action"));
+  CHECK_FALSE(contains(check.err, "'IsFar'; it is taken"));
+}
+
 TEST_CASE("run --mock-leaf refuses a node that the tree does not have, or that is no leaf") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file(

@@ -1,5 +1,6 @@
 // One node of each common kind, as a tutorial has them.
 #include <iostream>
+#include <map>
 
 #include "behaviortree_cpp/bt_factory.h"
 
@@ -87,6 +88,20 @@ class IsClose : public ConditionNode {
   }
 };
 
+// Its port has a type that no text is converted to.
+class Look : public SyncActionNode {
+ public:
+  Look(const std::string& name, const NodeConfig& config) : SyncActionNode(name, config) {}
+  static PortsList providedPorts() {
+    return {InputPort<std::map<std::string, std::vector<Position>>>("places")};
+  }
+  NodeStatus tick() override {
+    const auto places = getInput<std::map<std::string, std::vector<Position>>>("places");
+    if (!places) throw RuntimeError(places.error());
+    return NodeStatus::SUCCESS;
+  }
+};
+
 static NodeStatus check_battery() {
   std::cout << "battery: ok" << std::endl;
   return NodeStatus::SUCCESS;
@@ -98,5 +113,6 @@ BT_REGISTER_NODES(factory) {
   factory.registerNodeType<Think>("Think");
   factory.registerNodeType<Move>("Move");
   factory.registerNodeType<IsClose>("IsClose");
+  factory.registerNodeType<Look>("Look");
   factory.registerSimpleCondition("BatteryOk", [](TreeNode&) { return check_battery(); });
 }

@@ -37,13 +37,16 @@ class SimpleActionNode : public SyncActionNode {
  public:
   using TickFunctor = std::function<NodeStatus(TreeNode&)>;
   SimpleActionNode(const std::string& name, TickFunctor function, const NodeConfig& config)
-      : SyncActionNode(name, config), function_(std::move(function)) {}
+      : SyncActionNode(name, config), lockstep_function_(std::move(function)) {}
 
  protected:
-  NodeStatus tick() final { return function_(*this); }
+  NodeStatus tick() final {
+    if (status() == NodeStatus::IDLE) setStatus(NodeStatus::RUNNING);
+    return lockstep_function_(*this);
+  }
 
  private:
-  TickFunctor function_;
+  TickFunctor lockstep_function_;
 };
 
 // Takes several ticks.
@@ -60,7 +63,7 @@ class StatefulActionNode : public ActionNodeBase {
   virtual void onHalted() = 0;
 
   // True after the first halt, for ever.
-  bool isHaltRequested() const { return is_halt_requested_; }
+  bool isHaltRequested() const { return lockstep_is_halt_requested_; }
 
  protected:
   NodeStatus tick() final {
@@ -69,13 +72,13 @@ class StatefulActionNode : public ActionNodeBase {
     return before == NodeStatus::RUNNING ? onRunning() : onStart();
   }
   void halt() final {
-    is_halt_requested_ = true;
+    lockstep_is_halt_requested_ = true;
     if (status() == NodeStatus::RUNNING) onHalted();
     resetStatus();
   }
 
  private:
-  std::atomic<bool> is_halt_requested_{false};
+  std::atomic<bool> lockstep_is_halt_requested_{false};
 };
 
 }  // namespace BT

@@ -76,16 +76,17 @@ inline std::vector<StringView> splitString(const StringView& text, char separato
 
 // A value as "json:…"; an error when its type has no text in JSON.
 inline Expected<std::string> toJsonString(const Any& value) {
-  if (value.isNumber() || value.isString()) return "json:" + detail::plain_json(value);
-  const detail::JsonFunctions* const functions = detail::find_json(value.castedType());
+  if (value.isNumber() || value.isString()) return "json:" + lockstep_detail::plain_json(value);
+  const lockstep_detail::JsonFunctions* const functions =
+      lockstep_detail::find_json(value.castedType());
   if (functions == nullptr || !functions->write) {
-    return nonstd::make_unexpected(
-        StrCat("values of type ", demangle(value.type()), " have no text in JSON"));
+    return nonstd::make_unexpected(StrCat(
+        "values of type ", lockstep_detail::readable(value.type()), " have no text in JSON"));
   }
-  return "json:" + functions->write(value.object());
+  return "json:" + functions->write(value.lockstep_object());
 }
 
-namespace detail {
+namespace lockstep_detail {
 
 [[noreturn]] inline void refuse_text(StringView text, const std::string& wanted) {
   throw RuntimeError("'", text, "' is not ", wanted);
@@ -98,7 +99,7 @@ T number_from(StringView text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   static_cast<void>(end);
   if (error == std::errc::result_out_of_range) {
-    refuse_text(text, "in the range of " + demangle(typeid(T)));
+    refuse_text(text, "in the range of " + readable(typeid(T)));
   }
   if (error != std::errc()) refuse_text(text, "a number");
   return number;
@@ -130,7 +131,7 @@ struct TextReader {
         Any value;
         if (read_json(typeid(T), text.substr(5), value)) return value.cast<T>();
       }
-      throw NoConversion("there is no conversion from a text to ", demangle(typeid(T)),
+      throw NoConversion("there is no conversion from a text to ", readable(typeid(T)),
                          "; specialize BT::convertFromString for it");
     }
   }
@@ -140,19 +141,20 @@ inline const char* TextReader<const char*>::read(StringView text) {
   return text.data();
 }
 
-}  // namespace detail
+}  // namespace lockstep_detail
 
 // A text as a value; throws when it is none. Specialize it for the types of your ports.
 template <typename T>
 inline T convertFromString(StringView text) {
-  return detail::TextReader<T>::read(text);
+  return lockstep_detail::TextReader<T>::read(text);
 }
 
 // A text in JSON as a value of a type that is registered for it.
 [[nodiscard]] inline Any convertFromJSON(StringView text, std::type_index type) {
   Any value;
-  if (!detail::read_json(type, text, value)) {
-    throw RuntimeError("the JSON '", text, "' is no value of type ", demangle(type),
+  if (!lockstep_detail::read_json(type, text, value)) {
+    throw RuntimeError("the JSON '", text, "' is no value of type ",
+                       lockstep_detail::readable(type),
                        ", or that type is not registered with BT::RegisterJsonDefinition");
   }
   return value;
@@ -162,7 +164,7 @@ template <typename T>
   return convertFromJSON(text, typeid(T)).cast<T>();
 }
 
-namespace detail {
+namespace lockstep_detail {
 
 template <class Item>
 struct TextReader<std::vector<Item>> {
@@ -186,7 +188,7 @@ Enum named_value(StringView text, const char* const (&names)[kCount]) {
   for (std::size_t i = 0; i < kCount; ++i) {
     if (text == names[i]) return static_cast<Enum>(i);
   }
-  refuse_text(text, demangle(typeid(Enum)));
+  refuse_text(text, readable(typeid(Enum)));
 }
 
 inline constexpr const char* kStatusNames[] = {"IDLE", "RUNNING", "SUCCESS", "FAILURE", "SKIPPED"};
@@ -194,15 +196,15 @@ inline constexpr const char* kTypeNames[] = {"Undefined", "Action",    "Conditio
                                              "Control",   "Decorator", "SubTree"};
 inline constexpr const char* kDirectionNames[] = {"Input", "Output", "InOut"};
 
-}  // namespace detail
+}  // namespace lockstep_detail
 
 template <>
 inline NodeStatus convertFromString<NodeStatus>(StringView text) {
-  return detail::named_value<NodeStatus>(text, detail::kStatusNames);
+  return lockstep_detail::named_value<NodeStatus>(text, lockstep_detail::kStatusNames);
 }
 template <>
 inline NodeType convertFromString<NodeType>(StringView text) {
-  return detail::named_value<NodeType>(text, detail::kTypeNames);
+  return lockstep_detail::named_value<NodeType>(text, lockstep_detail::kTypeNames);
 }
 template <>
 inline PortDirection convertFromString<PortDirection>(StringView text) {
@@ -213,7 +215,7 @@ inline PortDirection convertFromString<PortDirection>(StringView text) {
                                                            : PortDirection::INOUT;
     }
   }
-  detail::refuse_text(text, "a direction");
+  lockstep_detail::refuse_text(text, "a direction");
 }
 
 template <class T>
@@ -231,14 +233,14 @@ template <typename T>
   } else if constexpr (std::is_arithmetic_v<T>) {
     return std::to_string(value);
   } else if constexpr (std::is_same_v<T, NodeStatus>) {
-    return detail::kStatusNames[static_cast<int>(value)];
+    return lockstep_detail::kStatusNames[static_cast<int>(value)];
   } else if constexpr (std::is_same_v<T, NodeType>) {
-    return detail::kTypeNames[static_cast<int>(value)];
+    return lockstep_detail::kTypeNames[static_cast<int>(value)];
   } else if constexpr (std::is_same_v<T, PortDirection>) {
-    return detail::kDirectionNames[static_cast<int>(value)];
+    return lockstep_detail::kDirectionNames[static_cast<int>(value)];
   } else {
     if (auto text = toJsonString(Any(value))) return std::move(*text);
-    throw LogicError("there is no text for a value of type ", demangle(typeid(T)),
+    throw LogicError("there is no text for a value of type ", lockstep_detail::readable(typeid(T)),
                      "; specialize BT::toStr for it, or register it for JSON");
   }
 }

@@ -24,7 +24,7 @@ struct StampedValue {
   Timestamp stamp;
 };
 
-namespace detail {
+namespace lockstep_detail {
 
 // Entries of a tree that a program ticks.
 class EntryStore {
@@ -35,7 +35,7 @@ class EntryStore {
   virtual bool set(const std::string& key, const Any& value) = 0;
 };
 
-}  // namespace detail
+}  // namespace lockstep_detail
 
 class Blackboard {
  public:
@@ -58,21 +58,21 @@ class Blackboard {
   // Throws when there is no entry, no value, or one of another type.
   template <class T>
   [[nodiscard]] T get(const std::string& key) const {
-    auto value = read<T>(key);
+    auto value = lockstep_read<T>(key);
     if (value) return std::move(*value);
     const std::string message = "Blackboard::get: " + value.error();
-    if (has_value(key)) throw std::runtime_error(message);  // of another type
+    if (lockstep_has_value(key)) throw std::runtime_error(message);  // of another type
     throw RuntimeError(message);
   }
   template <class T>
   Expected<StampedValue<T>> getStamped(const std::string& key) const {
-    auto value = read<T>(key);
+    auto value = lockstep_read<T>(key);
     if (!value) return nonstd::make_unexpected(value.error());
     return StampedValue<T>{std::move(*value), {}};
   }
   template <class T>
   Expected<Timestamp> getStamped(const std::string& key, T& value) const {
-    auto read_value = read<T>(key);
+    auto read_value = lockstep_read<T>(key);
     if (!read_value) return nonstd::make_unexpected(read_value.error());
     value = std::move(*read_value);
     return Timestamp{};
@@ -80,27 +80,28 @@ class Blackboard {
   // False when there is no value; throws when it has another type.
   template <class T>
   bool get(const std::string& key, T& value) const {
-    if (!has_value(key)) return false;
+    if (!lockstep_has_value(key)) return false;
     value = get<T>(key);
     return true;
   }
   template <class T>
   void set(const std::string& key, const T& value) {
     using Value = std::decay_t<const T>;
-    if (place_ != nullptr) {
-      detail::OpenedEntry(*place_, prefix_ + key).template set<Value>(value);
+    if (lockstep_place_ != nullptr) {
+      lockstep_detail::OpenedEntry(*lockstep_place_, lockstep_prefix_ + key)
+          .template set<Value>(value);
     } else if constexpr (std::is_same_v<Value, Any>) {
-      keep(key, value);
+      lockstep_keep(key, value);
     } else {
-      keep(key, Any(value));
+      lockstep_keep(key, Any(value));
     }
   }
   template <class Key = std::string>
   void unset(const Key& key) {
-    if (place_ != nullptr) {
-      detail::OpenedEntry(*place_, prefix_ + key).unset();
+    if (lockstep_place_ != nullptr) {
+      lockstep_detail::OpenedEntry(*lockstep_place_, lockstep_prefix_ + key).unset();
     } else {
-      values_.erase(std::string(key));
+      lockstep_values_.erase(std::string(key));
     }
   }
 
@@ -108,14 +109,15 @@ class Blackboard {
   template <class Key = std::string>
   [[nodiscard]] AnyPtrLocked getAnyLocked(const Key& key) const {
     Any value;
-    if (place_ != nullptr) {
-      const detail::OpenedEntry entry(*place_, prefix_ + key);
+    if (lockstep_place_ != nullptr) {
+      const lockstep_detail::OpenedEntry entry(*lockstep_place_, lockstep_prefix_ + key);
       if (!entry.get(value)) return {};
       return {std::move(value), [entry](const Any& changed) { entry.set(changed); }};
     }
-    if (!find(key, value)) return {};
+    if (!lockstep_find(key, value)) return {};
     auto* const self = const_cast<Blackboard*>(this);  // NOLINT: as getAnyLocked promises
-    return {std::move(value), [self, key](const Any& changed) { self->keep(key, changed); }};
+    return {std::move(value),
+            [self, key](const Any& changed) { self->lockstep_keep(key, changed); }};
   }
 
   // A copy of it; null: there is no such entry, or it has no value.
@@ -123,7 +125,7 @@ class Blackboard {
   [[nodiscard]] std::shared_ptr<Entry> getEntry(const Key& key) const {
     const AnyPtrLocked value = getAnyLocked(key);
     if (!value) return nullptr;
-    auto entry = std::make_shared<Entry>(TypeInfo::of(*value));
+    auto entry = std::make_shared<Entry>(TypeInfo::lockstep_of(*value));
     entry->value = *value;
     return entry;
   }
@@ -132,101 +134,108 @@ class Blackboard {
   [[nodiscard]] const TypeInfo* entryInfo(const Key& key) {
     const auto entry = getEntry(key);
     if (entry == nullptr) return nullptr;
-    return &(types_[std::string(key)] = entry->info);
+    return &(lockstep_types_[std::string(key)] = entry->info);
   }
 
   // The one of the main tree, and the one outside.
   Blackboard* rootBlackboard() {
-    return place_ != nullptr ? root_.get() : parent_ != nullptr ? parent_->rootBlackboard() : this;
+    return lockstep_place_ != nullptr    ? lockstep_root_.get()
+           : lockstep_parent_ != nullptr ? lockstep_parent_->rootBlackboard()
+                                         : this;
   }
   const Blackboard* rootBlackboard() const {
     return const_cast<Blackboard*>(this)->rootBlackboard();  // NOLINT
   }
-  Ptr parent() const { return parent_; }
+  Ptr parent() const { return lockstep_parent_; }
 
   // Of a Blackboard that a program has made.
   std::vector<StringView> getKeys() const {
     std::vector<StringView> keys;
-    for (const auto& [key, value] : values_) keys.push_back(key);
+    for (const auto& [key, value] : lockstep_values_) keys.push_back(key);
     return keys;
   }
-  const std::map<std::string, Any>& values() const { return values_; }
+  const std::map<std::string, Any>& lockstep_values() const { return lockstep_values_; }
   void cloneInto(Blackboard& other) const {
-    for (const auto& [key, value] : values_) other.keep(key, value);
+    for (const auto& [key, value] : lockstep_values_) other.lockstep_keep(key, value);
   }
   void debugMessage() const {
-    for (const auto& [key, value] : values_) {
+    for (const auto& [key, value] : lockstep_values_) {
       std::cout << key << " (" << demangle(value.type()) << ")" << std::endl;
     }
   }
 
   // For the tree that has it. What was set before becomes values of its entries.
-  void attach(const std::shared_ptr<detail::EntryStore>& entries) {
-    if (parent_ != nullptr) parent_->attach(entries);
-    entries_ = entries;
-    for (auto it = values_.begin(); it != values_.end();) {
-      it = entries_->set(it->first, it->second) ? values_.erase(it) : std::next(it);
+  void lockstep_attach(const std::shared_ptr<lockstep_detail::EntryStore>& entries) {
+    if (lockstep_parent_ != nullptr) lockstep_parent_->lockstep_attach(entries);
+    lockstep_entries_ = entries;
+    for (auto it = lockstep_values_.begin(); it != lockstep_values_.end();) {
+      it = lockstep_entries_->set(it->first, it->second) ? lockstep_values_.erase(it)
+                                                         : std::next(it);
     }
   }
 
   // For the node that has it.
-  static Ptr at(detail::Place& place) {
+  static Ptr lockstep_at(lockstep_detail::Place& place) {
     auto root = Ptr(new Blackboard({}));
-    root->place_ = &place;
-    root->prefix_ = "@";
+    root->lockstep_place_ = &place;
+    root->lockstep_prefix_ = "@";
     auto board = Ptr(new Blackboard({}));
-    board->place_ = &place;
-    board->root_ = std::move(root);
+    board->lockstep_place_ = &place;
+    board->lockstep_root_ = std::move(root);
     return board;
   }
 
  private:
-  void keep(const std::string& key, Any value) {
-    if (entries_ != nullptr && entries_->set(key, value)) return;
-    values_[key] = std::move(value);
+  void lockstep_keep(const std::string& key, Any value) {
+    if (lockstep_entries_ != nullptr && lockstep_entries_->set(key, value)) return;
+    lockstep_values_[key] = std::move(value);
   }
 
-  explicit Blackboard(Ptr parent) : parent_(std::move(parent)) {}
+  explicit Blackboard(Ptr parent) : lockstep_parent_(std::move(parent)) {}
 
   template <class T>
-  Expected<T> read(const std::string& key) const {
-    if (place_ != nullptr) return detail::OpenedEntry(*place_, prefix_ + key).template get<T>();
+  Expected<T> lockstep_read(const std::string& key) const {
+    if (lockstep_place_ != nullptr)
+      return lockstep_detail::OpenedEntry(*lockstep_place_, lockstep_prefix_ + key)
+          .template get<T>();
     Any value;
-    if (!find(key, value)) {
+    if (!lockstep_find(key, value)) {
       return nonstd::make_unexpected(StrCat("there is no entry '", key, "'"));
     }
     if constexpr (!std::is_same_v<T, std::string> && !std::is_same_v<T, Any>) {
       if (value.isString()) {
         const auto text = value.cast<std::string>();
         Any object;  // of an entry that a tree has: its text is JSON
-        if (entries_ != nullptr && detail::read_json(typeid(T), text, object)) {
+        if (lockstep_entries_ != nullptr && lockstep_detail::read_json(typeid(T), text, object)) {
           return object.tryCast<T>();
         }
-        return detail::parse<T>(text);
+        return lockstep_detail::parse<T>(text);
       }
     }
     return value.tryCast<T>();
   }
   template <class Key>
-  bool has_value(const Key& key) const {
+  bool lockstep_has_value(const Key& key) const {
     Any value;
-    if (place_ != nullptr) return detail::OpenedEntry(*place_, prefix_ + key).has_value();
-    return find(key, value);
+    if (lockstep_place_ != nullptr)
+      return lockstep_detail::OpenedEntry(*lockstep_place_, lockstep_prefix_ + key).has_value();
+    return lockstep_find(key, value);
   }
-  bool find(const std::string& key, Any& value) const {
-    if (entries_ != nullptr && entries_->get(key, value)) return true;
-    const auto found = values_.find(key);
-    if (found == values_.end()) return parent_ != nullptr && parent_->find(key, value);
+  bool lockstep_find(const std::string& key, Any& value) const {
+    if (lockstep_entries_ != nullptr && lockstep_entries_->get(key, value)) return true;
+    const auto found = lockstep_values_.find(key);
+    if (found == lockstep_values_.end())
+      return lockstep_parent_ != nullptr && lockstep_parent_->lockstep_find(key, value);
     value = found->second;
     return true;
   }
 
-  Ptr parent_, root_;
-  std::string prefix_;
-  detail::Place* place_ = nullptr;
-  std::shared_ptr<detail::EntryStore> entries_;
-  std::map<std::string, Any> values_;
-  std::map<std::string, TypeInfo> types_;  // that entryInfo has given
+  Ptr lockstep_parent_, lockstep_root_;
+  std::string lockstep_prefix_;
+  lockstep_detail::Place* lockstep_place_ = nullptr;
+  std::shared_ptr<lockstep_detail::EntryStore> lockstep_entries_;
+  std::map<std::string, Any> lockstep_values_;
+  std::map<std::string, TypeInfo> lockstep_types_;  // that entryInfo has given
 };
 
 }  // namespace BT

@@ -29,7 +29,7 @@ NodeBuilder CreateBuilder(Arguments... arguments) {
 
 template <class T>
 TreeNodeManifest CreateManifest(const std::string& ID, PortsList ports = getProvidedPorts<T>()) {
-  TreeNodeManifest manifest{getType<T>(), ID, std::move(ports), {}, detail::hooks_of<T>()};
+  TreeNodeManifest manifest{getType<T>(), ID, std::move(ports), {}, lockstep_detail::hooks_of<T>()};
   if constexpr (has_static_method_metadata<T>::value) manifest.metadata = T::metadata();
   return manifest;
 }
@@ -50,7 +50,7 @@ class BehaviorTreeFactory {
     static_assert(!std::is_abstract_v<T>,
                   "this class is abstract: it lacks a function that its base asks for, such as "
                   "tick(), or onStart(), onRunning() and onHalted()");
-    check_class<T, Arguments...>();
+    lockstep_check_class<T, Arguments...>();
     registerBuilder(CreateManifest<T>(ID, ports), CreateBuilder<T>(arguments...));
   }
   template <class T, class... Arguments>
@@ -68,7 +68,7 @@ class BehaviorTreeFactory {
     static_assert(kTakesConfig || !has_static_method_providedPorts<T>::value,
                   "a class with providedPorts() needs a public constructor (const std::string& "
                   "name, const BT::NodeConfig& config), then the arguments of registerNodeType");
-    check_class<T, Arguments...>();
+    lockstep_check_class<T, Arguments...>();
     registerBuilder(CreateManifest<T>(ID), CreateBuilder<T>(arguments...));
   }
 
@@ -76,7 +76,7 @@ class BehaviorTreeFactory {
     if (builtinNodes().count(manifest.registration_ID) != 0) {
       throw BehaviorTreeException("ID [", manifest.registration_ID, "] is that of a built-in node");
     }
-    plugin_->add(manifest, builder);
+    lockstep_plugin_->add(manifest, builder);
   }
   template <class T>
   void registerBuilder(const std::string& ID, const NodeBuilder& builder) {
@@ -85,87 +85,92 @@ class BehaviorTreeFactory {
 
   void registerSimpleAction(const std::string& ID, const SimpleActionNode::TickFunctor& function,
                             PortsList ports = {}) {
-    add_simple<SimpleActionNode>(NodeType::ACTION, ID, function, std::move(ports));
+    lockstep_add_simple<SimpleActionNode>(NodeType::ACTION, ID, function, std::move(ports));
   }
   void registerSimpleCondition(const std::string& ID,
                                const SimpleConditionNode::TickFunctor& function,
                                PortsList ports = {}) {
-    add_simple<SimpleConditionNode>(NodeType::CONDITION, ID, function, std::move(ports));
+    lockstep_add_simple<SimpleConditionNode>(NodeType::CONDITION, ID, function, std::move(ports));
   }
 
   void registerSimpleDecorator(const std::string& ID,
                                const SimpleDecoratorNode::TickFunctor& function,
                                PortsList ports = {}) {
-    add_simple<SimpleDecoratorNode>(NodeType::DECORATOR, ID, function, std::move(ports));
+    lockstep_add_simple<SimpleDecoratorNode>(NodeType::DECORATOR, ID, function, std::move(ports));
   }
 
   // A word that scripts, and ports of enums, know as a number; all names of an enum.
   void registerScriptingEnum(StringView name, int value) {
-    plugin_->add_word(std::string(name), value);
+    lockstep_plugin_->add_word(std::string(name), value);
   }
   template <class Enum>
   void registerScriptingEnums() {
-    detail::for_each_name<Enum>(
+    lockstep_detail::for_each_name<Enum>(
         [this](StringView name, int value) { registerScriptingEnum(name, value); });
   }
 
   // For the plugin's own table.
-  detail::PluginTable& plugin() { return *plugin_; }
+  lockstep_detail::PluginTable& lockstep_table() { return *lockstep_plugin_; }
 
 #if __has_include(<lockstep/runtime.h>)
   // In a program that ticks trees itself. All throw when the tree has errors.
   void registerFromPlugin(const std::string& file) {
-    plugins_.push_back(file);
+    lockstep_plugins_.push_back(file);
   }
   Tree createTreeFromText(const std::string& text,
                           Blackboard::Ptr blackboard = Blackboard::create()) {
-    return make({plugin_, plugins_, documents_.text(text), "", detail::Documents::main_of(text)},
-                std::move(blackboard));
+    return lockstep_make({lockstep_plugin_, lockstep_plugins_, lockstep_documents_.text(text), "",
+                          lockstep_detail::Documents::main_of(text)},
+                         std::move(blackboard));
   }
   Tree createTreeFromFile(const std::string& file,
                           Blackboard::Ptr blackboard = Blackboard::create()) {
-    if (documents_.tree_ids().empty()) {
-      return make({plugin_, plugins_, "", file, ""}, std::move(blackboard));
+    if (lockstep_documents_.tree_ids().empty()) {
+      return lockstep_make({lockstep_plugin_, lockstep_plugins_, "", file, ""},
+                           std::move(blackboard));
     }
-    detail::Documents all = documents_;
-    const std::string main = detail::Documents::main_of(all.add_file(file));
-    return make({plugin_, plugins_, all.text(), "", main}, std::move(blackboard));
+    lockstep_detail::Documents all = lockstep_documents_;
+    const std::string main = lockstep_detail::Documents::main_of(all.add_file(file));
+    return lockstep_make({lockstep_plugin_, lockstep_plugins_, all.text(), "", main},
+                         std::move(blackboard));
   }
   // A tree of what was registered; a later tree of the same ID replaces an earlier one.
   void registerBehaviorTreeFromFile(const std::string& file) {
-    documents_.add_file(file);
+    lockstep_documents_.add_file(file);
   }
   void registerBehaviorTreeFromText(const std::string& text) {
-    documents_.add_text(text);
+    lockstep_documents_.add_text(text);
   }
   std::vector<std::string> registeredBehaviorTrees() const {
-    return documents_.tree_ids();
+    return lockstep_documents_.tree_ids();
   }
   void clearRegisteredBehaviorTrees() {
-    documents_ = {};
+    lockstep_documents_ = {};
   }
   Tree createTree(const std::string& tree, Blackboard::Ptr blackboard = Blackboard::create()) {
-    return make({plugin_, plugins_, documents_.text(), "", tree}, std::move(blackboard));
+    return lockstep_make(
+        {lockstep_plugin_, lockstep_plugins_, lockstep_documents_.text(), "", tree},
+        std::move(blackboard));
   }
 #endif
   // What is registered, without the nodes that every tree has.
   const std::unordered_map<std::string, TreeNodeManifest>& manifests() const {
-    return plugin_->manifests();
+    return lockstep_plugin_->manifests();
   }
   const std::unordered_map<std::string, NodeBuilder>& builders() const {
-    return plugin_->builders();
+    return lockstep_plugin_->builders();
   }
   const std::set<std::string>& builtinNodes() const {
-    return detail::node_ids();
+    return lockstep_detail::node_ids();
   }
   // False: it is not registered.
   bool unregisterBuilder(const std::string& ID) {
     if (builtinNodes().count(ID) != 0) throw LogicError("the node '", ID, "' cannot be removed");
-    return plugin_->remove(ID);
+    return lockstep_plugin_->remove(ID);
   }
   void addMetadataToManifest(const std::string& node_ID, const KeyValueVector& metadata) {
-    const auto found = plugin_->manifests().find(node_ID);
-    if (found == plugin_->manifests().end()) {
+    const auto found = lockstep_plugin_->manifests().find(node_ID);
+    if (found == lockstep_plugin_->manifests().end()) {
       throw RuntimeError("addMetadataToManifest: ID [", node_ID, "] is not registered");
     }
     found->second.metadata = metadata;
@@ -203,7 +208,7 @@ class BehaviorTreeFactory {
 
  private:
   template <class T, class... Arguments>
-  static constexpr void check_class() {
+  static constexpr void lockstep_check_class() {
     static_assert(std::is_constructible_v<T, const std::string&, const NodeConfig&, Arguments...> ||
                       std::is_constructible_v<T, const std::string&, Arguments...>,
                   "a class of nodes has a public constructor (const std::string& name, const "
@@ -212,22 +217,25 @@ class BehaviorTreeFactory {
   }
 
   template <class Node, class Function>
-  void add_simple(NodeType type, const std::string& id, const Function& function, PortsList ports) {
-    registerBuilder(TreeNodeManifest{type, id, std::move(ports), {}, detail::hooks_of<Node>()},
-                    [function](const std::string& name, const NodeConfig& config) {
-                      return std::make_unique<Node>(name, function, config);
-                    });
+  void lockstep_add_simple(NodeType type, const std::string& id, const Function& function,
+                           PortsList ports) {
+    registerBuilder(
+        TreeNodeManifest{type, id, std::move(ports), {}, lockstep_detail::hooks_of<Node>()},
+        [function](const std::string& name, const NodeConfig& config) {
+          return std::make_unique<Node>(name, function, config);
+        });
   }
 
 #if __has_include(<lockstep/runtime.h>)
-  static Tree make(detail::Program::Source source, Blackboard::Ptr blackboard) {
-    return {std::make_shared<detail::Program>(std::move(source)), std::move(blackboard)};
+  static Tree lockstep_make(lockstep_detail::Program::Source source, Blackboard::Ptr blackboard) {
+    return {std::make_shared<lockstep_detail::Program>(std::move(source)), std::move(blackboard)};
   }
 #endif
 
-  std::shared_ptr<detail::PluginTable> plugin_ = std::make_shared<detail::PluginTable>();
-  std::vector<std::string> plugins_;
-  detail::Documents documents_;  // of createTree
+  std::shared_ptr<lockstep_detail::PluginTable> lockstep_plugin_ =
+      std::make_shared<lockstep_detail::PluginTable>();
+  std::vector<std::string> lockstep_plugins_;
+  lockstep_detail::Documents lockstep_documents_;  // of createTree
 };
 
 }  // namespace BT

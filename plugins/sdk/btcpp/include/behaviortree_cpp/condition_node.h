@@ -20,13 +20,13 @@ class SimpleConditionNode : public ConditionNode {
  public:
   using TickFunctor = std::function<NodeStatus(TreeNode&)>;
   SimpleConditionNode(const std::string& name, TickFunctor function, const NodeConfig& config)
-      : ConditionNode(name, config), function_(std::move(function)) {}
+      : ConditionNode(name, config), lockstep_function_(std::move(function)) {}
 
  protected:
-  NodeStatus tick() override { return function_(*this); }
+  NodeStatus tick() override { return lockstep_function_(*this); }
 
  private:
-  TickFunctor function_;
+  TickFunctor lockstep_function_;
 };
 
 }  // namespace BT

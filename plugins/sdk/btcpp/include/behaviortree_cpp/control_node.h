@@ -40,12 +40,12 @@ class ControlNode : public TreeNode {
   std::vector<TreeNode*> children_nodes_;
 
  private:
-  void find_children(detail::Place& place) override {
-    owned_ = detail::children_at(place);
-    for (const auto& child : owned_) children_nodes_.push_back(child.get());
+  void lockstep_find_children(lockstep_detail::Place& place) override {
+    lockstep_owned_ = lockstep_detail::children_at(place);
+    for (const auto& child : lockstep_owned_) children_nodes_.push_back(child.get());
   }
 
-  std::vector<std::unique_ptr<TreeNode>> owned_;
+  std::vector<std::unique_ptr<TreeNode>> lockstep_owned_;
 };
 
 }  // namespace BT

@@ -17,33 +17,34 @@ class CoroActionNode : public ActionNodeBase {
   // In tick(): the node runs, and goes on here in the next tick.
   void setStatusRunningAndYield() {
     setStatus(NodeStatus::RUNNING);
-    coroutine_->yield();
+    lockstep_coroutine_->yield();
   }
 
   NodeStatus executeTick() final {
-    if (coroutine_ == nullptr) {
-      coroutine_ = std::make_unique<detail::Coroutine>([this] { result_ = tick(); });
+    if (lockstep_coroutine_ == nullptr) {
+      lockstep_coroutine_ =
+          std::make_unique<lockstep_detail::Coroutine>([this] { lockstep_result_ = tick(); });
     }
-    if (!coroutine_->resume()) return NodeStatus::RUNNING;
-    const auto ended = std::move(coroutine_);
+    if (!lockstep_coroutine_->resume()) return NodeStatus::RUNNING;
+    const auto ended = std::move(lockstep_coroutine_);
     ended->rethrow();
-    if (result_ == NodeStatus::RUNNING || result_ == NodeStatus::IDLE) {
+    if (lockstep_result_ == NodeStatus::RUNNING || lockstep_result_ == NodeStatus::IDLE) {
       throw LogicError("node '", name(), "': tick() of a CoroActionNode has returned ",
-                       toStr(result_), "; to run on, it calls setStatusRunningAndYield()");
+                       toStr(lockstep_result_), "; to run on, it calls setStatusRunningAndYield()");
     }
-    setStatus(result_ == NodeStatus::SKIPPED ? NodeStatus::IDLE : result_);
-    return result_;
+    setStatus(lockstep_result_ == NodeStatus::SKIPPED ? NodeStatus::IDLE : lockstep_result_);
+    return lockstep_result_;
   }
 
   // Forgets where tick() was: what it has on its stack is not destroyed.
   void halt() override {
-    coroutine_.reset();
+    lockstep_coroutine_.reset();
     resetStatus();
   }
 
  private:
-  std::unique_ptr<detail::Coroutine> coroutine_;
-  NodeStatus result_ = NodeStatus::IDLE;
+  std::unique_ptr<lockstep_detail::Coroutine> lockstep_coroutine_;
+  NodeStatus lockstep_result_ = NodeStatus::IDLE;
 };
 
 }  // namespace BT

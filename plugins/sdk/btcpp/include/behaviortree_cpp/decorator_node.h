@@ -45,14 +45,14 @@ class DecoratorNode : public TreeNode {
   TreeNode* child_node_ = nullptr;
 
  private:
-  void find_children(detail::Place& place) override {
-    auto children = detail::children_at(place);
+  void lockstep_find_children(lockstep_detail::Place& place) override {
+    auto children = lockstep_detail::children_at(place);
     if (children.empty()) return;
-    owned_ = std::move(children.front());
-    child_node_ = owned_.get();
+    lockstep_owned_ = std::move(children.front());
+    child_node_ = lockstep_owned_.get();
   }
 
-  std::unique_ptr<TreeNode> owned_;
+  std::unique_ptr<TreeNode> lockstep_owned_;
 };
 
 // What the child returns becomes what the function makes of it.
@@ -60,13 +60,13 @@ class SimpleDecoratorNode : public DecoratorNode {
  public:
   using TickFunctor = std::function<NodeStatus(NodeStatus, TreeNode&)>;
   SimpleDecoratorNode(const std::string& name, TickFunctor function, const NodeConfig& config)
-      : DecoratorNode(name, config), function_(std::move(function)) {}
+      : DecoratorNode(name, config), lockstep_function_(std::move(function)) {}
 
  protected:
-  NodeStatus tick() override { return function_(child_node_->executeTick(), *this); }
+  NodeStatus tick() override { return lockstep_function_(child_node_->executeTick(), *this); }
 
  private:
-  TickFunctor function_;
+  TickFunctor lockstep_function_;
 };
 
 }  // namespace BT

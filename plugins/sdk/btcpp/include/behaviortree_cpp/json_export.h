@@ -37,7 +37,7 @@ class JsonExporter {
     if (type == first.end() || !type->is_string()) {
       return nonstd::make_unexpected(std::string("Missing field '__type'"));
     }
-    for (const auto& [index, functions] : detail::json_functions()) {
+    for (const auto& [index, functions] : lockstep_detail::json_functions()) {
       if (functions.name == *type && functions.is_list == json.is_array()) {
         return fromJson(json, index);
       }
@@ -46,9 +46,10 @@ class JsonExporter {
   }
   ExpectedEntry fromJson(const nlohmann::json& json, std::type_index type) const {
     Entry entry;
-    const detail::JsonFunctions* const functions = detail::find_json(type);
+    const lockstep_detail::JsonFunctions* const functions = lockstep_detail::find_json(type);
     if (functions == nullptr || !functions->read || !functions->read(json.dump(), entry.first)) {
-      return nonstd::make_unexpected(StrCat("it is no value of type ", demangle(type)));
+      return nonstd::make_unexpected(
+          StrCat("it is no value of type ", lockstep_detail::readable(type)));
     }
     entry.second = functions->type();
     return entry;
@@ -87,8 +88,8 @@ class JsonExporter {
   }
 
   template <class T>
-  static detail::JsonFunctions& functions_of(bool is_list = false) {
-    detail::JsonFunctions& functions = detail::json_functions()[typeid(T)];
+  static lockstep_detail::JsonFunctions& functions_of(bool is_list = false) {
+    lockstep_detail::JsonFunctions& functions = lockstep_detail::json_functions()[typeid(T)];
     functions.is_list = is_list;
     functions.type = TypeInfo::Create<T>;
     return functions;

@@ -15,24 +15,25 @@ class ThreadedAction : public ActionNodeBase {
  public:
   ThreadedAction(const std::string& name, const NodeConfig& config)
       : ActionNodeBase(name, config) {}
-  ~ThreadedAction() override { worker_.stop(); }
+  ~ThreadedAction() override { lockstep_worker_.stop(); }
 
   // Ask it in tick() again and again. On the virtual clock the thread waits here for the next tick.
   bool isHaltRequested() const {
-    if (!is_halt_requested_) worker_.yield();
-    return is_halt_requested_;
+    if (!lockstep_is_halt_requested_) lockstep_worker_.yield();
+    return lockstep_is_halt_requested_;
   }
 
   NodeStatus executeTick() final {
+    if (isStatusCompleted(status())) return status();
     if (status() != NodeStatus::RUNNING) {
-      is_halt_requested_ = false;
-      begin_thread();
+      lockstep_is_halt_requested_ = false;
+      lockstep_begin_thread();
       setStatus(NodeStatus::RUNNING);
-      worker_.launch(*this, [this] { return tick(); });
+      lockstep_worker_.launch(*this, [this] { return tick(); });
     }
-    if (!worker_.is_done()) return NodeStatus::RUNNING;
-    const NodeStatus status = worker_.take();
-    end_thread();
+    if (!lockstep_worker_.is_done()) return NodeStatus::RUNNING;
+    const NodeStatus status = lockstep_worker_.take();
+    lockstep_end_thread();
     if (!isStatusCompleted(status)) {
       throw LogicError("node '", name(), "': tick() of a ThreadedAction has returned ",
                        toStr(status));
@@ -43,15 +44,17 @@ class ThreadedAction : public ActionNodeBase {
 
   // Asks tick() to return, and waits for it. A class that overrides it calls it.
   void halt() override {
-    is_halt_requested_ = true;
-    worker_.stop();
+    lockstep_is_halt_requested_ = true;
+    lockstep_worker_.stop();
     resetStatus();
   }
 
  private:
-  std::atomic<bool> is_halt_requested_{false};
-  detail::NodeThread worker_;
+  std::atomic<bool> lockstep_is_halt_requested_{false};
+  lockstep_detail::NodeThread lockstep_worker_;
 };
+#ifdef USE_BTCPP3_OLD_NAMES
 using AsyncActionNode = ThreadedAction;
+#endif
 
 }  // namespace BT

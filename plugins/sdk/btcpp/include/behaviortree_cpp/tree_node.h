@@ -25,7 +25,7 @@ struct TreeNodeManifest {
   std::string registration_ID;
   PortsList ports;
   KeyValueVector metadata;
-  detail::ClassHooks hooks = {};
+  lockstep_detail::ClassHooks lockstep_hooks = {};
 };
 
 using PortsRemapping = std::unordered_map<std::string, std::string>;
@@ -82,16 +82,18 @@ class TreeNode {
   using PreTickCallback = std::function<NodeStatus(TreeNode&)>;
   using PostTickCallback = std::function<NodeStatus(TreeNode&, NodeStatus)>;
   using TickMonitorCallback = std::function<void(TreeNode&, NodeStatus, std::chrono::microseconds)>;
-  void setPreTickFunction(PreTickCallback call) { watch().before = std::move(call); }
-  void setPostTickFunction(PostTickCallback call) { watch().after = std::move(call); }
-  void setTickMonitorCallback(TickMonitorCallback call) { watch().monitor = std::move(call); }
+  void setPreTickFunction(PreTickCallback call) { lockstep_watch().before = std::move(call); }
+  void setPostTickFunction(PostTickCallback call) { lockstep_watch().after = std::move(call); }
+  void setTickMonitorCallback(TickMonitorCallback call) {
+    lockstep_watch().monitor = std::move(call);
+  }
 
   // Calls for each change of the status, as long as the subscriber lives.
   using StatusChangeSignal = Signal<TimePoint, const TreeNode&, NodeStatus, NodeStatus>;
   using StatusChangeSubscriber = StatusChangeSignal::Subscriber;
   using StatusChangeCallback = StatusChangeSignal::CallableFunction;
   [[nodiscard]] StatusChangeSubscriber subscribeToStatusChange(StatusChangeCallback call) {
-    return watch().changes.subscribe(std::move(call));
+    return lockstep_watch().changes.subscribe(std::move(call));
   }
 
   TreeNode(std::string name, NodeConfig config);
@@ -107,13 +109,13 @@ class TreeNode {
   }
 
   virtual NodeType type() const = 0;
-  NodeStatus status() const { return shown_status(); }
+  NodeStatus status() const { return lockstep_shown_status(); }
   bool isHalted() const { return status() == NodeStatus::IDLE; }
-  const std::string& name() const { return name_; }
-  const std::string& fullPath() const { return config_.path; }
-  const std::string& registrationName() const { return registration_name_; }
-  std::uint16_t UID() const { return config_.uid; }
-  const NodeConfig& config() const { return config_; }
+  const std::string& name() const { return lockstep_name_; }
+  const std::string& fullPath() const { return lockstep_config_.path; }
+  const std::string& registrationName() const { return lockstep_registration_name_; }
+  std::uint16_t UID() const { return lockstep_config_.uid; }
+  const NodeConfig& config() const { return lockstep_config_; }
 
   // Of an input: the value, or why there is none.
   template <class T>
@@ -151,22 +153,22 @@ class TreeNode {
 
  protected:
   // Around a thread that runs tick(): what getInput gives in it, and what setOutput sets.
-  void begin_thread();
-  void end_thread();
+  void lockstep_begin_thread();
+  void lockstep_end_thread();
 
   virtual NodeStatus tick() = 0;
   virtual void halt() = 0;
   void setStatus(NodeStatus status) {
-    const NodeStatus before = status_.load(std::memory_order_relaxed);
-    status_.store(status, std::memory_order_release);
-    if (watch_ != nullptr && before != status) tell(before, status);
+    const NodeStatus before = lockstep_status_.load(std::memory_order_relaxed);
+    lockstep_status_.store(status, std::memory_order_release);
+    if (lockstep_watch_ != nullptr && before != status) lockstep_tell(before, status);
   }
   // A text as a value of a port: of an enum also a word that is registered, or a number.
   template <class T>
   T parseString(const std::string& text) const;
-  void resetStatus() { forget_status(); }
-  NodeConfig& config() { return config_; }
-  void setRegistrationID(StringView id) { registration_name_ = id; }
+  void resetStatus() { lockstep_forget_status(); }
+  NodeConfig& config() { return lockstep_config_; }
+  void setRegistrationID(StringView id) { lockstep_registration_name_ = id; }
   template <class Ports>
   void modifyPortsRemapping(const Ports&) {
     static_assert(sizeof(Ports) == 0,
@@ -178,47 +180,49 @@ class TreeNode {
   friend class BehaviorTreeFactory;
   friend class ControlNode;
   friend class DecoratorNode;
-  friend struct detail::Leaf;
-  friend class detail::Child;
-  friend class detail::NodeThread;
+  friend struct lockstep_detail::Leaf;
+  friend class lockstep_detail::Child;
+  friend class lockstep_detail::NodeThread;
 
-  virtual NodeStatus shown_status() const { return status_.load(std::memory_order_acquire); }
-  virtual void forget_status() { setStatus(NodeStatus::IDLE); }
-  virtual void find_children(detail::Place&) {}
+  virtual NodeStatus lockstep_shown_status() const {
+    return lockstep_status_.load(std::memory_order_acquire);
+  }
+  virtual void lockstep_forget_status() { setStatus(NodeStatus::IDLE); }
+  virtual void lockstep_find_children(lockstep_detail::Place&) {}
 
   template <class T>
-  Expected<T> read_other(const detail::PortEntry& port) const;
+  Expected<T> lockstep_read_other(const lockstep_detail::PortEntry& port) const;
   template <class T>
-  Expected<T> read_default(const detail::PortEntry& port) const;
-  Expected<Any> read_any(const detail::PortEntry& port) const;
-  const detail::PortEntry* find(StringView port) const;
-  std::string no_port(StringView port) const;
+  Expected<T> lockstep_read_default(const lockstep_detail::PortEntry& port) const;
+  Expected<Any> lockstep_read_any(const lockstep_detail::PortEntry& port) const;
+  const lockstep_detail::PortEntry* lockstep_find_port(StringView port) const;
+  std::string lockstep_no_port(StringView port) const;
 
-  struct Watch {
+  struct LockstepWatch {
     PreTickCallback before;
     PostTickCallback after;
     TickMonitorCallback monitor;
     StatusChangeSignal changes;
   };
-  Watch& watch() {
-    if (watch_ == nullptr) watch_ = std::make_unique<Watch>();
-    return *watch_;
+  LockstepWatch& lockstep_watch() {
+    if (lockstep_watch_ == nullptr) lockstep_watch_ = std::make_unique<LockstepWatch>();
+    return *lockstep_watch_;
   }
-  void tell(NodeStatus before, NodeStatus status);
-  NodeStatus watched_tick();
+  void lockstep_tell(NodeStatus before, NodeStatus status);
+  NodeStatus lockstep_watched_tick();
 
-  std::string name_;
-  NodeConfig config_;
-  std::string registration_name_;
-  std::atomic<NodeStatus> status_{NodeStatus::IDLE};
-  detail::Place* place_ = nullptr;  // null: it is not in a tree
-  std::unique_ptr<Watch> watch_;    // null: nobody watches
+  std::string lockstep_name_;
+  NodeConfig lockstep_config_;
+  std::string lockstep_registration_name_;
+  std::atomic<NodeStatus> lockstep_status_{NodeStatus::IDLE};
+  lockstep_detail::Place* lockstep_place_ = nullptr;  // null: it is not in a tree
+  std::unique_ptr<LockstepWatch> lockstep_watch_;     // null: nobody watches
 
-  struct ThreadPorts {
+  struct LockstepThreadPorts {
     std::vector<Expected<Any>> inputs;  // of each port
-    std::vector<std::pair<const detail::PortEntry*, Any>> outputs;
+    std::vector<std::pair<const lockstep_detail::PortEntry*, Any>> outputs;
   };
-  std::unique_ptr<ThreadPorts> thread_;  // while a thread runs its tick
+  std::unique_ptr<LockstepThreadPorts> lockstep_thread_;  // while a thread runs its tick
 };
 
 // Gives each port the entry of its name, in the config of a node that a program makes.

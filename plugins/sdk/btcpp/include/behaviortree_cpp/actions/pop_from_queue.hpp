@@ -10,41 +10,41 @@
 #include "behaviortree_cpp/lockstep/queue.h"
 
 namespace BT {
-namespace detail {
+namespace lockstep_detail {
 
 // Fails when the port has no queue, or an empty one.
 template <class T>
-class QueueAction : public SyncActionNode {
+class LockstepQueueAction : public SyncActionNode {
  public:
-  using Queue = std::shared_ptr<ProtectedQueue<T>>;
+  using LockstepQueue = std::shared_ptr<ProtectedQueue<T>>;
   using SyncActionNode::SyncActionNode;
 
   NodeStatus tick() override {
-    Queue queue;
+    LockstepQueue queue;
     if (!getInput("queue", queue) || queue == nullptr) return NodeStatus::FAILURE;
     const std::unique_lock<std::mutex> lock(queue->mtx);
     if (queue->items.empty()) return NodeStatus::FAILURE;
-    use(*queue);
+    lockstep_use(*queue);
     return NodeStatus::SUCCESS;
   }
 
  private:
-  virtual void use(ProtectedQueue<T>& queue) = 0;
+  virtual void lockstep_use(ProtectedQueue<T>& queue) = 0;
 };
 
-}  // namespace detail
+}  // namespace lockstep_detail
 
 template <class T>
-class PopFromQueue : public detail::QueueAction<T> {
+class PopFromQueue : public lockstep_detail::LockstepQueueAction<T> {
  public:
   PopFromQueue(const std::string& name, const NodeConfig& config)
-      : detail::QueueAction<T>(name, config) {}
+      : lockstep_detail::LockstepQueueAction<T>(name, config) {}
   static PortsList providedPorts() {
     return {InputPort<std::shared_ptr<ProtectedQueue<T>>>("queue"), OutputPort<T>("popped_item")};
   }
 
  private:
-  void use(ProtectedQueue<T>& queue) override {
+  void lockstep_use(ProtectedQueue<T>& queue) override {
     const T item = queue.items.front();
     queue.items.pop_front();
     this->setOutput("popped_item", item);
@@ -52,16 +52,16 @@ class PopFromQueue : public detail::QueueAction<T> {
 };
 
 template <class T>
-class QueueSize : public detail::QueueAction<T> {
+class QueueSize : public lockstep_detail::LockstepQueueAction<T> {
  public:
   QueueSize(const std::string& name, const NodeConfig& config)
-      : detail::QueueAction<T>(name, config) {}
+      : lockstep_detail::LockstepQueueAction<T>(name, config) {}
   static PortsList providedPorts() {
     return {InputPort<std::shared_ptr<ProtectedQueue<T>>>("queue"), OutputPort<int>("size")};
   }
 
  private:
-  void use(ProtectedQueue<T>& queue) override {
+  void lockstep_use(ProtectedQueue<T>& queue) override {
     this->setOutput("size", static_cast<int>(queue.items.size()));
   }
 };

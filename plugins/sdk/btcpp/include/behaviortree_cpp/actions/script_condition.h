@@ -6,9 +6,9 @@
 
 namespace BT {
 
-class ScriptCondition : public detail::AbsentNode<ActionNodeBase> {
+class ScriptCondition : public lockstep_detail::LockstepAbsentNode<ActionNodeBase> {
  public:
-  using AbsentNode::AbsentNode;
+  using LockstepAbsentNode::LockstepAbsentNode;
 };
 
 }  // namespace BT

@@ -6,9 +6,9 @@
 
 namespace BT {
 
-class ScriptNode : public detail::AbsentNode<ActionNodeBase> {
+class ScriptNode : public lockstep_detail::LockstepAbsentNode<ActionNodeBase> {
  public:
-  using AbsentNode::AbsentNode;
+  using LockstepAbsentNode::LockstepAbsentNode;
 };
 
 }  // namespace BT

@@ -6,9 +6,9 @@
 
 namespace BT {
 
-class SetBlackboardNode : public detail::AbsentNode<ActionNodeBase> {
+class SetBlackboardNode : public lockstep_detail::LockstepAbsentNode<ActionNodeBase> {
  public:
-  using AbsentNode::AbsentNode;
+  using LockstepAbsentNode::LockstepAbsentNode;
 };
 
 }  // namespace BT

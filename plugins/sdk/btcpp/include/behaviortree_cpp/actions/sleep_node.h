@@ -6,9 +6,9 @@
 
 namespace BT {
 
-class SleepNode : public detail::AbsentNode<ActionNodeBase> {
+class SleepNode : public lockstep_detail::LockstepAbsentNode<ActionNodeBase> {
  public:
-  using AbsentNode::AbsentNode;
+  using LockstepAbsentNode::LockstepAbsentNode;
 };
 
 }  // namespace BT

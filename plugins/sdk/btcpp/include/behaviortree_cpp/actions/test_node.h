@@ -21,9 +21,9 @@ struct TestNodeConfig {
   std::function<NodeStatus()> complete_func;
 };
 
-class TestNode : public detail::AbsentNode<ActionNodeBase> {
+class TestNode : public lockstep_detail::LockstepAbsentNode<ActionNodeBase> {
  public:
-  using AbsentNode::AbsentNode;
+  using LockstepAbsentNode::LockstepAbsentNode;
 };
 
 }  // namespace BT

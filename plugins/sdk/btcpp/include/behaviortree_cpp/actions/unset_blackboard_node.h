@@ -6,9 +6,9 @@
 
 namespace BT {
 
-class UnsetBlackboardNode : public detail::AbsentNode<ActionNodeBase> {
+class UnsetBlackboardNode : public lockstep_detail::LockstepAbsentNode<ActionNodeBase> {
  public:
-  using AbsentNode::AbsentNode;
+  using LockstepAbsentNode::LockstepAbsentNode;
 };
 
 }  // namespace BT

@@ -6,9 +6,9 @@
 
 namespace BT {
 
-class EntryUpdatedAction : public detail::AbsentNode<ActionNodeBase> {
+class EntryUpdatedAction : public lockstep_detail::LockstepAbsentNode<ActionNodeBase> {
  public:
-  using AbsentNode::AbsentNode;
+  using LockstepAbsentNode::LockstepAbsentNode;
 };
 
 }  // namespace BT

@@ -7,11 +7,11 @@
 
 namespace BT {
 
-class FallbackNode : public detail::RowNode {
+class FallbackNode : public lockstep_detail::LockstepRowNode {
  public:
   explicit FallbackNode(const std::string& name, bool make_async = false,
                         const NodeConfig& config = {})
-      : RowNode(name, NodeStatus::FAILURE, make_async, config) {}
+      : LockstepRowNode(name, NodeStatus::FAILURE, make_async, config) {}
 };
 
 }  // namespace BT

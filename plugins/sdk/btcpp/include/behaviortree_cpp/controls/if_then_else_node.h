@@ -6,9 +6,9 @@
 
 namespace BT {
 
-class IfThenElseNode : public detail::AbsentNode<ControlNode> {
+class IfThenElseNode : public lockstep_detail::LockstepAbsentNode<ControlNode> {
  public:
-  using AbsentNode::AbsentNode;
+  using LockstepAbsentNode::LockstepAbsentNode;
 };
 
 }  // namespace BT

@@ -6,9 +6,9 @@
 
 namespace BT {
 
-class ManualSelectorNode : public detail::AbsentNode<ControlNode> {
+class ManualSelectorNode : public lockstep_detail::LockstepAbsentNode<ControlNode> {
  public:
-  using AbsentNode::AbsentNode;
+  using LockstepAbsentNode::LockstepAbsentNode;
 };
 
 }  // namespace BT

@@ -6,9 +6,9 @@
 
 namespace BT {
 
-class ParallelAllNode : public detail::AbsentNode<ControlNode> {
+class ParallelAllNode : public lockstep_detail::LockstepAbsentNode<ControlNode> {
  public:
-  using AbsentNode::AbsentNode;
+  using LockstepAbsentNode::LockstepAbsentNode;
 };
 
 }  // namespace BT

@@ -6,9 +6,9 @@
 
 namespace BT {
 
-class ParallelNode : public detail::AbsentNode<ControlNode> {
+class ParallelNode : public lockstep_detail::LockstepAbsentNode<ControlNode> {
  public:
-  using AbsentNode::AbsentNode;
+  using LockstepAbsentNode::LockstepAbsentNode;
 };
 
 }  // namespace BT

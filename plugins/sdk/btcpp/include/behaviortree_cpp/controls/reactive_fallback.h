@@ -7,9 +7,10 @@
 
 namespace BT {
 
-class ReactiveFallback : public detail::ReactiveRowNode {
+class ReactiveFallback : public lockstep_detail::LockstepReactiveRowNode {
  public:
-  explicit ReactiveFallback(const std::string& name) : ReactiveRowNode(name, NodeStatus::FAILURE) {}
+  explicit ReactiveFallback(const std::string& name)
+      : LockstepReactiveRowNode(name, NodeStatus::FAILURE) {}
 };
 
 }  // namespace BT

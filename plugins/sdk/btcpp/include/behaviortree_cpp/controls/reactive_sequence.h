@@ -7,9 +7,10 @@
 
 namespace BT {
 
-class ReactiveSequence : public detail::ReactiveRowNode {
+class ReactiveSequence : public lockstep_detail::LockstepReactiveRowNode {
  public:
-  explicit ReactiveSequence(const std::string& name) : ReactiveRowNode(name, NodeStatus::SUCCESS) {}
+  explicit ReactiveSequence(const std::string& name)
+      : LockstepReactiveRowNode(name, NodeStatus::SUCCESS) {}
 };
 
 }  // namespace BT

@@ -7,11 +7,11 @@
 
 namespace BT {
 
-class SequenceNode : public detail::RowNode {
+class SequenceNode : public lockstep_detail::LockstepRowNode {
  public:
   explicit SequenceNode(const std::string& name, bool make_async = false,
                         const NodeConfig& config = {})
-      : RowNode(name, NodeStatus::SUCCESS, make_async, config) {}
+      : LockstepRowNode(name, NodeStatus::SUCCESS, make_async, config) {}
 };
 
 }  // namespace BT

@@ -7,16 +7,17 @@
 
 namespace BT {
 
-class SequenceWithMemory : public detail::RowNode {
+class SequenceWithMemory : public lockstep_detail::LockstepRowNode {
  public:
-  explicit SequenceWithMemory(const std::string& name) : RowNode(name, NodeStatus::SUCCESS, true) {}
+  explicit SequenceWithMemory(const std::string& name)
+      : LockstepRowNode(name, NodeStatus::SUCCESS, true) {}
 
   // It keeps its place.
   void halt() override { ControlNode::halt(); }
 
  private:
-  NodeStatus fail(NodeStatus result) override {
-    for (std::size_t i = current(); i < childrenCount(); ++i) haltChild(i);
+  NodeStatus lockstep_fail(NodeStatus result) override {
+    for (std::size_t i = lockstep_current(); i < childrenCount(); ++i) haltChild(i);
     return result;
   }
 };

@@ -7,9 +7,9 @@
 namespace BT {
 
 template <std::size_t kCases>
-class SwitchNode : public detail::AbsentNode<ControlNode> {
+class SwitchNode : public lockstep_detail::LockstepAbsentNode<ControlNode> {
  public:
-  using AbsentNode::AbsentNode;
+  using LockstepAbsentNode::LockstepAbsentNode;
 };
 
 }  // namespace BT

@@ -6,9 +6,9 @@
 
 namespace BT {
 
-class TryCatchNode : public detail::AbsentNode<ControlNode> {
+class TryCatchNode : public lockstep_detail::LockstepAbsentNode<ControlNode> {
  public:
-  using AbsentNode::AbsentNode;
+  using LockstepAbsentNode::LockstepAbsentNode;
 };
 
 }  // namespace BT

@@ -6,9 +6,9 @@
 
 namespace BT {
 
-class WhileDoElseNode : public detail::AbsentNode<ControlNode> {
+class WhileDoElseNode : public lockstep_detail::LockstepAbsentNode<ControlNode> {
  public:
-  using AbsentNode::AbsentNode;
+  using LockstepAbsentNode::LockstepAbsentNode;
 };
 
 }  // namespace BT

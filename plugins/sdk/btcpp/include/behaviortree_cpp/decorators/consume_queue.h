@@ -21,27 +21,27 @@ class [[deprecated("use LoopNode")]] ConsumeQueue : public DecoratorNode {
 
   NodeStatus tick() override {
     NodeStatus result = NodeStatus::SUCCESS;
-    if (is_child_running_) {
-      result = tick_child();
-      if (is_child_running_) return result;
+    if (lockstep_is_child_running_) {
+      result = lockstep_tick_child();
+      if (lockstep_is_child_running_) return result;
     }
-    while (const auto item = next()) {
+    while (const auto item = lockstep_next()) {
       setStatus(NodeStatus::RUNNING);
       setOutput("popped_item", *item);
-      result = tick_child();
-      if (is_child_running_ || result == NodeStatus::FAILURE) return result;
+      result = lockstep_tick_child();
+      if (lockstep_is_child_running_ || result == NodeStatus::FAILURE) return result;
     }
     return result;
   }
 
  private:
-  NodeStatus tick_child() {
+  NodeStatus lockstep_tick_child() {
     const NodeStatus result = child_node_->executeTick();
-    is_child_running_ = result == NodeStatus::RUNNING;
-    if (!is_child_running_) haltChild();
+    lockstep_is_child_running_ = result == NodeStatus::RUNNING;
+    if (!lockstep_is_child_running_) haltChild();
     return result;
   }
-  std::optional<T> next() {
+  std::optional<T> lockstep_next() {
     std::shared_ptr<ProtectedQueue<T>> queue;
     if (!getInput("queue", queue) || queue == nullptr) return std::nullopt;
     const std::unique_lock<std::mutex> lock(queue->mtx);
@@ -51,7 +51,7 @@ class [[deprecated("use LoopNode")]] ConsumeQueue : public DecoratorNode {
     return item;
   }
 
-  bool is_child_running_ = false;
+  bool lockstep_is_child_running_ = false;
 };
 
 }  // namespace BT

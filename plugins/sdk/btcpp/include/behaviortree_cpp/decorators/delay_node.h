@@ -6,9 +6,9 @@
 
 namespace BT {
 
-class DelayNode : public detail::AbsentNode<DecoratorNode> {
+class DelayNode : public lockstep_detail::LockstepAbsentNode<DecoratorNode> {
  public:
-  using AbsentNode::AbsentNode;
+  using LockstepAbsentNode::LockstepAbsentNode;
 };
 
 }  // namespace BT

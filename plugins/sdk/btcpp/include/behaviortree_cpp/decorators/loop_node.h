@@ -27,45 +27,46 @@ class LoopNode : public DecoratorNode {
 
   NodeStatus tick() override {
     if (status() == NodeStatus::IDLE) {
-      is_child_running_ = false;
-      items_ = nullptr;
+      lockstep_is_child_running_ = false;
+      lockstep_items_ = nullptr;
     }
-    if (!is_child_running_) {
-      find_items();
-      if (items_ == nullptr || items_->empty()) return getInput<NodeStatus>("if_empty").value();
-      const T item = std::move(items_->front());
-      items_->pop_front();
+    if (!lockstep_is_child_running_) {
+      lockstep_find_items();
+      if (lockstep_items_ == nullptr || lockstep_items_->empty())
+        return getInput<NodeStatus>("if_empty").value();
+      const T item = std::move(lockstep_items_->front());
+      lockstep_items_->pop_front();
       setOutput("value", item);
     }
     setStatus(NodeStatus::RUNNING);
     const NodeStatus result = child_node_->executeTick();
-    is_child_running_ = result == NodeStatus::RUNNING;
+    lockstep_is_child_running_ = result == NodeStatus::RUNNING;
     if (isStatusCompleted(result)) resetChild();
     return result == NodeStatus::FAILURE ? result : NodeStatus::RUNNING;
   }
 
  private:
   // An entry with a queue is taken from. A list, or a text, is copied in each activation.
-  void find_items() {
-    if (auto queue = getInput<SharedQueue<T>>("queue"); queue && !is_text()) {
-      items_ = std::move(*queue);
-    } else if (items_ != nullptr) {
+  void lockstep_find_items() {
+    if (auto queue = getInput<SharedQueue<T>>("queue"); queue && !lockstep_is_text()) {
+      lockstep_items_ = std::move(*queue);
+    } else if (lockstep_items_ != nullptr) {
       return;
     } else if (queue) {
-      items_ = std::move(*queue);
+      lockstep_items_ = std::move(*queue);
     } else if (const auto list = getInput<std::vector<T>>("queue")) {
-      items_ = std::make_shared<std::deque<T>>(list->begin(), list->end());
+      lockstep_items_ = std::make_shared<std::deque<T>>(list->begin(), list->end());
     } else {
       throw RuntimeError("LoopNode: port 'queue': ", queue.error());
     }
   }
-  bool is_text() const {
+  bool lockstep_is_text() const {
     const auto value = getInput<Any>("queue");
     return value && value->isString();
   }
 
-  SharedQueue<T> items_;
-  bool is_child_running_ = false;
+  SharedQueue<T> lockstep_items_;
+  bool lockstep_is_child_running_ = false;
 };
 
 }  // namespace BT

@@ -7,11 +7,12 @@
 
 namespace BT {
 
-class RepeatNode : public detail::AgainNode {
+class RepeatNode : public lockstep_detail::LockstepAgainNode {
  public:
-  RepeatNode(const std::string& name, int count) : AgainNode(name, count, NodeStatus::SUCCESS) {}
+  RepeatNode(const std::string& name, int count)
+      : LockstepAgainNode(name, count, NodeStatus::SUCCESS) {}
   RepeatNode(const std::string& name, const NodeConfig& config)
-      : AgainNode(name, config, NodeStatus::SUCCESS, "num_cycles") {}
+      : LockstepAgainNode(name, config, NodeStatus::SUCCESS, "num_cycles") {}
   static PortsList providedPorts() {
     return {InputPort<int>("num_cycles",
                            "how often the child is ticked to its success; -1: for "

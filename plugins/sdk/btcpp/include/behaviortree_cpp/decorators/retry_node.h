@@ -7,11 +7,12 @@
 
 namespace BT {
 
-class RetryNode : public detail::AgainNode {
+class RetryNode : public lockstep_detail::LockstepAgainNode {
  public:
-  RetryNode(const std::string& name, int count) : AgainNode(name, count, NodeStatus::FAILURE) {}
+  RetryNode(const std::string& name, int count)
+      : LockstepAgainNode(name, count, NodeStatus::FAILURE) {}
   RetryNode(const std::string& name, const NodeConfig& config)
-      : AgainNode(name, config, NodeStatus::FAILURE, "num_attempts") {}
+      : LockstepAgainNode(name, config, NodeStatus::FAILURE, "num_attempts") {}
   static PortsList providedPorts() {
     return {InputPort<int>("num_attempts",
                            "how often a child that fails is ticked; -1: until it "

@@ -16,20 +16,20 @@ class RunOnceNode : public DecoratorNode {
 
  protected:
   NodeStatus tick() override {
-    if (isStatusCompleted(result_)) {
-      return getInput<bool>("then_skip").value() ? NodeStatus::SKIPPED : result_;
+    if (isStatusCompleted(lockstep_result_)) {
+      return getInput<bool>("then_skip").value() ? NodeStatus::SKIPPED : lockstep_result_;
     }
     setStatus(NodeStatus::RUNNING);
     const NodeStatus result = child_node_->executeTick();
     if (isStatusCompleted(result)) {
-      result_ = result;
+      lockstep_result_ = result;
       resetChild();
     }
     return result;
   }
 
  private:
-  NodeStatus result_ = NodeStatus::IDLE;
+  NodeStatus lockstep_result_ = NodeStatus::IDLE;
 };
 
 }  // namespace BT

@@ -6,9 +6,9 @@
 
 namespace BT {
 
-class PreconditionNode : public detail::AbsentNode<DecoratorNode> {
+class PreconditionNode : public lockstep_detail::LockstepAbsentNode<DecoratorNode> {
  public:
-  using AbsentNode::AbsentNode;
+  using LockstepAbsentNode::LockstepAbsentNode;
 };
 
 }  // namespace BT

@@ -6,9 +6,9 @@
 
 namespace BT {
 
-class SubTreeNode : public detail::AbsentNode<DecoratorNode> {
+class SubTreeNode : public lockstep_detail::LockstepAbsentNode<DecoratorNode> {
  public:
-  using AbsentNode::AbsentNode;
+  using LockstepAbsentNode::LockstepAbsentNode;
 };
 
 }  // namespace BT

@@ -6,9 +6,9 @@
 
 namespace BT {
 
-class TimeoutNode : public detail::AbsentNode<DecoratorNode> {
+class TimeoutNode : public lockstep_detail::LockstepAbsentNode<DecoratorNode> {
  public:
-  using AbsentNode::AbsentNode;
+  using LockstepAbsentNode::LockstepAbsentNode;
 };
 
 }  // namespace BT

@@ -6,9 +6,9 @@
 
 namespace BT {
 
-class EntryUpdatedDecorator : public detail::AbsentNode<DecoratorNode> {
+class EntryUpdatedDecorator : public lockstep_detail::LockstepAbsentNode<DecoratorNode> {
  public:
-  using AbsentNode::AbsentNode;
+  using LockstepAbsentNode::LockstepAbsentNode;
 };
 
 }  // namespace BT

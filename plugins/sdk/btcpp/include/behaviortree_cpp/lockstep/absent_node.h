@@ -5,13 +5,13 @@
 
 #include "behaviortree_cpp/tree_node.h"
 
-namespace BT::detail {
+namespace BT::lockstep_detail {
 
 template <class Base>
-class AbsentNode : public Base {
+class LockstepAbsentNode : public Base {
  public:
   template <class... Arguments>
-  explicit AbsentNode(Arguments&&...) : Base(std::string(), NodeConfig()) {
+  explicit LockstepAbsentNode(Arguments&&...) : Base(std::string(), NodeConfig()) {
     static_assert(sizeof...(Arguments) > 1000,
                   "lockstep has this node of the library as a tag, not as a class: write it in the "
                   "tree; for another kind of it, derive from ControlNode, DecoratorNode or an "
@@ -22,4 +22,4 @@ class AbsentNode : public Base {
   void halt() override {}
 };
 
-}  // namespace BT::detail
+}  // namespace BT::lockstep_detail

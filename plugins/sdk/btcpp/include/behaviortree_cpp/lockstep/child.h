@@ -10,7 +10,7 @@
 
 #include "behaviortree_cpp/tree_node.h"
 
-namespace BT::detail {
+namespace BT::lockstep_detail {
 
 class Child final : public TreeNode {
  public:
@@ -43,8 +43,10 @@ class Child final : public TreeNode {
     const auto status = static_cast<NodeStatus>(parent_.children->status(parent_.caller, index_));
     return status == NodeStatus::SKIPPED ? NodeStatus::IDLE : status;
   }
-  NodeStatus shown_status() const override { return is_reset_ ? NodeStatus::IDLE : host_status(); }
-  void forget_status() override { is_reset_ = true; }
+  NodeStatus lockstep_shown_status() const override {
+    return is_reset_ ? NodeStatus::IDLE : host_status();
+  }
+  void lockstep_forget_status() override { is_reset_ = true; }
 
   Place& parent_;
   std::uint32_t index_;
@@ -60,4 +62,4 @@ inline std::vector<std::unique_ptr<TreeNode>> children_at(Place& place) {
   return children;
 }
 
-}  // namespace BT::detail
+}  // namespace BT::lockstep_detail

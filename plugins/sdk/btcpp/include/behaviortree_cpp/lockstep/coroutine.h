@@ -11,7 +11,7 @@
 #include <new>
 #include <utility>
 
-namespace BT::detail {
+namespace BT::lockstep_detail {
 
 class Coroutine {
  public:
@@ -68,4 +68,4 @@ class Coroutine {
   bool has_ended_ = false;
 };
 
-}  // namespace BT::detail
+}  // namespace BT::lockstep_detail

@@ -11,7 +11,7 @@
 
 #include "behaviortree_cpp/exceptions.h"
 
-namespace BT::detail {
+namespace BT::lockstep_detail {
 
 class Documents {
  public:
@@ -72,4 +72,4 @@ class Documents {
   std::vector<std::string> ids_;  // sorted
 };
 
-}  // namespace BT::detail
+}  // namespace BT::lockstep_detail

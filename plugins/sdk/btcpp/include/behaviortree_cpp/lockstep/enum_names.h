@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-namespace BT::detail {
+namespace BT::lockstep_detail {
 
 // "" for a number that has no name.
 template <class Enum, Enum kValue>
@@ -36,4 +36,4 @@ void for_each_name(Function function) {
   for_each_name<Enum>(function, std::make_index_sequence<256>());
 }
 
-}  // namespace BT::detail
+}  // namespace BT::lockstep_detail

@@ -14,7 +14,7 @@ namespace BT {
 class TypeInfo;
 }
 
-namespace BT::detail {
+namespace BT::lockstep_detail {
 
 // Without `write` or `read` it is only read or only written.
 struct JsonFunctions {
@@ -70,4 +70,4 @@ inline std::string plain_json(const Any& value) {
   return text + '"';
 }
 
-}  // namespace BT::detail
+}  // namespace BT::lockstep_detail

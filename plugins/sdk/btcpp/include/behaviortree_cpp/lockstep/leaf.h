@@ -8,7 +8,7 @@
 #include "behaviortree_cpp/behavior_tree.h"
 #include "behaviortree_cpp/lockstep/registration.h"
 
-namespace BT::detail {
+namespace BT::lockstep_detail {
 
 // The type of that id; null: none.
 [[gnu::visibility("hidden")]] const Registration* find_registration(const std::string& id);
@@ -20,6 +20,7 @@ namespace BT::detail {
 struct Leaf {
   Place place;
   std::unique_ptr<TreeNode> node;
+  NodeStatus last = NodeStatus::IDLE;  // of tick_at_once
 
   static void* create(const lockstep_host* host, const lockstep_caller* id, void* /*context*/) {
     return lockstep::detail::guarded({host, id}, static_cast<void*>(nullptr), [&]() -> void* {
@@ -32,7 +33,9 @@ struct Leaf {
     const std::unique_ptr<Leaf> leaf(static_cast<Leaf*>(self));
     lockstep::detail::guarded_end(leaf->caller(), [&] { leaf->node.reset(); });
   }
-  static void start(void* self) { static_cast<Leaf*>(self)->node->forget_status(); }
+  static void start(void* self) { static_cast<Leaf*>(self)->node->lockstep_forget_status(); }
+  // The node's parent has not reset it: it has the status that it had.
+  static void start_unreset(void* /*self*/) {}
   static lockstep_status tick(void* self) {
     Leaf& leaf = *static_cast<Leaf*>(self);
     try {
@@ -44,11 +47,15 @@ struct Leaf {
   }
   // Of a node that is mostly done in one tick, and so is not told of the first one.
   static lockstep_status tick_at_once(void* self) {
+    Leaf& leaf = *static_cast<Leaf*>(self);
     const lockstep_status status = tick(self);
-    if (status != LOCKSTEP_RUNNING) {
-      static_cast<Leaf*>(self)->node->setStatus(NodeStatus::IDLE);
-    }
+    leaf.last = static_cast<NodeStatus>(status);
+    if (status != LOCKSTEP_RUNNING) leaf.node->setStatus(NodeStatus::IDLE);
     return status;
+  }
+  static void start_unreset_at_once(void* self) {
+    const Leaf& leaf = *static_cast<Leaf*>(self);
+    leaf.node->lockstep_status_.store(leaf.last, std::memory_order_release);  // it has not changed
   }
   static void halt(void* self) {
     Leaf& leaf = *static_cast<Leaf*>(self);
@@ -91,7 +98,7 @@ struct Leaf {
   }
 
   lockstep::detail::Caller caller() const { return {place.host, place.caller}; }
-  const ClassHooks& hooks() const { return place.registration->manifest->hooks; }
+  const ClassHooks& hooks() const { return place.registration->manifest->lockstep_hooks; }
 
   template <class Call>
   void call(Call function) {
@@ -117,22 +124,22 @@ struct Leaf {
     }
     creating = nullptr;
     if (node == nullptr) throw RuntimeError("its builder returned no node");
-    node->place_ = &place;
-    find_children(host);
-    node->registration_name_ = place.registration->manifest->registration_ID;
+    node->lockstep_place_ = &place;
+    lockstep_find_children(host);
+    node->lockstep_registration_name_ = place.registration->manifest->registration_ID;
     note_made(place.node->path(id), *node);
   }
 
-  void find_children(const lockstep_host& host) {
+  void lockstep_find_children(const lockstep_host& host) {
     if (node->type() != NodeType::CONTROL && node->type() != NodeType::DECORATOR) return;
     place.children = static_cast<const lockstep_children*>(host.get_extension(LOCKSTEP_CHILDREN));
     if (place.children == nullptr) throw RuntimeError("this lockstep has no control nodes");
-    node->find_children(place);
+    node->lockstep_find_children(place);
   }
 
   NodeConfig make_config() {
     NodeConfig config;
-    config.blackboard = Blackboard::at(place);
+    config.blackboard = Blackboard::lockstep_at(place);
     config.enums = registered_enums();
     config.manifest = place.registration->manifest;
     config.path = place.node->path(place.caller);
@@ -151,4 +158,4 @@ struct Leaf {
   }
 };
 
-}  // namespace BT::detail
+}  // namespace BT::lockstep_detail

@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-namespace BT::detail {
+namespace BT::lockstep_detail {
 
 inline const std::set<std::string>& node_ids() {
   static const std::set<std::string> ids{"AlwaysFailure",
@@ -52,4 +52,4 @@ inline const std::set<std::string>& node_ids() {
   return ids;
 }
 
-}  // namespace BT::detail
+}  // namespace BT::lockstep_detail

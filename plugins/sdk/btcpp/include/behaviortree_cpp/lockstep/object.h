@@ -13,19 +13,19 @@
 
 #include "behaviortree_cpp/basic_types.h"
 
-namespace BT::detail {
+namespace BT::lockstep_detail {
 
-// As it is written, without what the contract does not take in a name: what replaces that is made
+// As it is written. Where the contract does not take that as a name, what replaces it is made
 // unique by a number.
 inline std::string object_name(const std::type_info& type) {
-  std::string name = demangle(type);
+  std::string name = readable(type);
   bool is_plain = name.size() <= 100;
   std::uint64_t hash = 14695981039346656037u;  // FNV-1a
   for (char& c : name) {
     hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
     const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
     if (is_letter || (c >= '0' && c <= '9') ||
-        std::string_view("._:/-").find(c) != std::string::npos) {
+        std::string_view("._:/- <>,*&()[]").find(c) != std::string::npos) {
       continue;
     }
     is_plain = false;
@@ -35,6 +35,15 @@ inline std::string object_name(const std::type_info& type) {
   char number[20];
   std::snprintf(number, sizeof number, ".%016llx", static_cast<unsigned long long>(hash));
   return name.substr(0, 80) + number;
+}
+
+// What the last from_text of this thread has thrown.
+[[gnu::visibility("hidden")]] inline std::string& reason() {
+  static thread_local std::string text;
+  return text;
+}
+[[gnu::visibility("hidden")]] inline const char* why_no_object() {
+  return reason().empty() ? nullptr : reason().c_str();
 }
 
 template <class T>
@@ -67,9 +76,10 @@ struct ObjectCalls {
   }
   static void* from_text(const char* text, std::size_t length) {
     void* object = nullptr;
+    reason().clear();
     lockstep::detail::catching(
         [&] { object = made_from(convertFromString<T>(StringView(text, length))); },
-        [](const char*) {});
+        [](const char* what) { reason() = what; });
     return object;
   }
   static void* from_bytes(const void* bytes, std::size_t length) {
@@ -108,6 +118,7 @@ const lockstep_object_type* object_type() {
     type.retain = Calls::Common::retain;
     type.release = Calls::Common::release;
     type.from_text = Calls::from_text;
+    type.why_no_object = why_no_object;
     const JsonFunctions* const json = find_json(typeid(T));
     if (json != nullptr && json->write) type.to_text = Calls::to_text;
     if (json != nullptr && json->write && json->read) {
@@ -127,4 +138,4 @@ const lockstep_object_type* object_type() {
   return &table;
 }
 
-}  // namespace BT::detail
+}  // namespace BT::lockstep_detail

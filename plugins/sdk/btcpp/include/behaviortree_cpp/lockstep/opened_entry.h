@@ -8,7 +8,7 @@
 #include "behaviortree_cpp/basic_types.h"
 #include "behaviortree_cpp/lockstep/place.h"
 
-namespace BT::detail {
+namespace BT::lockstep_detail {
 
 // Its value is true in a plugin whose code opens entries: only then is it made.
 [[gnu::visibility("hidden")]] inline bool& opens_entries() {
@@ -51,7 +51,7 @@ class OpenedEntry {
     } else {
       if constexpr (port_type<T>() != LOCKSTEP_ANY) {
         T value{};
-        if (detail::get(place_, port_, value)) return value;
+        if (lockstep_detail::get(place_, port_, value)) return value;
       }
       Any value;
       if (get(value)) {
@@ -60,14 +60,14 @@ class OpenedEntry {
       }
     }
     return nonstd::make_unexpected(
-        StrCat("the entry '", key_, "' has no value of type ", demangle(typeid(T))));
+        StrCat("the entry '", key_, "' has no value of type ", readable(typeid(T))));
   }
   // Of any type but an object's.
   bool get(Any& value) const {
     const lockstep_type type = place_.node->value_type(place_.caller, port_);
     std::string text;
     if (type != LOCKSTEP_STRING) return get_any(place_, port_, type, value);
-    if (!detail::get(place_, port_, text)) return false;
+    if (!lockstep_detail::get(place_, port_, text)) return false;
     value = Any(text);
     return true;
   }
@@ -78,12 +78,12 @@ class OpenedEntry {
     if constexpr (std::is_same_v<T, Any>) {
       is_set = PortValue<Any>::set(place_, port_, value);
     } else {
-      is_set = detail::set<T>(place_, port_, value);
+      is_set = lockstep_detail::set<T>(place_, port_, value);
     }
     if (!is_set) {
       using Error = std::conditional_t<is_text_v<T>, RuntimeError, LogicError>;
       throw Error("Blackboard::set: the entry '", key_, "' does not take a value of type ",
-                  demangle(typeid(T)));
+                  readable(typeid(T)));
     }
   }
 
@@ -93,4 +93,4 @@ class OpenedEntry {
   std::uint32_t port_ = 0;
 };
 
-}  // namespace BT::detail
+}  // namespace BT::lockstep_detail

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <string>
 
-namespace BT::detail {
+namespace BT::lockstep_detail {
 
 struct Registration;
 
@@ -27,4 +27,4 @@ struct Place {
   }
 };
 
-}  // namespace BT::detail
+}  // namespace BT::lockstep_detail

@@ -10,7 +10,7 @@
 
 #include "behaviortree_cpp/bt_factory.h"
 
-namespace BT::detail {
+namespace BT::lockstep_detail {
 
 // One for each shared object; it lives until the process ends.
 [[gnu::visibility("hidden")]] inline BehaviorTreeFactory& plugin_factory() {
@@ -19,7 +19,7 @@ namespace BT::detail {
 }
 
 inline PluginTable& made_table() {
-  return making != nullptr ? *making : plugin_factory().plugin();
+  return making != nullptr ? *making : plugin_factory().lockstep_table();
 }
 inline const Registration* find_registration(const std::string& id) {
   return made_table().find(id);
@@ -56,7 +56,8 @@ template <void (*Register)(BehaviorTreeFactory&)>
         [&] {
           Register(plugin_factory());
           const auto* const here = reinterpret_cast<const void*>(&describe<Register>);
-          described = &plugin_factory().plugin().describe(plugin_name(here), table_extension);
+          described =
+              &plugin_factory().lockstep_table().describe(plugin_name(here), table_extension);
         },
         [](const char* message) { error = message; });
     return described;
@@ -75,7 +76,7 @@ constexpr lockstep_plugin plugin_entry() {
   return plugin;
 }
 
-}  // namespace BT::detail
+}  // namespace BT::lockstep_detail
 
 // Registers nodes: BT_REGISTER_NODES(factory) { factory.registerNodeType<Move>("Move"); }. With
 // BT_PLUGIN_EXPORT it makes the shared object a plugin; without, it is a function of this file.
@@ -85,7 +86,7 @@ constexpr lockstep_plugin plugin_entry() {
       BT::BehaviorTreeFactory&);                                                     \
   extern "C" {                                                                       \
   constexpr lockstep_plugin lockstep_plugin_entry =                                  \
-      BT::detail::plugin_entry<&BT_RegisterNodesFromPlugin>();                       \
+      BT::lockstep_detail::plugin_entry<&BT_RegisterNodesFromPlugin>();              \
   }                                                                                  \
   void BT_RegisterNodesFromPlugin([[maybe_unused]] BT::BehaviorTreeFactory& factory)
 #else

@@ -13,7 +13,7 @@
 
 #include "behaviortree_cpp/lockstep/leaf.h"
 
-namespace BT::detail {
+namespace BT::lockstep_detail {
 
 class PluginTable {
  public:
@@ -117,16 +117,18 @@ class PluginTable {
     type.ports = registration.listed.data();
     type.create = Leaf::create;
     type.destroy = Leaf::destroy;
-    const bool is_short = manifest.hooks.is_at_once || manifest.type == NodeType::CONDITION;
+    const bool is_short =
+        manifest.lockstep_hooks.is_at_once || manifest.type == NodeType::CONDITION;
     if (!is_short) type.start = Leaf::start;
+    type.start_unreset = is_short ? Leaf::start_unreset_at_once : Leaf::start_unreset;
     type.tick = is_short ? Leaf::tick_at_once : Leaf::tick;
     type.halt = Leaf::halt;
-    if (manifest.hooks.pause != nullptr) type.pause = Leaf::pause;
-    if (manifest.hooks.resume != nullptr) type.resume = Leaf::resume;
-    if (manifest.hooks.progress != nullptr) type.progress = Leaf::progress;
+    if (manifest.lockstep_hooks.pause != nullptr) type.pause = Leaf::pause;
+    if (manifest.lockstep_hooks.resume != nullptr) type.resume = Leaf::resume;
+    if (manifest.lockstep_hooks.progress != nullptr) type.progress = Leaf::progress;
     type.flags = LOCKSTEP_HALTS_CHILDREN;
     if (manifest.type == NodeType::CONDITION) type.flags |= LOCKSTEP_MAY_RUN;
-    if (manifest.hooks.is_at_once) type.flags |= LOCKSTEP_AT_ONCE;
+    if (manifest.lockstep_hooks.is_at_once) type.flags |= LOCKSTEP_AT_ONCE;
     if (opens_entries()) type.flags |= LOCKSTEP_OPENS;
   }
 
@@ -148,11 +150,11 @@ class PluginTable {
     const PortInfo& info = entry.info;
     lockstep_port port{};
     port.struct_size = sizeof port;
-    port.type = info.values().type;
+    port.type = info.lockstep_values().type;
     port.direction = kDirections[static_cast<int>(info.direction())];
     port.name = entry.name.c_str();
     port.doc = keep(registration, info.description());
-    port.object = info.values().object();
+    port.object = info.lockstep_values().object();
     port.flags = LOCKSTEP_OPTIONAL;
     describe_default(registration, info, port);
     return port;
@@ -202,4 +204,4 @@ class Making {
   return is_words ? made_table().described_words() : nullptr;
 }
 
-}  // namespace BT::detail
+}  // namespace BT::lockstep_detail

@@ -16,7 +16,7 @@ namespace BT {
 struct AnyTypeAllowed;
 }
 
-namespace BT::detail {
+namespace BT::lockstep_detail {
 
 // How the host has values of type T. An enum may be a number or a name, so its ports take both.
 template <class T>
@@ -271,7 +271,7 @@ struct PortValue {
       return false;
     } else {
       T value{};
-      if (!detail::get(place, port, value)) return false;
+      if (!lockstep_detail::get(place, port, value)) return false;
       any = Any(value);
       return true;
     }
@@ -281,7 +281,7 @@ struct PortValue {
       return set_any(place, port, any);
     } else {
       const auto value = any.tryCast<std::conditional_t<is_text_v<T>, std::string, T>>();
-      return value && detail::set(place, port, *value);
+      return value && lockstep_detail::set(place, port, *value);
     }
   }
   static constexpr PortValues kTable{port_type<T>(), object_type_of<T>, parse, get, set};
@@ -289,15 +289,15 @@ struct PortValue {
  private:
   // As the type that is inside.
   static bool set_any(const Place& place, std::uint32_t port, const Any& any) {
-    if (any.isType<bool>()) return detail::set(place, port, any.cast<bool>());
-    if (any.isString()) return detail::set(place, port, any.cast<std::string>());
+    if (any.isType<bool>()) return lockstep_detail::set(place, port, any.cast<bool>());
+    if (any.isString()) return lockstep_detail::set(place, port, any.cast<std::string>());
     if (any.isIntegral()) {
       const auto whole = any.tryCast<std::int64_t>();
-      return whole && detail::set(place, port, *whole);
+      return whole && lockstep_detail::set(place, port, *whole);
     }
-    if (any.isNumber()) return detail::set(place, port, any.cast<double>());
-    return any.store_object(place, port);
+    if (any.isNumber()) return lockstep_detail::set(place, port, any.cast<double>());
+    return any.lockstep_store_object(place, port);
   }
 };
 
-}  // namespace BT::detail
+}  // namespace BT::lockstep_detail

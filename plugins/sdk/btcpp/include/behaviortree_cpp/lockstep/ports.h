@@ -19,12 +19,12 @@ class TypeInfo {
     TypeInfo info;
     info.type_ = typeid(T);
     info.name_ = demangle(typeid(T));
-    info.values_ = &detail::PortValue<T>::kTable;
+    info.values_ = &lockstep_detail::PortValue<T>::kTable;
     return info;
   }
   TypeInfo() = default;
   // Of a value that is there.
-  static TypeInfo of(const Any& value) {
+  static TypeInfo lockstep_of(const Any& value) {
     TypeInfo info;
     info.type_ = value.type();
     info.name_ = demangle(value.type());
@@ -38,12 +38,12 @@ class TypeInfo {
   Any parseString(const std::string& text) const { return values_->parse(text); }
   StringConverter converter() const { return values_->parse; }
 
-  const detail::PortValues& values() const { return *values_; }
+  const lockstep_detail::PortValues& lockstep_values() const { return *values_; }
 
  private:
   std::type_index type_ = typeid(AnyTypeAllowed);
   std::string name_ = "AnyTypeAllowed";
-  const detail::PortValues* values_ = &detail::PortValue<AnyTypeAllowed>::kTable;
+  const lockstep_detail::PortValues* values_ = &lockstep_detail::PortValue<AnyTypeAllowed>::kTable;
 };
 
 class PortInfo : public TypeInfo {
@@ -61,7 +61,7 @@ class PortInfo : public TypeInfo {
   void setDefaultValue(const T& value) {
     default_ = Any(value);
     if constexpr (std::is_floating_point_v<T>) {
-      default_text_ = detail::constant_text(value);  // all of its digits
+      default_text_ = lockstep_detail::constant_text(value);  // all of its digits
     } else {
       try {
         default_text_ = toStr(value);
@@ -107,7 +107,7 @@ using PortsList = std::unordered_map<std::string, PortInfo>;
          !IsReservedAttribute(name);
 }
 
-namespace detail {
+namespace lockstep_detail {
 
 // Throws when it is none: the tree could not name it.
 inline void check_port_name(StringView name) {
@@ -149,40 +149,40 @@ std::pair<std::string, PortInfo> make_port(PortDirection direction, StringView n
   return port;
 }
 
-}  // namespace detail
+}  // namespace lockstep_detail
 
 // Throws when the name is none.
 template <class T = AnyTypeAllowed>
 std::pair<std::string, PortInfo> CreatePort(PortDirection direction, StringView name,
                                             StringView description = {}) {
-  return detail::make_port<T>(direction, name, description);
+  return lockstep_detail::make_port<T>(direction, name, description);
 }
 template <class T = AnyTypeAllowed>
 [[nodiscard]] std::pair<std::string, PortInfo> InputPort(StringView name,
                                                          StringView description = {}) {
-  return detail::make_port<T>(PortDirection::INPUT, name, description);
+  return lockstep_detail::make_port<T>(PortDirection::INPUT, name, description);
 }
 template <class T = AnyTypeAllowed>
 [[nodiscard]] std::pair<std::string, PortInfo> OutputPort(StringView name,
                                                           StringView description = {}) {
-  return detail::make_port<T>(PortDirection::OUTPUT, name, description);
+  return lockstep_detail::make_port<T>(PortDirection::OUTPUT, name, description);
 }
 template <class T = AnyTypeAllowed>
 [[nodiscard]] std::pair<std::string, PortInfo> BidirectionalPort(StringView name,
                                                                  StringView description = {}) {
-  return detail::make_port<T>(PortDirection::INOUT, name, description);
+  return lockstep_detail::make_port<T>(PortDirection::INOUT, name, description);
 }
 // With a default: a value, a text that the type reads, or "{entry}".
 template <class T = AnyTypeAllowed, class Default = T>
 [[nodiscard]] std::pair<std::string, PortInfo> InputPort(StringView name, const Default& value,
                                                          StringView description) {
-  return detail::make_port<T>(PortDirection::INPUT, name, value, description);
+  return lockstep_detail::make_port<T>(PortDirection::INPUT, name, value, description);
 }
 template <class T = AnyTypeAllowed, class Default = T>
 [[nodiscard]] std::pair<std::string, PortInfo> BidirectionalPort(StringView name,
                                                                  const Default& value,
                                                                  StringView description) {
-  return detail::make_port<T>(PortDirection::INOUT, name, value, description);
+  return lockstep_detail::make_port<T>(PortDirection::INOUT, name, value, description);
 }
 // The default of an output is an entry, "{key}".
 template <class T = AnyTypeAllowed>
@@ -191,7 +191,7 @@ template <class T = AnyTypeAllowed>
   if (entry.size() < 3 || entry.front() != '{' || entry.back() != '}') {
     throw LogicError("the default of the output '", name, "' must be an entry, {key} or {=}");
   }
-  auto port = detail::make_port<T>(PortDirection::OUTPUT, name, description);
+  auto port = lockstep_detail::make_port<T>(PortDirection::OUTPUT, name, description);
   port.second.setDefaultValue(std::string(entry));
   return port;
 }

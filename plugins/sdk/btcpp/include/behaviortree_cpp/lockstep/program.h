@@ -20,7 +20,16 @@
 #include "behaviortree_cpp/utils/wildcards.hpp"
 
 namespace BT {
-namespace detail {
+namespace lockstep_detail {
+
+// "tree.xml:3:5: ", as much of it as is known.
+inline std::string place_of(const lockstep_diagnostic& it) {
+  if (*it.file == '\0') return {};
+  std::string place = StrCat(it.file, ":");
+  if (it.line != 0) place += std::to_string(it.line) + ":";
+  if (it.column != 0) place += std::to_string(it.column) + ":";
+  return place + " ";
+}
 
 // What went wrong, with its places.
 inline std::string project_errors(lockstep_project* project) {
@@ -29,8 +38,7 @@ inline std::string project_errors(lockstep_project* project) {
     lockstep_diagnostic it{};
     it.struct_size = sizeof it;
     if (!lockstep_project_diagnostic(project, i, &it) || it.severity != LOCKSTEP_ERROR) continue;
-    text += StrCat("\n", it.file, ":", std::to_string(it.line), ":", std::to_string(it.column),
-                   ": ", it.message, *it.hint == '\0' ? "" : "; ", it.hint);
+    text += StrCat("\n", place_of(it), it.message, *it.hint == '\0' ? "" : "; ", it.hint);
   }
   return text;
 }
@@ -202,7 +210,7 @@ class SubtreeEntries : public EntryStore {
   std::string prefix_;
 };
 
-}  // namespace detail
+}  // namespace lockstep_detail
 
 class Tree {
  public:
@@ -216,13 +224,14 @@ class Tree {
   std::vector<Subtree::Ptr> subtrees;  // the main tree first
 
   Tree() = default;
-  Tree(std::shared_ptr<detail::Program> program, Blackboard::Ptr blackboard)
+  Tree(std::shared_ptr<lockstep_detail::Program> program, Blackboard::Ptr blackboard)
       : program_(std::move(program)), blackboard_(std::move(blackboard)) {
-    blackboard_->attach(program_);
-    for (const detail::SubtreePlace& it : program_->places().subtrees) {
+    blackboard_->lockstep_attach(program_);
+    for (const lockstep_detail::SubtreePlace& it : program_->places().subtrees) {
       Blackboard::Ptr entries = subtrees.empty() ? blackboard_ : Blackboard::create();
       if (!subtrees.empty()) {
-        entries->attach(std::make_shared<detail::SubtreeEntries>(program_, it.entries));
+        entries->lockstep_attach(
+            std::make_shared<lockstep_detail::SubtreeEntries>(program_, it.entries));
       }
       subtrees.push_back(
           std::make_shared<Subtree>(Subtree{{}, std::move(entries), it.path, it.name}));
@@ -234,8 +243,8 @@ class Tree {
   }
 
   // One period: the tree is ticked again while a node asks for it.
-  NodeStatus tickOnce() { return program().tick(); }
-  NodeStatus tickExactlyOnce() { return program().tick(); }
+  NodeStatus tickOnce() { return lockstep_program().tick(); }
+  NodeStatus tickExactlyOnce() { return lockstep_program().tick(); }
   NodeStatus tickWhileRunning(
       std::chrono::milliseconds sleep_time = std::chrono::milliseconds(10)) {
     NodeStatus status = tickOnce();
@@ -245,7 +254,7 @@ class Tree {
     }
     return status;
   }
-  void haltTree() { program().halt(); }
+  void haltTree() { lockstep_program().halt(); }
   // True: emitWakeUpSignal() has ended it.
   template <class Rep, class Period>
   bool sleep(std::chrono::duration<Rep, Period> duration) {
@@ -258,32 +267,32 @@ class Tree {
   Blackboard::Ptr rootBlackboard() { return blackboard_; }
 
   // It stands for the whole tree: haltNode() halts it.
-  [[nodiscard]] TreeNode* rootNode() const { return program().root(); }
+  [[nodiscard]] TreeNode* rootNode() const { return lockstep_program().root(); }
   // A program's own nodes are the objects that its classes made; others have a name, a path, a type
   // and a status.
   void applyVisitor(const std::function<void(const TreeNode*)>& visitor) const {
-    for (const auto& node : program().nodes()) visitor(node.get());
+    for (const auto& node : lockstep_program().nodes()) visitor(node.get());
   }
   void applyVisitor(const std::function<void(TreeNode*)>& visitor) {
-    for (const auto& node : program().nodes()) visitor(node.get());
+    for (const auto& node : lockstep_program().nodes()) visitor(node.get());
   }
   template <class Node = TreeNode>
   [[nodiscard]] std::vector<const TreeNode*> getNodesByPath(StringView pattern) const {
     std::vector<const TreeNode*> found;
-    for (const auto& node : program().nodes()) {
+    for (const auto& node : lockstep_program().nodes()) {
       if (dynamic_cast<const Node*>(node.get()) == nullptr) continue;
       if (wildcards_match(node->fullPath(), pattern)) found.push_back(node.get());
     }
     return found;
   }
 
-  detail::Program& program() const {
+  lockstep_detail::Program& lockstep_program() const {
     if (program_ == nullptr) throw LogicError("this BT::Tree is empty");
     return *program_;
   }
 
  private:
-  std::shared_ptr<detail::Program> program_;
+  std::shared_ptr<lockstep_detail::Program> program_;
   Blackboard::Ptr blackboard_;
   std::shared_ptr<WakeUpSignal> wake_up_ = std::make_shared<WakeUpSignal>();
 };
@@ -310,11 +319,11 @@ std::string ExportTreeToJSON(const AnyTree&) {
 
 // The names of all nodes, each below its parent.
 inline void printTreeRecursively(const TreeNode* root, std::ostream& out = std::cout) {
-  const auto* const node = dynamic_cast<const detail::ProgramNode*>(root);
+  const auto* const node = dynamic_cast<const lockstep_detail::ProgramNode*>(root);
   if (node == nullptr || node->index() != 0) throw LogicError("it is not the root of a BT::Tree");
   std::vector<std::size_t> depth;
   out << "----------------" << std::endl;
-  for (const detail::NodePlace& it : node->places().nodes) {
+  for (const lockstep_detail::NodePlace& it : node->places().nodes) {
     depth.push_back(depth.empty() ? 0 : depth[it.parent] + 1);
     out << std::string(3 * depth.back(), ' ') << it.name << std::endl;
   }

@@ -12,7 +12,7 @@
 #include "behaviortree_cpp/behavior_tree.h"
 #include "behaviortree_cpp/lockstep/plugin_table.h"
 
-namespace BT::detail {
+namespace BT::lockstep_detail {
 
 // Where a node is in a tree.
 struct NodePlace {
@@ -97,13 +97,13 @@ class ProgramNode final : public TreeNode {
   void halt() override {
     if (index_ == 0) lockstep_run_halt(run_);
   }
-  NodeStatus shown_status() const override {
+  NodeStatus lockstep_shown_status() const override {
     lockstep_node_state state{};
     state.struct_size = sizeof state;
     if (!lockstep_run_node(run_, index_, &state)) return NodeStatus::IDLE;
     return static_cast<NodeStatus>(state.status);
   }
-  void forget_status() override {}
+  void lockstep_forget_status() override {}
 
   Program& program_;
   lockstep_run* run_;
@@ -134,4 +134,4 @@ inline NodeType type_of_id(const std::string& id) {
   return found == types.end() ? NodeType::ACTION : found->second;
 }
 
-}  // namespace BT::detail
+}  // namespace BT::lockstep_detail

@@ -20,7 +20,7 @@ struct ProtectedQueue {
   std::mutex mtx;
 };
 
-namespace detail {
+namespace lockstep_detail {
 
 // "1;2;3"
 template <class Item>
@@ -34,5 +34,5 @@ struct TextReader<SharedQueue<Item>> {
   }
 };
 
-}  // namespace detail
+}  // namespace lockstep_detail
 }  // namespace BT

@@ -22,7 +22,7 @@ struct TreeNodeManifest;
 using NodeBuilder = std::function<std::unique_ptr<TreeNode>(const std::string&, const NodeConfig&)>;
 }  // namespace BT
 
-namespace BT::detail {
+namespace BT::lockstep_detail {
 
 struct Leaf;
 class Child;
@@ -93,4 +93,4 @@ struct Registration {
   lockstep_leaf_type type = {};
 };
 
-}  // namespace BT::detail
+}  // namespace BT::lockstep_detail

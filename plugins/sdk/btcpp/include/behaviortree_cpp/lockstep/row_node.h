@@ -2,65 +2,69 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 #include "behaviortree_cpp/control_node.h"
 
-namespace BT::detail {
+namespace BT::lockstep_detail {
 
 // Goes on to the next child after `goes_on`, from where it stands.
-class RowNode : public ControlNode {
+class LockstepRowNode : public ControlNode {
  public:
-  RowNode(const std::string& name, NodeStatus goes_on, bool is_async, const NodeConfig& config = {})
-      : ControlNode(name, config), goes_on_(goes_on), is_async_(is_async) {}
+  LockstepRowNode(const std::string& name, NodeStatus goes_on, bool is_async,
+                  const NodeConfig& config = {})
+      : ControlNode(name, config), lockstep_goes_on_(goes_on), lockstep_is_async_(is_async) {}
 
   void halt() override {
-    current_ = 0;
+    lockstep_current_ = 0;
     ControlNode::halt();
   }
 
  protected:
   NodeStatus tick() override {
-    if (status() == NodeStatus::IDLE) skipped_ = 0;
+    if (status() == NodeStatus::IDLE) lockstep_skipped_ = 0;
     setStatus(NodeStatus::RUNNING);
-    while (current_ < childrenCount()) {
-      TreeNode& child = *children_nodes_[current_];
+    while (lockstep_current_ < childrenCount()) {
+      TreeNode& child = *children_nodes_[lockstep_current_];
       const bool begins = child.status() == NodeStatus::IDLE;
       const NodeStatus result = child.executeTick();
       if (result == NodeStatus::RUNNING) return result;
       if (result == NodeStatus::SKIPPED) {
-        ++skipped_;
-      } else if (result != goes_on_) {
-        return fail(result);
+        ++lockstep_skipped_;
+      } else if (result != lockstep_goes_on_) {
+        return lockstep_fail(result);
       }
-      ++current_;
-      if (result == goes_on_ && is_async_ && begins && current_ < childrenCount()) {
+      ++lockstep_current_;
+      if (result == lockstep_goes_on_ && lockstep_is_async_ && begins &&
+          lockstep_current_ < childrenCount()) {
         emitWakeUpSignal();
         return NodeStatus::RUNNING;
       }
     }
-    return end(skipped_ == childrenCount() ? NodeStatus::SKIPPED : goes_on_);
+    const bool is_skipped = std::exchange(lockstep_skipped_, 0) == childrenCount();
+    return lockstep_end(is_skipped ? NodeStatus::SKIPPED : lockstep_goes_on_);
   }
 
   // A child has ended the row.
-  virtual NodeStatus fail(NodeStatus result) { return end(result); }
-  NodeStatus end(NodeStatus result) {
+  virtual NodeStatus lockstep_fail(NodeStatus result) { return lockstep_end(result); }
+  NodeStatus lockstep_end(NodeStatus result) {
     resetChildren();
-    current_ = 0;
+    lockstep_current_ = 0;
     return result;
   }
-  std::size_t current() const { return current_; }
+  std::size_t lockstep_current() const { return lockstep_current_; }
 
  private:
-  NodeStatus goes_on_;
-  bool is_async_;
-  std::size_t current_ = 0, skipped_ = 0;
+  NodeStatus lockstep_goes_on_;
+  bool lockstep_is_async_;
+  std::size_t lockstep_current_ = 0, lockstep_skipped_ = 0;
 };
 
 // From the first child in each tick; what runs is the only one that does.
-class ReactiveRowNode : public ControlNode {
+class LockstepReactiveRowNode : public ControlNode {
  public:
-  ReactiveRowNode(const std::string& name, NodeStatus goes_on)
-      : ControlNode(name, {}), goes_on_(goes_on) {}
+  LockstepReactiveRowNode(const std::string& name, NodeStatus goes_on)
+      : ControlNode(name, {}), lockstep_goes_on_(goes_on) {}
 
  protected:
   NodeStatus tick() override {
@@ -68,7 +72,7 @@ class ReactiveRowNode : public ControlNode {
     std::size_t skipped = 0;
     for (std::size_t i = 0; i < childrenCount(); ++i) {
       const NodeStatus result = children_nodes_[i]->executeTick();
-      if (result == goes_on_) continue;
+      if (result == lockstep_goes_on_) continue;
       if (result == NodeStatus::SKIPPED) {
         ++skipped;
         haltChild(i);
@@ -80,11 +84,11 @@ class ReactiveRowNode : public ControlNode {
       return result;
     }
     resetChildren();
-    return skipped == childrenCount() ? NodeStatus::SKIPPED : goes_on_;
+    return skipped == childrenCount() ? NodeStatus::SKIPPED : lockstep_goes_on_;
   }
 
  private:
-  NodeStatus goes_on_;
+  NodeStatus lockstep_goes_on_;
 };
 
-}  // namespace BT::detail
+}  // namespace BT::lockstep_detail

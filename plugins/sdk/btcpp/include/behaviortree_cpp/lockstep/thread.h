@@ -7,7 +7,7 @@
 
 #include "behaviortree_cpp/tree_node.h"
 
-namespace BT::detail {
+namespace BT::lockstep_detail {
 
 class NodeThread {
  public:
@@ -33,11 +33,11 @@ class NodeThread {
   }
 
  private:
-  static const Place& place_of(const TreeNode& node) { return *node.place_; }
+  static const Place& place_of(const TreeNode& node) { return *node.lockstep_place_; }
 
   lockstep::detail::Worker worker_;
   lockstep::Token* token_ = nullptr;  // the thread's
   NodeStatus status_ = NodeStatus::IDLE;
 };
 
-}  // namespace BT::detail
+}  // namespace BT::lockstep_detail

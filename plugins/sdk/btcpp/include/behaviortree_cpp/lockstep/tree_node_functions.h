@@ -7,7 +7,7 @@
 #include "behaviortree_cpp/tree_node.h"
 
 namespace BT {
-namespace detail {
+namespace lockstep_detail {
 
 // A value that was read before, as a T.
 template <class T>
@@ -23,39 +23,41 @@ Expected<T> converted(const Expected<Any>& value,
 // Where the node under construction finds its place, so that its class need not pass it on.
 [[gnu::visibility("hidden")]] inline thread_local Place* creating = nullptr;
 
-}  // namespace detail
+}  // namespace lockstep_detail
 
 inline TreeNode::TreeNode(std::string name, NodeConfig config)
-    : name_(std::move(name)),
-      config_(std::move(config)),
-      place_(std::exchange(detail::creating, nullptr)) {}
+    : lockstep_name_(std::move(name)),
+      lockstep_config_(std::move(config)),
+      lockstep_place_(std::exchange(lockstep_detail::creating, nullptr)) {}
 
 inline NodeStatus TreeNode::executeTick() {
-  const NodeStatus status = watch_ == nullptr ? tick() : watched_tick();
+  const NodeStatus status = lockstep_watch_ == nullptr ? tick() : lockstep_watched_tick();
   if (status == NodeStatus::IDLE) {
-    throw LogicError("node '", name_, "' has returned IDLE, which is no result of a tick");
+    throw LogicError("node '", lockstep_name_, "' has returned IDLE, which is no result of a tick");
   }
   setStatus(status == NodeStatus::SKIPPED ? NodeStatus::IDLE : status);
   return status;
 }
 
-inline void TreeNode::tell(NodeStatus before, NodeStatus status) {
-  watch_->changes.notify(std::chrono::high_resolution_clock::now(), *this, before, status);
+inline void TreeNode::lockstep_tell(NodeStatus before, NodeStatus status) {
+  lockstep_watch_->changes.notify(std::chrono::high_resolution_clock::now(), *this, before, status);
 }
 
-inline NodeStatus TreeNode::watched_tick() {
+inline NodeStatus TreeNode::lockstep_watched_tick() {
   NodeStatus status = NodeStatus::IDLE;
-  if (watch_->before && !isStatusCompleted(this->status())) status = watch_->before(*this);
+  if (lockstep_watch_->before && !isStatusCompleted(this->status()))
+    status = lockstep_watch_->before(*this);
   if (!isStatusCompleted(status)) {
     const auto began = std::chrono::steady_clock::now();
     status = tick();
     const auto took = std::chrono::steady_clock::now() - began;
-    if (watch_->monitor) {
-      watch_->monitor(*this, status, std::chrono::duration_cast<std::chrono::microseconds>(took));
+    if (lockstep_watch_->monitor) {
+      lockstep_watch_->monitor(*this, status,
+                               std::chrono::duration_cast<std::chrono::microseconds>(took));
     }
   }
-  if (watch_->after) {
-    const NodeStatus decided = watch_->after(*this, status);
+  if (lockstep_watch_->after) {
+    const NodeStatus decided = lockstep_watch_->after(*this, status);
     if (isStatusCompleted(decided)) status = decided;
   }
   return status;
@@ -63,43 +65,46 @@ inline NodeStatus TreeNode::watched_tick() {
 
 template <class T>
 T TreeNode::parseString(const std::string& text) const {
-  auto value = detail::parse_with<T>(text, config_.enums.get());
+  auto value = lockstep_detail::parse_with<T>(text, lockstep_config_.enums.get());
   if (!value) throw RuntimeError(value.error());
   return std::move(*value);
 }
 
 inline void TreeNode::emitWakeUpSignal() {
-  if (place_ != nullptr && place_->is_in_tick()) place_->node->ask_for_tick(place_->caller);
+  if (lockstep_place_ != nullptr && lockstep_place_->is_in_tick())
+    lockstep_place_->node->ask_for_tick(lockstep_place_->caller);
 }
 
-inline const detail::PortEntry* TreeNode::find(StringView port) const {
-  if (place_ == nullptr || place_->registration == nullptr) return nullptr;
-  for (const detail::PortEntry& it : place_->registration->ports) {
+inline const lockstep_detail::PortEntry* TreeNode::lockstep_find_port(StringView port) const {
+  if (lockstep_place_ == nullptr || lockstep_place_->registration == nullptr) return nullptr;
+  for (const lockstep_detail::PortEntry& it : lockstep_place_->registration->ports) {
     if (it.name == port) return &it;
   }
   return nullptr;
 }
 
-inline std::string TreeNode::no_port(StringView port) const {
-  if (place_ == nullptr) return StrCat("'", name_, "' is not in a tree, so it has no ports");
-  return StrCat("'", registration_name_, "' has no port '", port,
+inline std::string TreeNode::lockstep_no_port(StringView port) const {
+  if (lockstep_place_ == nullptr)
+    return StrCat("'", lockstep_name_, "' is not in a tree, so it has no ports");
+  return StrCat("'", lockstep_registration_name_, "' has no port '", port,
                 "': list it in its providedPorts()");
 }
 
 template <class T>
 Expected<T> TreeNode::getInput(StringView name) const {
-  const detail::PortEntry* const port = find(name);
-  if (port == nullptr) return nonstd::make_unexpected(no_port(name));
-  if (thread_ != nullptr && lockstep::detail::in_worker) {
-    return detail::converted<T>(thread_->inputs[port->index], config_.enums.get());
+  const lockstep_detail::PortEntry* const port = lockstep_find_port(name);
+  if (port == nullptr) return nonstd::make_unexpected(lockstep_no_port(name));
+  if (lockstep_thread_ != nullptr && lockstep::detail::in_worker) {
+    return lockstep_detail::converted<T>(lockstep_thread_->inputs[port->index],
+                                         lockstep_config_.enums.get());
   }
-  if constexpr (detail::port_type<T>() != LOCKSTEP_ANY) {
-    if (port->info.values().type == detail::port_type<T>()) {
+  if constexpr (lockstep_detail::port_type<T>() != LOCKSTEP_ANY) {
+    if (port->info.lockstep_values().type == lockstep_detail::port_type<T>()) {
       T value{};
-      if (detail::get(*place_, port->index, value)) return value;
+      if (lockstep_detail::get(*lockstep_place_, port->index, value)) return value;
     }
   }
-  return read_other<T>(*port);
+  return lockstep_read_other<T>(*port);
 }
 
 template <class T>
@@ -112,47 +117,47 @@ Result TreeNode::getInput(StringView name, T& value) const {
 
 // A value of another type than the port's, a text, or the default.
 template <class T>
-Expected<T> TreeNode::read_other(const detail::PortEntry& port) const {
-  const lockstep_type type = place_->node->value_type(place_->caller, port.index);
-  if (type == 0) return read_default<T>(port);
-  detail::Place& place = *place_;
+Expected<T> TreeNode::lockstep_read_other(const lockstep_detail::PortEntry& port) const {
+  const lockstep_type type = lockstep_place_->node->value_type(lockstep_place_->caller, port.index);
+  if (type == 0) return lockstep_read_default<T>(port);
+  lockstep_detail::Place& place = *lockstep_place_;
   if (type == LOCKSTEP_STRING) {
     std::string text;
-    if (detail::get(place, port.index, text))
-      return detail::parse_with<T>(text, config_.enums.get());
+    if (lockstep_detail::get(place, port.index, text))
+      return lockstep_detail::parse_with<T>(text, lockstep_config_.enums.get());
   }
   Any value;
   if (type == LOCKSTEP_OBJECT) {
-    if constexpr (detail::port_type<T>() == LOCKSTEP_OBJECT) {
+    if constexpr (lockstep_detail::port_type<T>() == LOCKSTEP_OBJECT) {
       T object{};
-      if (detail::get(place, port.index, object)) return object;
+      if (lockstep_detail::get(place, port.index, object)) return object;
     }
-  } else if (!detail::get_any(place, port.index, type, value)) {
-    port.info.values().get(place, port.index, value);
+  } else if (!lockstep_detail::get_any(place, port.index, type, value)) {
+    port.info.lockstep_values().get(place, port.index, value);
   }
   auto cast = value.tryCast<T>();
   if (cast) return std::move(*cast);
   return nonstd::make_unexpected(StrCat("port '", port.name, "': ", cast.error()));
 }
 
-inline Expected<Any> TreeNode::read_any(const detail::PortEntry& port) const {
+inline Expected<Any> TreeNode::lockstep_read_any(const lockstep_detail::PortEntry& port) const {
   Any value;
-  if (port.info.values().get(*place_, port.index, value)) return value;
-  return read_other<Any>(port);
+  if (port.info.lockstep_values().get(*lockstep_place_, port.index, value)) return value;
+  return lockstep_read_other<Any>(port);
 }
 
-inline void TreeNode::begin_thread() {
-  thread_ = std::make_unique<ThreadPorts>();
-  for (const detail::PortEntry& port : place_->registration->ports) {
-    thread_->inputs.push_back(read_any(port));
+inline void TreeNode::lockstep_begin_thread() {
+  lockstep_thread_ = std::make_unique<LockstepThreadPorts>();
+  for (const lockstep_detail::PortEntry& port : lockstep_place_->registration->ports) {
+    lockstep_thread_->inputs.push_back(lockstep_read_any(port));
   }
 }
 
-inline void TreeNode::end_thread() {
-  const auto ports = std::move(thread_);
+inline void TreeNode::lockstep_end_thread() {
+  const auto ports = std::move(lockstep_thread_);
   for (const auto& [port, value] : ports->outputs) {
-    const detail::PortValues& values = port->info.values();
-    values.set(*place_, port->index,
+    const lockstep_detail::PortValues& values = port->info.lockstep_values();
+    values.set(*lockstep_place_, port->index,
                value.isString() && values.type != LOCKSTEP_STRING && values.type != LOCKSTEP_ANY
                    ? values.parse(value.cast<std::string>())
                    : value);
@@ -160,8 +165,8 @@ inline void TreeNode::end_thread() {
 }
 
 template <class T>
-Expected<T> TreeNode::read_default(const detail::PortEntry& port) const {
-  const char* const given = place_->node->given(place_->caller, port.index);
+Expected<T> TreeNode::lockstep_read_default(const lockstep_detail::PortEntry& port) const {
+  const char* const given = lockstep_place_->node->given(lockstep_place_->caller, port.index);
   const Any& value = port.info.defaultValue();
   if (given != nullptr) {
     return nonstd::make_unexpected(
@@ -171,40 +176,40 @@ Expected<T> TreeNode::read_default(const detail::PortEntry& port) const {
     return nonstd::make_unexpected(StrCat("port '", port.name, "' has no value and no default"));
   }
   if (value.isString()) {
-    return detail::parse_with<T>(value.cast<std::string>(), config_.enums.get());
+    return lockstep_detail::parse_with<T>(value.cast<std::string>(), lockstep_config_.enums.get());
   }
   return value.tryCast<T>();
 }
 
 template <class T>
 Result TreeNode::setOutput(StringView name, const T& value) {
-  const detail::PortEntry* const port = find(name);
-  if (port == nullptr) return nonstd::make_unexpected(no_port(name));
+  const lockstep_detail::PortEntry* const port = lockstep_find_port(name);
+  if (port == nullptr) return nonstd::make_unexpected(lockstep_no_port(name));
   if (port->info.direction() == PortDirection::INPUT) {
     return nonstd::make_unexpected(StrCat("port '", name, "' is an input"));
   }
   using Value = std::decay_t<const T>;
-  if (thread_ != nullptr && lockstep::detail::in_worker) {
+  if (lockstep_thread_ != nullptr && lockstep::detail::in_worker) {
     if constexpr (std::is_same_v<Value, Any>) {
-      thread_->outputs.emplace_back(port, value);
+      lockstep_thread_->outputs.emplace_back(port, value);
     } else {
-      thread_->outputs.emplace_back(port, Any(value));
+      lockstep_thread_->outputs.emplace_back(port, Any(value));
     }
     return std::monostate{};
   }
-  const detail::PortValues& values = port->info.values();
+  const lockstep_detail::PortValues& values = port->info.lockstep_values();
   bool is_set = false;
   if constexpr (std::is_same_v<Value, Any>) {
-    is_set = values.set(*place_, port->index, value);
-  } else if (values.type == detail::port_type<Value>() || values.type == LOCKSTEP_ANY) {
-    is_set = detail::set<Value>(*place_, port->index, value);
-  } else if constexpr (detail::is_text_v<Value>) {
-    is_set = values.set(*place_, port->index, values.parse(value));
+    is_set = values.set(*lockstep_place_, port->index, value);
+  } else if (values.type == lockstep_detail::port_type<Value>() || values.type == LOCKSTEP_ANY) {
+    is_set = lockstep_detail::set<Value>(*lockstep_place_, port->index, value);
+  } else if constexpr (lockstep_detail::is_text_v<Value>) {
+    is_set = values.set(*lockstep_place_, port->index, values.parse(value));
   } else {
-    is_set = values.set(*place_, port->index, Any(value));
+    is_set = values.set(*lockstep_place_, port->index, Any(value));
   }
   if (is_set) return std::monostate{};
-  const char* const given = place_->node->given(place_->caller, port->index);
+  const char* const given = lockstep_place_->node->given(lockstep_place_->caller, port->index);
   if (given == nullptr || !isBlackboardPointer(given)) {
     return nonstd::make_unexpected(
         StrCat("port '", name, "' is bound to no entry; write ", name, "=\"{key}\""));
@@ -228,20 +233,21 @@ Expected<StampedValue<T>> TreeNode::getInputStamped(StringView name) const {
 }
 
 inline AnyPtrLocked TreeNode::getLockedPortContent(const std::string& name) {
-  const detail::PortEntry* const port = find(name);
+  const lockstep_detail::PortEntry* const port = lockstep_find_port(name);
   if (port == nullptr) return {};
-  const char* const given = place_->node->given(place_->caller, port->index);
+  const char* const given = lockstep_place_->node->given(lockstep_place_->caller, port->index);
   if (given == nullptr || !isBlackboardPointer(given)) return {};
-  return {read_any(*port).value_or(Any()), [this, port](const Any& changed) {
-            port->info.values().set(*place_, port->index, changed);
+  return {lockstep_read_any(*port).value_or(Any()), [this, port](const Any& changed) {
+            port->info.lockstep_values().set(*lockstep_place_, port->index, changed);
           }};
 }
 
 inline StringView TreeNode::getRawPortValue(const std::string& port) const {
-  for (const PortsRemapping* ports : {&config_.input_ports, &config_.output_ports}) {
+  for (const PortsRemapping* ports :
+       {&lockstep_config_.input_ports, &lockstep_config_.output_ports}) {
     if (const auto found = ports->find(port); found != ports->end()) return found->second;
   }
-  throw LogicError("[", port, "] is no port of '", name_, "'");
+  throw LogicError("[", port, "] is no port of '", lockstep_name_, "'");
 }
 
 inline bool TreeNode::isBlackboardPointer(StringView text, StringView* stripped) {

@@ -21,7 +21,7 @@
 
 namespace BT {
 
-namespace detail {
+namespace lockstep_detail {
 
 struct Place;
 // An object into a port of any type; lockstep/port_value.h has it.
@@ -62,7 +62,7 @@ bool convert_number(From from, To& to) {
   }
 }
 
-}  // namespace detail
+}  // namespace lockstep_detail
 
 class Any {
  public:
@@ -71,7 +71,7 @@ class Any {
   template <class T, class = std::enable_if_t<!std::is_same_v<std::decay_t<T>, Any>>>
   explicit Any(const T& value) : type_(typeid(std::decay_t<const T>)) {
     using Value = std::decay_t<const T>;
-    if constexpr (detail::is_text_v<Value>) {
+    if constexpr (lockstep_detail::is_text_v<Value>) {
       it_ = std::string(value);
       type_ = typeid(std::string);
     } else if constexpr (std::is_same_v<Value, std::uint64_t>) {
@@ -121,15 +121,16 @@ class Any {
     } else if constexpr (std::is_arithmetic_v<T>) {
       if (T number{}; to_number(number) || text_to_number(number)) return number;
       if (isNumber()) {
-        return nonstd::make_unexpected(
-            StrCat(number_text(), " has no exact value of type ", demangle(typeid(T))));
+        return nonstd::make_unexpected(StrCat(number_text(), " has no exact value of type ",
+                                              lockstep_detail::readable(typeid(T))));
       }
     } else if (const T* object = find<T>()) {
       return *object;
     }
-    return nonstd::make_unexpected(empty() ? std::string("the value is empty")
-                                           : StrCat("a value of type ", demangle(type_),
-                                                    " is none of type ", demangle(typeid(T))));
+    return nonstd::make_unexpected(
+        empty() ? std::string("the value is empty")
+                : StrCat("a value of type ", lockstep_detail::readable(type_), " is none of type ",
+                         lockstep_detail::readable(typeid(T))));
   }
 
   template <class T>
@@ -160,12 +161,12 @@ class Any {
   }
 
   // The object inside; null: it is a number, a text or empty.
-  const void* object() const {
+  const void* lockstep_object() const {
     const auto* const object = std::get_if<Object>(&it_);
     return object == nullptr ? nullptr : object->value.get();
   }
   // For ports of any type: false when it is no object, or the port does not take it.
-  bool store_object(const detail::Place& place, std::uint32_t port) const {
+  bool lockstep_store_object(const lockstep_detail::Place& place, std::uint32_t port) const {
     const auto* const object = std::get_if<Object>(&it_);
     return object != nullptr && object->ops->store(place, port, object->value.get());
   }
@@ -185,22 +186,23 @@ class Any {
       other.it_ = number_text();
       return;
     }
-    throw std::runtime_error(StrCat("Any::copyInto: a value of type ", demangle(type_),
-                                    " is none of type ", demangle(other.type_)));
+    throw std::runtime_error(StrCat("Any::copyInto: a value of type ",
+                                    lockstep_detail::readable(type_), " is none of type ",
+                                    lockstep_detail::readable(other.type_)));
   }
 
  private:
   struct Operations {
     const std::type_info& type;
     std::shared_ptr<void> (*clone)(const void*);
-    bool (*store)(const detail::Place& place, std::uint32_t port, const void* value);
+    bool (*store)(const lockstep_detail::Place& place, std::uint32_t port, const void* value);
   };
   template <class T>
   static std::shared_ptr<void> clone(const void* value) {
     return std::make_shared<T>(*static_cast<const T*>(value));
   }
   template <class T>
-  inline static const Operations kOperations{typeid(T), clone<T>, detail::store_object<T>};
+  inline static const Operations kOperations{typeid(T), clone<T>, lockstep_detail::store_object<T>};
 
   struct Object {
     std::shared_ptr<void> value;
@@ -217,13 +219,13 @@ class Any {
   template <class T>
   bool to_number(T& number) const {
     if (const auto* whole = std::get_if<std::int64_t>(&it_)) {
-      return detail::convert_number(*whole, number);
+      return lockstep_detail::convert_number(*whole, number);
     }
     if (const auto* whole = std::get_if<std::uint64_t>(&it_)) {
-      return detail::convert_number(*whole, number);
+      return lockstep_detail::convert_number(*whole, number);
     }
     const auto* const real = std::get_if<double>(&it_);
-    return real != nullptr && detail::convert_number(*real, number);
+    return real != nullptr && lockstep_detail::convert_number(*real, number);
   }
   // What a text begins with.
   template <class T>
