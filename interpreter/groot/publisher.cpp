@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/own_thread.h"
+#include "system/own_thread.h"
 
 namespace lockstep {
 namespace {
@@ -14,9 +14,8 @@ namespace {
 constexpr std::chrono::milliseconds kLook{100};
 // A client that has not asked for so long is gone.
 constexpr std::chrono::seconds kAbsent{5};
-// One that has asked since then gets the end of the run, if it asks within kPatience.
+// One that has asked since then gets the end of the run, if it asks before nobody has patience.
 constexpr std::chrono::seconds kPresent{1};
-constexpr std::chrono::milliseconds kPatience{500};
 
 }  // namespace
 
@@ -49,7 +48,9 @@ void GrootPublisher::standing(Ticker& ticker) {
 
 void GrootPublisher::run_ended(Ticker& ticker, const RunEnd& end) {
   snapshots_.run_ended(ticker, end);
+  if (end.budget != nullptr) patience_ = end.budget->share(patience_);
   stop();
+  if (is_late_ && end.budget != nullptr) end.budget->used_up_by("Groot2");
 }
 
 void GrootPublisher::stop() {
@@ -75,10 +76,13 @@ void GrootPublisher::serve_to_the_end() {
   eventfd_read(wake_.number(), &rung);
   const Nanoseconds now = monotonic_now();
   if (!heard_ || now - *heard_ > kPresent) return;
-  for (auto left = kPatience; left.count() > 0;) {
-    if (serve_one(left) == GrootRequest::Status) return;
-    left = std::chrono::duration_cast<std::chrono::milliseconds>(now + kPatience - monotonic_now());
+  const auto left = [&] {
+    return std::chrono::ceil<std::chrono::milliseconds>(now + patience_ - monotonic_now());
+  };
+  while (left().count() > 0) {
+    if (serve_one(left()) == GrootRequest::Status) return;
   }
+  is_late_ = true;
 }
 
 std::optional<GrootRequest> GrootPublisher::serve_one(std::chrono::milliseconds longest) {

@@ -9,11 +9,11 @@
 #include <thread>
 
 #include "core/clock.h"
-#include "core/file_descriptor.h"
 #include "groot/answers.h"
 #include "groot/sockets.h"
 #include "groot/status_feed.h"
 #include "runtime/observer.h"
+#include "system/file_descriptor.h"
 #include "view/snapshot_feed.h"
 
 namespace lockstep {
@@ -50,8 +50,10 @@ class GrootPublisher final : public Observer {
   std::optional<GrootSockets> sockets_;
   FileDescriptor wake_;  // an eventfd
   std::atomic<bool> stopping_{false};
-  std::optional<Nanoseconds> heard_;  // the last request came at this time
-  bool is_absent_ = false;            // nobody has asked for long
+  std::optional<Nanoseconds> heard_;                       // the last request came at this time
+  bool is_absent_ = false;                                 // nobody has asked for long
+  Nanoseconds patience_ = std::chrono::milliseconds(500);  // with the last request, at the end
+  bool is_late_ = false;                                   // it did not come
   std::thread thread_;
 };
 

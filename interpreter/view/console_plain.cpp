@@ -48,8 +48,8 @@ void ConsolePlain::run_ended(Ticker& ticker, const RunEnd& end) {
   after_tick(ticker, halts);
   tell_left_out();
   if (short_waits_ > 0) print(fmt::format("... {} left out", counted(short_waits_, "short wait")));
-  if (end.fault) print("fault: " + fault_text(tree_, *end.fault));
-  print(fmt::format("run ends: {} ({}) after {}", to_string(end.result()), to_string(end.reason),
+  // What the fault is, the message of the command says.
+  print(fmt::format("run ends: {} after {}", ending(to_string(end.result()), to_string(end.reason)),
                     counted(end.ticks, "tick")));
 }
 

@@ -1,18 +1,23 @@
 #include "web/feed.h"
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include "recording/write/json_lines.h"
 #include "recording/write/packet_printer.h"
+#include "web/event_counts.h"
 
 namespace lockstep {
 namespace {
 
-// Room for some lines that have all nodes, and for half a second of a smaller tree.
+// Of a line; no text in it has a line end.
+constexpr std::string_view kFullEnd = ",\"full\":true}\n";
+
+// Room for some lines that have all nodes, and for seconds of a smaller tree at 1 kHz.
 std::size_t room_for(const Tree& tree) {
-  constexpr std::size_t kLines = 3, kLeast = 256u << 10;
-  return std::max(kLeast, kLines * packet_size(tree.nodes.size(), kLeast / 4));
+  constexpr std::size_t kLines = 3, kLeast = 2u << 20;
+  return std::max(kLeast, kLines * packet_size(tree.nodes.size(), kLeast / 8));
 }
 
 }  // namespace
@@ -22,7 +27,10 @@ MonitorFeed::MonitorFeed(const Tree& tree, RunDescription run, RealTime real_tim
       deadlines_(run.rate_hz),
       packets_(tree, std::move(run), json_lines()),
       ring_(room_for(tree)),
-      room_(64u << 10) {}
+      room_(64u << 10),
+      counts_(std::make_unique<EventCounts>()) {}
+
+MonitorFeed::~MonitorFeed() = default;
 
 void MonitorFeed::log(std::string_view who, std::string_view level, std::string_view text) {
   packets_.log(who, level, text);
@@ -34,12 +42,25 @@ void MonitorFeed::run_started(Ticker&, const RunStart& start) {
 }
 
 // Only a tick whose line is due asks leaves for their progress.
-void MonitorFeed::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds) {
+void MonitorFeed::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds time) {
   began_ = real_time_();
+  if (is_real_time_) publish_before_late(time);
   is_due_ = began_ - published_ >= kPeriod;
   if (!is_due_) return;
   published_ = began_;
   packets_.before_tick(ticker);
+}
+
+// That a tick began late is seen from the one before it, so both have lines. Of that one nothing
+// but its time is left to tell.
+void MonitorFeed::publish_before_late(Nanoseconds time) {
+  if (!has_ticked_ || 2 * (time - last_.time) < 3 * deadlines_.at(1)) return;
+  Packet packet{.text = "]}\n"};
+  packet.head.is_tick = 1;
+  packet.head.tick = last_.tick;
+  packet.head.time = last_.time.count();
+  if (!is_shown_) is_shown_ = push(packet);
+  hurry();
 }
 
 void MonitorFeed::after_tick(Ticker& ticker, const TickReport& report) {
@@ -48,7 +69,7 @@ void MonitorFeed::after_tick(Ticker& ticker, const TickReport& report) {
   has_ticked_ = true;
   is_shown_ = false;
   faults_.insert(faults_.end(), report.faults.begin(), report.faults.end());
-  if (is_due_) publish(ticker);
+  publish(ticker);
 }
 
 // Another thread may take them in between: then they count for the next time, too.
@@ -70,8 +91,8 @@ std::optional<MonitorFeed::Times> MonitorFeed::take_times() {
 
 // Nothing follows for a while, so what was held back is due; and so is the tick after it.
 void MonitorFeed::standing(Ticker& ticker) {
-  const bool is_due = !is_shown_ || wants_full_.load(std::memory_order_relaxed);
-  if (has_ticked_ && is_due) publish(ticker);
+  is_due_ = !is_shown_ || wants_full_.load(std::memory_order_relaxed);
+  if (has_ticked_ && is_due_) publish(ticker);
   hurry();
 }
 
@@ -79,19 +100,69 @@ void MonitorFeed::run_ended(Ticker& ticker, const RunEnd& end) {
   end_ = packets_.end(ticker, end, 0);
 }
 
+// A node that begins is asked for its progress in the next tick, so that nobody takes that of its
+// last activation for it.
 void MonitorFeed::publish(Ticker& ticker) {
-  if (wants_full_.exchange(false, std::memory_order_relaxed)) packets_.start_over();
+  if (is_due_ && wants_full_.exchange(false, std::memory_order_relaxed)) packets_.start_over();
   last_.faults = faults_;
-  if (!ring_.push(packets_.tick(ticker, last_))) return;
-  packets_.keep();
-  faults_.clear();
-  is_shown_ = true;
+  const Packet packet = packets_.tick(ticker, last_);
+  if (packets_.has_begun()) hurry();
+  if (!is_due_ && !packets_.has_events()) return;
+  if (push(packet)) {
+    packets_.keep();
+    faults_.clear();
+    is_shown_ = true;
+  } else if (packets_.has_events()) {
+    if (lost_++ == 0) lost_from_ = last_.tick;
+  }
+}
+
+bool MonitorFeed::push(Packet packet) {
+  packet.head.lost = lost_;
+  packet.head.lost_from = lost_from_;
+  const bool is_in = ring_.push(packet) || (!is_real_time_ && wait_to_push(packet));
+  if (is_in) lost_ = 0;
+  return is_in;
+}
+
+// Time stands still meanwhile. False: nobody takes lines, or it is longer than the whole ring.
+bool MonitorFeed::wait_to_push(const Packet& packet) {
+  constexpr std::chrono::milliseconds kLook{100};
+  while (has_taker_.load(std::memory_order_acquire)) {
+    const std::uint32_t seen = room_made_.rung();
+    is_full_.store(true);
+    if (ring_.push(packet)) return true;
+    if (ring_.empty()) return ring_.push(packet);
+    wake_();
+    room_made_.wait(seen, kLook);
+  }
+  return false;
+}
+
+void MonitorFeed::begin_taking(std::function<void()> wake) {
+  wake_ = std::move(wake);
+  has_taker_.store(true, std::memory_order_release);
+}
+
+void MonitorFeed::end_taking() {
+  has_taker_.store(false, std::memory_order_release);
+  room_made_.ring();
 }
 
 void MonitorFeed::take(std::string& lines) {
+  const std::size_t begin = lines.size();
   PacketPrinter printer(ring_, json_lines());
   for (auto text = printer.print(room_); !text.empty(); text = printer.print(room_)) lines += text;
+  std::vector<std::string> counted;
+  counts_->take(ring_, ring_.taken(), printer.finished(), counted);
   ring_.take_until(printer.finished());
+  if (is_full_.exchange(false)) room_made_.ring();
+  std::size_t at = begin;
+  for (const std::string& counts : counted) {
+    at = lines.find(kFullEnd, at);
+    lines.insert(at, counts);
+    at += counts.size() + kFullEnd.size();
+  }
 }
 
 }  // namespace lockstep

@@ -1,10 +1,14 @@
-// Passes a run to the monitor's server: lines of a recording, at most twenty a second. The tick
-// thread copies what has changed since the last line into a ring of fixed size; another thread
-// takes it out. A line that does not fit is left out, and the next one has its changes too. A tick
-// allocates only for lines that leaves log, for faults, and for entries whose text grows.
+// Passes a run to the monitor's server, as lines of a recording: each tick in which something
+// happens, and twenty times a second one in which nothing but progress changes. The tick thread
+// copies what has changed since the last line into a ring of fixed size; another thread takes it
+// out. On a virtual clock a tick waits until there is room. On a real clock it never does: a line
+// that does not fit is left out and counted, and the next one has its changes too. A tick allocates
+// only for lines that leaves log, for faults, and for entries whose text grows.
 #pragma once
 
 #include <atomic>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,8 +17,11 @@
 #include "recording/write/run_packets.h"
 #include "runtime/deadlines.h"
 #include "runtime/observer.h"
+#include "system/bell.h"
 
 namespace lockstep {
+
+class EventCounts;
 
 class MonitorFeed final : public Observer {
  public:
@@ -24,6 +31,7 @@ class MonitorFeed final : public Observer {
 
   // `real_time` is for tests.
   MonitorFeed(const Tree& tree, RunDescription run, RealTime real_time = monotonic_now);
+  ~MonitorFeed() override;
 
   // The next tick gets a line, however soon it comes.
   void hurry() { published_ = Nanoseconds(0); }
@@ -41,8 +49,12 @@ class MonitorFeed final : public Observer {
   // Once run_started, or run_ended, has returned.
   const std::string& header() const { return header_; }
   const std::string& end() const { return end_; }
-  // Whole lines: those since the last call.
+  // Adds whole lines: those since the last call. One with the whole state also has what the run has
+  // had of everything that is counted (web/event_counts.h).
   void take(std::string& lines);
+  // From here on somebody takes them, who can be woken by the tick thread; and not any more.
+  void begin_taking(std::function<void()> wake);
+  void end_taking();
   // The longest tick and the largest lateness since the last call; nothing on a virtual clock, and
   // when there was no tick.
   struct Times {
@@ -54,6 +66,9 @@ class MonitorFeed final : public Observer {
 
  private:
   void publish(Ticker& ticker);
+  void publish_before_late(Nanoseconds time);
+  bool push(Packet packet);
+  bool wait_to_push(const Packet& packet);
   void note_times(Nanoseconds time);
 
   const RealTime real_time_;
@@ -69,9 +84,16 @@ class MonitorFeed final : public Observer {
   Nanoseconds published_{0};                       // when
   bool is_due_ = false;                            // a line, after this tick
   bool has_ticked_ = false;
-  bool is_shown_ = true;  // the last tick has its line
+  bool is_shown_ = true;                    // the last tick has its line
+  std::uint64_t lost_ = 0, lost_from_ = 0;  // ticks whose line found no room, since the last line
   std::atomic<bool> wants_full_{true};
-  std::vector<char> room_;  // of the taking thread
+  std::function<void()> wake_;
+  std::atomic<bool> has_taker_{false}, is_full_{false};
+  Bell room_made_;
+
+  // Of the taking thread.
+  std::vector<char> room_;
+  const std::unique_ptr<EventCounts> counts_;
 };
 
 }  // namespace lockstep

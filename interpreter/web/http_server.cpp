@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -26,7 +27,7 @@ constexpr unsigned kLongestSilence = 30;     // seconds, of a client that takes 
 constexpr std::size_t kPiece = 8u << 10;     // bytes of a stream that are read at once
 // From the first byte to the last: of a request, of the answer.
 constexpr std::chrono::seconds kLongestRequest{10}, kLongestAnswer{120};
-constexpr std::chrono::milliseconds kBetweenLooks{500};
+constexpr std::chrono::milliseconds kBetweenLooks{100};
 
 std::optional<std::string> header(MHD_Connection* connection, const char* name) {
   const char* value = MHD_lookup_connection_value(connection, MHD_HEADER_KIND, name);
@@ -101,7 +102,7 @@ struct HttpServer::Implementation {
                             MHD_ConnectionNotificationCode code) {
     auto& it = *static_cast<Implementation*>(self);
     if (code == MHD_CONNECTION_NOTIFY_STARTED) {
-      it.deadlines[connection] = monotonic_now() + kLongestRequest;
+      it.deadlines[connection] = {.at = monotonic_now() + kLongestRequest, .asks = true};
     } else {
       it.deadlines.erase(connection);
     }
@@ -146,7 +147,8 @@ struct HttpServer::Implementation {
       it = {.status = MHD_HTTP_SERVICE_UNAVAILABLE, .body = "too many watch this run\n"};
     }
     const bool is_endless = it.stream && it.stream->is_endless();
-    deadlines[connection] = is_endless ? Nanoseconds::max() : monotonic_now() + kLongestAnswer;
+    deadlines[connection] = {
+        .at = is_endless ? Nanoseconds::max() : monotonic_now() + kLongestAnswer, .asks = false};
     return send(connection, it);
   }
 
@@ -180,23 +182,36 @@ struct HttpServer::Implementation {
     return response;
   }
 
-  // Each byte that comes now and then keeps a connection alive for libmicrohttpd, not for us.
-  void cut_off_late() {
+  // Each byte that comes now and then keeps a connection alive for libmicrohttpd, not for us. And
+  // it does not see that a client has left if the end came together with the last bytes.
+  void cut_off() {
     const Nanoseconds now = monotonic_now();
     if (now < next_look) return;
     next_look = now + kBetweenLooks;
     for (const auto& [connection, deadline] : deadlines) {
-      if (now < deadline) continue;
       const auto* info = MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CONNECTION_FD);
-      shutdown(info->connect_fd, SHUT_RDWR);
+      const bool has_left = deadline.asks && is_at_end(info->connect_fd);
+      if (has_left || now >= deadline.at) shutdown(info->connect_fd, SHUT_RDWR);
     }
   }
+
+  // Nothing comes any more, and everything that came has been read.
+  static bool is_at_end(int socket) {
+    char byte = 0;
+    const ssize_t count = recv(socket, &byte, 1, MSG_PEEK | MSG_DONTWAIT);
+    return count == 0 || (count < 0 && errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR);
+  }
+
+  struct Deadline {
+    Nanoseconds at;
+    bool asks;  // its request is not complete
+  };
 
   Answering& answering;
   MHD_Daemon* daemon = nullptr;
   std::size_t streams = 0;
   std::unordered_set<MHD_Connection*> waiting;  // suspended: their stream has nothing
-  std::unordered_map<MHD_Connection*, Nanoseconds> deadlines;
+  std::unordered_map<MHD_Connection*, Deadline> deadlines;
   Nanoseconds next_look{0};
 };
 
@@ -244,7 +259,7 @@ bool HttpServer::serve(FileDescriptor connection) {
 // What libmicrohttpd knows to be ready does not make its descriptor readable.
 void HttpServer::run() {
   constexpr int kMostTurns = 64;
-  it_->cut_off_late();
+  it_->cut_off();
   for (int turn = 0; turn == 0 || (has_more() && turn < kMostTurns); ++turn) MHD_run(it_->daemon);
 }
 

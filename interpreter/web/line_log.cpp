@@ -26,19 +26,22 @@ void LineLog::add_header(std::string_view line) {
 }
 
 void LineLog::add(std::string_view line) {
-  Event event{
-      .text = {}, .tick = tick_of_line(line), .is_full = line.ends_with(",\"full\":true}\n")};
-  if (event.tick) event.text = fmt::format("id: {}\n", *event.tick);
-  event.text += kData;
-  event.line = event.text.size();
-  (event.text += line) += '\n';
-  const bool is_full = event.is_full;
-  push(std::move(event));
-  if (is_full && !state_.empty()) push({.text = state_});
+  const auto tick = tick_of_line(line);
+  const bool is_full = line.ends_with(",\"full\":true}\n");
+  std::string text = tick ? fmt::format("id: {}\n", *tick) : std::string();
+  text += kData;
+  const std::size_t begin = text.size();
+  (text += line) += '\n';
+  push({.text = std::make_shared<const std::string>(std::move(text)),
+        .line = begin,
+        .tick = tick,
+        .is_full = is_full});
+  if (is_full && state_) push({.text = state_});
 }
 
 void LineLog::add_event(std::string_view name, std::string_view json) {
-  std::string text = fmt::format("event: {}\n{}{}\n\n", name, kData, json);
+  auto text =
+      std::make_shared<const std::string>(fmt::format("event: {}\n{}{}\n\n", name, kData, json));
   if (name == "state") state_ = text;
   push({.text = std::move(text)});
 }
@@ -49,8 +52,10 @@ void LineLog::push(Event event) {
     since_full_ = 0;
     is_somebody_behind_ = false;
   }
-  bytes_ += event.text.size();
-  since_full_ += event.text.size();
+  event.begin = total_;
+  total_ += event.text->size();
+  bytes_ += event.text->size();
+  since_full_ += event.text->size();
   events_.push_back(std::move(event));
   drop_old();
 }
@@ -59,7 +64,7 @@ void LineLog::push(Event event) {
 void LineLog::drop_old() {
   while (bytes_ > kRoom && last_full_ && first_ < *last_full_) {
     do {
-      bytes_ -= events_.front().text.size();
+      bytes_ -= events_.front().text->size();
       events_.pop_front();
       ++first_;
     } while (!events_.front().is_full);
@@ -70,7 +75,7 @@ bool LineLog::wants_full() const {
   constexpr std::uint64_t kEvents = 20;
   constexpr std::size_t kTimes = 4;  // as long as a full line
   if (!last_full_ || is_somebody_behind_) return true;
-  return end() - *last_full_ > kEvents && since_full_ > kTimes * at(*last_full_).text.size();
+  return end() - *last_full_ > kEvents && since_full_ > kTimes * at(*last_full_).text->size();
 }
 
 LineLog::Place LineLog::begin(std::optional<std::uint64_t> seen) const {
@@ -82,13 +87,15 @@ LineLog::Place LineLog::begin(std::optional<std::uint64_t> seen) const {
   return {.event = last_full_.value_or(first_)};
 }
 
-std::optional<std::size_t> LineLog::read(Place& place, std::span<char> to) {
-  if (place.event < first_ && place.offset > 0) return std::nullopt;
+std::size_t LineLog::read(Place& place, std::span<char> to) {
   std::size_t count = 0;
   while (count < to.size()) {
-    if (place.offset == 0) catch_up(place);
-    if (place.event == end()) break;
-    const std::string& text = at(place.event).text;
+    if (!place.text) {
+      catch_up(place);
+      if (place.event == end()) break;
+      place.text = at(place.event).text;
+    }
+    const std::string& text = *place.text;
     const std::size_t fit = std::min(text.size() - place.offset, to.size() - count);
     std::copy_n(text.data() + place.offset, fit, to.data() + count);
     count += fit;
@@ -98,9 +105,17 @@ std::optional<std::size_t> LineLog::read(Place& place, std::span<char> to) {
   return count;
 }
 
+bool LineLog::is_behind(const Place& place) const {
+  constexpr std::size_t kFullLines = 4;
+  if (place.event < first_) return true;
+  if (place.event == end()) return false;
+  const std::size_t most =
+      is_over_ ? kMostAtEnd : std::max(kMostBehind, kFullLines * at(*last_full_).text->size());
+  return total_ - at(place.event).begin > most;
+}
+
 void LineLog::catch_up(Place& place) {
-  const bool is_behind = end() - place.event > kMostBehind || place.event < first_;
-  if (!is_behind || !last_full_) return;
+  if (!last_full_ || !is_behind(place)) return;
   if (place.event < *last_full_) {
     place.event = *last_full_;
   } else {
@@ -115,7 +130,7 @@ std::string_view LineLog::header_line() const {
 std::string_view LineLog::line(std::uint64_t event) const {
   const Event& it = at(event);
   if (it.line == 0) return {};
-  return std::string_view(it.text).substr(it.line, it.text.size() - it.line - 1);
+  return std::string_view(*it.text).substr(it.line, it.text->size() - it.line - 1);
 }
 
 }  // namespace lockstep

@@ -1,10 +1,12 @@
 // The last lines of a run, for any number of listeners: each reads on from its place, at its pace,
-// and keeps nothing else. A listener that falls behind goes on at a line that has the whole state.
+// and keeps nothing else. A listener that falls behind goes on at a line that has the whole state,
+// and what was counted until then.
 // The log has bounded size and begins with such a line.
 #pragma once
 
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -18,12 +20,15 @@ std::optional<std::uint64_t> tick_of_line(std::string_view line);
 class LineLog {
  public:
   static constexpr std::size_t kRoom = 4u << 20;  // bytes, or what a few of the longest lines take
-  static constexpr std::uint64_t kMostBehind = 40;  // events
+  static constexpr std::size_t kMostBehind = 1u << 20;  // bytes, likewise
+  static constexpr std::size_t kMostAtEnd = 64u << 10;  // bytes, when there is little time left
 
   // Where a listener is.
   struct Place {
     std::uint64_t event = 0;  // its number, counted from the first of all
-    std::size_t offset = 0;   // bytes of it that were read
+    // Its text, once it was begun: it is read to its end, also when the log has dropped it.
+    std::shared_ptr<const std::string> text = {};
+    std::size_t offset = 0;  // bytes of it that were read
   };
 
   // The first line, and those that follow: of ticks, the end. Each ends in '\n'.
@@ -43,9 +48,8 @@ class LineLog {
   std::string_view header() const { return header_; }
   // Where a listener begins that has seen the ticks up to this one, or none.
   Place begin(std::optional<std::uint64_t> seen) const;
-  // Copies what comes next and moves on. 0: nothing yet. Nothing: the rest of a line that was begun
-  // is not there any more.
-  std::optional<std::size_t> read(Place& place, std::span<char> to);
+  // Copies what comes next and moves on. 0: nothing yet.
+  std::size_t read(Place& place, std::span<char> to);
 
   // As lines: the header and the rest of the log.
   std::string_view header_line() const;
@@ -60,24 +64,27 @@ class LineLog {
 
  private:
   struct Event {
-    std::string text;      // as it is sent
-    std::size_t line = 0;  // where in it the line begins; 0: it has none
+    std::shared_ptr<const std::string> text;  // as it is sent
+    std::size_t line = 0;                     // where in it the line begins; 0: it has none
     std::optional<std::uint64_t> tick = {};
     bool is_full = false;
+    std::uint64_t begin = 0;  // bytes of all events before it
   };
 
   void push(Event event);
   void drop_old();
   const Event& at(std::uint64_t event) const { return events_[event - first_]; }
+  bool is_behind(const Place& place) const;
   void catch_up(Place& place);
 
   std::string header_;
-  std::string state_;  // the last event of this name
+  std::shared_ptr<const std::string> state_;  // the last event of this name
   std::deque<Event> events_;
   std::uint64_t first_ = 0;                      // number of the first event that is kept
   std::optional<std::uint64_t> last_full_ = {};  // likewise
-  std::size_t bytes_ = 0;
-  std::size_t since_full_ = 0;  // bytes
+  std::size_t bytes_ = 0;                        // of what is kept
+  std::uint64_t total_ = 0;                      // bytes of all events so far
+  std::size_t since_full_ = 0;                   // bytes
   bool is_over_ = false;
   bool is_somebody_behind_ = false;  // with no full line to go on at
 };

@@ -4,10 +4,11 @@
 #include <poll.h>
 #include <sys/eventfd.h>
 
+#include <memory>
 #include <utility>
 
 #include "core/json.h"
-#include "core/own_thread.h"
+#include "system/own_thread.h"
 #include "web/history.h"
 #include "web/orders.h"
 #include "web/page.h"
@@ -20,6 +21,9 @@ namespace {
 constexpr std::chrono::milliseconds kNap{25};
 // How long the end of a run is offered to clients that do not read it.
 constexpr std::chrono::milliseconds kPatience{500};
+
+// How long a page that is loaded again may take to come back.
+constexpr std::chrono::seconds kReload{3};
 
 // How often a listener gets something, so that it knows that the run is there, and the server
 // who has gone.
@@ -38,9 +42,8 @@ class Events final : public WebStream {
 
   Piece read(std::span<char> to) override {
     if (is_at_header_) return read_header(to);
-    const auto count = log_.read(place_, to);
-    if (!count) return {Piece::What::End};
-    if (*count > 0) return bytes(*count);
+    const std::size_t count = log_.read(place_, to);
+    if (count > 0) return bytes(count);
     if (log_.is_over()) return {Piece::What::End};
     if (monotonic_now() - heard_ < kBeat) return {Piece::What::Wait};
     constexpr std::string_view kComment = ":\n\n";
@@ -86,11 +89,14 @@ Monitor::Monitor(const Tree& tree, MonitorOptions options)
       control_(options.control),
       feed_(tree, std::move(options.run)),
       on_attached_(std::move(options.on_attached)),
-      wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
+      wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
+      linger_(options.linger),
+      stop_(std::move(options.stop)),
+      on_linger_(std::move(options.on_linger)) {}
 
 Monitor::~Monitor() {
   if (!thread_.joinable()) return;
-  stopping_ = true;
+  stopping_ = gives_up_ = true;
   eventfd_write(wake_.number(), 1);
   thread_.join();
 }
@@ -122,7 +128,13 @@ void Monitor::run_started(Ticker& ticker, const RunStart& start) {
   is_real_time_ = start.real_time;
   feed_.run_started(ticker, start);
   log_.add_header(feed_.header());
-  thread_ = own_thread([this] { serve(); });
+  feed_.begin_taking([this] { eventfd_write(wake_.number(), 1); });
+  thread_ = own_thread([this] {
+    // Also when memory runs out: a tick may wait for it.
+    const std::unique_ptr<MonitorFeed, void (*)(MonitorFeed*)> end(
+        &feed_, [](MonitorFeed* feed) { feed->end_taking(); });
+    serve();
+  });
 }
 
 void Monitor::before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) {
@@ -134,18 +146,23 @@ void Monitor::after_tick(Ticker& ticker, const TickReport& report) {
   feed_.after_tick(ticker, report);
 }
 
-// Whoever comes while the run is paused begins with the state in which it is.
+// Whoever comes while the run is paused begins with the state in which it is, and whoever is behind
+// at its end goes on with that.
 void Monitor::standing(Ticker& ticker) {
-  if (control_ != nullptr && control_->is_paused()) feed_.want_full();
+  feed_.want_full();
   feed_.standing(ticker);
   eventfd_write(wake_.number(), 1);
 }
 
 void Monitor::run_ended(Ticker& ticker, const RunEnd& end) {
   feed_.run_ended(ticker, end);
+  patience_ = end.budget == nullptr ? kPatience : end.budget->share(kPatience);
   stopping_ = true;
   eventfd_write(wake_.number(), 1);
+  if (linger_ > Nanoseconds(0)) return;
   thread_.join();
+  const bool has_readers = entrance_ && entrance_->server.streams() > 0;
+  if (has_readers && end.budget != nullptr) end.budget->used_up_by("a browser of the monitor");
 }
 
 void Monitor::serve() {
@@ -162,20 +179,46 @@ void Monitor::serve_to_the_end() {
   take_lines();
   if (!feed_.end().empty()) log_.add(feed_.end());
   log_.add_event("end", "{}");
+  if (entrance_) serve_those_who_linger();
   log_.close();
   if (!entrance_) return;
   HttpServer& server = entrance_->server;
   server.wake_streams();
-  const Nanoseconds until = monotonic_now() + kPatience;
+  const Nanoseconds until = monotonic_now() + patience_;
   for (server.run(); server.streams() > 0 && monotonic_now() < until; server.run()) wait(kNap);
 }
 
-// A pause is reported after the line of the last tick before it.
+void Monitor::serve_those_who_linger() {
+  HttpServer& server = entrance_->server;
+  const Nanoseconds until = monotonic_now() + linger_;
+  Nanoseconds seen{0};
+  const auto is_awaited = [&] {
+    const Nanoseconds now = monotonic_now();
+    if (server.streams() > 0) seen = now;
+    return seen > Nanoseconds(0) && now < seen + kReload && now < until;
+  };
+  for (bool is_told = false; is_awaited() && !gives_up_ && !stop_();) {
+    if (is_waited_for_ && !std::exchange(is_told, true)) on_linger_();
+    wake_streams();
+    server.run();
+    wait(kNap);
+  }
+}
+
+void Monitor::linger() {
+  is_waited_for_ = true;
+  if (thread_.joinable()) thread_.join();
+}
+
+// A pause is reported after the line of the last tick before it, and nothing before the first line
+// but a pause.
 void Monitor::tell_status() {
   const auto state = control_ != nullptr ? control_->state() : RunControl::State();
   take_lines();
   const Nanoseconds now = monotonic_now();
-  if (const auto status = status_.next(state, feed_, is_real_time_, now)) {
+  const bool is_early = !state.is_paused && !log_.last_full();
+  const auto status = is_early ? std::nullopt : status_.next(state, feed_, is_real_time_, now);
+  if (status) {
     log_.add_event("state", *status);
     wake_streams();
   }
@@ -232,8 +275,9 @@ WebAnswer Monitor::answer(const WebRequest& request) {
 // What the recording has is followed by a line with the whole state: by a new one, if ticks come.
 std::unique_ptr<WebStream> Monitor::history() {
   const bool is_paused = control_ != nullptr && control_->state().is_paused;
-  if (!is_paused) feed_.want_full();
-  return std::make_unique<History>(log_, recording_, !is_paused);
+  const bool goes_on = !is_paused && !stopping_;
+  if (goes_on) feed_.want_full();
+  return std::make_unique<History>(log_, recording_, goes_on);
 }
 
 WebAnswer Monitor::page() const {

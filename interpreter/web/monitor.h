@@ -8,8 +8,8 @@
 #include <string>
 #include <thread>
 
-#include "core/file_descriptor.h"
 #include "core/problem.h"
+#include "system/file_descriptor.h"
 #include "web/answer.h"
 #include "web/attach_socket.h"
 #include "web/feed.h"
@@ -25,6 +25,12 @@ struct MonitorOptions {
   RunDescription run;
   std::string recording = {};     // the file that the run writes; "": none
   RunControl* control = nullptr;  // what clients may order; null: they may only look
+  // After the end, as long as somebody has the page open, but no longer than this, and not after
+  // `stop`, which the monitor's thread asks, the page can be loaded again.
+  Nanoseconds linger{0};
+  std::function<bool()> stop = [] { return false; };
+  // Called on that thread when somebody is waited for, after Monitor::linger.
+  std::function<void()> on_linger = [] {};
   // Called on the monitor's thread when it was opened through the socket.
   std::function<void(const std::string& link)> on_attached = {};
 };
@@ -39,6 +45,8 @@ class Monitor final : public Observer, private Answering {
   std::string open(ServerSocket listener);
   // The same later, when somebody asks for it.
   void open_when_asked(AttachSocket socket) { socket_.emplace(std::move(socket)); }
+  // After the run, when nothing else is to be done: waits until those who linger have left.
+  void linger();
   // What a leaf logs; from any thread.
   void log(std::string_view who, std::string_view level, std::string_view text);
 
@@ -63,6 +71,7 @@ class Monitor final : public Observer, private Answering {
   void wake_streams();
   void serve();
   void serve_to_the_end();
+  void serve_those_who_linger();
   void take_lines();
   void tell_status();
   void wait(std::chrono::milliseconds longest);
@@ -86,6 +95,12 @@ class Monitor final : public Observer, private Answering {
   std::atomic<bool> stopping_{false};
   std::string lines_;  // for its room
   Nanoseconds woken_{0};
+  Nanoseconds patience_{0};  // with browsers, at the end
+  const Nanoseconds linger_;
+  const std::function<bool()> stop_;
+  const std::function<void()> on_linger_;
+  std::atomic<bool> is_waited_for_{false};
+  std::atomic<bool> gives_up_{false};
   std::thread thread_;
 };
 

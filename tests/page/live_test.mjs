@@ -1,8 +1,9 @@
 // A run that goes on, in the browser: watched, controlled, lost and found again.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { SOURCE, cable, close, goToTick, open, soon, start, tree, violations } from "./support.mjs";
+import { SOURCE, cable, close, goToTick, loadModel, open, pageOf, path, soon, start, tree, violations } from "./support.mjs";
 
 // What is lost, or wrong, on purpose is a complaint of the browser, too.
 after(() => close(/net::ERR_|status of 400/));
@@ -58,6 +59,25 @@ test("the door opens: the base is seen held at 0.25, tick by tick, back and on",
   await page.context().close();
 });
 
+test("on a phone the control is one row, and the rest of it one button away", async () => {
+  const run = await start("run", tree(`<Sequence memory="true"><Script code="step := 0.001"/><Advance step="0"/></Sequence>`),
+    "--monitor-control", "--clock", "virtual", "--monitor-paused");
+  const page = await open(run.link, { viewport: { width: 400, height: 850 }, hasTouch: true });
+  await state(page, "paused").waitFor();
+  const button = (name) => page.getByRole("button", { name, exact: true });
+  const tops = async () => Promise.all(["▶ resume", "one tick", "more", "■ halt"].map(async (name) => (await button(name).boundingBox()).y));
+  assert.equal(new Set(await tops()).size, 1);
+  assert.equal(await page.getByRole("combobox", { name: "Entry" }).isVisible(), false);
+  await button("more").click();
+  await page.getByRole("combobox", { name: "Entry" }).waitFor();
+  assert.equal(new Set(await tops()).size, 1);
+  await button("■ halt").click();
+  await page.getByRole("button", { name: "really halt" }).waitFor();
+  assert.deepEqual(await violations(page), []);
+  run.process.kill("SIGTERM");
+  await page.context().close();
+});
+
 test("an entry is set, a wrong value is refused with a reason", async () => {
   const { run, page } = await watch(tree(
     `<Sequence memory="true"><Script code="step := 0.001"/><Repeat><Advance step="{step}"/></Repeat></Sequence>`));
@@ -106,6 +126,42 @@ for (const how of ["cut", "stall"]) {
   });
 }
 
+test("a run is saved as a page of its own, and a reload after the end asks first", async () => {
+  const { run, page } = await watch(tree(`<Sequence memory="true"><Wait seconds="0.5"/><AlwaysFailure name="no &lt;script>"/></Sequence>`));
+  await page.getByRole("button", { name: "resume" }).click();
+  await state(page, "ended: failure").waitFor();
+  assert.equal(await run.ended, 1);
+  await page.getByRole("tree").click(); // a page that nobody has touched may not ask
+  const asked = page.waitForEvent("dialog");
+  page.reload().catch(() => {});
+  const dialog = await asked;
+  assert.equal(dialog.type(), "beforeunload");
+  await dialog.dismiss();
+  const [file] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "save this run" }).click()]);
+  assert.equal(file.suggestedFilename(), "Test.html");
+  await file.saveAs(path("saved.html"));
+  const saved = await open(`file://${path("saved.html")}`);
+  await state(saved, "recording").waitFor();
+  const end = saved.getByRole("region", { name: "At the end" });
+  await end.getByText("decided by").waitFor();
+  assert.equal(await saved.getByRole("tree").count(), 1);
+  await saved.context().close();
+  await page.context().close();
+});
+
+test("with --monitor-linger a reload after the end has the whole run, and the last page to leave ends the program", async () => {
+  const { run, page } = await watch(tree(`<Sequence memory="true"><Wait seconds="0.5"/><AlwaysFailure/></Sequence>`), "--monitor-linger", "60");
+  await page.getByRole("button", { name: "resume" }).click();
+  await state(page, "ended: failure").waitFor();
+  for (let again = 0; again < 2; ++again) {
+    await page.reload();
+    await state(page, "ended: failure").waitFor();
+    assert.equal(await tickOf(page), 50);
+  }
+  await page.context().close();
+  assert.equal(await run.ended, 1);
+});
+
 test("a reload in the middle has the whole run", async () => {
   const { run, page } = await look(tree(`<Repeat><Advance step="0.01"/></Repeat>`));
   await page.waitForFunction(() => Number(document.querySelector("input.tick").value) > 100);
@@ -153,3 +209,85 @@ test("a page that nobody looks at asks for nothing, and goes on when somebody do
   run.process.kill("SIGTERM");
   await page.context().close();
 });
+
+// 150 failures, holds, results that last a tick or less, an entry that changes in each tick.
+const EVENTFUL = `<Parallel>
+  <ForceSuccess><Retry attempts="200"><AlwaysFailure name="never"/></Retry></ForceSuccess>
+  <ForceSuccess><Retry attempts="150"><Sequence name="try"><Advance name="step" step="0.5"/><AlwaysFailure name="no"/></Sequence></Retry></ForceSuccess>
+  <Repeat times="13"><ParallelAbsolute name="pull" barriers="0.25;0.5;0.75"><Advance name="arm" step="0.1"/><Advance name="base" step="0.25"/></ParallelAbsolute></Repeat>
+  <Repeat times="120"><Script code="count := count + 1"/></Repeat>
+</Parallel>`;
+
+// What a page says of the whole run.
+async function told(page) {
+  const all = { lanes: [], events: {} };
+  await page.getByRole("button", { name: "newest" }).click();
+  await page.getByRole("button", { name: "all nodes" }).click();
+  const lanes = page.getByRole("group", { name: "Lanes of the nodes" }).getByRole("button");
+  all.lanes = await lanes.evaluateAll((lane) => lane.map((it) => it.getAttribute("aria-label")));
+  const groups = ["completions", "waiting", "troubles", "entries", "logs"];
+  const filter = (name) => page.getByRole("group", { name: "Which events" }).getByRole("button", { name, exact: true });
+  for (const name of groups) await filter(name).click();
+  for (const name of groups) {
+    await filter(name).click();
+    await page.locator("body").evaluate(() => new Promise(requestAnimationFrame));
+    all.events[name] = await page.getByRole("list", { name: "Events" }).getByRole("listitem").allInnerTexts();
+    await filter(name).click();
+  }
+  return all;
+}
+
+test("the page of a run that has ended is that of its recording", async () => {
+  const recording = path("eventful.jsonl");
+  const run = await start("run", tree(EVENTFUL), "--set", "count=0", "--record", recording, "--monitor-control", "--monitor-paused");
+  const page = await open(run.link, { viewport: { width: 1280, height: 1600 } });
+  await page.getByRole("button", { name: "resume" }).click();
+  await page.waitForFunction(() => Number(document.querySelector("input.tick").value) > 50);
+  await page.getByRole("button", { name: "pause", exact: false }).first().click();
+  await state(page, "paused").waitFor();
+  await page.reload(); // from here on it has the recording, then what happens
+  await page.getByRole("button", { name: "resume" }).click();
+  await state(page, "ended: success").waitFor();
+  assert.equal(await run.ended, 0);
+  const replayed = await open(pageOf(recording), { viewport: { width: 1280, height: 1600 } });
+  await replayed.getByRole("tree").waitFor();
+  const live = await told(page);
+  assert.deepEqual(live, await told(replayed));
+  assert.ok(live.lanes.includes("no: failed 150 times"), live.lanes.join("; "));
+  assert.ok(live.lanes.includes("never: failed 200 times"), live.lanes.join("; "));
+  await page.context().close();
+  await replayed.context().close();
+});
+
+// As it is told: of each event its tick.
+function facts(run) {
+  return {
+    events: run.events.all.map(({ line, kind, node, text }) => [run.ticks[line], kind, node, text]),
+    states: run.nodes.map(({ states }) => [...states.lines.slice(0, states.length)].map((line, i) => [run.ticks[line], states.values[i]])),
+    counts: run.nodes.map((_, node) => run.countsOf(node)),
+    entries: run.entries.map((history) => history.map(({ line, value }) => [run.ticks[line], value])),
+  };
+}
+
+for (const clock of ["virtual", "wall"]) {
+  test(`a client of the monitor gets everything that the recording has but progress: ${clock} clock`, async () => {
+    const model = await loadModel();
+    const recording = path(`${clock}.jsonl`);
+    const run = await start("run", tree(EVENTFUL), "--set", "count=0", "--clock", clock, "--monitor-control", "--monitor-paused",
+      "--record", recording);
+    const { origin, hash } = new URL(run.link);
+    const headers = { "X-Lockstep-Token": hash.replace("#token=", "") };
+    const events = await fetch(`${origin}/events`, { headers });
+    await fetch(`${origin}/control`, { method: "POST", headers, body: `{"do":"resume"}` });
+    const live = new model.Run(), recorded = new model.Run();
+    const lines = (await events.text()).split("\n").filter((line) => line.startsWith("data: ") && line !== "data: {}");
+    for (const line of lines) {
+      if (!line.startsWith(`data: {"state"`)) live.feed(line.slice(6));
+    }
+    assert.equal(await run.ended, 0);
+    for (const line of readFileSync(recording, "utf8").trim().split("\n")) recorded.feed(line);
+    assert.deepEqual(facts(live), facts(recorded));
+    assert.equal(live.lost, 0);
+    assert.ok(live.events.all.length > 800, `${live.events.all.length} events`);
+  });
+}

@@ -1,23 +1,10 @@
 // The page's model of a run, without a browser: gaps, lines with the whole state, lines that come twice, long runs.
 import assert from "node:assert/strict";
-import { createRequire } from "node:module";
-import { join } from "node:path";
 import { before, test } from "node:test";
-import { SOURCE, file } from "./support.mjs";
+import { loadModel } from "./support.mjs";
 
-const PAGE = join(SOURCE, "interpreter/web/page");
-const require = createRequire(join(PAGE, "package.json"));
 let model;
-before(async () => {
-  const { outputFiles } = await require("esbuild").build({
-    stdin: {
-      contents: ["run", "moment", "waiting", "thin", "lanes"].map((name) => `export * from "./src/model/${name}";`).join("\n"),
-      resolveDir: PAGE,
-    },
-    bundle: true, write: false, format: "esm",
-  });
-  model = await import(file("model.mjs", outputFiles[0].text));
-});
+before(async () => (model = await loadModel()));
 
 const HEADER = {
   lockstep_recording: 1, tree: "Test", file: "t.xml", version: "0", rate_hz: 10, clock: "virtual", seed: 0, arguments: {},
@@ -115,4 +102,31 @@ test("activations are told apart, with what was held in them", () => {
     { from: 4, to: 5, result: 0, held: 0 }, { from: 0, to: 3, result: 3, held: 0.1 },
   ]);
   assert.equal(model.laneText(run, 1), "held once for 0.10 s, failed once");
+});
+
+test("a node that completes in each tick is counted in each", () => {
+  const run = runOf(
+    { tick: 0, time_s: 0, nodes: [[1, "failure", 0, 1, 0], [2, "success", 1, 1, 0]] },
+    { tick: 1, time_s: 0.1, nodes: [[2, "success", 1, 0, 0]] },
+    { tick: 9, time_s: 0.9, nodes: [[2, "success", 1, 1, 0]] });
+  assert.equal(run.countsOf(1).failed, 10);
+  assert.equal(run.countsOf(2).succeeded, 2);
+  assert.deepEqual(model.laneSpans(run, 1, 0, 2).map((span) => span.again), [true]);
+  assert.deepEqual(model.laneSpans(run, 2, 0, 2).map((span) => span.again), [false]);
+});
+
+test("a page that misses lines has the counts of the program, and says what it has missed", () => {
+  const run = runOf(
+    { tick: 0, time_s: 0, nodes: [running(1, 0)], full: true, counts: [], written: [] },
+    { tick: 1, time_s: 0.1, nodes: [[1, "failure", 0.5, 1, 0]], entries: [[0, "a"]] },
+    { tick: 300, time_s: 30, nodes: [running(1, 0)], entries: [[0, "c"]], full: true,
+      counts: [[1, 2, 150, 0, 1, 7, 3]], written: [[0, 9]] },
+    { tick: 301, time_s: 30.1, nodes: [[1, "failure", 0, 1, 0]] });
+  assert.deepEqual(run.countsOf(1), { succeeded: 2, failed: 151, skipped: 0, halted: 1, held: 7, faults: 3 });
+  const [said] = run.events.all.filter((event) => event.kind === "lost");
+  assert.match(said.text, /too slow.*: 2 succeeded, .*1 halted, 7 held, 3 faults, 7 values of entries/);
+  // Who comes late has missed nothing, and knows the counts.
+  const late = runOf({ tick: 9, time_s: 0.9, full: true, nodes: [running(1, 0)], counts: [[1, 0, 5, 0, 0, 0, 0]] });
+  assert.equal(late.countsOf(1).failed, 5);
+  assert.deepEqual(late.events.all, []);
 });

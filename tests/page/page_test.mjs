@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { SOURCE, close, goToTick, openRun, record, soon, tree, violations } from "./support.mjs";
+import { SOURCE, close, goToTick, lockstep, openRun, record, soon, tree, violations } from "./support.mjs";
 
 after(() => close());
 
@@ -96,11 +96,12 @@ test("a click on the timeline goes there, and what it shows can be enlarged", as
     "base: held 3 times for 2.11 s, succeeded once", "release: succeeded once",
   ]);
   const drawing = await page.locator(".drawing").boundingBox();
-  await page.mouse.click(drawing.x + drawing.width / 2, drawing.y + 10);
+  const middle = drawing.x + (drawing.width - 18) / 2; // at its end is room for signs
+  await page.mouse.click(middle, drawing.y + 10);
   await page.locator('input[aria-valuetext^="tick 350,"]').waitFor();
   await page.getByRole("button", { name: "zoom in" }).click();
   await page.getByRole("button", { name: "whole run", pressed: false }).waitFor();
-  await page.mouse.click(drawing.x + drawing.width / 2 + 1, drawing.y + 10);
+  await page.mouse.click(middle + 1, drawing.y + 10);
   await page.locator('input[aria-valuetext^="tick 350,"]').waitFor();
   await page.mouse.click(drawing.x + drawing.width - 1, drawing.y + 10);
   await page.locator('input[aria-valuetext^="tick 52"]').waitFor();
@@ -166,5 +167,128 @@ test("playing goes on to the end", async () => {
   await page.getByRole("button", { name: "play" }).click();
   await page.locator('input[aria-valuetext^="tick 700,"]').waitFor();
   await page.getByRole("button", { name: "▶ play" }).waitFor();
+  await page.context().close();
+});
+
+test("a pool that is not needed any more has not been halted", async () => {
+  const page = await openRun(record(join(SOURCE, "trees/philosophers.xml")));
+  await page.keyboard.press("n");
+  const events = page.getByRole("list", { name: "Events" });
+  await events.getByText("run ended: success").waitFor();
+  await soon.doesNotMatch(page, () => words(events), /forks (halted|started)/);
+  await page.context().close();
+});
+
+test("a name that is too long is cut in its middle, in the tree and on the timeline", async () => {
+  const names = ["the_arm_of_the_robot_that_stands_on_the_left_side_of_the_table_1", "the_arm_of_the_robot_that_stands_on_the_left_side_of_the_table_2"];
+  const page = await openRun(record(tree(`<Parallel>${names.map((name) => `<Advance name="${name}" step="0.1"/>`).join("")}</Parallel>`)));
+  const shown = page.locator(".card .name, .lane").filter({ hasText: "the_arm" });
+  await soon.equal(page, () => shown.count(), 4);
+  for (const text of await shown.allInnerTexts().then((all) => (all.every(Boolean) ? all : shown.allTextContents()))) {
+    assert.match(text, /^the_arm.*….*[12]$/);
+  }
+  await page.context().close();
+});
+
+// What is drawn in red on a canvas, at its right end.
+const redAtEnd = (canvas) => canvas.evaluate((it) => {
+  const { data } = it.getContext("2d").getImageData(it.width - 18, 0, 18, it.height);
+  let count = 0;
+  for (let at = 0; at < data.length; at += 4) if (data[at] > 150 && data[at + 1] < 80 && data[at + 3] > 200) ++count;
+  return count;
+});
+
+test("the results of the last tick have their signs on the timeline", async () => {
+  const page = await openRun(record(tree(`<Sequence><Wait seconds="0.5"/><AlwaysFailure name="no"/></Sequence>`)), { colorScheme: "light" });
+  await page.keyboard.press("n");
+  await soon.ok(page, () => redAtEnd(page.locator(".drawing canvas")));
+  await page.context().close();
+});
+
+test("the kind of a card and its note stand apart", async () => {
+  const page = await openRun(door);
+  await atTick(page, 560); // no barrier is left
+  const card = node(page, "pull");
+  await card.getByText("no barrier left").waitFor();
+  const [kind, note] = await card.locator("text.kind, text.limit").evaluateAll((all) => all.map((one) => {
+    const { left, right } = one.getBoundingClientRect();
+    return { left, right, text: one.textContent };
+  }));
+  assert.match(kind.text, /ParallelAbsolute$/);
+  assert.ok(kind.right + 4 < note.left, `${kind.right} ${note.left}`);
+  await page.context().close();
+});
+
+const FAILING = tree(`<Sequence name="mission" memory="true"><Wait seconds="0.1"/><Fallback name="grasp"><AlwaysFailure name="first"/>
+  <Inverter><AlwaysSuccess name="second"/></Inverter></Fallback></Sequence>`);
+
+test("a failed run opens at its end, which says what decided, as the summary", async () => {
+  const recording = record(FAILING);
+  const page = await openRun(recording);
+  const end = page.getByRole("region", { name: "At the end" });
+  await end.waitFor();
+  const [, decided, rest] = lockstep("log", "info", recording).match(/decided by (.*):\n((?: {4}.*\n)+)/);
+  const wanted = decided.split("/").slice(1).map((_, i, all) => ["Test", ...all.slice(0, i + 1)].join("/"));
+  assert.equal(wanted.length, rest.trim().split("\n").length);
+  const path = end.getByRole("list", { name: "What decided, from the root down" }).getByRole("button");
+  assert.deepEqual(await path.evaluateAll((all) => all.map((one) => one.title)), wanted);
+  await soon.match(page, () => words(end), /failure, decided by second/);
+  await soon.match(page, () => words(end), /grasp \(Fallback\): failure \(2 of 2 children\)/);
+  await page.context().close();
+});
+
+test("a run that has succeeded opens where somebody is held first, and has nothing to explain at its end", async () => {
+  const page = await openRun(door);
+  await page.locator('input[aria-valuetext^="tick 222,"]').waitFor();
+  await soon.match(page, () => label(page, "base"), /held.*waits for arm at barrier 0\.25/);
+  await page.keyboard.press("n");
+  await page.getByRole("region", { name: "At the end" }).waitFor();
+  assert.equal(await page.getByText("decided by").count(), 0);
+  await page.context().close();
+});
+
+test("at the end of a large tree the node that decided is in sight", async () => {
+  const branch = (name) => `<Sequence name="b${name}" memory="true">${Array.from({ length: 20 }, (_, leaf) =>
+    `<Advance name="l${leaf}" step="0.5"/>`).join("")}${name === 9 ? `<AlwaysFailure name="culprit"/>` : ""}</Sequence>`;
+  const page = await openRun(record(tree(`<Sequence name="all" memory="true">${Array.from({ length: 12 }, (_, i) => branch(i)).join("")}</Sequence>`)));
+  await soon.ok(page, async () => {
+    const box = await node(page, "culprit").boundingBox(), sight = await page.locator(".tree").boundingBox();
+    return box && box.y >= sight.y && box.y + box.height <= sight.y + sight.height;
+  });
+  await page.context().close();
+});
+
+test("a pool says who owns what, and for how long others wait", async () => {
+  const page = await openRun(record(join(SOURCE, "trees/philosophers.xml")));
+  await atTick(page, 30);
+  const pool = page.getByRole("treeitem", { name: /^forks, resources/ });
+  await soon.match(page, () => pool.getAttribute("aria-label"), /1;2 Socrates\/…\/eat, 3;4 Aristotle\/…\/eat$/);
+  await soon.match(page, () => pool.textContent(), /1 of 5 free/);
+  await pool.click();
+  await soon.match(page, () => words(page.getByRole("group").filter({ hasText: "Node Table/forks" })), /1 Socrates\/…\/eat 2 Socrates\/…\/eat .* 5 free/i);
+  await atTick(page, 1); // one waits that has never run
+  await soon.match(page, () => words(page.getByRole("region", { name: "Now" })), /Kant\/…\/eat waits for 5 .* for 0\.0\d s/);
+  await page.context().close();
+});
+
+test("the timeline is as high as it is dragged, or as keys make it", async () => {
+  const page = await openRun(door);
+  const rows = page.getByRole("group", { name: "Lanes of the nodes" });
+  const height = async () => Math.round((await rows.boundingBox()).height);
+  const before = await height();
+  const grip = page.getByRole("separator", { name: "Height of the timeline" });
+  const { x, y, width } = await grip.boundingBox();
+  await page.mouse.move(x + width / 3, y + 4);
+  await page.mouse.down();
+  await page.mouse.move(x + width / 3, y - 96, { steps: 4 });
+  await page.mouse.up();
+  await soon.equal(page, height, before + 100);
+  await page.mouse.move(x + width / 3, y - 200);
+  await grip.focus();
+  await page.keyboard.press("ArrowDown");
+  await soon.equal(page, height, before + 82);
+  await page.keyboard.press("ArrowUp");
+  await soon.equal(page, height, before + 100);
+  assert.deepEqual(await violations(page), []);
   await page.context().close();
 });

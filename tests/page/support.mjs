@@ -29,6 +29,18 @@ export function lockstep(...args) {
   return execFileSync(join(BUILD, "lockstep"), args, { encoding: "utf8", maxBuffer: 1 << 28, stdio: ["ignore", "pipe", "pipe"] });
 }
 
+// The page's model of a run, without a browser.
+export async function loadModel() {
+  const { outputFiles } = await require("esbuild").build({
+    stdin: {
+      contents: ["run", "moment", "waiting", "thin", "lanes"].map((name) => `export * from "./src/model/${name}";`).join("\n"),
+      resolveDir: join(SOURCE, "interpreter/web/page"),
+    },
+    bundle: true, write: false, format: "esm",
+  });
+  return import(file("model.mjs", outputFiles[0].text));
+}
+
 let runs = 0;
 // A recording of a tree, on the virtual clock. The result of the run does not matter.
 export function record(tree, ...args) {

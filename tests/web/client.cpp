@@ -37,6 +37,10 @@ bool Client::send(const std::string& bytes) {
   return true;
 }
 
+void Client::send_end() {
+  shutdown(socket_, SHUT_WR);
+}
+
 bool Client::read_more() {
   pollfd file{socket_, POLLIN, 0};
   REQUIRE(poll(&file, 1, kPatience) > 0);

@@ -17,6 +17,8 @@ class Client {
 
   // False when the other side has closed.
   bool send(const std::string& bytes);
+  // No more comes from here.
+  void send_end();
   // Reads on until `text` has come, from a place on; false when the other side closes before.
   bool wait_for(const std::string& text, std::size_t from = 0);
   // Until the other side closes. What has come so far, all in all.

@@ -1,5 +1,6 @@
 // What somebody may try with the monitor: docs/security.md, row by row.
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -228,6 +229,24 @@ TEST_CASE("a hundred that never read and a hundred that never ask do not keep ot
     clients.back()->send("GET / HTTP/1.1\r\nHost: ");
   }
   it.check_is_well();
+}
+
+TEST_CASE("a thousand that have asked half and left do not keep others out") {
+  Guarded it;
+  constexpr std::chrono::seconds kLongestRequest{10};
+  for (int i = 0; i < 1000; ++i) Client(it.port()).send("GET");
+  const auto begin = std::chrono::steady_clock::now();
+  CHECK(get(it.port(), "/").status == 200);
+  CHECK(std::chrono::steady_clock::now() - begin < kLongestRequest);
+  it.check_is_well();
+}
+
+TEST_CASE("who says that nothing more comes gets an answer to what was asked") {
+  Guarded it;
+  Client client(it.port());
+  client.send(get_text(it.port(), "/"));
+  client.send_end();
+  CHECK(split_response(client.finish()).status == 200);
 }
 
 TEST_CASE("more than can be served watch: those that are too many are told, others are served") {

@@ -81,8 +81,7 @@ TEST_CASE("plain lines tell who is halted and what failed") {
       std::string::npos);
   const std::string fault = plain("Sequence(a)", "a=RX");
   CHECK(fault.find("Test/Sequence/a: halted\n") != std::string::npos);
-  CHECK(fault.find("fault: Test/Sequence/a: ") != std::string::npos);
-  CHECK(fault.find("run ends: fault (fault) after 2 ticks\n") != std::string::npos);
+  CHECK(fault.find("run ends: fault after 2 ticks\n") != std::string::npos);
 }
 
 TEST_CASE("a fault that the run goes on after is told at once, however much was told before") {

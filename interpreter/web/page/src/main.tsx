@@ -1,11 +1,13 @@
 import { render } from "preact";
+import { pageAsItCame } from "./source/keep";
 import { begin } from "./source/source";
 import { App } from "./view/app";
 import { Store } from "./view/store";
 
+const page = pageAsItCame();
 const store = new Store();
 render(<App store={store} />, document.getElementById("app")!);
-begin(store).catch((error: Error) => {
+begin(store, page).catch((error: Error) => {
   store.trouble = `The run cannot be read: ${error.message}`;
   store.changed();
 });

@@ -38,7 +38,9 @@ export class Events {
   }
 
   private statusChange(run: Run, node: number, was: number, is: number) {
-    const isLeaf = run.shape.nodes[node].children.length === 0;
+    const { children, isGroup } = run.shape.nodes[node];
+    if (isGroup) return; // it runs as long as it has members
+    const isLeaf = children.length === 0;
     if (is === SUCCESS) this.add(run, "success", node, "succeeded");
     else if (is === FAILURE) this.add(run, "failure", node, "failed");
     else if (is === SKIPPED) this.add(run, "skipped", node, "skipped");
@@ -57,7 +59,10 @@ export class Events {
     this.add(run, "log", null, `${who}: ${text}`, level);
   }
   lost(run: Run, ticks: number, from: number) {
-    this.add(run, "lost", null, `${ticks} ticks from tick ${from} are not in the recording`);
+    this.add(run, "lost", null, `${ticks} ticks from tick ${from} on are not here: there was no room for them`);
+  }
+  missed(run: Run, what: string) {
+    this.add(run, "lost", null, `this page was too slow to be told of each: ${what}`);
   }
   end(run: Run, end: End) {
     const fault = end.fault ? `: ${end.fault}` : "";

@@ -1,4 +1,5 @@
-// Which subtrees are open: what the user has chosen, else what runs in a large tree, all of a small one.
+// Which subtrees are open: what the user has chosen, else what runs in a large tree, or has decided its result, all of a
+// small one.
 import type { Moment } from "./moment";
 import { RUNNING } from "./recording";
 
@@ -9,6 +10,7 @@ export type Folds = ReadonlyMap<number, boolean>; // node: open?
 export function isOpen(moment: Moment, folds: Folds, onlyActive: boolean, node: number): boolean {
   const chosen = folds.get(node);
   if (chosen !== undefined) return chosen;
+  if (onlyActive && moment.decision.some((it) => it.node === node)) return true;
   return !onlyActive || moment.status[node] === RUNNING || moment.run.shape.nodes[node].parent === null;
 }
 

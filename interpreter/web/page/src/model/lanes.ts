@@ -1,17 +1,27 @@
 // What a node did over time, in spans of one state.
-import { HELD, STATUS } from "./columns";
+import { HELD, STATUS, TICKED } from "./columns";
+import { RUNNING } from "./recording";
 import type { Run } from "./run";
 
 export interface LaneSpan {
   state: number; // a status, or HELD_STATE
   from: number; // line
   to: number; // line of the next state; the last of the run
+  again: boolean; // it completes in each tick
 }
 
 export const HELD_STATE = 5;
 
 export function stateNumber(flags: number): number {
   return flags & HELD ? HELD_STATE : flags & STATUS;
+}
+
+// Is reached by more than the first tick from one line on?
+function isAgain(run: Run, node: number, from: number, to: number): boolean {
+  const column = run.nodes[node], place = column.at(from);
+  if (!(column.flags[place] & TICKED) || (column.flags[place] & STATUS) <= RUNNING) return false;
+  const end = place + 1 < column.length ? Math.min(to, column.lines[place + 1]) : to;
+  return run.ticks[end] > run.ticks[from] + 1;
 }
 
 // Those that touch the lines `from` to `to`, without idle ones.
@@ -22,7 +32,7 @@ export function laneSpans(run: Run, node: number, from: number, to: number): Lan
     if (states.lines[place] > to) break;
     const state = stateNumber(states.values[place]);
     const end = place + 1 < states.length ? states.lines[place + 1] : run.last;
-    if (state !== 0) spans.push({ state, from: states.lines[place], to: end });
+    if (state !== 0) spans.push({ state, from: states.lines[place], to: end, again: isAgain(run, node, states.lines[place], end) });
   }
   return spans;
 }
@@ -71,31 +81,31 @@ export function laneNodes(run: Run, all: boolean): number[] {
     .map((node) => node.index);
 }
 
-const texts = new WeakMap<object, { length: number; text: string }>();
+const heldTimes = new WeakMap<object, { length: number; held: number }>();
 
-// "held 3 times for 0.51 s, succeeded once": for those who do not see the lane.
-export function laneText(run: Run, node: number): string {
+// Seconds, in spans that have ended or go on.
+function heldFor(run: Run, node: number): number {
   const { states } = run.nodes[node];
-  const known = texts.get(states);
-  if (known?.length === states.length) return known.text;
-  const text = newLaneText(run, node);
-  texts.set(states, { length: states.length, text });
-  return text;
-}
-
-function newLaneText(run: Run, node: number): string {
-  const counts = [0, 0, 0, 0, 0, 0];
+  const known = heldTimes.get(states);
+  const goesOn = states.length > 0 && stateNumber(states.values[states.length - 1]) === HELD_STATE;
+  if (known?.length === states.length && !goesOn) return known.held;
   let held = 0;
   for (const { state, from, to } of laneSpans(run, node, 0, run.last)) {
-    ++counts[state];
     if (state === HELD_STATE) held += run.times[to] - run.times[from];
   }
+  heldTimes.set(states, { length: states.length, held });
+  return held;
+}
+
+// "held 3 times for 0.51 s, succeeded once": in the whole run.
+export function laneText(run: Run, node: number): string {
+  const counts = run.countsOf(node);
   const times = (count: number) => (count === 1 ? "once" : `${count} times`);
   const parts = [
-    counts[5] > 0 ? `held ${times(counts[5])} for ${held.toFixed(2)} s` : "",
-    counts[2] > 0 ? `succeeded ${times(counts[2])}` : "",
-    counts[3] > 0 ? `failed ${times(counts[3])}` : "",
-    counts[4] > 0 ? `skipped ${times(counts[4])}` : "",
+    counts.held > 0 ? `held ${times(counts.held)} for ${heldFor(run, node).toFixed(2)} s` : "",
+    counts.succeeded > 0 ? `succeeded ${times(counts.succeeded)}` : "",
+    counts.failed > 0 ? `failed ${times(counts.failed)}` : "",
+    counts.skipped > 0 ? `skipped ${times(counts.skipped)}` : "",
   ];
   return parts.filter(Boolean).join(", ") || "ran";
 }

@@ -1,5 +1,6 @@
 // The state of all nodes in one line of the run.
 import { HELD, STATUS, TICKED } from "./columns";
+import { decidingPath, type Deciding } from "./decision";
 import { IDLE, SUCCESS } from "./recording";
 import type { Run } from "./run";
 
@@ -16,6 +17,7 @@ export class Moment {
   readonly ticked: Uint8Array;
   readonly held: Uint8Array;
 
+  private decided: Deciding[] | null = null;
   readonly spans = new Map<number, Span>(); // of synchronized nodes, once they were asked for
 
   constructor(readonly run: Run, readonly line: number) {
@@ -53,6 +55,10 @@ export class Moment {
     if (!round || number === 0) return "";
     const of = round.of.at(this.line) ?? 0;
     return of === 0 ? `${number}` : `${number}/${of}`;
+  }
+  // At the end: from the root to the node that decided.
+  get decision(): Deciding[] {
+    return (this.decided ??= decidingPath(this));
   }
   isLastOfEnded(): boolean {
     return this.run.end !== null && this.line === this.run.last;

@@ -44,6 +44,9 @@ export interface TickLine {
   faults?: [index: number, message: string][];
   entries?: [index: number, value: string | null][];
   logs?: LogLine[];
+  // Live only, of a line with the whole state: what there was in the run until then.
+  counts?: [index: number, succeeded: number, failed: number, skipped: number, halted: number, held: number, faults: number][];
+  written?: [index: number, values: number][];
 }
 
 export interface End {

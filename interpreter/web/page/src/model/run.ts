@@ -1,6 +1,7 @@
 // A run, from the lines of its recording, whoever brings them. Keeps the whole of it, so that any
 // moment can be shown.
 import { NodeColumn, NumberColumn, HELD, STATUS, TICKED } from "./columns";
+import { Counts, type CountsOfNode } from "./counts";
 import { Events } from "./events";
 import { STATUSES, type End, type Header, type Line, type LogLine, type TickLine } from "./recording";
 import { Thinner } from "./thin";
@@ -23,6 +24,7 @@ export class Run {
   rounds = new Map<number, { number: NumberColumn; of: NumberColumn }>();
   entries: EntryChange[][] = [];
   events = new Events();
+  private counts = new Counts(0, 0);
   end: End | null = null;
   lost = 0; // ticks without a line
   version = 0; // grows with what is fed
@@ -64,6 +66,7 @@ export class Run {
     this.shape = shapeOf(header);
     this.nodes = header.nodes.map(() => new NodeColumn());
     this.entries = (header.entries ?? []).map(() => []);
+    this.counts = new Counts(header.nodes.length, this.entries.length);
   }
 
   private take(line: TickLine) {
@@ -71,7 +74,7 @@ export class Run {
     this.ticks.push(line.tick);
     this.times.push(line.time_s);
     this.events.lateness(this);
-    this.joins = line.full === true && this.lines === 1;
+    this.joins = line.full === true && this.lines === 1 && line.tick > 0;
     if (line.full) this.forgetOthers(line);
     for (const [node, status, progress, ticked, held] of line.nodes ?? []) {
       const flags = (STATUS_NUMBERS.get(status) ?? 0) | (ticked ? TICKED : 0) | (held ? HELD : 0);
@@ -85,8 +88,13 @@ export class Run {
       round.number.push(this.last, number);
       round.of.push(this.last, of);
     }
-    for (const [node, message] of line.faults ?? []) this.events.fault(this, node, message);
+    for (const [node, message] of line.faults ?? []) {
+      this.events.fault(this, node, message);
+      this.counts.fault(node);
+    }
     for (const [entry, value] of line.entries ?? []) this.changeEntry(entry, value);
+    const missing = this.counts.correct(line);
+    if (missing && !this.joins) this.events.missed(this, missing);
     this.takeLogs(line.logs);
     this.thinner.events(this.events);
   }
@@ -105,6 +113,7 @@ export class Run {
     const before = changes.length === 0 ? 0 : changes.flags[changes.length - 1];
     if (changes.length > 0 && before === flags && changes.progress[changes.length - 1] === progress) return;
     changes.push(this.last, progress, flags);
+    if (before !== flags) this.counts.change(node, flags, this.ticks[this.last]);
     this.thinner.count(this.nodes);
     if (!this.joins) this.events.change(this, node, before, flags);
   }
@@ -114,6 +123,7 @@ export class Run {
     const before = history[history.length - 1];
     if (before && before.value === value) return;
     history.push({ line: this.last, value });
+    this.counts.entry(entry);
     if (!this.joins) this.events.entry(this, entry, value);
   }
 
@@ -133,6 +143,10 @@ export class Run {
     this.events.end(this, end);
   }
 
+  // Of the whole run, also of what this page has no line of.
+  countsOf(node: number): CountsOfNode {
+    return this.counts.ofNode(node, this.ticks[this.last] ?? 0);
+  }
   // Of a node in a line.
   status(node: number, line: number): number {
     const place = this.nodes[node].at(line);

@@ -1,6 +1,6 @@
 // Who waits for whom, and where: the same sentences as those of `lockstep replay`.
 import type { Moment, Span } from "./moment";
-import { IDLE, SKIPPED } from "./recording";
+import { IDLE, RUNNING, SKIPPED } from "./recording";
 import type { ShapeNode } from "./shape";
 
 const EPSILON = 1e-9, FEW = 8;
@@ -73,6 +73,28 @@ function memberLimit(moment: Moment, child: number): number {
 export function owned(moment: Moment, pool: ShapeNode, node: number): string {
   const limit = memberLimit(moment, node);
   return limit > 0 ? `owns ${resourcesIn(pool, limit).join(";")}` : "";
+}
+
+// Of each resource of a pool the one that owns it; null: it is free.
+export function ownersOf(moment: Moment, pool: ShapeNode): { resource: string; place: number | null }[] {
+  const found = pool.resources.map((resource) => ({ resource, place: null as number | null }));
+  pool.inStep.forEach((node, place) => {
+    const set = memberLimit(moment, node);
+    if (set <= 0 || moment.status[node] !== RUNNING) return;
+    found.forEach((one, bit) => {
+      if (Math.floor(set / 2 ** bit) % 2 === 1) one.place = place;
+    });
+  });
+  return found;
+}
+
+// "1;2 Socrates/…/eat, 3;4 Aristotle/…/eat"
+export function ownersText(moment: Moment, pool: ShapeNode): string {
+  const by = new Map<number, string[]>();
+  for (const { resource, place } of ownersOf(moment, pool)) {
+    if (place !== null) by.set(place, [...(by.get(place) ?? []), resource]);
+  }
+  return [...by].map(([place, resources]) => `${resources.join(";")} ${pool.names[place]}`).join(", ");
 }
 
 function waitForResources(moment: Moment, pool: ShapeNode, node: number): Wait {

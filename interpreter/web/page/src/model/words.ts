@@ -1,7 +1,7 @@
 // Symbols and words for statuses and kinds: the same as in the terminal.
 import type { Moment } from "./moment";
 import { STATUSES } from "./recording";
-import { owned, waitOf } from "./waiting";
+import { owned, ownersText, waitOf } from "./waiting";
 
 const SYMBOLS = ["·", "▶", "✓", "✗", "»"];
 export const HELD_SYMBOL = "‖";
@@ -27,7 +27,8 @@ export function kindText(kind: string, segment: string): string {
 export function sentenceOf(moment: Moment, node: number): string {
   const wait = waitOf(moment, node);
   if (wait) return wait.text;
-  const { keeper } = moment.run.shape.nodes[node];
+  const it = moment.run.shape.nodes[node], { keeper } = it;
+  if (it.synchronization === "resources") return ownersText(moment, it);
   if (keeper === null) return "";
   const pool = moment.run.shape.nodes[keeper];
   return pool.synchronization === "resources" ? owned(moment, pool, node) : "";
@@ -45,6 +46,7 @@ export function labelOf(moment: Moment, node: number): string {
   return parts.join(", ");
 }
 
-export function seconds(time: number): string {
+// A run that has ended before its first tick has no times.
+export function seconds(time = 0): string {
   return `${time.toFixed(3)} s`;
 }

@@ -2,6 +2,7 @@
 // nothing while the page is out of sight.
 import type { Store } from "../view/store";
 import { readEvents } from "./event_stream";
+import { Kept, download } from "./keep";
 import { feedLines } from "./lines";
 
 export type Connection = "connecting" | "open" | "lost" | "ended" | "asleep";
@@ -31,14 +32,29 @@ export class LiveSource {
   connection: Connection = "connecting";
   state: ServerState = {};
   notice = ""; // what became of the last order
+  private isSaved = false;
+  private isServed = false; // also after the end: --monitor-linger
   private abort: AbortController | null = null;
   private attempts = 0;
   private hasHistory = false;
   private readonly base = new URL(".", location.href);
   private readonly token = new URLSearchParams(location.hash.slice(1)).get("token") ?? "";
 
-  constructor(private readonly store: Store, readonly control: boolean) {
+  constructor(private readonly store: Store, readonly control: boolean, readonly kept: Kept) {
     document.addEventListener("visibilitychange", () => this.visible());
+    // Once the program is gone, nobody has the run but this page.
+    addEventListener("beforeunload", (event) => this.isOver() && !this.isSaved && !this.isServed && event.preventDefault());
+  }
+
+  isOver(): boolean {
+    return this.store.run.lines > 0 && (this.store.run.end !== null || this.connection === "ended");
+  }
+  async save() {
+    const isOver = this.isOver();
+    download(await this.kept.file(), `${this.store.run.header?.tree ?? "run"}.html`);
+    this.isSaved = isOver;
+    this.notice = this.kept.isWhole ? "" : "the run is too long for a page: its last part is not in the file";
+    this.store.changed();
   }
 
   begin() {
@@ -109,7 +125,12 @@ export class LiveSource {
     if (!answer.ok || !answer.body) throw new Error(`the program answers ${answer.status}`);
     this.become("open");
     this.attempts = 0;
-    await readEvents(watched(answer.body, this.abort!), (name, data) => this.take(name, data));
+    this.isServed = true;
+    try {
+      await readEvents(watched(answer.body, this.abort!), (name, data) => this.take(name, data));
+    } finally {
+      this.isServed = false;
+    }
   }
 
   private take(name: string, data: string) {
@@ -121,7 +142,10 @@ export class LiveSource {
 
   // A program that was started again at the same address has another run.
   private takeLine(data: string) {
-    if (data.startsWith('{"lockstep_recording"') && this.store.isAnotherRun(data)) this.store.beginAgain();
+    if (data.startsWith('{"lockstep_recording"') && this.store.isAnotherRun(data)) {
+      this.kept.clear();
+      this.store.beginAgain();
+    }
     this.store.feed(data);
   }
 

@@ -89,6 +89,7 @@ function pauseTitle(store: Store, paused: boolean): string {
 export function Control({ store }: { store: Store }) {
   const { live, run } = store;
   const [sure, setSure] = useState(false);
+  const [more, setMore] = useState(false); // on a phone
   if (!live?.control || run.end || live.connection === "ended") return null;
   const paused = live.state.state === "paused";
   const halt = () => {
@@ -102,12 +103,15 @@ export function Control({ store }: { store: Store }) {
           onClick={() => pauseOrResume(live)}>{paused ? "▶ resume" : "‖ pause"}</button>
         <button type="button" aria-keyshortcuts="s" disabled={!paused} title="one tick (s)"
           onClick={() => live.order({ do: "step", ticks: 1 })}>one tick</button>
-        <Speed store={store} live={live} />
-        <SetEntry store={store} live={live} />
-        <Breakpoints store={store} live={live} />
+        <button type="button" class="on-phone" aria-expanded={more} onClick={() => setMore(!more)}>more</button>
+        <div class={more ? "extras open" : "extras"}>
+          <Speed store={store} live={live} />
+          <SetEntry store={store} live={live} />
+          <Breakpoints store={store} live={live} />
+        </div>
         <span class="grow" />
         <button type="button" class="halt" onClick={halt} onBlur={() => setSure(false)}
-          title="halts all leaves and ends the run">{sure ? "really halt the run?" : "■ halt"}</button>
+          title="halts all leaves and ends the run">{sure ? <>really halt<span class="wide"> the run</span>?</> : "■ halt"}</button>
       </div>
       {run.header?.clock === "wall" && !paused &&
         <p class="dim">Pausing pauses the running leaves as a barrier does: the robot stands still until it is resumed.</p>}

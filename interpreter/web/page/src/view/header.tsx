@@ -51,7 +51,7 @@ export function Header({ store }: { store: Store }) {
       <h1 title={header?.file}>{header?.tree ?? "lockstep"}</h1>
       <p class="facts">
         <State store={store} />
-        <span>tick <b>{moment.tick}</b>{end && ` of ${run.ticks[run.last]}`}</span>
+        <span>tick <b>{moment.tick}</b>{end && ` of ${run.ticks[run.last] ?? 0}`}</span>
         <span><b>{seconds(moment.time)}</b>{end && ` of ${seconds(run.times[run.last])}`}</span>
         <span>{header?.rate_hz} Hz, {header?.clock} clock</span>
         <Timing store={store} />
@@ -59,6 +59,8 @@ export function Header({ store }: { store: Store }) {
       </p>
       <span class="grow" />
       <Search store={store} />
+      {store.live && <button type="button" onClick={() => void store.live?.save()}
+        title="a page with the whole run in it, as a file">save this run</button>}
       <button type="button" onClick={() => store.set({ theme: NEXT[theme] })}
         title="Dark, light, or as the system has it">{`Theme: ${theme}`}</button>
       <button type="button" aria-keyshortcuts="?" onClick={() => store.set({ help: true })}>Help</button>

@@ -1,5 +1,6 @@
 // What the user looks at, and the run that is looked at. One object; what draws subscribes to it.
 import { useEffect, useState } from "preact/hooks";
+import { firstLine } from "../model/decision";
 import { LARGE, SMALL, opened, type Folds } from "../model/folds";
 import { Moment } from "../model/moment";
 import { Run } from "../model/run";
@@ -18,6 +19,7 @@ export interface Looking {
   arrangement: Arrangement;
   zoom: number;
   span: [number, number] | null; // of the timeline, in seconds; null: all
+  lanesHeight: number; // pixels
   plotted: number | null; // the synchronized node of the chart; null: what was last active
   theme: Theme;
   help: boolean;
@@ -30,8 +32,8 @@ export class Store {
   live: LiveSource | null = null; // null: a recording
   looking: Looking = {
     line: null, selected: null, folds: new Map(), onlyActive: false, follow: true,
-    arrangement: innerWidth < 720 ? "outline" : "diagram", zoom: 1, span: null, plotted: null,
-    theme: "auto", help: false, playing: false, speed: 1,
+    arrangement: innerWidth < 720 ? "outline" : "diagram", zoom: 1, span: null, lanesHeight: 152,
+    plotted: null, theme: "auto", help: false, playing: false, speed: 1,
   };
   trouble = ""; // why there is not more of the run
   colorVersion = 0;
@@ -70,6 +72,7 @@ export class Store {
 
   feed(text: string) {
     const begins = this.run.header === null;
+    this.live?.kept.add(text);
     try {
       this.run.feed(text);
     } catch (error) {
@@ -90,6 +93,7 @@ export class Store {
   // Nothing more comes of a recording.
   complete() {
     if (!this.run.end && !this.trouble) this.trouble = "The recording is cut: it has no closing line.";
+    if (this.looking.line === null) this.looking = { ...this.looking, line: firstLine(this.run) };
     this.changed();
   }
 

@@ -31,16 +31,23 @@ function lastActive(store: Store, keepers: number[]): number {
   return best;
 }
 
+// Pixels between two marks: as much as the longer label needs.
+function labelSpace(_: uPlot, __: number, from: number, to: number): number {
+  if (!(to > from)) return 50; // nothing has come yet
+  const decimals = Math.max(0, Math.ceil(-Math.log10((to - from) / 5)));
+  return Math.max(50, 7 * (Math.max(from, to).toFixed(decimals).length + 4));
+}
+
 function options(store: Store, keeper: number, names: string[], width: number, paint: Colors): uPlot.Options {
   const axis = { stroke: paint.dim, grid: { stroke: paint.faint, width: 1 }, ticks: { stroke: paint.line, width: 1 } };
   return {
     width, height: HEIGHT, legend: { show: false }, cursor: { show: false }, pxAlign: false,
     scales: { x: { time: false, auto: false, range: () => chartSpan(store, keeper) }, y: { auto: false, range: () => [0, 1] } },
     axes: [
-      { ...axis, size: 26, values: (_, marks) => marks.map((mark) => `${Number(mark.toPrecision(6))} s`) },
-      { ...axis, size: 40, splits: () => [0, 0.25, 0.5, 0.75, 1] },
+      { ...axis, size: 26, values: (_, marks) => marks.map((mark) => `${Number(mark.toPrecision(6))} s`), space: labelSpace },
+      { ...axis, size: 48, splits: () => [0, 0.25, 0.5, 0.75, 1] },
     ],
-    padding: [8, 8, 4 + 6 * Math.min(names.length, MOST_SERIES), 0],
+    padding: [8, 20, 4 + 6 * Math.min(names.length, MOST_SERIES), 0],
     series: [{}, ...names.map((name, place) => ({
       label: name, stroke: paint[`series${place % SERIES}`], width: 2,
       dash: place < SERIES ? [[], [7, 4], [2, 3], [10, 3, 2, 3], [4, 4], [12, 4]][place] : [2, 2],

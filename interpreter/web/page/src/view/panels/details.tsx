@@ -1,8 +1,8 @@
 // All that is known of the node that is selected.
-import { activations } from "../../model/lanes";
+import { activations, laneText } from "../../model/lanes";
 import type { Moment } from "../../model/moment";
 import { STATUSES } from "../../model/recording";
-import { marksOf, short, spanOf, waitOf } from "../../model/waiting";
+import { marksOf, ownersOf, short, spanOf, waitOf } from "../../model/waiting";
 import { seconds, stateOf, symbolOf } from "../../model/words";
 import type { Store } from "../store";
 import { Panel } from "./panel";
@@ -18,8 +18,13 @@ function facts(moment: Moment, node: number): [string, string][] {
   rows.push(["State", `${symbolOf(moment, node)} ${stateOf(moment, node)}${from}`]);
   rows.push(["Progress", moment.progress[node].toFixed(4)]);
   if (moment.round(node)) rows.push(["Round", moment.round(node)]);
+  rows.push(["In this run", laneText(moment.run, node)]);
   const wait = waitOf(moment, node);
   if (wait) rows.push(["Waiting", wait.text]);
+  if (it.synchronization === "resources") {
+    for (const { resource, place } of ownersOf(moment, it)) rows.push([resource, place === null ? "free" : it.names[place]]);
+    return rows;
+  }
   if (it.synchronization === "absolute") rows.push(["Barriers", marksOf(moment, it).map(short).join(", ") || "none left"]);
   if (it.synchronization === "relative") rows.push(["Delta", short(moment.limit(node))]);
   if (it.synchronization === "absolute" || it.synchronization === "relative") {

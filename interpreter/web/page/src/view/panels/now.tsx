@@ -1,8 +1,8 @@
 // In words: what runs, who waits for whom, what happened last.
 import type { Moment } from "../../model/moment";
-import { RUNNING } from "../../model/recording";
+import { RUNNING, STATUSES, SUCCESS } from "../../model/recording";
 import { waiting, waitOf } from "../../model/waiting";
-import { seconds } from "../../model/words";
+import { seconds, symbolOf } from "../../model/words";
 import type { EventKind, RunEvent } from "../../model/events";
 import { eventText } from "./event_text";
 import type { Store } from "../store";
@@ -22,10 +22,14 @@ function runningLeaves(moment: Moment): number[] {
     .map((node) => node.index);
 }
 
-// How long a node has been as it is.
-function heldSince(moment: Moment, node: number): number {
-  const { states } = moment.run.nodes[node];
-  return moment.time - moment.run.times[states.lines[states.placeAt(moment.line)]];
+// For how long a node has waited: it is as it is, or, in a pool, needs what it needs.
+function waitedFor(moment: Moment, node: number): number {
+  const { run, line, time } = moment;
+  const { nodes } = run.shape, { keeper } = nodes[node];
+  const isInPool = keeper !== null && nodes[keeper].synchronization === "resources";
+  const changes = (isInPool && run.limits.get(node - 1)) || run.nodes[node].states;
+  const place = changes.placeAt(line);
+  return place < 0 ? 0 : time - run.times[changes.lines[place]];
 }
 
 function lastEvent(moment: Moment): RunEvent | null {
@@ -74,10 +78,37 @@ function Waiting({ store, moment, node }: { store: Store; moment: Moment; node: 
       <span aria-hidden="true" class="symbol">‖</span>
       <span>
         <Name store={store} node={node} /> {wait?.text || "waits"}{" "}
-        <span class="dim">for {heldSince(moment, node).toFixed(2)} s</span>
+        <span class="dim">for {waitedFor(moment, node).toFixed(2)} s</span>
       </span>
       <Progress moment={moment} node={node} />
     </li>
+  );
+}
+
+// Why it was no success. Of a deep tree the last nodes: above them a result is mostly passed on.
+function Decision({ store, moment }: { store: Store; moment: Moment }) {
+  const { decision } = moment;
+  if (decision.length === 0 || moment.status[0] === SUCCESS) return null;
+  const { nodes } = moment.run.shape;
+  const shown = decision.slice(-MOST);
+  return (
+    <div class="decision">
+      <p><span class="dim">{STATUSES[moment.status[0]]}, decided by</span>{" "}
+        <Name store={store} node={decision[decision.length - 1].node} /></p>
+      <ol aria-label="What decided, from the root down">
+        {decision.length > shown.length && <li class="dim">{`… ${decision.length - shown.length} more above`}</li>}
+        {shown.map(({ node, children, agreeing }) => (
+          <li key={node} class={STATUSES[moment.status[node]]}>
+            <span aria-hidden="true" class="symbol">{symbolOf(moment, node)}</span>
+            <span>
+              <button type="button" class="node" title={nodes[node].path} onClick={() => store.select(node, true)}>{nodes[node].segment}</button>
+              {`${nodes[node].kind === nodes[node].segment ? "" : ` (${nodes[node].kind})`}: ${STATUSES[moment.status[node]]}`}
+              {agreeing > 1 && <span class="dim">{` (${agreeing} of ${children} children)`}</span>}
+            </span>
+          </li>
+        ))}
+      </ol>
+    </div>
   );
 }
 
@@ -104,6 +135,7 @@ export function Now({ store }: { store: Store }) {
         {waits.length > MOST && <li class="dim">and {waits.length - MOST} more wait</li>}
         {running.length + waits.length === 0 && <li class="dim">no leaf runs</li>}
       </ul>
+      <Decision store={store} moment={moment} />
       {last && (
         <p class="last">
           <span class="dim">last, at {seconds(moment.run.times[last.line])}:</span> {eventText(store, last)}

@@ -1,11 +1,12 @@
 // Draws lanes on a canvas: a full bar while the node runs, a hatched one while it is held, a thin line and a
-// sign from its completion on.
-import { HELD_STATE, laneSpans } from "../../model/lanes";
+// sign from its completion on, a thicker one while it completes in each tick.
+import { HELD_STATE, laneSpans, type LaneSpan } from "../../model/lanes";
 import type { Run } from "../../model/run";
 import type { Colors } from "../colors";
 
 export const LANE = 18; // pixels
 export const RULER = 20;
+export const END = 18; // pixels behind the last tick, for the signs of its results
 
 export interface Window {
   from: number; // seconds
@@ -46,7 +47,7 @@ interface Pen {
   held: CanvasPattern | string;
 }
 
-function drawSpan({ context, colors, held }: Pen, state: number, x: number, end: number, y: number) {
+function drawSpan({ context, colors, held }: Pen, { state, again }: LaneSpan, x: number, end: number, y: number, isLast: boolean) {
   const width = Math.max(1, end - x);
   if (state === 1 || state === HELD_STATE) {
     context.fillStyle = state === 1 ? colors.running : held;
@@ -59,9 +60,10 @@ function drawSpan({ context, colors, held }: Pen, state: number, x: number, end:
   }
   const color = state === 2 ? colors.success : state === 3 ? colors.failure : colors.dim;
   context.fillStyle = color;
-  context.fillRect(x, y + LANE / 2 - 0.75, width, 1.5);
+  const thick = again ? 5 : 1.5;
+  context.fillRect(x, y + (LANE - thick) / 2, width, thick);
   context.fillRect(x, y + 3, 2, LANE - 6);
-  if (width > 14) context.fillText(SIGNS[state], x + 4, y + LANE / 2 - 4);
+  if (width > 14 || isLast) context.fillText(SIGNS[state], x + 4, y + LANE / 2 - (again ? 9 : 4));
 }
 
 function drawLane(pen: Pen, run: Run, node: number, window: Window, y: number) {
@@ -69,8 +71,10 @@ function drawLane(pen: Pen, run: Run, node: number, window: Window, y: number) {
   let done = -1; // pixel that has its span already
   for (const span of laneSpans(run, node, from, to)) {
     const x = xOf(run.times[span.from], window), end = xOf(run.times[span.to], window);
-    if (end <= done && span.state !== 3) continue;
-    drawSpan(pen, span.state, Math.max(x, -2), Math.min(end, window.width + 2), y);
+    if (x > window.width) break;
+    const isLast = span.to === run.last && end <= window.width;
+    if (end <= done && span.state !== 3 && !isLast) continue;
+    drawSpan(pen, span, Math.max(x, -2), Math.min(end, window.width + 2), y, isLast);
     done = Math.floor(end);
   }
 }
@@ -91,8 +95,10 @@ export function drawRuler(context: CanvasRenderingContext2D, window: Window, col
     const x = Math.round(xOf(mark * step, window)) + 0.5;
     context.fillStyle = colors.line;
     context.fillRect(x, RULER - 6, 1, height);
+    const text = `${(mark * step).toFixed(digits)} s`;
+    if (x + 4 + context.measureText(text).width > window.width) continue; // only whole ones
     context.fillStyle = colors.dim;
-    context.fillText(`${(mark * step).toFixed(digits)} s`, x + 4, 3);
+    context.fillText(text, x + 4, 3);
   }
 }
 

@@ -3,8 +3,9 @@ import { useEffect, useLayoutEffect, useMemo, useRef, useState } from "preact/ho
 import { laneNodes, laneText } from "../../model/lanes";
 import { RUNNING } from "../../model/recording";
 import { colors } from "../colors";
+import { fittedName } from "../tree/measure";
 import type { Store } from "../store";
-import { LANE, RULER, drawLanes, drawRuler, timeOf, xOf, type Window } from "./draw_lanes";
+import { END, LANE, RULER, drawLanes, drawRuler, timeOf, xOf, type Window } from "./draw_lanes";
 import { spanShown, zoomed } from "./span";
 
 interface Size {
@@ -51,7 +52,7 @@ export function Lanes({ store, all }: { store: Store; all: boolean }) {
   const [size, rows, look] = useSize();
   const canvas = useRef<HTMLCanvasElement>(null), ruler = useRef<HTMLCanvasElement>(null);
   const [from, to] = spanShown(store);
-  const window: Window = { from, to, width: size.width };
+  const window: Window = { from, to, width: size.width - END };
   const nodes = useMemo(() => laneNodes(run, all), [run, all, run.version]);
   const left = labelWidth();
 
@@ -76,7 +77,7 @@ export function Lanes({ store, all }: { store: Store; all: boolean }) {
     const target = event.currentTarget as HTMLElement;
     if (event.type === "pointerdown") target.setPointerCapture(event.pointerId);
     const x = event.clientX - target.getBoundingClientRect().left;
-    store.goTo(run.lineAtTime(timeOf(x, window)));
+    store.goTo(run.lineAtTime(timeOf(Math.min(x, window.width), window)));
   };
   const wheel = (event: WheelEvent) => {
     if (!event.ctrlKey && !event.metaKey && !event.shiftKey) return;
@@ -94,7 +95,7 @@ export function Lanes({ store, all }: { store: Store; all: boolean }) {
       <div class="ruler" style={{ marginLeft: px(left) }} onPointerDown={scrub} onPointerMove={scrub} onWheel={wheel}>
         <canvas ref={ruler} aria-hidden="true" />
       </div>
-      <div class="rows" ref={rows} onScroll={look} tabIndex={0} role="group" aria-label="Lanes of the nodes">
+      <div class="rows" ref={rows} style={{ height: px(looking.lanesHeight) }} onScroll={look} tabIndex={0} role="group" aria-label="Lanes of the nodes">
         <div class="drawing" style={{ left: px(left), height: px(size.height), width: px(size.width) }} onPointerDown={scrub}
           onPointerMove={scrub} onWheel={wheel}>
           <canvas ref={canvas} aria-hidden="true" />
@@ -104,15 +105,15 @@ export function Lanes({ store, all }: { store: Store; all: boolean }) {
             <li key={node} style={{ top: px((firstRow + place) * LANE), height: px(LANE) }}>
               <button type="button" class={looking.selected === node ? "lane selected" : "lane"}
                 title={run.shape.nodes[node].path} aria-label={`${run.shape.nodes[node].apart}: ${laneText(run, node)}`}
-                onClick={() => store.select(node, true)}>{run.shape.nodes[node].apart}</button>
+                onClick={() => store.select(node, true)}>{fittedName(run.shape.nodes[node].apart, 13, left - 10, looking.selected === node ? 600 : 400)}</button>
             </li>
           ))}
         </ul>
       </div>
-      {cursor < size.width && (
+      {cursor < window.width && (
         <div class="later" style={{ left: px(left + Math.max(0, cursor)), width: px(size.width - Math.max(0, cursor)) }} />
       )}
-      {cursor >= 0 && cursor <= size.width && <div class="cursor" style={{ left: px(left + cursor) }} />}
+      {cursor >= 0 && cursor <= window.width && <div class="cursor" style={{ left: px(left + cursor) }} />}
     </div>
   );
 }

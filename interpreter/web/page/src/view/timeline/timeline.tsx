@@ -2,6 +2,7 @@
 import { useState } from "preact/hooks";
 import { seconds } from "../../model/words";
 import type { Store } from "../store";
+import { Grip } from "./grip";
 import { Lanes } from "./lanes";
 import { zoomed } from "./span";
 import { Transport } from "./transport";
@@ -13,6 +14,7 @@ export function Timeline({ store }: { store: Store }) {
   const zoom = (factor: number) => store.set({ span: zoomed(store, factor, moment.time) });
   return (
     <section class="timeline" aria-labelledby="timeline-title">
+      <Grip store={store} />
       <h2 id="timeline-title" class="hidden">Timeline</h2>
       <div class="bar-of-buttons">
         <Transport store={store} />

@@ -3,12 +3,12 @@ import { tallyBelow } from "../../model/folds";
 import type { Moment } from "../../model/moment";
 import { RUNNING } from "../../model/recording";
 import type { ShapeNode } from "../../model/shape";
-import { short } from "../../model/waiting";
+import { ownersOf, short } from "../../model/waiting";
 import { kindText, labelOf, sentenceOf, stateOf, symbolOf } from "../../model/words";
 import type { Store } from "../store";
 import { Bar, Race } from "./bar";
 import type { Box } from "./layout";
-import { fitted, textWidth } from "./measure";
+import { fitted, fittedName, textWidth } from "./measure";
 
 interface Props {
   store: Store;
@@ -19,6 +19,7 @@ interface Props {
 }
 
 export const PADDING = 10;
+const NOTE_GAP = 10;
 
 export function cardId(node: number): string {
   return `node-${node}`;
@@ -41,8 +42,8 @@ export function Card({ store, moment, box, open, selected }: Props) {
         <rect class="stripe" width={4} height={box.height} rx={2} />
         <First moment={moment} box={box} />
         <Second moment={moment} box={box} open={open} />
-        {comparing ? <Race moment={moment} node={box.node} place={place} />
-          : <Bar moment={moment} node={box.node} place={place} />}
+        {comparing && <Race moment={moment} node={box.node} place={place} />}
+        {node.synchronization === null && <Bar moment={moment} node={box.node} place={place} />}
         {isInner && <Fold store={store} box={box} open={open} name={node.segment} />}
       </g>
     </g>
@@ -51,16 +52,22 @@ export function Card({ store, moment, box, open, selected }: Props) {
 
 function First({ moment, box }: { moment: Moment; box: Box }) {
   const { segment } = moment.run.shape.nodes[box.node];
-  const room = box.width - 2 * PADDING - 17 - textWidth("0.00", 12) - 6;
+  const number = numberText(moment, box.node);
+  const room = box.width - 2 * PADDING - 17 - textWidth(number, 12) - 6;
   return (
     <>
       <text class="symbol" x={PADDING} y={18}>{symbolOf(moment, box.node)}</text>
-      <text class="name" x={PADDING + 17} y={18}>{fitted(segment, 13, room, 600)}</text>
-      <text class="number" x={box.width - PADDING} y={18} text-anchor="end">
-        {moment.progress[box.node].toFixed(2)}
-      </text>
+      <text class="name" x={PADDING + 17} y={18}>{fittedName(segment, 13, room, 600)}</text>
+      <text class="number" x={box.width - PADDING} y={18} text-anchor="end">{number}</text>
     </>
   );
+}
+
+// Its progress; of a pool, how much of it is free.
+function numberText(moment: Moment, index: number): string {
+  const node = moment.run.shape.nodes[index];
+  if (node.synchronization !== "resources") return moment.progress[index].toFixed(2);
+  return `${ownersOf(moment, node).filter(({ place }) => place === null).length} of ${node.resources.length} free`;
 }
 
 // Why it waits, else its kind and its round; what a folded node hides.
@@ -68,13 +75,14 @@ function Second({ moment, box, open }: { moment: Moment; box: Box; open: boolean
   const node = moment.run.shape.nodes[box.node];
   const sentence = sentenceOf(moment, box.node);
   const right = rightText(moment, box.node, open);
-  const room = box.width - 2 * PADDING - (right ? textWidth(right, 11) + 8 : 0);
+  const isLimit = node.synchronization !== null && open;
+  const room = box.width - 2 * PADDING - (right ? textWidth(right, 11, isLimit ? 600 : 400) + NOTE_GAP : 0);
   return (
     <>
       <text class={sentence ? "sentence" : "kind"} x={PADDING} y={31}>
         {fitted(sentence || kindText(node.kind, node.segment), 11, room, sentence ? 600 : 400)}
       </text>
-      {right && <text class={node.synchronization && open ? "limit" : "kind"} x={box.width - PADDING} y={31} text-anchor="end">{right}</text>}
+      {right && <text class={isLimit ? "limit" : "kind"} x={box.width - PADDING} y={31} text-anchor="end">{right}</text>}
     </>
   );
 }

@@ -23,39 +23,52 @@ export interface Layout {
 
 export const GAP_X = 36;
 const MARGIN = 16, GAP_Y = 10, INDENT = 18;
-const WIDEST = 260, NARROWEST = 106, KEPT = 216;
+const WIDEST = 260, NARROWEST = 106, KEPT = 216, POOL = 420; // with its owners
+const LONGEST_NOTE = "no barrier left";
 const HEIGHT = 44, KEPT_HEIGHT = 50;
 
 function isInStep(node: ShapeNode): boolean {
   return node.keeper !== null || node.synchronization !== null;
 }
 
+// Its card also says where its children wait now.
+function comparesProgress(node: ShapeNode): boolean {
+  return node.synchronization === "absolute" || node.synchronization === "relative";
+}
+
 function ownWidth(node: ShapeNode): number {
   const name = textWidth(node.segment, 13, 600) + 70;
-  const kind = textWidth(kindText(node.kind, node.segment), 11) + 62;
+  const note = comparesProgress(node) ? textWidth(LONGEST_NOTE, 11, 600) + 34 : 62;
+  const kind = textWidth(kindText(node.kind, node.segment), 11) + note;
+  if (node.synchronization === "resources") return POOL;
   return Math.ceil(Math.min(WIDEST, Math.max(isInStep(node) ? KEPT : NARROWEST, name, kind)));
 }
 
 function cardHeight(node: ShapeNode): number {
+  if (node.synchronization === "resources") return HEIGHT;
   return isInStep(node) ? KEPT_HEIGHT : HEIGHT;
 }
 
-// Siblings are equally wide, so that their bars can be compared.
-function widthsBelow(shape: Shape, shown: number[]): Map<number | null, number> {
+// Siblings are equally wide, so that their bars can be compared. What is beside the tree has none.
+function familyOf(node: ShapeNode): number | null {
+  return node.isGroup ? -node.index : node.parent;
+}
+
+function familyWidths(shape: Shape, shown: number[]): Map<number | null, number> {
   const widths = new Map<number | null, number>();
   for (const index of shown) {
-    const node = shape.nodes[index];
-    widths.set(node.parent, Math.max(widths.get(node.parent) ?? 0, ownWidth(node)));
+    const node = shape.nodes[index], family = familyOf(node);
+    widths.set(family, Math.max(widths.get(family) ?? 0, ownWidth(node)));
   }
   return widths;
 }
 
 function diagram(shape: Shape, shown: number[]): Layout {
   const visible = new Set(shown);
-  const widths = widthsBelow(shape, shown);
+  const widths = familyWidths(shape, shown);
   const sizeOf = (index: number): [number, number] => {
     const node = shape.nodes[index];
-    return [cardHeight(node) + GAP_Y, (widths.get(node.parent) ?? NARROWEST) + GAP_X];
+    return [cardHeight(node) + GAP_Y, (widths.get(familyOf(node)) ?? NARROWEST) + GAP_X];
   };
   const layout = flextree<number>({
     children: (index) => shape.nodes[index].children.filter((child) => visible.has(child)),

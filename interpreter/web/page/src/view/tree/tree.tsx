@@ -1,4 +1,4 @@
-// The tree: only what is in sight is drawn; what runs is kept in sight.
+// The tree: only what is in sight is drawn; what runs, or has decided, is kept in sight.
 import { useEffect, useMemo, useRef } from "preact/hooks";
 import { isOpen, shownNodes } from "../../model/folds";
 import type { Moment } from "../../model/moment";
@@ -23,9 +23,15 @@ function useShown(moment: Moment, looking: Looking): number[] {
 // The innermost nodes that run, of those that are shown.
 function innermostRunning(moment: Moment, layout: Layout): number[] {
   const { nodes } = moment.run.shape;
-  const running = layout.boxes.map((box) => box.node).filter((node) => moment.status[node] === RUNNING);
+  const running = layout.boxes.map((box) => box.node).filter((node) => moment.status[node] === RUNNING && !nodes[node].isGroup);
   const above = new Set(running.map((node) => nodes[node].parent));
   return running.filter((node) => !above.has(node));
+}
+
+// At the end: the node that decided.
+function followedNodes(moment: Moment, layout: Layout): number[] {
+  const { decision } = moment;
+  return decision.length > 0 ? [decision[decision.length - 1].node] : innermostRunning(moment, layout);
 }
 
 export function Tree({ store, looking }: { store: Store; looking: Looking }) {
@@ -42,7 +48,7 @@ export function Tree({ store, looking }: { store: Store; looking: Looking }) {
     if (fits < 1) store.set({ zoom: Math.max(fits, 0.85) });
   }, [store.run.shape]);
   const boxes = inSight(layout, sight, zoom);
-  const running = looking.follow ? innermostRunning(moment, layout) : [];
+  const running = looking.follow ? followedNodes(moment, layout) : [];
   const followed = `${running.length} ${running.slice(0, 50).join()}`;
 
   useEffect(() => {
