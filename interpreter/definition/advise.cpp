@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/audience.h"
 #include "core/pre_order.h"
 #include "core/suggest.h"
 #include "core/wording.h"
@@ -275,8 +276,9 @@ class Adviser {
       hint = fmt::format("it stays '{}', the default of '{}'; ", *parameter->default_text,
                          parameter->name);
     }
-    return hint + (scope.empty() ? fmt::format("give it a value with --set {}=…", brief(name))
-                                 : "give it a value by an attribute of the SubTree");
+    if (!scope.empty()) return hint + "give it a value by an attribute of the SubTree";
+    return hint + worded(fmt::format("give it a value with --set {}=…", brief(name)),
+                         std::string("give it a start value"));
   }
 
   template <class Visit>

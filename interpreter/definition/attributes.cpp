@@ -61,14 +61,11 @@ class AttributeChecker {
     const bool unknown = attribute->value.find("${") != std::string_view::npos;
     if (!value && unknown && report_.has_errors()) return {};
     if (!value) {
-      report_.at_value(
-          attribute->place,
-          fmt::format("'{}' is not {}, which '{}' must be", brief(attribute->value),
-                      expected_text(parameter.type, parameter.object), parameter.name));
+      report_no_value(*attribute, report_, *node_.type, parameter);
       return {};
     }
     if (const auto refused = refuse_value(parameter, *value)) {
-      report_.at_value(attribute->place, refused->message, refused->hint);
+      report_refusal(*attribute, report_, *node_.type, parameter, *refused);
       return {};
     }
     // Moved: g++ 12 destroys the result when it cannot be copied, though there is none.
@@ -160,6 +157,11 @@ std::string_view checked_key(const Reporter& report, const NodeType& type,
   return {};
 }
 
+// Of a stand-in for a node that no plugin has: how it uses the port is not known.
+bool is_guessed(const NodeType& type, const Parameter& parameter) {
+  return type.mock != nullptr && parameter.is_generic;
+}
+
 // What one parameter is: a value, a key with its default, or nothing. False after an error.
 bool check_parameter(const NodeElement& element, const Reporter& report,
                      const AttributeChecker& checker, const NodeType& type,
@@ -178,7 +180,8 @@ bool check_parameter(const NodeElement& element, const Reporter& report,
     return true;
   }
   if (attribute != nullptr && !parameter.group.empty()) port.place = attribute->place;
-  if (attribute != nullptr && parameter.direction != Direction::Input) {
+  if (attribute != nullptr && parameter.direction != Direction::Input &&
+      !is_guessed(type, parameter)) {
     report.at_value(
         attribute->place,
         fmt::format("the {} '{}' needs a blackboard entry",
@@ -217,6 +220,32 @@ void check_parameters(const NodeElement& element, const Reporter& report,
 }
 
 }  // namespace
+
+void report_no_value(const Attribute& attribute, const Reporter& report, const NodeType& type,
+                     const Parameter& parameter) {
+  const bool is_list = parameter.type == ValueType::DoubleList;
+  const ListErrors errors = is_list ? list_errors(type, parameter, attribute.value) : ListErrors();
+  const std::size_t others = errors.no_numbers.size();
+  report.at_value(attribute.place,
+                  fmt::format("'{}' is not {}, which '{}' must be", brief(attribute.value),
+                              expected_text(parameter.type, parameter.object), parameter.name),
+                  others == 0 ? why_no_object(parameter.object, attribute.value)
+                              : fmt::format("no {}: {}", others == 1 ? "number" : "numbers",
+                                            listed(errors.no_numbers)));
+  for (const RuleBreak& it : errors.refused) {
+    report.at_value(attribute.place, it.message, it.hint);
+  }
+}
+
+void report_refusal(const Attribute& attribute, const Reporter& report, const NodeType& type,
+                    const Parameter& parameter, const RuleBreak& refused) {
+  if (parameter.type != ValueType::DoubleList) {
+    return report.at_value(attribute.place, refused.message, refused.hint);
+  }
+  for (const RuleBreak& it : list_errors(type, parameter, attribute.value).refused) {
+    report.at_value(attribute.place, it.message, it.hint);
+  }
+}
 
 void check_rule(const NodeElement& element, const Reporter& report, const CheckedNode& node,
                 std::span<const CheckedPort> ports, std::span<Value> values) {

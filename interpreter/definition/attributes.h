@@ -26,6 +26,13 @@ void check_attributes(const NodeElement& element, const Reporter& report, Checke
 void check_rule(const NodeElement& element, const Reporter& report, const CheckedNode& node,
                 std::span<const CheckedPort> ports, std::span<Value> values);
 
+// Says that the text of an attribute is no value of `parameter`, or one that it refuses. Of a list
+// of numbers, all that is wrong with it.
+void report_no_value(const Attribute& attribute, const Reporter& report, const NodeType& type,
+                     const Parameter& parameter);
+void report_refusal(const Attribute& attribute, const Reporter& report, const NodeType& type,
+                    const Parameter& parameter, const RuleBreak& refused);
+
 // The same for a SubTree, whose attributes are remappings.
 void check_subtree_attributes(const NodeElement& element, const Reporter& report, CheckedNode& node,
                               CheckedSubTree& subtree, CheckedTrees& trees);

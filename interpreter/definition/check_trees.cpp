@@ -20,6 +20,12 @@ bool is_schema_attribute(std::string_view name) {
   return name == "xmlns:xsi" || name == "xsi:noNamespaceSchemaLocation";
 }
 
+// The last one by editors.
+bool is_read_elsewhere(std::string_view tag) {
+  constexpr std::string_view kTags[] = {"arg", "include", "plugin", "TreeNodesModel"};
+  return std::ranges::find(kTags, tag) != std::end(kTags);
+}
+
 std::string element_hint(std::string_view tag) {
   constexpr std::string_view kTags[] = {"BehaviorTree", "plugin",  "arg",
                                         "include",      "barrier", "resources"};
@@ -61,7 +67,7 @@ class TreeChecker {
       } else if (const NodeType* type = catalog_.find(tag);
                  type != nullptr && type->category == NodeCategory::Group) {
         check_group(child, *type);
-      } else if (tag != "arg" && tag != "include" && tag != "plugin") {
+      } else if (!is_read_elsewhere(tag)) {
         if (report_.counted_only(Severity::Error)) continue;
         report_.at(element(child).place, fmt::format("unknown element '{}' in 'root'", brief(tag)),
                    element_hint(tag));

@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "core/audience.h"
 #include "core/conversion.h"
 #include "core/parameter_value.h"
 #include "core/pre_order.h"
@@ -42,7 +43,7 @@ class Expander {
     add(trees_.trees.at(main).root, 0, scope);
     add_groups(scope);
     keep_board(0, scope);
-    if (is_ours()) declare_entries(definition_, literals_, report_);
+    if (is_ours()) declare_entries(definition_, literals_, report_, guessed_);
     check_set_keys(scope);
     return std::move(definition_);
   }
@@ -198,7 +199,8 @@ class Expander {
         if (parameter.is_script) {
           bound = {.script = add_script({.entries = {use(port, parameter, scope)}})};
         } else if (!is_none) {
-          bound.entry = use(port, parameter, scope);
+          bound.entry = is_guessed(*checked.type, parameter) ? use_guessed(port, scope)
+                                                             : use(port, parameter, scope);
         }
       } else if (parameter.is_script && port.value != Port::kNone) {
         constant = false;
@@ -248,6 +250,16 @@ class Expander {
     entry.typing = Typing::Declared;
     entry.is_present = true;
     return found.entry;
+  }
+
+  // Of a stand-in for a node that no plugin has: its entry has the type that others give it.
+  bool is_guessed(const NodeType& type, const Parameter& parameter) const {
+    return is_ours() && type.mock != nullptr && parameter.is_generic;
+  }
+
+  std::uint32_t use_guessed(const CheckedPort& port, Scope& scope) {
+    guessed_.push_back(find(port.key, scope));
+    return guessed_.back();
   }
 
   std::uint32_t use(const CheckedPort& port, const Parameter& parameter, Scope& scope) {
@@ -344,11 +356,13 @@ class Expander {
       entry.initial = *std::move(value);
       return;
     }
+    const std::string why = why_no_object(parameter.object, text);
     report_.at_value(place,
                      fmt::format("the start value '{}' of '{}' is not {}, which '{}' must be",
                                  brief(text), brief(entry.name),
                                  expected_text(parameter.type, parameter.object), parameter.name),
-                     "it comes from --set or from an attribute of a SubTree");
+                     fmt::format("it comes from {} or from an attribute of a SubTree{}{}",
+                                 worded("--set", "the project"), why.empty() ? "" : "; ", why));
   }
 
   std::optional<Value> start_value(const Parameter& parameter, std::string_view text) const {
@@ -365,7 +379,8 @@ class Expander {
     }
     for (const auto& [key, text] : values_) {
       if (scope.used(key)) continue;
-      report_.nowhere(fmt::format("--set {0}: the main tree does not use '{{{0}}}'", key),
+      report_.nowhere(fmt::format("{0} {1}: the main tree does not use '{{{1}}}'",
+                                  worded("--set", "start value of"), key),
                       suggest(key, keys, "entries of the main tree"));
     }
   }
@@ -377,9 +392,10 @@ class Expander {
   std::map<std::string_view, std::size_t> groups_;   // by name: its place in trees_.groups
   std::vector<std::vector<std::uint32_t>> members_;  // of each of them
   std::set<std::pair<std::uint32_t, std::string_view>> unknown_groups_;  // reported: where, name
-  StartTexts literals_;                // those whose type no port gave yet
-  std::uint32_t board_ = 0;            // of the tree that is being added, when boards are kept
-  std::vector<std::uint32_t> shared_;  // of each first checked port: its ports, made already
+  StartTexts literals_;                 // those whose type no port gave yet
+  std::vector<std::uint32_t> guessed_;  // entries that stand-ins use
+  std::uint32_t board_ = 0;             // of the tree that is being added, when boards are kept
+  std::vector<std::uint32_t> shared_;   // of each first checked port: its ports, made already
 };
 
 }  // namespace

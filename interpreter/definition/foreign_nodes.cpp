@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/audience.h"
 #include "core/value.h"
 #include "core/wording.h"
 
@@ -48,6 +49,8 @@ constexpr std::string_view kCompare = "write <Check code=\"key == 'value'\"/>";
 constexpr std::string_view kNoQueues = "there are no queues: let a leaf take the next item";
 constexpr std::string_view kStart =
     "give the entry a start value with --set, or as an attribute of the SubTree";
+constexpr std::string_view kStartInProgram =
+    "give the entry a start value, or one as an attribute of the SubTree";
 constexpr std::string_view kWriter =
     "let the leaf that writes the entry set a flag in another entry";
 constexpr std::string_view kModel =
@@ -93,7 +96,6 @@ constexpr ForeignNode kNodes[] = {
     {"SetBlackboard", "", {}, kStart},
     {"UnsetBlackboard", "", {}, kWriter},
     {"WasEntryUpdated", "", {}, kWriter},
-    {"TreeNodesModel", "", {}, kModel},
     {"TreeNodeModel", "", {}, kModel},
     {"RecoveryNode", "", {}, kNav},
     {"PipelineSequence", "", {}, kNav},
@@ -165,7 +167,9 @@ std::span<const ForeignNode> foreign_nodes() {
 std::string foreign_node_hint(std::string_view tag, std::span<const Attribute> attributes) {
   const auto* const node = std::ranges::find(kNodes, tag, &ForeignNode::tag);
   if (node == std::end(kNodes) || tag.empty()) return {};
-  if (node->ours.empty()) return std::string(node->remark);
+  if (node->ours.empty()) {
+    return std::string(node->remark == kStart ? worded(kStart, kStartInProgram) : node->remark);
+  }
   std::string start(node->ours);
   for (const Attribute& attribute : attributes) {
     if (const auto* from = find(node->attributes, attribute.name))

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/audience.h"
 #include "core/pre_order.h"
 #include "core/value.h"
 #include "core/wording.h"
@@ -83,8 +84,9 @@ class RequestReader {
     is_valid_ = is_file_name(value);
     if (is_valid_) return;
     report_.at_value(place, fmt::format("'{}' is not the name of a file", brief(value)),
-                     "a program is searched where plugins are (--plugin-path): a tree never names "
-                     "a path");
+                     fmt::format("a program is searched where plugins are{}: a tree never names a "
+                                 "path",
+                                 worded(" (--plugin-path)", "")));
   }
 
   void read_hold(std::string_view value, Place place) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/audience.h"
 #include "core/suggest.h"
 #include "core/wording.h"
 #include "definition/advise.h"
@@ -32,7 +33,8 @@ std::optional<std::string_view> choose_main(const CheckedTrees& trees, std::stri
   if (!given.empty()) {
     const auto it = trees.trees.find(given);
     if (it != trees.trees.end()) return it->first;
-    report.nowhere(fmt::format("--tree {}: unknown tree", given),
+    report.nowhere(worded(fmt::format("--tree {}: unknown tree", given),
+                          fmt::format("unknown tree '{}'", given)),
                    suggest(given, trees.ids, "trees in this project"));
     return std::nullopt;
   }
@@ -44,9 +46,9 @@ std::optional<std::string_view> choose_main(const CheckedTrees& trees, std::stri
     return std::nullopt;
   }
   if (trees.ids.size() == 1) return trees.ids.front();
-  report.at(
-      main->place, "several trees, and none is chosen",
-      fmt::format("add main_tree_to_execute=\"…\" or use --tree; trees: {}", listed(trees.ids)));
+  report.at(main->place, "several trees, and none is chosen",
+            fmt::format("add main_tree_to_execute=\"…\" or {}; trees: {}",
+                        worded("use --tree", "choose one for the project"), listed(trees.ids)));
   return std::nullopt;
 }
 
@@ -56,7 +58,8 @@ std::optional<Definition> resolve(const Project& project, const Catalog& catalog
                                   const ResolveOptions& options, Diagnostics& diagnostics) {
   const Reporter report(project.sources, diagnostics);
   const bool is_ours = project.language == Language::Lockstep;
-  const auto models = is_ours ? btcpp::Models() : btcpp::read_models(project, report);
+  const bool has_models = !is_ours || options.unknown == MissingNodes::AreMocked;
+  const auto models = has_models ? btcpp::read_models(project, report) : btcpp::Models();
   Catalog known = catalog;
   const auto stand_ins =
       add_stand_ins(project, models, options.unknown, options.mocks, known, report);

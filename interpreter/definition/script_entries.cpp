@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/audience.h"
 #include "core/parameter_value.h"
 #include "core/suggest.h"
 #include "core/wording.h"
@@ -18,13 +19,15 @@ namespace {
 
 class Declarer {
  public:
-  Declarer(Definition& definition, const StartTexts& starts, const Reporter& report)
-      : definition_(definition), starts_(starts), report_(report) {}
+  Declarer(Definition& definition, const StartTexts& starts, std::span<const std::uint32_t> guessed,
+           const Reporter& report)
+      : definition_(definition), starts_(starts), guessed_(guessed), report_(report) {}
 
   void declare() {
     declare_made();
     for (const auto& [entry, text] : starts_) declare_started(definition_.entries[entry], text);
     declare_made();
+    for (const std::uint32_t entry : guessed_) declare_guessed(definition_.entries[entry]);
     const std::vector<bool> conditions = definition_.conditions();
     types_.resize(definition_.scripts.size());
     for (std::size_t i = 0; i < definition_.scripts.size(); ++i) {
@@ -66,7 +69,8 @@ class Declarer {
     std::vector<StaticType> types;
     for (std::size_t i = 0; i < script.entries.size(); ++i) {
       const BlackboardEntry& it = entry(script, i);
-      types.push_back(it.is_present ? StaticType{it.type, it.object} : StaticType{});
+      const bool is_known = it.is_present && it.typing != Typing::Any;
+      types.push_back(is_known ? StaticType{it.type, it.object} : StaticType{});
     }
     return types;
   }
@@ -92,7 +96,14 @@ class Declarer {
         fmt::format("the start value '{}' of '{}' is not {}, which this script makes "
                     "it",
                     brief(start->second), brief(it.name), expected_text(it.type, it.object)),
-        "it comes from --set or from an attribute of a SubTree");
+        fmt::format("it comes from {} or from an attribute of a SubTree",
+                    worded("--set", "the project")));
+  }
+
+  static void declare_guessed(BlackboardEntry& it) {
+    if (it.is_present) return;
+    it.is_present = true;
+    it.typing = Typing::Any;
   }
 
   // By the start value alone.
@@ -184,14 +195,16 @@ class Declarer {
 
   Definition& definition_;
   const StartTexts& starts_;
+  const std::span<const std::uint32_t> guessed_;
   const Reporter& report_;
   std::vector<StaticType> types_;  // of the value of each script
 };
 
 }  // namespace
 
-void declare_entries(Definition& definition, const StartTexts& starts, const Reporter& report) {
-  Declarer(definition, starts, report).declare();
+void declare_entries(Definition& definition, const StartTexts& starts, const Reporter& report,
+                     std::span<const std::uint32_t> guessed) {
+  Declarer(definition, starts, guessed, report).declare();
 }
 
 }  // namespace lockstep

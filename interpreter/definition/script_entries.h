@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string_view>
 
 #include "definition/definition.h"
@@ -15,7 +16,9 @@ namespace lockstep {
 // Of entries that no port uses: the start value as written.
 using StartTexts = std::map<std::uint32_t, std::string_view>;
 
-// Gives the entries that only scripts use their types. One that nothing declares is an error.
-void declare_entries(Definition& definition, const StartTexts& starts, const Reporter& report);
+// Gives the entries that only scripts use their types. One that nothing declares is an error, but
+// for those of `guessed`, which nodes use that nobody knows: such an entry may have any type.
+void declare_entries(Definition& definition, const StartTexts& starts, const Reporter& report,
+                     std::span<const std::uint32_t> guessed = {});
 
 }  // namespace lockstep

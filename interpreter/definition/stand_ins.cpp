@@ -56,6 +56,7 @@ class Builder {
     find_trees();
     for (const auto& document : project_.documents) find_uses(*document, unknown, mocks);
     for (const auto& [id, use] : uses_) add(id, use, mocks);
+    if (unknown == MissingNodes::AreMocked) tell_guessed();
     for (const auto& [id, mock] : mocks) check_mock(id);
     return made_->is_empty() ? nullptr : made_;
   }
@@ -141,7 +142,12 @@ class Builder {
     type.reads_ports = true;
     catalog_.replace(
         made_->add(type, std::move(ports), mock == mocks.end() ? Mock() : mock->second));
-    if (known == nullptr) tell(id, use.place, model != models_.nodes.end());
+    if (known != nullptr) return;
+    const bool has_model = model != models_.nodes.end();
+    const bool is_guessed =
+        !has_model && !use.category && mock == mocks.end() && type.category == NodeCategory::Action;
+    if (is_guessed) guessed_.push_back(id);
+    tell(id, use.place, has_model, is_guessed);
   }
 
   std::vector<std::string_view> unknown_ids() const {
@@ -168,14 +174,31 @@ class Builder {
                     "the result of other nodes comes from their children");
   }
 
-  void tell(std::string_view id, Place place, bool has_model) const {
+  void tell(std::string_view id, Place place, bool has_model, bool is_guessed) const {
     if (report_.counted_only(Severity::Note)) return;
     std::string hint =
         has_model ? "it is checked against the model in the file" : did_you_mean(id, known_ids_);
     if (hint.empty()) {
       hint = "its ports are not known, so they are not checked; --plugin loads a plugin";
     }
-    report_.at(place, fmt::format("no plugin has '{}'", brief(id)), hint, Severity::Note);
+    report_.at(place,
+               fmt::format("no plugin has '{}'{}", brief(id),
+                           is_guessed ? "; it is taken for an action" : ""),
+               hint, Severity::Note);
+  }
+
+  // Such a leaf takes a second, also where it is a condition.
+  void tell_guessed() const {
+    if (guessed_.empty()) return;
+    const auto is_before = [this](std::string_view one, std::string_view other) {
+      return uses_.at(one).place.byte < uses_.at(other).place.byte;
+    };
+    const std::string_view first = *std::ranges::min_element(guessed_, is_before);
+    report_.at(uses_.at(first).place,
+               fmt::format("no plugin has {}: taken for {}", listed(guessed_),
+                           guessed_.size() == 1 ? "an action" : "actions"),
+               fmt::format("a condition is written <Condition ID=\"{}\"/>", brief(first)),
+               Severity::Warning);
   }
 
   static NodeCategory category(const Use& use) {
@@ -222,6 +245,7 @@ class Builder {
   const std::vector<std::string_view> known_ids_ = catalog_.ids();
   std::set<std::string_view> trees_, ids_;
   std::map<std::string_view, Use> uses_;
+  std::vector<std::string_view> guessed_;  // leaves in compact form, without a model
 };
 
 }  // namespace

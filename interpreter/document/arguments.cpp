@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/audience.h"
 #include "core/identifier.h"
 #include "core/suggest.h"
 #include "core/wording.h"
@@ -44,7 +45,8 @@ void ArgumentTable::declare(Document& document, std::uint32_t element) {
     entry->second.has_value = false;
     report_.at(document.elements()[element].place,
                fmt::format("argument '{}' has no default and is not given", brief(name)),
-               fmt::format("give it with --arg {}=value", brief(name)));
+               worded(fmt::format("give it with --arg {}=value", brief(name)),
+                      std::string("the project needs a value for it")));
   }
   if (given != given_.end()) entry->second.has_value = true;
   auto value = given != given_.end() ? given->second : default_value.value_or("");
@@ -145,7 +147,7 @@ std::string ArgumentTable::list_declared(std::string_view near) const {
 void ArgumentTable::check_given() const {
   for (const auto& [name, value] : given_)
     if (!find(name))
-      report_.nowhere(fmt::format("unknown argument '{}' in --arg", brief(name)),
+      report_.nowhere(fmt::format("unknown argument '{}'{}", brief(name), worded(" in --arg", "")),
                       list_declared(name));
 }
 

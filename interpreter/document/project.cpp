@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 
+#include "core/audience.h"
 #include "core/pre_order.h"
 #include "core/wording.h"
 #include "document/arguments.h"
@@ -164,9 +165,10 @@ std::optional<fs::path> Loader::directory_of(const Document& document, std::uint
   if (auto share = packages_.find(package->value)) return share;
   report_.at_value(package->place,
                    fmt::format("the ROS package '{}' is not found", brief(package->value)),
-                   fmt::format("it is searched in AMENT_PREFIX_PATH; or give its share directory "
-                               "with --ros-package {}=DIR",
-                               brief(package->value)));
+                   worded(fmt::format("it is searched in AMENT_PREFIX_PATH; or give its share "
+                                      "directory with --ros-package {}=DIR",
+                                      brief(package->value)),
+                          std::string("it is searched in AMENT_PREFIX_PATH")));
   return std::nullopt;
 }
 

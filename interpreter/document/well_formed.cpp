@@ -166,7 +166,7 @@ class Checker {
     if (blank && !open_.empty()) return;
     const auto offset = blank ? token.begin : static_cast<std::size_t>(first - text_.data());
     const bool is_section = text_.substr(token.begin).starts_with("<![CDATA[");
-    if (is_lenient_ && is_in_models()) return;  // what ports are for
+    if (is_in_models()) return;  // what ports are for
     if (is_lenient_ && (is_section || !open_.empty() || !has_root()))
       return warn({offset, "text is ignored", "put it into a comment: <!-- … -->"});
     if (open_.empty())

@@ -13,26 +13,33 @@ namespace lockstep {
 BoundParameters::BoundParameters(const Tree& tree, const Blackboard& board)
     : tree_(tree), board_(board), cells_(tree.cells.data()), numbers_(tree.numbers.data()) {
   if (tree.bound.empty()) return;
-  values_.resize(tree.bound.size());
-  for (std::size_t i = 0; i < values_.size(); ++i) {
+  own_.values.resize(tree.bound.size());
+  for (std::size_t i = 0; i < own_.values.size(); ++i) {
     const std::size_t count = tree.labels[tree.bound[i].node].type->parameters.size();
-    values_[i].values.resize(count);
-    values_[i].seen.resize(count);
-    values_[i].space.resize(count);
+    own_.values[i].values.resize(count);
+    own_.values[i].seen.resize(count);
+    own_.values[i].space.resize(count);
   }
-  own_cells_ = tree.cells;
-  own_numbers_ = tree.numbers;
-  cells_ = own_cells_.data();
-  numbers_ = own_numbers_.data();
+  own_.cells = tree.cells;
+  own_.numbers = tree.numbers;
+  cells_ = own_.cells.data();
+  numbers_ = own_.numbers.data();
 }
 
 void BoundParameters::reset() {
-  for (Values& values : values_) values.known = false;
+  for (Values& values : own_.values) values.known = false;
+}
+
+void BoundParameters::restore(const State& from) {
+  if (own_.cells.empty()) return;
+  own_ = from;
+  cells_ = own_.cells.data();
+  numbers_ = own_.numbers.data();
 }
 
 std::string BoundParameters::read(std::uint32_t bound) {
   const BoundNode& node = tree_.bound[bound];
-  Values& values = values_[bound];
+  Values& values = own_.values[bound];
   if (is_current(node, values)) return {};
   std::string wrong = take_values(node, values);
   values.known = wrong.empty();
@@ -141,7 +148,7 @@ std::string BoundParameters::refusal(const BoundNode& node, unsigned parameter,
 }
 
 void BoundParameters::set_cells(const BoundNode& node, Values& values) {
-  Cell* const cells = own_cells_.data() + tree_.nodes[node.node].params;
+  Cell* const cells = own_.cells.data() + tree_.nodes[node.node].params;
   const auto& parameters = node.kind->type.parameters;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     if (parameters[i].is_script) continue;
@@ -161,12 +168,12 @@ void BoundParameters::set_list(Cell& cell, std::uint32_t& space, const std::vect
   const auto count = static_cast<std::uint32_t>(list.size());
   if (count > space) {
     space = std::max(count, 2 * space);
-    cell.list.first = static_cast<std::uint32_t>(own_numbers_.size());
-    own_numbers_.resize(own_numbers_.size() + space);
-    numbers_ = own_numbers_.data();
+    cell.list.first = static_cast<std::uint32_t>(own_.numbers.size());
+    own_.numbers.resize(own_.numbers.size() + space);
+    numbers_ = own_.numbers.data();
   }
   cell.list.count = count;
-  std::ranges::copy(list, own_numbers_.begin() + cell.list.first);
+  std::ranges::copy(list, own_.numbers.begin() + cell.list.first);
 }
 
 }  // namespace lockstep

@@ -30,13 +30,23 @@ class BoundParameters {
   // As new, for the next run.
   void reset();
 
- private:
   struct Values {
     std::vector<Value> values;         // as the rule sees them
     std::vector<std::uint32_t> seen;   // of each: Entry::writes when it was read
     std::vector<std::uint32_t> space;  // of each list: how many numbers fit behind its first
     bool known = false;                // all entries were read once
   };
+  // What the run keeps of the entries that it has read. Empty when the tree has no bound nodes.
+  struct State {
+    std::vector<Cell> cells;
+    std::vector<double> numbers;
+    std::vector<Values> values;  // of each Tree::bound
+  };
+  const State& state() const { return own_; }
+  // Of this tree.
+  void restore(const State& from);
+
+ private:
   bool is_current(const BoundNode& node, const Values& values) const;
   std::string take_values(const BoundNode& node, Values& values) const;
   static bool take_value(const Parameter& parameter, const Value& from, Value& value);
@@ -55,9 +65,7 @@ class BoundParameters {
   const Blackboard& board_;
   const Cell* cells_;
   const double* numbers_;
-  std::vector<Cell> own_cells_;  // empty when the tree has no bound nodes
-  std::vector<double> own_numbers_;
-  std::vector<Values> values_;  // of each Tree::bound
+  State own_;
 };
 
 }  // namespace lockstep

@@ -1,5 +1,6 @@
-// A node that fails because its owner says so: between two ticks it is marked, and its next tick is
-// a Failure instead of what it would have been.
+// Nodes that fail out of turn. One that its owner fails: between two ticks it is marked, and its
+// next tick is a Failure instead of what it would have been. And a leaf that has failed as a
+// program while its ticks are withheld: it does not wait for them.
 #include <algorithm>
 
 #include "engine/synchronized.h"
@@ -7,28 +8,38 @@
 namespace lockstep {
 
 void Ticker::fail_next(NodeIndex node) {
-  if (std::ranges::find(failing_, node) == failing_.end()) failing_.push_back(node);
-  interrupted_ = true;
+  if (std::ranges::find(state_.failing, node) == state_.failing.end())
+    state_.failing.push_back(node);
+  state_.interrupted = true;
 }
 
 bool Ticker::take_failed(NodeIndex node) {
-  const bool was_reached = std::erase(failing_, node) == 0;
-  interrupted_ = faulted_ || !failing_.empty();
+  const bool was_reached = std::erase(state_.failing, node) == 0;
+  state_.interrupted = state_.faulted || !state_.failing.empty();
   return was_reached;
 }
 
 // Of a tick in which something is wrong. Nothing: the node is ticked as always.
 [[gnu::cold, gnu::noinline]] std::optional<Status> Ticker::tick_interrupted(NodeIndex node) {
-  if (faulted_) return Status::Running;
-  const auto it = std::ranges::find(failing_, node);
-  if (it == failing_.end() || status(node) != Status::Running) return std::nullopt;
-  failing_.erase(it);
+  if (state_.faulted) return Status::Running;
+  const auto it = std::ranges::find(state_.failing, node);
+  if (it == state_.failing.end() || status(node) != Status::Running) return std::nullopt;
+  state_.failing.erase(it);
   return fail(node);
+}
+
+// What ends was ticked, as a synchronized node is.
+void Ticker::reach_groups_in(NodeIndex node) {
+  for (const Group& group : tree_.groups) {
+    const bool is_inside = node <= group.ancestor && group.ancestor < end_of(node);
+    if (is_inside && status(group.ancestor) == Status::Running) reach(group.node);
+  }
 }
 
 // A node of a plugin halts its children in its own way, so it fails as after a fault. The children
 // of a built-in node are halted as when it completes by itself.
 Status Ticker::fail(NodeIndex node) {
+  reach_groups_in(node);
   const bool is_hooked = !tree_.hooks.empty() && tree_.hooks[node] != HookedNode::kNoScript;
   const HookedNode* const hooked = is_hooked ? &tree_.hooked[tree_.hooks[node]] : nullptr;
   Status status = Status::Failure;
@@ -42,10 +53,39 @@ Status Ticker::fail(NodeIndex node) {
     }
   }
   if (hooked != nullptr && hooked->ends) status = finish(node, *hooked, status);
-  if (faulted_) status = Status::Running;
+  if (state_.faulted) status = Status::Running;
   state_.activity[node] = static_cast<Activity>(status);
-  state_.last_tick[node] = tick_number_;
+  state_.last_tick[node] = state_.tick_number;
   return status;
+}
+
+void Ticker::note_failed_leaf(NodeIndex node) {
+  if (std::exchange(leaf(node).failed, true)) return;
+  std::erase_if(state_.failed_leaves, [this](NodeIndex it) { return !leaf(it).failed; });
+  state_.failed_leaves.push_back(node);
+}
+
+[[gnu::cold, gnu::noinline]] bool Ticker::has_failed_leaf(NodeIndex child) {
+  return std::ranges::any_of(state_.failed_leaves, [&](NodeIndex it) {
+    return it >= child && it < end_of(child) && leaf(it).failed;
+  });
+}
+
+[[gnu::cold, gnu::noinline]] bool Ticker::fails_itself(NodeIndex child) {
+  for (const NodeIndex it : state_.failed_leaves) {
+    if (it < child || it >= end_of(child) || !leaf(it).failed) continue;
+    if (it == child) return true;
+    halt_failed(it);
+  }
+  return false;
+}
+
+// It stays marked, so that its next tick is a Failure.
+void Ticker::halt_failed(NodeIndex node) {
+  if (!leaf(node).started || status(node) != Status::Running) return;
+  nodes_[node].kind->halt(*this, node);
+  leaf(node).started = false;
+  leaf(node).failed = true;
 }
 
 }  // namespace lockstep

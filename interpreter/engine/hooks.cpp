@@ -53,7 +53,7 @@ std::optional<Status> Ticker::ask_while(NodeIndex node, const HookedNode& hooked
 
 // The scripts after the last tick.
 Status Ticker::finish(NodeIndex node, const HookedNode& hooked, Status status) {
-  if (!is_complete(status) || faulted_) return status;
+  if (!is_complete(status) || state_.faulted) return status;
   if (tree_.labels[node].type->leaf != nullptr) leaf(node).started = false;  // nothing to halt
   const Hook first = status == Status::Success ? Hook::OnSuccess : Hook::OnFailure;
   for (const Hook hook : {first, Hook::Post}) {
@@ -66,22 +66,23 @@ Status Ticker::finish(NodeIndex node, const HookedNode& hooked, Status status) {
 }
 
 Status Ticker::tick_unreset(NodeIndex node) {
-  if (faulted_) return Status::Running;
+  if (state_.faulted) return Status::Running;
   const Node& it = tree_.nodes[node];
   const bool hooked = !tree_.hooks.empty() && tree_.hooks[node] != HookedNode::kNoScript;
   const HookedNode* const hooks = hooked ? &tree_.hooked[tree_.hooks[node]] : nullptr;
-  const NodeType& type = *tree_.labels[node].type;
+  const NodeKind& kind = hooked ? *hooks->kind : *it.kind;
+  const Unreset how =
+      kind.unreset != nullptr ? kind.unreset(*this, node) : unreset_by(*tree_.labels[node].type);
   Status result = status(node);
-  const bool takes_time = type.category == NodeCategory::Action && type.can_run;
-  if (!takes_time) {
+  if (how != Unreset::KeepsResult) {
     if (it.children != 0) forget_descendants(node);
-    state_.activity[node] = Activity::Idle;
-    result = (hooks != nullptr ? hooks->kind : it.kind)->tick(*this, node);
+    state_.activity[node] = how == Unreset::GoesOn ? Activity::Running : Activity::Idle;
+    result = kind.tick(*this, node);
   }
-  if (hooks != nullptr) result = finish(node, *hooks, result);
-  if (faulted_) result = Status::Running;
+  if (hooked) result = finish(node, *hooks, result);
+  if (state_.faulted) result = Status::Running;
   state_.activity[node] = static_cast<Activity>(result);
-  state_.last_tick[node] = tick_number_;
+  state_.last_tick[node] = state_.tick_number;
   return result;
 }
 
@@ -129,7 +130,7 @@ std::optional<bool> Ticker::holds(NodeIndex node, std::uint32_t script,
 void Ticker::fail_script(NodeIndex node, std::string_view attribute, std::string_view wrong) {
   std::string message = "its ";
   set_fault(node, message.append(attribute).append(": ").append(wrong));
-  if (faulted_) return;
+  if (state_.faulted) return;
   halt(node);
   if (tree_.labels[node].type->leaf != nullptr) leaf(node).failed = false;
 }

@@ -18,7 +18,9 @@ struct LeafSlot {
   const char* error = nullptr;  // set by the host's set_error: the reason, valid until taken
   bool started = false;         // the activation began, so it has to be halted
   bool failed = false;          // a tolerated fault in this activation, which ends in a Failure
+  bool unreset = false;         // it begins from its last result, which its parent has not ended
   bool out_of_range = false;    // it has reported a progress outside [0, 1] in this run
+  bool went_on = false;         // its progress has risen in this run while it was held
   ChildAccess access = ChildAccess::None;  // of a control node or decorator
 };
 static_assert(sizeof(LeafSlot) <= 32);

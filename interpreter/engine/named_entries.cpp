@@ -18,6 +18,13 @@ Entry* NamedEntries::own(std::uint32_t board, std::string_view key) {
   return is_own ? &at(board, key) : nullptr;
 }
 
+void NamedEntries::restore(const Made& from) {
+  reset();
+  for (std::size_t board = 0; board < from.size(); ++board) {
+    for (const auto& [key, entry] : from[board]) made_[board][key] = entry;
+  }
+}
+
 void NamedEntries::reset() {
   for (auto& made : made_) {
     for (auto& [key, entry] : made) unset_entry(entry);

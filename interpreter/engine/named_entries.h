@@ -28,10 +28,15 @@ class NamedEntries {
   // As new, for the next run: those that were made here are not present.
   void reset();
 
+  using Made = std::vector<std::map<std::string, Entry, std::less<>>>;  // of each board; none moves
+  const Made& made() const { return made_; }
+  // Those that are not in `from` are not present.
+  void restore(const Made& from);
+
  private:
   std::span<const Board> boards_;
   std::span<Entry> slots_;
-  std::vector<std::map<std::string, Entry, std::less<>>> made_;  // of each board; none moves
+  Made made_;
 };
 
 }  // namespace lockstep

@@ -21,6 +21,13 @@ struct Round {
   friend bool operator==(const Round&, const Round&) = default;
 };
 
+// What a node does that has completed and is ticked again though its parent did not reset it.
+enum class Unreset : std::uint8_t {
+  Begins,       // anew
+  GoesOn,       // as if it ran
+  KeepsResult,  // it is not ticked
+};
+
 struct NodeKind {
   NodeType type;
   // One tick. Returns Running, Success, Failure or Skipped. Does not allocate; does not throw
@@ -38,14 +45,28 @@ struct NodeKind {
   // May be null. What the node keeps while it is skipped is over: its parent begins again, or was
   // halted.
   void (*forget)(Ticker& ticker, NodeIndex self) = nullptr;
+  // Between two ticks: brings what the node keeps to the one form that stands for all from which it
+  // goes on in the same way. Called also where it does not run. Each kind that keeps something has
+  // one: see engine/nodes/fold.h.
+  void (*fold)(Ticker& ticker, NodeIndex self) = nullptr;
   // May be null. A script has decided the result of an activation before its first tick.
   void (*decided)(Ticker& ticker, NodeIndex self, Status result) = nullptr;
+  // May be null: then an action that takes time keeps its result, all else begins. Called before
+  // the tick (Ticker::tick_unreset).
+  Unreset (*unreset)(Ticker& ticker, NodeIndex self) = nullptr;
   bool reads_entries = false;  // before each tick: its parameters are Tree::bound
   bool chooses_to_read =
-      false;  // not before each tick: it calls Ticker::reread where it needs them
+      false;                   // not before each tick: it calls Ticker::reread where it needs them
+  bool counts_writes = false;  // its first port names an entry whose Entry::writes it looks at
   // For views. Null if the child runs once. Called only while the node is Running.
   Round (*round)(Ticker& ticker, NodeIndex self) = nullptr;
 };
+
+// Of a kind that does not say it.
+constexpr Unreset unreset_by(const NodeType& type) {
+  const bool takes_time = type.category == NodeCategory::Action && type.can_run;
+  return takes_time ? Unreset::KeepsResult : Unreset::Begins;
+}
 
 // The built-in kinds of a language, in the order in which they are documented.
 std::span<const NodeKind* const> built_in_kinds(Language language = Language::Lockstep);

@@ -1,11 +1,14 @@
-// The state of all nodes in one run, as plain bytes: a fill resets it and a copy preserves it. The
-// leaves of plugins and the blackboard are separate.
+// What a Ticker keeps of one run. A copy preserves it. The entries, the parameters from entries and
+// the leaves are separate (engine/saved_run.h has them all).
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
+#include <string>
+#include <unordered_map>
 #include <vector>
 
+#include "core/clock.h"
 #include "core/status.h"
 #include "engine/tree.h"
 
@@ -28,7 +31,25 @@ constexpr Status status_of(Activity activity) {
   return static_cast<Status>(static_cast<std::uint8_t>(activity) & (kWithheld - 1u));
 }
 
+// A leaf failed as a program. The run ends: no leaf is started or ticked after it.
+struct Fault {
+  NodeIndex node = 0;
+  std::string message;        // "threw …", "returned status 7, …"
+  bool in_last_halt = false;  // it could not be halted at the end of the run
+
+  friend bool operator==(const Fault&, const Fault&) = default;
+};
+
+// A leaf has reported a progress outside [0, 1], which was clamped.
+struct OutOfRange {
+  NodeIndex node = 0;
+  double reported = 0;
+
+  friend bool operator==(const OutOfRange&, const OutOfRange&) = default;
+};
+
 struct RunState {
+  RunState() = default;
   explicit RunState(const Tree& tree)
       : activity(tree.nodes.size(), Activity::Idle),
         last_tick(tree.nodes.size(), 0),
@@ -39,11 +60,33 @@ struct RunState {
     std::ranges::fill(activity, Activity::Idle);
     std::ranges::fill(last_tick, 0);
     std::ranges::fill(bytes, 0);
+    now = Nanoseconds(0);
+    tick_number = asked_by = 0;
+    in_last_halt = interrupted = faulted = false;
+    fault = {};
+    failing.clear();
+    failed_leaves.clear();
+    tolerated.clear();
+    out_of_range.clear();
+    kept_values.clear();
   }
 
   std::vector<Activity> activity;        // of each node
   std::vector<std::uint32_t> last_tick;  // number of the last tick that reached it; 0 = none yet
   std::vector<std::uint64_t> bytes;      // the states of the nodes, 8-byte aligned
+
+  Nanoseconds now{0};
+  std::uint32_t tick_number = 0;
+  std::uint32_t asked_by = 0;  // a node and 1 more; 0: nobody
+  bool in_last_halt = false;
+  bool interrupted = false;  // faulted, or a node is to fail: a tick is not as any other
+  bool faulted = false;
+  Fault fault;
+  std::vector<NodeIndex> failing;        // in their next tick
+  std::vector<NodeIndex> failed_leaves;  // whose slots are marked failed; some are not any more
+  std::vector<Fault> tolerated;
+  std::vector<OutOfRange> out_of_range;
+  std::unordered_map<NodeIndex, Value> kept_values;
 
   friend bool operator==(const RunState&, const RunState&) = default;
 };

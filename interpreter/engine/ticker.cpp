@@ -25,13 +25,16 @@ Ticker::Ticker(const Tree& tree, std::span<LeafSlot> leaves, Blackboard& board, 
       state_(tree),
       names_(tree.boards, board.entries),
       scripts_(tree, board, names_),
-      policy_(policy) {
+      policy_(policy),
+      held_leaves_(leaves.size()) {
   if (tree.has_halt_hooks) halting_.reserve(tree.hooked.size());
 }
 
 Status Ticker::tick_root(Nanoseconds now) {
   set_now(now);
-  ++tick_number_;
+  ++state_.tick_number;
+  if (!held_leaves_.empty()) [[unlikely]]
+    held_leaves_.look(*this);
   if (tree_.groups.empty()) [[likely]]
     return tick(0);
   return tick_with_groups();
@@ -53,7 +56,7 @@ Status Ticker::tick_with_groups() {
     Activity& activity = state_.activity[group.node];
     if (rests(group)) activity = Activity::Idle;
     const Status status = nodes_[group.node].kind->tick(*this, group.node);
-    activity = static_cast<Activity>(faulted_ ? Status::Running : status);
+    activity = static_cast<Activity>(state_.faulted ? Status::Running : status);
   }
   const Status result = tick(0);
   for (const Group& group : tree_.groups) {
@@ -76,7 +79,7 @@ bool Ticker::reread(NodeIndex node) {
 }
 
 Status Ticker::give_up(NodeIndex node) {
-  if (faulted_) return Status::Running;
+  if (state_.faulted) return Status::Running;
   halt_running_children(node);
   return Status::Failure;
 }
@@ -132,21 +135,21 @@ NodeIndex Ticker::end_activation(NodeIndex node) {
 void Ticker::halt_range(NodeIndex first, NodeIndex last) {
   const std::size_t hooks = halting_.size();
   // After a fault all halts are halt_all's, so that they come in one order.
-  for (NodeIndex node = first; node < last && (!faulted_ || in_last_halt_);) {
+  for (NodeIndex node = first; node < last && (!state_.faulted || state_.in_last_halt);) {
     if (halting_.size() > hooks) run_halt_hooks(hooks, node);
     node = end_activation(node);
   }
   if (halting_.size() > hooks) run_halt_hooks(hooks, last);
-  if (in_last_halt_) return;
+  if (state_.in_last_halt) return;
   // A fault of a leaf's halt: its siblings may still run, so the nodes around them do too.
-  if (faulted_) [[unlikely]]
-    keep_ancestors_running(fault_.node);
+  if (state_.faulted) [[unlikely]]
+    keep_ancestors_running(state_.fault.node);
 }
 
 void Ticker::halt_all() {
-  in_last_halt_ = true;
+  state_.in_last_halt = true;
   halt_range(0, static_cast<NodeIndex>(tree_.nodes.size()));
-  in_last_halt_ = false;
+  state_.in_last_halt = false;
 }
 
 void Ticker::halt_running_children(NodeIndex node) {
@@ -156,7 +159,7 @@ void Ticker::halt_running_children(NodeIndex node) {
 }
 
 void Ticker::pause(NodeIndex node) {
-  for (NodeIndex at = node; at < nodes_[node].end && !faulted_;) {
+  for (NodeIndex at = node; at < nodes_[node].end && !state_.faulted;) {
     const Node& it = nodes_[at];
     if (state_.activity[at] != Activity::Running) {  // so nothing below it needs a call either
       at = it.end;
@@ -169,15 +172,15 @@ void Ticker::pause(NodeIndex node) {
 }
 
 void Ticker::set_fault(NodeIndex node, std::string message) {
-  Fault fault{node, std::move(message), in_last_halt_};
-  if (in_last_halt_ ? faulted_ : policy_ == FaultPolicy::Fail) {
-    if (tree_.labels[node].type->leaf != nullptr) leaf(node).failed = true;
-    tolerated_.push_back(std::move(fault));
+  Fault fault{node, std::move(message), state_.in_last_halt};
+  if (state_.in_last_halt ? state_.faulted : policy_ == FaultPolicy::Fail) {
+    if (tree_.labels[node].type->leaf != nullptr) note_failed_leaf(node);
+    state_.tolerated.push_back(std::move(fault));
     return;
   }
-  if (faulted_) return;  // the first is the cause
-  faulted_ = interrupted_ = true;
-  fault_ = std::move(fault);
+  if (state_.faulted) return;  // the first is the cause
+  state_.faulted = state_.interrupted = true;
+  state_.fault = std::move(fault);
 }
 
 void Ticker::keep_ancestors_running(NodeIndex node) {
@@ -189,7 +192,7 @@ void Ticker::keep_ancestors_running(NodeIndex node) {
 
 void Ticker::note_out_of_range(NodeIndex node, double reported) {
   if (std::exchange(leaf(node).out_of_range, true)) return;
-  out_of_range_.push_back({node, reported});
+  state_.out_of_range.push_back({node, reported});
 }
 
 void Ticker::reset() {
@@ -197,16 +200,8 @@ void Ticker::reset() {
   parameters_.reset();
   names_.reset();
   scripts_.reset();
-  now_ = Nanoseconds(0);
-  tick_number_ = 0;
-  asked_by_ = 0;
-  kept_values_.clear();
-  interrupted_ = faulted_ = false;
-  fault_ = {};
-  failing_.clear();
-  tolerated_.clear();
-  out_of_range_.clear();
-  for (LeafSlot& leaf : leaves_) leaf.out_of_range = false;
+  held_leaves_.reset();
+  for (LeafSlot& leaf : leaves_) leaf.out_of_range = leaf.went_on = false;
 }
 
 }  // namespace lockstep

@@ -8,14 +8,13 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
-#include "core/clock.h"
 #include "engine/blackboard.h"
 #include "engine/bound_parameters.h"
 #include "engine/bound_scripts.h"
+#include "engine/held_leaves.h"
 #include "engine/leaf_slot.h"
 #include "engine/named_entries.h"
 #include "engine/run_state.h"
@@ -23,24 +22,13 @@
 
 namespace lockstep {
 
-// A leaf failed as a program. The run ends: no leaf is started or ticked after it.
-struct Fault {
-  NodeIndex node = 0;
-  std::string message;        // "threw …", "returned status 7, …"
-  bool in_last_halt = false;  // it could not be halted at the end of the run
-};
-
-// A leaf has reported a progress outside [0, 1], which was clamped.
-struct OutOfRange {
-  NodeIndex node = 0;
-  double reported = 0;
-};
-
 // What a fault does to the run.
 enum class FaultPolicy : std::uint8_t {
   Stop,  // the run ends
   Fail,  // the leaf's activation ends with Failure; the tree goes on
 };
+
+struct SavedRun;
 
 class Ticker {
  public:
@@ -54,26 +42,26 @@ class Ticker {
   // nothing, and the control nodes that are in their tick do not complete: all of them stay
   // Running.
   Status tick(NodeIndex node) {
-    if (interrupted_) [[unlikely]] {
+    if (state_.interrupted) [[unlikely]] {
       if (const auto status = tick_interrupted(node)) return *status;
     }
     Activity& activity = state_.activity[node];
     const Node& it = nodes_[node];
     if (has_ended(status_of(activity)) && it.children != 0) forget_descendants(node);
     Status status = it.kind->tick(*this, node);
-    if (faulted_) [[unlikely]]
+    if (state_.faulted) [[unlikely]]
       status = Status::Running;
     activity = static_cast<Activity>(status);
-    state_.last_tick[node] = tick_number_;
+    state_.last_tick[node] = state_.tick_number;
     return status;
   }
 
   // Ticks a child that has completed in this activation of its parent and was not reset: its
-  // pre-conditions are not asked, and an action that takes time answers as before.
+  // pre-conditions are not asked, and NodeKind::unreset says what it does.
   Status tick_unreset(NodeIndex node);
 
   // The tree is ticked again in this period, if the root is Running then.
-  void ask_for_another_tick(NodeIndex node) { asked_by_ = node + 1; }
+  void ask_for_another_tick(NodeIndex node) { state_.asked_by = node + 1; }
 
   // The nodes of a range that were skipped begin again in their next tick.
   void forget_range(NodeIndex first, NodeIndex last) {
@@ -88,10 +76,22 @@ class Ticker {
   void halt_running_children(NodeIndex node);
 
   // True in halt_all: every running leaf is halted, whatever has failed.
-  bool in_last_halt() const { return in_last_halt_; }
+  bool in_last_halt() const { return state_.in_last_halt; }
 
   // Withholds ticks from a subtree: each running leaf gets one `pause`, until it is ticked again.
   void pause(NodeIndex node);
+  // The same for a child that is not to be ticked now. False: a leaf in it has failed as a program
+  // and the run goes on, so the child gets its tick, in which that leaf is halted and fails.
+  bool hold(NodeIndex child) {
+    if (activity(child) == Activity::Running) pause(child);
+    return state_.failed_leaves.empty() || !has_failed_leaf(child);
+  }
+  // The same for a child in which nothing may begin: it gets its tick only if it is such a leaf
+  // itself. One that is further down is halted, and fails in its next tick.
+  bool hold_firmly(NodeIndex child) {
+    if (activity(child) == Activity::Running) pause(child);
+    return state_.failed_leaves.empty() || !fails_itself(child);
+  }
 
   // In [0, 1]: 1 on Success, 0 when idle or failed.
   double progress(NodeIndex node) {
@@ -113,10 +113,18 @@ class Ticker {
     const Node& it = nodes_[node];
     return {reinterpret_cast<T*>(state_bytes() + it.state + it.kind->state_size), it.children};
   }
+  // All that a node keeps in RunState.
+  std::span<std::byte> kept_bytes(NodeIndex node) {
+    const Node& it = nodes_[node];
+    return {state_bytes() + it.state,
+            it.kind->state_size + std::size_t{it.children} * it.kind->state_per_child};
+  }
   std::span<double> child_numbers(NodeIndex node) { return child_states<double>(node); }
   const Cell& parameter(NodeIndex node, unsigned index) const {
     return parameters_.cells()[nodes_[node].params + index];
   }
+  // No entry gives one of its parameters.
+  bool has_constant_parameters(NodeIndex node) const { return !nodes_[node].kind->reads_entries; }
   std::span<const double> numbers(const Cell& cell) const {
     return {parameters_.numbers() + cell.list.first, cell.list.count};
   }
@@ -151,7 +159,8 @@ class Ticker {
   const Value* result_of(NodeIndex node, std::uint32_t script, std::string_view attribute);
 
   // What a kind keeps beside its state, until the run begins again.
-  Value& kept_value(NodeIndex node) { return kept_values_[node]; }
+  Value& kept_value(NodeIndex node) { return state_.kept_values[node]; }
+  void drop_kept_value(NodeIndex node) { state_.kept_values.erase(node); }
 
   // Of a kind that reads ports (NodeType::reads_ports).
   const PortBinding& port(NodeIndex node, unsigned index) const {
@@ -178,17 +187,21 @@ class Ticker {
   // Of a node whose kind has a parameter that names a group.
   const Member& membership(NodeIndex node) const { return tree_.membership(node); }
   // A member was ticked: its group counts as ticked in this tick.
-  void reach(NodeIndex group) { state_.last_tick[group] = tick_number_; }
-  // Of a group: Success, until the common ancestor of its members begins an activation.
-  void complete(NodeIndex group) { state_.activity[group] = Activity::Success; }
+  void reach(NodeIndex group) { state_.last_tick[group] = state_.tick_number; }
+  // Of a group whose common ancestor runs: Success, or Running again.
+  void set_complete(NodeIndex group, bool is_complete) {
+    state_.activity[group] = is_complete ? Activity::Success : Activity::Running;
+  }
   LeafSlot& leaf(NodeIndex node) { return leaves_[nodes_[node].params]; }
 
   // Under FaultPolicy::Fail the fault is noted in tolerated(), and a leaf's slot is marked failed:
   // its tick, or the next one, returns Failure.
   void set_fault(NodeIndex node, std::string message);
-  bool faulted() const { return faulted_; }
+  bool faulted() const { return state_.faulted; }
   // Only the first of each leaf is kept.
   void note_out_of_range(NodeIndex node, double reported);
+  // A leaf that is held from now on: whether it goes on is looked at before each tick.
+  void watch_held(NodeIndex node) { held_leaves_.add(node, leaf(node)); }
 
   // --- for both ----------------------------------------------------------------------------------
 
@@ -200,23 +213,23 @@ class Ticker {
   bool is_latched(NodeIndex node) const { return nodes_[node].is_latched != 0; }
   Activity activity(NodeIndex node) const { return state_.activity[node]; }
   Status status(NodeIndex node) const { return status_of(state_.activity[node]); }
-  Nanoseconds now() const { return now_; }  // of this tick, since the run began
+  Nanoseconds now() const { return state_.now; }  // of this tick, since the run began
 
   // --- for the owner of the run ------------------------------------------------------------------
 
   // The time of the next tick, which must not decrease. From now on, progress is computed for that
   // time.
-  void set_now(Nanoseconds now) { now_ = now; }
+  void set_now(Nanoseconds now) { state_.now = now; }
 
   // Ticks the root once. The result is Running while the tree runs, and after a fault.
   Status tick_root(Nanoseconds now);
 
   // Ticks it once more in the same tick, for a node that has asked for it.
   Status tick_root_again();
-  bool is_asked() const { return asked_by_ != 0; }
+  bool is_asked() const { return state_.asked_by != 0; }
   // The node that has asked since the last call, if any.
   std::optional<NodeIndex> take_request() {
-    const std::uint32_t node = std::exchange(asked_by_, 0);
+    const std::uint32_t node = std::exchange(state_.asked_by, 0);
     return node == 0 ? std::nullopt : std::optional(node - 1);
   }
 
@@ -234,24 +247,41 @@ class Ticker {
   // Resets everything without a call to the leaves: call halt_all first.
   void reset();
 
-  const Fault* fault() const { return faulted_ ? &fault_ : nullptr; }
+  const Fault* fault() const { return state_.faulted ? &state_.fault : nullptr; }
   // The faults after which the run goes on, in order, since they were last taken: those of a tick,
   // of progress that was read before it, and of halt_all.
-  std::span<const Fault> tolerated() const { return tolerated_; }
-  std::vector<Fault> take_tolerated() { return std::exchange(tolerated_, {}); }
+  std::span<const Fault> tolerated() const { return state_.tolerated; }
+  std::vector<Fault> take_tolerated() { return std::exchange(state_.tolerated, {}); }
   // In this run, one of each leaf.
-  std::span<const OutOfRange> out_of_range() const { return out_of_range_; }
-  std::uint32_t tick_number() const { return tick_number_; }  // of the last tick; the first is 1
+  std::span<const OutOfRange> out_of_range() const { return state_.out_of_range; }
+  // The same of those that went on while they were held.
+  std::span<const WentOn> went_on() const { return held_leaves_.went_on(); }
+  // Of the last tick; the first is 1.
+  std::uint32_t tick_number() const { return state_.tick_number; }
   bool ticked(NodeIndex node) const {
-    return tick_number_ != 0 && state_.last_tick[node] == tick_number_;
+    return state_.tick_number != 0 && state_.last_tick[node] == state_.tick_number;
   }
   bool held(NodeIndex node) const { return state_.activity[node] == Activity::Paused; }
   const RunState& run_state() const { return state_; }
 
+  // Between two ticks: all of the run but what the leaves keep in themselves. After `restore` the
+  // run goes on as it did after `save`. The saved run is one of this ticker, or of another one of
+  // the same tree.
+  void save(SavedRun& into) const;
+  void restore(const SavedRun& from);
+  // Between two ticks: brings the state of the run to the one form that stands for all from which
+  // the tree goes on in the same way, so that two of these can be compared as bytes. Time and the
+  // number of the tick begin at 0 again, and nothing counts as ticked. What the leaves keep in
+  // themselves, and what is reported of a run, stay as they are.
+  void fold();
+
  private:
+  void fold_entries();
+  void forget_below_ended();
   Status tick_with_groups();
   std::optional<Status> tick_interrupted(NodeIndex node);
   Status fail(NodeIndex node);
+  void reach_groups_in(NodeIndex node);
   Truth ask(NodeIndex node, const HookedNode& hooked, Hook hook);
   std::optional<Status> ask_first(NodeIndex node, const HookedNode& hooked);
   std::optional<Status> ask_while(NodeIndex node, const HookedNode& hooked);
@@ -263,6 +293,10 @@ class Ticker {
   void forget_descendants(NodeIndex node);
   NodeIndex end_activation(NodeIndex node);
   void keep_ancestors_running(NodeIndex node);
+  void note_failed_leaf(NodeIndex node);
+  bool has_failed_leaf(NodeIndex child);
+  bool fails_itself(NodeIndex child);
+  void halt_failed(NodeIndex node);
   std::uint32_t bound_of(NodeIndex node) const {  // in Tree::bound
     return static_cast<std::uint32_t>(parameters_.cells()[nodes_[node].params - 1].integer);
   }
@@ -276,19 +310,9 @@ class Ticker {
   RunState state_;
   NamedEntries names_;
   BoundScripts scripts_;
-  Nanoseconds now_{0};
-  std::uint32_t tick_number_ = 0;
   const FaultPolicy policy_;
-  std::uint32_t asked_by_ = 0;           // a node and 1 more; 0: nobody
   std::vector<NodeIndex> halting_ = {};  // that were halted and have a script for it
-  bool in_last_halt_ = false;
-  bool interrupted_ = false;  // faulted_, or a node is to fail: a tick is not as any other
-  bool faulted_ = false;
-  Fault fault_;
-  std::vector<NodeIndex> failing_ = {};  // in their next tick
-  std::unordered_map<NodeIndex, Value> kept_values_;
-  std::vector<Fault> tolerated_;
-  std::vector<OutOfRange> out_of_range_;
+  HeldLeaves held_leaves_;
 };
 
 }  // namespace lockstep

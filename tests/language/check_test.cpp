@@ -103,7 +103,7 @@ TEST_CASE("nodes of other libraries: what to write instead") {
       {R"(<AlwaysSuccess _skipIf="x &amp;&amp; y"/>)", "write skip_if=\"x &amp;&amp; y\""},
       {R"(<SubTree ID="T" _onHalted="x := 1"/>)", "write on_halt=\"x := 1\""},
       {R"(<GoTo target="x" _uid="3"/>)", "leave it out; a mark of an editor"},
-      {"<root lockstep=\"1\"><TreeNodesModel/><BehaviorTree "
+      {"<root lockstep=\"1\"><TreeNodeModel/><BehaviorTree "
        "ID=\"T\"><AlwaysSuccess/></BehaviorTree>"
        "</root>",
        "delete it: ports come from the plugin, and `lockstep nodes` lists them"},

@@ -38,9 +38,13 @@ TEST_CASE("the root says the version of the language") {
        "<AlwaysSuccess/>hello</BehaviorTree></root>",
        "2:17 error: text is not part of the language"},
       {"nothing else stands in the root",
-       R"(<root lockstep="1"><BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree><TreeNodesModel/>
+       R"(<root lockstep="1"><BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree><TreeNodeModel/>
           </root>)",
-       "1:72 error: unknown element 'TreeNodesModel' in 'root'"},
+       "1:72 error: unknown element 'TreeNodeModel' in 'root'"},
+      {"but for what editors know of the nodes",
+       R"(<root lockstep="1"><TreeNodesModel><Action ID="Dock"><input_port name="at">where</input_port>
+          </Action></TreeNodesModel><BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree></root>)",
+       ""},
       {"a file needs a tree", R"(<root lockstep="1"/>)", "1:1 error: there is no BehaviorTree"},
   };
   check_told(kRows);

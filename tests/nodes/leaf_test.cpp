@@ -120,6 +120,48 @@ TEST_CASE("a progress out of range is noted with its value, once for each leaf")
   CHECK(noted() == Noted{{1, 42}});
 }
 
+namespace {
+
+std::vector<std::pair<NodeIndex, double>> went_on(ScriptedRun& run, int ticks) {
+  for (int tick = 0; tick < ticks; ++tick) run.tick(Nanoseconds(tick));
+  std::vector<std::pair<NodeIndex, double>> all;
+  for (const WentOn& it : run.ticker().went_on()) all.emplace_back(it.node, it.to - it.from);
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("a leaf that goes on while it is held is noted, once in a run") {
+  using Noted = std::vector<std::pair<NodeIndex, double>>;
+  ScriptedRun run("ParallelAbsolute[barriers=.5](a b)", "a=R.1 b=R~0,.6,.75,.8125,.9");
+  CHECK(went_on(run, 3).empty());  // one rise may be the answer to the last tick
+  run.restart();
+  const auto noted = went_on(run, 10);
+  REQUIRE(noted.size() == 1);
+  CHECK(noted[0].first == 2);
+  CHECK(noted[0].second > 0.2);
+  run.restart();
+  CHECK(went_on(run, 10).size() == 1);
+
+  ScriptedRun pool(
+      "Parallel(UseResources[pool=p resources=A](a) UseResources[pool=p resources=A](b)) "
+      "resources[name=p increment=0]",
+      "a=R~0,.1,.2,.3 b=R~0,.1,.2,.3");
+  CHECK(went_on(pool, 10).empty());  // who is never held may go on
+  ScriptedRun taken(
+      "Parallel(UseResources[pool=p resources=A](a) Sequence(UseResources[pool=p resources=A](b))) "
+      "resources[name=p increment=1]",
+      "a=R~0,.1,.2,.3,.4,.5 b=R~0");
+  CHECK(went_on(taken, 10).empty());  // held for a tick at a time
+
+  for (const char* still : {"a=R.1 b=R.6", "a=R.1 b=R~0,.6,.6,.7,.7",
+                            "a=R.1 b=R~0,.6,.601,.602,.603,.6,.602,.604", "a=R.1 b=R~0,.6,.5,.4"}) {
+    INFO(still);
+    ScriptedRun held("ParallelAbsolute[barriers=.5](a b)", still);
+    CHECK(went_on(held, 12) == Noted{});
+  }
+}
+
 TEST_CASE("the first fault of a run is kept") {
   ScriptedRun run("a", "a=X^halt");
   run.tick(Nanoseconds(0));

@@ -97,6 +97,9 @@ constexpr TickRow kMemberRows[] = {
   {"the others wait where an action comes before it in every tick",
    "Parallel(Sequence(z Parallel[success_count=1 failure_count=2](SyncProgress[barrier=g](a) x)) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5]",
    "z=S... a=R.1F x=R... b=R.7", "R[z a x b] R{start z, tick z, tick a, tick x, pause b} R{start z, tick z, tick x}"},
+  {"the others wait where a condition before it has a script",
+   "Sequence[memory=true](Script[code=y:=1] Parallel(Sequence(Check[code=y==1 skip_if=y==2] Parallel[success_count=1 failure_count=2](SyncProgress[barrier=g](a) x)) SyncProgress[barrier=g](b))) barrier[name=g barriers=.5]",
+   "a=R.1F x=R... b=R.7", "R[a x b] R[a x] pause[b] R[x] R[x]"},
   {"nobody waits for it below a branch",
    "Parallel(IfThenElse(c? Parallel[success_count=1 failure_count=2](SyncProgress[barrier=g](a) x)) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5]",
    "c=S a=R.1F x=R... b=R.7", "R[c a x b] R[a x] pause[b] R[x b] resume[b]"},
@@ -128,6 +131,9 @@ constexpr TickRow kMemberRows[] = {
   {"a member may be inside one of another barrier",
    "Parallel(SyncProgress[barrier=g](SyncProgress[barrier=h](a)) SyncProgress[barrier=h](b) SyncProgress[barrier=g](c)) barrier[name=g delta=.1] barrier[name=h delta=.1]",
    "a=R.3 b=R.1 c=R.1", "R[a b c] R[b c] pause[a]"},
+  {"a member that is ahead by delta is ticked",
+   "Parallel(SyncProgress[barrier=g](a) SyncProgress[barrier=g](b)) barrier[name=g delta=0]",
+   "a=R0 b=R1e-9", "R[a b] R[a b]"},
   {"ends the run when a member's progress is not a number, and ticks nobody after that",
    "Parallel(SyncProgress[barrier=g](a) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5]",
    "a=R b=R<nan>", "R[a b] X{halt a, halt b}=b"},
@@ -200,6 +206,33 @@ TEST_CASE("SyncProgress: a limit without a value is a fault once a member runs, 
       "'barriers' has no value: nothing has written the entry '{d}'"));
 }
 
+TEST_CASE("SyncProgress: nobody is held, and there is no limit, before the limits are written") {
+  ScriptedRun run(kFromEntry, "a=R b=R");
+  run.tick(from_seconds(0));
+  CHECK(limit(run.ticker(), 5) == std::numeric_limits<double>::infinity());
+  ScriptedRun constant(
+      "Parallel(SyncProgress[barrier=g](a) SyncProgress[barrier=g](b)) barrier[name=g delta=.2]",
+      "a=R b=R");
+  constant.tick(from_seconds(0));
+  CHECK(limit(constant.ticker(), 5) == 0.2);
+}
+
+TEST_CASE("SyncProgress: a halted member is not held any more when no member runs") {
+  ScriptedRun run(
+      "Parallel(Retry[attempts=3](Timeout[seconds=.2 on_failure=d:=5](SyncProgress[barrier=g](a)))"
+      " SyncProgress[barrier=g](b)) barrier[name=g delta={d}]",
+      "a=R.7... b=R.1R.1S");
+  run.set("d", 0.2);
+  const NodeIndex member = 3;
+  run.tick(from_seconds(0));
+  run.tick(from_seconds(0.1));
+  CHECK(run.ticker().held(member + 1));
+  run.tick(from_seconds(0.2));  // a is halted, b succeeds, and the limit cannot be read
+  CHECK(run.ticker().status(member) == Status::Idle);
+  run.tick(from_seconds(0.3));
+  CHECK(run.ticker().ticked(member + 1));
+}
+
 TEST_CASE("SyncProgress: an entry that the barrier does not accept is its fault") {
   ScriptedRun run(kFromEntry, "a=R.1... b=R.6...");
   run.set("d", 1.0);
@@ -213,10 +246,35 @@ TEST_CASE("SyncProgress: an entry that the barrier does not accept is its fault"
   goes_on.set("d", 1.0);
   goes_on.tick(from_seconds(0));
   goes_on.set("d", 2.0);
+  goes_on.events.clear();
   CHECK(goes_on.tick(from_seconds(0.1)) == Status::Failure);
+  CHECK(goes_on.events == EventLog{{Call::Halt, 0}, {Call::Halt, 1}});
   CHECK(goes_on.ticker().take_tolerated().size() == 1);
   goes_on.set("d", 0.2);
   CHECK(goes_on.tick(from_seconds(0.2)) == Status::Running);
+}
+
+TEST_CASE(
+    "SyncProgress: the tick in which its common ancestor is made to fail is one of the barrier") {
+  ScriptedRun run(
+      "Parallel(SyncProgress[barrier=g](a) SyncProgress[barrier=g](b)) barrier[name=g delta=1]",
+      "a=R b=R");
+  run.tick(from_seconds(0));
+  run.ticker().fail_next(0);
+  CHECK(run.tick(from_seconds(0.1)) == Status::Failure);
+  CHECK(run.ticker().ticked(run.tree().groups[0].node));
+}
+
+TEST_CASE("SyncProgress: a barrier whose guard fails again has not succeeded") {
+  ScriptedRun run(
+      "Parallel[success_count=3 failure_count=2](SyncProgress[barrier=g](a) "
+      "SyncProgress[barrier=g](c?) x y) barrier[name=g delta=1]",
+      "a=S x=R y=R c=SFS");
+  const NodeIndex barrier = run.tree().groups[0].node;
+  for (const Status expected : {Status::Success, Status::Running, Status::Success}) {
+    run.tick(from_seconds(0));
+    CHECK(run.ticker().status(barrier) == expected);
+  }
 }
 
 TEST_CASE("SyncProgress: a barrier runs with the common ancestor, and succeeds with its members") {

@@ -81,6 +81,10 @@ constexpr TickRow kResourceRows[] = {
    " resources[name=p increment=0] resources[name=q]",
    "a=R b=R c=R",
    "R[a] R[b c] pause[a] R[a] resume[a] pause[b c] R[b c] pause[a] resume[b c]"},
+  {"a node between a member and a held SyncProgress goes on: a Timeout",
+   "Parallel[success_count=1 failure_count=2](UseResources[pool=p resources=A](Timeout[seconds=.1](SyncProgress[barrier=g](a))) SyncProgress[barrier=g](b))"
+   " barrier[name=g barriers=.5] resources[name=p]",
+   "a=R.6 b=R.1", "R[a b] R[b] halt[a]"},
   {"a child that fails ends its member",
    "Fallback[memory=true](UseResources[pool=p resources=A](a) b) resources[name=p]", "a=RF b=S", "R[a] S[a b]"},
   {"a completed member starts again with the priority 0",
@@ -99,7 +103,79 @@ std::string who_owns(ScriptedRun& run) {
   return who;
 }
 
+// Of each member: '+' it owns, '-' it waits, '.' neither.
+std::string claims(ScriptedRun& run) {
+  std::string claims;
+  for_each_resource_user(run.tree(), [&](NodeIndex member) {
+    const double claim = limit(run.ticker(), member);
+    claims += owns(claim) ? '+' : waits(claim) ? '-' : '.';
+  });
+  return claims;
+}
+
+struct ClaimRow {
+  std::string_view law, tree, leaves, claims;
+};
+
+// clang-format off
+constexpr ClaimRow kClaimRows[] = {
+  {"a member owns or waits while it is ticked, and neither before and after",
+   "Parallel(UseResources[pool=p resources=A](a) Sequence[memory=true](x UseResources[pool=p resources=A](b))) resources[name=p increment=0]",
+   "a=RRRS x=RS b=RRR", "+. +- +- +- .+"},
+  {"neither: a barrier holds it",
+   "Parallel(SyncProgress[barrier=g](UseResources[pool=p resources=A](a)) SyncProgress[barrier=g](UseResources[pool=p resources=B](b)))"
+   " barrier[name=g barriers=.5] resources[name=p]",
+   "a=R.5 b=R.2R.5R.6", "++ .+ ++"},
+  {"neither: it is inside of a member that waits",
+   "Parallel(UseResources[pool=q resources=Z](UseResources[pool=p resources=A](a)) UseResources[pool=q resources=Z](b)) resources[name=p] resources[name=q]",
+   "a=R b=R", "++- .-+ ++-"},
+  {"neither: it was halted",
+   "Parallel[success_count=1 failure_count=2](Sequence(g? UseResources[pool=p resources=A](a)) x) resources[name=p]",
+   "g=SF a=R x=R", "+ + ."},
+  {"neither: its child is skipped",
+   "Sequence[memory=true](Script[code=y:=1] Parallel(UseResources[pool=p resources=A](a[skip_if=y==1]) UseResources[pool=p resources=A](b))) resources[name=p]",
+   "a=R b=R", ".+ -+"},
+};
+// clang-format on
+
 }  // namespace
+
+TEST_CASE("UseResources: what a member owns or waits for in a tick") {
+  for (const ClaimRow& row : kClaimRows) {
+    INFO(row.law << ": " << row.tree);
+    ScriptedRun run(row.tree, row.leaves);
+    std::string told;
+    while (told.size() < row.claims.size()) {
+      run.tick(Nanoseconds(0));
+      told += (told.empty() ? "" : " ") + claims(run);
+    }
+    CHECK(told == row.claims);
+  }
+}
+
+TEST_CASE("UseResources: a held SyncProgress inside is seen at its barrier") {
+  ScriptedRun run(
+      "Parallel(UseResources[pool=p resources=A](SyncProgress[barrier=g](a)) "
+      "SyncProgress[barrier=g](b))"
+      " barrier[name=g barriers=.5] resources[name=p]",
+      "a=R.6 b=R.1RS");
+  run.tick(Nanoseconds(0));
+  run.tick(Nanoseconds(0));
+  CHECK(run.ticker().held(3));
+  CHECK(run.ticker().ticked(2));  // the SyncProgress
+  run.tick(Nanoseconds(0));       // b succeeds
+  run.tick(Nanoseconds(0));
+  CHECK(run.ticker().ticked(run.tree().groups[0].node));
+}
+
+TEST_CASE("UseResources: only a member that waits gains priority") {
+  ScriptedRun run(
+      "Parallel(UseResources[pool=p resources=A](SyncProgress[barrier=g](a))"
+      " SyncProgress[barrier=g](x)) barrier[name=g barriers=.5] resources[name=p increment=5]",
+      "a=R.7... x=R.1...");
+  for (int tick = 0; tick < 10; ++tick) run.tick(Nanoseconds(0));
+  CHECK(run.ticker().state<ResourceUse>(run.tree().members[2].node).priority == 0);
+}
 
 TEST_CASE("UseResources: worked traces") {
   for (const ResourceTrace& trace : kResourceTraces) {
@@ -169,13 +245,28 @@ TEST_CASE("UseResources: with --on-fault fail a wrong entry fails the node, and 
   CHECK(run.ticker().tolerated().size() == 1);
 }
 
+TEST_CASE("UseResources: a member inside of one with a wrong entry does not own in that tick") {
+  ScriptedRun run(
+      "Parallel[success_count=1 failure_count=2](UseResources[pool=q resources={set}]("
+      "UseResources[pool=p resources=A](a)) UseResources[pool=p resources=A](b))"
+      " resources[name=p increment=0] resources[name=q resources=Z]",
+      "a=R b=R", FaultPolicy::Fail);
+  run.set("set", std::string("Z"));
+  run.tick(Nanoseconds(0));
+  CHECK(who_owns(run) == "1.");
+  run.set("set", std::string("D"));
+  run.tick(Nanoseconds(0));
+  CHECK(who_owns(run) == ".2");
+}
+
 TEST_CASE("UseResources") {
   check_rows(kResourceRows);
 }
 
 TEST_CASE("UseResources: what a child keeps does not depend on what its entry says meanwhile") {
   ScriptedRun run(
-      "Parallel(UseResources[pool=p resources={set} keep=true](a) UseResources[pool=p resources=A](b)"
+      "Parallel(UseResources[pool=p resources={set} keep=true](a) UseResources[pool=p "
+      "resources=A](b)"
       " UseResources[pool=p resources=B](c)) resources[name=p]",
       "a=RRS b=RRRR c=RRRR");
   const auto who_with = [&](const char* set) {

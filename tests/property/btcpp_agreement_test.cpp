@@ -6,9 +6,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "definition/resolve.h"
-#include "engine/compile.h"
-#include "property/btcpp_random.h"
+#include "property/btcpp_tree.h"
 #include "support/scripted_run.h"
 
 namespace lockstep::test::law {
@@ -16,32 +14,6 @@ namespace {
 
 constexpr int kDocuments = 10'000;
 constexpr int kPeriods = 12;
-
-const NodeType kAct{.id = "Act",
-                    .category = NodeCategory::Action,
-                    .doc = "",
-                    .arity = {0, 0},
-                    .can_run = true,
-                    .leaf = &kScriptedAction};
-const NodeType kCond{.id = "Cond",
-                     .category = NodeCategory::Condition,
-                     .doc = "",
-                     .arity = {0, 0},
-                     .leaf = &kScriptedCondition};
-
-Tree loaded(const std::string& xml) {
-  Catalog catalog;
-  for (const NodeKind* kind : built_in_kinds(Language::BehaviorTreeCpp)) catalog.add(&kind->type);
-  catalog.add(&kAct);
-  catalog.add(&kCond);
-  Diagnostics diagnostics;
-  const auto project = load_project_text("f", xml, {}, diagnostics);
-  const auto definition = resolve(*project, catalog, {}, diagnostics);
-  for (const Diagnostic& it : diagnostics.all()) {
-    if (it.severity == Severity::Error) FAIL(render(it, false) << xml);
-  }
-  return compile(*definition);
-}
 
 // "n = 2 (3 writes)", of those that are there, in the order of their names.
 std::string shown(const std::map<std::string, Entry>& entries) {
@@ -110,7 +82,7 @@ struct Outcome {
 
 Outcome compared(const Document& document) {
   Outcome outcome;
-  ScriptedRun engine(loaded(to_xml(document)), leaves_text(document));
+  ScriptedRun engine(tree_of(document), leaves_text(document));
   Reference reference(document);
   const auto same = [&](int period, std::string_view what, const std::string& got,
                         const std::string& expected) {

@@ -33,6 +33,8 @@ void ReferenceBarrier::before_tick() {
   if (!ancestor().runs()) members_.assign(count(), {});
   snapshot.clear();
   for (std::size_t place = 0; place < count(); ++place) {
+    const bool is_latched = !is_guard(member(place).plan);  // a guard is "never latched"
+    members_[place].has_succeeded &= is_latched || member(place).status == Status::Success;
     snapshot.push_back(counted(place));
     note_counted(place, snapshot.back());
   }
@@ -178,7 +180,9 @@ void ReferenceBarrier::was_ticked(const ReferenceNode& node) {
   if (is_complete(node.status)) it.was_begun = true;  // also when a script has decided for it
   it.has_failed = node.status == Status::Failure;
   if (node.status == Status::Success) it.has_succeeded = true;
-  if (all_succeeded()) status = Status::Success;
+  // "never latched"
+  if (is_guard(node.plan)) it.has_succeeded = node.status == Status::Success;
+  status = all_succeeded() ? Status::Success : Status::Running;
 }
 
 void ReferenceBarrier::note_held(std::size_t place) const {

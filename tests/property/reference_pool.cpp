@@ -162,7 +162,8 @@ Status UseResources::on_tick(bool first) {
                : "a member asks after a parallel has held it");
     ask();
   }
-  if (!is_granted_) return deny();
+  // What a barrier holds inside withholds the ticks itself.
+  if (!is_granted_ && is_open_) return deny();
   // "Granted: tick the child, return its status."
   const Status result = child().tick();
   // As if the node were not there: members after it may have its resources.
@@ -176,11 +177,9 @@ Status UseResources::on_tick(bool first) {
 // "Reached and denied: pause a child that runs, priority += increment (saturating at 2 N x
 // increment), return Running. A member that a barrier holds neither owns nor ages."
 Status UseResources::deny() {
-  if (is_open_) {
-    const int older = priority_ + pool().increment();
-    if (older > pool().most_priority()) note("a priority saturates");
-    priority_ = std::min(older, pool().most_priority());
-  }
+  const int older = priority_ + pool().increment();
+  if (older > pool().most_priority()) note("a priority saturates");
+  priority_ = std::min(older, pool().most_priority());
   child().pause();
   return Status::Running;
 }

@@ -167,10 +167,7 @@ class PortChecker {
     }
     auto read = value_from_text(parameter.type, parameter.object, attribute.value);
     if (!read) {
-      report_.at_value(
-          attribute.place,
-          fmt::format("'{}' is not {}, which '{}' must be", brief(attribute.value),
-                      expected_text(parameter.type, parameter.object), parameter.name));
+      report_no_value(attribute, report_, *node_.type, parameter);
       return false;
     }
     if (read->has_rest) warn_of_rest(parameter, attribute);
@@ -182,7 +179,7 @@ class PortChecker {
       return true;
     }
     if (const auto refused = refuse_value(parameter, read->value)) {
-      report_.at_value(attribute.place, refused->message, refused->hint);
+      report_refusal(attribute, report_, *node_.type, parameter, *refused);
       return false;
     }
     value = std::move(read->value);

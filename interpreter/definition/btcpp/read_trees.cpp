@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/audience.h"
 #include "core/pre_order.h"
 #include "core/suggest.h"
 #include "core/wording.h"
@@ -288,7 +289,8 @@ class TreeReader {
       return fmt::format("to use the tree '{0}' write <SubTree ID=\"{0}\"/>", brief(id));
     std::string hint = did_you_mean(id, catalog_.ids());
     if (!hint.empty()) return hint;
-    return "if a plugin provides it, give that with --plugin, or name it with <plugin name=\"…\"/>";
+    return fmt::format("if a plugin provides it, {}, or name it with <plugin name=\"…\"/>",
+                       worded("give that with --plugin", "add that to the project"));
   }
 
   bool is_tree(std::string_view id) const {

@@ -6,6 +6,7 @@
 
 #include "engine/nodes/barrier_list.h"
 #include "engine/nodes/decorator.h"
+#include "engine/nodes/fold.h"
 
 namespace lockstep {
 namespace {
@@ -67,21 +68,19 @@ NodeIndex parent_of(const Ticker& ticker, NodeIndex node) {
   return ticker.tree().labels[node].parent;
 }
 
-// Whether no tick reaches a member that does not run again, in this activation of the ancestor: a
-// parallel that runs has latched the child with the member, and itself cannot begin again. In doubt
-// it can: a barrier that stays closed is seen and reported, one that opens for a member that comes
-// back is a collision.
+// Whether no tick reaches a member that has begun and does not run again, in this activation of the
+// ancestor, which runs: a parallel that runs has latched the child with the member, and itself
+// cannot begin again. In doubt it can: a barrier that stays closed is seen and reported, one that
+// opens for a member that comes back is a collision.
 bool cannot_come_back(const Ticker& ticker, NodeIndex member, NodeIndex ancestor) {
   NodeIndex child = member;
   while (ticker.status(parent_of(ticker, child)) != Status::Running) {
     child = parent_of(ticker, child);
-    if (child == ancestor) return false;
   }
-  if (!ticker.is_latched(child) || !is_complete(ticker.status(child))) return false;
+  if (!ticker.is_latched(child)) return false;
   for (NodeIndex node = parent_of(ticker, child); node != ancestor;
        node = parent_of(ticker, node)) {
     if (ticker.node(node).is_begun_once == 0) return false;
-    if (ticker.status(parent_of(ticker, node)) != Status::Running) return false;
   }
   return true;
 }
@@ -105,6 +104,17 @@ double reached(Ticker& ticker, NodeIndex member, const Place& place, NodeIndex a
   return status == Status::Idle ? of_idle : 0.0;
 }
 
+// The barrier succeeds with all of its members. Of a guard only the last result counts.
+void note_result(Ticker& ticker, const Member& member, Place& place, Status result) {
+  const bool succeeded =
+      result == Status::Success || (place.succeeded && !ticker.is_guard(member.node));
+  if (std::exchange(place.succeeded, succeeded) == succeeded) return;
+  BarrierState& state = ticker.state<BarrierState>(member.group);
+  succeeded ? ++state.succeeded : --state.succeeded;
+  state.synchronized.succeeded = state.succeeded == ticker.node(member.group).children;
+  ticker.set_complete(member.group, state.synchronized.succeeded);
+}
+
 // The progress of all members before the root is ticked.
 struct Snapshot {
   double least;       // of those that are not left out
@@ -121,9 +131,10 @@ Snapshot take_snapshot(Ticker& ticker, NodeIndex self) {
   for (const Member& it : tree.members_of(self)) {
     Place& place = place_of(ticker, self, it.number);
     if (begins) place = {};
+    if (!begins && ticker.is_guard(it.node)) note_result(ticker, it, place, ticker.status(it.node));
     progress[it.number] =
         begins ? of_idle : reached(ticker, it.node, place, tree.group(self).ancestor, of_idle);
-    snapshot.runs |= !begins && ticker.status(it.node) == Status::Running;
+    snapshot.runs |= ticker.status(it.node) == Status::Running;
   }
   snapshot.least = least_progress(progress);
   return snapshot;
@@ -165,13 +176,26 @@ Status tick_barrier(Ticker& ticker, NodeIndex self) {
   BarrierState& state = ticker.state<BarrierState>(self);
   if (ticker.status(self) == Status::Idle) state = {};
   const Snapshot snapshot = take_snapshot(ticker, self);
-  if (snapshot.runs && !ticker.reread(self)) return ticker.give_up(self);
-  if (snapshot.runs || ticker.refresh(self)) {
+  const bool readable = snapshot.runs ? ticker.reread(self) : ticker.refresh(self);
+  if (!readable && snapshot.runs) return ticker.give_up(self);
+  if (readable) {
     set_limit(ticker, self, snapshot.least);
   } else {
     hold_nobody(ticker, self);
   }
   return state.synchronized.succeeded ? Status::Success : Status::Running;
+}
+
+// Who has succeeded or begun counts as long as the common ancestor runs.
+void fold_barrier(Ticker& ticker, NodeIndex self) {
+  if (ticker.status(ticker.tree().group(self).ancestor) != Status::Running) {
+    return fold::dead(ticker, self);
+  }
+  ticker.state<BarrierState>(self).synchronized.limit = 0;
+  std::ranges::fill(ticker.child_numbers(self), 0.0);
+  for (const Member& it : ticker.tree().members_of(self)) {
+    place_of(ticker, self, it.number).held = false;
+  }
 }
 
 // --- the members ---------------------------------------------------------------------------------
@@ -185,13 +209,6 @@ constexpr Parameter kMemberParameters[] = {
               .constant = true,
               .group = "barrier"}};
 
-void note_success(Ticker& ticker, const Member& member, Place& place) {
-  if (std::exchange(place.succeeded, true)) return;
-  BarrierState& state = ticker.state<BarrierState>(member.group);
-  state.synchronized.succeeded = ++state.succeeded == ticker.node(member.group).children;
-  if (state.synchronized.succeeded) ticker.complete(member.group);
-}
-
 Status tick_member(Ticker& ticker, NodeIndex self) {
   const Member& member = ticker.membership(self);
   const NodeIndex child = self + 1;
@@ -202,12 +219,9 @@ Status tick_member(Ticker& ticker, NodeIndex self) {
     ticker.halt_running_children(self);
     return Status::Failure;
   }
-  if (place.held) {
-    if (ticker.activity(child) == Activity::Running) ticker.pause(child);
-    return Status::Running;
-  }
+  if (place.held && ticker.hold(child)) return Status::Running;
   const Status status = ticker.tick(child);
-  if (status == Status::Success && !ticker.faulted()) note_success(ticker, member, place);
+  note_result(ticker, member, place, status);
   return status;
 }
 
@@ -217,7 +231,7 @@ void member_decided(Ticker& ticker, NodeIndex self, Status result) {
   const Member& member = ticker.membership(self);
   Place& place = place_of(ticker, member.group, member.number);
   place.begun = true;
-  if (result == Status::Success) note_success(ticker, member, place);
+  note_result(ticker, member, place, result);
 }
 
 }  // namespace
@@ -243,6 +257,7 @@ const NodeKind kBarrier{
                    NodeIndex self) { return least_progress(ticker.child_numbers(self)); },
     .state_size = sizeof(BarrierState),
     .state_per_child = sizeof(double) + sizeof(Place),
+    .fold = fold_barrier,
     .chooses_to_read = true};
 
 const NodeKind kSyncProgress{

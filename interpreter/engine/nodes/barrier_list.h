@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/node_type.h"
@@ -47,12 +48,21 @@ inline std::optional<RuleBreak> check_order(const std::vector<double>& barriers)
   if (not_rising == barriers.end()) return std::nullopt;
   auto sorted = barriers;
   std::ranges::sort(sorted);
-  if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end()) {
-    return RuleBreak{kBarriers, "barrier " + to_text(*twice) + " is given twice", ""};
+  std::vector<double> twice;
+  for (auto it = sorted.begin(); (it = std::adjacent_find(it, sorted.end())) != sorted.end();) {
+    twice.push_back(*it);
+    it = std::upper_bound(it, sorted.end(), *it);
   }
+  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
   constexpr std::size_t kMostShown = 20;
-  return RuleBreak{kBarriers, "barriers must rise",
-                   sorted.size() > kMostShown ? "" : "write '" + to_text(sorted) + "'"};
+  std::string hint = sorted.size() > kMostShown ? "" : "write '" + to_text(sorted) + "'";
+  if (twice.empty()) return RuleBreak{kBarriers, "barriers must rise", std::move(hint)};
+  twice.resize(std::min(twice.size(), kMostShown));
+  return RuleBreak{kBarriers,
+                   (twice.size() == 1 ? "barrier " + to_text(twice.front()) + " is"
+                                      : "barriers " + to_text(twice) + " are") +
+                       " given twice",
+                   std::move(hint)};
 }
 
 // Fills in the equidistant barriers that 'barrier_count' stands for. At least one of the two is

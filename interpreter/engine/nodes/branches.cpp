@@ -1,5 +1,6 @@
 // IfThenElse and WhileDoElse: the first child is a condition that chooses one of the others. The
 // two languages differ in a condition that is skipped, and in one that goes on to be asked.
+#include "engine/nodes/fold.h"
 #include "engine/nodes/kinds.h"
 #include "engine/ticker.h"
 
@@ -95,7 +96,8 @@ constexpr NodeKind kIf{
              .begins_child_once = kLanguage == Language::Lockstep},
     .tick = tick_if<kLanguage>,
     .progress = progress_of_branch,
-    .state_size = sizeof(BranchState)};
+    .state_size = sizeof(BranchState),
+    .fold = fold::dead_when_idle};
 
 template <Language kLanguage>
 constexpr NodeKind kWhile{
@@ -107,7 +109,8 @@ constexpr NodeKind kWhile{
              .arity = {2, 3}},
     .tick = tick_while<kLanguage>,
     .progress = progress_of_branch,
-    .state_size = sizeof(BranchState)};
+    .state_size = sizeof(BranchState),
+    .fold = fold::dead_when_idle};
 
 }  // namespace
 

@@ -1,4 +1,5 @@
 #include "engine/nodes/decorator.h"
+#include "engine/nodes/fold.h"
 #include "engine/nodes/timed.h"
 
 namespace lockstep {
@@ -32,6 +33,13 @@ Status tick_cooldown(Ticker& ticker, NodeIndex self) {
   return status;
 }
 
+void fold_cooldown(Ticker& ticker, NodeIndex self) {
+  CooldownState& state = ticker.state<CooldownState>(self);
+  const bool is_over = ticker.has_constant_parameters(self) && !cools(ticker, self, state);
+  if (!state.cools || is_over) return fold::dead(ticker, self);
+  state.completed -= ticker.now();
+}
+
 }  // namespace
 
 const NodeKind kCooldown{
@@ -43,6 +51,7 @@ const NodeKind kCooldown{
              .acts_again = false},
     .tick = tick_cooldown,
     .progress = decorator::child_progress,
-    .state_size = sizeof(CooldownState)};
+    .state_size = sizeof(CooldownState),
+    .fold = fold_cooldown};
 
 }  // namespace lockstep

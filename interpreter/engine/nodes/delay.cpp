@@ -31,6 +31,7 @@ const NodeKind kDelay{
     .tick = tick_delay,
     .progress = decorator::child_progress,
     .state_size = sizeof(timed::State),
-    .pause = timed::pause};
+    .pause = timed::pause,
+    .fold = timed::fold_by_clock};
 
 }  // namespace lockstep

@@ -1,3 +1,4 @@
+#include "engine/nodes/fold.h"
 #include "engine/nodes/kinds.h"
 #include "engine/nodes/ordered.h"
 
@@ -13,6 +14,7 @@ const NodeKind kFallback{
              .goes_on_after = Status::Failure},
     .tick = ordered::tick<Status::Failure>,
     .progress = ordered::progress_of_fallback,
-    .state_size = sizeof(ordered::State)};
+    .state_size = sizeof(ordered::State),
+    .fold = fold::dead_when_idle};
 
 }  // namespace lockstep

@@ -1,9 +1,10 @@
 // The nodes of plugins, mostly leaves: the only place where the engine calls the C ABI. Whatever
-// one does against its contract becomes a fault here. A fault that the run goes on after marks the
-// leaf's slot until the activation has ended, with a Failure or a halt.
+// one does against its contract becomes a fault here. A fault that the
+// run goes on after marks the leaf's slot until the activation has ended, with a Failure or a halt.
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "core/plugin_exception.h"
 #include "engine/node_kind.h"
@@ -93,7 +94,8 @@ Status out(Ticker& ticker, NodeIndex self) {
 
 [[gnu::noinline]] void start(Ticker& ticker, NodeIndex self, LeafSlot& leaf) {
   leaf.started = false;
-  call(ticker, self, leaf.type->start);
+  const bool goes_on = std::exchange(leaf.unreset, false);
+  call(ticker, self, goes_on ? leaf.type->start_unreset : leaf.type->start);
   leaf.started = !is_out(ticker, leaf);
 }
 
@@ -107,7 +109,7 @@ bool prepare(Ticker& ticker, NodeIndex self, LeafSlot& leaf) {
   if (before == Activity::Running) return !leaf.failed;
   if (before == Activity::Paused) {
     resume(ticker, self, leaf);
-  } else if (leaf.type->start == nullptr) {
+  } else if (leaf.type->start == nullptr && !leaf.unreset) {
     leaf.started = true;
   } else {
     start(ticker, self, leaf);
@@ -164,9 +166,20 @@ Status tick_control(Ticker& ticker, NodeIndex self) {
   return status;
 }
 
+Unreset unreset_leaf(Ticker& ticker, NodeIndex self) {
+  LeafSlot& leaf = ticker.leaf(self);
+  leaf.unreset = leaf.type->start_unreset != nullptr;
+  return leaf.unreset ? Unreset::Begins : unreset_by(*ticker.tree().labels[self].type);
+}
+
 void pause(Ticker& ticker, NodeIndex self) {
   LeafSlot& leaf = ticker.leaf(self);
   if (!leaf.failed) call(ticker, self, leaf.type->pause);
+}
+
+void pause_leaf(Ticker& ticker, NodeIndex self) {
+  pause(ticker, self);
+  if (!ticker.faulted()) ticker.watch_held(self);
 }
 
 void pause_control(Ticker& ticker, NodeIndex self) {
@@ -218,25 +231,42 @@ double progress_of_control(Ticker& ticker, NodeIndex self) {
 
 }  // namespace
 
+std::optional<double> look_at_progress(LeafSlot& leaf) {
+  if (leaf.type->progress == nullptr) return std::nullopt;
+  const char* const error = leaf.error;
+  double reported = -1.0;
+  try {
+    reported = leaf.type->progress(leaf.self);
+    if (leaf.error != error) reported = -1.0;
+  } catch (...) {
+    reported = -1.0;
+  }
+  leaf.error = error;
+  return reported >= 0.0 && reported <= 1.0 ? std::optional(reported) : std::nullopt;
+}
+
 const NodeKind kPluginAction{
     .type = {.id = "Action", .category = NodeCategory::Action, .doc = "", .arity = {0, 0}},
     .tick = tick_leaf<Kind::Action>,
     .progress = progress_of_leaf,
     .halt = halt_leaf<Kind::Action>,
-    .pause = pause};
+    .pause = pause_leaf,
+    .unreset = unreset_leaf};
 
 const NodeKind kPluginCondition{
     .type = {.id = "Condition", .category = NodeCategory::Condition, .doc = "", .arity = {0, 0}},
     .tick = tick_leaf<Kind::Condition>,
     .progress = progress_of_leaf,
     .halt = halt_leaf<Kind::Condition>,
-    .pause = pause};
+    .pause = pause_leaf,
+    .unreset = unreset_leaf};
 
 const NodeKind kPluginControl{
     .type = {.id = "Control", .category = NodeCategory::Control, .doc = "", .arity = {1}},
     .tick = tick_control,
     .progress = progress_of_control,
     .halt = halt_leaf<Kind::Control>,
-    .pause = pause_control};
+    .pause = pause_control,
+    .unreset = unreset_leaf};
 
 }  // namespace lockstep

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/nodes/decorator.h"
+#include "engine/nodes/fold.h"
 #include "engine/nodes/timed.h"
 
 namespace lockstep {
@@ -17,6 +18,12 @@ Status tick_mock_action(Ticker& ticker, NodeIndex self) {
   const Mock& mock = mock_of(ticker, self);
   const Nanoseconds counted = ticker.now() - ticker.state<timed::State>(self).start;
   return counted >= from_seconds(mock.seconds) ? mock.result : Status::Running;
+}
+
+void fold_mock_action(Ticker& ticker, NodeIndex self) {
+  fold::dead_when_idle(ticker, self);
+  if (ticker.status(self) != Status::Running) return;
+  timed::count_from_now(ticker, self, true, from_seconds(mock_of(ticker, self).seconds));
 }
 
 double action_progress(Ticker& ticker, NodeIndex self) {
@@ -68,14 +75,16 @@ const NodeKind kMockAction{
     .tick = tick_mock_action,
     .progress = action_progress,
     .state_size = sizeof(timed::State),
-    .pause = timed::pause};
+    .pause = timed::pause,
+    .fold = fold_mock_action};
 const NodeKind kMockCondition{.type = {.id = "", .category = NodeCategory::Condition, .doc = ""},
                               .tick = tick_mock_condition,
                               .progress = condition_progress};
 const NodeKind kMockControl{.type = {.id = "", .category = NodeCategory::Control, .doc = ""},
                             .tick = tick_mock_control,
                             .progress = control_progress,
-                            .state_size = sizeof(ControlState)};
+                            .state_size = sizeof(ControlState),
+                            .fold = fold::dead_when_idle};
 const NodeKind kMockDecorator{.type = {.id = "", .category = NodeCategory::Decorator, .doc = ""},
                               .tick = tick_mock_decorator,
                               .progress = decorator::child_progress};

@@ -1,3 +1,4 @@
+#include "engine/nodes/fold.h"
 #include "engine/nodes/kinds.h"
 #include "engine/nodes/parallel_rule.h"
 
@@ -43,6 +44,7 @@ const NodeKind kParallel{
              .latches = true},
     .tick = tick_parallel,
     .progress = progress_of_parallel,
-    .state_per_child = sizeof(double)};
+    .state_per_child = sizeof(double),
+    .fold = fold::dead};
 
 }  // namespace lockstep

@@ -1,4 +1,5 @@
 #include "engine/nodes/barrier_list.h"
+#include "engine/nodes/fold.h"
 #include "engine/nodes/kinds.h"
 #include "engine/nodes/synchronized_tick.h"
 
@@ -50,6 +51,7 @@ const NodeKind kParallelAbsolute{
     .progress = synchronized::least_progress,
     .state_size = sizeof(SynchronizedState),
     .state_per_child = sizeof(double),
+    .fold = fold::dead,
     .decided = synchronized::decided};
 
 }  // namespace lockstep

@@ -1,3 +1,4 @@
+#include "engine/nodes/fold.h"
 #include "engine/nodes/kinds.h"
 #include "engine/nodes/synchronized_tick.h"
 
@@ -49,6 +50,7 @@ const NodeKind kParallelRelative{
     .progress = synchronized::least_progress,
     .state_size = sizeof(SynchronizedState),
     .state_per_child = sizeof(double),
+    .fold = fold::dead,
     .decided = synchronized::decided};
 
 }  // namespace lockstep

@@ -1,4 +1,5 @@
 #include "engine/nodes/decorator.h"
+#include "engine/nodes/fold.h"
 #include "engine/nodes/timed.h"
 
 namespace lockstep {
@@ -31,6 +32,14 @@ Status tick_rate(Ticker& ticker, NodeIndex self) {
   return status;
 }
 
+void fold_rate(Ticker& ticker, NodeIndex self) {
+  if (ticker.status(self) == Status::Running) return timed::fold_by_clock(ticker, self);
+  RateState& state = ticker.state<RateState>(self);
+  const bool is_over = ticker.has_constant_parameters(self) && timed::is_over(ticker, self);
+  if (!is_complete(state.result) || is_over) return fold::dead(ticker, self);
+  state.time = {.start = state.time.start - ticker.now(), .paused_at = Nanoseconds(0)};
+}
+
 }  // namespace
 
 const NodeKind kRate{
@@ -44,6 +53,7 @@ const NodeKind kRate{
     .tick = tick_rate,
     .progress = decorator::child_progress,
     .state_size = sizeof(RateState),
-    .pause = timed::pause};
+    .pause = timed::pause,
+    .fold = fold_rate};
 
 }  // namespace lockstep

@@ -1,4 +1,5 @@
 #include "engine/nodes/decorator.h"
+#include "engine/nodes/fold.h"
 
 namespace lockstep {
 namespace {
@@ -36,6 +37,12 @@ double progress_of_repeat(Ticker& ticker, NodeIndex self) {
   return (done + current) / static_cast<double>(times);
 }
 
+// How often does not matter for ever.
+void fold_repeat(Ticker& ticker, NodeIndex self) {
+  if (ticker.parameter(self, kTimes).integer == kForever) return fold::dead(ticker, self);
+  fold::dead_when_idle(ticker, self);
+}
+
 Round round_of_repeat(Ticker& ticker, NodeIndex self) {
   return {ticker.state<RepeatState>(self).done + 1, ticker.parameter(self, kTimes).integer};
 }
@@ -53,6 +60,7 @@ const NodeKind kRepeat{
     .tick = tick_repeat,
     .progress = progress_of_repeat,
     .state_size = sizeof(RepeatState),
+    .fold = fold_repeat,
     .round = round_of_repeat};
 
 }  // namespace lockstep

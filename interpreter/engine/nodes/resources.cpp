@@ -1,6 +1,7 @@
 // A pool of resources, beside the trees. Before the root is ticked it decides which of its members
 // own their resources in this tick.
 #include "engine/resources.h"
+#include "engine/nodes/fold.h"
 
 #include <algorithm>
 
@@ -32,7 +33,6 @@ std::optional<RuleBreak> rule_of_resources(const ParameterValues& given) {
 // Of a node that runs: a synchronized parallel has withheld its last tick, and may do so again.
 // Such a member asks when a tick reaches it.
 bool is_held_by_parallel(const Ticker& ticker, NodeIndex node) {
-  if (!ticker.held(node)) return false;
   const auto& labels = ticker.tree().labels;
   while (ticker.held(node)) node = labels[node].parent;
   return ticker.node(node).children > 1;
@@ -83,6 +83,7 @@ const NodeKind kResources{
     .tick = tick_resources,
     .progress = [](Ticker&, NodeIndex) { return 0.0; },
     .state_size = sizeof(ResourcePool),
-    .state_per_child = sizeof(std::uint32_t)};
+    .state_per_child = sizeof(std::uint32_t),
+    .fold = fold::dead};
 
 }  // namespace lockstep

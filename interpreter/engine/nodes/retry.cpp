@@ -1,4 +1,5 @@
 #include "engine/nodes/decorator.h"
+#include "engine/nodes/fold.h"
 
 namespace lockstep {
 namespace {
@@ -44,6 +45,7 @@ const NodeKind kRetry{
     .tick = tick_retry,
     .progress = decorator::child_progress,
     .state_size = sizeof(RetryState),
+    .fold = fold::dead_when_idle,
     .round = round_of_retry};
 
 }  // namespace lockstep

@@ -1,5 +1,6 @@
 // RunOnce of both languages.
 #include "engine/nodes/decorator.h"
+#include "engine/nodes/fold.h"
 
 namespace lockstep {
 namespace {
@@ -46,7 +47,8 @@ const NodeKind kRunOnce{
              .acts_again = false},
     .tick = tick_run_once,
     .progress = decorator::child_progress,
-    .state_size = sizeof(RunOnceState)};
+    .state_size = sizeof(RunOnceState),
+    .fold = fold::live};
 
 const NodeKind btcpp::kRunOnce{
     .type = {.id = "RunOnce",
@@ -58,6 +60,7 @@ const NodeKind btcpp::kRunOnce{
              .acts_again = false},
     .tick = tick_or_skip,
     .progress = decorator::child_progress,
-    .state_size = sizeof(RunOnceState)};
+    .state_size = sizeof(RunOnceState),
+    .fold = fold::live};
 
 }  // namespace lockstep

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "core/wording.h"
+#include "engine/nodes/fold.h"
 #include "engine/nodes/kinds.h"
 #include "engine/ticker.h"
 #include "expression/equal.h"
@@ -83,6 +84,7 @@ const NodeKind kSwitch{
              .rule = rule_of_switch},
     .tick = tick_switch,
     .progress = progress_of_switch,
-    .state_size = sizeof(SwitchState)};
+    .state_size = sizeof(SwitchState),
+    .fold = fold::dead_when_idle};
 
 }  // namespace lockstep

@@ -31,10 +31,8 @@ Status tick_each(Ticker& ticker, NodeIndex self, const parallel::Places& places,
     if (ticker.faulted()) return Status::Running;
     Status status = ticker.status(child);
     if (!parallel::is_over(ticker, child)) {
-      if (!held(reached) || ticker.is_guard(child)) {
+      if (!held(reached) || ticker.is_guard(child) || !ticker.hold(child)) {
         status = ticker.tick(child);
-      } else if (ticker.activity(child) == Activity::Running) {
-        ticker.pause(child);
       }
     }
     tally.add(status);

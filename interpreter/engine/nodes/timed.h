@@ -2,7 +2,9 @@
 // the time during which the node was held.
 #pragma once
 
-#include "engine/ticker.h"
+#include <algorithm>
+
+#include "engine/nodes/fold.h"
 
 namespace lockstep::timed {
 
@@ -39,6 +41,36 @@ inline void count(Ticker& ticker, NodeIndex self) {
 inline bool is_over(Ticker& ticker, NodeIndex self) {
   const Nanoseconds counted = ticker.now() - ticker.state<State>(self).start;
   return counted >= from_seconds(ticker.parameter(self, kSeconds).number);
+}
+
+// Of a node that runs: the times relative to now. If no entry changes what is counted, it is at
+// most `limit`.
+inline void count_from_now(Ticker& ticker, NodeIndex self, bool stands_while_held,
+                           Nanoseconds limit) {
+  State& state = ticker.state<State>(self);
+  const bool is_paused = ticker.activity(self) == Activity::Paused;
+  if (!ticker.has_constant_parameters(self)) {
+    state.start -= ticker.now();
+    state.paused_at = is_paused ? state.paused_at - ticker.now() : Nanoseconds(0);
+    return;
+  }
+  const Nanoseconds until = is_paused && stands_while_held ? state.paused_at : ticker.now();
+  state = {.start = -std::min(until - state.start, limit), .paused_at = Nanoseconds(0)};
+}
+
+// Of Wait.
+inline void fold(Ticker& ticker, NodeIndex self) {
+  fold::dead_when_idle(ticker, self);
+  if (ticker.status(self) != Status::Running) return;
+  count_from_now(ticker, self, true, from_seconds(ticker.parameter(self, kSeconds).number));
+}
+
+// Of Timeout, Delay and a Rate that runs.
+inline void fold_by_clock(Ticker& ticker, NodeIndex self) {
+  fold::dead_when_idle(ticker, self);
+  if (ticker.status(self) != Status::Running) return;
+  count_from_now(ticker, self, ticker.parameter(self, kClock).integer != kWall,
+                 from_seconds(ticker.parameter(self, kSeconds).number));
 }
 
 // Of Timeout and Delay.

@@ -32,6 +32,7 @@ const NodeKind kTimeout{
     .tick = tick_timeout,
     .progress = decorator::child_progress,
     .state_size = sizeof(timed::State),
-    .pause = timed::pause};
+    .pause = timed::pause,
+    .fold = timed::fold_by_clock};
 
 }  // namespace lockstep

@@ -42,16 +42,26 @@ void raise_priority(Ticker& ticker, NodeIndex self, ResourceUse& use) {
   use.priority = std::min(use.priority + increment, most);
 }
 
+// A member that is closed and reached has a SyncProgress inside that is held. That withholds the
+// ticks itself, so that all around it goes on: its barrier, and a Timeout in between.
 Status tick_child(Ticker& ticker, NodeIndex self) {
   auto& use = ticker.state<ResourceUse>(self);
-  if (use.grant == Grant::Owned) {
-    const Status status = ticker.tick(self + 1);
-    if (status == Status::Skipped) resources::give_back(ticker, self);
-    return status;
+  if (use.grant == Grant::Denied) {
+    raise_priority(ticker, self, use);
+    if (ticker.hold_firmly(self + 1)) return Status::Running;
   }
-  if (use.grant == Grant::Denied) raise_priority(ticker, self, use);
-  if (ticker.activity(self + 1) == Activity::Running) ticker.pause(self + 1);
-  return Status::Running;
+  const Status status = ticker.tick(self + 1);
+  if (status == Status::Skipped) resources::give_back(ticker, self);
+  return status;
+}
+
+// The priority counts at any time, what it owns while its child keeps it.
+void fold_use_resources(Ticker& ticker, NodeIndex self) {
+  auto& use = ticker.state<ResourceUse>(self);
+  ResourceUse folded{};
+  folded.priority = use.priority;
+  if (resources::keeps(ticker, self)) folded.owned = use.owned;
+  use = folded;
 }
 
 Status tick_use_resources(Ticker& ticker, NodeIndex self) {
@@ -78,6 +88,7 @@ const NodeKind kUseResources{
     .tick = tick_use_resources,
     .progress = decorator::child_progress,
     .state_size = sizeof(ResourceUse),
+    .fold = fold_use_resources,
     .chooses_to_read = true};
 
 }  // namespace lockstep

@@ -42,6 +42,7 @@ const NodeKind kWait{.type = {.id = "Wait",
                      .tick = tick_wait,
                      .progress = progress_of_wait,
                      .state_size = sizeof(timed::State),
-                     .pause = timed::pause};
+                     .pause = timed::pause,
+                     .fold = timed::fold};
 
 }  // namespace lockstep

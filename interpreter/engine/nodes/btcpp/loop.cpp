@@ -6,6 +6,7 @@
 #include "core/conversion.h"
 #include "engine/nodes/btcpp/results.h"
 #include "engine/nodes/decorator.h"
+#include "engine/nodes/fold.h"
 
 namespace lockstep::btcpp {
 namespace {
@@ -103,6 +104,13 @@ double progress_of_loop(Ticker& ticker, NodeIndex self) {
   return (done + (runs ? ticker.progress(self + 1) : 0.0)) / all;
 }
 
+// One that has completed goes on if it is ticked without a reset.
+inline void fold_loop(Ticker& ticker, NodeIndex self) {
+  if (ticker.status(self) != Status::Idle) return;
+  fold::dead(ticker, self);
+  ticker.drop_kept_value(self);
+}
+
 template <class T, ValueType kList, ValueType kItem>
 constexpr NodeKind kind_of_loop(std::string_view id) {
   return {.type = {.id = id,
@@ -115,7 +123,9 @@ constexpr NodeKind kind_of_loop(std::string_view id) {
                    .reads_ports = true},
           .tick = tick_loop<T, kList, kItem>,
           .progress = progress_of_loop<T>,
-          .state_size = sizeof(LoopState)};
+          .state_size = sizeof(LoopState),
+          .fold = fold_loop,
+          .unreset = [](Ticker&, NodeIndex) { return Unreset::GoesOn; }};
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Sequence, Fallback, ReactiveSequence and ReactiveFallback of BehaviorTree.CPP: the first two keep
 // their place, as with memory="true".
 #include "engine/nodes/ordered.h"
+#include "engine/nodes/fold.h"
 #include "engine/nodes/kinds.h"
 
 namespace lockstep::btcpp {
@@ -17,7 +18,8 @@ const NodeKind kSequence{
              .goes_on_after = Status::Success},
     .tick = ordered::tick<Status::Success, Memory::Always>,
     .progress = ordered::progress_of_sequence,
-    .state_size = sizeof(ordered::State)};
+    .state_size = sizeof(ordered::State),
+    .fold = fold::dead_when_idle};
 
 const NodeKind kFallback{
     .type = {.id = "Fallback",
@@ -29,7 +31,8 @@ const NodeKind kFallback{
              .goes_on_after = Status::Failure},
     .tick = ordered::tick<Status::Failure, Memory::Always>,
     .progress = ordered::progress_of_fallback,
-    .state_size = sizeof(ordered::State)};
+    .state_size = sizeof(ordered::State),
+    .fold = fold::dead_when_idle};
 
 const NodeKind kReactiveSequence{
     .type = {.id = "ReactiveSequence",
@@ -42,7 +45,8 @@ const NodeKind kReactiveSequence{
              .goes_on_after = Status::Success},
     .tick = ordered::tick<Status::Success, Memory::Never>,
     .progress = ordered::progress_of_sequence,
-    .state_size = sizeof(ordered::State)};
+    .state_size = sizeof(ordered::State),
+    .fold = fold::dead_when_idle};
 
 const NodeKind kReactiveFallback{
     .type = {.id = "ReactiveFallback",
@@ -55,6 +59,7 @@ const NodeKind kReactiveFallback{
              .goes_on_after = Status::Failure},
     .tick = ordered::tick<Status::Failure, Memory::Never>,
     .progress = ordered::progress_of_fallback,
-    .state_size = sizeof(ordered::State)};
+    .state_size = sizeof(ordered::State),
+    .fold = fold::dead_when_idle};
 
 }  // namespace lockstep::btcpp

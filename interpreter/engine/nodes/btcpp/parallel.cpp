@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "engine/nodes/fold.h"
 #include "engine/nodes/kinds.h"
 #include "engine/nodes/parallel_rule.h"
 
@@ -103,6 +104,11 @@ double progress_of_parallel(Ticker& ticker, NodeIndex self) {
   return parallel::progress_of_mth(ticker, self, std::clamp(wanted, std::int64_t{1}, all));
 }
 
+void fold_parallel(Ticker& ticker, NodeIndex self) {
+  fold::dead_when_idle(ticker, self);
+  ticker.state<Tally>(self).skipped = 0;
+}
+
 // Of the children that are there.
 double least_progress(Ticker& ticker, NodeIndex self) {
   double least = 1.0;
@@ -129,7 +135,8 @@ const NodeKind kParallel{
     .tick = tick_parallel,
     .progress = progress_of_parallel,
     .state_size = sizeof(Tally),
-    .state_per_child = sizeof(double)};
+    .state_per_child = sizeof(double),
+    .fold = fold_parallel};
 
 const NodeKind kParallelAll{
     .type = {.id = "ParallelAll",
@@ -143,6 +150,7 @@ const NodeKind kParallelAll{
              .latches = true},
     .tick = tick_all,
     .progress = least_progress,
-    .state_size = sizeof(Tally)};
+    .state_size = sizeof(Tally),
+    .fold = fold_parallel};
 
 }  // namespace lockstep::btcpp

@@ -1,5 +1,6 @@
 #include "engine/nodes/btcpp/results.h"
 #include "engine/nodes/decorator.h"
+#include "engine/nodes/fold.h"
 
 namespace lockstep::btcpp {
 namespace {
@@ -58,6 +59,7 @@ const NodeKind kPrecondition{
     .progress = decorator::child_progress,
     .state_size = sizeof(PreconditionState),
     .halt = forget_precondition,
-    .forget = forget_precondition};
+    .forget = forget_precondition,
+    .fold = fold::live};
 
 }  // namespace lockstep::btcpp

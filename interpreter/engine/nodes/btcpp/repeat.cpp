@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "engine/nodes/decorator.h"
+#include "engine/nodes/fold.h"
 
 namespace lockstep::btcpp {
 namespace {
@@ -56,6 +57,12 @@ void forget_repeat(Ticker& ticker, NodeIndex self) {
   ticker.state<RepeatState>(self).done = 0;
 }
 
+// How often does not matter for ever.
+void fold_repeat(Ticker& ticker, NodeIndex self) {
+  const bool is_endless = ticker.parameter(self, 0).integer == kEndless;
+  if (is_endless && ticker.has_constant_parameters(self)) fold::dead(ticker, self);
+}
+
 double progress_of_repeat(Ticker& ticker, NodeIndex self) {
   const std::int64_t times = ticker.parameter(self, 0).integer;
   const double child = ticker.status(self + 1) == Status::Running ? ticker.progress(self + 1) : 0.0;
@@ -84,6 +91,7 @@ const NodeKind kRepeat{
     .state_size = sizeof(RepeatState),
     .halt = forget_repeat,
     .forget = forget_repeat,
+    .fold = fold_repeat,
     .round = round_of_repeat};
 
 const NodeKind kRetryUntilSuccessful{
@@ -99,6 +107,7 @@ const NodeKind kRetryUntilSuccessful{
     .state_size = sizeof(RepeatState),
     .halt = forget_repeat,
     .forget = forget_repeat,
+    .fold = fold_repeat,
     .round = round_of_repeat};
 
 }  // namespace lockstep::btcpp

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "engine/nodes/fold.h"
 #include "engine/nodes/kinds.h"
 #include "engine/ticker.h"
 
@@ -114,7 +115,8 @@ constexpr NodeKind kind_of_switch(std::string_view id) {
                    .reads_ports = true},
           .tick = tick_switch,
           .progress = progress_of_switch,
-          .state_size = sizeof(SwitchState)};
+          .state_size = sizeof(SwitchState),
+          .fold = fold::dead_when_idle};
 }
 
 }  // namespace

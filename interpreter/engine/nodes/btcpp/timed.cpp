@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/nodes/decorator.h"
+#include "engine/nodes/fold.h"
 
 namespace lockstep::btcpp {
 namespace {
@@ -46,6 +47,26 @@ Nanoseconds begin(Ticker& ticker, TimedState& state) {
 
 void forget_timed(Ticker& ticker, NodeIndex self) {
   ticker.state<TimedState>(self) = {};
+}
+
+// A start relative to now. If no entry changes the time, at most that has passed.
+Nanoseconds folded(Ticker& ticker, NodeIndex self, Nanoseconds start) {
+  const Nanoseconds passed = ticker.now() - start;
+  const bool is_constant = ticker.has_constant_parameters(self);
+  return -(is_constant ? std::min(passed, time_of(ticker, self)) : passed);
+}
+
+void fold_sleep(Ticker& ticker, NodeIndex self) {
+  fold::dead_when_idle(ticker, self);
+  if (ticker.status(self) != Status::Running) return;
+  Nanoseconds& start = ticker.state<TimedState>(self).start;
+  start = folded(ticker, self, start);
+}
+
+void fold_timed(Ticker& ticker, NodeIndex self) {
+  TimedState& state = ticker.state<TimedState>(self);
+  const bool counts = state.started && !state.over;
+  state.start = counts ? folded(ticker, self, state.start) : Nanoseconds(0);
 }
 
 Status tick_sleep(Ticker& ticker, NodeIndex self) {
@@ -97,7 +118,8 @@ const NodeKind kSleep{.type = {.id = "Sleep",
                                .can_run = true},
                       .tick = tick_sleep,
                       .progress = progress_of_sleep,
-                      .state_size = sizeof(TimedState)};
+                      .state_size = sizeof(TimedState),
+                      .fold = fold_sleep};
 
 const NodeKind kDelay{.type = {.id = "Delay",
                                .category = NodeCategory::Decorator,
@@ -109,7 +131,8 @@ const NodeKind kDelay{.type = {.id = "Delay",
                       .progress = decorator::child_progress,
                       .state_size = sizeof(TimedState),
                       .halt = forget_timed,
-                      .forget = forget_timed};
+                      .forget = forget_timed,
+                      .fold = fold_timed};
 
 const NodeKind kTimeout{.type = {.id = "Timeout",
                                  .category = NodeCategory::Decorator,
@@ -120,6 +143,7 @@ const NodeKind kTimeout{.type = {.id = "Timeout",
                         .progress = decorator::child_progress,
                         .state_size = sizeof(TimedState),
                         .halt = forget_timed,
-                        .forget = forget_timed};
+                        .forget = forget_timed,
+                        .fold = fold_timed};
 
 }  // namespace lockstep::btcpp

@@ -1,4 +1,5 @@
 // TryCatch: a Sequence of all children but the last, which is ticked after a Failure.
+#include "engine/nodes/fold.h"
 #include "engine/nodes/kinds.h"
 #include "engine/ticker.h"
 
@@ -79,6 +80,7 @@ const NodeKind kTryCatch{
     .tick = tick_try_catch,
     .progress = progress_of_try_catch,
     .state_size = sizeof(TryCatchState),
-    .halt = halt_try_catch};
+    .halt = halt_try_catch,
+    .fold = fold::dead_when_idle};
 
 }  // namespace lockstep::btcpp

@@ -2,6 +2,7 @@
 // the value that it had, since the node looked last.
 #include "engine/nodes/at_once.h"
 #include "engine/nodes/decorator.h"
+#include "engine/nodes/fold.h"
 
 namespace lockstep::btcpp {
 namespace {
@@ -57,7 +58,9 @@ const NodeKind kSkipUnlessUpdated{
     .tick = tick_updated<Status::Skipped>,
     .progress = decorator::child_progress,
     .state_size = sizeof(UpdatedState),
-    .halt = halt_updated};
+    .halt = halt_updated,
+    .fold = fold::live,
+    .counts_writes = true};
 
 const NodeKind kWaitValueUpdate{
     .type = {.id = "WaitValueUpdate",
@@ -71,7 +74,9 @@ const NodeKind kWaitValueUpdate{
     .tick = tick_updated<Status::Running>,
     .progress = decorator::child_progress,
     .state_size = sizeof(UpdatedState),
-    .halt = halt_updated};
+    .halt = halt_updated,
+    .fold = fold::live,
+    .counts_writes = true};
 
 const NodeKind kWasEntryUpdated{
     .type = {.id = "WasEntryUpdated",
@@ -82,6 +87,8 @@ const NodeKind kWasEntryUpdated{
              .reads_ports = true},
     .tick = tick_condition,
     .progress = no_progress,
-    .state_size = sizeof(UpdatedState)};
+    .state_size = sizeof(UpdatedState),
+    .fold = fold::live,
+    .counts_writes = true};
 
 }  // namespace lockstep::btcpp

@@ -1,5 +1,6 @@
 // AsyncSequence, AsyncFallback and SequenceWithMemory: after a child that completed at once, they
 // let the tree be ticked again before they go on.
+#include "engine/nodes/fold.h"
 #include "engine/nodes/kinds.h"
 #include "engine/nodes/ordered.h"
 
@@ -39,6 +40,11 @@ Status tick_yielding(Ticker& ticker, NodeIndex self) {
   return all_skipped ? Status::Skipped : kGoOn;
 }
 
+// Its place counts at any time.
+void fold_place(Ticker& ticker, NodeIndex self) {
+  if (ticker.status(self) != Status::Running) ticker.state<State>(self).skipped = 0;
+}
+
 }  // namespace
 
 const NodeKind kAsyncSequence{
@@ -52,7 +58,8 @@ const NodeKind kAsyncSequence{
              .can_run = true},
     .tick = tick_yielding<Status::Success, Place::Forgotten>,
     .progress = ordered::progress_of_sequence,
-    .state_size = sizeof(State)};
+    .state_size = sizeof(State),
+    .fold = fold::dead_when_idle};
 
 const NodeKind kAsyncFallback{
     .type = {.id = "AsyncFallback",
@@ -65,7 +72,8 @@ const NodeKind kAsyncFallback{
              .can_run = true},
     .tick = tick_yielding<Status::Failure, Place::Forgotten>,
     .progress = ordered::progress_of_fallback,
-    .state_size = sizeof(State)};
+    .state_size = sizeof(State),
+    .fold = fold::dead_when_idle};
 
 const NodeKind kSequenceWithMemory{
     .type = {.id = "SequenceWithMemory",
@@ -78,6 +86,7 @@ const NodeKind kSequenceWithMemory{
              .can_run = true},
     .tick = tick_yielding<Status::Success, Place::Kept>,
     .progress = ordered::progress_of_sequence,
-    .state_size = sizeof(State)};
+    .state_size = sizeof(State),
+    .fold = fold_place};
 
 }  // namespace lockstep::btcpp

@@ -1,0 +1,64 @@
+// What Ticker::fold does beside NodeKind::fold.
+#include <algorithm>
+#include <vector>
+
+#include "engine/ticker.h"
+
+namespace lockstep {
+namespace {
+
+// How often an entry was written is looked at by a few nodes. An entry that may be removed begins
+// at 0 again, so the counts of those are kept as they are.
+std::vector<bool> counted_slots(const Tree& tree) {
+  std::vector<bool> counted(tree.slots.size(), false);
+  for (const Node& node : tree.nodes) {
+    if (!node.kind->counts_writes) continue;
+    const std::uint32_t slot = tree.ports[node.params].slot;
+    if (slot != PortBinding::kUnbound) counted[slot] = true;
+  }
+  return counted;
+}
+
+bool has_member(const Tree& tree, NodeIndex first, NodeIndex last) {
+  return std::ranges::any_of(tree.members, [&](const Member& member) {
+    return first <= member.node && member.node < last;
+  });
+}
+
+}  // namespace
+
+void Ticker::fold() {
+  if (!tree_.keeps_over_skips) forget_below_ended();
+  for (NodeIndex node = 0; node < tree_.nodes.size(); ++node) {
+    const auto fold = nodes_[node].kind->fold;
+    if (fold != nullptr) fold(*this, node);
+  }
+  for (const Group& group : tree_.groups) {
+    if (status(group.ancestor) != Status::Running) state_.activity[group.node] = Activity::Idle;
+  }
+  fold_entries();
+  std::ranges::fill(state_.last_tick, 0);
+  state_.tick_number = 0;
+  state_.now = Nanoseconds(0);
+}
+
+// Its next tick would do so. A barrier looks at the members below a node that has ended.
+void Ticker::forget_below_ended() {
+  for (NodeIndex node = 0; node < nodes_[0].end; ++node) {
+    if (!has_ended(status(node)) || nodes_[node].end == node + 1) continue;
+    if (has_member(tree_, node, nodes_[node].end)) continue;
+    forget_descendants(node);
+    node = nodes_[node].end - 1;
+  }
+}
+
+// Parameters are read again, so they need no counts.
+void Ticker::fold_entries() {
+  const std::vector<bool> counted = counted_slots(tree_);
+  for (std::size_t slot = 0; slot < counted.size(); ++slot) {
+    if (!counted[slot]) board_.entries[slot].writes = 0;
+  }
+  parameters_.reset();
+}
+
+}  // namespace lockstep

@@ -1,0 +1,46 @@
+#include "engine/held_leaves.h"
+
+#include <algorithm>
+
+#include "engine/synchronized.h"
+#include "engine/ticker.h"
+
+namespace lockstep {
+namespace {
+
+// What is less is noise: of a sensor, or of an arm that slows down.
+constexpr double kMuch = 0.01;
+// One rise may be the answer to the last tick, which came late.
+constexpr std::uint32_t kRises = 2;
+
+}  // namespace
+
+void HeldLeaves::add(NodeIndex node, LeafSlot& leaf) {
+  if (leaf.went_on || leaf.failed) return;
+  if (const auto now = look_at_progress(leaf)) held_.push_back({node, 0, *now, *now});
+}
+
+void HeldLeaves::look(Ticker& ticker) {
+  std::erase_if(held_, [&](Held& held) { return is_done(ticker, held); });
+}
+
+// Nothing more is to be found.
+bool HeldLeaves::is_done(Ticker& ticker, Held& held) {
+  LeafSlot& leaf = ticker.leaf(held.node);
+  if (!ticker.held(held.node) || leaf.went_on || leaf.failed) return true;
+  const auto now = look_at_progress(leaf);
+  if (!now) return true;
+  if (*now <= held.most + kProgressEpsilon) return false;
+  held.most = *now;
+  if (++held.rises < kRises || *now < held.from + kMuch) return false;
+  leaf.went_on = true;
+  went_on_.push_back({held.node, held.from, *now});
+  return true;
+}
+
+void HeldLeaves::reset() {
+  held_.clear();
+  went_on_.clear();
+}
+
+}  // namespace lockstep

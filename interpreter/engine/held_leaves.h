@@ -1,0 +1,51 @@
+// Leaves that go on while they are held: the progress of a leaf that gets no ticks rises. Nothing
+// is broken by that, but what a barrier promises is not kept. Nodes that are not held cost nothing.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/leaf_slot.h"
+#include "engine/node_kind.h"
+
+namespace lockstep {
+
+class Ticker;
+
+struct WentOn {
+  NodeIndex node = 0;
+  double from = 0, to = 0;  // its progress when it was held, and when that was found
+};
+
+class HeldLeaves {
+ public:
+  explicit HeldLeaves(std::size_t leaves) { held_.reserve(leaves); }
+
+  bool empty() const { return held_.empty(); }
+  // From its pause on. Not of a leaf that was found already.
+  void add(NodeIndex node, LeafSlot& leaf);
+  // Before a tick.
+  void look(Ticker& ticker);
+  // In this run, one of each leaf.
+  std::span<const WentOn> went_on() const { return went_on_; }
+  void reset();
+
+ private:
+  struct Held {
+    NodeIndex node;
+    std::uint32_t rises;  // in how many ticks it has risen
+    double from, most;
+  };
+  bool is_done(Ticker& ticker, Held& held);
+
+  std::vector<Held> held_;
+  std::vector<WentOn> went_on_;
+};
+
+// What a leaf reports, if it reports a share. To look changes nothing: what is wrong with it is for
+// those to find who need it. In nodes/leaf.cpp.
+std::optional<double> look_at_progress(LeafSlot& leaf);
+
+}  // namespace lockstep

@@ -1,0 +1,25 @@
+// How the states of node kinds are folded (NodeKind::fold): bytes that no later tick reads are 0,
+// and times are relative to now. tests/property/fold_test.cpp walks runs that are folded after each
+// tick beside runs that are not.
+#pragma once
+
+#include <algorithm>
+
+#include "engine/ticker.h"
+
+namespace lockstep::fold {
+
+// Each tick writes it before it reads it.
+inline void dead(Ticker& ticker, NodeIndex self) {
+  std::ranges::fill(ticker.kept_bytes(self), std::byte{});
+}
+
+// The first tick of an activation writes it.
+inline void dead_when_idle(Ticker& ticker, NodeIndex self) {
+  if (ticker.status(self) != Status::Running) dead(ticker, self);
+}
+
+// It says something as it is, at any time.
+inline void live(Ticker& /*ticker*/, NodeIndex /*self*/) {}
+
+}  // namespace lockstep::fold

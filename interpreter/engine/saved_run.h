@@ -1,0 +1,31 @@
+// All of a run between two ticks, but what the leaves keep in themselves: what a Ticker can be
+// taken back to (Ticker::save, Ticker::restore). A search saves many, so each reuses its memory.
+#pragma once
+
+#include <vector>
+
+#include "core/entry.h"
+#include "engine/bound_parameters.h"
+#include "engine/held_leaves.h"
+#include "engine/named_entries.h"
+#include "engine/run_state.h"
+
+namespace lockstep {
+
+// What the engine keeps of a leaf beside the leaf.
+struct SlotState {
+  bool started, failed, out_of_range, went_on;
+
+  friend bool operator==(const SlotState&, const SlotState&) = default;
+};
+
+struct SavedRun {
+  RunState run;
+  std::vector<Entry> entries;  // of the blackboard
+  NamedEntries::Made named;
+  BoundParameters::State parameters;
+  HeldLeaves held_leaves{0};
+  std::vector<SlotState> leaves;
+};
+
+}  // namespace lockstep

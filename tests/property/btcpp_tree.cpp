@@ -1,0 +1,41 @@
+#include "property/btcpp_tree.h"
+
+#include <catch2/catch.hpp>
+
+#include "definition/resolve.h"
+#include "engine/compile.h"
+#include "support/scripted_leaf.h"
+
+namespace lockstep::test::law {
+namespace {
+
+const NodeType kAct{.id = "Act",
+                    .category = NodeCategory::Action,
+                    .doc = "",
+                    .arity = {0, 0},
+                    .can_run = true,
+                    .leaf = &kScriptedAction};
+const NodeType kCond{.id = "Cond",
+                     .category = NodeCategory::Condition,
+                     .doc = "",
+                     .arity = {0, 0},
+                     .leaf = &kScriptedCondition};
+
+}  // namespace
+
+Tree tree_of(const Document& document) {
+  const std::string xml = to_xml(document);
+  Catalog catalog;
+  for (const NodeKind* kind : built_in_kinds(Language::BehaviorTreeCpp)) catalog.add(&kind->type);
+  catalog.add(&kAct);
+  catalog.add(&kCond);
+  Diagnostics diagnostics;
+  const auto project = load_project_text("f", xml, {}, diagnostics);
+  const auto definition = resolve(*project, catalog, {}, diagnostics);
+  for (const Diagnostic& it : diagnostics.all()) {
+    if (it.severity == Severity::Error) FAIL(render(it, false) << xml);
+  }
+  return compile(*definition);
+}
+
+}  // namespace lockstep::test::law
