@@ -23,12 +23,14 @@ docs/programs.md has the rest. `python3 -m lockstep_leaf sweep.py` tries the lea
 """
 import atexit
 import json
+import math
 import os
 import random
 import sys
+import threading
 import traceback
 
-__all__ = ["Action", "Condition", "InOut", "Output", "Port", "Skipped", "serve"]
+__all__ = ["Action", "Condition", "InOut", "Output", "Port", "Skipped", "say", "serve"]
 
 PROTOCOL = 1
 _TYPES = {bool: "bool", int: "int", float: "double", str: "string", list[bool]: "list of bool",
@@ -110,7 +112,11 @@ class _Attribute:
     def __set__(self, leaf, value):
         if self.direction == "input":
             raise AttributeError(f"the port '{self.name}' is an input")
-        leaf._values[self.name] = leaf._set[self.name] = value
+        for number in value if isinstance(value, (list, tuple)) else (value,):
+            if isinstance(number, float) and not math.isfinite(number):
+                raise ValueError(f"the port '{self.name}' cannot be {number}: expected a finite number")
+        if self.name not in leaf._unbound:  # else it is discarded, as in C++
+            leaf._values[self.name] = leaf._set[self.name] = value
 
 
 class _Leaf:
@@ -141,14 +147,18 @@ class _Leaf:
         self._log(str(text), level)
 
     def _log(self, text, level):
-        _say(leaf=self._number, log=text, level=level)
+        say(leaf=self._number, log=text, level=level)
+
+    @classmethod
+    def _pauses(cls):
+        return hasattr(cls, "pause") or hasattr(cls, "resume")
 
     @classmethod
     def _fact(cls):
         fact = {"id": cls.__name__, "kind": cls.kind, "doc": " ".join((cls.__doc__ or "").split()),
                 "ports": [port.fact for port in cls._ports.values()]}
         flags = {"progress": hasattr(cls, "progress"), "real_time": cls.real_time,
-                 "pause": hasattr(cls, "pause") or hasattr(cls, "resume")}
+                 "pause": cls._pauses(), "answers_pause": cls._pauses()}
         return fact | {name: True for name, is_set in flags.items() if is_set}
 
 
@@ -178,15 +188,18 @@ def _status(result):
 
 def _progress(leaf):
     done = leaf.progress()
-    if hasattr(done, "__float__"):
-        return float(done)
-    raise TypeError(f"progress returned {done!r}, expected a number from 0 to 1")
+    if not hasattr(done, "__float__"):
+        raise TypeError(f"progress returned {done!r}, expected a number from 0 to 1")
+    if not math.isfinite(done):
+        raise ValueError(f"progress returned {float(done)}, expected a number from 0 to 1")
+    return float(done)
 
 
 def _new(cls, number, seed, **facts):
     "A leaf whose __init__ is still to be called: it may use what lockstep has said."
     leaf = cls.__new__(cls)
     leaf._number, leaf._values, leaf._set, leaf._has_ports, leaf._has_started = number, {}, {}, False, False
+    leaf._unbound = ()
     for name, value in facts.items():
         setattr(leaf, name, value)
     leaf.random = random.Random(seed)
@@ -203,9 +216,10 @@ class _Server:
     def create(self, number, request):
         leaf = _new(_classes[request["type"]], number, request["seed"],
                     **{name: request[name] for name in ("name", "path", "clock", "period")})
+        leaf._unbound = request.get("unbound", ())
         self.leaves[number] = leaf
         leaf.__init__()
-        _say(leaf=number, done=True)
+        say(leaf=number, done=True)
 
     def start(self, leaf, request):
         self.broken.discard(leaf._number)
@@ -222,15 +236,18 @@ class _Server:
             answer["progress"] = _progress(leaf)
         if leaf._set:
             answer["set"], leaf._set = leaf._set, {}
-        _say(**answer)
+        say(**answer)
 
     def halt(self, leaf, request):
         if leaf._has_started:  # there is nothing to halt when its start has failed
             self.call(leaf, "halt")
-        _say(leaf=leaf._number, done=True)
+        say(leaf=leaf._number, done=True)
 
     def pause(self, leaf, request):
-        self.call(leaf, "pause")
+        if leaf._number not in self.broken:
+            self.call(leaf, "pause")
+        if leaf._pauses():
+            _say(leaf=leaf._number, done=True)
 
     def resume(self, leaf, request):
         self.call(leaf, "resume")
@@ -255,13 +272,13 @@ class _Server:
                 return self.create(number, request)
             leaf = self.leaves[number]
             leaf.now = request.get("now", leaf.now)
-            if number in self.broken and do in ("tick", "pause", "resume"):
+            if number in self.broken and do in ("tick", "resume"):
                 return None
             handler = getattr(self, do, None)  # requests of a later version are ignored
             return handler and handler(leaf, request)
         except Exception as error:
             self.broken.add(number)
-            _say(leaf=number, error=_blame(error))
+            say(leaf=number, error=_blame(error))
 
 
 def _blame(error, folder=None):
@@ -272,17 +289,18 @@ def _blame(error, folder=None):
     return f"{type(error).__name__}: {error}{where}"
 
 
-def _write(line):
-    data = memoryview(line.encode())
-    while data:
-        data = data[os.write(_out, data):]
-
-
-def _say(**what):
-    _write(json.dumps(what, separators=(",", ":"), allow_nan=False) + "\n")
-
-
 _out = 1
+_writing = threading.Lock()  # a line that two threads write at once is none
+
+
+def say(**what):
+    """Writes a line of the protocol, from any thread: `say(leaf=1, progress=0.5)`. For programs that speak it
+    themselves; leaves have `log`."""
+    line = memoryview((json.dumps(what, separators=(",", ":"), allow_nan=False) + "\n").encode())
+    with _writing:
+        while line:
+            line = line[os.write(_out, line):]
+
 
 
 def serve(version="", doc=""):
@@ -299,7 +317,7 @@ def serve(version="", doc=""):
     os.dup2(2, 1)
     sys.stdout = sys.stderr
     hello = {"lockstep": PROTOCOL, "leaves": [cls._fact() for cls in _classes.values()]}
-    _say(**hello, **{key: text for key, text in (("version", version), ("doc", doc)) if text})
+    say(**hello, **{key: text for key, text in (("version", version), ("doc", doc)) if text})
     server = _Server()
     for line in sys.stdin.buffer:
         server.answer(json.loads(line))

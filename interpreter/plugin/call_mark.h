@@ -3,12 +3,14 @@
 // watchdog read it. Knows nothing about time.
 #pragma once
 
+#include <pthread.h>
+
 #include <atomic>
 #include <cstdint>
 #include <string>
 #include <string_view>
 
-#include "core/fork_guard.h"
+#include "system/fork_guard.h"
 
 namespace lockstep {
 
@@ -20,6 +22,7 @@ enum class PluginFunction : std::uint8_t {
   CreateRun,
   Create,
   Start,
+  StartUnreset,
   Tick,
   Halt,
   Pause,
@@ -109,6 +112,10 @@ class CallMark {
     call_.store(call_.load(std::memory_order_relaxed) | kBounded, std::memory_order_release);
   }
 
+  // The thread whose work this call waits for; 0: it does its work itself.
+  void set_worker(pthread_t thread) { worker_.store(thread, std::memory_order_release); }
+  pthread_t worker() const { return worker_.load(std::memory_order_acquire); }
+
   // The tick that the thread is in or was in last, for the message only; public numbers, from 0.
   void set_tick(std::uint64_t tick) { tick_.store(tick, std::memory_order_relaxed); }
 
@@ -136,6 +143,7 @@ class CallMark {
   std::atomic<const CallSite*> site_{nullptr};
   std::atomic<std::uint32_t> call_{0};
   std::uint32_t serial_ = 0;
+  std::atomic<pthread_t> worker_{0};
   std::atomic<std::uint64_t> tick_{kNoTick};
   std::atomic<std::uint64_t> cell_{0}, run_number_{kNoRun}, seed_{0};
 };

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/file_descriptor.h"
+#include "system/file_descriptor.h"
 
 namespace lockstep {
 
@@ -39,6 +39,7 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
+  pid_t number() const { return pid_; }  // -1: none, or reaped
   // Becomes readable when the process has ended.
   int descriptor() const { return descriptor_.number(); }
   // Sends SIGKILL to it, even if it has left its group, and to that group, unless it has been

@@ -32,6 +32,7 @@ struct BoundPort {
   const ObjectType* object = nullptr;  // of type Object: which
   bool is_strict = true;               // the entry holds values of its type only
   bool is_generic = false;             // takes values of any type; `type` is String
+  Direction direction = Direction::Input;
   std::string_view name = {};
   std::string_view entry = {};
   std::vector<lockstep_text> texts = {};  // the list of strings that was handed out last
@@ -39,6 +40,9 @@ struct BoundPort {
   // What the entry has, as a value of the port's type: it may have another in trees that say so.
   std::unique_ptr<Value> converted = {};
   std::string given = {};  // what lockstep_place's `given` has handed out
+
+  // The tree binds it to no entry: what the leaf sets is discarded.
+  bool is_unbound() const { return direction != Direction::Input && write == nullptr; }
 };
 
 // A child of a control node, as the node sees it.

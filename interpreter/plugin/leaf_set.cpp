@@ -55,6 +55,7 @@ std::vector<BoundPort> bind_ports(const Tree& tree, const LeafNode& leaf, Blackb
                    .limits = limits_of(parameter),
                    .object = parameter.object,
                    .is_generic = parameter.is_generic,
+                   .direction = parameter.direction,
                    .name = parameter.name};
     const Value* const constant =
         binding.constant != PortBinding::kUnbound ? &tree.constants[binding.constant] : nullptr;

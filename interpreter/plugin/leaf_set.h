@@ -20,6 +20,8 @@ inline const void* this_thread_id() {
 }
 
 class Workers;
+class ProcessLeaves;
+class EndBudget;
 
 // The time of a run as its leaves see it; the owner of the run updates it.
 struct LeafTime {
@@ -27,6 +29,8 @@ struct LeafTime {
   Nanoseconds period{0};
   const void* thread = nullptr;  // as this_thread_id: the one that may call the host; null: any
   Workers* workers = nullptr;    // on the virtual clock: threads of leaves take turns
+  ProcessLeaves* processes = nullptr;  // those that are looked at while they are held
+  EndBudget* end_budget = nullptr;     // null: each process has its own patience
 };
 
 // Lines that leaves log: the path of the leaf (or the plugin's name, from create_run), level, text.

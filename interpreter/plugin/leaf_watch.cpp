@@ -8,6 +8,7 @@
 #include "core/histogram.h"
 #include "core/plugin_exception.h"
 #include "lockstep/leaf.h"
+#include "plugin/carried_time.h"
 #include "plugin/float_mode.h"
 
 namespace lockstep {
@@ -79,6 +80,7 @@ class TimedCall {
       : leaf_(leaf),
         function_(function),
         outer_(std::exchange(leaf.watch->inner, Nanoseconds(0))),
+        outer_carried_(std::exchange(t_carried, Nanoseconds(0))),
         start_(leaf.watch->clock.now()) {}
   ~TimedCall() { note_time(*leaf_.watch, leaf_.watch->clock.now()); }
 
@@ -88,7 +90,8 @@ class TimedCall {
  private:
   void note_time(Watch& watch, Nanoseconds end) {
     const Nanoseconds whole = end - start_;
-    const Nanoseconds took = whole - watch.inner;
+    const Nanoseconds carried = std::exchange(t_carried, outer_carried_);
+    const Nanoseconds took = std::max(whole - watch.inner - carried, Nanoseconds(0));
     watch.inner = outer_ + whole;
     if (function_ == PluginFunction::Tick) leaf_.ticks->record(took);
     leaf_.max = std::max(leaf_.max, took);
@@ -96,20 +99,26 @@ class TimedCall {
       watch.slowest = {leaf_.node, function_, took};
     }
     if (took > *watch.options.budget) [[unlikely]] {
-      note_slow(watch, end, took);
+      ++leaf_.over_budget;
+      if (may_tell(watch, end) && watch.options.on_slow) {
+        watch.options.on_slow(leaf_.node, function_, took);
+      }
+    } else if (carried > *watch.options.budget) [[unlikely]] {
+      if (may_tell(watch, end) && watch.options.on_carried) {
+        watch.options.on_carried(leaf_.node, carried);
+      }
     }
   }
 
-  void note_slow(Watch& watch, Nanoseconds end, Nanoseconds took) {
-    ++leaf_.over_budget;
-    if (watch.told && end - *watch.told < std::chrono::seconds(1)) return;
+  static bool may_tell(Watch& watch, Nanoseconds end) {
+    if (watch.told && end - *watch.told < std::chrono::seconds(1)) return false;
     watch.told = end;
-    if (watch.options.on_slow) watch.options.on_slow(leaf_.node, function_, took);
+    return true;
   }
 
   WatchedLeaf& leaf_;
   const PluginFunction function_;
-  const Nanoseconds outer_;  // of the call around this one
+  const Nanoseconds outer_, outer_carried_;  // of the call around this one
   const Nanoseconds start_;
 };
 
@@ -144,6 +153,7 @@ lockstep_leaf_type watched(lockstep_leaf_type type, bool is_timed) {
   type.create = nullptr;  // only LeafSet calls it, and destroy
   type.destroy = nullptr;
   put_in_front<&Type::start, PluginFunction::Start>(type, is_timed);
+  put_in_front<&Type::start_unreset, PluginFunction::StartUnreset>(type, is_timed);
   put_in_front<&Type::tick, PluginFunction::Tick>(type, is_timed);
   put_in_front<&Type::halt, PluginFunction::Halt>(type, is_timed);
   put_in_front<&Type::pause, PluginFunction::Pause>(type, is_timed);

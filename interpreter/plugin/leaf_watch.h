@@ -22,8 +22,11 @@ struct LeafWatchOptions {
   // timed.
   std::optional<Nanoseconds> budget;
   Clock* clock = nullptr;  // that times the calls; null: the wall clock
-  // Both on the tick thread, after the call.
+  // All on the tick thread, after the call.
   std::function<void(NodeIndex leaf, PluginFunction function, Nanoseconds took)> on_slow = {};
+  // The values of the leaf's ports took that long on their way between processes: longer than the
+  // budget. Not a part of what the leaf took; reported as that is.
+  std::function<void(NodeIndex leaf, Nanoseconds took)> on_carried = {};
   // The leaf has changed the rounding mode or the floating-point exceptions; reported once per
   // leaf.
   std::function<void(NodeIndex leaf, PluginFunction function)> on_float_mode = {};

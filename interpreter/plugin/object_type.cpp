@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -66,10 +67,16 @@ class PluginObjectType final : public ObjectType {
     if (!thrown.empty()) out.resize(before);
   }
   bool has_from_text() const override { return it_.from_text != nullptr; }
-  std::optional<Object> from_text(std::string_view text) const override {
+  Result<Object> from_text(std::string_view text) const override {
     void* object = nullptr;
-    guarded(PluginFunction::FromText, [&] { object = it_.from_text(text.data(), text.size()); });
-    if (object == nullptr) return std::nullopt;
+    std::string why;
+    guarded(PluginFunction::FromText, [&] {
+      object = it_.from_text(text.data(), text.size());
+      const bool says_why = object == nullptr && it_.why_no_object != nullptr;
+      const char* const reason = says_why ? it_.why_no_object() : nullptr;
+      if (reason != nullptr) why.assign(reason, strnlen(reason, kMostReason));
+    });
+    if (object == nullptr) return problem(std::move(why));
     return Object(*this, object);
   }
 
@@ -107,7 +114,7 @@ class PluginObjectType final : public ObjectType {
 
  private:
   // Longer ones are cut off.
-  static constexpr std::size_t kMostText = std::size_t{1} << 30;
+  static constexpr std::size_t kMostText = std::size_t{1} << 30, kMostReason = 500;
   static constexpr std::size_t kMostBytes = std::size_t{64} << 20;
 
   static bool has_both(const lockstep_object_type& declared) {
@@ -130,9 +137,10 @@ class PluginObjectType final : public ObjectType {
 };
 
 bool is_type_name(std::string_view name) {
-  return !name.empty() && name.size() <= 100 && std::ranges::all_of(name, [](char c) {
+  const bool is_padded = name.starts_with(' ') || name.ends_with(' ');
+  return !name.empty() && name.size() <= 100 && !is_padded && std::ranges::all_of(name, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-           std::string_view("._:/-").find(c) != std::string_view::npos;
+           std::string_view("._:/- <>,*&()[]").find(c) != std::string_view::npos;
   });
 }
 

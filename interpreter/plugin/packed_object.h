@@ -27,7 +27,7 @@ class PackedType : public ObjectType {
   void release(void* object) const noexcept override;
   void append_text(const void* object, std::string& out) const override;
   bool has_from_text() const override { return false; }
-  std::optional<Object> from_text(std::string_view /*text*/) const override { return {}; }
+  Result<Object> from_text(std::string_view /*text*/) const override { return problem({}); }
   bool has_bytes() const override { return true; }
   Result<std::string> to_bytes(const void* object) const override;
   Result<Object> from_bytes(std::string_view bytes) const override;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "core/audience.h"
 #include "core/suggest.h"
 #include "core/wording.h"
 
@@ -15,7 +16,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kAddDirectory = "add the directory that has it to the plugin path: --plugin-path, or LOCKSTEP_PLUGIN_PATH";
+std::string add_directory() {
+  return fmt::format(
+      "add the directory that has it to the plugin path{}",
+      worded(": --plugin-path, or LOCKSTEP_PLUGIN_PATH", ", or to LOCKSTEP_PLUGIN_PATH"));
+}
 
 constexpr const char* kNoDirectory = "is not found: there is no directory to search";
 
@@ -53,7 +58,7 @@ Result<std::string> find_plugin_file(std::string_view name,
     if (fs::exists(path, error)) return path;
   }
   if (directories.empty()) {
-    return problem(kNoDirectory, kAddDirectory);
+    return problem(kNoDirectory, add_directory());
   }
   const std::string message =
       fmt::format("is not found: '{}.so' is not in {}", brief(name), joined(directories, ", "));
@@ -70,7 +75,7 @@ Result<std::string> find_plugin_file(std::string_view name,
   const std::vector<std::string> names = available(directories);
   const std::vector<std::string_view> candidates(names.begin(), names.end());
   std::string hint = did_you_mean(name, candidates);
-  if (hint.empty()) hint = kAddDirectory;
+  if (hint.empty()) hint = add_directory();
   return problem(message, std::move(hint));
 }
 
@@ -106,10 +111,10 @@ Result<std::string> find_program_file(std::string_view file,
     return problem(fmt::format("is a program that cannot be executed: '{}'", path),
                    fmt::format("chmod +x '{}'", path));
   }
-  if (directories.empty()) return problem(kNoDirectory, kAddDirectory);
+  if (directories.empty()) return problem(kNoDirectory, add_directory());
   return problem(fmt::format("is not found: the program '{}' is not in {}", brief(file),
                              joined(directories, ", ")),
-                 kAddDirectory);
+                 add_directory());
 }
 
 }  // namespace lockstep

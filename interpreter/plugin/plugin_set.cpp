@@ -41,6 +41,11 @@ bool is_program(const std::string& path) {
   return name.find(".so") == name.npos && is_executable(path);
 }
 
+auto constant_of(const std::string& file) {
+  return open_shared_object(file).and_then(
+      [](const SharedObject& object) { return find_constant(object, LOCKSTEP_PLUGIN_ENTRY); });
+}
+
 // Two names of one file.
 bool is_same_file(const std::string& one, const std::string& other) {
   std::error_code error;
@@ -62,10 +67,18 @@ struct PluginSet::Plugin {
     return isolated != nullptr ? isolated->initialize() : initialize_plugin(descriptors.plugin);
   }
 
+  // Refuses isolation when none of the leaves can be isolated.
   std::optional<Problem> check_isolation() {
-    auto refusal = refuse_isolation(descriptors);
-    descriptors.plugin.is_local = refusal.has_value();
-    return isolated != nullptr ? std::move(refusal) : std::nullopt;
+    std::optional<Problem> first;
+    std::size_t refused = 0;
+    for (const auto& leaf : descriptors.leaves) {
+      auto refusal = refuse_isolation(*leaf);
+      refused += refusal.has_value();
+      if (!first) first = std::move(refusal);
+    }
+    descriptors.plugin.is_local = refused > 0;
+    const bool is_hopeless = isolated != nullptr && refused == descriptors.leaves.size();
+    return is_hopeless ? std::move(first) : std::nullopt;
   }
 
   // What keeps two plugins from living in one set.
@@ -163,9 +176,7 @@ bool PluginSet::open(const Request& request, Diagnostics& diagnostics) {
   if (isolation_.all || request.isolation == Isolation::Isolated) {
     return open_isolated(request, diagnostics);
   }
-  auto constant = open_shared_object(request.origin).and_then([](const SharedObject& object) {
-    return find_constant(object, LOCKSTEP_PLUGIN_ENTRY);
-  });
+  auto constant = constant_of(request.origin);
   if (!constant) {
     return refuse(request.origin, std::move(constant.error()), diagnostics, request.where);
   }
@@ -230,8 +241,48 @@ bool PluginSet::accept(std::unique_ptr<Plugin> plugin, std::size_t size, const R
     if (!refusal) refusal = Plugin::check_against(*plugin, *other);
   }
   if (refusal) return refuse(request.origin, std::move(*refusal), diagnostics, request.where);
+  std::unique_ptr<Plugin> rest;
+  if (plugin->isolated != nullptr && plugin->descriptors.plugin.is_local) {
+    rest = split_off(*plugin, request, diagnostics);
+    if (rest == nullptr) return false;
+  }
   plugins_.push_back(std::move(plugin));
+  if (rest != nullptr) plugins_.push_back(std::move(rest));
   return true;
+}
+
+std::unique_ptr<PluginSet::Plugin> PluginSet::split_off(Plugin& isolated, const Request& request,
+                                                        Diagnostics& diagnostics) {
+  auto constant = constant_of(request.origin);
+  auto rest = std::make_unique<Plugin>(Plugin{nullptr, request.origin});
+  std::optional<Problem> refusal;
+  if (constant) {
+    rest->entry = static_cast<const lockstep_plugin*>(constant->address);
+    refusal = read_descriptors(*rest->entry, constant->size, rest->descriptors);
+  } else {
+    refusal = std::move(constant.error());
+  }
+  if (refusal) {
+    refuse(request.origin, std::move(*refusal), diagnostics, request.where);
+    return nullptr;
+  }
+  const auto stays = [](const auto& leaf) { return refuse_isolation(*leaf).has_value(); };
+  std::erase_if(isolated.descriptors.leaves, stays);
+  std::erase_if(rest->descriptors.leaves, [&](const auto& leaf) { return !stays(leaf); });
+  rest->descriptors.plugin.is_local = true;
+  isolated.descriptors.plugin.is_local = false;
+  std::vector<std::string_view> ids;
+  for (const auto& leaf : rest->descriptors.leaves) ids.push_back(leaf->node_type.id);
+  const std::string why = refuse_isolation(*rest->descriptors.leaves.front())->message;
+  diagnostics.add(
+      {.severity = Severity::Warning,
+       .location = request.where,
+       .message = fmt::format("plugin '{}' is isolated only in part: {} {} in this process",
+                              brief(request.origin), listed(ids), ids.size() == 1 ? "runs" : "run"),
+       .hint =
+           fmt::format("{}; the two parts share nothing but ports", why.substr(why.find(": ") + 2)),
+       .excerpt = {}});
+  return rest;
 }
 
 bool PluginSet::initialize(Diagnostics& diagnostics) {

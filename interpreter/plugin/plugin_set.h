@@ -102,6 +102,9 @@ class PluginSet {
   bool open_isolated(const Request& request, Diagnostics& diagnostics);
   bool open_program(const Request& request, Hold hold, Diagnostics& diagnostics);
   bool has(std::string_view name) const;
+  // Takes what cannot be isolated away from a plugin: a part of it in this process. Null: an error.
+  static std::unique_ptr<Plugin> split_off(Plugin& isolated, const Request& request,
+                                           Diagnostics& diagnostics);
   bool accept(std::unique_ptr<Plugin> plugin, std::size_t size, const Request& request,
               Diagnostics& diagnostics);
 

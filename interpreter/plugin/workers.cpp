@@ -44,14 +44,21 @@ void Workers::give_all(double now) {
   }
 }
 
-// The mark names the leaf when its worker blocks elsewhere.
+// The mark names the leaf when its worker blocks elsewhere, and the thread that does.
 void Workers::give_turn(lockstep_worker& worker) {
   const MarkedCall mark(worker.site, PluginFunction::Run);
   std::unique_lock lock(mutex_);
+  waiting_ = &CallMark::this_thread();
   worker.has_turn = true;
   worker.is_woken = false;
   worker.turn.notify_one();
   turn_over_.wait(lock, [&] { return !worker.has_turn; });
+  waiting_->set_worker(0);
+}
+
+void Workers::await_turn(lockstep_worker& worker, std::unique_lock<std::mutex>& lock) {
+  worker.turn.wait(lock, [&] { return worker.has_turn; });
+  waiting_->set_worker(pthread_self());
 }
 
 void Workers::finish(lockstep_worker* worker) {
@@ -66,7 +73,7 @@ void Workers::finish(lockstep_worker* worker) {
 
 void Workers::start(lockstep_worker* worker) {
   std::unique_lock lock(worker->set.mutex_);
-  worker->turn.wait(lock, [&] { return worker->has_turn; });
+  worker->set.await_turn(*worker, lock);
 }
 
 bool Workers::wait(lockstep_worker* worker, double until) {
@@ -75,7 +82,7 @@ bool Workers::wait(lockstep_worker* worker, double until) {
   worker->until = until;
   worker->has_turn = false;
   set.turn_over_.notify_one();
-  worker->turn.wait(lock, [&] { return worker->has_turn; });
+  set.await_turn(*worker, lock);
   return until <= set.now_;
 }
 

@@ -42,9 +42,11 @@ class Workers {
  private:
   void give_all(double now);
   void give_turn(lockstep_worker& worker);
+  void await_turn(lockstep_worker& worker, std::unique_lock<std::mutex>& lock);
 
   std::mutex mutex_;
   std::condition_variable turn_over_;
+  CallMark* waiting_ = nullptr;  // of the run's thread, while a worker has its turn
   double now_ = 0;
   std::vector<std::unique_ptr<lockstep_worker>> all_;  // only the run's thread changes it
 };

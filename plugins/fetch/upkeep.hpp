@@ -17,7 +17,8 @@ class BatteryAbove : public lockstep::Condition<BatteryPorts> {
 
 struct ChargePorts : lockstep::Ports {
   Input<double> level{this, "level", "0.9", "up to here; 1 is full"};
-  Input<double> rate{this, "rate", "0.1", "how much of a full battery per second", "1/s"};
+  Input<double> rate{this,  "rate",     "0.1", "how much of a full battery per second",
+                     "1/s", at_least(0)};
 };
 
 class Charge : public lockstep::Action<ChargePorts> {

@@ -40,17 +40,19 @@ class DoorScene {
 
 struct DoorPorts : lockstep::Ports {
   explicit constexpr DoorPorts(const char* mean_speed)
-      : speed{this, "speed", mean_speed, "how fast it moves, in the mean", "m/s"} {}
+      : speed{this, "speed", mean_speed, "how fast it moves, in the mean", "m/s", at_least(0)} {}
 
   Input<double> speed;
-  Input<double> spread{this, "spread", "0.1", "the speed of a run is off by at most this part"};
+  Input<double> spread{this, "spread", "0.1", "the speed of a run is off by at most this part",
+                       between(0, 1)};
   Input<double> way{this, "way", "1", "how far it moves", "m"};
 };
 
 struct PullDoorPorts : DoorPorts {
   constexpr PullDoorPorts() : DoorPorts("0.2") {}
 
-  Input<double> slack{this, "slack", "0.4", "the door jams when they are further apart", "m"};
+  Input<double> slack{this, "slack",    "0.4", "the door jams when they are further apart",
+                      "m",  at_least(0)};
 };
 
 struct BackAwayPorts : DoorPorts {

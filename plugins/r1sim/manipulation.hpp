@@ -9,7 +9,8 @@ namespace r1sim {
 struct DoTaskPorts : lockstep::Ports {
   Input<double> min_speed{this, "min_speed", "0.05", "slowest pace, in parts of the task", "1/s"};
   Input<double> max_speed{this, "max_speed", "1", "fastest pace", "1/s"};
-  Input<double> change_time{this, "change_time", "0.3", "mean time for which a pace lasts", "s"};
+  Input<double> change_time{this, "change_time",  "0.3", "mean time for which a pace lasts",
+                            "s",  at_least(0.001)};
 };
 
 class DoTask : public lockstep::Action<DoTaskPorts> {

@@ -11,7 +11,8 @@ namespace r1sim {
 
 struct EnterHallwayPorts : lockstep::Ports {
   Input<double> length{this, "length", "10", "of the hallway", "m"};
-  Input<std::int64_t> objects{this, "objects", "8", "how many lie in it, at random places"};
+  Input<std::int64_t> objects{this, "objects", "8", "how many lie in it, at random places",
+                              between(0, 1000)};
   Input<double> identify_min{this, "identify_min", "1", "least time to identify one", "s"};
   Input<double> identify_max{this, "identify_max", "4", "most time to identify one", "s"};
 };

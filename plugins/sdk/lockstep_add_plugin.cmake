@@ -1,13 +1,9 @@
 # lockstep_add_plugin(name source…) builds the plugin name.so, in C or C++, with everything hidden
 # but lockstep_plugin_entry. Used by the plugins of this repository and, installed, by all others.
-# A project that chooses no build type would run its leaves unoptimized: then it is Release.
+# A project that chooses no build type would run its leaves unoptimized: then the plugin, and nothing
+# else of the project, is as in Release.
 # With BTCPP among the sources, these are written for BehaviorTree.CPP: docs/btcpp.md.
 function(lockstep_add_plugin name)
-  get_property(several_configurations GLOBAL PROPERTY GENERATOR_IS_MULTI_CONFIG)
-  if(NOT CMAKE_BUILD_TYPE AND NOT several_configurations)
-    message(STATUS "lockstep: no CMAKE_BUILD_TYPE is given, so it is Release")
-    set(CMAKE_BUILD_TYPE Release CACHE STRING "Release, RelWithDebInfo, Debug or MinSizeRel" FORCE)
-  endif()
   set(sources ${ARGN})
   set(sdk lockstep::sdk)
   if("BTCPP" IN_LIST sources)
@@ -18,6 +14,11 @@ function(lockstep_add_plugin name)
   target_link_libraries(${name} PRIVATE ${sdk})
   if(sdk STREQUAL "lockstep::btcpp")
     target_compile_definitions(${name} PRIVATE BT_PLUGIN_EXPORT)
+  endif()
+  get_property(several_configurations GLOBAL PROPERTY GENERATOR_IS_MULTI_CONFIG)
+  if(NOT CMAKE_BUILD_TYPE AND NOT several_configurations)
+    message(STATUS "lockstep: no CMAKE_BUILD_TYPE is given for ${name}, so it is Release")
+    target_compile_options(${name} PRIVATE -O3 -DNDEBUG)
   endif()
   get_property(languages GLOBAL PROPERTY ENABLED_LANGUAGES)
   if("CXX" IN_LIST languages)

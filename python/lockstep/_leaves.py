@@ -95,6 +95,8 @@ class _Class:
                 path=native.text_of(host.place.path(caller)), period=host.tick_period(caller), clock=state.clock)
             leaf._host, leaf._caller, leaf._state = host, caller, state
             leaf._values = _Ports(leaf, host, caller, self.ports, state)
+            leaf._unbound = [name for name, (index, _) in self.ports.items()
+                             if not _is_key(host.place.given(caller, index) or b"")]
             leaf._log = state.log_of(leaf.path)
             self.leaves[number] = leaf
             leaf.__init__()
@@ -145,9 +147,13 @@ class _Class:
             done = type_.write(leaf._host.setters[type_.name], leaf._caller, index, value=value)
         except TypeError:
             raise TypeError(f"set '{name}', a port of type {type_.name}, to {value!r}") from None
-        # An output that the tree leaves out is nobody's. Of two errors the first counts: the host's.
-        if not done and leaf._host.place.given(leaf._caller, index) is not None:
+        # Of two errors the first counts: the host's.
+        if not done:
             leaf._host.set_error(leaf._caller, f"set '{name}', which is not bound to an entry that takes it".encode())
+
+
+def _is_key(given):
+    return given.startswith(b"{") and given.endswith(b"}") and len(given) > 2
 
 
 def _do(name):

@@ -4,13 +4,17 @@ import os
 import pathlib
 import shutil
 
-_HERE = pathlib.Path(__file__).resolve()
+try:
+    from ._origin import SOURCES  # of a package that pip has installed
+except ImportError:
+    SOURCES = pathlib.Path(__file__).resolve().parent.parent
+
 _LIBRARY = "liblockstep-runtime.so"
 
 
 def program():
     "The path of the program lockstep."
-    beside = [parent / "bin" / "lockstep" for parent in _HERE.parents[:6]]
+    beside = [parent / "bin" / "lockstep" for parent in pathlib.Path(SOURCES).parents[:4]]
     found = os.environ.get("LOCKSTEP") or next((str(it) for it in beside if it.is_file()), None)
     found = found or shutil.which("lockstep")
     if found is None:

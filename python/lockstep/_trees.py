@@ -141,6 +141,7 @@ class Tree:
 
     def on_tick(self, observe):
         "`observe(tick, seconds, status)` is called after each tick. It may read the tree."
+        self._refuse_closed()
         self._state.observers.append(observe)
         return observe
 
@@ -154,6 +155,7 @@ class Tree:
         self._handle = None
 
     def __enter__(self):
+        self._refuse_closed()
         return self
 
     def __exit__(self, *_):
@@ -167,15 +169,18 @@ class Tree:
         state, me = self._state, object()
         try:
             with state.guard:
+                self._refuse_closed()
                 if state.user is not None:
                     raise Error(2, "the tree is in use: it is being ticked, here or in another thread")
                 state.user = me
-            if self._handle is None:
-                raise Error(2, "the tree is closed")
             return work(self._handle, *arguments)
         finally:
             if state.user is me:
                 state.user = None
+
+    def _refuse_closed(self):
+        if self._handle is None:
+            raise Error(2, "the tree is closed")
 
     def _is_observed(self):
         return self._state.observes and self._state.thread == threading.get_ident()

@@ -32,13 +32,30 @@ TEST_CASE("isolated: the node types are those of the plugin in this process") {
   }
 }
 
-TEST_CASE("isolated: a plugin with control nodes is refused") {
+TEST_CASE("isolated: of a plugin with control nodes, those stay, and all else is isolated") {
   const std::string path = LOCKSTEP_BINARY_DIR "/plugins/nav.so";
-  const Strings refused = refusal(path, Isolation::Isolated);
-  REQUIRE(refused.size() == 1);
-  CHECK(refused[0] == "plugin '" + path +
-                          "' cannot be isolated: 'RecoveryNode' is a control node | load it "
-                          "without isolation, or move its leaves into another plugin");
+  PluginSet plugins;
+  set_isolation(plugins, Isolation::Isolated);
+  Diagnostics diagnostics;
+  REQUIRE(plugins.load_file(path, diagnostics));
+  const Strings told = texts(diagnostics);
+  REQUIRE(told.size() == 1);
+  CHECK(told[0].starts_with("plugin '" + path + "' is isolated only in part: 'RecoveryNode', "));
+  CHECK(
+      told[0].ends_with(" run in this process | 'RecoveryNode' is a control node; the two parts "
+                        "share nothing but ports"));
+  PluginSet whole;
+  CHECK(whole.load_file(path, diagnostics));
+  CHECK(plugins.types().size() == whole.types().size());
+  const auto list = plugins.list();
+  REQUIRE(list.size() == 2);
+  CHECK((list[0].isolated && !list[1].isolated));
+  const auto* const isolated = static_cast<const lockstep_plugin*>(plugins.types().front()->origin);
+  for (const NodeType* type : plugins.types()) {
+    const bool is_leaf =
+        type->category == NodeCategory::Action || type->category == NodeCategory::Condition;
+    CHECK((type->origin == isolated) == is_leaf);
+  }
 }
 
 TEST_CASE("isolated: a plugin that carries objects without bytes is refused") {

@@ -30,7 +30,7 @@ MEMBER_AT(lockstep_port, max, 64);
 MEMBER_AT(lockstep_port, object, 72);
 MEMBER_AT(lockstep_port, flags, 80);
 
-SIZE_IS(lockstep_object_type, 64);
+SIZE_IS(lockstep_object_type, 72);
 MEMBER_AT(lockstep_object_type, struct_size, 0);
 MEMBER_AT(lockstep_object_type, name, 8);
 MEMBER_AT(lockstep_object_type, retain, 16);
@@ -39,6 +39,7 @@ MEMBER_AT(lockstep_object_type, to_text, 32);
 MEMBER_AT(lockstep_object_type, from_text, 40);
 MEMBER_AT(lockstep_object_type, to_bytes, 48);
 MEMBER_AT(lockstep_object_type, from_bytes, 56);
+MEMBER_AT(lockstep_object_type, why_no_object, 64);
 
 SIZE_IS(lockstep_text, 16);
 MEMBER_AT(lockstep_text, text, 0);
@@ -76,7 +77,7 @@ MEMBER_AT(lockstep_host, set_string_list, 208);
 MEMBER_AT(lockstep_host, get_object, 216);
 MEMBER_AT(lockstep_host, set_object, 224);
 
-SIZE_IS(lockstep_leaf_type, 128);
+SIZE_IS(lockstep_leaf_type, 136);
 MEMBER_AT(lockstep_leaf_type, struct_size, 0);
 MEMBER_AT(lockstep_leaf_type, kind, 4);
 MEMBER_AT(lockstep_leaf_type, id, 8);
@@ -95,6 +96,7 @@ MEMBER_AT(lockstep_leaf_type, get_extension, 104);
 MEMBER_AT(lockstep_leaf_type, flags, 112);
 MEMBER_AT(lockstep_leaf_type, min_children, 120);
 MEMBER_AT(lockstep_leaf_type, max_children, 124);
+MEMBER_AT(lockstep_leaf_type, start_unreset, 128);
 
 SIZE_IS(lockstep_workers, 64);
 MEMBER_AT(lockstep_workers, struct_size, 0);

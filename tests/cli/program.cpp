@@ -243,6 +243,13 @@ std::string read_file(const std::string& path) {
   return text.str();
 }
 
+std::string read_process_file(pid_t process, const std::string& name) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/" + name, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
 std::string tree_text(const std::string& node) {
   return "<root lockstep=\"1\"><plugin name=\"motion\"/><BehaviorTree ID=\"Main\">" + node +
          "</BehaviorTree></root>\n";

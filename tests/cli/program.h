@@ -101,6 +101,9 @@ class TemporaryDirectory {
 };
 
 std::string read_file(const std::string& path);
+
+// A file of /proc/ID. Empty if that process has ended, be it while it is read.
+std::string read_process_file(pid_t process, const std::string& name);
 // <root>, the plugin motion, and a BehaviorTree 'Main' around `node`.
 std::string tree_text(const std::string& node);
 std::vector<std::string> lines(const std::string& text);

@@ -138,3 +138,5 @@ for line in sys.stdin:
         say(leaf=number, done=True)
 if "STUBBORN" in os.environ:
     time.sleep(1000)
+while "FLOOD" in os.environ:
+    os.write(1, b'{"leaf":1,"progress":0.5}\n' * 10000)

@@ -360,6 +360,12 @@ class TreesTest(unittest.TestCase):
             with self.assertRaises(ValueError):
                 tree("<Count/>", **wrong)
 
+    def test_ids_of_leaves(self):
+        with tree("<Wärmen/>", [type("Wärmen", (Count,), {})]) as it:
+            it.run()
+        with self.assertRaisesRegex(lockstep.Error, "has the id '_Hidden' .an id is a letter, then letters"):
+            tree("<Count/>", [type("_Hidden", (Count,), {})])
+
     def test_arguments_values_and_main_tree(self):
         text = ('<root lockstep="1"><arg name="n" default="2"/><BehaviorTree ID="A"><Count ticks="${n}" step="{s}"/>'
                 '</BehaviorTree><BehaviorTree ID="B"><AlwaysFailure/></BehaviorTree></root>')
@@ -409,10 +415,12 @@ class TreesTest(unittest.TestCase):
         it.close()
         self.assertTrue(it.closed)
         self.assertEqual(calls, ["start Count", "halt Count"])
-        for use in (it.tick, it.run, it.halt, it.restart, lambda: it.status, lambda: node.progress,
-                    lambda: entries.__setitem__("seen", 1)):
-            with self.assertRaises((lockstep.Error, KeyError)):
+        for use in (it.tick, it.run, it.halt, it.restart, lambda: it.status, lambda: node.progress, it.__enter__,
+                    lambda: it.on_tick(print)):
+            with self.assertRaisesRegex(lockstep.Error, "^the tree is closed"):
                 use()
+        with self.assertRaises((lockstep.Error, KeyError)):
+            entries["seen"] = 1
         project = lockstep.Project(text=text_of("<Count/>"), leaves=Count)
         first = lockstep.Tree(project)
         project.close()

@@ -90,6 +90,23 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a stack overflow at the very end is reported, to the last destructor") {
+  const Commands commands;
+  for (const std::string where : {"static", "atexit", "shared object", "thread"}) {
+    for (const Strings& arguments : {commands.all[0], commands.all[2]}) {
+      INFO(arguments[0] << " " << where);
+      const Outcome outcome = commands.run_one(arguments, {{"HOSTILE_END", where + " overflow"}});
+      INFO(outcome.err);
+      // What a thread keeps is there once a leaf was ticked, and only an init registers a handler.
+      const bool has_it = arguments[0] == "run" || where == "static" || where == "shared object";
+      CHECK(outcome.code == (has_it ? 6 : 0));
+      if (!has_it) continue;
+      CHECK(contains(outcome.err, "the plugin '" + commands.plugin + "'"));
+      CHECK(contains(outcome.err, "the stack has overflowed"));
+    }
+  }
+}
+
 TEST_CASE("the end of a plugin's is named in every command") {
   const Commands commands;
   for (const std::string how : {"segv", "hang", "exit"}) {

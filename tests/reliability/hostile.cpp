@@ -271,6 +271,7 @@ void end(const std::string& where) {
   if (how == where + " exit") std::exit(0);
   if (how == where + " _exit") std::_Exit(0);
   if (how == where + " segv") std::raise(SIGSEGV);
+  if (how == where + " overflow") overflow(0);
   if (how == where + " print") static_cast<void>(!write(STDERR_FILENO, "ended\n", 6));
 }
 const struct StaticEnd {
@@ -335,7 +336,8 @@ constexpr lockstep_leaf_type kMisbehave = {sizeof(lockstep_leaf_type),
                                            nullptr,
                                            0,
                                            0,
-                                           0};
+                                           0,
+                                           nullptr};
 constexpr const lockstep_leaf_type* kLeaves[] = {&kMisbehave};
 
 }  // namespace

@@ -55,11 +55,10 @@ std::vector<pid_t> processes_with(const std::string& text) {
   for (const auto& entry : fs::directory_iterator("/proc")) {
     const std::string name = entry.path().filename();
     if (!std::ranges::all_of(name, [](unsigned char c) { return std::isdigit(c) != 0; })) continue;
-    std::error_code error;
-    if (!fs::exists(entry.path() / "cmdline", error)) continue;
-    std::string line = read_file(entry.path() / "cmdline");
+    const pid_t process = std::stoi(name);
+    std::string line = read_process_file(process, "cmdline");
     std::ranges::replace(line, '\0', ' ');
-    if (contains(line, text)) found.push_back(std::stoi(name));
+    if (contains(line, text)) found.push_back(process);
   }
   return found;
 }

@@ -42,7 +42,7 @@ bool becomes_true(const std::function<bool()>& is_true) {
 
 // 'R', 'S', 'T', 'Z', and the parent.
 std::pair<char, pid_t> state_of(pid_t pid) {
-  const std::string text = read_file("/proc/" + std::to_string(pid) + "/stat");
+  const std::string text = read_process_file(pid, "stat");
   const auto name_end = text.rfind(')');
   if (name_end == text.npos) return {};
   std::istringstream rest(text.substr(name_end + 1));
@@ -193,7 +193,8 @@ TEST_CASE("nothing that a program has started outlives lockstep, not even a kill
   CHECK(it.are_all_gone());
 }
 
-TEST_CASE("a program whose guardian is killed dies with it, which is a fault") {
+TEST_CASE(
+    "a program whose guardian is killed dies with all that it has started, which is a fault") {
   const ProgramRun it(misbehaving("children"), {"--timeout", "100"});
   Call call = it.call;
   std::ranges::replace(call.arguments, std::string("40"), std::string("100000"));
@@ -202,9 +203,122 @@ TEST_CASE("a program whose guardian is killed dies with it, which is a fault") {
   const auto all = it.processes();
   kill(state_of(all.front()).second, SIGKILL);
   CHECK(process.wait_for("its guardian has died"));
-  kill(all.back(), SIGKILL);  // what has left the group: nobody is left to find it
   CHECK(process.finish().code == 5);
   CHECK(it.are_all_gone());
+}
+
+namespace {
+
+// The program is held from the second tick on, until the arm has come to 0.5.
+ProgramRun held_program(const std::string& how, const char* step, const std::string& attributes,
+                        const std::vector<std::string>& more) {
+  return {
+      R"(<root lockstep="1"><plugin name="held" program="held.py")" + attributes +
+          R"(/><plugin name="motion"/><BehaviorTree ID="Main"><ParallelAbsolute barriers="0.5">)"
+          R"(<Held name="bad" how=")" +
+          how + R"("/><Advance name="arm" step=")" + step +
+          R"("/></ParallelAbsolute></BehaviorTree></root>)",
+      more};
+}
+
+struct HeldMisdeed {
+  const char* how;
+  const char* answers;  // it answers pause
+  const char* fault;
+};
+
+constexpr HeldMisdeed kHeldMisdeeds[] = {
+    {"end", "0", "its program ended with exit code 3"},
+    {"end", "1", "its program ended with exit code 3 when it was to answer pause of"},
+    {"error", "0", "the brake is broken"},
+    {"error", "1", "the brake is broken"},
+};
+
+}  // namespace
+
+TEST_CASE("a program that dies or fails in pause is a fault at once, however long it is held") {
+  for (const HeldMisdeed& row : kHeldMisdeeds) {
+    ProgramRun it = held_program(row.how, "1e-9", "", {"--timeout", "30"});
+    std::ranges::replace(it.call.arguments, std::string("40"), std::string("100000"));
+    it.call.environment["ANSWERS"] = row.answers;
+    const Outcome outcome = run(it.call);
+    INFO(row.how << row.answers << "\n" << outcome.err);
+    CHECK(outcome.code == 5);
+    CHECK(contains(outcome.err, "the leaf 'Main/ParallelAbsolute/bad'"));
+    CHECK(contains(outcome.err, row.fault));
+    CHECK(it.are_all_gone());
+  }
+}
+
+TEST_CASE("on the virtual clock the end of a held program is the same in every run") {
+  for (const HeldMisdeed& row : kHeldMisdeeds) {
+    std::string first;
+    for (int i = 0; i < 4; ++i) {
+      ProgramRun it = held_program(row.how, "0.05", "", {"--clock", "virtual"});
+      const std::string recording = it.directory.path("run.jsonl");
+      it.call.arguments.insert(it.call.arguments.end(), {"--record", recording, "--seed", "1"});
+      it.call.environment["ANSWERS"] = row.answers;
+      const Outcome outcome = run(it.call);
+      INFO(row.how << row.answers << "\n" << outcome.err);
+      CHECK(outcome.code == 5);
+      // In the tick that holds it, if it answers; else in that which asks it something.
+      const bool answers = std::string_view(row.answers) == "1";
+      CHECK(contains(outcome.err, answers ? "failed in tick 1 " : "failed in tick 10 "));
+      CHECK(contains(outcome.err, row.fault));
+      const std::string text = read_file(recording);
+      const std::string ticks = text.substr(text.find('\n'));  // the first line names the file
+      CHECK(ticks == (i == 0 ? first = ticks : first));
+    }
+  }
+}
+
+TEST_CASE("a program that does not answer pause is late, and is killed after the hang limit") {
+  for (const char* clock : {"wall", "virtual"}) {
+    ProgramRun it = held_program("silent", "1e-9", "", {"--timeout", "30", "--clock", clock});
+    it.call.arguments.insert(it.call.arguments.end(), {"--hang-limit", "2"});
+    std::ranges::replace(it.call.arguments, std::string("40"), std::string("100000"));
+    it.call.environment["ANSWERS"] = "1";
+    const Outcome outcome = run(it.call);
+    INFO(clock << "\n" << outcome.err);
+    CHECK(outcome.code == 5);
+    CHECK(contains(outcome.err, "its program did not answer"));
+    const bool is_late = contains(outcome.err, "bad: warning: its program is late");
+    CHECK(is_late == (std::string_view(clock) == "wall"));
+  }
+}
+
+TEST_CASE("a held program that is killed, or whose guardian is, is a fault as soon as it happens") {
+  for (const char* hold : {"", R"( hold="signal")", R"( hold="none")"}) {
+    for (const bool is_guardian : {false, true}) {
+      ProgramRun it = held_program("still", "1e-9", hold, {"--timeout", "30"});
+      std::ranges::replace(it.call.arguments, std::string("40"), std::string("100000"));
+      Process process(it.call);
+      REQUIRE(process.wait_for("bad: waits for arm at barrier"));
+      const pid_t program = it.processes().back();
+      kill(is_guardian ? state_of(program).second : program, SIGKILL);
+      const Outcome outcome = process.finish();
+      INFO(hold << "\n" << outcome.err);
+      CHECK(outcome.code == 5);
+      CHECK(contains(outcome.err, is_guardian ? "its program was killed: its guardian has died"
+                                              : "its program was killed by SIGKILL (Killed)"));
+      CHECK(it.are_all_gone());
+    }
+  }
+}
+
+TEST_CASE("a held program that dies is a failure of its leaf, if the run goes on after faults") {
+  ProgramRun it(
+      R"(<root lockstep="1"><plugin name="held" program="held.py"/><plugin name="motion"/>)"
+      R"(<BehaviorTree ID="Main"><ParallelAbsolute barriers="0.5"><Sequence memory="true">)"
+      R"(<AlwaysSuccess/><AlwaysSuccess/><Held name="bad" how="end"/></Sequence>)"
+      R"(<Advance name="arm" step="1e-9"/></ParallelAbsolute></BehaviorTree></root>)",
+      {"--timeout", "30", "--on-fault", "fail"});
+  std::ranges::replace(it.call.arguments, std::string("40"), std::string("100000"));
+  const Outcome outcome = run(it.call);
+  INFO(outcome.err);
+  CHECK(outcome.code == 1);
+  CHECK(contains(outcome.err, "its program ended with exit code 3"));
+  CHECK(contains(outcome.err, "arm: halted"));
 }
 
 TEST_CASE("a program that has died is reaped while the run goes on") {
@@ -219,6 +333,40 @@ TEST_CASE("a program that has died is reaped while the run goes on") {
   REQUIRE(process.wait_for("was killed by SIGSEGV"));
   CHECK(it.are_all_gone());
   CHECK(process.end_by(SIGINT).code == 130);
+}
+
+TEST_CASE("a program that floods its output does not keep the run from ending, and is named") {
+  for (const char* clock : {"virtual", "wall"}) {
+    ProgramRun it(misbehaving("nothing wrong"),
+                  {"--clock", clock, "--halt-limit", "0.3", "--json"});
+    it.call.environment["FLOOD"] = "1";
+    const Outcome outcome = run(it.call);
+    INFO(clock << "\n" << outcome.err.substr(0, 2000));
+    CHECK(outcome.code == 124);
+    CHECK(contains(outcome.out,
+                   "the end of the run took longer than --halt-limit (0.3 s): it waited for the "
+                   "program 'hostile'"));
+    CHECK(contains(outcome.err, "its program did not end for 0.3 s after its input was closed"));
+    CHECK(it.are_all_gone());
+  }
+}
+
+TEST_CASE("programs that do not end are ended together") {
+  // Three processes of one program, and one of another.
+  ProgramRun it(R"(<root lockstep="1"><plugin name="hostile" program="hostile.py" hold="signal"/>)"
+                R"(<plugin name="steady" program="steady.py"/><BehaviorTree ID="Main"><Parallel>)"
+                R"(<Misbehave how=""/><Misbehave how=""/><Misbehave how=""/><Steady/></Parallel>)"
+                R"(</BehaviorTree></root>)",
+                {"--clock", "virtual", "--halt-limit", "1"});
+  it.call.environment["STUBBORN"] = "1";
+  const auto began = std::chrono::steady_clock::now();
+  const Outcome outcome = run(it.call);
+  INFO(outcome.err);
+  CHECK(outcome.code == 124);
+  CHECK(contains(outcome.err, "its program did not end for 1 s"));
+  // To the end of their input, and to KILL after TERM: one limit each, not one for each process.
+  CHECK(std::chrono::steady_clock::now() - began < std::chrono::seconds(6));
+  CHECK(it.are_all_gone());
 }
 
 TEST_CASE(

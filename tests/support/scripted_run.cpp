@@ -75,6 +75,18 @@ Status ScriptedRun::tick(Nanoseconds now) {
   return status;
 }
 
+ScriptedRun::Saved ScriptedRun::save() const {
+  Saved saved{.engine = {}, .leaves = leaves_, .tree_tick = tree_tick_};
+  ticker_.save(saved.engine);
+  return saved;
+}
+
+void ScriptedRun::restore(const Saved& from) {
+  ticker_.restore(from.engine);
+  leaves_ = from.leaves;  // each stays where it is
+  tree_tick_ = from.tree_tick;
+}
+
 void ScriptedRun::restart() {
   ticker_.halt_all();
   board_.reset(tree_);

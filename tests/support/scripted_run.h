@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "engine/saved_run.h"
 #include "engine/ticker.h"
 #include "support/plugin_nodes.h"
 #include "support/scripted_leaf.h"
@@ -27,6 +28,15 @@ class ScriptedRun {
   Status tick(Nanoseconds now);
   // Ends the run as its owner would, and makes everything as new.
   void restart();
+
+  // All of it between two ticks, its leaves too. Not of a tree with nodes of plugins.
+  struct Saved {
+    SavedRun engine;
+    std::deque<ScriptedLeaf> leaves;
+    std::uint32_t tree_tick = 0;
+  };
+  Saved save() const;
+  void restore(const Saved& from);
 
   const Tree& tree() const { return tree_; }
   Ticker& ticker() { return ticker_; }

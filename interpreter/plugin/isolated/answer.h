@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "core/clock.h"
 #include "plugin/isolated/message.h"
 
 namespace lockstep {
@@ -14,6 +15,7 @@ enum class Outcome : std::uint8_t { Returned, Threw, TooLarge };
 struct Answer {
   Outcome outcome = Outcome::Returned;
   std::uint64_t result = 0;      // a status, the bits of a double, or whether there is an object
+  Nanoseconds took{0};           // by the plugin, where there was much to carry; 0: not measured
   std::string_view error = {};   // "" = none
   std::string_view thrown = {};  // as describe_exception() has it
 };
@@ -21,6 +23,7 @@ struct Answer {
 inline void write_answer(const Answer& answer, MessageWriter& message) {
   message.put(answer.outcome);
   message.put(answer.result);
+  message.put(answer.took);
   message.put_text(answer.error);
   message.put_text(answer.thrown);
 }
@@ -29,6 +32,7 @@ inline void write_answer(const Answer& answer, MessageWriter& message) {
 inline bool read_answer(MessageReader& message, Answer& answer) {
   answer.outcome = message.get<Outcome>();
   answer.result = message.get<std::uint64_t>();
+  answer.took = message.get<Nanoseconds>();
   answer.error = message.text();
   answer.thrown = message.text();
   return message.good() && answer.outcome <= Outcome::TooLarge;

@@ -104,24 +104,30 @@ std::unique_ptr<Session> IsolatedPlugin::take_idle() {
 }
 
 // A process that was started for this ends with it: init has not been called in it.
-std::optional<Object> IsolatedPlugin::from_text(const PackedType& type, std::string_view text) {
+Result<Object> IsolatedPlugin::from_text(const PackedType& type, std::string_view text) {
   auto session = take_idle();
   const bool is_new = session == nullptr;
   if (is_new) {
     session = std::make_unique<Session>();
-    if (start(*session)) return std::nullopt;
+    if (auto failure = start(*session)) return tl::unexpected(std::move(*failure));
   }
   MessageWriter& request = session->begin_request(PluginFunction::FromText);
   request.put_text(type.name());
   request.put_text(text);
   Value value;
+  std::string why;
   if (session->request_fits() && session->call({})) {
     MessageReader answer = session->answer();
-    if (!answer.value_into(value, &type)) session->reject_answer();
+    if (answer.value_into(value, &type)) {
+      why = answer.text();
+    } else {
+      session->reject_answer();
+    }
   }
   is_new ? session->end() : release(std::move(session));
   auto* const object = std::get_if<Object>(&value);
-  return object == nullptr ? std::nullopt : std::optional(std::move(*object));
+  if (object == nullptr) return problem(std::move(why));
+  return std::move(*object);
 }
 
 std::unique_ptr<Session> IsolatedPlugin::acquire(std::string& failure) {

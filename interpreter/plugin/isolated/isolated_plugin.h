@@ -44,7 +44,7 @@ class IsolatedPlugin {
   std::optional<Problem> start(Session& session);
   std::optional<Problem> describe(MessageReader description);
   std::unique_ptr<Session> take_idle();
-  std::optional<Object> from_text(const PackedType& type, std::string_view text);
+  Result<Object> from_text(const PackedType& type, std::string_view text);
 
   std::string path_;
   IsolationOptions options_;

@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 namespace lockstep {
-namespace {
 
-std::optional<Problem> refuse_type(const Descriptors::Leaf& leaf) {
+std::optional<Problem> refuse_isolation(const Descriptors::Leaf& leaf) {
   for (const Parameter& port : leaf.parameters) {
     if (port.object == nullptr || port.object->has_bytes()) continue;
     return Problem{fmt::format("cannot be isolated: the port '{}' of '{}' carries objects, and the "
@@ -20,15 +19,6 @@ std::optional<Problem> refuse_type(const Descriptors::Leaf& leaf) {
   return Problem{fmt::format("cannot be isolated: '{}' is a {}", leaf.type.id,
                              leaf.type.kind == LOCKSTEP_CONTROL ? "control node" : "decorator"),
                  "load it without isolation, or move its leaves into another plugin"};
-}
-
-}  // namespace
-
-std::optional<Problem> refuse_isolation(const Descriptors& descriptors) {
-  for (const auto& leaf : descriptors.leaves) {
-    if (auto refusal = refuse_type(*leaf)) return refusal;
-  }
-  return std::nullopt;
 }
 
 }  // namespace lockstep

@@ -1,4 +1,4 @@
-// Which plugins can be isolated.
+// Which leaves can be isolated.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace lockstep {
 
-// Why a plugin cannot run in a separate process. The message says what is wrong with "it".
-std::optional<Problem> refuse_isolation(const Descriptors& descriptors);
+// Why a leaf cannot run in a separate process. The message says what is wrong with its plugin.
+std::optional<Problem> refuse_isolation(const Descriptors::Leaf& leaf);
 
 }  // namespace lockstep

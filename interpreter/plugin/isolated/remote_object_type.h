@@ -11,16 +11,14 @@ namespace lockstep {
 
 class RemoteObjectType final : public PackedType {
  public:
-  using FromText = std::function<std::optional<Object>(const PackedType& type, std::string_view)>;
+  using FromText = std::function<Result<Object>(const PackedType& type, std::string_view)>;
 
   // Without `from_text` it has none.
   RemoteObjectType(std::string name, bool has_bytes, FromText from_text)
       : PackedType(std::move(name)), has_bytes_(has_bytes), from_text_(std::move(from_text)) {}
 
   bool has_from_text() const override { return from_text_ != nullptr; }
-  std::optional<Object> from_text(std::string_view text) const override {
-    return from_text_(*this, text);
-  }
+  Result<Object> from_text(std::string_view text) const override { return from_text_(*this, text); }
   bool has_bytes() const override { return has_bytes_; }
 
  private:

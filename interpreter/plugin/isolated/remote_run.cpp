@@ -2,14 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 
 #include "core/plugin_exception.h"
+#include "plugin/carried_time.h"
 #include "plugin/descriptor.h"
 #include "plugin/host.h"
 #include "plugin/isolated/answer.h"
 #include "plugin/isolated/isolated_plugin.h"
 #include "plugin/isolated/remote_entries.h"
+#include "plugin/process_leaves.h"
 
 namespace lockstep {
 namespace {
@@ -50,7 +53,7 @@ class RemoteRun {
   std::uint32_t leaves_ = 0;
 };
 
-struct RemoteLeaf {
+struct RemoteLeaf final : ProcessLeaf {
   RemoteLeaf(RemoteRun& its_run, const lockstep_caller& its_caller)
       : run(its_run), caller(its_caller), number(its_run.add_leaf()) {
     for (const BoundPort& port : caller.ports) {
@@ -60,10 +63,18 @@ struct RemoteLeaf {
                           : run.entries().number_of({.type = port.type, .read = port.fallback}));
     }
     run.session().add_listener(number, caller);
+    if (caller.time->processes != nullptr) caller.time->processes->add(caller.node, *this);
   }
-  ~RemoteLeaf() { run.remove_leaf(); }
+  ~RemoteLeaf() override {
+    if (caller.time->processes != nullptr) caller.time->processes->remove(*this);
+    run.remove_leaf();
+  }
   RemoteLeaf(const RemoteLeaf&) = delete;
   RemoteLeaf& operator=(const RemoteLeaf&) = delete;
+
+  std::string trouble() override {
+    return run.session().is_gone() ? run.session().epitaph() : std::string();
+  }
 
   RemoteRun& run;
   const lockstep_caller& caller;
@@ -91,9 +102,17 @@ void fail_too_large(const lockstep_caller& caller) {
                            Channel::kLargest >> 20));
 }
 
+// Of a call with much to carry: all of its time that the plugin did not take. What it took is not
+// known of the first one, for which it is not blamed.
+void note_carried(std::size_t carried, Nanoseconds began, Nanoseconds took) {
+  if (carried < kMuchToCarry && took == Nanoseconds(0)) return;
+  t_carried += std::max(monotonic_now() - began - took, Nanoseconds(0));
+}
+
 // Repeats here what the plugin did there. The result's bits.
-std::uint64_t take_answer(RemoteRun& run, const lockstep_caller& caller) {
+std::uint64_t take_answer(RemoteRun& run, const lockstep_caller& caller, Nanoseconds began) {
   MessageReader message = run.session().answer();
+  const std::size_t size = message.rest().size();
   Answer answer;
   bool refused = false;
   if (!read_answer(message, answer) || !run.entries().read(message, refused)) {
@@ -101,6 +120,7 @@ std::uint64_t take_answer(RemoteRun& run, const lockstep_caller& caller) {
     fail(caller, run.session().last_words());
     return 0;
   }
+  note_carried(size, began, answer.took);
   if (answer.outcome == Outcome::TooLarge) {
     run.entries().forget();
     fail_too_large(caller);
@@ -116,6 +136,7 @@ std::uint64_t take_answer(RemoteRun& run, const lockstep_caller& caller) {
 std::uint64_t finish(RemoteRun& run, const lockstep_caller& caller,
                      std::span<const std::uint32_t> ports) {
   Session& session = run.session();
+  const Nanoseconds began = monotonic_now();
   const std::string reason = run.entries().write(ports, session.request());
   if (!reason.empty()) fail(caller, "cannot be sent an object: " + reason);
   if (!session.request_fits()) {
@@ -123,7 +144,7 @@ std::uint64_t finish(RemoteRun& run, const lockstep_caller& caller,
     fail_too_large(caller);
     return 0;
   }
-  if (session.call(caller.who)) return take_answer(run, caller);
+  if (session.call(caller.who)) return take_answer(run, caller, began);
   fail(caller, session.last_words());
   return 0;
 }
@@ -200,6 +221,9 @@ void destroy(void* self) {
 void start(void* leaf) {
   call(leaf, PluginFunction::Start);
 }
+void start_unreset(void* leaf) {
+  call(leaf, PluginFunction::StartUnreset);
+}
 lockstep_status tick(void* leaf) {
   return static_cast<lockstep_status>(call(leaf, PluginFunction::Tick));
 }
@@ -255,7 +279,8 @@ const lockstep_leaf_type& remote_leaf_type() {
                                             .get_extension = nullptr,
                                             .flags = 0,
                                             .min_children = 0,
-                                            .max_children = 0};
+                                            .max_children = 0,
+                                            .start_unreset = start_unreset};
   return kType;
 }
 

@@ -9,7 +9,6 @@
 #include <atomic>
 #include <thread>
 
-#include "core/own_thread.h"
 #include "core/plugin_exception.h"
 #include "plugin/initialize.h"
 #include "plugin/isolated/channel.h"
@@ -17,6 +16,7 @@
 #include "plugin/isolated/leafhost_descriptors.h"
 #include "plugin/isolated/served_run.h"
 #include "plugin/shared_object.h"
+#include "system/own_thread.h"
 
 namespace lockstep {
 namespace {
@@ -117,18 +117,16 @@ class Server {
     answer_.put_text(failure);
   }
 
-  // No value when the text is none. False: there is no such type, or no text of the host's.
+  // No value when the text is none, and why. False: there is no such type, or no text of the
+  // host's.
   bool answer_from_text(MessageReader& request) {
     const ObjectType* const type = find_object_type(request.text());
     const std::string_view text = request.text();
     if (type == nullptr || !request.good()) return false;
-    const auto object = type->from_text(text);
-    if (!object) {
-      answer_.put_value(Value());
-      return true;
-    }
-    const auto packed = pack(*object, WithText::Yes);
+    const auto packed = type->from_text(text).and_then(
+        [](const Object& object) { return pack(object, WithText::Yes); });
     answer_.put_value(packed ? Value(*packed) : Value());
+    answer_.put_text(packed ? std::string() : packed.error().message);
     return true;
   }
 

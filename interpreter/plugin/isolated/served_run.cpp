@@ -6,6 +6,7 @@
 
 #include "core/diagnostics.h"
 #include "core/plugin_exception.h"
+#include "plugin/carried_time.h"
 #include "plugin/isolated/channel.h"
 #include "plugin/isolated/remote_entries.h"
 
@@ -143,6 +144,9 @@ std::uint64_t ServedRun::call_leaf(Object& object, PluginFunction function) {
     case PluginFunction::Start:
       call_if_there(type.start, self);
       break;
+    case PluginFunction::StartUnreset:
+      call_if_there(type.start_unreset, self);
+      break;
     case PluginFunction::Halt:
       call_if_there(type.halt, self);
       break;
@@ -193,12 +197,15 @@ void ServedRun::write_entries(MessageWriter& answer) const {
 void ServedRun::perform(Object& object, PluginFunction function, MessageWriter& message) {
   Answer answer;
   written_.clear();
+  const Nanoseconds began = is_measured_ ? monotonic_now() : Nanoseconds(0);
   const std::string thrown = call(object, function, answer.result);
+  if (is_measured_) answer.took = monotonic_now() - began;
   if (!thrown.empty()) answer.outcome = Outcome::Threw;
   answer.thrown = thrown;
   if (object.slot.error != nullptr) answer.error = object.slot.error;
   write_answer(answer, message);
   write_entries(message);
+  is_measured_ |= message.bytes().size() >= kMuchToCarry;
   if (message.bytes().size() > Channel::kLargest) {
     message.clear();
     write_answer({.outcome = Outcome::TooLarge, .result = answer.result}, message);
@@ -210,6 +217,7 @@ void ServedRun::perform(Object& object, PluginFunction function, MessageWriter& 
 }
 
 bool ServedRun::answer(PluginFunction function, MessageReader& request, MessageWriter& answer) {
+  is_measured_ |= request.rest().size() >= kMuchToCarry;
   const auto number = request.get<std::uint32_t>();
   time_.thread = this_thread_id();
   time_.now = request.get<Nanoseconds>();

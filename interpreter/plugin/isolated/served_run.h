@@ -55,6 +55,7 @@ class ServedRun {
   static std::uint64_t call_leaf(Object& object, PluginFunction function);
   void write_entries(MessageWriter& answer) const;
   void perform(Object& object, PluginFunction function, MessageWriter& answer);
+  bool is_measured_ = false;  // there was much to carry, once
 
   const Descriptors& descriptors_;
   HostLog& log_;

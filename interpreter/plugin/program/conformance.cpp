@@ -53,7 +53,8 @@ class Trial {
   void bind(const Parameter& port) {
     Entry& entry = entries_.emplace_back();
     entry.type = port.type;
-    BoundPort bound{.type = port.type, .name = port.name, .entry = port.name};
+    BoundPort bound{
+        .type = port.type, .direction = port.direction, .name = port.name, .entry = port.name};
     if (port.direction != Direction::Output) entry.value = sample(port);
     bound.read = &entry.value;
     if (port.direction != Direction::Input) bound.write = &entry;
@@ -134,7 +135,8 @@ class Examiner {
       it->leaf().create();
       if (!passed(*it, "answers create")) return false;
     }
-    if (!run(one) || (hold == Hold::Message && !hold_and_go_on(one))) return false;
+    const bool is_told = hold == Hold::Message || hold == Hold::Answered;
+    if (!run(one) || (is_told && !hold_and_go_on(one))) return false;
     one.leaf().start();
     two.leaf().start();
     for (Trial* it : {&one, &two}) {
@@ -187,6 +189,10 @@ class Examiner {
 
   void end() {
     trials_.clear();
+    conversation_.begin_end();
+    const auto limit = options_.halt_limit;
+    conversation_.await_end(limit ? std::optional(monotonic_now() + *limit) : std::nullopt);
+    conversation_.hurry_end();
     const std::string what = conversation_.end();
     if (!what.empty()) {
       note(false, "it " + what);

@@ -1,6 +1,7 @@
 // Whether a program keeps the protocol: asks each of its leaves all that a run could ask.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,9 @@ struct ConformanceStep {
 };
 
 struct Conformance {
-  std::vector<ConformanceStep> steps;  // the last may be the first that is not good
-  std::string first_line;              // of the program; "" without
-  bool is_good() const { return steps.empty() || steps.back().is_good; }
+  std::vector<ConformanceStep> steps;
+  std::string first_line;  // of the program; "" without
+  bool is_good() const { return std::ranges::all_of(steps, &ConformanceStep::is_good); }
 };
 
 Conformance check_conformance(const std::string& path, const IsolationOptions& options);

@@ -12,7 +12,9 @@
 namespace lockstep {
 namespace {
 
-constexpr Nanoseconds kToDie = std::chrono::milliseconds(100);  // after the end of its output
+// After the end of its output, or of its input. Others wait for the thread that listens.
+constexpr Nanoseconds kToDie = std::chrono::seconds(1);
+constexpr Nanoseconds kToDieListened = std::chrono::milliseconds(100);
 constexpr const char* kGoodEnd = "ended with exit code 0";
 constexpr Nanoseconds kToFlush = std::chrono::milliseconds(1);
 
@@ -23,7 +25,7 @@ std::string shown(std::string_view line) {
 }  // namespace
 
 const char* name_of(Conversation::Asked asked) {
-  constexpr const char* kNames[] = {"nothing", "create", "tick", "halt"};
+  constexpr const char* kNames[] = {"nothing", "create", "tick", "pause", "halt"};
   return kNames[static_cast<std::size_t>(asked)];
 }
 
@@ -82,24 +84,49 @@ void Conversation::remove(std::uint32_t leaf) {
 
 void Conversation::send(std::uint32_t number, Asked asked, std::string_view lines) {
   if (is_gone() || (asked == Asked::Tick && !is_listened_ && find_unasked())) return;
-  bool is_written = false;
+  auto written = ProgramProcess::Written::Good;
   {
     const std::lock_guard lock(mutex_);
     Leaf& leaf = leaves_[number - 1];
-    if (asked != Asked::Nothing) {
+    if (asked == Asked::Pause) {
+      if (!leaf.owes_anything()) leaf.since = monotonic_now();
+      ++leaf.pauses;
+    } else if (asked != Asked::Nothing) {
       leaf.owes_tick = leaf.asked == Asked::Tick;
       leaf.asked = asked;
       leaf.since = monotonic_now();
-      if (asked == Asked::Tick) leaf.news.status = 0;
+      if (asked == Asked::Tick) {
+        leaf.news.status = 0;
+        leaf.has_erred = false;
+      }
     }
     if (is_listened_) {
       outgoing_ += lines;
-      is_written = outgoing_.size() <= ProgramProcess::kMostUnwritten;
+      const bool fits = outgoing_.size() <= ProgramProcess::kMostUnwritten;
+      if (!fits) written = ProgramProcess::Written::TooMuch;
     } else {
-      is_written = process_.write(lines);
+      written = process_.write(lines);
     }
   }
-  if (!is_written) give_up_deaf();
+  judge(written);
+}
+
+void Conversation::judge(ProgramProcess::Written written) {
+  if (written == ProgramProcess::Written::Deaf) return note_deaf();
+  if (written == ProgramProcess::Written::TooMuch) {
+    give_up("did not read what it was sent; it was killed" + blamed());
+  }
+}
+
+// Who does not read any more has mostly ended. Then its last words and its end are still to be read
+// by who waits for an answer: so what is said of it does not depend on who was faster.
+void Conversation::note_deaf() {
+  if (process_.await_end(time_to_die())) return;
+  give_up("closed its input; it was killed" + blamed());
+}
+
+Nanoseconds Conversation::time_to_die() const {
+  return is_listened_ ? kToDieListened : kToDie;
 }
 
 // Only what takes no time is done under the lock, for which the tick thread would wait.
@@ -109,33 +136,27 @@ void Conversation::flush() {
     outgoing_.swap(written_);
   }
   const bool has_more = !written_.empty() || process_.has_unwritten();
-  if (has_more && !is_gone() && !process_.write(written_)) give_up_deaf();
+  if (has_more && !is_gone()) judge(process_.write(written_));
   written_.clear();
-}
-
-// Who does not read any more may have died, which says more.
-void Conversation::give_up_deaf() {
-  const auto death = process_.await_end(Nanoseconds(0));
-  give_up(death ? *death + blamed() : "did not read what it was sent; it was killed");
 }
 
 bool Conversation::await(std::uint32_t number, Asked asked, std::optional<Nanoseconds> patience) {
   const Leaf& leaf = leaves_[number - 1];
   if (!is_listened_) return await_here(leaf, asked, patience);
   std::unique_lock lock(mutex_);
-  const auto is_over = [&] { return is_gone() || leaf.asked != asked; };
+  const auto is_over = [&] { return is_gone() || !leaf.owes(asked); };
   if (!patience) {
     answered_.wait(lock, is_over);
   } else {
     answered_.wait_for(lock, *patience, is_over);
   }
-  return !is_gone() && leaf.asked != asked;
+  return !is_gone() && !leaf.owes(asked);
 }
 
 // Nothing that comes after the answer is taken: when it comes is not the same in every run.
 bool Conversation::await_here(const Leaf& leaf, Asked asked, std::optional<Nanoseconds> patience) {
   const Nanoseconds end = monotonic_now() + patience.value_or(Nanoseconds(0));
-  while (!is_gone() && leaf.asked == asked) {
+  while (!is_gone() && leaf.owes(asked)) {
     if (process_.lines.next(line_)) {
       take_line();
       continue;
@@ -156,6 +177,7 @@ bool Conversation::find_unasked() {
     if (!read_reply(reader_, line_, reply_).empty()) return false;  // its time comes
     const bool is_answer = reply_.what == Reply::What::Status || reply_.what == Reply::What::Done;
     if (!is_answer || reply_.leaf == 0 || reply_.leaf > leaves_.size()) continue;
+    if (leaves_[reply_.leaf - 1].has_erred) continue;
     give_up(take_answer(leaves_[reply_.leaf - 1]));
     return true;
   }
@@ -174,9 +196,17 @@ Conversation::News Conversation::take(std::uint32_t number) {
   const std::lock_guard lock(mutex_);
   Leaf& leaf = leaves_[number - 1];
   News news = std::exchange(leaf.news, {});
-  news.is_asked = leaf.asked != Asked::Nothing;
+  news.is_asked = leaf.owes_anything();
   news.since = leaf.since;
   return news;
+}
+
+Conversation::News Conversation::take_error(std::uint32_t number) {
+  const std::lock_guard lock(mutex_);
+  Leaf& leaf = leaves_[number - 1];
+  return {.error = std::exchange(leaf.news.error, {}),
+          .is_asked = leaf.owes_anything(),
+          .since = leaf.since};
 }
 
 double Conversation::progress(std::uint32_t leaf) {
@@ -272,7 +302,7 @@ void Conversation::end_late(std::string_view leaf) {
 // The end of its output, which is mostly its own.
 void Conversation::note_end() {
   const bool has_rest = process_.lines.has_rest();
-  const auto death = process_.await_end(kToDie);
+  const auto death = process_.await_end(time_to_die());
   give_up(fmt::format("{}{}{}", death ? *death : "closed its output; it was killed",
                       has_rest ? " in the middle of a line" : "", blamed()));
 }
@@ -281,9 +311,9 @@ void Conversation::note_end() {
 std::string Conversation::blamed() {
   const std::lock_guard lock(mutex_);
   for (const Leaf& leaf : leaves_) {
-    if (leaf.asked == Asked::Nothing || leaf.caller == nullptr) continue;
-    return fmt::format(" when it was to answer {} of '{}'",
-                       name_of(leaf.owes_tick ? Asked::Tick : leaf.asked), leaf.caller->who);
+    if (!leaf.owes_anything() || leaf.caller == nullptr) continue;
+    return fmt::format(" when it was to answer {} of '{}'", name_of(leaf.owed_first()),
+                       leaf.caller->who);
   }
   return {};
 }
@@ -332,13 +362,27 @@ void Conversation::take_error(Leaf& leaf) {
   constexpr std::size_t kLongest = 4096;  // the host cuts it off anyway
   if (leaf.news.error.empty()) leaf.news.error = reply_.text.substr(0, kLongest);
   if (std::exchange(leaf.owes_tick, false)) return;
-  leaf.asked = Asked::Nothing;
+  if (leaf.owed_first() == Asked::Pause) {
+    --leaf.pauses;
+  } else {
+    leaf.has_erred = leaf.asked == Asked::Tick;
+    leaf.asked = Asked::Nothing;
+  }
+}
+
+// Answers come in the order of the questions: a tick is asked only when nothing is owed, and a halt
+// is the last of its activation.
+Conversation::Asked Conversation::Leaf::owed_first() const {
+  if (owes_tick) return Asked::Tick;
+  return pauses > 0 && asked != Asked::Tick ? Asked::Pause : asked;
 }
 
 // "" or why it is no answer.
 std::string Conversation::take_answer(Leaf& leaf) {
   const bool is_status = reply_.what == Reply::What::Status;
-  const Asked owed = leaf.owes_tick ? Asked::Tick : leaf.asked;
+  const Asked owed = leaf.owed_first();
+  // An error that nobody asked for may have come just before the tick, and counted as its answer.
+  if (is_status && owed != Asked::Tick && std::exchange(leaf.has_erred, false)) return {};
   if (owed == Asked::Nothing || is_status != (owed == Asked::Tick)) {
     return fmt::format(
         "was killed, since it answered {} for '{}', which {}", is_status ? "a status" : "'done'",
@@ -346,6 +390,10 @@ std::string Conversation::take_answer(Leaf& leaf) {
         owed == Asked::Nothing ? "was not asked" : fmt::format("is to answer {}", name_of(owed)));
   }
   if (std::exchange(leaf.owes_tick, false)) return {};  // it was halted meanwhile
+  if (owed == Asked::Pause) {
+    --leaf.pauses;
+    return {};
+  }
   leaf.asked = Asked::Nothing;
   if (!is_status) return {};
   leaf.news.status = reply_.status;
@@ -354,24 +402,43 @@ std::string Conversation::take_answer(Leaf& leaf) {
   return {};
 }
 
-std::string Conversation::end() {
-  const auto limit = options_.halt_limit;
-  if (ends_softly_) process_.await_end(limit ? std::optional(*limit + kToDie) : std::nullopt);
-  if (is_gone()) return {};
-  const auto end = monotonic_now() + limit.value_or(Nanoseconds(0));
+void Conversation::begin_end() {
+  was_gone_ = is_gone();
+  closed_ = monotonic_now();
+  if (!was_gone_) process_.close_input();
+}
+
+bool Conversation::await_end(std::optional<Nanoseconds> until) {
   const auto left = [&] {
-    return limit ? std::optional(std::max(end - monotonic_now(), Nanoseconds(0))) : std::nullopt;
+    return until ? std::optional(std::max(*until - monotonic_now(), Nanoseconds(0))) : std::nullopt;
   };
-  process_.close_input();
-  while (!is_gone() && process_.await_output(left()) && !is_output_over()) {
+  // One that floods its output always has more to say.
+  for (bool is_over = false; !is_over && !is_gone() && left() != Nanoseconds(0);) {
+    if (!process_.await_output(left())) break;
+    is_over = is_output_over();
     while (!is_gone() && process_.lines.next(line_)) take_line();
   }
+  return is_gone() || process_.await_end(left()).has_value();
+}
+
+void Conversation::hurry_end() {
+  if (is_gone() || process_.has_ended()) return;
+  is_hurried_ = true;
+  process_.end_softly(options_.halt_limit);
+}
+
+std::string Conversation::end() {
+  const auto limit = options_.halt_limit;
+  const auto to_the_kill = limit ? std::optional(*limit + kToDie) : std::nullopt;
+  if (was_gone_ && ends_softly_) process_.await_end(to_the_kill);
+  if (was_gone_) return {};
   if (is_gone()) return why_gone();
-  if (const auto how = process_.await_end(left())) return *how == kGoodEnd ? "" : *how;
-  process_.end_softly(limit);
-  process_.await_end(limit ? std::optional(*limit + kToDie) : std::nullopt);
+  const Nanoseconds waited = monotonic_now() - closed_;
+  const auto how = process_.await_end(to_the_kill);
+  if (!is_hurried_) return !how || *how == kGoodEnd ? "" : *how;
+  const auto tenths = std::chrono::round<std::chrono::duration<int, std::deci>>(waited);
   return fmt::format("did not end for {:g} s after its input was closed; it was ended",
-                     to_seconds(limit.value_or(Nanoseconds(0))));
+                     std::min(tenths.count() / 10.0, to_seconds(limit.value_or(waited))));
 }
 
 }  // namespace lockstep

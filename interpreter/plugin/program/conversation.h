@@ -24,7 +24,7 @@ namespace lockstep {
 
 class Conversation {
  public:
-  enum class Asked : std::uint8_t { Nothing, Create, Tick, Halt };
+  enum class Asked : std::uint8_t { Nothing, Create, Tick, Pause, Halt };
 
   explicit Conversation(const IsolationOptions& options) : options_(options) {}
   // Starts the program and returns its first line.
@@ -39,7 +39,7 @@ class Conversation {
   // Sends lines to the program, the last of which asks that. Does not wait. Where somebody else
   // reads, he also writes, when he is woken: to write to a program may mean to make way for it. A
   // leaf has not been asked anything else, except a tick before a halt, whose answer is then
-  // ignored.
+  // ignored, and pauses, at any time.
   void send(std::uint32_t leaf, Asked asked, std::string_view lines);
   // Waits for the answer, at most so long; false when there is none. Not for a gone program.
   bool await(std::uint32_t leaf, Asked asked, std::optional<Nanoseconds> patience);
@@ -53,6 +53,8 @@ class Conversation {
     Nanoseconds since{0};   // when it was asked
   };
   News take(std::uint32_t leaf);
+  // Of that only the error; the rest stays for the next tick.
+  News take_error(std::uint32_t leaf);
   double progress(std::uint32_t leaf);
   // A new activation: what it has said before does not count.
   void forget(std::uint32_t leaf);
@@ -78,7 +80,13 @@ class Conversation {
   void bury();
 
   ProgramProcess& process() { return process_; }
-  // The end, when no listener reads any more: closes its input, and waits. "", or what it took.
+  // The end, when no listener reads any more. Closes its input, at which it is to end.
+  void begin_end();
+  // Reads what it says until it has ended, or until then; nothing: without end. False: it has not.
+  bool await_end(std::optional<Nanoseconds> until);
+  // Ends it otherwise, if it has not: does not wait.
+  void hurry_end();
+  // Waits for that. "", or what it took.
   std::string end();
   // Somebody else reads.
   void set_listened(bool is_listened) { is_listened_ = is_listened; }
@@ -88,11 +96,17 @@ class Conversation {
  private:
   struct Leaf {
     const lockstep_caller* caller = nullptr;  // null: removed
-    Asked asked = Asked::Nothing;             // the last; a tick before a halt is `owes_tick`
+    Asked asked = Asked::Nothing;  // the last but pauses; a tick before a halt is `owes_tick`
     bool owes_tick = false;
+    std::uint32_t pauses = 0;  // that it owes an answer
     Nanoseconds since{0};
+    bool has_erred = false;  // for the tick it may still have an answer
     News news = {};
     double progress = 0;
+
+    bool owes(Asked what) const { return what == Asked::Pause ? pauses > 0 : asked == what; }
+    bool owes_anything() const { return asked != Asked::Nothing || pauses > 0; }
+    Asked owed_first() const;
   };
   bool await_here(const Leaf& leaf, Asked asked, std::optional<Nanoseconds> patience);
   bool find_unasked();
@@ -103,7 +117,9 @@ class Conversation {
   void take_error(Leaf& leaf);
   std::string take_answer(Leaf& leaf);
   void note_end();
-  void give_up_deaf();
+  void judge(ProgramProcess::Written written);
+  void note_deaf();
+  Nanoseconds time_to_die() const;
   void end_late(std::string_view leaf);
   bool is_late(const Leaf& leaf, Nanoseconds now) const;
   std::string blamed();
@@ -123,6 +139,8 @@ class Conversation {
   std::string outgoing_;
   std::string why_gone_;
   bool ends_softly_ = false;
+  bool was_gone_ = false, is_hurried_ = false;  // at the end
+  Nanoseconds closed_{0};                       // when its input was
   std::atomic<bool> gone_{false};
 };
 

@@ -16,7 +16,8 @@
 #include <optional>
 
 #include "core/clock.h"
-#include "core/file_descriptor.h"
+#include "plugin/program/orphans.h"
+#include "system/file_descriptor.h"
 
 namespace lockstep {
 namespace {
@@ -162,6 +163,7 @@ int guard_program(const std::string& path) {
   signal(SIGPIPE, SIG_DFL);
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   help_python();
+  mark_own_orphans();
   fcntl(Given::kControl, F_SETFD, FD_CLOEXEC);
   fcntl(Given::kParent, F_SETFD, FD_CLOEXEC);
   const auto program = start_program(path);

@@ -106,7 +106,7 @@ struct Hello::Reader {
     lockstep_leaf_type leaf = functions;
     leaf.struct_size = sizeof leaf;
     std::string kind = "action";
-    bool progress = false, pause = false, real_time = false;
+    bool progress = false, pause = false, answers_pause = false, real_time = false;
     hello.port_lists_.emplace_back();
     value.object().read(
         {{"id", into_text(leaf.id)},
@@ -114,6 +114,7 @@ struct Hello::Reader {
          {"doc", into_text(leaf.doc), kMayLack},
          {"progress", into_flag(progress), kMayLack},
          {"pause", into_flag(pause), kMayLack},
+         {"answers_pause", into_flag(answers_pause), kMayLack},
          {"real_time", into_flag(real_time), kMayLack},
          {"ports", [&](JsonValue ports) { ports.each_item([&](auto it) { read_port(it); }); },
           kMayLack}});
@@ -125,7 +126,9 @@ struct Hello::Reader {
     // On the wall clock, its answer comes later.
     if (leaf.kind == LOCKSTEP_CONDITION) leaf.flags |= LOCKSTEP_MAY_RUN;
     if (!progress) leaf.progress = nullptr;
-    const Hold its = hold != Hold::AsItSays ? hold : pause ? Hold::Message : Hold::None;
+    Hold its = hold;
+    if (hold == Hold::AsItSays) its = pause || answers_pause ? Hold::Message : Hold::None;
+    if (its == Hold::Message && answers_pause) its = Hold::Answered;
     if (its == Hold::None) leaf.pause = leaf.resume = nullptr;
     hello.holds_.push_back(its);
     hello.leaf_list_.push_back(&hello.leaves_.emplace_back(leaf));

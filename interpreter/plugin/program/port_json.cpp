@@ -177,8 +177,7 @@ std::string set_port(const lockstep_caller& caller, std::uint32_t port, JsonValu
   if (set_value(caller, port, value, fits) || caller.slot->error != nullptr) return {};
   if (!fits)
     return fmt::format("set '{}', a port of type {}, to another type", it.name, to_string(it.type));
-  // An output that the tree leaves out is nobody's.
-  if (it.write == nullptr && it.entry.empty() && it.read == nullptr) return {};
+  if (it.is_unbound()) return {};
   return fmt::format("set '{}', which is not bound to an entry that takes it", it.name);
 }
 

@@ -23,9 +23,14 @@ ProgramLeaf::ProgramLeaf(const lockstep_caller& caller, Conversation& conversati
       conversation_(conversation),
       hold_(hold),
       listener_(listener),
-      number_(conversation.add(caller)) {}
+      number_(conversation.add(caller)) {
+  // On the virtual clock nobody looks between two questions: when a program ends by itself is not
+  // the same in every run.
+  if (caller.time->processes != nullptr) caller.time->processes->add(caller.node, *this);
+}
 
 ProgramLeaf::~ProgramLeaf() {
+  if (caller_.time->processes != nullptr) caller_.time->processes->remove(*this);
   if (!conversation_.is_gone()) {
     // The run is over: the time for a halt that was asked for in its last tick.
     conversation_.await(number_, Asked::Halt, conversation_.options().halt_limit);
@@ -49,10 +54,14 @@ void ProgramLeaf::send(Conversation::Asked asked) {
   if (listener_ != nullptr) listener_->wake();
 }
 
+std::string ProgramLeaf::why_gone() {
+  return conversation_.is_gone() ? "its program " + conversation_.why_gone() : std::string();
+}
+
 bool ProgramLeaf::fail_if_gone() {
-  if (!conversation_.is_gone()) return false;
-  fail("its program " + conversation_.why_gone());
-  return true;
+  const std::string why = why_gone();
+  if (!why.empty()) fail(why);
+  return !why.empty();
 }
 
 // Waits as long as a call of a plugin may take.
@@ -76,6 +85,7 @@ bool ProgramLeaf::create() {
       .field("period", host_table().tick_period(&caller_))
       .field("clock", std::string_view(is_waiting() ? "virtual" : "wall"))
       .field("seed", host_table().random_bits(&caller_) >> 11)  // exact as a double
+      .unbound(caller_)
       .end();
   send(Asked::Create);
   if (!await(Asked::Create)) return false;
@@ -116,7 +126,7 @@ lockstep_status ProgramLeaf::tick_without_waiting() {
   const auto news = conversation_.take(number_);
   if (news.is_asked) {
     note_late(news);
-    return take({.error = news.error});
+    return fail_if_gone() ? LOCKSTEP_RUNNING : take({.error = news.error});
   }
   const lockstep_status status = take(news);
   if (caller_.slot->error == nullptr && status == LOCKSTEP_RUNNING) ask_tick();
@@ -160,7 +170,6 @@ void ProgramLeaf::note_late(const Conversation::News& news) {
   if (limit && waited > *limit) {
     conversation_.give_up(fmt::format("did not answer '{}' for {:g} s; it was killed", caller_.who,
                                       to_seconds(*limit)));
-    fail_if_gone();
   } else if (waited > kLate && told_late_ != news.since) {
     told_late_ = news.since;
     host_table().log(&caller_, LOCKSTEP_LOG_WARNING,
@@ -197,7 +206,19 @@ void ProgramLeaf::pause() {
   }
   request_.clear();
   request_.begin("pause", number_).field("now", now()).end();
-  send(Asked::Nothing);
+  if (hold_ != Hold::Answered) return send(Asked::Nothing);
+  send(Asked::Pause);
+  if (!is_waiting() || !await(Asked::Pause)) return;
+  if (const auto news = conversation_.take_error(number_); !news.error.empty()) fail(news.error);
+}
+
+// While it is held, on the wall clock. A process that is stopped answers later.
+std::string ProgramLeaf::trouble() {
+  if (conversation_.is_gone()) return why_gone();
+  auto news = conversation_.take_error(number_);
+  if (!news.error.empty() || !news.is_asked || hold_ == Hold::Signal) return std::move(news.error);
+  note_late(news);
+  return why_gone();
 }
 
 void ProgramLeaf::resume() {

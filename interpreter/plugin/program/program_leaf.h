@@ -6,6 +6,7 @@
 
 #include "lockstep/leaf.h"
 #include "plugin/host.h"
+#include "plugin/process_leaves.h"
 #include "plugin/program/conversation.h"
 #include "plugin/program/hello.h"
 #include "plugin/program/listener.h"
@@ -13,12 +14,12 @@
 
 namespace lockstep {
 
-class ProgramLeaf {
+class ProgramLeaf : public ProcessLeaf {
  public:
   // `listener` is that of the conversation, on the wall clock; else null.
   ProgramLeaf(const lockstep_caller& caller, Conversation& conversation, Hold hold,
               Listener* listener);
-  ~ProgramLeaf();
+  ~ProgramLeaf() override;
   ProgramLeaf(const ProgramLeaf&) = delete;
   ProgramLeaf& operator=(const ProgramLeaf&) = delete;
 
@@ -29,6 +30,7 @@ class ProgramLeaf {
   void pause();
   void resume();
   double progress();
+  std::string trouble() override;
 
  private:
   bool is_waiting() const { return listener_ == nullptr; }
@@ -41,6 +43,7 @@ class ProgramLeaf {
   bool await(Conversation::Asked asked);
   void note_late(const Conversation::News& news);
   void fail(const std::string& why);
+  std::string why_gone();  // "" while it is there
   bool fail_if_gone();
   double now() const;
 

@@ -10,8 +10,10 @@
 #include <cerrno>
 #include <cstring>
 #include <initializer_list>
+#include <utility>
 
 #include "plugin/program/guardian.h"
+#include "plugin/program/orphans.h"
 
 namespace lockstep {
 namespace {
@@ -102,16 +104,18 @@ ProgramProcess::~ProgramProcess() {
 void ProgramProcess::bury() {
   if (is_buried_ || guardian_.descriptor() < 0) return;
   is_buried_ = true;
+  pid_t group = -1;
   {
     const std::lock_guard lock(mutex_);
-    group_ = -1;
+    group = std::exchange(group_, -1);
     shutdown(control_.number(), SHUT_RDWR);
   }
   if (!await({guardian_.descriptor()}, kPatience)) guardian_.kill();
-  guardian_.reap();
+  const pid_t guardian = guardian_.number();
+  if (guardian_.reap() != "ended with exit code 0") end_orphans_of(guardian, group);
 }
 
-bool ProgramProcess::write(std::string_view text) {
+ProgramProcess::Written ProgramProcess::write(std::string_view text) {
   unwritten_ += text;
   std::size_t done = 0;
   while (done < unwritten_.size()) {
@@ -122,11 +126,12 @@ bool ProgramProcess::write(std::string_view text) {
     } else if (errno == EAGAIN) {
       break;
     } else if (errno != EINTR) {
-      return false;
+      unwritten_.clear();
+      return Written::Deaf;
     }
   }
   unwritten_.erase(0, done);
-  return unwritten_.size() <= kMostUnwritten;
+  return unwritten_.size() <= kMostUnwritten ? Written::Good : Written::TooMuch;
 }
 
 // Also where a forked child of ours has a copy of it.

@@ -11,9 +11,9 @@
 #include <string_view>
 
 #include "core/clock.h"
-#include "core/file_descriptor.h"
 #include "plugin/child_process.h"
 #include "plugin/program/line_input.h"
+#include "system/file_descriptor.h"
 
 namespace lockstep {
 
@@ -29,9 +29,10 @@ class ProgramProcess {
   ProgramProcess& operator=(const ProgramProcess&) = delete;
 
   static constexpr std::size_t kMostUnwritten = std::size_t{4} << 20;
-  // Never waits: what the program does not take now is kept for the next call. False: too much is
-  // kept, or nobody reads.
-  bool write(std::string_view text);
+  // Never waits: what the program does not take now is kept for the next call, which is too much at
+  // some time. Deaf: nobody reads.
+  enum class Written { Good, TooMuch, Deaf };
+  Written write(std::string_view text);
   bool has_unwritten() const { return !unwritten_.empty(); }
   // It can read the end of its input.
   void close_input();

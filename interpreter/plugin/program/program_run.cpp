@@ -1,8 +1,12 @@
 #include "plugin/program/program_run.h"
 
+#include <fmt/format.h>
+
 #include <memory>
 #include <optional>
+#include <utility>
 
+#include "core/end_budget.h"
 #include "plugin/descriptor.h"
 #include "plugin/host.h"
 #include "plugin/program/listener.h"
@@ -16,6 +20,15 @@ void fail(const lockstep_caller& caller, const std::string& reason) {
   host_table().set_error(&caller, reason.c_str());
 }
 
+class ProgramRun;
+
+struct RunLeaf final : ProgramLeaf {
+  template <class... Arguments>
+  explicit RunLeaf(ProgramRun& its_run, Arguments&&... arguments)
+      : ProgramLeaf(std::forward<Arguments>(arguments)...), run(its_run) {}
+  ProgramRun& run;
+};
+
 // What the leaves of a program share in a run, seen by LeafSet as the run context of the plugin.
 class ProgramRun {
  public:
@@ -24,8 +37,15 @@ class ProgramRun {
     if (caller.time->workers == nullptr) listener_.emplace();
   }
   ~ProgramRun() {
-    listener_.reset();
-    for (const auto& conversation : conversations_) conversation->process().close_input();
+    begin_end();
+    const auto until = end_of_patience();
+    bool is_in_time = true;
+    for (const auto& conversation : conversations_) is_in_time &= conversation->await_end(until);
+    for (const auto& conversation : conversations_) conversation->hurry_end();
+    EndBudget* const budget = caller_.time->end_budget;
+    if (!is_in_time && budget != nullptr) {
+      budget->used_up_by(fmt::format("the program '{}'", caller_.who));
+    }
     for (const auto& conversation : conversations_) {
       const std::string what = conversation->end();
       if (!what.empty())
@@ -36,17 +56,39 @@ class ProgramRun {
   ProgramRun& operator=(const ProgramRun&) = delete;
 
   // Null after a failure, which is the caller's error.
-  std::unique_ptr<ProgramLeaf> create(const lockstep_caller& caller) {
+  std::unique_ptr<RunLeaf> create(const lockstep_caller& caller) {
     const Hold hold = plugin_.hello().hold_of(caller.id);
     Conversation* const conversation =
         hold == Hold::Signal ? begin_another(caller) : shared(caller);
     if (conversation == nullptr) return nullptr;
-    auto leaf = std::make_unique<ProgramLeaf>(caller, *conversation, hold,
-                                              listener_ ? &*listener_ : nullptr);
-    return leaf->create() ? std::move(leaf) : nullptr;
+    auto leaf = std::make_unique<RunLeaf>(*this, caller, *conversation, hold,
+                                          listener_ ? &*listener_ : nullptr);
+    if (!leaf->create()) return nullptr;
+    ++leaves_;
+    return leaf;
+  }
+
+  // The programs of other plugins end at the same time, since all leaves go before any of these.
+  void leaf_is_gone() {
+    if (--leaves_ == 0) begin_end();
   }
 
  private:
+  void begin_end() {
+    if (std::exchange(is_ending_, true)) return;
+    listener_.reset();
+    for (const auto& conversation : conversations_) conversation->begin_end();
+  }
+
+  // Nothing: there is no end of it.
+  std::optional<Nanoseconds> end_of_patience() const {
+    if (conversations_.empty()) return std::nullopt;
+    const EndBudget* const budget = caller_.time->end_budget;
+    const auto patience =
+        budget == nullptr ? conversations_[0]->options().halt_limit : budget->rest();
+    return patience ? std::optional(monotonic_now() + *patience) : std::nullopt;
+  }
+
   // That of all leaves that may share one.
   Conversation* shared(const lockstep_caller& caller) {
     if (shared_ == nullptr) shared_ = begin_another(caller);
@@ -69,6 +111,8 @@ class ProgramRun {
   const lockstep_caller& caller_;
   std::vector<std::unique_ptr<Conversation>> conversations_;
   Conversation* shared_ = nullptr;
+  std::size_t leaves_ = 0;
+  bool is_ending_ = false;
   std::optional<Listener> listener_;
 };
 
@@ -81,11 +125,15 @@ void destroy_run(void* context) {
 }
 
 void* create(const lockstep_host* /*host*/, const lockstep_caller* caller, void* run_context) {
-  return static_cast<ProgramRun*>(run_context)->create(*caller).release();
+  ProgramLeaf* const leaf = static_cast<ProgramRun*>(run_context)->create(*caller).release();
+  return leaf;
 }
 
 void destroy(void* leaf) {
-  delete static_cast<ProgramLeaf*>(leaf);
+  auto* const it = static_cast<RunLeaf*>(static_cast<ProgramLeaf*>(leaf));
+  ProgramRun& run = it->run;
+  delete it;
+  run.leaf_is_gone();
 }
 
 template <auto kMember>

@@ -60,4 +60,16 @@ Request& Request::ports(const lockstep_caller& caller, std::vector<Value>& sent)
   return *this;
 }
 
+Request& Request::unbound(const lockstep_caller& caller) {
+  const char* before = ",\"unbound\":[";
+  for (const BoundPort& port : caller.ports) {
+    if (!port.is_unbound()) continue;
+    text_ += before;
+    append_json(text_, port.name);
+    before = ",";
+  }
+  if (*before == ',' && before[1] == '\0') text_ += ']';
+  return *this;
+}
+
 }  // namespace lockstep

@@ -22,6 +22,8 @@ class Request {
   // "ports": those whose values are not the ones of `sent`, which is brought up to date; all, where
   // it is empty.
   Request& ports(const lockstep_caller& caller, std::vector<Value>& sent);
+  // "unbound": the outputs and inouts that the tree binds to no entry, if there are any.
+  Request& unbound(const lockstep_caller& caller);
   void end() { text_ += "}\n"; }
 
   std::string_view text() const { return text_; }

@@ -113,7 +113,8 @@ enum { LOCKSTEP_LOG_DEBUG = 0, LOCKSTEP_LOG_INFO = 1, LOCKSTEP_LOG_WARNING = 2 }
  * the name says how the object looks in memory. Declare each type once in a plugin. */
 typedef struct lockstep_object_type {
   uint32_t struct_size; /* sizeof(lockstep_object_type) as the plugin knew it */
-  const char* name;     /* "nav.Path": up to 100 letters, digits and '._:/-' */
+  const char* name;     /* "nav.Path": up to 100 letters, digits and '._:/-'; inside also blanks and
+                           '<>,*&()[]', as in the name of a C++ type */
 
   /* [any] One reference more; one less, and with the last the end of the object. A reference that a
    * leaf has set is released in a function of the run, at the latest before destroy_run. */
@@ -135,6 +136,10 @@ typedef struct lockstep_object_type {
   /* A new object with one reference, or NULL when the bytes are none. Another process has written
    * them, which may run another version of the plugin: check them. */
   void* (*from_bytes)(const void* bytes, size_t length);
+
+  /* [any] (optional) Why the last from_text of this thread returned NULL, in a sentence; NULL when
+   * there is no more to say. Valid until the next from_text. */
+  const char* (*why_no_object)(void);
 } lockstep_object_type;
 
 /* Bits of lockstep_port::flags, since 1.1. A host ignores those that it does not know. */
@@ -271,8 +276,9 @@ typedef struct lockstep_children {
   lockstep_status (*status)(const lockstep_caller* caller, uint32_t child);
   /* [run] In [0, 1]: 1 after success, 0 when it failed or is idle. */
   double (*progress)(const lockstep_caller* caller, uint32_t child);
-  /* [run] Ticks a child that may have completed before, as tick does; but an action that takes time
-   * and has completed does not begin again, and gives the same result. */
+  /* [run] Ticks a child that may have completed before, as tick does; but one that has completed
+   * does not begin again: it is told by start_unreset in place of start. An action that takes time
+   * and has no start_unreset is not ticked; it gives the same result. */
   lockstep_status (*tick_unreset)(const lockstep_caller* caller, uint32_t child);
 } lockstep_children;
 
@@ -399,6 +405,9 @@ typedef struct lockstep_leaf_type {
   uint64_t flags;
   uint32_t min_children; /* of a control node; 0: one */
   uint32_t max_children; /* of a control node; 0: any number */
+  /* [run] (optional) In place of start, when the node has completed and its parent ticks it again
+   * by tick_unreset: it goes on from its last result. */
+  void (*start_unreset)(void* leaf);
 } lockstep_leaf_type;
 
 /* Since 1.1: words of a plugin that scripts know as numbers, in trees for BehaviorTree.CPP. Found

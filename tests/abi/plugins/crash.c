@@ -119,7 +119,8 @@ static const lockstep_leaf_type leaf_type = {sizeof(lockstep_leaf_type),
                                              NULL,
                                              0,
                                              0,
-                                             0};
+                                             0,
+                                             NULL};
 static const lockstep_leaf_type* const leaf_types[] = {&leaf_type};
 
 const lockstep_plugin lockstep_plugin_entry = {LOCKSTEP_ABI_MAJOR,

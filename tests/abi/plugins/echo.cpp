@@ -192,7 +192,8 @@ constexpr lockstep_leaf_type kType = {sizeof(lockstep_leaf_type),
                                       nullptr,
                                       0,
                                       0,
-                                      0};
+                                      0,
+                                      nullptr};
 constexpr const lockstep_leaf_type* kTypes[] = {&kType};
 
 }  // namespace

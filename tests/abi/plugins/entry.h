@@ -129,7 +129,8 @@ MAYBE_UNUSED static const lockstep_port* const the_ports[] = {&the_port, &the_po
 static const lockstep_leaf_type the_leaf_type = {
     LEAF_SIZE,   LEAF_KIND,     LEAF_ID,    LEAF_DOC,   PORT_COUNT,        PORT_LIST,
     LEAF_CREATE, LEAF_DESTROY,  LEAF_START, LEAF_TICK,  LEAF_HALT,         NULL,
-    NULL,        LEAF_PROGRESS, NULL,       LEAF_FLAGS, LEAF_MIN_CHILDREN, LEAF_MAX_CHILDREN};
+    NULL,        LEAF_PROGRESS, NULL,       LEAF_FLAGS, LEAF_MIN_CHILDREN, LEAF_MAX_CHILDREN,
+    NULL};
 MAYBE_UNUSED static const lockstep_leaf_type* const the_leaf_types[] = {&the_leaf_type,
                                                                         &the_leaf_type};
 

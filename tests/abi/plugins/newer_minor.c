@@ -26,7 +26,7 @@ static const newer_port port = {{sizeof(newer_port), LOCKSTEP_INT, LOCKSTEP_INPU
 static const lockstep_port* const ports[] = {&port.base};
 static const newer_leaf_type leaf_type = {
     {sizeof(newer_leaf_type), LOCKSTEP_ACTION, "Probe", NULL, 1, ports, probe_create, probe_destroy,
-     probe_start, probe_tick, probe_halt, NULL, NULL, NULL, NULL, 0, 0, 0},
+     probe_start, probe_tick, probe_halt, NULL, NULL, NULL, NULL, 0, 0, 0, NULL},
     more};
 static const lockstep_leaf_type* const leaf_types[] = {&leaf_type.base};
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "lockstep/leaf.h"
+#include "plugin/carried_time.h"
 #include "plugin/float_mode.h"
 #include "runtime/run.h"
 #include "unit/plugin/probe_plugin.h"
@@ -103,6 +104,35 @@ TEST_CASE("a watched leaf has the functions that the leaf has") {
   CHECK(bare.tick != nullptr);
   CHECK_FALSE((bare.start || bare.halt || bare.pause || bare.resume || bare.progress));
   CHECK_FALSE((bare.get_extension || full.get_extension));
+}
+
+TEST_CASE("a leaf is not blamed for what lockstep carries between processes") {
+  Strings carried;
+  LeafWatchOptions options{.budget = 10ms};
+  options.on_carried = [&](NodeIndex leaf, Nanoseconds took) {
+    carried.push_back(std::to_string(leaf) + " " + std::to_string(took / 1ms));
+  };
+  Fixture fixture(1, 0, options);
+  const auto call = [&](Nanoseconds own, Nanoseconds on_the_way) {
+    on_probe_call = [&, own, on_the_way](PluginFunction, void*) {
+      fixture.clock.time += own + on_the_way;
+      t_carried += on_the_way;
+    };
+    fixture.slot().type->tick(fixture.slot().self);
+    on_probe_call = nullptr;
+    fixture.clock.time += 2s;  // something is told once a second
+  };
+  call(5ms, 80ms);
+  CHECK(fixture.slow.empty());
+  CHECK(carried == Strings{"0 80"});
+  CHECK(fixture.watch.slowest().took == 5ms);
+  call(12ms, 80ms);
+  CHECK(fixture.slow == Strings{"0 tick 12"});
+  call(5ms, 0ms);
+  CHECK(carried.size() == 1);
+  REQUIRE(fixture.watch.over_budget().size() == 1);
+  CHECK(fixture.watch.over_budget()[0].over_budget == 1);
+  CHECK(t_carried == 0ms);
 }
 
 TEST_CASE("every call reaches its leaf, marked with its function, site and tick") {

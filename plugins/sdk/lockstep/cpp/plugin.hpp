@@ -170,19 +170,14 @@ constexpr lockstep_plugin plugin(const PluginParts<Count>& parts,
   return result;
 }
 
-}  // namespace detail
-
-// Parts of a plugin, to be listed in LOCKSTEP_PLUGIN.
-
-// A leaf, control node or decorator of class T: its XML tag, and one or two sentences about it.
+// Its id is one.
 template <class T>
-constexpr lockstep_leaf_type leaf(const char* id, const char* doc) {
-  using Functions = detail::LeafFunctions<T>;
-  using Table = detail::PortTable<typename T::PortsType>;
-  if (!detail::is_name(id)) detail::error_name_must_be_letters_digits_and_underscores();
+constexpr lockstep_leaf_type leaf_type(const char* id, const char* doc) {
+  using Functions = LeafFunctions<T>;
+  using Table = PortTable<typename T::PortsType>;
   lockstep_leaf_type type{};
   type.struct_size = sizeof(lockstep_leaf_type);
-  type.kind = detail::kind_of<T>();
+  type.kind = kind_of<T>();
   type.id = id;
   type.doc = doc;
   type.port_count = Table::kCount;
@@ -191,12 +186,23 @@ constexpr lockstep_leaf_type leaf(const char* id, const char* doc) {
   type.destroy = &Functions::destroy;
   type.tick = &Functions::tick;
   type.flags = T::kRealTime ? LOCKSTEP_REAL_TIME : 0;
-  if constexpr (Functions::kIsAction) detail::add_optional_functions<T>(type);
+  if constexpr (Functions::kIsAction) add_optional_functions<T>(type);
   if constexpr (std::is_base_of_v<ControlFunctions, T>) {
     type.min_children = T::kMinChildren;
     type.max_children = T::kMaxChildren;
   }
   return type;
+}
+
+}  // namespace detail
+
+// Parts of a plugin, to be listed in LOCKSTEP_PLUGIN.
+
+// A leaf, control node or decorator of class T: its XML tag, and one or two sentences about it.
+template <class T>
+constexpr lockstep_leaf_type leaf(const char* id, const char* doc) {
+  if (!detail::is_id(id)) detail::error_id_must_be_letters_digits_underscores_and_dashes();
+  return detail::leaf_type<T>(id, doc);
 }
 
 // What the leaves of a run share: one Context per run, made from a Run& or from nothing. Its leaves

@@ -13,6 +13,9 @@ namespace detail {
 [[noreturn]] inline void error_name_must_be_letters_digits_and_underscores() {
   std::abort();
 }
+[[noreturn]] inline void error_id_must_be_letters_digits_underscores_and_dashes() {
+  std::abort();
+}
 [[noreturn]] inline void error_plugin_name_must_be_letters_digits_underscores_and_dashes() {
   std::abort();
 }
@@ -67,6 +70,15 @@ constexpr bool is_name(std::string_view text) {
     if (!is_letter(c) && !is_digit(c) && c != '_') return false;
   }
   return true;
+}
+
+// A letter, then letters, digits, '_' and '-'; also letters in UTF-8, which the host checks.
+constexpr bool is_id(std::string_view text) {
+  for (const char c : text) {
+    const bool is_beyond_ascii = static_cast<unsigned char>(c) >= 0x80;
+    if (!is_letter(c) && !is_digit(c) && c != '_' && c != '-' && !is_beyond_ascii) return false;
+  }
+  return !text.empty() && !is_digit(text[0]) && text[0] != '_' && text[0] != '-';
 }
 
 // Letters, digits, '_', '-': also the name of the file, without ".so".

@@ -1,0 +1,36 @@
+// The leaves of a run that other processes do. Nobody calls a leaf that is held, so before each
+// tick the run looks whether its process is still there: the others are not to move on beside a
+// driver that is dead.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/ticker.h"
+
+namespace lockstep {
+
+class ProcessLeaf {
+ public:
+  virtual ~ProcessLeaf() = default;
+  // What is wrong with it since it was called last; "" for nothing. Returns at once.
+  virtual std::string trouble() = 0;
+};
+
+class ProcessLeaves {
+ public:
+  bool empty() const { return all_.empty(); }
+  void add(NodeIndex node, ProcessLeaf& leaf) { all_.push_back({node, &leaf}); }
+  void remove(const ProcessLeaf& leaf);
+  // A fault for each that is held and has trouble.
+  void look(Ticker& ticker);
+
+ private:
+  struct Entry {
+    NodeIndex node;
+    ProcessLeaf* leaf;
+  };
+  std::vector<Entry> all_;
+};
+
+}  // namespace lockstep

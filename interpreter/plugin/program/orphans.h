@@ -1,0 +1,20 @@
+// What a program has started outlives its guardian, if that is killed, unless somebody else takes
+// it over: this process, where it is the program lockstep. A program that embeds lockstep is not
+// made to, since it may have children of its own to wait for.
+#pragma once
+
+#include <sys/types.h>
+
+namespace lockstep {
+
+// From now on, what outlives a guardian becomes a child of this process.
+void take_over_orphans();
+
+// The guardian has ended. Kills what it has left to this process, and waits for it: the group of
+// the program, and what has left it.
+void end_orphans_of(pid_t guardian, pid_t group);
+
+// In the guardian: its number, for the environment of all that the program starts.
+void mark_own_orphans();
+
+}  // namespace lockstep

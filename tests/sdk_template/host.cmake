@@ -1,0 +1,57 @@
+# lockstep as a part of another project: it leaves alone what belongs to its host.
+#   cmake -DSOURCE=… -DWORK=… -DCXX_COMPILER=… -DC_COMPILER=… -P host.cmake
+cmake_minimum_required(VERSION 3.20)
+
+file(REMOVE_RECURSE ${WORK})
+file(WRITE ${WORK}/main.cpp "int main() {}\n")
+file(WRITE ${WORK}/leaf.c "int nothing;\n")
+file(WRITE ${WORK}/CMakeLists.txt "cmake_minimum_required(VERSION 3.20)
+project(host LANGUAGES C CXX)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+add_executable(program main.cpp)
+add_subdirectory(${SOURCE} lockstep)
+lockstep_add_plugin(leaf leaf.c)
+")
+
+# configure(OPTION…) → `commands`, how each file is compiled; `type`, the build type of the host.
+function(configure)
+  file(REMOVE_RECURSE ${WORK}/build)
+  execute_process(COMMAND ${CMAKE_COMMAND} -S ${WORK} -B ${WORK}/build ${ARGN}
+      -DCMAKE_C_COMPILER=${C_COMPILER} -DCMAKE_CXX_COMPILER=${CXX_COMPILER}
+    RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "a project with add_subdirectory(lockstep) does not configure:\n${output}")
+  endif()
+  file(READ ${WORK}/build/compile_commands.json commands)
+  set(commands "${commands}" PARENT_SCOPE)
+  load_cache(${WORK}/build READ_WITH_PREFIX "" CMAKE_BUILD_TYPE)
+  set(type "${CMAKE_BUILD_TYPE}" PARENT_SCOPE)
+endfunction()
+
+# check_command(FILE REGEX YES|NO)
+function(check_command file flags expected)
+  string(REGEX MATCH "\"command\": \"[^\n]*${file}\"" command "${commands}")
+  if(command MATCHES "${flags}")
+    set(found YES)
+  else()
+    set(found NO)
+  endif()
+  if(command STREQUAL "" OR NOT found STREQUAL expected)
+    message(FATAL_ERROR "${file}, '${flags}', expected ${expected}:\n${command}")
+  endif()
+endfunction()
+
+configure()
+if(NOT type STREQUAL "")
+  message(FATAL_ERROR "the build type of the host is '${type}'")
+endif()
+check_command(${WORK}/main.cpp "-O[0-9]|-DNDEBUG" NO)
+check_command(${WORK}/leaf.c "-O3" YES)
+check_command(interpreter/main.cpp "-O3 -DNDEBUG" YES)
+
+configure(-DCMAKE_BUILD_TYPE=Debug)
+if(NOT type STREQUAL "Debug")
+  message(FATAL_ERROR "the build type of the host is '${type}', not Debug")
+endif()
+check_command(${WORK}/leaf.c "-O3" NO)
+check_command(interpreter/main.cpp "-O3" NO)
