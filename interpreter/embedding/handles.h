@@ -14,9 +14,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/own_process.h"
 #include "embedding/lockstep/runtime.h"
 #include "loading/load.h"
+#include "system/own_process.h"
 
 namespace lockstep {
 
@@ -56,8 +56,12 @@ struct lockstep_project {
 
 namespace lockstep::embedding {
 
-// Keeps the reason for lockstep_last_error. Returns false.
+// Keeps the reason for lockstep_last_error, of a length that anybody can show. Returns false.
 bool fail(std::string_view reason) noexcept;
+// Whether a text that the program passes in is one: neither NULL nor anything but UTF-8. `what` is
+// "the key".
+bool is_text(std::string_view what, const char* text) noexcept;
+bool is_text(std::string_view what, const char* text, std::size_t length) noexcept;
 // Nothing is wrong with this call.
 void forget_error() noexcept;
 

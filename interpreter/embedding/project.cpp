@@ -2,9 +2,13 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <cstring>
 #include <filesystem>
 
+#include "core/audience.h"
 #include "core/parameter_value.h"
+#include "core/utf8.h"
+#include "core/wording.h"
 #include "embedding/handles.h"
 
 namespace lockstep {
@@ -25,6 +29,7 @@ namespace {
 
 thread_local std::string t_error;
 
+constexpr std::size_t kLongestError = 2000;  // bytes
 constexpr std::uint32_t kVersion = LOCKSTEP_RUNTIME_MAJOR << 16 | LOCKSTEP_RUNTIME_MINOR;
 
 // What is installed with lockstep is found from this library, whatever program it is in: in a build
@@ -49,9 +54,17 @@ bool set(lockstep_project* project, const void* argument, Change change) {
   });
 }
 
+// Of a call that sets something.
+bool are_texts(std::initializer_list<std::pair<const char*, const char*>> texts) {
+  return guarded([&] {
+    return std::ranges::all_of(texts, [](const auto& it) { return is_text(it.first, it.second); });
+  });
+}
+
 template <class Load>
 bool load_with(lockstep_project* project, const void* argument, Load load) {
   return set(project, argument, [] {}) && guarded([&] {
+           const ForProgram scope;
            project->load_tried = true;
            project->process = OwnProcess();
            auto loaded = load();
@@ -79,11 +92,24 @@ lockstep_type type_of(const Slot& slot) {
 
 bool fail(std::string_view reason) noexcept {
   try {
-    t_error = reason;
+    t_error = reason.size() <= kLongestError
+                  ? reason
+                  : fmt::format("{} ... ({} more bytes)", utf8_front(reason, kLongestError),
+                                reason.size() - utf8_front(reason, kLongestError).size());
   } catch (...) {
     t_error.clear();  // no memory: what fits a string without any is too short to say so
   }
   return false;
+}
+
+bool is_text(std::string_view what, const char* text) noexcept {
+  return is_text(what, text, text == nullptr ? 0 : std::strlen(text));
+}
+
+bool is_text(std::string_view what, const char* text, std::size_t length) noexcept {
+  if (text == nullptr) return fail("an argument is NULL");
+  if (is_utf8({text, length})) return true;
+  return shielded([&] { return fail(fmt::format("{} is not UTF-8", what)); });
 }
 
 void forget_error() noexcept {
@@ -133,23 +159,25 @@ bool lockstep_project_add_leaves(lockstep_project* project, const lockstep_plugi
              [&] {
                Diagnostics refused;
                added = project->plugins->add(*plugin, "this program", refused);
-               if (!added) fail(refused.all().front().message);
+               if (added) return;
+               const Diagnostic& why = refused.all().front();
+               fail(why.hint.empty() ? why.message : fmt::format("{} ({})", why.message, why.hint));
              }) &&
          added;
 }
 
 bool lockstep_project_set_argument(lockstep_project* project, const char* name, const char* value) {
-  return set(project, name == nullptr ? nullptr : value,
-             [&] { project->options.arguments[name] = value; });
+  return are_texts({{"the name", name}, {"the value", value}}) &&
+         set(project, value, [&] { project->options.arguments[name] = value; });
 }
 
 bool lockstep_project_set_value(lockstep_project* project, const char* key, const char* value) {
-  return set(project, key == nullptr ? nullptr : value,
-             [&] { project->options.values[key] = value; });
+  return are_texts({{"the key", key}, {"the value", value}}) &&
+         set(project, value, [&] { project->options.values[key] = value; });
 }
 
 bool lockstep_project_set_main_tree(lockstep_project* project, const char* id) {
-  return set(project, id, [&] { project->options.main_tree = id; });
+  return are_texts({{"the ID", id}}) && set(project, id, [&] { project->options.main_tree = id; });
 }
 
 bool lockstep_project_isolate_all(lockstep_project* project) {
@@ -215,10 +243,11 @@ bool lockstep_project_find_node(const lockstep_project* project, const char* pat
                                 uint32_t* index) {
   return guarded([&] {
     if (tree_of(project) == nullptr) return fail("the project has not been loaded");
-    if (path == nullptr || index == nullptr) return fail("an argument is NULL");
+    if (!is_text("the path", path)) return false;
+    if (index == nullptr) return fail("an argument is NULL");
     const auto& paths = project->program->texts().paths;
     const auto found = std::ranges::find(paths, path);
-    if (found == paths.end()) return fail(fmt::format("there is no node '{}'", path));
+    if (found == paths.end()) return fail(fmt::format("there is no node '{}'", brief(path)));
     *index = static_cast<uint32_t>(found - paths.begin());
     return true;
   });

@@ -8,6 +8,7 @@
 
 #include "core/parameter_value.h"
 #include "core/suggest.h"
+#include "core/wording.h"
 #include "embedding/handles.h"
 #include "embedding/warnings.h"
 #include "runtime/loop.h"
@@ -87,17 +88,15 @@ std::string fault_text(const lockstep_run& run, const Fault& fault) {
 }
 
 Entry* find_entry(lockstep_run* run, const char* key) {
-  if (run == nullptr || key == nullptr) {
-    fail("an argument is NULL");
-    return nullptr;
-  }
+  if (run == nullptr) fail("an argument is NULL");
+  if (run == nullptr || !is_text("the key", key)) return nullptr;
   const auto& slots = tree_of(*run).slots;
   const auto found = std::ranges::find(slots, std::string_view(key), &Slot::name);
   if (found != slots.end()) return &run->run.blackboard().entries[found - slots.begin()];
   std::vector<std::string_view> keys;
   for (const Slot& slot : slots) keys.push_back(slot.name);
   const std::string hint = did_you_mean(key, keys);
-  fail(fmt::format("no node uses an entry '{}'{}{}", key, hint.empty() ? "" : "; ", hint));
+  fail(fmt::format("no node uses an entry '{}'{}{}", brief(key), hint.empty() ? "" : "; ", hint));
   return nullptr;
 }
 
@@ -438,7 +437,7 @@ bool lockstep_run_get_text_list(lockstep_run* run, const char* key, const lockst
 
 bool lockstep_run_set_text(lockstep_run* run, const char* key, const char* text) {
   return guarded([&] {
-    if (text == nullptr) return fail("an argument is NULL");
+    if (!is_text("the text", text)) return false;
     Entry* const entry = find_entry(run, key);
     if (entry == nullptr) return false;
     auto value = parse_value(entry->type, entry->object, text);
@@ -478,7 +477,9 @@ bool lockstep_run_set_text_list(lockstep_run* run, const char* key, const lockst
     std::vector<std::string> texts;
     for (size_t i = 0; i < count; ++i) {
       if (values[i].text == nullptr && values[i].length != 0) return fail("a text is NULL");
-      texts.emplace_back(values[i].length == 0 ? "" : values[i].text, values[i].length);
+      const bool is_empty = values[i].length == 0;
+      if (!is_empty && !is_text("a text", values[i].text, values[i].length)) return false;
+      texts.emplace_back(is_empty ? "" : values[i].text, values[i].length);
     }
     return set(run, key, std::move(texts));
   });

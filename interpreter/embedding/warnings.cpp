@@ -25,6 +25,11 @@ void Warnings::tell(const Ticker& ticker, std::span<const Fault> faults, std::ui
   for (; out_of_range_ < all.size(); ++out_of_range_) {
     warn(all[out_of_range_].node, out_of_range_text(all[out_of_range_].reported));
   }
+  const auto went_on = ticker.went_on();
+  for (; went_on_ < went_on.size(); ++went_on_) {
+    const WentOn& it = went_on[went_on_];
+    warn(it.node, went_on_text(it.from, it.to));
+  }
 }
 
 }  // namespace lockstep

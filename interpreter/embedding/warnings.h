@@ -18,15 +18,15 @@ class Warnings {
   Warnings(const Tree& tree, LeafLog log);
 
   // After a tick or a halt: its faults that the run goes on after, and each leaf whose progress was
-  // found to be no share.
+  // found to be no share, or to rise while the leaf was held.
   void tell(const Ticker& ticker, std::span<const Fault> faults, std::uint64_t tick);
   // The run is as new.
-  void begin_again() { out_of_range_ = 0; }
+  void begin_again() { out_of_range_ = went_on_ = 0; }
 
  private:
   const Tree& tree_;
   const LeafLog log_;
-  std::size_t out_of_range_ = 0;  // leaves that were told
+  std::size_t out_of_range_ = 0, went_on_ = 0;  // leaves that were told
 };
 
 }  // namespace lockstep

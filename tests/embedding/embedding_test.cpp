@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <lockstep/runtime.hpp>
 #include <thread>
 
@@ -46,6 +47,12 @@ class Percent : public lockstep::Action<> {
  public:
   Status tick() override { return Status::Running; }
   double progress() const override { return 37; }
+};
+
+class GoesOn : public lockstep::Action<> {
+ public:
+  Status tick() override { return Status::Running; }
+  double progress() const override { return now(); }
 };
 
 struct Shared {
@@ -240,6 +247,51 @@ TEST_CASE("a progress that is no share, and a failure that the run goes on after
   lines.clear();
   run.node(1);
   CHECK(lines == percent);
+}
+
+TEST_CASE("a leaf that goes on while it is held is told, once in a run") {
+  runtime::Project project;
+  project.add_leaf<Step>("Step", "Makes a step in each tick").add_leaf<GoesOn>("GoesOn", "Does");
+  project.load_text(tree(
+      "<ParallelAbsolute barriers=\"0.25\"><Step step=\"0.001\"/><GoesOn/></ParallelAbsolute>"));
+  Strings lines;
+  runtime::RunSettings settings;
+  settings.log = [&](const std::string& who, lockstep::LogLevel, const std::string& text) {
+    lines.push_back(who + ": " + text);
+  };
+  runtime::Run run(project, settings);
+  for (int round = 0; round < 2; ++round) {
+    for (int i = 0; i < 7; ++i) run.tick(i * 0.125);
+    CHECK(lines == Strings{"Main/ParallelAbsolute/GoesOn: went on while it was held: its progress "
+                           "rose from 0.25 to 0.5"});
+    lines.clear();
+    run.restart(0);
+  }
+}
+
+TEST_CASE("a text that is not UTF-8 is refused by one rule, and an error has an end") {
+  const std::string latin = "caf\xe9";
+  const std::string good = "caf\xc3\xa9";
+  runtime::Project project;
+  CHECK(error_of([&] { project.set_argument(latin, "1"); }) == "the name is not UTF-8");
+  CHECK(error_of([&] { project.set_argument("a", latin); }) == "the value is not UTF-8");
+  CHECK(error_of([&] { project.set_value(latin, "1"); }) == "the key is not UTF-8");
+  CHECK(error_of([&] { project.set_value("a", latin); }) == "the value is not UTF-8");
+  CHECK(error_of([&] { project.set_main_tree(latin); }) == "the ID is not UTF-8");
+  project.add_leaf<Step>("Step", "Makes a step in each tick");
+  project.load_text(tree("<Sequence><Script code=\"text := 'x'\"/><Step/></Sequence>"));
+  CHECK(error_of([&] { project.find_node(latin); }) == "the path is not UTF-8");
+  runtime::Run run(project);
+  CHECK(error_of([&] { run.set(latin, 1.0); }) == "the key is not UTF-8");
+  CHECK(error_of([&] { run.get<std::string>(latin); }) == "the key is not UTF-8");
+  CHECK(error_of([&] { run.set("text", latin); }) == "the text is not UTF-8");
+  run.set("text", good);
+  CHECK(run.get<std::string>("text") == good);
+  run.set("text", "");
+
+  const std::string endless(60'000'000, 'x');
+  CHECK(error_of([&] { run.set(endless, 1.0); }).size() < 2100);
+  CHECK(error_of([&] { project.find_node(endless); }).size() < 2100);
 }
 
 TEST_CASE("what is wrong with a tree is data") {
@@ -519,6 +571,100 @@ TEST_CASE("several projects may load one plugin") {
     runtime::Run run(one), second(other);
     CHECK(run.loop({true}).status == second.loop({true}).status);
   }
+}
+
+TEST_CASE("messages for a program have no options of the command line, and no place that is none") {
+  struct Case {
+    std::function<void(runtime::Project&)> change;
+    std::string text, message;
+  };
+  const auto nothing = [](runtime::Project&) {};
+  const std::string step = tree("<Step/>");
+  const std::string argument =
+      "<root lockstep=\"1\"><arg name=\"n\"/><BehaviorTree ID=\"Main\"><Step step=\"${n}\"/>"
+      "</BehaviorTree></root>";
+  const std::string two =
+      "<root lockstep=\"1\"><BehaviorTree ID=\"A\"><Step/></BehaviorTree><BehaviorTree ID=\"B\">"
+      "<Step/></BehaviorTree></root>";
+  const Case kCases[] = {
+      {[](auto& it) { it.set_argument("n", "1"); }, step, "\nunknown argument 'n' (no <arg>"},
+      {nothing, argument, "has no default and is not given (the project needs a value for it)"},
+      {[](auto& it) { it.set_value("x", "1"); }, step,
+       "\nstart value of x: the main tree does not"},
+      {[](auto& it) { it.set_value("x", "far"); }, tree("<Step step=\"{x}\"/>"),
+       "(it comes from the project or from an attribute of a SubTree)"},
+      {[](auto& it) { it.set_main_tree("C"); }, two, "\nunknown tree 'C'"},
+      {nothing, two, "or choose one for the project; trees: 'A', 'B'"},
+      {nothing, "<root lockstep=\"1\"><plugin name=\"none\"/></root>", "to the plugin path, or to"},
+      {[](auto& it) { it.add_plugin("none"); }, step, "\nplugin 'none' is not found"},
+      {nothing, "<root BTCPP_format=\"4\"><BehaviorTree ID=\"A\"><None/></BehaviorTree></root>",
+       "if a plugin provides it, add that to the project"},
+      {nothing, tree("<SetBlackboard value=\"1\" output_key=\"x\"/>"),
+       "give the entry a start value"}};
+  for (const Case& it : kCases) {
+    INFO(it.message);
+    runtime::Project project;
+    project.add_leaf<Step>("Step", "");
+    it.change(project);
+    const std::string error = error_of([&] { project.load_text(it.text); });
+    INFO(error);
+    CHECK(error.find(it.message) != std::string::npos);
+    CHECK(error.find("--") == std::string::npos);
+    CHECK(error.find(":0:") == std::string::npos);
+  }
+  runtime::Project project;
+  project.add_plugin_path("/nowhere").add_leaf<Step>("Step", "");
+  project.load_text(tree("<Step step=\"{x}\"/>"));  // of which a warning tells
+  REQUIRE(project.diagnostics().size() == 2);
+  CHECK(project.diagnostics()[0].message == "plugin path /nowhere: there is no such directory");
+  CHECK(project.diagnostics()[1].hint.find("give it a start value") != std::string::npos);
+}
+
+TEST_CASE("a leaf of the program may have any ID of the contract, and another is an error") {
+  runtime::Project project;
+  project.add_leaf<Step>("Move-Arm", "").add_leaf<Step>("Wärmen", "");
+  const std::string rule = "' is no ID of a leaf: a letter, then letters, digits, '_' and '-'";
+  for (const char* id : {"", "2nd", "Move Arm", "_Hidden", "a/b", "-"}) {
+    INFO(id);
+    CHECK(error_of([&] { project.add_leaf<Step>(id, ""); }) == "'" + std::string(id) + rule);
+  }
+  CHECK(error_of([&] { project.add_leaf<Step>(nullptr, ""); }) == "'" + rule);
+  project.load_text(tree("<Sequence memory=\"true\"><Move-Arm/><Wärmen/></Sequence>"));
+  CHECK(runtime::Run(project).loop({true}).status == Status::Success);
+
+  runtime::Project other;
+  other.add_leaf<Step>("W\xff", "");
+  CHECK(error_of([&] { other.load_text(tree("<Step/>")); }).find("has the id 'W") !=
+        std::string::npos);
+}
+
+TEST_CASE("leaves that come after loading are an error, in C++ and in C") {
+  runtime::Project project = project_of("<Step/>");
+  const std::string late = "the project has been loaded already";
+  CHECK(error_of([&] { project.add_leaf<Step>("Late", ""); }) == late);
+  CHECK(error_of([&] { project.set_run_context<Shared>(); }) == late);
+  CHECK(error_of([&] { project.load_text(tree("<Step/>")); }) == late);
+  lockstep_plugin plugin{};
+  CHECK_FALSE(lockstep_project_add_leaves(project.get(), &plugin));
+  CHECK(lockstep_last_error() == late);
+}
+
+TEST_CASE("an ID that is none is an error in C, with the rule") {
+  auto type = lockstep::leaf<Step>("Step", "");
+  type.id = "Move Arm";
+  const lockstep_leaf_type* const types[] = {&type};
+  lockstep_plugin plugin{};
+  plugin.abi_major = LOCKSTEP_ABI_MAJOR;
+  plugin.abi_minor = LOCKSTEP_ABI_MINOR;
+  plugin.struct_size = sizeof plugin;
+  plugin.name = "program";
+  plugin.leaf_type_count = 1;
+  plugin.leaf_types = types;
+  const runtime::Project project;
+  CHECK_FALSE(lockstep_project_add_leaves(project.get(), &plugin));
+  const std::string error = lockstep_last_error();
+  CHECK(error.find("leaf type 0 has the id 'Move Arm'") != std::string::npos);
+  CHECK(error.find("(an id is a letter, then letters, digits, '_' and '-')") != std::string::npos);
 }
 
 TEST_CASE("two kinds of leaves with one tag are refused") {

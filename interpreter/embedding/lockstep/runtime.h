@@ -20,7 +20,10 @@
  * signal handlers, changes malloc or ends the process. No exception comes out of it.
  *
  * Strings that are passed in are copied. Strings that come out belong to lockstep; each function
- * says how long they are valid. All text is UTF-8 and ends in a NUL.
+ * says how long they are valid. All text is UTF-8 and ends in a NUL: what is passed in and is not
+ * UTF-8 is refused, but for the names of files, which are what the system has, and the text of a
+ * tree, whose encoding is among its diagnostics. A reason in lockstep_last_error() has 2 KB at
+ * most.
  */
 #ifndef LOCKSTEP_RUNTIME_H
 #define LOCKSTEP_RUNTIME_H

@@ -82,12 +82,19 @@ class Project {
   // Both texts must live as long as the program.
   template <class T>
   Project& add_leaf(const char* id, const char* doc) {
-    leaves_->types.push_back(std::make_unique<lockstep_leaf_type>(leaf<T>(id, doc)));
+    require_unloaded();
+    if (id == nullptr || !lockstep::detail::is_id(id)) {
+      throw Error("'" + std::string(id == nullptr ? "" : id) +
+                  "' is no ID of a leaf: a letter, then letters, digits, '_' and '-'");
+    }
+    leaves_->types.push_back(
+        std::make_unique<lockstep_leaf_type>(lockstep::detail::leaf_type<T>(id, doc)));
     return *this;
   }
   // What the leaves of the program share in a run; they reach it with context<Context>().
   template <class Context>
   Project& set_run_context() {
+    require_unloaded();
     const lockstep::detail::RunContextPart part = run_context<Context>();
     leaves_->plugin.create_run = part.create;
     leaves_->plugin.destroy_run = part.destroy;
@@ -166,7 +173,13 @@ class Project {
     return *this;
   }
 
+  void require_unloaded() const {
+    if (load_tried_) throw Error("the project has been loaded already");
+  }
+
   void add_leaves() {
+    require_unloaded();
+    load_tried_ = true;
     if (leaves_->types.empty()) return;
     lockstep_plugin& plugin = leaves_->plugin;
     plugin.abi_major = LOCKSTEP_ABI_MAJOR;
@@ -180,20 +193,29 @@ class Project {
     check(lockstep_project_add_leaves(it_.get(), &plugin));
   }
 
+  // "tree.xml:3:5: ", as much of it as is known.
+  static std::string place_of(const Diagnostic& it) {
+    if (it.file.empty()) return {};
+    std::string place = it.file + ":";
+    if (it.line != 0) place += std::to_string(it.line) + ":";
+    if (it.column != 0) place += std::to_string(it.column) + ":";
+    return place + " ";
+  }
+
   void finish(bool good) const {
     if (good) return;
     std::string text = lockstep_last_error();
     if (text.find("diagnostics") == std::string::npos) throw Error(text);
     for (const Diagnostic& it : diagnostics()) {
       if (it.severity != Diagnostic::Severity::Error) continue;
-      text += "\n" + it.file + ":" + std::to_string(it.line) + ":" + std::to_string(it.column) +
-              ": " + it.message + (it.hint.empty() ? "" : " (" + it.hint + ")");
+      text += "\n" + place_of(it) + it.message + (it.hint.empty() ? "" : " (" + it.hint + ")");
     }
     throw Error(text);
   }
 
   std::shared_ptr<Leaves> leaves_ = std::make_shared<Leaves>();
   std::unique_ptr<lockstep_project, Free> it_;
+  bool load_tried_ = false;
 };
 
 struct RunSettings {
