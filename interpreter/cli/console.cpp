@@ -6,13 +6,14 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 
 #include "cli/exit_code.h"
-#include "core/descriptors.h"
 #include "runtime/outlet.h"
 #include "runtime/stop_signals.h"
+#include "system/descriptors.h"
 #include "terminal/terminal.h"
 
 namespace lockstep {
@@ -32,12 +33,25 @@ bool wants_color(int file) {
   return !refused && is_terminal(file) && can_draw();
 }
 
-void print_error(std::string_view message, std::string_view hint) {
+namespace {
+
+void print(Severity severity, std::string_view message, std::string_view hint) {
   Diagnostic diagnostic;
+  diagnostic.severity = severity;
   diagnostic.location.file = "lockstep";
   diagnostic.message = message;
   diagnostic.hint = hint;
   messages().say(render(diagnostic, wants_color(STDERR_FILENO)));
+}
+
+}  // namespace
+
+void print_error(std::string_view message, std::string_view hint) {
+  print(Severity::Error, message, hint);
+}
+
+void print_note(std::string_view message, std::string_view hint) {
+  print(Severity::Note, message, hint);
 }
 
 void print_diagnostics(Diagnostics& diagnostics, Severity least) {
@@ -58,8 +72,8 @@ void print_diagnostics(Diagnostics& diagnostics, Severity least) {
   }
 }
 
-std::string lost_messages() {
-  const Outlet::Loss lost = messages().settle();
+std::string lost_messages(std::chrono::nanoseconds patience) {
+  const Outlet::Loss lost = messages().settle(patience);
   if (lost.lines == 0) return {};
   return fmt::format("{} {} of stderr {} lost: {}", lost.lines, lost.lines == 1 ? "line" : "lines",
                      lost.lines == 1 ? "is" : "are",
@@ -76,6 +90,10 @@ void keep_stdout_for_results() {
 
 int results_file() {
   return g_results;
+}
+
+std::size_t results_width() {
+  return is_terminal(g_results) ? terminal_size(g_results).width : SIZE_MAX;
 }
 
 int write_results(std::string_view text) {

@@ -1,20 +1,23 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
 
 #include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/load/load_options.h"
-#include "core/descriptors.h"
+#include "cli/plugin_check/object_check.h"
 #include "core/diagnostics.h"
-#include "core/output_file.h"
 #include "core/wording.h"
 #include "loading/plugin_directories.h"
 #include "plugin/plugin_path.h"
 #include "plugin/program/conformance.h"
 #include "plugin/program/leaves_file.h"
+#include "system/descriptors.h"
+#include "system/output_file.h"
 
 namespace lockstep {
 namespace {
@@ -23,6 +26,7 @@ struct PluginCheckOptions {
   std::string file;
   PluginOptions plugins;
   bool save = false;
+  std::optional<std::size_t> from_leaf;  // in the child that examines a shared object
 };
 
 int save_leaves(const std::string& program, const std::string& line) {
@@ -44,25 +48,52 @@ std::string find_program(const PluginCheckOptions& options) {
   return file.empty() ? file : find_program_file(file, directories).value_or("");
 }
 
-int check_program(const PluginCheckOptions& options) {
-  keep_stdout_for_results();
-  const std::string program = find_program(options);
-  if (program.empty()) {
-    print_error(
-        fmt::format("'{}' is not a program", printable(options.file)),
-        "give an executable file, with chmod +x and #! in the first line of a script; or the "
-        "name of one in a directory of --plugin-path or LOCKSTEP_PLUGIN_PATH");
-    return kExitUsage;
-  }
-  const Conformance found = check_conformance(program, isolation_options(options.plugins));
+// The same of a shared object.
+std::string find_object(const PluginCheckOptions& options) {
+  const bool is_file = std::filesystem::is_regular_file(options.file);
+  if (is_file) return options.file.ends_with(".so") ? options.file : "";
+  if (options.file.find('/') != std::string::npos) return {};
+  return find_plugin_file(options.file, plugin_directories(options.plugins)).value_or("");
+}
+
+int refuse_file(const PluginCheckOptions& options) {
+  print_error(fmt::format("'{}' is no plugin", printable(options.file)),
+              "give a shared object, or an executable file, with chmod +x and #! in the first line "
+              "of a script; or the name of one in a directory of --plugin-path or "
+              "LOCKSTEP_PLUGIN_PATH");
+  return kExitUsage;
+}
+
+std::string text_of(const Conformance& found, const std::string& file, std::string_view contract) {
   std::string text;
   for (const ConformanceStep& step : found.steps) {
     text += fmt::format("{} {}\n", step.is_good ? "ok   " : "wrong", printable(step.text));
   }
-  const std::string name = printable(program);
-  text += found.is_good()
-              ? fmt::format("{}: ok\n", name)
-              : fmt::format("{}: does not keep the protocol (docs/programs.md)\n", name);
+  return text + (found.is_good()
+                     ? fmt::format("{}: ok\n", printable(file))
+                     : fmt::format("{}: does not keep {}\n", printable(file), contract));
+}
+
+int check_object(const PluginCheckOptions& options, const std::string& file) {
+  if (options.save) {
+    print_error("--save is for programs", "commands read what a shared object has from itself");
+    return kExitUsage;
+  }
+  const Conformance found = check_object(file, options.plugins);
+  const int code = found.is_good() ? kExitSuccess : kExitPluginRefused;
+  const std::string text = text_of(found, file, "the contract (docs/plugins.md)");
+  return first_failure(write_results(text), code);
+}
+
+int check_plugin(const PluginCheckOptions& options) {
+  if (options.from_leaf) return examine_object(options.file, options.plugins, *options.from_leaf);
+  keep_stdout_for_results();
+  const std::string object = find_object(options);
+  if (!object.empty()) return check_object(options, object);
+  const std::string program = find_program(options);
+  if (program.empty()) return refuse_file(options);
+  const Conformance found = check_conformance(program, isolation_options(options.plugins));
+  const std::string text = text_of(found, program, "the protocol (docs/programs.md)");
   const int code = found.is_good() ? kExitSuccess : kExitPluginRefused;
   const int saved =
       options.save && found.is_good() ? save_leaves(program, found.first_line) : kExitSuccess;
@@ -74,33 +105,37 @@ std::function<int()> define_plugin(CLI::App& app) {
   app.require_subcommand(1);
   CLI::App* check = app.add_subcommand(
       "check",
-      "Start a program that is a plugin, and ask each of its leaves all that a run may ask");
-  check->add_option("program", options->file, "The file of the program, or a name to search for")
+      "Load a plugin in another process, or start it if it is a program, and ask each of its "
+      "leaves all that a run may ask");
+  check->add_option("plugin", options->file, "The file of the plugin, or a name to search for")
       ->type_name("FILE|NAME")
       ->required();
-  check->add_flag("--save", options->save,
-                  "Write what leaves it has to a file beside it, grip.leaves.json for grip.py, "
-                  "which commands read that run no programs");
+  check->add_flag(
+      "--save", options->save,
+      "Write what leaves a program has to a file beside it, grip.leaves.json for grip.py, "
+      "which commands read that run no programs");
   check
       ->add_option("--plugin-path", options->plugins.directories,
-                   "Search the program in this directory first; may be repeated")
+                   "Search the plugin in this directory first; may be repeated")
       ->type_name("DIR")
       ->allow_extra_args(false);
   check
       ->add_option("--hang-limit", options->plugins.hang_limit,
-                   "Wait for an answer so many seconds; 0 = for ever")
+                   "Wait for an answer, or a call, so many seconds; 0 = for ever")
       ->type_name("S")
       ->check(number_between(0.0, 1e6))
       ->capture_default_str();
-  return [options] { return check_program(*options); };
+  check->add_option("--from-leaf", options->from_leaf)->group("");
+  return [options] { return check_plugin(*options); };
 }
 
 }  // namespace
 
-const Command kPluginCommand{"plugin", "Check a plugin that is a program",
-                             "Exit code: 0 it keeps the protocol, 4 it does not, 2 usage.\n"
+const Command kPluginCommand{"plugin", "Check a plugin, a shared object or a program",
+                             "Exit code: 0 it keeps the contract, 4 it does not, 2 usage.\n"
                              "\n"
                              "Examples:\n"
+                             "  lockstep plugin check build/grip.so\n"
                              "  lockstep plugin check ./grip.py\n"
                              "  lockstep plugin check grip --plugin-path leaves\n"
                              "  lockstep plugin check ./grip.py --save",

@@ -17,6 +17,7 @@ namespace {
 struct Walk {
   const CLI::App* command;             // the innermost that it names
   std::string unknown_option;          // the first
+  const CLI::App* unknown_at;          // the command that it was given to
   std::string empty_option;            // the first that lacks its value
   std::vector<std::string> arguments;  // of that command, that are neither options nor their values
 };
@@ -50,14 +51,17 @@ std::size_t follow_option(Walk& walk, const std::string& word) {
   const bool is_short = !word.starts_with("--");
   const bool has_value = name.size() < word.size() || (option == nullptr && is_short);
   if (option == nullptr && is_short) option = find_option(*walk.command, word.substr(0, 2));
-  if (option == nullptr && walk.unknown_option.empty()) walk.unknown_option = name;
+  if (option == nullptr && walk.unknown_option.empty()) {
+    walk.unknown_option = name;
+    walk.unknown_at = walk.command;
+  }
   const bool needs_value = option != nullptr && takes_value(*option);
   if (needs_value && word.ends_with('=') && walk.empty_option.empty()) walk.empty_option = name;
   return needs_value && !has_value ? static_cast<std::size_t>(option->get_items_expected_min()) : 0;
 }
 
 Walk follow(const CLI::App& program, std::span<const std::string> words) {
-  Walk walk{&program, {}, {}, {}};
+  Walk walk{&program, {}, &program, {}, {}};
   bool options_end = false;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
@@ -110,6 +114,54 @@ std::vector<std::string> option_names(const CLI::App& command) {
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   }
   return names;
+}
+
+// "--clock virtual" for '--virtual': a value that is taken for an option.
+std::string option_with_value(const CLI::App& command, const std::string& value) {
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string type = option->get_type_name();  // "TEXT:wall|virtual"
+    const std::string values = "|" + type.substr(type.find(':') + 1) + "|";
+    if (type.find('|') == std::string::npos || option->get_lnames().empty()) continue;
+    if (values.find("|" + value + "|") == std::string::npos) continue;
+    return fmt::format("--{} {}", option->get_lnames().front(), value);
+  }
+  return {};
+}
+
+void find_owners(const CLI::App& command, const std::string& option,
+                 std::vector<const CLI::App*>& owners) {
+  if (find_option(command, option) != nullptr) owners.push_back(&command);
+  for (const CLI::App* it : subcommands(command)) find_owners(*it, option, owners);
+}
+
+// Which other commands have the option.
+std::string owners_hint(const CLI::App& program, const std::string& option) {
+  constexpr std::size_t kMostNamed = 2;
+  std::vector<const CLI::App*> owners;
+  find_owners(program, option, owners);
+  if (owners.empty()) return {};
+  std::string names;
+  for (std::size_t i = 0; i < std::min(owners.size(), kMostNamed); ++i) {
+    names += fmt::format("{}`{}`", i == 0 ? "" : ", ", path_of(*owners[i]));
+  }
+  if (owners.size() > kMostNamed) names += fmt::format(" and {} more", owners.size() - kMostNamed);
+  return fmt::format("{} {} that option;", names, owners.size() == 1 ? "has" : "have");
+}
+
+UsageError unknown_option(const CLI::App& program, const Walk& walk) {
+  const CLI::App& command = *walk.command;
+  const std::string& option = walk.unknown_option;
+  std::string hint;
+  if (walk.unknown_at != &command && find_option(command, option) != nullptr) {
+    hint = fmt::format("it stands behind the command: `{} {}`;", path_of(command), option);
+  }
+  if (hint.empty() && option.starts_with("--")) {
+    const std::string better = option_with_value(command, option.substr(2));
+    hint =
+        better.empty() ? owners_hint(program, option) : fmt::format("did you mean '{}'?", better);
+  }
+  if (hint.empty()) hint = suggest_one_of(option, option_names(command), "");
+  return {fmt::format("unknown option '{}'", brief(option)), with_help(command, hint)};
 }
 
 // A question, or a list.
@@ -173,10 +225,7 @@ UsageError explain(const CLI::App& program, std::span<const std::string> words,
                    const CLI::ParseError& error) {
   const Walk walk = follow(program, words);
   const CLI::App& command = *walk.command;
-  if (!walk.unknown_option.empty()) {
-    return {fmt::format("unknown option '{}'", brief(walk.unknown_option)),
-            with_help(command, suggest_one_of(walk.unknown_option, option_names(command), ""))};
-  }
+  if (!walk.unknown_option.empty()) return unknown_option(program, walk);
   if (command.get_require_subcommand_min() > 0) {
     return {fmt::format("`{}` needs a command", path_of(command)),
             with_help(command, suggest_command(command, ""))};

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <vector>
 
 #include "convert/node_pairs.h"
@@ -18,6 +19,8 @@
 
 namespace lockstep {
 namespace {
+
+constexpr std::string_view kModels = "TreeNodesModel";
 
 std::string quoted_xml(std::string_view value) {
   std::string text = "\"";
@@ -87,7 +90,7 @@ class Converter {
       case TokenKind::CloseTag:
         return close_tag(token);
       case TokenKind::Text:
-        if (to_ours() && !is_left_out()) leave_out_text(token);
+        if (to_ours() && !is_left_out() && !is_in_models()) leave_out_text(token);
         return;
       case TokenKind::Comment:
         return comment(token);
@@ -100,6 +103,9 @@ class Converter {
     return std::ranges::any_of(open_, [](const Open& it) { return it.is_left_out; });
   }
 
+  // What editors read: it stays as it is.
+  bool is_in_models() const { return open_.size() > 1 && open_[1].tag == kModels; }
+
   void open(const XmlToken& token) {
     const std::uint32_t element = next_++;
     open_.push_back({element, token.begin, std::string(token.name)});
@@ -107,7 +113,7 @@ class Converter {
     is_switch_ = false;
     if (element >= document_.elements().size()) {  // a second root
       open_.back().is_left_out = true;
-    } else if (open_.size() > 2 && !is_left_out()) {
+    } else if (open_.size() > 2 && !is_left_out() && !is_in_models()) {
       convert_node(element, token);
     } else if (open_.size() == 2) {
       convert_child_of_root(element);
@@ -133,9 +139,10 @@ class Converter {
   void convert_child_of_root(std::uint32_t element) {
     const std::string_view tag = document_.elements()[element].tag;
     const Place place = place_of(element);
-    constexpr std::string_view kBoth[] = {"BehaviorTree", "include", "plugin", "arg"};
+    constexpr std::string_view kBoth[] = {"BehaviorTree", "include", "plugin", "arg", kModels};
     if (std::ranges::find(kBoth, tag) != std::end(kBoth)) {
       if (to_ours() && tag == "BehaviorTree") check_tree(element);
+      if (!to_ours() && tag == "arg") warn_of_argument(element);
       return;
     }
     if (to_ours()) {
@@ -145,6 +152,40 @@ class Converter {
     } else {
       cannot(place, fmt::format("'{}'", brief(tag)));
     }
+  }
+
+  // lockstep reads it in both languages.
+  void warn_of_argument(std::uint32_t argument) const {
+    if (report_.counted_only(Severity::Warning)) return;
+    const Attribute* name = document_.find_attribute(argument, "name");
+    report_.at(place_of(argument), "BehaviorTree.CPP ignores 'arg'",
+               fmt::format("'${{{}}}' is a text there: write the value, or an entry in its place",
+                           name == nullptr ? "…" : brief(name->value)),
+               Severity::Warning);
+  }
+
+  // Of names that this file does not declare, once each.
+  void warn_of_arguments(const Attribute& attribute) {
+    const std::string_view text = attribute.value;
+    for (auto at = text.find("${"); at != std::string_view::npos; at = text.find("${", at + 2)) {
+      const auto close = text.find('}', at);
+      if (close == std::string_view::npos) return;
+      const std::string_view name = text.substr(at + 2, close - at - 2);
+      const bool is_literal = at > 0 && text[at - 1] == '$';
+      if (is_literal || is_declared(name) || !told_.insert(name).second) continue;
+      report_.in_value(attribute.place, at,
+                       fmt::format("'${{{}}}' is a text for BehaviorTree.CPP", brief(name)),
+                       "it has no arguments: write the value, or an entry", Severity::Warning);
+    }
+  }
+
+  bool is_declared(std::string_view argument) const {
+    const auto elements = document_.elements();
+    for (const std::uint32_t child : children_in(elements, 0)) {
+      const Attribute* name = document_.find_attribute(child, "name");
+      if (elements[child].tag == "arg" && name != nullptr && name->value == argument) return true;
+    }
+    return false;
   }
 
   void check_tree(std::uint32_t tree) const {
@@ -255,6 +296,8 @@ class Converter {
     const std::uint32_t element = open_.back().element;
     const Attribute* found = document_.find_attribute(element, token.name);
     if (found == nullptr) return;
+    if (!to_ours()) warn_of_arguments(*found);
+    if (is_in_models()) return keep(token, *found);
     if (open_.size() == 1) return root_attribute(token, *found);
     if (open_.size() == 2) return tree_attribute(token, *found);
     node_attribute(token, *found);
@@ -438,9 +481,10 @@ class Converter {
   Scanner scanner_;
   TextEdits edits_;
   std::vector<Open> open_;
-  std::uint32_t next_ = 0;          // element
-  const NodePair* pair_ = nullptr;  // of the innermost element
-  bool is_switch_ = false;          // likewise
+  std::uint32_t next_ = 0;           // element
+  const NodePair* pair_ = nullptr;   // of the innermost element
+  bool is_switch_ = false;           // likewise
+  std::set<std::string_view> told_;  // names of arguments
 };
 
 }  // namespace

@@ -17,8 +17,9 @@ struct Conversion {
   const Catalog& to_nodes;    // and of the other one
 };
 
-// Nothing, with errors, if something in it cannot be said in the other language. What only editors
-// read is left out, with a note. Nodes that are not built in are copied as they are.
+// Nothing, with errors, if something in it cannot be said in the other language. Marks of editors
+// are left out, with a note; a TreeNodesModel stays. Nodes that are not built in are copied as they
+// are.
 std::optional<std::string> convert(const Document& document, const Conversion& conversion,
                                    const Reporter& report);
 

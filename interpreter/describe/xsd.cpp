@@ -107,6 +107,13 @@ constexpr std::string_view kPrologueEnd = R"xsd(  <xs:simpleType name="boolean">
           <xs:annotation><xs:documentation>Another file whose trees are used here; its path is relative to this file.</xs:documentation></xs:annotation>
           <xs:complexType><xs:group ref="nothing"/><xs:attribute name="path" type="word" use="required"/></xs:complexType>
         </xs:element>
+        <xs:element name="TreeNodesModel">
+          <xs:annotation><xs:documentation>What editors know of the nodes. lockstep reads it for 'run --mock' only.</xs:documentation></xs:annotation>
+          <xs:complexType mixed="true">
+            <xs:sequence><xs:any processContents="skip" minOccurs="0" maxOccurs="unbounded"/></xs:sequence>
+            <xs:anyAttribute processContents="skip"/>
+          </xs:complexType>
+        </xs:element>
         <xs:element name="BehaviorTree">
           <xs:annotation><xs:documentation>One tree: exactly one node, with all that is in it.</xs:documentation></xs:annotation>
           <xs:complexType>
@@ -129,6 +136,7 @@ constexpr std::string_view kPrologueEnd = R"xsd(  <xs:simpleType name="boolean">
   <xs:element name="plugin" abstract="true"/>
   <xs:element name="arg" abstract="true"/>
   <xs:element name="include" abstract="true"/>
+  <xs:element name="TreeNodesModel" abstract="true"/>
 )xsd";
 
 std::string annotation(std::string_view doc) {

@@ -36,7 +36,11 @@ tl::expected<Loaded, LoadFailure> load(std::unique_ptr<Project> project, const L
   const auto failed = failure_of(project.get(), diagnostics);
   Diagnostics refused;
   bool good = load_given_plugins(options.plugins, *plugins, refused);
-  if (project) good &= load_requested_plugins(options.plugins, *project, *plugins, refused);
+  if (project) {
+    const bool may_lack = options.unknown == MissingNodes::AreMocked;
+    good &= load_requested_plugins(options.plugins, *project, *plugins, refused,
+                                   may_lack ? MissingPlugins::AreTold : MissingPlugins::AreErrors);
+  }
   for (const Diagnostic& diagnostic : refused.all()) diagnostics.add(diagnostic);
   // Without its leaves, most of the tree would be called unknown.
   if (!good) return tl::unexpected(failed.value_or(LoadFailure::PluginRefused));

@@ -1,10 +1,13 @@
 #include "loading/plugin_directories.h"
+#include "core/audience.h"
 
 #include <fmt/format.h>
 #include <sys/auxv.h>
 
 #include <cstdlib>
 #include <sstream>
+
+#include "core/audience.h"
 
 namespace lockstep {
 namespace {
@@ -31,12 +34,12 @@ void warn_of_missing_directories(const PluginOptions& options, Diagnostics& diag
   for (const std::string& directory : options.directories) {
     std::error_code error;
     if (fs::is_directory(directory, error)) continue;
-    diagnostics.add(
-        {.severity = Severity::Warning,
-         .location = {},
-         .message = fmt::format("--plugin-path {}: there is no such directory", directory),
-         .hint = {},
-         .excerpt = {}});
+    diagnostics.add({.severity = Severity::Warning,
+                     .location = {},
+                     .message = fmt::format("{} {}: there is no such directory",
+                                            worded("--plugin-path", "plugin path"), directory),
+                     .hint = {},
+                     .excerpt = {}});
   }
 }
 
@@ -76,15 +79,16 @@ bool check_plugin_options(const PluginOptions& options, Diagnostics& diagnostics
                      .message = fmt::format("{} is not read: this program has more rights than its "
                                             "user",
                                             kVariable),
-                     .hint = "give --plugin-path",
+                     .hint = worded("give --plugin-path", "add the directories to the project"),
                      .excerpt = {}});
   }
   bool good = true;
   for (const std::string& directory : options.directories) {
-    good &= check_absolute(directory, "--plugin-path", diagnostics);
+    good &= check_absolute(directory, worded("--plugin-path", "plugin path"), diagnostics);
   }
   for (const std::string& plugin : options.plugins) {
-    if (is_plugin_file(plugin)) good &= check_absolute(plugin, "--plugin", diagnostics);
+    if (!is_plugin_file(plugin)) continue;
+    good &= check_absolute(plugin, worded("--plugin", "plugin"), diagnostics);
   }
   return good;
 }

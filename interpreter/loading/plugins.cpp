@@ -6,9 +6,11 @@
 #include <filesystem>
 
 #include "core/clock.h"
+#include "core/wording.h"
 #include "definition/plugin_requests.h"
 #include "engine/node_kind.h"
 #include "loading/plugin_directories.h"
+#include "plugin/descriptor.h"
 #include "plugin/plugin_path.h"
 
 namespace lockstep {
@@ -41,6 +43,15 @@ bool load_searched(const std::string& name, const std::vector<std::string>& dire
   return plugins.load_named(name, directories, diagnostics);
 }
 
+// False: it is not loaded, and nowhere to be found.
+bool is_there(const PluginRequest& request, const std::vector<std::string>& directories,
+              const PluginSet& plugins) {
+  const auto loaded = plugins.list();
+  if (std::ranges::find(loaded, request.name, &PluginSet::Info::name) != loaded.end()) return true;
+  if (!request.program.empty()) return bool(find_program_file(request.program, directories));
+  return !is_plugin_name(request.name) || find_plugin_file(request.name, directories);
+}
+
 }  // namespace
 
 bool is_plugin_file(const std::string& plugin) {
@@ -70,10 +81,18 @@ bool load_given_plugins(const PluginOptions& options, PluginSet& plugins,
 }
 
 bool load_requested_plugins(const PluginOptions& options, const Project& project,
-                            PluginSet& plugins, Diagnostics& diagnostics) {
+                            PluginSet& plugins, Diagnostics& diagnostics, MissingPlugins missing) {
   bool good = true;
   const auto directories = plugin_directories(options);
   for (const PluginRequest& request : requested_plugins(project, diagnostics)) {
+    if (missing == MissingPlugins::AreTold && !is_there(request, directories, plugins)) {
+      diagnostics.add({.severity = Severity::Warning,
+                       .location = project.sources.locate_value(request.place),
+                       .message = fmt::format("plugin '{}' is not found", brief(request.name)),
+                       .hint = "its nodes are mocked",
+                       .excerpt = {}});
+      continue;
+    }
     const auto isolation = request.isolate ? Isolation::Isolated : Isolation::InProcess;
     Diagnostics refused;
     good &= request.program.empty()

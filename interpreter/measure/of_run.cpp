@@ -17,8 +17,9 @@ double ticks_of(const EndView& end) {
   return static_cast<double>(end.ticks);
 }
 
-// A tick lasts until the next would begin, also the last.
+// A tick lasts until the next would begin, also the last, unless the end of the run is known.
 double duration_of(const EndView& end) {
+  if (end.real_time && end.ended) return to_seconds(*end.ended);
   if (end.ticks == 0 || end.rate == 0) return to_seconds(end.last);
   if (!end.real_time) return ticks_of(end) / end.rate;
   return to_seconds(end.last + from_seconds(1 / end.rate));
@@ -35,8 +36,10 @@ extern const Measure kDuration{
     .axis = "duration",
     .unit = "s",
     .doc =
-        "seconds: ticks / rate; on a real clock from the start to one period after the start of "
-        "the last tick; for a run that `--max-ticks` cut, until then",
+        "seconds: ticks / rate; on a real clock until the end of the run, or, of a recording that "
+        "is "
+        "cut, until a period after the start of the last tick; for a run that `--max-ticks` cut, "
+        "until then",
     .make = make_accumulator<AtEnd<duration_of>>,
     .is_possible = [](double value, const MeasureSpec&, const MeasuredRun& run) {
       return value == static_cast<double>(run.ticks) / run.rate;

@@ -100,25 +100,26 @@ void StallWatch::after_tick(Ticker& ticker, Nanoseconds time) {
   nodes_.after_tick(ticker, time);
   for (StandingNodes::Standing& it : nodes_.all()) {
     if (!it.is_over(nodes_.limit(), time) || time < it.next_look) continue;
-    if (it.told != it.detector.number()) look(ticker, it, time);
+    if (it.told_as_circle != it.detector.number()) look(ticker, it, time);
   }
 }
 
 // The youngest node of a circle reports it, and of a chain the one that is to blame. If that comes
 // on, only slowly, the chain is reported as it is.
-void StallWatch::look(Ticker& ticker, StandingNodes::Standing& at, Nanoseconds time) {
+void StallWatch::look(Ticker& ticker, Standing& at, Nanoseconds time) {
   const Standstill found = nodes_.standstill(ticker, at, time);
   const std::uint64_t number = at.detector.number();
-  if (!found.is_old && (found.is_circle() || std::exchange(at.put_off, number) != number)) {
-    at.next_look = time + nodes_.limit();
-    return;
-  }
-  const StandingNodes::Standing& head = *nodes_.find(found.link().node);
-  const bool is_known = head.told == head.detector.number();
-  at.told = number;
+  at.next_look = time + nodes_.limit();
+  if (at.told == number && !found.is_circle()) return;
+  if (!found.is_old && (found.is_circle() || std::exchange(at.put_off, number) != number)) return;
+  const auto told = found.is_circle() ? &Standing::told_as_circle : &Standing::told;
+  const Standing& head = *nodes_.find(found.link().node);
+  const bool is_known = head.*told == head.detector.number();
+  at.told = at.*told = number;
   for (const WaitLink& link : found.chain.links) {
-    StandingNodes::Standing* const it = nodes_.find(link.node);
-    if (it != nullptr && it->detector.stands()) it->told = it->detector.number();
+    Standing* const it = nodes_.find(link.node);
+    if (it == nullptr || !it->detector.stands()) continue;
+    it->told = (*it).*told = it->detector.number();
   }
   if (!is_known) report_(found);
 }

@@ -57,8 +57,9 @@ class StandingNodes {
     SynchronizedProbe probe;
     StallDetector detector = {};
     Nanoseconds next_look{0};  // not before
-    // Numbers of standstills: of the last one that was reported, or that has to wait for a moment.
-    std::uint64_t told = 0, put_off = 0;
+    // Numbers of standstills: of the last one that was reported, that was reported as a circle, and
+    // that has to wait for a moment.
+    std::uint64_t told = 0, told_as_circle = 0, put_off = 0;
 
     NodeIndex node() const { return probe.node(); }
     bool is_over(Nanoseconds limit, Nanoseconds now) const {
@@ -83,7 +84,8 @@ class StandingNodes {
   std::vector<Standing> nodes_;
 };
 
-// Reports each standstill once: of several nodes that stand for the same reason, the first one.
+// Reports each standstill once: of several nodes that stand for the same reason, the first one. One
+// that becomes a circle later is reported again.
 class StallWatch {
  public:
   using Report = std::function<void(const Standstill&)>;
@@ -92,7 +94,8 @@ class StallWatch {
   void after_tick(Ticker& ticker, Nanoseconds time);
 
  private:
-  void look(Ticker& ticker, StandingNodes::Standing& at, Nanoseconds time);
+  using Standing = StandingNodes::Standing;
+  void look(Ticker& ticker, Standing& at, Nanoseconds time);
 
   StandingNodes nodes_;
   Report report_;

@@ -22,9 +22,9 @@ extern const Measure kStepLength{
     .of = MeasureOf::Parallel,
     .axis = "step length",
     .doc =
-        "the largest change of a child's own progress in one tick; a "
-        "child that succeeds goes to 1, one that has not when the parallel ends stays "
-        "where it is",
+        "the largest change of a child's own progress in one tick; a child that succeeds goes to "
+        "1, and so does one that fails, is not ticked again, and does not end the parallel; others "
+        "stay where they are when the parallel ends",
     .make = make_accumulator<StepLength>,
     .is_possible = is_share};
 

@@ -57,6 +57,7 @@ struct EndView {
   double rate = 0;                     // ticks per second; 0: unknown
   bool real_time = true;               // false: the clock was virtual, and every tick took 1 / rate
   std::optional<bool> succeeded = {};  // did the root? None: unknown
+  std::optional<Nanoseconds> ended = {};  // when the run did; None: unknown
 };
 
 }  // namespace lockstep

@@ -1,6 +1,11 @@
 #include "recording/recording.h"
 
+#include <fmt/format.h>
+
+#include "core/wording.h"
+
 namespace lockstep {
+
 std::vector<RecordedNode> describe(const Tree& tree) {
   std::vector<RecordedNode> nodes(tree.nodes.size());
   for (NodeIndex index = 0; index < nodes.size(); ++index) {
@@ -20,6 +25,21 @@ std::vector<RecordedNode> describe(const Tree& tree) {
     }
   }
   return nodes;
+}
+
+std::string kind_text(const RecordedNode& node) {
+  if (!node.resources.empty()) {
+    return fmt::format("{} resources={}", node.kind, joined(node.resources, ";"));
+  }
+  if (node.synchronization == Synchronization::Absolute) {
+    if (!node.barriers) return node.kind + " barriers from an entry";
+    return fmt::format("{} barriers={}", node.kind, joined(*node.barriers, ";"));
+  }
+  if (node.synchronization == Synchronization::Relative) {
+    if (!node.delta) return node.kind + " delta from an entry";
+    return fmt::format("{} delta={}", node.kind, *node.delta);
+  }
+  return node.kind;
 }
 
 std::vector<bool> resource_users(const RecordingHeader& header) {

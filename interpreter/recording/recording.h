@@ -36,9 +36,9 @@ struct RecordedKey {
 };
 
 struct RecordingHeader {
-  std::string tree;     // the id of the tree
-  std::string file;     // as the user named it
-  std::string version;  // of the program
+  std::string tree;       // the id of the tree
+  std::string file;       // as the user named it
+  std::string version;    // of the program
   std::uint64_t law = 1;  // of the program: core/language.h; recordings of the first do not name it
   double rate_hz = 0;
   std::string clock;  // "wall" or "virtual"
@@ -110,6 +110,8 @@ struct RecordedEnd {
 
 // The header's part about the nodes.
 std::vector<RecordedNode> describe(const Tree& tree);
+// "Sequence", "ParallelAbsolute barriers=0.25;0.5".
+std::string kind_text(const RecordedNode& node);
 // By index: whether the node uses resources of a pool.
 std::vector<bool> resource_users(const RecordingHeader& header);
 // From one tick to the next; 0 when the rate is not known.

@@ -12,13 +12,13 @@
 #include <cstdlib>
 #include <ctime>
 
-#include "core/descriptors.h"
-#include "core/fork_guard.h"
-#include "core/own_thread.h"
-#include "core/signal_mask.h"
 #include "runtime/crash_text.h"
 #include "runtime/fuse.h"
 #include "runtime/outlet.h"
+#include "system/descriptors.h"
+#include "system/fork_guard.h"
+#include "system/own_thread.h"
+#include "system/signal_mask.h"
 
 namespace lockstep {
 namespace {
@@ -219,14 +219,15 @@ void CrashReport::foreign_exit() {
 }
 
 void CrashReport::hang(pthread_t thread, const CallMark& mark, double seconds) {
-  g_hung_thread = thread;
+  const pthread_t worker = mark.worker();
+  g_hung_thread = worker != 0 ? worker : thread;
   g_hang = {.kind = CrashKind::Hang,
             .call = mark.look(),
             .tick = mark.tick(),
             .run = mark.run(),
             .seconds = seconds};
   g_is_hung = true;
-  pthread_kill(thread, SIGABRT);
+  pthread_kill(g_hung_thread, SIGABRT);
   const timespec pause_time{.tv_sec = 0, .tv_nsec = 5'000'000};
   for (int look = 0; look < 40 && g_reporter == 0; ++look) nanosleep(&pause_time, nullptr);
   begin_report();

@@ -29,8 +29,8 @@ class CrashReport {
   // Every other end must call this: it reports the end. Returns in a forked process.
   static void foreign_exit();
 
-  // Reports that `thread`, with this mark, has been in a call for too long, with its backtrace if
-  // it still handles a signal, and ends the process. Called by the watchdog's thread.
+  // Reports that `thread`, with this mark, has been in a call for too long, and ends the process;
+  // with its backtrace, or that of the worker that it waits for, if it still handles a signal.
   [[noreturn]] static void hang(pthread_t thread, const CallMark& mark, double seconds);
 };
 

@@ -45,6 +45,7 @@ void put_function(const Crash& crash, SignalText& text) {
 void put_tick(const Crash& crash, SignalText& text) {
   switch (crash.call.function()) {
     case PluginFunction::Start:
+    case PluginFunction::StartUnreset:
     case PluginFunction::Halt:
     case PluginFunction::Pause:
     case PluginFunction::Resume:

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/own_thread.h"
 #include "runtime/pace.h"
 #include "runtime/run_control.h"
 #include "runtime/stall_fail.h"
+#include "system/own_thread.h"
 
 namespace lockstep {
 namespace {
@@ -35,9 +35,12 @@ class Loop {
     if (run_.fault() == nullptr) {  // of a leaf that could not be created
       while (may_tick() && is_admitted() && tick() && meet_next()) wait();
     }
-    end_.time = clock_.now() - start_;
+    // On the virtual clock the last tick, too, lasts until the next one would begin.
+    end_.time = is_real_ ? clock_.now() - start_ : deadlines_.at(end_.ticks);
     for (Observer* observer : observers_) observer->standing(run_.ticker());
     run_.halt();
+    end_.budget = run_.end_budget();
+    if (end_.budget != nullptr) end_.budget->begin();
     if (run_.fault() != nullptr) {
       end_.reason = StopReason::Fault;
       end_.fault = *run_.fault();
@@ -92,7 +95,8 @@ class Loop {
     while (goes_on && options_.control->is_paused()) {
       options_.control->wait(kLongestSleep);
       take_orders();
-      goes_on = may_tick();
+      if (is_real_) run_.look_at_processes();
+      goes_on = may_tick() && !run_.ticker().faulted();
     }
     options_.control->report_standing(false);
     if (is_real_) start_ = clock_.now() - time;
@@ -139,6 +143,7 @@ class Loop {
     for (Observer* observer : observers_) observer->after_tick(ticker, report);
     if (options_.control != nullptr) options_.control->count_tick(ticker);
     ++end_.ticks;
+    end_.last = now;
     if (ticker.faulted()) return false;
     if (has_ended(end_.status)) return stop(StopReason::Completed);
     return true;

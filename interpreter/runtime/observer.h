@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/clock.h"
+#include "core/end_budget.h"
 #include "core/status.h"
 #include "engine/ticker.h"
 
@@ -58,9 +59,11 @@ struct RunEnd {
   std::optional<Fault> fault;       // of a leaf, in a tick or when it was created
   std::uint64_t ticks = 0;
   Nanoseconds time{0};         // from the start of the first tick to the end of the last
+  Nanoseconds last{0};         // when the last tick began
   std::uint64_t overruns = 0;  // ticks that ended after the next deadline
   std::uint64_t skipped = 0;   // deadlines skipped because of them
   WorstTick worst;
+  EndBudget* budget = nullptr;  // what those may take who are told of the end; null: no limit
 
   RunResult result() const {
     if (reason == StopReason::Fault) return RunResult::Fault;

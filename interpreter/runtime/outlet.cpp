@@ -18,8 +18,8 @@
 #include <utility>
 
 #include "core/clock.h"
-#include "core/descriptors.h"
-#include "core/own_thread.h"
+#include "system/descriptors.h"
+#include "system/own_thread.h"
 
 namespace lockstep {
 namespace {
@@ -172,9 +172,9 @@ Outlet::Loss Outlet::lost() const noexcept {
   return {state_->lost, state_->reason};
 }
 
-Outlet::Loss Outlet::settle() noexcept {
+Outlet::Loss Outlet::settle(std::chrono::nanoseconds patience) noexcept {
   State& state = *state_;
-  const auto deadline = monotonic_now() + kPatience;
+  const auto deadline = monotonic_now() + patience;
   std::unique_lock lock(state.mutex);
   const auto waits = [&] { return state.mode == State::Mode::Queued && !state.is_idle(); };
   for (auto time = monotonic_now(); waits() && time < deadline; time = monotonic_now()) {

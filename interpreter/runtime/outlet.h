@@ -41,9 +41,9 @@ class Outlet {
     int reason = 0;  // errno of the last write that failed; 0: the reader did not read
   };
   Loss lost() const noexcept;
-  // The lost lines, after waiting for the reader for up to kPatience. Then the rest is lost, and so
+  // The lost lines, after waiting for the reader for so long at most. Then the rest is lost, and so
   // are all later messages.
-  Loss settle() noexcept;
+  Loss settle(std::chrono::nanoseconds patience = kPatience) noexcept;
 
   // Messages are written by a thread while this object exists. The destructor settles.
   class Thread {

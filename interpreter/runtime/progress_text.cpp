@@ -10,4 +10,9 @@ std::string out_of_range_text(double reported) {
       reported < 0 ? 0 : 1);
 }
 
+std::string went_on_text(double from, double to) {
+  return fmt::format("went on while it was held: its progress rose from {:.6g} to {:.6g}", from,
+                     to);
+}
+
 }  // namespace lockstep

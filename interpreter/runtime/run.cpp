@@ -10,7 +10,9 @@ Run::Run(const Tree& tree, const RunOptions& options)
       time_{.now = Nanoseconds(0),
             .period = options.period,
             .thread = this_thread_id(),
-            .workers = options.virtual_time ? &workers_ : nullptr},
+            .workers = options.virtual_time ? &workers_ : nullptr,
+            .processes = options.virtual_time ? nullptr : &processes_,
+            .end_budget = options.end_budget},
       watch_(options.watch),
       leaves_(tree, blackboard_, time_, options.seed, options.log, options.watch),
       ticker_(tree, leaves_.slots(), blackboard_, options.on_fault) {
@@ -53,6 +55,7 @@ void Run::set_now(Nanoseconds now) {
 Status Run::tick(Nanoseconds now) {
   set_now(now);
   if (watch_ != nullptr) watch_->begin_tick(ticker_.tick_number());  // which counts from 1
+  look_at_processes();
   Status status = ticker_.tick_root(now);
   if (ticker_.is_asked()) status = tick_again_if_asked(status);
   workers_.give_turns(now);

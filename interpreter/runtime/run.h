@@ -8,6 +8,7 @@
 #include "engine/ticker.h"
 #include "plugin/leaf_set.h"
 #include "plugin/leaf_watch.h"
+#include "plugin/process_leaves.h"
 #include "plugin/workers.h"
 
 namespace lockstep {
@@ -20,6 +21,7 @@ struct RunOptions {
   bool exactly_once = false;   // ticks the root once, also when a node asks for another tick
   bool virtual_time = false;   // time jumps, so ticks wait for the threads of leaves
   LeafWatch* watch = nullptr;  // must outlive the run; null: nothing is watched and nothing costs
+  EndBudget* end_budget = nullptr;  // the same; null: each that waits has its own patience
 };
 
 class Run {
@@ -43,6 +45,11 @@ class Run {
   // One tick of the root at `now`; see Ticker::tick_root. While it is Running and a node asks for
   // another tick, it gets one at once, at most kMostTicksAtOnce.
   Status tick(Nanoseconds now);
+  // Whether the processes of held leaves are still there, as before each tick: for an owner that
+  // lets no tick come.
+  void look_at_processes() {
+    if (!processes_.empty()) processes_.look(ticker_);
+  }
   // Halts every running leaf, in order.
   void halt();
 
@@ -53,6 +60,7 @@ class Run {
   Blackboard& blackboard() { return blackboard_; }
   Nanoseconds period() const { return time_.period; }
   LeafWatch* watch() const { return watch_; }  // null: not watched
+  EndBudget* end_budget() const { return time_.end_budget; }
 
  private:
   void adopt_thread();
@@ -60,6 +68,7 @@ class Run {
 
   Blackboard blackboard_;
   Workers workers_;
+  ProcessLeaves processes_;
   const bool exactly_once_;
   LeafTime time_;
   LeafWatch* watch_;

@@ -38,7 +38,8 @@ void Statistics::note(const Fault& fault, std::uint64_t tick) {
 void Statistics::run_ended(Ticker& ticker, const RunEnd& end) {
   end_ = end;
   for (const Fault& fault : ticker.tolerated()) note(fault, end.ticks);
-  out_of_range_notes_ = out_of_range_notes(ticker);
+  progress_notes_ = progress_notes(ticker);
+  went_on_ = ticker.went_on().size();
   for (Measured& node : nodes_) node.measure.run_ended(end.time);
 }
 
@@ -55,6 +56,7 @@ Summary Statistics::summary() const {
                   .skipped = end_.skipped,
                   .worst = worst_tick(),
                   .faults = faults_.count(),
+                  .went_on = went_on_,
                   .tick_budget = {},
                   .over_budget = {},
                   .synchronized_nodes = {},
@@ -63,7 +65,7 @@ Summary Statistics::summary() const {
                   .more_standstills = 0,
                   .notes = {}};
   faults_.append_to(summary.notes);
-  summary.notes.insert(summary.notes.end(), out_of_range_notes_.begin(), out_of_range_notes_.end());
+  summary.notes.insert(summary.notes.end(), progress_notes_.begin(), progress_notes_.end());
   for (const Measured& node : nodes_) {
     std::vector<std::string> paths;
     for (const NodeIndex child : node.probe.children()) paths.push_back(tree_.path(child));
@@ -129,17 +131,20 @@ std::string fault_text(const Tree& tree, const Fault& fault) {
                      fault.in_last_halt ? "could not be halted: " : "", fault.message);
 }
 
-std::vector<std::string> out_of_range_notes(const Ticker& ticker) {
+std::vector<std::string> progress_notes(const Ticker& ticker) {
   constexpr std::size_t kMostLeaves = 5;
   std::vector<std::string> notes;
-  const auto all = ticker.out_of_range();
-  for (const OutOfRange& it : all.first(std::min(all.size(), kMostLeaves))) {
-    notes.push_back(fmt::format("the leaf '{}' {}", ticker.tree().path(it.node),
-                                out_of_range_text(it.reported)));
-  }
-  if (all.size() > kMostLeaves) {
-    notes.push_back(fmt::format("{} leaves in all reported such a progress", all.size()));
-  }
+  const auto add = [&](const auto& all, const char* more, auto text_of) {
+    for (const auto& it : all.first(std::min(all.size(), kMostLeaves))) {
+      notes.push_back(fmt::format("the leaf '{}' {}", ticker.tree().path(it.node), text_of(it)));
+    }
+    if (all.size() <= kMostLeaves) return;
+    notes.push_back(fmt::format("{} leaves in all {}", all.size(), more));
+  };
+  add(ticker.out_of_range(), "reported such a progress",
+      [](const OutOfRange& it) { return out_of_range_text(it.reported); });
+  add(ticker.went_on(), "went on while they were held",
+      [](const WentOn& it) { return went_on_text(it.from, it.to); });
   return notes;
 }
 

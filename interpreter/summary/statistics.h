@@ -40,7 +40,8 @@ class Statistics final : public Observer {
   Nanoseconds last_start_{0};
   std::vector<DecidingNode> why_failed_;
   CappedNotes faults_{"fault"};  // after which the run went on
-  std::vector<std::string> out_of_range_notes_;
+  std::vector<std::string> progress_notes_;
+  std::uint64_t went_on_ = 0;
   RunEnd end_;
 };
 
@@ -53,7 +54,8 @@ std::string fault_text(const Tree& tree, const Fault& fault, std::uint64_t tick)
 // "Door/pull/arm: threw …"
 std::string fault_text(const Tree& tree, const Fault& fault);
 
-// "the leaf 'Door/pull/arm' reported …" of the first few leaves, and how many there are.
-std::vector<std::string> out_of_range_notes(const Ticker& ticker);
+// "the leaf 'Door/pull/arm' reported …" of the first few leaves whose progress was no share, and
+// how many there are; "… went on while it was held …" in the same way.
+std::vector<std::string> progress_notes(const Ticker& ticker);
 
 }  // namespace lockstep

@@ -72,10 +72,11 @@ std::string waited(const ChildSummary& child) {
 }
 
 void write_distance(const SynchronizedSummary& node, std::string& out) {
-  out += fmt::format("    progress distance {:.6g}, mean {:.6g} a tick; largest spread {:.6g}{}, ",
-                     node.distance_sum, node.distance_mean, node.largest_spread,
-                     node.spread_bound ? fmt::format(" (bound {:.6g})", *node.spread_bound) : "");
-  out += fmt::format("longest step {:.6g}\n", node.step_length);
+  out += fmt::format("    progress distance {}, mean {} a tick\n", rounded(node.distance_sum),
+                     rounded(node.distance_mean));
+  out += fmt::format("    largest spread {}", rounded(node.largest_spread));
+  if (node.spread_bound) out += fmt::format(" (bound {})", rounded(*node.spread_bound));
+  out += fmt::format(", longest step {}\n", rounded(node.step_length));
 }
 
 void write_node(const SynchronizedSummary& node, std::string& out, bool color) {
@@ -114,6 +115,11 @@ void write_note(std::span<const std::string> lines, std::string& out, bool color
 std::string_view to_string(RunResult result) {
   constexpr std::string_view kNames[] = {"success", "failure", "stopped", "fault", "skipped"};
   return kNames[static_cast<unsigned>(result)];
+}
+
+std::string ending(std::string_view result, std::string_view reason) {
+  if (result == reason) return std::string(result);
+  return fmt::format("{} ({})", result, reason);
 }
 
 Style style_of(RunResult result) {

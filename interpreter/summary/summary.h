@@ -23,6 +23,9 @@ Style style_of(RunResult result);
 // and JSON spell it.
 std::string_view to_string(StopReason reason);
 
+// "success (completed)", or "fault" alone.
+std::string ending(std::string_view result, std::string_view reason);
+
 struct ChildSummary {
   std::string name;
   double held_seconds = 0;
@@ -104,6 +107,7 @@ struct Summary {
   std::uint64_t overruns = 0, skipped = 0;
   std::optional<WorstTickSummary> worst;  // real time only
   std::uint64_t faults = 0;               // of leaves after which the run went on
+  std::uint64_t went_on = 0;              // leaves that did so while they were held
   std::optional<double> tick_budget;      // seconds
   std::vector<LeafTimingSummary> over_budget;
   std::vector<SynchronizedSummary> synchronized_nodes;  // that a tick reached

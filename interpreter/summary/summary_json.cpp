@@ -115,6 +115,7 @@ std::string to_json(const Summary& summary) {
   json["skipped"] = summary.skipped;
   json["worst_tick"] = summary.worst ? json_of(*summary.worst) : Json();
   json["faults"] = summary.faults;
+  json["went_on_while_held"] = summary.went_on;
   json["tick_budget_s"] = summary.tick_budget;
   json["over_budget"] = json_of(summary.over_budget);
   json["synchronized_nodes"] = Json::array();

@@ -68,8 +68,8 @@ TEST_CASE("barrier: a run explains it like a synchronized node, and its recordin
   CHECK(contains(recorded.run.err, "base: goes on after 0.030 s"));
   CHECK(of_barrier(recorded.run.out) ==
         "  Main/lift (barrier, 10 ticks)\n"
-        "    progress distance 2.1, mean 0.21 a tick; largest spread 0.4 (bound 0.8), longest step "
-        "0.3\n"
+        "    progress distance 2.1, mean 0.21 a tick\n"
+        "    largest spread 0.4 (bound 0.8), longest step 0.3\n"
         "    arm   did not wait\n"
         "    base  waited 1 time, 0.030 s in 3 ticks\n");
   CHECK(of_barrier(barrier_command({"log", "info", recorded.file}).out) ==
@@ -86,7 +86,8 @@ TEST_CASE("barrier: who is idle and ignored is in no measure, live and recorded"
   // With 0.4 ahead, the first waits for the other to be within 0.2; there is no bound to that.
   CHECK(of_barrier(recorded.run.out) ==
         "  Main/lift (barrier, 14 ticks)\n"
-        "    progress distance 2, mean 0.142857 a tick; largest spread 0.4, longest step 0.1\n"
+        "    progress distance 2, mean 0.1429 a tick\n"
+        "    largest spread 0.4, longest step 0.1\n"
         "    late/…/arm      did not wait\n"
         "    Parallel/…/arm  waited 1 time, 0.020 s in 2 ticks\n");
   CHECK(of_barrier(barrier_command({"log", "info", recorded.file}).out) ==

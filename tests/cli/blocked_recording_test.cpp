@@ -55,10 +55,12 @@ Call recorded(const std::string& tree, const std::string& file) {
 
 }  // namespace
 
-TEST_CASE("a run whose recording waits for a disk without end is ended by a second signal") {
+TEST_CASE("a run whose recording waits for its reader without end is ended by a second signal") {
   const TemporaryDirectory directory;
   const StuckPipe pipe(directory);
-  Process process(recorded(busy_tree(directory), pipe.path()));
+  Call call = recorded(busy_tree(directory), pipe.path());
+  call.arguments.insert(call.arguments.end(), {"--halt-limit", "0"});
+  Process process(call);
   pipe.read_line();  // the header, which the first tick waits for
   std::string ticks;
   for (int tick = 0; tick < 3; ++tick) ticks += "Main/Parallel/talks: info: tick\n";
@@ -69,6 +71,21 @@ TEST_CASE("a run whose recording waits for a disk without end is ended by a seco
   const Outcome outcome = process.finish();
   CHECK(outcome.code == 143);
   CHECK(outcome.out.empty());  // it came to no summary
+}
+
+TEST_CASE("a run whose recording nobody reads ends all the same, and says so") {
+  const TemporaryDirectory directory;
+  const StuckPipe pipe(directory);
+  Call call = recorded(busy_tree(directory), pipe.path());
+  call.arguments.insert(call.arguments.end(),
+                        {"--halt-limit", "0.2", "--timeout", "0.5", "--json"});
+  Process process(call);
+  pipe.read_line();
+  const Outcome outcome = process.finish();
+  INFO(outcome.err.substr(0, 2000));
+  CHECK(outcome.code == 124);
+  CHECK(contains(outcome.err, "nobody took anything for 0.1 s at the end of the run"));
+  CHECK(contains(outcome.out, "cannot write"));
 }
 
 TEST_CASE("a run whose recording has no room for its header is ended by a second signal") {

@@ -22,7 +22,8 @@ const std::string kTheirs = R"(<?xml version="1.0"?>
   </BehaviorTree>
   <BehaviorTree ID="Part"><Inverter><Inverter><Advance step="{step}"/></Inverter></Inverter>
   </BehaviorTree>
-  <TreeNodesModel><Action ID="Advance"/></TreeNodesModel>
+  <TreeNodesModel><Action ID="Advance"><input_port name="step" default="a < b">far</input_port></Action>
+  </TreeNodesModel>
 </root>
 )";
 
@@ -40,6 +41,8 @@ const std::string kOurs = R"(<?xml version="1.0"?>
   </BehaviorTree>
   <BehaviorTree ID="Part"><Inverter><Inverter><Advance step="{step}"/></Inverter></Inverter>
   </BehaviorTree>
+  <TreeNodesModel><Action ID="Advance"><input_port name="step" default="a &lt; b">far</input_port></Action>
+  </TreeNodesModel>
 </root>
 )";
 
@@ -70,7 +73,7 @@ TEST_CASE("convert keeps comments and order, and writes XML") {
   CHECK(outcome.code == 0);
   CHECK(outcome.out == kOurs);
   CHECK(contains(outcome.err, "note: '_uid' is left out"));
-  CHECK(contains(outcome.err, "note: 'TreeNodesModel' is left out"));
+  CHECK_FALSE(contains(outcome.err, "TreeNodesModel"));
   CHECK(ticks(directory.file("ours.xml", outcome.out)) == ticks(theirs));
 }
 
@@ -86,6 +89,24 @@ TEST_CASE("converted there and back, a tree runs as before") {
   const Outcome back = lockstep::test::lockstep({"convert", theirs});
   CHECK(back.code == 0);
   CHECK(ticks(directory.file("back.xml", back.out)) == ticks(ours));
+}
+
+TEST_CASE("convert warns of what BehaviorTree.CPP does not replace") {
+  const TemporaryDirectory directory;
+  const std::string ours = directory.file(
+      "ours.xml",
+      "<root lockstep=\"1\">\n<arg name=\"step\" default=\"0.5\"/>\n<BehaviorTree ID=\"Main\">\n"
+      "<Sequence>\n<Advance step=\"${step}\"/>\n<Advance step=\"${far}\"/><Advance "
+      "step=\"${far}\"/>\n"
+      "<Say text=\"$${none}\"/></Sequence>\n</BehaviorTree></root>\n");
+  const Outcome there = lockstep::test::lockstep({"convert", "--to", "btcpp4", ours});
+  CHECK(there.code == 0);
+  CHECK(contains(there.out, "<arg name=\"step\" default=\"0.5\"/>"));
+  CHECK(contains(there.err, "ours.xml:2:1: warning: BehaviorTree.CPP ignores 'arg'"));
+  CHECK(contains(there.err, "hint: '${step}' is a text there"));
+  CHECK(contains(there.err, "ours.xml:6:16: warning: '${far}' is a text for BehaviorTree.CPP"));
+  CHECK_FALSE(contains(there.err, "6:39"));
+  CHECK_FALSE(contains(there.err, "none"));
 }
 
 TEST_CASE("convert says rounds and counts in the other language's words, and what differs") {

@@ -59,6 +59,26 @@ TEST_CASE("the first tick in which two runs differ, as text and as JSON") {
   CHECK(told["end"][0]["what"] == "ticks");
 }
 
+TEST_CASE("where times differ on the wall clock, log diff hints at --ignore-time") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("tree.xml", tree_text("<Advance step=\"0.5\"/>"));
+  const auto record_at = [&](const std::string& name, const std::string& clock) {
+    const std::string file = directory.path(name);
+    call({"run", tree, "--clock", clock, "--view", "none", "--record", file, "--overrun",
+          "catch-up"});
+    return file;
+  };
+  const std::string a = record_at("a", "wall"), b = record_at("b", "wall");
+  const Outcome outcome = call({"log", "diff", a, b});
+  CHECK(outcome.code == 1);
+  CHECK(contains(outcome.err, "note: on the wall clock no two runs have the same times\n"));
+  CHECK(contains(outcome.err, "hint: --ignore-time "));
+  const Outcome ignored = call({"log", "diff", a, b, "--ignore-time"});
+  CHECK(ignored.err == "");
+  const std::string c = record_at("c", "virtual"), d = record(directory, "d", "0.5");
+  CHECK(call({"log", "diff", c, d}).err == "");
+}
+
 TEST_CASE("what log diff cannot read") {
   const TemporaryDirectory directory;
   const std::string a = record(directory, "a", "0.5");

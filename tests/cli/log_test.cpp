@@ -1,9 +1,13 @@
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include "cli/program.h"
 #include "support/paths.h"
 
 using namespace lockstep::test;
+using nlohmann::json;
 
 namespace {
 
@@ -99,7 +103,7 @@ TEST_CASE("log info tells why a run failed, in the words of the run") {
       "      Fallback: failure (2 of 2 children)\n"
       "        AlwaysFailure: failure\n"
       "  1 synchronized node was never reached\n";
-  CHECK(run.out == "failure after 2 ticks, 0.010 s\n" + why);
+  CHECK(run.out == "failure after 2 ticks, 0.020 s\n" + why);
   CHECK(log({"info", file}).out.ends_with("\n" + why));
   // Of a recording without its last tick nobody knows.
   const std::string text = read_file(file);
@@ -108,6 +112,43 @@ TEST_CASE("log info tells why a run failed, in the words of the run") {
       directory.file("lost.jsonl", text.substr(0, last) + "{\"lost\":{\"ticks\":1,\"from\":1}}\n" +
                                        with_loss(text.substr(end)));
   CHECK(!contains(log({"info", lost}).out, "decided by"));
+}
+
+TEST_CASE("log info prints the tree, as the last tick has left it") {
+  const TemporaryDirectory directory;
+  const std::string text = read_file(record(directory));
+  const std::string tree =
+      "    pull (ParallelAbsolute barriers=0.5;1): success\n"
+      "      arm (Advance): success\n"
+      "      base (Advance): success\n";
+  CHECK(contains(log({"info", directory.path("run.jsonl")}).out,
+                 "  the tree after tick 9:\n" + tree + "  success (completed) after 10 ticks"));
+  const std::string none = directory.file("none.jsonl", text.substr(0, text.find('\n') + 1));
+  CHECK(contains(log({"info", none}).out,
+                 "  the tree:\n    pull (ParallelAbsolute barriers=0.5;1)\n      arm (Advance)\n"));
+}
+
+TEST_CASE("the summary, log info and log measure agree on how long a run took") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("tree.xml", tree_text("<Advance step=\"0.125\"/>"));
+  const std::string file = directory.path("run.jsonl");
+  const auto agree = [&](std::vector<std::string> more, const std::string& ticks) {
+    std::vector<std::string> arguments{"run", tree, "--record", file, "--view", "none"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const std::string summary = lockstep::test::lockstep(arguments).out;
+    const auto from = summary.find("after " + ticks + ", ");
+    REQUIRE(from != std::string::npos);
+    const std::string took = summary.substr(from, summary.find(" s\n") - from);
+    CHECK(contains(log({"info", file}).out, took + " s; "));
+    const auto measured = json::parse(
+        log({"measure", file, "--measure", "duration", "--measure", "ticks", "--json"}).out);
+    CHECK(took == fmt::format("after {} ticks, {:.3f}", measured[1]["value"].get<int>(),
+                              measured[0]["value"].get<double>()));
+    return took;
+  };
+  CHECK(agree({"--clock", "virtual"}, "8 ticks") == "after 8 ticks, 0.080");
+  CHECK(agree({"--clock", "virtual", "--max-ticks", "5"}, "5 ticks") == "after 5 ticks, 0.050");
+  agree({"--rate", "1000", "--overrun", "catch-up"}, "8 ticks");
 }
 
 TEST_CASE("log: - is stdin") {

@@ -81,11 +81,11 @@ TEST_CASE("plugin check finds what a program does against the protocol, and save
 TEST_CASE("what the author of a leaf in Python gets wrong is said in a sentence") {
   const PythonLeaves leaves;
   const auto say = [&](const std::string& body, const std::string& end = "serve()") {
-    const std::string file =
-        leaves.directory.file("grip.py",
-                              "#!/usr/bin/python3\nfrom lockstep_leaf import Action, Port, serve\n"
-                              "class Grip(Action):\n" +
-                                  body + "\n" + end + "\n");
+    const std::string file = leaves.directory.file(
+        "grip.py",
+        "#!/usr/bin/python3\nfrom lockstep_leaf import Action, Output, Port, serve\n"
+        "class Grip(Action):\n" +
+            body + "\n" + end + "\n");
     chmod(file.c_str(), 0755);
     return leaves.run_tree("<Grip/>").err;
   };
@@ -102,8 +102,38 @@ TEST_CASE("what the author of a leaf in Python gets wrong is said in a sentence"
                  "the port 'force' has no value yet: start and tick can read it (grip.py:5)"));
   CHECK(contains(say(tick + "    def progress(self): pass\n"),
                  "progress returned None, expected a number from 0 to 1"));
+  const std::string nan = say(tick + "    def progress(self): return float('nan')\n");
+  CHECK(contains(nan, "'Main/Sequence/Grip' (Grip of plugin 'grip')"));
+  CHECK(contains(nan, "progress returned nan, expected a number from 0 to 1"));
+  CHECK(contains(say("    width: Output[float]\n    def tick(self): self.width = float('inf')\n"),
+                 "the port 'width' cannot be inf: expected a finite number (grip.py:5)"));
   CHECK(
       contains(say("    force: dict\n" + tick), "the port 'force' is a <class 'dict'>, expected"));
+}
+
+TEST_CASE("lines that a leaf writes from several threads stay whole") {
+  const PythonLeaves leaves;
+  const std::string file = leaves.directory.file("grip.py", R"(#!/usr/bin/python3
+import threading
+from lockstep_leaf import Action, say, serve
+
+class Grip(Action):
+    def tick(self):
+        def write():
+            for _ in range(50):
+                self.log("x" * 20000, "debug")
+                say(leaf=self._number, progress=0.5)
+        threads = [threading.Thread(target=write) for _ in range(4)]
+        for it in threads: it.start()
+        for it in threads: it.join()
+        return True
+
+serve()
+)");
+  chmod(file.c_str(), 0755);
+  const Outcome outcome = leaves.run_tree("<Grip/>");
+  INFO(outcome.err.substr(0, 1000));
+  CHECK(outcome.code == 0);
 }
 
 TEST_CASE("a program for lockstep that is started in a terminal asks for requests") {
@@ -140,7 +170,7 @@ TEST_CASE("a program is found by its name, or it is said what to type") {
   }
   const Outcome none = ask({"plugin", "check", "grap"});
   CHECK(none.code == 2);
-  CHECK(contains(none.err, "'grap' is not a program"));
+  CHECK(contains(none.err, "'grap' is no plugin"));
   const std::string tree = leaves.directory.file(
       "tree.xml",
       "<root lockstep=\"1\"><plugin name=\"grip\"/><BehaviorTree ID=\"Main\"><Grip/>"

@@ -1,6 +1,7 @@
-// The package lockstep for Python: from the sources, and installed into a venv without a network.
+// The package lockstep for Python: from the sources, and installed by pip without a network.
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <set>
 
 #include "cli/program.h"
 #include "support/paths.h"
@@ -84,30 +85,58 @@ TEST_CASE("docs/paper/figure3.py makes the figure: more barriers, better predict
   CHECK(contains(outcome.out, "  20 barriers    -4"));
 }
 
-TEST_CASE("the package installs into a venv without an index") {
+TEST_CASE("pip installs the package of an installation, and writes nothing into that") {
+  namespace fs = std::filesystem;
+  if (python({"-c", "import ensurepip"}, "").code != 0) return;
   const TemporaryDirectory directory;
-  const std::string venv = directory.path("venv");
-  if (python({"-c", "import setuptools, ensurepip"}, "").code != 0) return;
-  REQUIRE(python({"-m", "venv", "--system-site-packages", venv}, "").code == 0);
-  std::filesystem::copy(kPackage, directory.path("sources"),
-                        std::filesystem::copy_options::recursive);
-  const Outcome installed = python({"-m", "pip", "install", "-q", "--no-index",
-                                    "--no-build-isolation", directory.path("sources")},
-                                   "", venv + "/bin/python3");
+  const fs::path installation = directory.path("lockstep");
+  const fs::path sources = installation / "share/lockstep/python";
+  for (const char* folder : {"bin", "lib", "share/lockstep"}) {
+    fs::create_directories(installation / folder);
+  }
+  fs::copy(LOCKSTEP_BINARY_DIR "/lockstep", installation / "bin");
+  fs::copy(LOCKSTEP_BINARY_DIR "/liblockstep-runtime.so",
+           installation / "lib/liblockstep-runtime.so");
+  fs::copy(kPackage, sources, fs::copy_options::recursive);
+  for (const char* part : {"", "lockstep", "for_pip"})
+    fs::remove_all(sources / part / "__pycache__");
+  const auto files = [&] {
+    std::set<std::string> all;
+    for (const auto& it : fs::recursive_directory_iterator(installation)) all.insert(it.path());
+    return all;
+  };
+  const auto before = files();
+  const std::string venv = directory.path("venv"), of_venv = venv + "/bin/python3";
+  REQUIRE(python({"-m", "venv", venv}, "").code == 0);
+  // As that of a later Python: it has neither setuptools nor wheel.
+  python({"-m", "pip", "uninstall", "-q", "-y", "setuptools"}, "", of_venv);
+  const Outcome installed =
+      python({"-m", "pip", "install", "-q", "--no-index", sources}, "", of_venv);
   INFO(installed.err);
   REQUIRE(installed.code == 0);
-  const Outcome outcome =
-      python({"-c", "import lockstep, lockstep_leaf; print(lockstep.__file__, lockstep.program())"},
-             "", venv + "/bin/python3");
-  CHECK(contains(outcome.out, venv));
-  const std::string tree = LOCKSTEP_SOURCE_DIR "/trees/door_pulling.xml";
-  const Outcome ticked =
-      run({.arguments = {"-c", "import lockstep; print(lockstep.Tree('" + tree + "').run())"},
-           .environment = {{"LOCKSTEP", LOCKSTEP_BINARY_DIR "/lockstep"},
-                           {"LD_PRELOAD", LOCKSTEP_PRELOAD},
-                           {"ASAN_OPTIONS", "detect_leaks=0"}},
-           .program = venv + "/bin/python3"});
-  INFO(ticked.err);
-  CHECK(ticked.out == "<lockstep run: success after 701 ticks>\n");
-  CHECK(contains(outcome.out, LOCKSTEP_BINARY_DIR "/lockstep"));
+  CHECK(files() == before);
+  const std::string use =
+      "import lockstep, lockstep_leaf, lockstep._program as it\n"
+      "print(lockstep.__file__, it.program(), it.library())\n"
+      "tree = '<root lockstep=\"1\"><BehaviorTree "
+      "ID=\"M\"><AlwaysSuccess/></BehaviorTree></root>'\n"
+      "print(lockstep.Tree(text=tree).run())\n";
+  const auto used = [&](const std::string& path) {
+    const Outcome outcome = run({.arguments = {"-c", use},
+                                 .environment = {{"LOCKSTEP", ""},
+                                                 {"PATH", path},
+                                                 {"PYTHONPATH", ""},
+                                                 {"LD_PRELOAD", LOCKSTEP_PRELOAD},
+                                                 {"ASAN_OPTIONS", "detect_leaks=0"}},
+                                 .program = of_venv});
+    INFO(outcome.err);
+    CHECK(contains(outcome.out, "<lockstep run: success after 1 ticks>\n"));
+    return lines(outcome.out).front();
+  };
+  const std::string package = used("/usr/bin:/bin");
+  CHECK(contains(package, venv));
+  CHECK(contains(package, " " + installation.string() + "/bin/lockstep "));
+  CHECK(contains(package, " " + installation.string() + "/lib/liblockstep-runtime.so"));
+  fs::remove_all(installation);  // then PATH names another one
+  CHECK(contains(used(LOCKSTEP_BINARY_DIR ":/usr/bin:/bin"), " " LOCKSTEP_BINARY_DIR "/lockstep "));
 }

@@ -55,7 +55,7 @@ TEST_CASE("on the virtual clock a threaded leaf sleeps in the time of the run") 
   const Outcome outcome = Threaded("<Sleeps steps=\"10\" seconds=\"60\"/>").run({"--rate", "10"});
   INFO(outcome.err);
   CHECK(outcome.code == 0);
-  CHECK(contains(outcome.err + outcome.out, "success after 6001 ticks, 600.000 s"));
+  CHECK(contains(outcome.err + outcome.out, "success after 6001 ticks, 600.100 s"));
   CHECK_FALSE(contains(outcome.err, "warning"));
   CHECK(outcome.cpu_seconds < 10);
 }
@@ -93,6 +93,8 @@ TEST_CASE("a worker that blocks elsewhere is named after the hang limit") {
   const Outcome outcome = it.run({"--hang-limit", "0.3"});
   CHECK(outcome.code == 6);
   CHECK(contains(outcome.err, "'Main/Sequence/plan' (Blocks of plugin 'threaded')"));
+  const std::string backtrace = outcome.err.substr(outcome.err.find("lockstep: backtrace:\n"));
+  CHECK(contains(backtrace, "/threaded.so("));  // of the thread that blocks
   CHECK(contains(outcome.err, "run"));
 }
 

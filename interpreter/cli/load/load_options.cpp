@@ -3,13 +3,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "cli/checks.h"
 #include "cli/exit_code.h"
 #include "core/clock.h"
-#include "core/freed_memory.h"
 #include "core/value.h"
+#include "plugin/program/orphans.h"
 #include "runtime/plugin_thread.h"
+#include "system/freed_memory.h"
 
 namespace lockstep {
 namespace {
@@ -130,17 +132,22 @@ tl::expected<Loaded, LoadFailure> load_given(const std::string& path,
                                              std::shared_ptr<PluginSet> plugins) {
   keep_freed_memory();
   watch_this_thread(from_seconds(options.plugins.hang_limit));
-  return load(path,
-              {.plugins = options.plugins,
-               .arguments = parse_pairs(options.arguments, "--arg", diagnostics),
-               .values = parse_pairs(options.values, "--set", diagnostics),
-               .main_tree = options.main_tree,
-               .main_file = options.main_file,
-               .ros_packages = parse_pairs(options.ros_packages, "--ros-package", diagnostics),
-               .unknown = options.mock || !options.mock_leaves.empty() ? MissingNodes::AreMocked
-                                                                       : options.unknown,
-               .mocks = parse_mocks(options, diagnostics)},
-              diagnostics, std::move(plugins));
+  auto loaded =
+      load(path,
+           {.plugins = options.plugins,
+            .arguments = parse_pairs(options.arguments, "--arg", diagnostics),
+            .values = parse_pairs(options.values, "--set", diagnostics),
+            .main_tree = options.main_tree,
+            .main_file = options.main_file,
+            .ros_packages = parse_pairs(options.ros_packages, "--ros-package", diagnostics),
+            .unknown = options.mock || !options.mock_leaves.empty() ? MissingNodes::AreMocked
+                                                                    : options.unknown,
+            .mocks = parse_mocks(options, diagnostics)},
+           diagnostics, std::move(plugins));
+  if (loaded && std::ranges::any_of(loaded->plugins->list(), &PluginSet::Info::isolated)) {
+    take_over_orphans();
+  }
+  return loaded;
 }
 
 int exit_code_of(LoadFailure failure) {

@@ -8,10 +8,11 @@
 #include "cli/exit_code.h"
 #include "cli/log/log.h"
 #include "cli/outputs.h"
-#include "core/descriptors.h"
-#include "core/output_file.h"
 #include "recording/use/recording_csv.h"
 #include "recording/use/recording_info.h"
+#include "system/descriptors.h"
+#include "system/output_file.h"
+#include "terminal/fitted.h"
 
 namespace lockstep {
 namespace {
@@ -55,7 +56,7 @@ int csv(const LogOptions& options) {
 int info(const LogOptions& options) {
   return with_recording(options.file, [](RecordingReader& reader) {
     const std::string text = info_text(reader, wants_color(results_file()));
-    return write_results_of(reader, text);
+    return write_results_of(reader, fitted(text, results_width()));
   });
 }
 

@@ -25,12 +25,24 @@ int report_ends(const RecordingReader& a, const RecordingReader& b) {
   return std::max(code_a, code_b);
 }
 
+// Whether times are all that is to be expected of two runs of one tree on the wall clock.
+bool differs_in_real_time(const RecordingDiff& diff, const RecordingReader& a,
+                          const RecordingReader& b) {
+  if (a.header().clock == "virtual" && b.header().clock == "virtual") return false;
+  if (diff.tick) return diff.tick->time_a != diff.tick->time_b;
+  return std::ranges::any_of(diff.end, [](const auto& it) { return it.what == "time_s"; });
+}
+
 int diff(const LogDiffOptions& options, RecordingReader& a, RecordingReader& b) {
   const RecordingDiff diff = compare(a, b, options.diff);
   const std::string text = options.json
                                ? to_json(diff) + "\n"
                                : to_text(diff, options.a, options.b, wants_color(results_file()));
   const int written = write_results(text);
+  if (differs_in_real_time(diff, a, b)) {
+    print_note("on the wall clock no two runs have the same times",
+               "--ignore-time shows the first tick that differs in something else");
+  }
   const int read = report_ends(a, b);
   const int result = diff.same() ? kExitSuccess : kExitFailure;
   return first_failure(read, first_failure(written, result));

@@ -24,7 +24,8 @@ int print_measures(const LogMeasureOptions& options, std::span<const MeasureSpec
   const auto values = measure_recording(reader, measures);
   if (!values) return usage_error(printable(values.error().message));
   if (!reader.error().empty()) return report_end(reader);
-  const std::string text = options.json ? to_json(*values) + "\n" : to_table(*values);
+  const std::string text =
+      options.json ? to_json(*values) + "\n" : to_table(*values, results_width());
   return write_results_of(reader, text);
 }
 

@@ -7,11 +7,11 @@
 #include "cli/exit_code.h"
 #include "cli/load/real_time_leaves.h"
 #include "cli/outputs.h"
+#include "cli/run/progress_notes.h"
 #include "cli/run/run_options.h"
 #include "cli/run/run_watch.h"
 #include "cli/run/view.h"
 #include "cli/run/watchers.h"
-#include "core/freed_memory.h"
 #include "core/suggest.h"
 #include "core/wording.h"
 #include "recording/write/recorder.h"
@@ -22,6 +22,8 @@
 #include "runtime/stop_signals.h"
 #include "summary/standstills.h"
 #include "summary/statistics.h"
+#include "system/freed_memory.h"
+#include "terminal/fitted.h"
 #include "view/line_budget.h"
 
 namespace lockstep {
@@ -50,7 +52,7 @@ int exit_code_of(const RunEnd& end) {
 std::string describe(const Fault& fault, const Tree& tree, const RunEnd& end) {
   const bool in_tick = !fault.in_last_halt && end.ticks > 0;
   return fmt::format("{} {}{}: {}", describe_node(tree, fault.node), failure_text(fault, end.ticks),
-                     in_tick ? fmt::format(" at {:.3f} s", to_seconds(end.time)) : "",
+                     in_tick ? fmt::format(" at {:.3f} s", to_seconds(end.last)) : "",
                      fault.message);
 }
 
@@ -83,6 +85,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   RunCommand(const RunCommandOptions& options, const Runnable& runnable, WatcherSockets sockets)
       : options_(options),
         tree_(runnable.tree),
+        end_budget_(options.end_limit()),
         view_(options.view, tree_, options.log_level),
         watch_(tree_, options,
                [this](const std::string& line) { view_.print("warning: " + line); }),
@@ -113,6 +116,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     const auto end = run_tree();
     const int code = end ? first_failure(exit_code_of(*end), print_summary()) : kExitUsage;
     plugins.reset();
+    watchers_.linger();
     return code;
   }
 
@@ -151,7 +155,8 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
             .on_fault = options_.on_fault,
             .exactly_once = options_.exactly_once,
             .virtual_time = !options_.is_wall(),
-            .watch = &watch_.leaves()};
+            .watch = &watch_.leaves(),
+            .end_budget = &end_budget_};
   }
 
   LeafLog leaf_log() {
@@ -234,15 +239,28 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     }
     if (standstills_) standstills_->add_to(summary);
     watch_.add_to(summary);
-    if (const std::string lost = lost_messages(); !lost.empty()) summary.notes.push_back(lost);
+    settle_messages(summary.notes);
+    if (std::string late = end_budget_.note(); !late.empty()) summary.notes.push_back(late);
     if (options_.json) return write_results(to_json(summary) + "\n", summary.signal);
     std::string text;
     write_text(summary, text, wants_color(results_file()));
-    return write_results(text, summary.signal);
+    return write_results(fitted(text, results_width()), summary.signal);
+  }
+
+  // The last of those that the end of a run waits for.
+  void settle_messages(std::vector<std::string>& notes) {
+    const Nanoseconds patience =
+        std::min<Nanoseconds>(Outlet::kPatience, end_budget_.rest().value_or(Outlet::kPatience));
+    const Nanoseconds began = monotonic_now();
+    std::string lost = lost_messages(patience);
+    if (lost.empty()) return;
+    if (monotonic_now() - began >= patience) end_budget_.used_up_by("who reads stderr");
+    notes.push_back(std::move(lost));
   }
 
   const RunCommandOptions& options_;
   const Tree& tree_;
+  EndBudget end_budget_;
   View view_;
   RunWatch watch_;
   Statistics statistics_;
@@ -298,12 +316,13 @@ int run(const RunCommandOptions& options) {
   Runnable runnable = make_runnable(std::move(*loaded));
   return_freed_memory();
   if (!knows_recorded_keys(options, runnable.tree)) return kExitUsage;
+  Diagnostics notes;
+  note_leaves_without_progress(runnable.tree, options.tree, notes);
   if (!options.is_wall()) {
-    Diagnostics warnings;
     warn_of_real_time_leaves(runnable.tree, options.tree, "the run means little; use --clock wall",
-                             warnings);
-    print_diagnostics(warnings, Severity::Warning);
+                             notes);
   }
+  print_diagnostics(notes, Severity::Note);
   return RunCommand(options, runnable, std::move(*sockets)).run(runnable.plugins);
 }
 

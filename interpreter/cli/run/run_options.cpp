@@ -120,6 +120,11 @@ void define_monitor_options(CLI::App& app, RunCommandOptions& options) {
   app.add_flag("--monitor-paused", options.begins_paused,
                "With --monitor-control: pause before the first tick");
   app.add_flag("--monitor-open", options.opens_browser, "Open the page of the run in the browser");
+  app.add_option("--monitor-linger", options.monitor_linger,
+                 "After the end, serve the page as long as a browser has it open, at most S "
+                 "seconds; a signal ends it (default: 600 on a terminal, else 0)")
+      ->type_name("S")
+      ->check(number_between(0.0, 1e6));
 }
 
 void define_groot_options(CLI::App& app, RunCommandOptions& options) {
@@ -137,6 +142,11 @@ std::optional<Nanoseconds> RunCommandOptions::tick_budget() const {
   if (!tick_budget_ms) return deadline_of(1, rate);
   if (*tick_budget_ms == 0) return std::nullopt;
   return from_seconds(*tick_budget_ms / 1e3);
+}
+
+std::optional<Nanoseconds> RunCommandOptions::end_limit() const {
+  if (load.plugins.halt_limit == 0) return std::nullopt;
+  return from_seconds(load.plugins.halt_limit);
 }
 
 LoopOptions RunCommandOptions::loop() const {

@@ -40,6 +40,7 @@ struct RunCommandOptions {
   std::optional<std::string> monitor_socket;  // where one can be asked for; none: nowhere
   bool monitor_control = false;               // who watches may pause the run, and more
   bool begins_paused = false;
+  std::optional<double> monitor_linger = {};  // s
   bool opens_browser = false;
 
   std::optional<std::string> groot2;  // where Groot2 finds it; none: nowhere
@@ -48,6 +49,8 @@ struct RunCommandOptions {
   bool is_wall() const { return clock == "wall"; }
   // None on the virtual clock and with --tick-budget 0.
   std::optional<Nanoseconds> tick_budget() const;
+  // Of all that waits after the last halt; nothing: none.
+  std::optional<Nanoseconds> end_limit() const;
   LoopOptions loop() const;
 };
 

@@ -43,12 +43,22 @@ RunWatch::RunWatch(const Tree& tree, const RunCommandOptions& options,
 }
 
 LeafWatchOptions RunWatch::leaf_watch_options() {
-  LeafWatchOptions watch{
-      .budget = options_.tick_budget(), .clock = nullptr, .on_slow = {}, .on_float_mode = {}};
+  LeafWatchOptions watch{.budget = options_.tick_budget(),
+                         .clock = nullptr,
+                         .on_slow = {},
+                         .on_carried = {},
+                         .on_float_mode = {}};
   watch.on_slow = [this](NodeIndex leaf, PluginFunction function, Nanoseconds took) {
     print_(fmt::format("{} took {:.3f} ms in {}, more than the budget of {:.3f} ms",
                        describe_node(tree_, leaf), milliseconds(took), name_of(function),
                        milliseconds(*options_.tick_budget())));
+  };
+  watch.on_carried = [this](NodeIndex leaf, Nanoseconds took) {
+    has_carried_ = true;
+    print_(fmt::format(
+        "the values of the ports of {} took {:.3f} ms between processes, more than "
+        "the budget of {:.3f} ms",
+        describe_node(tree_, leaf), milliseconds(took), milliseconds(*options_.tick_budget())));
   };
   watch.on_float_mode = [this](NodeIndex leaf, PluginFunction function) {
     print_(fmt::format("{} changed the floating-point mode in {}; it was restored",
@@ -81,6 +91,11 @@ void RunWatch::after_tick(Ticker& ticker, const TickReport&) {
     const OutOfRange& it = all[out_of_range_];
     print_(fmt::format("{} {}", describe_node(tree_, it.node), out_of_range_text(it.reported)));
   }
+  const auto went_on = ticker.went_on();
+  for (; went_on_ < std::min(went_on.size(), kMostLeaves); ++went_on_) {
+    const WentOn& it = went_on[went_on_];
+    print_(fmt::format("{} {}", describe_node(tree_, it.node), went_on_text(it.from, it.to)));
+  }
 }
 
 void RunWatch::run_ended(Ticker&, const RunEnd&) {
@@ -93,10 +108,10 @@ void RunWatch::run_ended(Ticker&, const RunEnd&) {
   }
   const std::size_t memory = resident_memory();
   if (memory > memory_at_start_ + kMuchMemory) {
-    notes_.push_back(
-        fmt::format("memory grew by {} MiB during the run: a plugin may leak; "
-                    "--isolate shows which",
-                    (memory - memory_at_start_) >> 20));
+    notes_.push_back(fmt::format("memory grew by {} MiB during the run: {}",
+                                 (memory - memory_at_start_) >> 20,
+                                 has_carried_ ? "large values between processes need some of it"
+                                              : "a plugin may leak; --isolate shows which"));
   }
 }
 

@@ -37,10 +37,11 @@ class RunWatch final : public Observer {
   std::function<void(const std::string& line)> print_;
   LeafWatch leaves_;
   Watchdog watchdog_;
-  sigset_t signal_mask_;             // of the tick thread, as it was
-  std::size_t memory_at_start_ = 0;  // bytes
-  std::size_t out_of_range_ = 0;     // leaves that were reported
-  std::vector<std::string> notes_;   // for the summary
+  sigset_t signal_mask_;                        // of the tick thread, as it was
+  std::size_t memory_at_start_ = 0;             // bytes
+  bool has_carried_ = false;                    // much, between processes
+  std::size_t out_of_range_ = 0, went_on_ = 0;  // leaves that were reported
+  std::vector<std::string> notes_;              // for the summary
 };
 
 }  // namespace lockstep

@@ -1,6 +1,12 @@
 #include "cli/run/watchers.h"
 
+#include <unistd.h>
+
 #include <utility>
+
+#include "cli/console.h"
+#include "runtime/outlet.h"
+#include "runtime/stop_signals.h"
 
 namespace lockstep {
 namespace {
@@ -14,6 +20,9 @@ std::optional<Problem> misuse(const RunCommandOptions& options) {
   }
   if (options.opens_browser && !options.monitor) {
     return Problem{"--monitor-open needs --monitor"};
+  }
+  if (options.monitor_linger && !options.monitor) {
+    return Problem{"--monitor-linger needs --monitor"};
   }
   if (options.monitor && options.monitor_socket) {
     return Problem{"--monitor-socket is for a run without --monitor"};
@@ -30,6 +39,17 @@ std::optional<Problem> keep(Result<Made> made, Place& place) {
   if (!made) return std::move(made.error());
   place.emplace(std::move(*made));
   return std::nullopt;
+}
+
+// A person who has the page open may load it again; a script goes on.
+Nanoseconds linger_of(const RunCommandOptions& options) {
+  constexpr double kPerson = 600;
+  const bool is_person = options.monitor && is_terminal(STDERR_FILENO);
+  return from_seconds(options.monitor_linger.value_or(is_person ? kPerson : 0));
+}
+
+void tell_linger() {
+  messages().say("monitor: serves the page until no browser has it open; Ctrl-C ends it\n");
 }
 
 }  // namespace
@@ -61,6 +81,9 @@ Watchers::Watchers(const Tree& tree, const RunCommandOptions& options, const Run
         tree, MonitorOptions{.run = run,
                              .recording = options.record,
                              .control = options.monitor_control ? control() : nullptr,
+                             .linger = linger_of(options),
+                             .stop = [] { return StopSignals::received() != 0; },
+                             .on_linger = tell_linger,
                              .on_attached = [this](const auto& it) { link_->tell(it, false); }});
   }
   if (sockets.monitor) opened_ = monitor_->open(std::move(*sockets.monitor));
@@ -78,6 +101,10 @@ void Watchers::tell() {
 
 void Watchers::log(std::string_view who, std::string_view level, std::string_view text) {
   if (monitor_) monitor_->log(who, level, text);
+}
+
+void Watchers::linger() {
+  if (monitor_) monitor_->linger();
 }
 
 void Watchers::add_to(std::vector<Observer*>& observers) {

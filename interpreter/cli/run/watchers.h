@@ -39,6 +39,8 @@ class Watchers {
   // What a leaf logs; from any thread.
   void log(std::string_view who, std::string_view level, std::string_view text);
   void add_to(std::vector<Observer*>& observers);
+  // After all that the run prints: see --monitor-linger.
+  void linger();
 
  private:
   const RunCommandOptions& options_;

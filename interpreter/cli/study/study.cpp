@@ -44,8 +44,8 @@ int fail(std::string_view message, int code = kExitUsage) {
 
 int print_summary(const StudyCommandOptions& options, const StudyPlan& plan,
                   const std::vector<SummaryRow>& rows) {
-  const int written =
-      write_results(options.json ? summary_json(plan, rows) + "\n" : summary_table(plan, rows));
+  const int written = write_results(options.json ? summary_json(plan, rows) + "\n"
+                                                 : summary_table(plan, rows, results_width()));
   Diagnostics notes;
   for (std::string& warning : summary_warnings(plan, rows)) {
     notes.add({.severity = Severity::Warning,

@@ -45,10 +45,13 @@ TableRow table_row(const Comparison& it) {
     return row;
   }
   const Comparison::Found& found = *it.found;
-  for (const double value : {found.medians.first, found.medians.second, found.shift.estimate})
-    row.push_back(fmt::format("{:.6g}", value));
   const auto& interval = found.shift.interval;
-  row.push_back(interval ? fmt::format("[{:.6g}, {:.6g}]", interval->low, interval->high) : "-");
+  const double range = interval ? interval->high - interval->low : 0;
+  const auto text_of = [range](double value) { return rounded_within(value, range); };
+  for (const double value : {found.medians.first, found.medians.second, found.shift.estimate})
+    row.push_back(text_of(value));
+  row.push_back(interval ? fmt::format("[{}, {}]", text_of(interval->low), text_of(interval->high))
+                         : "-");
   row.push_back(fmt::format("{:.3g}", found.test.effect));
   row.push_back(p_text(found.test.p));
   row.push_back(p_text(found.p_holm));
@@ -63,7 +66,7 @@ std::string comparison_table(const StudyPlan& plan, CellPair cells,
   return cell_line(plan, 'A', cells.first) + cell_line(plan, 'B', cells.second) +
          fmt::format("{} runs, {} test\n\n", plan.paired ? "paired" : "independent",
                      test_name(plan)) +
-         text_table(rows, 2);
+         text_table(rows, 2, results_width());
 }
 
 Json cell_json(const StudyPlan& plan, std::uint64_t cell) {

@@ -7,6 +7,7 @@
 
 #include "core/diagnostics.h"
 #include "core/json.h"
+#include "core/wording.h"
 #include "study/column_names.h"
 #include "study/precision.h"
 #include "terminal/text_table.h"
@@ -16,59 +17,89 @@ namespace {
 
 constexpr char kNone[] = "-";
 
-std::string interval_text(const Interval& it, double unit, int digits) {
-  return fmt::format("[{:.{}g}, {:.{}g}]", it.low * unit, digits, it.high * unit, digits);
+using Rows = std::vector<const SummaryRow*>;
+
+std::string interval_text(const std::string& low, const std::string& high) {
+  return fmt::format("[{}, {}]", low, high);
 }
 
-// The columns of summary.csv, and the intervals behind what they are of.
-TableRow head_of(const StudyPlan& plan) {
-  TableRow head = grid_columns(plan);
-  for (const std::string_view name : kSummaryColumns) {
-    head.emplace_back(name);
-    if (name == "median" || std::ranges::find(kResultNames, name) != kResultNames.end())
-      head.push_back(fmt::format("95 % of {}", name));
-  }
-  return head;
+TableRow line_of(const SummaryRow& row) {
+  TableRow line;
+  for (const std::string& value : row.grid) line.push_back(printable(value));
+  return line;
 }
 
 void append_numbers(const SummaryRow& row, TableRow& line) {
   const SampleSummary& it = row.summary;
-  const auto append = [&](double value) {
-    line.push_back(it.count == 0 ? kNone : fmt::format("{:.6g}", value));
+  const auto text_of = [&](double value) {
+    return it.count == 0 ? std::string(kNone) : rounded_within(value, it.max - it.min);
   };
-  for (const double value : {it.min, it.q1, it.median}) append(value);
-  line.push_back(it.median_interval ? interval_text(*it.median_interval, 1, 6) : kNone);
-  for (const double value : {it.q3, it.max, it.mean}) append(value);
-  const ResultCounts& results = row.results;
+  for (const double value : {it.min, it.q1, it.median}) line.push_back(text_of(value));
+  const auto& interval = it.median_interval;
+  line.push_back(interval ? interval_text(text_of(interval->low), text_of(interval->high)) : kNone);
+  for (const double value : {it.q3, it.max, it.mean}) line.push_back(text_of(value));
   line.push_back(fmt::format("{}", it.count));
-  line.push_back(fmt::format("{}", results.runs));
-  for (std::size_t i = 0; i < kResultNames.size(); ++i) {
-    line.push_back(percent(results.of[i], results.runs));
-    line.push_back(interval_text(results.interval(i), 100, 3));
+  if (row.gap) line.push_back(fmt::format("{:.3g}{}", *row.gap, row.is_far() ? " !" : "  "));
+}
+
+// A measure in each cell.
+std::string measure_table(const StudyPlan& plan, const Rows& rows, std::size_t width) {
+  TableRow head = grid_columns(plan);
+  for (const char* name : {"min", "q1", "median", "95 % of median", "q3", "max", "mean", "n"}) {
+    head.emplace_back(name);
   }
+  const auto has_gap = [](const SummaryRow* row) { return row->gap.has_value(); };
+  if (std::ranges::any_of(rows, has_gap)) head.emplace_back("gap");
+  std::vector<TableRow> lines{head};
+  for (const SummaryRow* row : rows) {
+    lines.push_back(line_of(*row));
+    append_numbers(*row, lines.back());
+  }
+  return text_table(lines, plan.grid.size(), width);
+}
+
+// How the runs of each cell ended.
+std::string result_table(const StudyPlan& plan, const Rows& rows, std::size_t width) {
+  TableRow head = grid_columns(plan);
+  head.emplace_back("runs");
+  for (const std::string_view name : kResultNames) {
+    head.emplace_back(name);
+    head.emplace_back("95 %");
+  }
+  std::vector<TableRow> lines{head};
+  for (const SummaryRow* row : rows) {
+    TableRow line = line_of(*row);
+    const ResultCounts& results = row->results;
+    line.push_back(fmt::format("{}", results.runs));
+    for (std::size_t i = 0; i < kResultNames.size(); ++i) {
+      const Interval it = results.interval(i);
+      line.push_back(percent(results.of[i], results.runs));
+      line.push_back(
+          interval_text(fmt::format("{:.3g}", it.low * 100), fmt::format("{:.3g}", it.high * 100)));
+    }
+    lines.push_back(std::move(line));
+  }
+  return text_table(lines, plan.grid.size(), width);
 }
 
 }  // namespace
 
-std::string summary_table(const StudyPlan& plan, const std::vector<SummaryRow>& rows) {
-  TableRow head = head_of(plan);
-  const std::size_t names = plan.grid.size() + 2;
-  const bool has_gaps =
-      std::ranges::any_of(rows, [](const SummaryRow& row) { return row.gap.has_value(); });
-  if (!has_gaps) head.pop_back();
-  std::vector<TableRow> lines{head};
+std::string summary_table(const StudyPlan& plan, const std::vector<SummaryRow>& rows,
+                          std::size_t width) {
+  std::vector<std::pair<std::string, Rows>> measures;  // in the order of the first cell
+  Rows cells;                                          // one row of each
   for (const SummaryRow& row : rows) {
-    TableRow line;
-    for (const std::string& value : row.grid) line.push_back(printable(value));
-    line.push_back(printable(row.node));
-    line.push_back(printable(row.measure));
-    append_numbers(row, line);
-    if (has_gaps) {
-      line.push_back(row.gap ? fmt::format("{:.3g}{}", *row.gap, row.is_far() ? " !" : "  ") : "");
-    }
-    lines.push_back(std::move(line));
+    const std::string title = printable(fmt::format("{} of {}", row.measure, row.node));
+    auto found = std::ranges::find(measures, title, &std::pair<std::string, Rows>::first);
+    if (found == measures.end()) found = measures.insert(found, {title, {}});
+    found->second.push_back(&row);
+    if (cells.empty() || cells.back()->grid != row.grid) cells.push_back(&row);
   }
-  return text_table(lines, names);
+  std::string text;
+  for (const auto& [title, of_cells] : measures) {
+    text += title + "\n" + measure_table(plan, of_cells, width) + "\n";
+  }
+  return text + "results\n" + result_table(plan, cells, width);
 }
 
 std::string summary_json(const StudyPlan& plan, const std::vector<SummaryRow>& rows) {

@@ -9,7 +9,9 @@
 namespace lockstep {
 
 // Aligned, with a line of names above. A gap that is far has a '!'.
-std::string summary_table(const StudyPlan& plan, const std::vector<SummaryRow>& rows);
+// A table for each measure, and one of how the runs ended, no wider than `width`.
+std::string summary_table(const StudyPlan& plan, const std::vector<SummaryRow>& rows,
+                          std::size_t width);
 // One line: an array of the rows of summary.csv, the values of the grid under "cell".
 std::string summary_json(const StudyPlan& plan, const std::vector<SummaryRow>& rows);
 // Warnings about them: a line for each node and measure whose target is far, or whose interval is

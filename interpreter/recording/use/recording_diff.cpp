@@ -20,21 +20,6 @@ void add(Values& values, std::string what, std::optional<std::string> a,
   if (a != b) values.push_back({std::move(what), std::move(a), std::move(b)});
 }
 
-std::string describe(const RecordedNode& node) {
-  if (!node.resources.empty()) {
-    return fmt::format("{} resources={}", node.kind, joined(node.resources, ";"));
-  }
-  if (node.synchronization == Synchronization::Absolute) {
-    if (!node.barriers) return node.kind + " barriers from an entry";
-    return fmt::format("{} barriers={}", node.kind, joined(*node.barriers, ";"));
-  }
-  if (node.synchronization == Synchronization::Relative) {
-    if (!node.delta) return node.kind + " delta from an entry";
-    return fmt::format("{} delta={}", node.kind, *node.delta);
-  }
-  return node.kind;
-}
-
 std::optional<std::string> find(const auto& map, const std::string& key) {
   const auto found = map.find(key);
   if (found == map.end()) return std::nullopt;
@@ -54,15 +39,15 @@ std::vector<Pair> pair_nodes(const RecordingHeader& a, const RecordingHeader& b,
     const RecordedNode& one = a.nodes[node];
     const auto found = in_b.find(one.path);
     if (found == in_b.end()) {
-      add(values, "node " + one.path, describe(one), std::nullopt);
+      add(values, "node " + one.path, kind_text(one), std::nullopt);
       continue;
     }
-    add(values, "node " + one.path, describe(one), describe(b.nodes[found->second]));
+    add(values, "node " + one.path, kind_text(one), kind_text(b.nodes[found->second]));
     pairs.push_back({node, found->second});
     in_b.erase(found);
   }
   for (const RecordedNode& one : b.nodes) {
-    if (in_b.contains(one.path)) add(values, "node " + one.path, std::nullopt, describe(one));
+    if (in_b.contains(one.path)) add(values, "node " + one.path, std::nullopt, kind_text(one));
   }
   return pairs;
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/diagnostics.h"
 #include "measure/decision.h"
 #include "recording/use/recorded_probe.h"
@@ -15,19 +17,35 @@ void write_header(const RecordingHeader& header, std::string& out, bool color) {
   out += fmt::format("{} from {}, recorded by lockstep {}\n",
                      styled(printable(header.tree), Style::Strong, color), printable(header.file),
                      printable(header.version));
-  out += fmt::format("  {}, {} Hz, {} clock, seed {}, law {}\n",
-                     counted(header.nodes.size(), "node"), header.rate_hz, printable(header.clock),
-                     header.seed, header.law);
+  out +=
+      fmt::format("  {}, {} Hz, {} clock, seed {}, law {}\n", counted(header.nodes.size(), "node"),
+                  header.rate_hz, printable(header.clock), header.seed, header.law);
   for (const auto& [name, value] : header.arguments) {
     out += fmt::format("  argument {} = {}\n", printable(name), printable(value));
+  }
+}
+
+// The nodes, and how the last tick has left them, in the words of the path that decided.
+void write_tree(const RecordingHeader& header, const RecordedTick* last, std::string& out) {
+  constexpr std::size_t kDeepest = 20;  // what is deeper stands below that
+  std::vector<std::size_t> depths;
+  out += last == nullptr ? "  the tree:\n" : fmt::format("  the tree after tick {}:\n", last->tick);
+  for (NodeIndex index = 0; index < header.nodes.size(); ++index) {
+    const RecordedNode& node = header.nodes[index];
+    depths.push_back(node.parent ? depths[*node.parent] + 1 : 0);
+    const std::string name = last_segment(node.path), kind = kind_text(node);
+    out += fmt::format("{:{}}{}", "", 4 + 2 * std::min(depths.back(), kDeepest), printable(name));
+    if (name != kind) out += fmt::format(" ({})", printable(kind));
+    if (last != nullptr) out += fmt::format(": {}", to_string(last->nodes[index].status));
+    out += '\n';
   }
 }
 
 void write_end(const RecordingReader& reader, std::uint64_t ticks, double time, std::string& out,
                bool color) {
   if (const auto& end = reader.end()) {
-    out += fmt::format("  {} ({}) after {}, {:.3f} s", printable(end->result),
-                       printable(end->reason), counted(end->ticks, "tick"), end->time);
+    out += fmt::format("  {} after {}, {:.3f} s", printable(ending(end->result, end->reason)),
+                       counted(end->ticks, "tick"), end->time);
     out += fmt::format("; {}, {} skipped\n", counted(end->overruns, "overrun"),
                        counted(end->skipped, "deadline"));
     if (!end->fault.empty()) out += fmt::format("  fault: {}\n", printable(end->fault));
@@ -84,8 +102,10 @@ std::string info_text(RecordingReader& reader, bool color) {
   }
   if (!reader.error().empty()) return {};
   std::string out;
-  const double time = reader.end() ? reader.end()->time : last.time;
+  const double period = ticks > 0 ? to_seconds(period_of(header)) : 0;
+  const double time = reader.end() ? reader.end()->time : last.time + period;
   write_header(header, out, color);
+  write_tree(header, ticks > 0 ? &last : nullptr, out);
   write_end(reader, ticks, time, out, color);
   if (ticks > 0) write_text(why_failed(reader, last), out, color);
   write_warnings(reader, faults, out, color);

@@ -111,6 +111,7 @@ Result<std::vector<MeasuredValue>> measure_recording(RecordingReader& reader,
   }
   if (reader.end()) end.succeeded = reader.end()->result == to_string(RunResult::Success);
   if (reader.end()) end.ticks = reader.end()->ticks;
+  if (reader.end()) end.ended = from_seconds(reader.end()->time);
   std::vector<MeasuredValue> values;
   for (std::size_t column = 0; column < measuring.columns().size(); ++column) {
     const auto& [spec, node] = measuring.columns()[column];
@@ -130,7 +131,7 @@ std::string to_json(std::span<const MeasuredValue> values) {
   return json.printable();
 }
 
-std::string to_table(std::span<const MeasuredValue> values) {
+std::string to_table(std::span<const MeasuredValue> values, std::size_t width) {
   const bool has_gaps =
       std::ranges::any_of(values, [](const auto& it) { return it.gap.has_value(); });
   std::vector<TableRow> rows = {{"node", "measure", "value", has_gaps ? "gap" : ""}};
@@ -138,7 +139,7 @@ std::string to_table(std::span<const MeasuredValue> values) {
     rows.push_back({printable(value.node), printable(to_text(*value.measure)), text_of(value.value),
                     value.gap ? text_of(*value.gap) : ""});
   }
-  return text_table(rows, rows.front().size());
+  return text_table(rows, rows.front().size(), width);
 }
 
 }  // namespace lockstep

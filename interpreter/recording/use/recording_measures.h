@@ -29,6 +29,6 @@ Result<std::vector<MeasuredValue>> measure_recording(RecordingReader& reader,
 // One line: [{"node":…,"measure":…,"value":…},…]. A table with the same columns. A predictability
 // also has "gap"; a missing value is null, or '-'.
 std::string to_json(std::span<const MeasuredValue> values);
-std::string to_table(std::span<const MeasuredValue> values);
+std::string to_table(std::span<const MeasuredValue> values, std::size_t width = SIZE_MAX);
 
 }  // namespace lockstep

@@ -2,6 +2,8 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,8 +14,8 @@
 #include <system_error>
 
 #include "core/clock.h"
-#include "core/own_thread.h"
 #include "recording/write/packet_printer.h"
+#include "system/own_thread.h"
 
 namespace lockstep {
 namespace {
@@ -27,6 +29,14 @@ void enter(AppendFile* file) {
   for (auto& place : open_files) {
     AppendFile* nobody = nullptr;
     if (place.compare_exchange_strong(nobody, file)) return;
+  }
+}
+
+// A pipe or a device that has no room says so, instead of waiting.
+void make_nonblocking(int file) {
+  struct stat status {};
+  if (fstat(file, &status) == 0 && !S_ISREG(status.st_mode)) {
+    ::fcntl(file, F_SETFL, O_APPEND | O_NONBLOCK);
   }
 }
 
@@ -58,6 +68,7 @@ AppendFile::AppendFile(const std::string& path, std::size_t queue, const Recordi
     failed_.store(true, std::memory_order_release);
     return;
   }
+  make_nonblocking(file_);
   thread_ = own_thread([this] {
     try {
       write_until_stopped();
@@ -151,10 +162,30 @@ void AppendFile::write_text(std::string_view text, Failure failure) {
       count_written(text.substr(0, written));
       if (written_ > unfinished_ && !out_.take_name()) give_up("replace", failure);
       text.remove_prefix(written);
+    } else if (errno == EAGAIN && failure == Failure::Told) {
+      if (!await_room()) give_up("write", failure);
     } else if (errno != EINTR) {
       give_up("write", failure);
     }
   }
+}
+
+void AppendFile::set_patience(Nanoseconds patience) {
+  patient_since_ = monotonic_now();
+  patience_ = patience;
+}
+
+// False: there is no patience left.
+bool AppendFile::await_room() {
+  constexpr int kLook = 20;  // milliseconds
+  const Nanoseconds since = monotonic_now();
+  pollfd room{file_, POLLOUT, 0};
+  while (poll(&room, 1, kLook) <= 0) {
+    const Nanoseconds patience = patience_;
+    is_out_of_patience_ = monotonic_now() - std::max(since, patient_since_.load()) >= patience;
+    if (is_out_of_patience_) return false;
+  }
+  return true;
 }
 
 void AppendFile::count_written(std::string_view text) {
@@ -184,7 +215,10 @@ void AppendFile::cut_back() {
 }
 
 void AppendFile::fail(const char* what) {
-  const std::string reason = std::generic_category().message(errno);
+  const std::string reason =
+      is_out_of_patience_ ? fmt::format("nobody took anything for {:.2g} s at the end of the run",
+                                        to_seconds(patience_.load()))
+                          : std::generic_category().message(errno);
   error_ = fmt::format("cannot {} '{}': {}", what, path_, reason);
   failed_.store(true, std::memory_order_release);
 }

@@ -13,10 +13,11 @@
 #include <thread>
 #include <vector>
 
-#include "core/bell.h"
-#include "core/output_file.h"
+#include "core/clock.h"
 #include "recording/write/json_lines.h"
 #include "recording/write/packet_ring.h"
+#include "system/bell.h"
+#include "system/output_file.h"
 
 namespace lockstep {
 
@@ -31,7 +32,7 @@ class AppendFile {
   static constexpr std::chrono::milliseconds kLongestEmergency{500};
 
   // Creates the file; on failure error() has the reason. The file gets its name, and replaces an
-  // existing file, when its first line is written: core/output_file.h.
+  // existing file, when its first line is written: system/output_file.h.
   explicit AppendFile(const std::string& path, std::size_t queue = kQueue,
                       const RecordingFormat& format = json_lines());
   // Flushes.
@@ -50,6 +51,10 @@ class AppendFile {
   void write(const Packet& packet);
   // Returns when everything is written, or writing has failed.
   void flush();
+  // From now on, a pipe or a device that takes nothing for so long is an error. Before, it is
+  // waited for without end. (The system lets nobody stop waiting for a disk.)
+  void set_patience(Nanoseconds patience);
+  bool ran_out_of_patience() const { return failed() && is_out_of_patience_; }
 
   bool failed() const { return failed_.load(std::memory_order_acquire); }
   // "" if there is no error, else "cannot write 'x': No space left on device".
@@ -67,6 +72,7 @@ class AppendFile {
   void write_out(Failure failure);
   void write_text(std::string_view text, Failure failure);
   void count_written(std::string_view text);
+  bool await_room();
   void give_up(const char* what, Failure failure);
   void cut_back();
   void fail(const char* what);
@@ -81,6 +87,8 @@ class AppendFile {
   const int file_;
   std::string error_;  // constant once failed_ is set
   std::atomic<bool> failed_{false};
+  bool is_out_of_patience_ = false;  // the same
+  std::atomic<Nanoseconds> patience_{Nanoseconds::max()}, patient_since_{Nanoseconds(0)};
 
   std::uint64_t called_for_ = 0;  // bytes that had been pushed when the thread was last woken
   Bell work_;                     // for the thread

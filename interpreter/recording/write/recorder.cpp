@@ -1,5 +1,7 @@
 #include "recording/write/recorder.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -66,7 +68,12 @@ void Recorder::add_gap(PacketHead& head) const {
 }
 
 void Recorder::run_ended(Ticker& ticker, const RunEnd& end) {
+  const auto patience = end.budget == nullptr ? std::nullopt : end.budget->share();
+  if (patience) file_.set_patience(*patience);
   write(packets_.end(ticker, end, lost_));
+  if (patience && file_.ran_out_of_patience()) {
+    end.budget->used_up_by(fmt::format("who reads the recording '{}'", options_.path));
+  }
 }
 
 // The first and the last line are not lost, even if the run has to wait for them.

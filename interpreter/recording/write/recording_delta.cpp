@@ -14,6 +14,10 @@ namespace {
 constexpr std::uint8_t kMoved = 32;     // above NodeChange::kTicked
 constexpr std::uint8_t kUnknown = 255;  // no Activity
 
+bool is_running(std::uint8_t state) {
+  return status_of(static_cast<Activity>(state & (NodeChange::kTicked - 1u))) == Status::Running;
+}
+
 // Simple enough for the compiler to do many nodes at a time.
 void put_states(const RunState& run, std::uint32_t tick, const std::uint8_t* moved,
                 std::uint8_t* states) {
@@ -66,9 +70,12 @@ std::span<const NodeChange> RecordingDelta::changes(Ticker& ticker) {
   take_snapshots(ticker);
   put_states(ticker.run_state(), ticker.tick_number(), moved_.data(), state_.data());
   NodeChange* next = changes_.data();
+  has_turns_ = has_begun_ = false;
   for_each_difference(std::span<const std::uint8_t>(state_), kept_.data(), [&](NodeIndex node) {
     const auto state = static_cast<std::uint8_t>(state_[node] & ~kMoved);
     *next++ = {.progress = progress_[node], .node = node, .state = state};
+    has_turns_ |= state != kept_[node];
+    has_begun_ |= is_running(state) && !is_running(kept_[node]);
   });
   count_ = static_cast<std::size_t>(next - changes_.data());
   return {changes_.data(), count_};

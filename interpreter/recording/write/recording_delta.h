@@ -26,6 +26,10 @@ class RecordingDelta {
   // The synchronized nodes that the tick reached whose limit is not what was kept. Valid until the
   // next call.
   std::span<const LimitChange> limits(Ticker& ticker);
+  // Of the last result of changes(): a node has another status than what was kept, or is held or
+  // was ticked where it was not, or the other way round; and a node has begun.
+  bool has_turns() const { return has_turns_; }
+  bool has_begun() const { return has_begun_; }
   // The rounds that are not what was kept. Valid until the next call.
   std::span<const RoundChange> rounds(Ticker& ticker);
   // Call when the file has accepted the last results of changes(), limits() and rounds().
@@ -56,6 +60,7 @@ class RecordingDelta {
 
   std::vector<NodeChange> changes_;
   std::size_t count_ = 0;  // of these
+  bool has_turns_ = false, has_begun_ = false;
 };
 
 }  // namespace lockstep

@@ -69,14 +69,18 @@ void RunPackets::log(std::string_view who, std::string_view level, std::string_v
 }
 
 Packet RunPackets::tick(Ticker& ticker, const TickReport& report) {
-  format_.set_tick_end(line_end_, {.limits = delta_.limits(ticker),
-                                   .rounds = delta_.rounds(ticker),
-                                   .succeeded = delta_.succeeded(ticker),
-                                   .faults = report.faults,
-                                   .entries = entries_.changes(ticker.blackboard()),
-                                   .logs = lines_.lines(),
-                                   .is_full = is_full_});
+  const TickEnd end{.limits = delta_.limits(ticker),
+                    .rounds = delta_.rounds(ticker),
+                    .succeeded = delta_.succeeded(ticker),
+                    .faults = report.faults,
+                    .entries = entries_.changes(ticker.blackboard()),
+                    .logs = lines_.lines(),
+                    .is_full = is_full_};
+  format_.set_tick_end(line_end_, end);
   Packet packet{.nodes = delta_.changes(ticker), .text = line_end_};
+  has_events_ = delta_.has_turns() || !end.limits.empty() || !end.rounds.empty() ||
+                !end.succeeded.empty() || !end.faults.empty() || !end.entries.empty() ||
+                !end.logs.empty();
   packet.head.is_tick = 1;
   packet.head.tick = report.tick;
   packet.head.time = report.time.count();
@@ -111,7 +115,7 @@ std::string RunPackets::end(const Ticker& ticker, const RunEnd& end, std::uint64
   for (const Fault& fault : ticker.tolerated()) {
     closing.notes.push_back(fault_text(tree_, fault, end.ticks));
   }
-  std::ranges::move(out_of_range_notes(ticker), std::back_inserter(closing.notes));
+  std::ranges::move(progress_notes(ticker), std::back_inserter(closing.notes));
   if (end.reason == StopReason::Signal) closing.signal = end.signal;
   const auto lines = lines_.lines();
   closing.logs.assign(lines.begin(), lines.end());

@@ -36,6 +36,11 @@ class RunPackets {
   void before_tick(Ticker& ticker) { delta_.before_tick(ticker); }
   // What has changed since the last packet that was kept. Valid until the next call.
   Packet tick(Ticker& ticker, const TickReport& report);
+  // The last packet has more than other progress: a node begins, completes, is held, goes on or is
+  // ticked again, or there is a limit, a round, a fault, an entry or a line of a leaf.
+  bool has_events() const { return has_events_; }
+  // A node has begun in it.
+  bool has_begun() const { return delta_.has_begun(); }
   // The last packet was accepted.
   void keep();
   // The next packet has the whole state, as if nothing had been kept, and says so.
@@ -58,6 +63,7 @@ class RunPackets {
   LeafLines lines_;
   std::string line_end_;  // of the tick, for its room
   bool is_full_ = false;
+  bool has_events_ = false;
 };
 
 }  // namespace lockstep

@@ -1,5 +1,6 @@
 #include "measure/stall.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "support/scripted_run.h"
@@ -43,6 +44,17 @@ TEST_CASE("a child that advances is no standstill") {
 
 TEST_CASE("nobody stands in the way when nobody is held") {
   CHECK(watch("ParallelRelative[delta=1](a b)", "a=R b+.01", 40, 0.35) == "");
+}
+
+TEST_CASE("a standstill that becomes a circle is reported again") {
+  // w has A first; then x owns it, held for y, which waits for A.
+  const std::string reports = watch(
+      "Parallel(UseResources[pool=p resources=A keep=true](w) ParallelAbsolute[barriers=.5]("
+      "UseResources[pool=p resources=A keep=true](x) UseResources[pool=p resources=A keep=true](y) "
+      "z))"
+      " resources[name=p]",
+      "w=RRRRRRRRRRRRRRRRRRRRS x+.1 y+.1 z+.1", 80, 0.4);
+  CHECK(std::ranges::count(reports, ';') == 2);
 }
 
 TEST_CASE("a standstill that goes on after progress is a new one") {

@@ -331,10 +331,14 @@ TEST_CASE("info measures a recording as the run was measured") {
         "Test from trees/a.xml, recorded by lockstep 0.1.0\n"
         "  3 nodes, 10 Hz, virtual clock, seed 18446744073709551615, law 2\n"
         "  argument barriers = 0.5;1\n"
+        "  the tree after tick 3:\n"
+        "    ParallelAbsolute (ParallelAbsolute barriers=0.5;1): success\n"
+        "      a (Scripted): success\n"
+        "      b (Scripted): success\n"
         "  success (completed) after 4 ticks, 0.300 s; 0 overruns, 0 deadlines skipped\n"
         "  Test/ParallelAbsolute (ParallelAbsolute, 4 ticks)\n"
-        "    progress distance 0.5, mean 0.125 a tick; largest spread 0.25 (bound 1), "
-        "longest step 0.5\n"
+        "    progress distance 0.5, mean 0.125 a tick\n"
+        "    largest spread 0.25 (bound 1), longest step 0.5\n"
         "    a  did not wait\n"
         "    b  waited 1 time, 0.100 s in 1 tick\n");
 }
@@ -343,7 +347,7 @@ TEST_CASE("info says that a recording is cut") {
   std::istringstream in(std::string(kRecording).substr(0, std::string(kRecording).find("{\"end")));
   RecordingReader reader(in, "run.jsonl");
   const std::string info = info_text(reader);
-  CHECK(info.find("  4 ticks, 0.300 s; the recording is cut: it ends after line 5 without a "
+  CHECK(info.find("  4 ticks, 0.400 s; the recording is cut: it ends after line 5 without a "
                   "closing line\n") != std::string::npos);
 }
 

@@ -52,7 +52,8 @@ const lockstep_leaf_type kLeaf = {sizeof(lockstep_leaf_type),
                                   nullptr,
                                   0,
                                   0,
-                                  0};
+                                  0,
+                                  nullptr};
 const lockstep_leaf_type* const kLeaves[] = {&kLeaf};
 const lockstep_plugin kPlugin = {LOCKSTEP_ABI_MAJOR,
                                  LOCKSTEP_ABI_MINOR,

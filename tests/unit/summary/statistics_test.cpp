@@ -72,8 +72,8 @@ TEST_CASE("a progress that rises while it is held takes the bound away") {
   const SynchronizedSummary& node = summary.synchronized_nodes.at(0);
   CHECK_FALSE(node.spread_bound);
   CHECK(node.largest_spread > .1 + node.step_length);
-  REQUIRE(summary.notes.size() == 1);
-  CHECK(summary.notes[0] ==
+  REQUIRE(summary.notes.size() == 2);  // the leaf is noted too
+  CHECK(summary.notes[1] ==
         "the progress of 'Test/ParallelRelative/b' rose while it was held, first at 0.200 s: the "
         "spread has no bound then");
 }
@@ -122,8 +122,8 @@ TEST_CASE("the summary as text") {
         "  period     p50 100.000 ms, p99 100.000 ms, max 100.000 ms\n"
         "  overruns   2 (deadlines skipped: 3)\n"
         "  Test/ParallelAbsolute (ParallelAbsolute, 10 ticks)\n"
-        "    progress distance 2.1, mean 0.21 a tick; largest spread 0.4 (bound 0.8), "
-        "longest step 0.3\n"
+        "    progress distance 2.1, mean 0.21 a tick\n"
+        "    largest spread 0.4 (bound 0.8), longest step 0.3\n"
         "    a  did not wait\n"
         "    b  waited 1 time, 0.300 s in 3 ticks\n"
         "note: the recording is cut\n");
@@ -157,6 +157,17 @@ TEST_CASE("leaves whose progress was out of range are noted, a few by name") {
       summary.notes[0].ends_with("reported the progress -2: progress is a share from 0 to 1, "
                                  "so it counts as 0"));
   CHECK(summary.notes[5] == "6 leaves in all reported such a progress");
+}
+
+TEST_CASE("leaves that went on while they were held are noted and counted") {
+  WatchedRun run("ParallelAbsolute[barriers=.5](a b)", "a=R.1RRRRRS b=R~0,.6,.7,.8,.9");
+  const Summary summary = summary_of(run);
+  CHECK(summary.went_on == 1);
+  REQUIRE(!summary.notes.empty());
+  CHECK(summary.notes[0] ==
+        "the leaf 'Test/ParallelAbsolute/b' went on while it was held: its progress rose from 0.6 "
+        "to 0.8");
+  CHECK(to_json(summary).find(R"("went_on_while_held":1,)") != std::string::npos);
 }
 
 TEST_CASE("the worst tick is told with its leaf, on a real clock only") {
@@ -261,7 +272,8 @@ TEST_CASE("the summary as JSON") {
   CHECK(
       to_json(summary_of(run)) ==
       R"({"result":"success","reason":"completed","why_failed":[],"ticks":4,"time_s":0.3,"period":null,)"
-      R"("overruns":0,"skipped":0,"worst_tick":null,"faults":0,"tick_budget_s":null,)"
+      R"("overruns":0,"skipped":0,"worst_tick":null,"faults":0,"went_on_while_held":0,)"
+      R"("tick_budget_s":null,)"
       R"("over_budget":[],"synchronized_nodes":[{"path":"Test/ParallelRelative",)"
       R"("kind":"ParallelRelative","samples":4,"progress_distance":1.0,)"
       R"("progress_distance_mean":0.25,"largest_spread":0.5,"spread_bound":1.0,)"

@@ -1,0 +1,319 @@
+#include "cli/plugin_check/leaf_examiner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "core/parameter_value.h"
+#include "core/random.h"
+#include "core/wording.h"
+#include "loading/load.h"
+#include "loading/plugins.h"
+#include "plugin/leaf_watch.h"
+#include "runtime/progress_text.h"
+#include "runtime/run.h"
+
+namespace lockstep {
+namespace {
+
+constexpr int kTicks = 20;
+constexpr std::uint32_t kMostChildren = 2;
+constexpr std::size_t kLong = 64 * 1024;
+
+// What is done to a run, one after the other.
+enum class Do : std::uint8_t { Tick, Pause, Halt, Restart };
+
+struct Scenario {
+  const char* name;
+  std::vector<Do> steps;
+};
+
+const std::vector<Scenario>& scenarios() {
+  using enum Do;
+  static const std::vector<Scenario> kAll{
+      {"is halted after its first tick, and begins again", {Tick, Halt, Tick}},
+      {"is halted before it began", {Halt, Tick}},
+      {"is halted while it is held", {Tick, Pause, Halt, Tick}},
+      {"goes on after it was held", {Tick, Pause, Tick, Pause, Tick, Halt}},
+      {"begins a run again while it runs", {Tick, Restart, Tick, Tick}},
+      {"is destroyed while it is held", {Tick, Pause}},
+  };
+  return kAll;
+}
+
+// Values at the edges of a type; those that the port refuses are left out.
+std::vector<Value> edges(const Parameter& port) {
+  using Numbers = std::vector<double>;
+  using Wholes = std::vector<std::int64_t>;
+  using Texts = std::vector<std::string>;
+  constexpr auto kMost = std::numeric_limits<std::int64_t>::max();
+  constexpr auto kLeast = std::numeric_limits<std::int64_t>::min();
+  std::vector<Value> all;
+  if (port.type == ValueType::Bool) all = {true, false};
+  if (port.type == ValueType::Int) {
+    for (const std::int64_t it :
+         {std::int64_t{0}, std::int64_t{1}, std::int64_t{-1}, kMost, kLeast})
+      all.emplace_back(it);
+  }
+  if (port.type == ValueType::Double) {
+    for (const double it :
+         {0., 1., -1., .5, -0., 1e-300, 1e300, -1e300, port.range.min, port.range.max}) {
+      if (std::isfinite(it)) all.emplace_back(it);
+    }
+  }
+  if (port.type == ValueType::String) {
+    all = {std::string(),
+           std::string("a"),
+           std::string(kLong, 'x'),
+           std::string("é\n\t\"<&"),
+           std::string("%s%n;../..\0x", 12),
+           std::string("-1")};
+    for (const std::string_view word : port.choices) all.emplace_back(std::string(word));
+  }
+  if (port.type == ValueType::DoubleList) {
+    all = {Numbers{}, Numbers{0}, Numbers{1, -1, 1e300}, Numbers(kLong, .5)};
+  }
+  if (port.type == ValueType::IntList) all = {Wholes{}, Wholes{kLeast, kMost}, Wholes(kLong, 1)};
+  if (port.type == ValueType::BoolList) {
+    all = {std::vector<Flag>{}, std::vector<Flag>(kLong, Flag{true})};
+  }
+  if (port.type == ValueType::StringList) all = {Texts{}, Texts{""}, Texts(1000, "a;b\\")};
+  std::erase_if(all, [&](const Value& it) { return refuse_value(port, it).has_value(); });
+  return all;
+}
+
+// A value that makes sense, if one is known.
+Value sample(const Parameter& port) {
+  if (port.default_text) return parse_value(port.type, *port.default_text).value_or(Value());
+  if (!port.choices.empty()) return std::string(port.choices.front());
+  for (const char* text : {"1", "0.5", "0", "-1", "100", "true"}) {
+    const auto value = parse_value(port.type, text);
+    if (value && !refuse_value(port, *value)) return *value;
+  }
+  return {};
+}
+
+// Of the entry of a port, by its number.
+std::string key_of(std::size_t port) {
+  return fmt::format("port_{}", port);
+}
+
+// How a fault begins that is against the contract; others are errors that the leaf has told.
+bool is_breach(const std::string& fault) {
+  constexpr std::array<std::string_view, 5> kBreaches{
+      "returned status ", "is a condition and returned running", "reported a progress that is not ",
+      "threw an exception", "could not be created: its create returned NULL"};
+  return std::ranges::any_of(kBreaches, [&](auto it) { return fault.starts_with(it); });
+}
+
+class Examiner {
+ public:
+  Examiner(const NodeType& type, std::shared_ptr<PluginSet> plugins, const LeafReport& report)
+      : type_(type), plugins_(std::move(plugins)), report_(report) {
+    for (const Parameter& port : type.parameters) samples_.push_back(sample(port));
+  }
+
+  void examine() {
+    if (make_catalog(*plugins_).find(type_.id) != &type_) {
+      note(true, "is not examined: lockstep's language has a node of that name");
+      return;
+    }
+    std::vector<std::string> children{""};
+    if (type_.arity.max > 0) {
+      children = {"<AlwaysSuccess/>", "<AlwaysFailure/>", "<AlwaysRunning/>"};
+    }
+    for (const std::string& child : children) {
+      auto tree = tree_of(child, 1);
+      if (!tree) return;
+      children_ = child.empty() ? "" : fmt::format(" around {}", child);
+      if (!ticks(*tree)) return;
+      for (const Scenario& it : scenarios()) {
+        if (!passes(*tree, it.name, it.steps)) return;
+      }
+      if (!survives_values(*tree)) return;
+      tree = tree_of(child, 2);
+      if (!tree || !passes(*tree, "runs beside another one", std::vector<Do>(kTicks, Do::Tick))) {
+        return;
+      }
+    }
+  }
+
+ private:
+  // What came of it.
+  struct Finding {
+    std::string fault;   // "" for none
+    std::string breach;  // of the contract
+    Status status = Status::Idle;
+    double progress = 0;
+    std::size_t ticks = 0;
+  };
+
+  std::string text_of_leaf(const std::string& child, std::size_t number) const {
+    std::string text = fmt::format("<{} name=\"{}\"", type_.id, number);
+    for (std::size_t i = 0; i < type_.parameters.size(); ++i) {
+      const Parameter& port = type_.parameters[i];
+      const bool is_constant = port.type == ValueType::Number;  // no entry has this type
+      if (is_constant && !port.default_text) text += fmt::format(" {}=\"1\"", port.name);
+      if (!is_constant) text += fmt::format(" {}=\"{{{}}}\"", port.name, key_of(i));
+    }
+    if (child.empty()) return text + "/>";
+    const auto count = std::clamp(kMostChildren, type_.arity.min, type_.arity.max);
+    text += '>';
+    for (std::uint32_t i = 0; i < count; ++i) text += child;
+    return text + fmt::format("</{}>", type_.id);
+  }
+
+  std::optional<Runnable> tree_of(const std::string& child, std::size_t count) {
+    std::string text = "<root lockstep=\"1\"><BehaviorTree ID=\"Check\"><Parallel>";
+    for (std::size_t i = 1; i <= count; ++i) text += text_of_leaf(child, i);
+    text += "</Parallel></BehaviorTree></root>";
+    Diagnostics diagnostics;
+    auto loaded = load_text("check.xml", std::move(text), {}, diagnostics, plugins_);
+    if (loaded) return make_runnable(std::move(*loaded));
+    const auto error = std::ranges::find(diagnostics.all(), Severity::Error, &Diagnostic::severity);
+    note(false, "cannot be in a tree: " + error->message);
+    return std::nullopt;
+  }
+
+  void fill(Run& run, const Tree& tree, std::span<const Value> values) const {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const auto slot = std::ranges::find(tree.slots, key_of(i), &Slot::name);
+      if (slot == tree.slots.end()) continue;
+      Entry& entry = run.blackboard().entries[static_cast<std::size_t>(slot - tree.slots.begin())];
+      if (type_.parameters[i].direction != Direction::Output) entry.value = values[i];
+    }
+  }
+
+  Finding play(const Runnable& it, std::span<const Do> steps, std::span<const Value> values) const {
+    Finding found;
+    LeafWatch watch(
+        {.budget = std::nullopt, .on_float_mode = [&](NodeIndex, PluginFunction function) {
+           found.breach = fmt::format("changes the rounding mode in {}", name_of(function));
+         }});
+    Run run(it.tree, {.seed = 1, .exactly_once = true, .virtual_time = true, .watch = &watch});
+    fill(run, it.tree, values);
+    Nanoseconds now{0};
+    for (const Do step : steps) {
+      if (run.fault() != nullptr) break;
+      const bool is_running = run.ticker().status(0) == Status::Running;
+      if (step == Do::Pause && is_running) run.ticker().pause(0);
+      if (step == Do::Halt) run.halt();
+      if (step == Do::Restart) run.restart(2);
+      if (step == Do::Restart) fill(run, it.tree, values);
+      if (step != Do::Tick) continue;
+      watch.begin_tick(found.ticks++);
+      found.status = run.tick(now);
+      now += run.period();
+      const bool goes_on = found.status == Status::Running && run.fault() == nullptr;
+      if (goes_on) found.progress = run.ticker().progress(1);
+    }
+    if (run.fault() == nullptr) run.halt();
+    if (run.fault() != nullptr) found.fault = run.fault()->message;
+    if (is_breach(found.fault)) found.breach = found.fault;
+    const auto out = run.ticker().out_of_range();
+    if (!out.empty()) found.breach = out_of_range_text(out.front().reported);
+    return found;
+  }
+
+  bool note(bool is_good, const std::string& text) const {
+    report_.note(is_good, fmt::format("'{}'{} {}", type_.id, children_, text));
+    return is_good;
+  }
+
+  bool ticks(const Runnable& tree) const {
+    report_.about_to("is ticked");
+    Finding found;
+    std::size_t ticks = 1;
+    for (; ticks <= kTicks; ++ticks) {
+      found = play(tree, std::vector<Do>(ticks, Do::Tick), samples_);
+      if (found.status != Status::Running || !found.fault.empty()) break;
+    }
+    if (!found.breach.empty()) return note(false, found.breach);
+    if (!found.fault.empty()) {
+      return note(true, fmt::format("answers tick {} with an error: {}", found.ticks, found.fault));
+    }
+    const bool is_running = found.status == Status::Running;
+    return note(true, fmt::format("answers {}; it is {}{}", counted(found.ticks, "tick"),
+                                  is_running ? "running, progress " : to_string(found.status),
+                                  is_running ? fmt::format("{:g}", found.progress) : ""));
+  }
+
+  bool passes(const Runnable& tree, const char* what, std::span<const Do> steps) const {
+    report_.about_to(what);
+    const Finding found = play(tree, steps, samples_);
+    if (!found.breach.empty()) return note(false, fmt::format("{}: {}", what, found.breach));
+    return note(true, found.fault.empty() ? what : fmt::format("{}: {}", what, found.fault));
+  }
+
+  // Each edge of each port, then many at once, and no value at all.
+  std::vector<std::vector<Value>> values_to_try() const {
+    constexpr int kMixes = 50;
+    std::vector<std::vector<Value>> all{std::vector<Value>(samples_.size())};
+    std::vector<std::vector<Value>> of_port;
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      of_port.push_back(edges(type_.parameters[i]));
+      for (const Value& edge : of_port.back()) {
+        all.push_back(samples_);
+        all.back()[i] = edge;
+      }
+    }
+    RandomStream random(1, 0);
+    for (int mix = 0; mix < kMixes && samples_.size() > 1; ++mix) {
+      all.push_back(samples_);
+      for (std::size_t i = 0; i < samples_.size(); ++i) {
+        if (!of_port[i].empty()) all.back()[i] = of_port[i][random.next() % of_port[i].size()];
+      }
+    }
+    return all;
+  }
+
+  bool survives_values(const Runnable& tree) const {
+    constexpr std::array kSteps{Do::Tick, Do::Tick, Do::Pause, Do::Tick, Do::Halt};
+    if (samples_.empty()) return true;
+    std::size_t errors = 0;
+    const auto all = values_to_try();
+    for (const auto& values : all) {
+      report_.about_to(with(values));
+      const Finding found = play(tree, kSteps, values);
+      if (!found.breach.empty()) {
+        return note(false, fmt::format("{} {}", with(values), found.breach));
+      }
+      errors += !found.fault.empty();
+    }
+    return note(true,
+                fmt::format("takes {} of its ports{}", counted(all.size(), "set") + " of values",
+                            errors == 0 ? "" : fmt::format(", {} with an error", errors)));
+  }
+
+  std::string with(std::span<const Value> values) const {
+    constexpr std::size_t kMost = 40;
+    std::string text = "with";
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const bool has_value = !std::holds_alternative<NoValue>(values[i]);
+      std::string value = has_value ? to_text(values[i]) : "no value";
+      if (value.size() > kMost) value = value.substr(0, kMost) + "…";
+      text += fmt::format(" {}={}", type_.parameters[i].name, value);
+    }
+    return text;
+  }
+
+  const NodeType& type_;
+  const std::shared_ptr<PluginSet> plugins_;
+  const LeafReport& report_;
+  std::vector<Value> samples_;
+  std::string children_;
+};
+
+}  // namespace
+
+void examine_leaf(const NodeType& type, const std::shared_ptr<PluginSet>& plugins,
+                  const LeafReport& report) {
+  Examiner(type, plugins, report).examine();
+}
+
+}  // namespace lockstep

@@ -1,0 +1,16 @@
+// Leaves that are in step with others, but say not how far they are.
+#pragma once
+
+#include <string>
+
+#include "core/diagnostics.h"
+#include "engine/tree.h"
+
+namespace lockstep {
+
+// Notes each synchronized node whose leaves report no progress, and which these are. `lockstep
+// check` has a note at the place of each.
+void note_leaves_without_progress(const Tree& tree, const std::string& file,
+                                  Diagnostics& diagnostics);
+
+}  // namespace lockstep

@@ -1,0 +1,99 @@
+// `lockstep plugin check` of shared objects.
+#include <catch2/catch.hpp>
+
+#include "cli/program.h"
+#include "support/paths.h"
+
+using namespace lockstep::test;
+
+namespace {
+
+Outcome check_plugin(const std::string& file, std::vector<std::string> more = {}) {
+  std::vector<std::string> arguments{"plugin", "check", file};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return lockstep::test::lockstep(arguments);
+}
+
+std::string abi_plugin(const std::string& name) {
+  return LOCKSTEP_BINARY_DIR "/tests/abi/plugins/" + name + ".so";
+}
+
+}  // namespace
+
+TEST_CASE("plugin check: the plugins that ship keep the contract, control nodes included") {
+  for (const std::string name : {"motion", "nav", "fetch", "r1sim"}) {
+    const Outcome outcome = check_plugin(LOCKSTEP_BINARY_DIR "/plugins/" + name + ".so");
+    INFO(outcome.out << outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(contains(outcome.out, "/" + name + ".so: ok\n"));
+    CHECK(!contains(outcome.out, "wrong"));
+  }
+}
+
+TEST_CASE("plugin check: a plugin is found by its name, and asked all that a run may ask") {
+  const Outcome outcome = check_plugin("motion", {"--plugin-path", LOCKSTEP_BINARY_DIR "/plugins"});
+  CHECK(outcome.code == 0);
+  for (const std::string line :
+       {"ok    has 'Advance', 'Profile'",
+        "ok    'Advance' answers 20 ticks; it is running, progress ",
+        "ok    'Advance' is halted while it is held\n", "ok    'Advance' runs beside another one\n",
+        " sets of values of its ports", "ok    is deinitialized\n"}) {
+    INFO(line << "\n" << outcome.out);
+    CHECK(contains(outcome.out, line));
+  }
+}
+
+TEST_CASE("plugin check: what breaks the contract is named, with its leaf") {
+  const std::pair<const char*, const char*> cases[] = {
+      {"status_out_of_range", "wrong 'Probe' returned status "},
+      {"nan_progress", "wrong 'Probe' reported a progress that is not a number\n"},
+      {"condition_running", "wrong 'Probe' is a condition and returned running\n"},
+      {"throws_exception", "wrong 'Probe' threw an exception"},
+      {"wrong_abi", "ABI"},
+      {"init_refuses", "wrong "}};
+  for (const auto& [name, message] : cases) {
+    const Outcome outcome = check_plugin(abi_plugin(name));
+    INFO(outcome.out << outcome.err);
+    CHECK(outcome.code == 4);
+    CHECK(contains(outcome.out, message));
+    CHECK(contains(outcome.out, ".so: does not keep the contract (docs/plugins.md)\n"));
+  }
+  const Outcome good = check_plugin(abi_plugin("error_in_tick"));  // an error is an answer
+  CHECK(good.code == 0);
+  CHECK(contains(good.out, "ok    'Probe' answers tick 1 with an error: "));
+}
+
+TEST_CASE("plugin check: a leaf that ends its process is named, and the others are examined") {
+  const Outcome outcome = check_plugin(LOCKSTEP_BINARY_DIR "/tests/cli/edgy.so");
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.code == 4);
+  CHECK(contains(outcome.out, "ok    'Divides' goes on after it was held\n"));
+  CHECK(
+      contains(outcome.out,
+               "wrong 'Divides' with parts=0: its process ended with exit code 6; the report is on "
+               "stderr\n"));
+  CHECK(contains(outcome.err, "(Divides of plugin 'edgy') crashed in tick 0: SIGABRT"));
+  CHECK(contains(outcome.out,
+                 "wrong 'Ends' is halted while it is held: its process ended with exit code 6"));
+  CHECK(contains(outcome.err, "(Ends of plugin 'edgy') called exit()"));
+  CHECK(contains(outcome.out, "wrong 'Percent' reported the progress 37"));
+  CHECK(contains(outcome.out, "ok    'Sound' runs beside another one\n"));
+  CHECK(!contains(outcome.out, "wrong 'Sound'"));
+  const Outcome hung =
+      check_plugin(LOCKSTEP_BINARY_DIR "/tests/cli/stuck.so", {"--hang-limit", "0.2"});
+  INFO(hung.out << hung.err);
+  CHECK(hung.code == 4);
+  CHECK(contains(hung.out, ": its process ended with exit code 6"));
+}
+
+TEST_CASE("plugin check: what is no plugin, and an option for programs") {
+  CHECK(contains(check_plugin("/nowhere/x.so").err, "'/nowhere/x.so' is no plugin"));
+  CHECK(check_plugin("/nowhere/x.so").code == 2);
+  const TemporaryDirectory directory;
+  const Outcome text = check_plugin(directory.file("x.so", "no ELF"));
+  CHECK(text.code == 4);
+  CHECK(contains(text.out, "wrong "));
+  const Outcome save = check_plugin(LOCKSTEP_BINARY_DIR "/plugins/motion.so", {"--save"});
+  CHECK(save.code == 2);
+  CHECK(contains(save.err, "--save is for programs"));
+}
