@@ -9,9 +9,9 @@
 #include <unordered_map>
 
 #include "core/pre_order.h"
+#include "engine/node_context.h"
 #include "engine/nodes/kinds.h"
 #include "engine/resources.h"
-#include "engine/ticker.h"
 
 namespace lockstep {
 namespace {
@@ -49,7 +49,9 @@ const NodeKind* bound_kind_of(const NodeKind* kind) {
       for (const NodeKind* it : built_in_kinds(language)) {
         NodeKind bound = *it;
         if (!it->chooses_to_read) {
-          bound.tick = [](Ticker& ticker, NodeIndex self) { return ticker.tick_bound(self); };
+          bound.tick = [](NodeContext& context, NodeIndex self) {
+            return context.tick_bound(self);
+          };
         }
         bound.reads_entries = true;
         map.emplace(it, bound);
@@ -66,7 +68,7 @@ const NodeKind* hooked_kind_of(const NodeKind* kind) {
     std::unordered_map<const NodeKind*, NodeKind> map;
     const auto add = [&map](const NodeKind* it) {
       NodeKind& hooked = map.emplace(it, *it).first->second;
-      hooked.tick = [](Ticker& ticker, NodeIndex self) { return ticker.tick_hooked(self); };
+      hooked.tick = [](NodeContext& context, NodeIndex self) { return context.tick_hooked(self); };
     };
     for (const NodeKind* leaf : {&kPluginAction, &kPluginCondition, &kPluginControl, &kMockAction,
                                  &kMockCondition, &kMockControl, &kMockDecorator}) {

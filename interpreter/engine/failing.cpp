@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "engine/synchronized.h"
+#include "engine/ticker.h"
 
 namespace lockstep {
 
@@ -20,7 +21,7 @@ bool Ticker::take_failed(NodeIndex node) {
 }
 
 // Of a tick in which something is wrong. Nothing: the node is ticked as always.
-[[gnu::cold, gnu::noinline]] std::optional<Status> Ticker::tick_interrupted(NodeIndex node) {
+[[gnu::cold, gnu::noinline]] std::optional<Status> NodeContext::tick_interrupted(NodeIndex node) {
   if (state_.faulted) return Status::Running;
   const auto it = std::ranges::find(state_.failing, node);
   if (it == state_.failing.end() || status(node) != Status::Running) return std::nullopt;
@@ -29,7 +30,7 @@ bool Ticker::take_failed(NodeIndex node) {
 }
 
 // What ends was ticked, as a synchronized node is.
-void Ticker::reach_groups_in(NodeIndex node) {
+void NodeContext::reach_groups_in(NodeIndex node) {
   for (const Group& group : tree_.groups) {
     const bool is_inside = node <= group.ancestor && group.ancestor < end_of(node);
     if (is_inside && status(group.ancestor) == Status::Running) reach(group.node);
@@ -38,7 +39,7 @@ void Ticker::reach_groups_in(NodeIndex node) {
 
 // A node of a plugin halts its children in its own way, so it fails as after a fault. The children
 // of a built-in node are halted as when it completes by itself.
-Status Ticker::fail(NodeIndex node) {
+Status NodeContext::fail(NodeIndex node) {
   reach_groups_in(node);
   const bool is_hooked = !tree_.hooks.empty() && tree_.hooks[node] != HookedNode::kNoScript;
   const HookedNode* const hooked = is_hooked ? &tree_.hooked[tree_.hooks[node]] : nullptr;
@@ -59,19 +60,19 @@ Status Ticker::fail(NodeIndex node) {
   return status;
 }
 
-void Ticker::note_failed_leaf(NodeIndex node) {
+void NodeContext::note_failed_leaf(NodeIndex node) {
   if (std::exchange(leaf(node).failed, true)) return;
   std::erase_if(state_.failed_leaves, [this](NodeIndex it) { return !leaf(it).failed; });
   state_.failed_leaves.push_back(node);
 }
 
-[[gnu::cold, gnu::noinline]] bool Ticker::has_failed_leaf(NodeIndex child) {
+[[gnu::cold, gnu::noinline]] bool NodeContext::has_failed_leaf(NodeIndex child) {
   return std::ranges::any_of(state_.failed_leaves, [&](NodeIndex it) {
     return it >= child && it < end_of(child) && leaf(it).failed;
   });
 }
 
-[[gnu::cold, gnu::noinline]] bool Ticker::fails_itself(NodeIndex child) {
+[[gnu::cold, gnu::noinline]] bool NodeContext::fails_itself(NodeIndex child) {
   for (const NodeIndex it : state_.failed_leaves) {
     if (it < child || it >= end_of(child) || !leaf(it).failed) continue;
     if (it == child) return true;
@@ -81,7 +82,7 @@ void Ticker::note_failed_leaf(NodeIndex node) {
 }
 
 // It stays marked, so that its next tick is a Failure.
-void Ticker::halt_failed(NodeIndex node) {
+void NodeContext::halt_failed(NodeIndex node) {
   if (!leaf(node).started || status(node) != Status::Running) return;
   nodes_[node].kind->halt(*this, node);
   leaf(node).started = false;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/node_context.h"
 #include "engine/synchronized.h"
-#include "engine/ticker.h"
 
 namespace lockstep {
 namespace {
@@ -20,14 +20,14 @@ void HeldLeaves::add(NodeIndex node, LeafSlot& leaf) {
   if (const auto now = look_at_progress(leaf)) held_.push_back({node, 0, *now, *now});
 }
 
-void HeldLeaves::look(Ticker& ticker) {
-  std::erase_if(held_, [&](Held& held) { return is_done(ticker, held); });
+void HeldLeaves::look(NodeContext& context) {
+  std::erase_if(held_, [&](Held& held) { return is_done(context, held); });
 }
 
 // Nothing more is to be found.
-bool HeldLeaves::is_done(Ticker& ticker, Held& held) {
-  LeafSlot& leaf = ticker.leaf(held.node);
-  if (!ticker.held(held.node) || leaf.went_on || leaf.failed) return true;
+bool HeldLeaves::is_done(NodeContext& context, Held& held) {
+  LeafSlot& leaf = context.leaf(held.node);
+  if (!context.held(held.node) || leaf.went_on || leaf.failed) return true;
   const auto now = look_at_progress(leaf);
   if (!now) return true;
   if (*now <= held.most + kProgressEpsilon) return false;

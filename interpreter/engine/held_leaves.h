@@ -12,7 +12,7 @@
 
 namespace lockstep {
 
-class Ticker;
+class NodeContext;
 
 struct WentOn {
   NodeIndex node = 0;
@@ -27,7 +27,7 @@ class HeldLeaves {
   // From its pause on. Not of a leaf that was found already.
   void add(NodeIndex node, LeafSlot& leaf);
   // Before a tick.
-  void look(Ticker& ticker);
+  void look(NodeContext& context);
   // In this run, one of each leaf.
   std::span<const WentOn> went_on() const { return went_on_; }
   void reset();
@@ -38,7 +38,7 @@ class HeldLeaves {
     std::uint32_t rises;  // in how many ticks it has risen
     double from, most;
   };
-  bool is_done(Ticker& ticker, Held& held);
+  bool is_done(NodeContext& context, Held& held);
 
   std::vector<Held> held_;
   std::vector<WentOn> went_on_;

@@ -2,10 +2,10 @@
 #include <utility>
 
 #include "core/conversion.h"
-#include "engine/ticker.h"
+#include "engine/node_context.h"
 
 namespace lockstep {
-Status Ticker::tick_hooked(NodeIndex node) {
+Status NodeContext::tick_hooked(NodeIndex node) {
   const HookedNode& hooked = tree_.hooked[tree_.hooks[node]];
   const bool begins = first_tick(node);
   auto decided = begins && hooked.begins ? ask_first(node, hooked) : std::nullopt;
@@ -18,7 +18,7 @@ Status Ticker::tick_hooked(NodeIndex node) {
   return hooked.ends ? finish(node, hooked, status) : status;
 }
 
-inline Truth Ticker::ask(NodeIndex node, const HookedNode& hooked, Hook hook) {
+inline Truth NodeContext::ask(NodeIndex node, const HookedNode& hooked, Hook hook) {
   const Truth answer = scripts_.test(node, hooked.script(hook));
   if (answer == Truth::Error) [[unlikely]] {
     fail_script(node, attribute_of(hook, tree_.language), scripts_.error());
@@ -27,7 +27,7 @@ inline Truth Ticker::ask(NodeIndex node, const HookedNode& hooked, Hook hook) {
 }
 
 // The result without a tick, if a script gives it.
-std::optional<Status> Ticker::ask_first(NodeIndex node, const HookedNode& hooked) {
+std::optional<Status> NodeContext::ask_first(NodeIndex node, const HookedNode& hooked) {
   static constexpr std::pair<Hook, Status> kFirst[] = {{Hook::FailureIf, Status::Failure},
                                                        {Hook::SuccessIf, Status::Success},
                                                        {Hook::SkipIf, Status::Skipped}};
@@ -40,7 +40,7 @@ std::optional<Status> Ticker::ask_first(NodeIndex node, const HookedNode& hooked
   return std::nullopt;
 }
 
-std::optional<Status> Ticker::ask_while(NodeIndex node, const HookedNode& hooked) {
+std::optional<Status> NodeContext::ask_while(NodeIndex node, const HookedNode& hooked) {
   const bool runs = status(node) == Status::Running;
   const Truth goes_on = ask(node, hooked, Hook::While);
   if (goes_on == Truth::Yes) return std::nullopt;
@@ -52,7 +52,7 @@ std::optional<Status> Ticker::ask_while(NodeIndex node, const HookedNode& hooked
 }
 
 // The scripts after the last tick.
-Status Ticker::finish(NodeIndex node, const HookedNode& hooked, Status status) {
+Status NodeContext::finish(NodeIndex node, const HookedNode& hooked, Status status) {
   if (!is_complete(status) || state_.faulted) return status;
   if (tree_.labels[node].type->leaf != nullptr) leaf(node).started = false;  // nothing to halt
   const Hook first = status == Status::Success ? Hook::OnSuccess : Hook::OnFailure;
@@ -65,7 +65,7 @@ Status Ticker::finish(NodeIndex node, const HookedNode& hooked, Status status) {
   return status;
 }
 
-Status Ticker::tick_unreset(NodeIndex node) {
+Status NodeContext::tick_unreset(NodeIndex node) {
   if (state_.faulted) return Status::Running;
   const Node& it = tree_.nodes[node];
   const bool hooked = !tree_.hooks.empty() && tree_.hooks[node] != HookedNode::kNoScript;
@@ -86,7 +86,7 @@ Status Ticker::tick_unreset(NodeIndex node) {
   return result;
 }
 
-void Ticker::note_halt(NodeIndex node) {
+void NodeContext::note_halt(NodeIndex node) {
   const std::uint32_t hooks = tree_.hooks[node];
   if (hooks == HookedNode::kNoScript) return;
   if (tree_.hooked[hooks].script(Hook::OnHalted) != HookedNode::kNoScript) {
@@ -95,7 +95,7 @@ void Ticker::note_halt(NodeIndex node) {
 }
 
 // Of those noted since there were `from`, and whose subtree ends before the next node.
-void Ticker::run_halt_hooks(std::size_t from, NodeIndex next) {
+void NodeContext::run_halt_hooks(std::size_t from, NodeIndex next) {
   while (halting_.size() > from && tree_.nodes[halting_.back()].end <= next) {
     const NodeIndex node = halting_.back();
     halting_.pop_back();
@@ -104,22 +104,23 @@ void Ticker::run_halt_hooks(std::size_t from, NodeIndex next) {
   }
 }
 
-bool Ticker::run_script(NodeIndex node, std::uint32_t script, std::string_view attribute) {
+bool NodeContext::run_script(NodeIndex node, std::uint32_t script, std::string_view attribute) {
   if (script == HookedNode::kNoScript) return true;
   if (scripts_.evaluate(node, script)) return true;
   fail_script(node, attribute, scripts_.error());
   return false;
 }
 
-const Value* Ticker::result_of(NodeIndex node, std::uint32_t script, std::string_view attribute) {
+const Value* NodeContext::result_of(NodeIndex node, std::uint32_t script,
+                                    std::string_view attribute) {
   if (!run_script(node, script, attribute)) return nullptr;
   if (!std::holds_alternative<NoValue>(scripts_.value())) return &scripts_.value();
   fail_script(node, attribute, "it has no value");
   return nullptr;
 }
 
-std::optional<bool> Ticker::holds(NodeIndex node, std::uint32_t script,
-                                  std::string_view attribute) {
+std::optional<bool> NodeContext::holds(NodeIndex node, std::uint32_t script,
+                                       std::string_view attribute) {
   const Truth answer = scripts_.test(node, script);
   if (answer != Truth::Error) return answer == Truth::Yes;
   fail_script(node, attribute, scripts_.error());
@@ -127,7 +128,7 @@ std::optional<bool> Ticker::holds(NodeIndex node, std::uint32_t script,
 }
 
 // Under FaultPolicy::Fail the node fails, whatever it is; what runs in it is halted.
-void Ticker::fail_script(NodeIndex node, std::string_view attribute, std::string_view wrong) {
+void NodeContext::fail_script(NodeIndex node, std::string_view attribute, std::string_view wrong) {
   std::string message = "its ";
   set_fault(node, message.append(attribute).append(": ").append(wrong));
   if (state_.faulted) return;
@@ -135,7 +136,7 @@ void Ticker::fail_script(NodeIndex node, std::string_view attribute, std::string
   if (tree_.labels[node].type->leaf != nullptr) leaf(node).failed = false;
 }
 
-const Value* Ticker::port_value(NodeIndex node, unsigned index) const {
+const Value* NodeContext::port_value(NodeIndex node, unsigned index) const {
   const PortBinding& it = port(node, index);
   if (it.slot != PortBinding::kUnbound) {
     const Entry& entry = board_.entries[it.slot];
@@ -144,7 +145,7 @@ const Value* Ticker::port_value(NodeIndex node, unsigned index) const {
   return it.constant != PortBinding::kUnbound ? &tree_.constants[it.constant] : nullptr;
 }
 
-std::optional<Entry*> Ticker::named_entry(NodeIndex node, unsigned index) {
+std::optional<Entry*> NodeContext::named_entry(NodeIndex node, unsigned index) {
   const PortBinding& it = port(node, index);
   if (it.slot == PortBinding::kUnbound) return nullptr;
   Entry& entry = board_.entries[it.slot];

@@ -11,7 +11,7 @@
 
 namespace lockstep {
 
-class Ticker;
+class NodeContext;
 using NodeIndex = std::uint32_t;
 
 // The current round of a node that repeats its child, from 1, and the number of rounds; 0: endless.
@@ -32,34 +32,34 @@ struct NodeKind {
   NodeType type;
   // One tick. Returns Running, Success, Failure or Skipped. Does not allocate; does not throw
   // itself. Of a group: before the root is ticked, in every tick; it is Idle when it begins again.
-  Status (*tick)(Ticker& ticker, NodeIndex self);
+  Status (*tick)(NodeContext& context, NodeIndex self);
   // Called only while the node is Running; idle and failed nodes have 0, successful ones 1. In
   // [0,1].
-  double (*progress)(Ticker& ticker, NodeIndex self);
+  double (*progress)(NodeContext& context, NodeIndex self);
   std::uint32_t state_size = 0;       // bytes in RunState
   std::uint32_t state_per_child = 0;  // and this many more for each child
   // May be null. Called for a running node in a subtree that is halted or held. A node that was
   // held is Activity::Paused in its next tick.
-  void (*halt)(Ticker& ticker, NodeIndex self) = nullptr;
-  void (*pause)(Ticker& ticker, NodeIndex self) = nullptr;
+  void (*halt)(NodeContext& context, NodeIndex self) = nullptr;
+  void (*pause)(NodeContext& context, NodeIndex self) = nullptr;
   // May be null. What the node keeps while it is skipped is over: its parent begins again, or was
   // halted.
-  void (*forget)(Ticker& ticker, NodeIndex self) = nullptr;
+  void (*forget)(NodeContext& context, NodeIndex self) = nullptr;
   // Between two ticks: brings what the node keeps to the one form that stands for all from which it
   // goes on in the same way. Called also where it does not run. Each kind that keeps something has
   // one: see engine/nodes/fold.h.
-  void (*fold)(Ticker& ticker, NodeIndex self) = nullptr;
+  void (*fold)(NodeContext& context, NodeIndex self) = nullptr;
   // May be null. A script has decided the result of an activation before its first tick.
-  void (*decided)(Ticker& ticker, NodeIndex self, Status result) = nullptr;
+  void (*decided)(NodeContext& context, NodeIndex self, Status result) = nullptr;
   // May be null: then an action that takes time keeps its result, all else begins. Called before
-  // the tick (Ticker::tick_unreset).
-  Unreset (*unreset)(Ticker& ticker, NodeIndex self) = nullptr;
+  // the tick (NodeContext::tick_unreset).
+  Unreset (*unreset)(NodeContext& context, NodeIndex self) = nullptr;
   bool reads_entries = false;  // before each tick: its parameters are Tree::bound
   bool chooses_to_read =
-      false;                   // not before each tick: it calls Ticker::reread where it needs them
+      false;  // not before each tick: it calls NodeContext::reread where it needs them
   bool counts_writes = false;  // its first port names an entry whose Entry::writes it looks at
   // For views. Null if the child runs once. Called only while the node is Running.
-  Round (*round)(Ticker& ticker, NodeIndex self) = nullptr;
+  Round (*round)(NodeContext& context, NodeIndex self) = nullptr;
 };
 
 // Of a kind that does not say it.

@@ -8,22 +8,22 @@ namespace lockstep::resources {
 namespace {
 
 // Whether the barriers and the outer pools of a member let ticks through.
-bool is_open(Ticker& ticker, NodeIndex gate) {
-  const bool is_barrier = !is_pool(ticker.tree(), ticker.membership(gate).group);
-  if (is_barrier) return !is_held_at_barrier(ticker, gate);
-  const auto& outer = ticker.state<ResourceUse>(gate);
-  return has_asked(ticker, outer) && outer.grant == Grant::Owned;
+bool is_open(NodeContext& context, NodeIndex gate) {
+  const bool is_barrier = !is_pool(context.tree(), context.membership(gate).group);
+  if (is_barrier) return !is_held_at_barrier(context, gate);
+  const auto& outer = context.state<ResourceUse>(gate);
+  return has_asked(context, outer) && outer.grant == Grant::Owned;
 }
 
-void answer(Ticker& ticker, const Member& member, ResourceSet wanted, Grant grant) {
-  auto& use = ticker.state<ResourceUse>(member.node);
-  use.asked = ticker.tick_number();
+void answer(NodeContext& context, const Member& member, ResourceSet wanted, Grant grant) {
+  auto& use = context.state<ResourceUse>(member.node);
+  use.asked = context.tick_number();
   use.grant = grant;
   use.owned = grant == Grant::Owned ? wanted : 0;
   use.limit = grant == Grant::Closed ? 0.0 : static_cast<double>(wanted);
   if (grant == Grant::Denied) use.limit = -use.limit;
   if (grant == Grant::Owned) use.priority = 0;
-  ticker.state<ResourcePool>(member.group).owned |= use.owned;
+  context.state<ResourcePool>(member.group).owned |= use.owned;
 }
 
 }  // namespace
@@ -48,29 +48,29 @@ std::optional<RuleBreak> check_list(const ParameterValues& given, unsigned param
   return std::nullopt;
 }
 
-void ask(Ticker& ticker, NodeIndex node) {
-  const Member& member = ticker.membership(node);
-  const auto wanted = static_cast<ResourceSet>(ticker.parameter(node, kResources).integer);
-  const auto gates = ticker.tree().gates_of(member);
-  if (!std::ranges::all_of(gates, [&](NodeIndex gate) { return is_open(ticker, gate); })) {
-    return answer(ticker, member, wanted, Grant::Closed);
+void ask(NodeContext& context, NodeIndex node) {
+  const Member& member = context.membership(node);
+  const auto wanted = static_cast<ResourceSet>(context.parameter(node, kResources).integer);
+  const auto gates = context.tree().gates_of(member);
+  if (!std::ranges::all_of(gates, [&](NodeIndex gate) { return is_open(context, gate); })) {
+    return answer(context, member, wanted, Grant::Closed);
   }
-  const ResourceSet owned = ticker.state<ResourcePool>(member.group).owned;
-  answer(ticker, member, wanted, (owned & wanted) == 0 ? Grant::Owned : Grant::Denied);
+  const ResourceSet owned = context.state<ResourcePool>(member.group).owned;
+  answer(context, member, wanted, (owned & wanted) == 0 ? Grant::Owned : Grant::Denied);
 }
 
-bool keeps(Ticker& ticker, NodeIndex node) {
-  const bool may_keep = ticker.parameter(node, kKeep).boolean;
-  return may_keep && ticker.status(node + 1) == Status::Running;
+bool keeps(NodeContext& context, NodeIndex node) {
+  const bool may_keep = context.parameter(node, kKeep).boolean;
+  return may_keep && context.status(node + 1) == Status::Running;
 }
 
-void keep(Ticker& ticker, NodeIndex node) {
-  answer(ticker, ticker.membership(node), ticker.state<ResourceUse>(node).owned, Grant::Owned);
+void keep(NodeContext& context, NodeIndex node) {
+  answer(context, context.membership(node), context.state<ResourceUse>(node).owned, Grant::Owned);
 }
 
-void give_back(Ticker& ticker, NodeIndex node) {
-  auto& use = ticker.state<ResourceUse>(node);
-  ticker.state<ResourcePool>(ticker.membership(node).group).owned &= ~use.owned;
+void give_back(NodeContext& context, NodeIndex node) {
+  auto& use = context.state<ResourceUse>(node);
+  context.state<ResourcePool>(context.membership(node).group).owned &= ~use.owned;
   use.owned = 0;
   use.limit = 0.0;
 }

@@ -65,18 +65,18 @@ inline constexpr unsigned kResources = 1, kKeep = 2;
 std::optional<RuleBreak> check_list(const ParameterValues& given, unsigned parameter);
 
 // True when the member has an answer for this tick.
-inline bool has_asked(const Ticker& ticker, const ResourceUse& use) {
-  return use.asked == ticker.tick_number();
+inline bool has_asked(const NodeContext& context, const ResourceUse& use) {
+  return use.asked == context.tick_number();
 }
 
 // Decides for this tick whether a member gets its resources: those that no other member owns.
-void ask(Ticker& ticker, NodeIndex member);
+void ask(NodeContext& context, NodeIndex member);
 // A child that runs keeps its set until it completes or is halted, if its member says so.
-bool keeps(Ticker& ticker, NodeIndex member);
+bool keeps(NodeContext& context, NodeIndex member);
 // Decides so.
-void keep(Ticker& ticker, NodeIndex member);
+void keep(NodeContext& context, NodeIndex member);
 // The child of a member was skipped, so others may have its resources in this tick.
-void give_back(Ticker& ticker, NodeIndex member);
+void give_back(NodeContext& context, NodeIndex member);
 
 }  // namespace resources
 

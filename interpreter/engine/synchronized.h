@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-#include "engine/ticker.h"
+#include "engine/node_context.h"
 
 namespace lockstep {
 
@@ -26,8 +26,8 @@ inline Synchronization synchronization(const Node& node) {
 
 // The limit in the node's last tick. ParallelAbsolute: the current barrier, infinity if none is
 // left. ParallelRelative: delta. Also of a node that uses resources: engine/resources.h.
-inline double limit(Ticker& ticker, NodeIndex node) {
-  return ticker.state<SynchronizedState>(node).limit;
+inline double limit(NodeContext& context, NodeIndex node) {
+  return context.state<SynchronizedState>(node).limit;
 }
 
 // The most progress that a child may have without being held, given that limit and the least
@@ -52,14 +52,14 @@ void for_each_child(const Tree& tree, NodeIndex node, Visit visit) {
 // The progress of each child at the start of its parallel's last tick, as the node used it: 1 for a
 // child that has succeeded, not a number for one that was left out. Only for nodes that compare
 // progress; valid until the next tick.
-inline std::span<const double> child_progress(Ticker& ticker, NodeIndex node) {
-  return ticker.child_numbers(node);
+inline std::span<const double> child_progress(NodeContext& context, NodeIndex node) {
+  return context.child_numbers(node);
 }
 
 // For a synchronized node that the last tick reached: whether it succeeded in that tick, even if an
 // ancestor that ended in the same tick has made it idle again.
-inline bool succeeded(Ticker& ticker, NodeIndex node) {
-  return ticker.state<SynchronizedState>(node).succeeded;
+inline bool succeeded(NodeContext& context, NodeIndex node) {
+  return context.state<SynchronizedState>(node).succeeded;
 }
 
 // What stands for the progress of a child that is left out: nobody waits for it, and it is not
@@ -68,11 +68,11 @@ inline constexpr double kLeftOut = std::numeric_limits<double>::quiet_NaN();
 
 // The progress of a child as its parallel counts it. One that was skipped in the last tick is left
 // out. Nobody waits for one that has failed and is not ticked again: it counts as 1.
-inline double snapshot_of(Ticker& ticker, NodeIndex child) {
-  const Activity activity = ticker.activity(child);
+inline double snapshot_of(NodeContext& context, NodeIndex child) {
+  const Activity activity = context.activity(child);
   if (activity == Activity::Skipped) return kLeftOut;
-  if (activity == Activity::Failure && ticker.is_latched(child)) return 1.0;
-  return ticker.progress(child);
+  if (activity == Activity::Failure && context.is_latched(child)) return 1.0;
+  return context.progress(child);
 }
 
 // Of the children that were not left out; 1 if all were.
@@ -88,7 +88,7 @@ inline bool is_left_out(double progress) {
 }
 
 // Whether a member of a barrier beside the tree is held in this tick.
-bool is_held_at_barrier(Ticker& ticker, NodeIndex member);
+bool is_held_at_barrier(NodeContext& context, NodeIndex member);
 
 // Of a ParallelAbsolute, rising, and the delta of a ParallelRelative. Nothing for other nodes, and
 // where an entry gives any parameter.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/resources.h"
+#include "engine/ticker.h"
 
 namespace lockstep {
 namespace {

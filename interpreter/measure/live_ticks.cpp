@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/synchronized.h"
+#include "engine/ticker.h"
 
 namespace lockstep {
 

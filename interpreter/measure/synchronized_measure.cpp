@@ -7,6 +7,7 @@
 #include <set>
 
 #include "engine/resources.h"
+#include "engine/ticker.h"
 
 namespace lockstep {
 

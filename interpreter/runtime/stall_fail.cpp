@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/resources.h"
+#include "engine/ticker.h"
 
 namespace lockstep {
 namespace {

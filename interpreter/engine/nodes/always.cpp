@@ -6,7 +6,7 @@ namespace lockstep {
 namespace {
 
 template <Status kStatus>
-Status tick_always(Ticker&, NodeIndex) {
+Status tick_always(NodeContext&, NodeIndex) {
   return kStatus;
 }
 

@@ -1,11 +1,11 @@
 // What leaves share that complete at once, and AlwaysRunning.
 #pragma once
 
-#include "engine/ticker.h"
+#include "engine/node_context.h"
 
 namespace lockstep {
 
-inline double no_progress(Ticker&, NodeIndex) {
+inline double no_progress(NodeContext&, NodeIndex) {
   return 0.0;
 }
 

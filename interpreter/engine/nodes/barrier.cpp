@@ -59,60 +59,60 @@ struct Place {
   bool held;  // in this tick
 };
 
-Place& place_of(Ticker& ticker, NodeIndex barrier, std::uint32_t number) {
-  const auto numbers = ticker.child_numbers(barrier);
+Place& place_of(NodeContext& context, NodeIndex barrier, std::uint32_t number) {
+  const auto numbers = context.child_numbers(barrier);
   return reinterpret_cast<Place*>(numbers.data() + numbers.size())[number];
 }
 
-NodeIndex parent_of(const Ticker& ticker, NodeIndex node) {
-  return ticker.tree().labels[node].parent;
+NodeIndex parent_of(const NodeContext& context, NodeIndex node) {
+  return context.tree().labels[node].parent;
 }
 
 // Whether no tick reaches a member that has begun and does not run again, in this activation of the
 // ancestor, which runs: a parallel that runs has latched the child with the member, and itself
 // cannot begin again. In doubt it can: a barrier that stays closed is seen and reported, one that
 // opens for a member that comes back is a collision.
-bool cannot_come_back(const Ticker& ticker, NodeIndex member, NodeIndex ancestor) {
+bool cannot_come_back(const NodeContext& context, NodeIndex member, NodeIndex ancestor) {
   NodeIndex child = member;
-  while (ticker.status(parent_of(ticker, child)) != Status::Running) {
-    child = parent_of(ticker, child);
+  while (context.status(parent_of(context, child)) != Status::Running) {
+    child = parent_of(context, child);
   }
-  if (!ticker.is_latched(child)) return false;
-  for (NodeIndex node = parent_of(ticker, child); node != ancestor;
-       node = parent_of(ticker, node)) {
-    if (ticker.node(node).is_begun_once == 0) return false;
+  if (!context.is_latched(child)) return false;
+  for (NodeIndex node = parent_of(context, child); node != ancestor;
+       node = parent_of(context, node)) {
+    if (context.node(node).is_begun_once == 0) return false;
   }
   return true;
 }
 
 // A script has skipped the member, or a node around it.
-bool is_skipped(const Ticker& ticker, NodeIndex member, NodeIndex ancestor) {
-  for (NodeIndex node = member; node != ancestor; node = parent_of(ticker, node)) {
-    if (ticker.activity(node) == Activity::Skipped) return true;
+bool is_skipped(const NodeContext& context, NodeIndex member, NodeIndex ancestor) {
+  for (NodeIndex node = member; node != ancestor; node = parent_of(context, node)) {
+    if (context.activity(node) == Activity::Skipped) return true;
   }
   return false;
 }
 
 // What a member counts in the snapshot.
-double reached(Ticker& ticker, NodeIndex member, const Place& place, NodeIndex ancestor,
+double reached(NodeContext& context, NodeIndex member, const Place& place, NodeIndex ancestor,
                double of_idle) {
-  if (place.succeeded && !ticker.is_guard(member)) return 1.0;
-  const Status status = ticker.status(member);
-  if (status == Status::Running || status == Status::Success) return ticker.progress(member);
-  if (is_skipped(ticker, member, ancestor)) return kLeftOut;
-  if (place.begun && cannot_come_back(ticker, member, ancestor)) return 1.0;
+  if (place.succeeded && !context.is_guard(member)) return 1.0;
+  const Status status = context.status(member);
+  if (status == Status::Running || status == Status::Success) return context.progress(member);
+  if (is_skipped(context, member, ancestor)) return kLeftOut;
+  if (place.begun && cannot_come_back(context, member, ancestor)) return 1.0;
   return status == Status::Idle ? of_idle : 0.0;
 }
 
 // The barrier succeeds with all of its members. Of a guard only the last result counts.
-void note_result(Ticker& ticker, const Member& member, Place& place, Status result) {
+void note_result(NodeContext& context, const Member& member, Place& place, Status result) {
   const bool succeeded =
-      result == Status::Success || (place.succeeded && !ticker.is_guard(member.node));
+      result == Status::Success || (place.succeeded && !context.is_guard(member.node));
   if (std::exchange(place.succeeded, succeeded) == succeeded) return;
-  BarrierState& state = ticker.state<BarrierState>(member.group);
+  BarrierState& state = context.state<BarrierState>(member.group);
   succeeded ? ++state.succeeded : --state.succeeded;
-  state.synchronized.succeeded = state.succeeded == ticker.node(member.group).children;
-  ticker.set_complete(member.group, state.synchronized.succeeded);
+  state.synchronized.succeeded = state.succeeded == context.node(member.group).children;
+  context.set_complete(member.group, state.synchronized.succeeded);
 }
 
 // The progress of all members before the root is ticked.
@@ -121,80 +121,81 @@ struct Snapshot {
   bool runs = false;  // some member does
 };
 
-Snapshot take_snapshot(Ticker& ticker, NodeIndex self) {
-  const Tree& tree = ticker.tree();
-  const bool ignores_idle = ticker.parameter(self, kIdle).integer == kIgnore;
+Snapshot take_snapshot(NodeContext& context, NodeIndex self) {
+  const Tree& tree = context.tree();
+  const bool ignores_idle = context.parameter(self, kIdle).integer == kIgnore;
   const double of_idle = ignores_idle ? kLeftOut : 0.0;
-  const bool begins = ticker.status(self) == Status::Idle;
-  const auto progress = ticker.child_numbers(self);
+  const bool begins = context.status(self) == Status::Idle;
+  const auto progress = context.child_numbers(self);
   Snapshot snapshot{};
   for (const Member& it : tree.members_of(self)) {
-    Place& place = place_of(ticker, self, it.number);
+    Place& place = place_of(context, self, it.number);
     if (begins) place = {};
-    if (!begins && ticker.is_guard(it.node)) note_result(ticker, it, place, ticker.status(it.node));
+    if (!begins && context.is_guard(it.node))
+      note_result(context, it, place, context.status(it.node));
     progress[it.number] =
-        begins ? of_idle : reached(ticker, it.node, place, tree.group(self).ancestor, of_idle);
-    snapshot.runs |= ticker.status(it.node) == Status::Running;
+        begins ? of_idle : reached(context, it.node, place, tree.group(self).ancestor, of_idle);
+    snapshot.runs |= context.status(it.node) == Status::Running;
   }
   snapshot.least = least_progress(progress);
   return snapshot;
 }
 
 template <class Held>
-void hold(Ticker& ticker, NodeIndex self, Held held) {
-  const auto progress = ticker.child_numbers(self);
-  for (const Member& it : ticker.tree().members_of(self)) {
-    Place& place = place_of(ticker, self, it.number);
-    place.held = !place.succeeded && !ticker.is_guard(it.node) && held(progress[it.number]);
+void hold(NodeContext& context, NodeIndex self, Held held) {
+  const auto progress = context.child_numbers(self);
+  for (const Member& it : context.tree().members_of(self)) {
+    Place& place = place_of(context, self, it.number);
+    place.held = !place.succeeded && !context.is_guard(it.node) && held(progress[it.number]);
   }
 }
 
 // Finds the limit of this tick, and who is held.
-void set_limit(Ticker& ticker, NodeIndex self, double least) {
-  double& limit = ticker.state<BarrierState>(self).synchronized.limit;
-  if (synchronization(ticker.node(self)) == Synchronization::Relative) {
-    limit = ticker.parameter(self, kBarrierDelta).number;
+void set_limit(NodeContext& context, NodeIndex self, double least) {
+  double& limit = context.state<BarrierState>(self).synchronized.limit;
+  if (synchronization(context.node(self)) == Synchronization::Relative) {
+    limit = context.parameter(self, kBarrierDelta).number;
     const double most = least + limit + kProgressEpsilon;
-    hold(ticker, self, [most](double reached) { return reached > most; });
+    hold(context, self, [most](double reached) { return reached > most; });
   } else {
-    const auto barriers = ticker.numbers(ticker.parameter(self, absolute::kBarriers));
+    const auto barriers = context.numbers(context.parameter(self, absolute::kBarriers));
     limit = absolute::current_barrier(barriers, least);
     const bool ticks =
-        ticker.parameter(self, absolute::kAtBarrier).integer == absolute::kTickAtBarrier;
-    hold(ticker, self, absolute::Held{limit, ticks});
+        context.parameter(self, absolute::kAtBarrier).integer == absolute::kTickAtBarrier;
+    hold(context, self, absolute::Held{limit, ticks});
   }
 }
 
 // While the limits are unknown.
-void hold_nobody(Ticker& ticker, NodeIndex self) {
-  ticker.state<BarrierState>(self).synchronized.limit = std::numeric_limits<double>::infinity();
-  hold(ticker, self, [](double) { return false; });
+void hold_nobody(NodeContext& context, NodeIndex self) {
+  context.state<BarrierState>(self).synchronized.limit = std::numeric_limits<double>::infinity();
+  hold(context, self, [](double) { return false; });
 }
 
 // An entry that has the limits is needed while a member runs. Before that the tree may write it.
-Status tick_barrier(Ticker& ticker, NodeIndex self) {
-  BarrierState& state = ticker.state<BarrierState>(self);
-  if (ticker.status(self) == Status::Idle) state = {};
-  const Snapshot snapshot = take_snapshot(ticker, self);
-  const bool readable = snapshot.runs ? ticker.reread(self) : ticker.refresh(self);
-  if (!readable && snapshot.runs) return ticker.give_up(self);
+Status tick_barrier(NodeContext& context, NodeIndex self) {
+  BarrierState& state = context.state<BarrierState>(self);
+  if (context.status(self) == Status::Idle) state = {};
+  const Snapshot snapshot = take_snapshot(context, self);
+  const bool readable = snapshot.runs ? context.reread(self) : context.refresh(self);
+  if (!readable && snapshot.runs) return context.give_up(self);
   if (readable) {
-    set_limit(ticker, self, snapshot.least);
+    set_limit(context, self, snapshot.least);
   } else {
-    hold_nobody(ticker, self);
+    hold_nobody(context, self);
   }
   return state.synchronized.succeeded ? Status::Success : Status::Running;
 }
 
 // Who has succeeded or begun counts as long as the common ancestor runs.
-void fold_barrier(Ticker& ticker, NodeIndex self) {
-  if (ticker.status(ticker.tree().group(self).ancestor) != Status::Running) {
-    return fold::dead(ticker, self);
+void fold_barrier(NodeContext& context, NodeIndex self) {
+  if (context.status(context.tree().group(self).ancestor) != Status::Running) {
+    return fold::dead(context, self);
   }
-  ticker.state<BarrierState>(self).synchronized.limit = 0;
-  std::ranges::fill(ticker.child_numbers(self), 0.0);
-  for (const Member& it : ticker.tree().members_of(self)) {
-    place_of(ticker, self, it.number).held = false;
+  context.state<BarrierState>(self).synchronized.limit = 0;
+  std::ranges::fill(context.child_numbers(self), 0.0);
+  for (const Member& it : context.tree().members_of(self)) {
+    place_of(context, self, it.number).held = false;
   }
 }
 
@@ -209,36 +210,36 @@ constexpr Parameter kMemberParameters[] = {
               .constant = true,
               .group = "barrier"}};
 
-Status tick_member(Ticker& ticker, NodeIndex self) {
-  const Member& member = ticker.membership(self);
+Status tick_member(NodeContext& context, NodeIndex self) {
+  const Member& member = context.membership(self);
   const NodeIndex child = self + 1;
-  ticker.reach(member.group);
-  Place& place = place_of(ticker, member.group, member.number);
+  context.reach(member.group);
+  Place& place = place_of(context, member.group, member.number);
   place.begun = true;
-  if (ticker.status(member.group) == Status::Failure) {  // an entry has no value that it accepts
-    ticker.halt_running_children(self);
+  if (context.status(member.group) == Status::Failure) {  // an entry has no value that it accepts
+    context.halt_running_children(self);
     return Status::Failure;
   }
-  if (place.held && ticker.hold(child)) return Status::Running;
-  const Status status = ticker.tick(child);
-  note_result(ticker, member, place, status);
+  if (place.held && context.hold(child)) return Status::Running;
+  const Status status = context.tick(child);
+  note_result(context, member, place, status);
   return status;
 }
 
 // A script has decided for it, so it has begun and ended.
-void member_decided(Ticker& ticker, NodeIndex self, Status result) {
+void member_decided(NodeContext& context, NodeIndex self, Status result) {
   if (!is_complete(result)) return;
-  const Member& member = ticker.membership(self);
-  Place& place = place_of(ticker, member.group, member.number);
+  const Member& member = context.membership(self);
+  Place& place = place_of(context, member.group, member.number);
   place.begun = true;
-  note_result(ticker, member, place, result);
+  note_result(context, member, place, result);
 }
 
 }  // namespace
 
-bool is_held_at_barrier(Ticker& ticker, NodeIndex node) {
-  const Member& member = ticker.membership(node);
-  return place_of(ticker, member.group, member.number).held;
+bool is_held_at_barrier(NodeContext& context, NodeIndex node) {
+  const Member& member = context.membership(node);
+  return place_of(context, member.group, member.number).held;
 }
 
 const NodeKind kBarrier{
@@ -253,8 +254,8 @@ const NodeKind kBarrier{
              .sign = "‖",
              .synchronization = Synchronization::Absolute},
     .tick = tick_barrier,
-    .progress = [](Ticker& ticker,
-                   NodeIndex self) { return least_progress(ticker.child_numbers(self)); },
+    .progress = [](NodeContext& context,
+                   NodeIndex self) { return least_progress(context.child_numbers(self)); },
     .state_size = sizeof(BarrierState),
     .state_per_child = sizeof(double) + sizeof(Place),
     .fold = fold_barrier,

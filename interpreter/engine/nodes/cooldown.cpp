@@ -20,24 +20,24 @@ struct CooldownState {
   bool cools;
 };
 
-bool cools(Ticker& ticker, NodeIndex self, const CooldownState& state) {
-  const Nanoseconds passed = ticker.now() - state.completed;
-  return state.cools && passed < from_seconds(ticker.parameter(self, timed::kSeconds).number);
+bool cools(NodeContext& context, NodeIndex self, const CooldownState& state) {
+  const Nanoseconds passed = context.now() - state.completed;
+  return state.cools && passed < from_seconds(context.parameter(self, timed::kSeconds).number);
 }
 
-Status tick_cooldown(Ticker& ticker, NodeIndex self) {
-  CooldownState& state = ticker.state<CooldownState>(self);
-  if (cools(ticker, self, state)) return Status::Skipped;
-  const Status status = ticker.tick(self + 1);
-  state = {ticker.now(), is_complete(status)};
+Status tick_cooldown(NodeContext& context, NodeIndex self) {
+  CooldownState& state = context.state<CooldownState>(self);
+  if (cools(context, self, state)) return Status::Skipped;
+  const Status status = context.tick(self + 1);
+  state = {context.now(), is_complete(status)};
   return status;
 }
 
-void fold_cooldown(Ticker& ticker, NodeIndex self) {
-  CooldownState& state = ticker.state<CooldownState>(self);
-  const bool is_over = ticker.has_constant_parameters(self) && !cools(ticker, self, state);
-  if (!state.cools || is_over) return fold::dead(ticker, self);
-  state.completed -= ticker.now();
+void fold_cooldown(NodeContext& context, NodeIndex self) {
+  CooldownState& state = context.state<CooldownState>(self);
+  const bool is_over = context.has_constant_parameters(self) && !cools(context, self, state);
+  if (!state.cools || is_over) return fold::dead(context, self);
+  state.completed -= context.now();
 }
 
 }  // namespace

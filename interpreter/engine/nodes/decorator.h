@@ -1,13 +1,13 @@
 // What decorators share. A decorator has one child, at self + 1.
 #pragma once
 
+#include "engine/node_context.h"
 #include "engine/nodes/kinds.h"
-#include "engine/ticker.h"
 
 namespace lockstep::decorator {
 
-inline double child_progress(Ticker& ticker, NodeIndex self) {
-  return ticker.progress(self + 1);
+inline double child_progress(NodeContext& context, NodeIndex self) {
+  return context.progress(self + 1);
 }
 
 }  // namespace lockstep::decorator

@@ -14,8 +14,8 @@ constexpr Parameter kDelayParameters[] = {
     timed::kClockParameter,
 };
 
-Status tick_delay(Ticker& ticker, NodeIndex self) {
-  return timed::is_over_by_clock(ticker, self) ? ticker.tick(self + 1) : Status::Running;
+Status tick_delay(NodeContext& context, NodeIndex self) {
+  return timed::is_over_by_clock(context, self) ? context.tick(self + 1) : Status::Running;
 }
 
 }  // namespace

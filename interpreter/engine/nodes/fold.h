@@ -5,21 +5,21 @@
 
 #include <algorithm>
 
-#include "engine/ticker.h"
+#include "engine/node_context.h"
 
 namespace lockstep::fold {
 
 // Each tick writes it before it reads it.
-inline void dead(Ticker& ticker, NodeIndex self) {
-  std::ranges::fill(ticker.kept_bytes(self), std::byte{});
+inline void dead(NodeContext& context, NodeIndex self) {
+  std::ranges::fill(context.kept_bytes(self), std::byte{});
 }
 
 // The first tick of an activation writes it.
-inline void dead_when_idle(Ticker& ticker, NodeIndex self) {
-  if (ticker.status(self) != Status::Running) dead(ticker, self);
+inline void dead_when_idle(NodeContext& context, NodeIndex self) {
+  if (context.status(self) != Status::Running) dead(context, self);
 }
 
 // It says something as it is, at any time.
-inline void live(Ticker& /*ticker*/, NodeIndex /*self*/) {}
+inline void live(NodeContext& /*context*/, NodeIndex /*self*/) {}
 
 }  // namespace lockstep::fold

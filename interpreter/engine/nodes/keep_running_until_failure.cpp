@@ -3,8 +3,8 @@
 namespace lockstep {
 namespace {
 
-Status tick_keep_running(Ticker& ticker, NodeIndex self) {
-  return ticker.tick(self + 1) == Status::Failure ? Status::Failure : Status::Running;
+Status tick_keep_running(NodeContext& context, NodeIndex self) {
+  return context.tick(self + 1) == Status::Failure ? Status::Failure : Status::Running;
 }
 
 }  // namespace

@@ -9,36 +9,36 @@
 namespace lockstep {
 namespace {
 
-const Mock& mock_of(const Ticker& ticker, NodeIndex self) {
-  return *ticker.tree().labels[self].type->mock;
+const Mock& mock_of(const NodeContext& context, NodeIndex self) {
+  return *context.tree().labels[self].type->mock;
 }
 
-Status tick_mock_action(Ticker& ticker, NodeIndex self) {
-  timed::count(ticker, self);
-  const Mock& mock = mock_of(ticker, self);
-  const Nanoseconds counted = ticker.now() - ticker.state<timed::State>(self).start;
+Status tick_mock_action(NodeContext& context, NodeIndex self) {
+  timed::count(context, self);
+  const Mock& mock = mock_of(context, self);
+  const Nanoseconds counted = context.now() - context.state<timed::State>(self).start;
   return counted >= from_seconds(mock.seconds) ? mock.result : Status::Running;
 }
 
-void fold_mock_action(Ticker& ticker, NodeIndex self) {
-  fold::dead_when_idle(ticker, self);
-  if (ticker.status(self) != Status::Running) return;
-  timed::count_from_now(ticker, self, true, from_seconds(mock_of(ticker, self).seconds));
+void fold_mock_action(NodeContext& context, NodeIndex self) {
+  fold::dead_when_idle(context, self);
+  if (context.status(self) != Status::Running) return;
+  timed::count_from_now(context, self, true, from_seconds(mock_of(context, self).seconds));
 }
 
-double action_progress(Ticker& ticker, NodeIndex self) {
-  const auto& state = ticker.state<timed::State>(self);
-  const bool paused = ticker.activity(self) == Activity::Paused;
-  const Nanoseconds counted = (paused ? state.paused_at : ticker.now()) - state.start;
-  const double seconds = mock_of(ticker, self).seconds;
+double action_progress(NodeContext& context, NodeIndex self) {
+  const auto& state = context.state<timed::State>(self);
+  const bool paused = context.activity(self) == Activity::Paused;
+  const Nanoseconds counted = (paused ? state.paused_at : context.now()) - state.start;
+  const double seconds = mock_of(context, self).seconds;
   return seconds > 0 ? std::min(1.0, to_seconds(counted) / seconds) : 1.0;
 }
 
-Status tick_mock_condition(Ticker& ticker, NodeIndex self) {
-  return mock_of(ticker, self).result;
+Status tick_mock_condition(NodeContext& context, NodeIndex self) {
+  return mock_of(context, self).result;
 }
 
-double condition_progress(Ticker& /*ticker*/, NodeIndex /*self*/) {
+double condition_progress(NodeContext& /*context*/, NodeIndex /*self*/) {
   return 0;
 }
 
@@ -47,25 +47,25 @@ struct ControlState {
   std::uint32_t done;
 };
 
-Status tick_mock_control(Ticker& ticker, NodeIndex self) {
-  auto& state = ticker.state<ControlState>(self);
-  if (ticker.first_tick(self)) state = {self + 1, 0};
-  for (; state.child != ticker.end_of(self); state.child = ticker.end_of(state.child)) {
-    const Status status = ticker.tick(state.child);
+Status tick_mock_control(NodeContext& context, NodeIndex self) {
+  auto& state = context.state<ControlState>(self);
+  if (context.first_tick(self)) state = {self + 1, 0};
+  for (; state.child != context.end_of(self); state.child = context.end_of(state.child)) {
+    const Status status = context.tick(state.child);
     if (status == Status::Running || status == Status::Failure) return status;
     ++state.done;
   }
   return Status::Success;
 }
 
-double control_progress(Ticker& ticker, NodeIndex self) {
-  const auto& state = ticker.state<ControlState>(self);
-  const double here = state.child == ticker.end_of(self) ? 0 : ticker.progress(state.child);
-  return (state.done + here) / ticker.node(self).children;
+double control_progress(NodeContext& context, NodeIndex self) {
+  const auto& state = context.state<ControlState>(self);
+  const double here = state.child == context.end_of(self) ? 0 : context.progress(state.child);
+  return (state.done + here) / context.node(self).children;
 }
 
-Status tick_mock_decorator(Ticker& ticker, NodeIndex self) {
-  return ticker.tick(self + 1);
+Status tick_mock_decorator(NodeContext& context, NodeIndex self) {
+  return context.tick(self + 1);
 }
 
 }  // namespace

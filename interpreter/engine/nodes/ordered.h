@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "engine/ticker.h"
+#include "engine/node_context.h"
 
 namespace lockstep::ordered {
 
@@ -26,45 +26,45 @@ inline constexpr Parameter kParameters[] = {
 enum class Memory : std::uint8_t { ByParameter, Always, Never };
 
 template <Memory kMemory>
-bool has_memory(const Ticker& ticker, NodeIndex self) {
-  if constexpr (kMemory == Memory::ByParameter) return ticker.parameter(self, 0).boolean;
+bool has_memory(const NodeContext& context, NodeIndex self) {
+  if constexpr (kMemory == Memory::ByParameter) return context.parameter(self, 0).boolean;
   return kMemory == Memory::Always;
 }
 
 template <Status kGoOn, Memory kMemory = Memory::ByParameter>
-Status tick(Ticker& ticker, NodeIndex self) {
-  State& state = ticker.state<State>(self);
-  const NodeIndex end = ticker.end_of(self);
-  const bool first = ticker.first_tick(self);
+Status tick(NodeContext& context, NodeIndex self) {
+  State& state = context.state<State>(self);
+  const NodeIndex end = context.end_of(self);
+  const bool first = context.first_tick(self);
   const NodeIndex previous = first ? self : state.current;
-  const bool resume = !first && has_memory<kMemory>(ticker, self);
+  const bool resume = !first && has_memory<kMemory>(context, self);
   NodeIndex child = resume ? state.current : self + 1;
   std::uint32_t done = resume ? state.done : 0;
   std::uint32_t skipped = resume ? state.skipped : 0;
-  for (; child != end; child = ticker.end_of(child), ++done) {
-    const Status status = ticker.tick(child);
+  for (; child != end; child = context.end_of(child), ++done) {
+    const Status status = context.tick(child);
     if (status == kGoOn) continue;
     if (status == Status::Skipped) {
-      if (!has_memory<kMemory>(ticker, self)) ticker.forget_range(child, ticker.end_of(child));
+      if (!has_memory<kMemory>(context, self)) context.forget_range(child, context.end_of(child));
       ++skipped;
       continue;
     }
-    if (child < previous) ticker.halt_range(ticker.end_of(child), ticker.end_of(previous));
+    if (child < previous) context.halt_range(context.end_of(child), context.end_of(previous));
     state = {child, done, skipped};
     return status;
   }
-  if (skipped != ticker.node(self).children) return kGoOn;
-  ticker.forget_range(self + 1, end);
+  if (skipped != context.node(self).children) return kGoOn;
+  context.forget_range(self + 1, end);
   return Status::Skipped;
 }
 
-inline double progress_of_sequence(Ticker& ticker, NodeIndex self) {
-  const auto& state = ticker.state<State>(self);
-  return (state.done + ticker.progress(state.current)) / ticker.node(self).children;
+inline double progress_of_sequence(NodeContext& context, NodeIndex self) {
+  const auto& state = context.state<State>(self);
+  return (state.done + context.progress(state.current)) / context.node(self).children;
 }
 
-inline double progress_of_fallback(Ticker& ticker, NodeIndex self) {
-  return ticker.progress(ticker.state<State>(self).current);
+inline double progress_of_fallback(NodeContext& context, NodeIndex self) {
+  return context.progress(context.state<State>(self).current);
 }
 
 }  // namespace lockstep::ordered

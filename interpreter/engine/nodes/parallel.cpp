@@ -14,18 +14,18 @@ std::optional<RuleBreak> rule_of_parallel(const ParameterValues& given) {
   return parallel::check_counts(given, kParallelPlaces);
 }
 
-Status tick_parallel(Ticker& ticker, NodeIndex self) {
-  const NodeIndex end = ticker.end_of(self);
+Status tick_parallel(NodeContext& context, NodeIndex self) {
+  const NodeIndex end = context.end_of(self);
   parallel::Tally tally;
-  for (NodeIndex child = self + 1; child != end; child = ticker.end_of(child)) {
-    tally.add(parallel::is_over(ticker, child) ? ticker.status(child) : ticker.tick(child));
+  for (NodeIndex child = self + 1; child != end; child = context.end_of(child)) {
+    tally.add(parallel::is_over(context, child) ? context.status(child) : context.tick(child));
   }
-  return parallel::judge(ticker, self, kParallelPlaces, tally);
+  return parallel::judge(context, self, kParallelPlaces, tally);
 }
 
-double progress_of_parallel(Ticker& ticker, NodeIndex self) {
-  return parallel::progress_of_mth(ticker, self,
-                                   ticker.parameter(self, kParallelPlaces.success_count).integer);
+double progress_of_parallel(NodeContext& context, NodeIndex self) {
+  return parallel::progress_of_mth(context, self,
+                                   context.parameter(self, kParallelPlaces.success_count).integer);
 }
 
 }  // namespace

@@ -22,14 +22,15 @@ std::optional<RuleBreak> rule_of_absolute(const ParameterValues& given) {
   return absolute::check_barriers(given);
 }
 
-Status tick_absolute(Ticker& ticker, NodeIndex self) {
-  const auto barriers = ticker.numbers(ticker.parameter(self, absolute::kBarriers));
-  const double least = synchronized::take_snapshot(ticker, self);
+Status tick_absolute(NodeContext& context, NodeIndex self) {
+  const auto barriers = context.numbers(context.parameter(self, absolute::kBarriers));
+  const double least = synchronized::take_snapshot(context, self);
   const double barrier = absolute::current_barrier(barriers, least);
-  ticker.state<SynchronizedState>(self).limit = barrier;
+  context.state<SynchronizedState>(self).limit = barrier;
   const bool ticks =
-      ticker.parameter(self, absolute::kAtBarrier).integer == absolute::kTickAtBarrier;
-  return synchronized::tick_children(ticker, self, kAbsolutePlaces, absolute::Held{barrier, ticks});
+      context.parameter(self, absolute::kAtBarrier).integer == absolute::kTickAtBarrier;
+  return synchronized::tick_children(context, self, kAbsolutePlaces,
+                                     absolute::Held{barrier, ticks});
 }
 
 }  // namespace

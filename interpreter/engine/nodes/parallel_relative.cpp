@@ -24,12 +24,12 @@ std::optional<RuleBreak> rule_of_relative(const ParameterValues& given) {
   return parallel::check_counts(given, kRelativePlaces);
 }
 
-Status tick_relative(Ticker& ticker, NodeIndex self) {
-  const double least = synchronized::take_snapshot(ticker, self);
-  const double delta = ticker.parameter(self, kDelta).number;
-  ticker.state<SynchronizedState>(self).limit = delta;
+Status tick_relative(NodeContext& context, NodeIndex self) {
+  const double least = synchronized::take_snapshot(context, self);
+  const double delta = context.parameter(self, kDelta).number;
+  context.state<SynchronizedState>(self).limit = delta;
   const double most = farthest(Synchronization::Relative, delta, least) + kProgressEpsilon;
-  return synchronized::tick_children(ticker, self, kRelativePlaces,
+  return synchronized::tick_children(context, self, kRelativePlaces,
                                      [most](double reached) { return reached > most; });
 }
 

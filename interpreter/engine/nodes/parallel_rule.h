@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/ticker.h"
+#include "engine/node_context.h"
 
 namespace lockstep::parallel {
 
@@ -57,11 +57,11 @@ inline std::optional<RuleBreak> check_counts(const ParameterValues& given, const
 // The progress of the child that is the M-th when the farthest is the first: where M children will
 // have arrived. One that was skipped is not there. Uses child_numbers, which asking must not
 // change.
-inline double progress_of_mth(Ticker& ticker, NodeIndex self, std::int64_t m) {
-  const auto numbers = ticker.child_numbers(self);
+inline double progress_of_mth(NodeContext& context, NodeIndex self, std::int64_t m) {
+  const auto numbers = context.child_numbers(self);
   std::size_t count = 0;
-  for (NodeIndex child = self + 1; child != ticker.end_of(self); child = ticker.end_of(child)) {
-    if (ticker.activity(child) != Activity::Skipped) numbers[count++] = ticker.progress(child);
+  for (NodeIndex child = self + 1; child != context.end_of(self); child = context.end_of(child)) {
+    if (context.activity(child) != Activity::Skipped) numbers[count++] = context.progress(child);
   }
   if (count == 0) return 0.0;
   const auto sorted = numbers.first(count);
@@ -73,8 +73,8 @@ inline double progress_of_mth(Ticker& ticker, NodeIndex self, std::int64_t m) {
 }
 
 // A guard is ticked in every tick.
-inline bool is_over(const Ticker& ticker, NodeIndex child) {
-  return is_complete(ticker.status(child)) && ticker.is_latched(child);
+inline bool is_over(const NodeContext& context, NodeIndex child) {
+  return is_complete(context.status(child)) && context.is_latched(child);
 }
 
 // How many children have succeeded, failed, …
@@ -90,15 +90,17 @@ struct Tally {
 
 // Success is checked first. Children that still run are halted when the node ends. A child that was
 // skipped in this tick counts as not there.
-inline Status judge(Ticker& ticker, NodeIndex self, const Places& places, const Tally& tally) {
-  const std::int64_t there = ticker.node(self).children - tally.skipped;
+inline Status judge(NodeContext& context, NodeIndex self, const Places& places,
+                    const Tally& tally) {
+  const std::int64_t there = context.node(self).children - tally.skipped;
   if (there == 0) return Status::Skipped;
-  const std::int64_t wanted = std::min(ticker.parameter(self, places.success_count).integer, there);
+  const std::int64_t wanted =
+      std::min(context.parameter(self, places.success_count).integer, there);
   const bool success = tally.succeeded >= wanted;
-  const bool failure = tally.failed >= ticker.parameter(self, places.failure_count).integer ||
+  const bool failure = tally.failed >= context.parameter(self, places.failure_count).integer ||
                        there - tally.failed < wanted;
   if (!success && !failure) return Status::Running;
-  ticker.halt_running_children(self);
+  context.halt_running_children(self);
   return success ? Status::Success : Status::Failure;
 }
 

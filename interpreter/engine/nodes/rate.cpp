@@ -21,23 +21,23 @@ struct RateState {
   Status result;      // of the child; Idle: none that counts
 };
 
-Status tick_rate(Ticker& ticker, NodeIndex self) {
-  RateState& state = ticker.state<RateState>(self);
-  const bool starts = ticker.first_tick(self);
-  if (starts && is_complete(state.result) && !timed::is_over(ticker, self)) return state.result;
-  const bool goes_on = ticker.parameter(self, timed::kClock).integer == timed::kWall;
-  if (starts || !goes_on) timed::count(ticker, self);
-  const Status status = ticker.tick(self + 1);
+Status tick_rate(NodeContext& context, NodeIndex self) {
+  RateState& state = context.state<RateState>(self);
+  const bool starts = context.first_tick(self);
+  if (starts && is_complete(state.result) && !timed::is_over(context, self)) return state.result;
+  const bool goes_on = context.parameter(self, timed::kClock).integer == timed::kWall;
+  if (starts || !goes_on) timed::count(context, self);
+  const Status status = context.tick(self + 1);
   state.result = is_complete(status) ? status : Status::Idle;
   return status;
 }
 
-void fold_rate(Ticker& ticker, NodeIndex self) {
-  if (ticker.status(self) == Status::Running) return timed::fold_by_clock(ticker, self);
-  RateState& state = ticker.state<RateState>(self);
-  const bool is_over = ticker.has_constant_parameters(self) && timed::is_over(ticker, self);
-  if (!is_complete(state.result) || is_over) return fold::dead(ticker, self);
-  state.time = {.start = state.time.start - ticker.now(), .paused_at = Nanoseconds(0)};
+void fold_rate(NodeContext& context, NodeIndex self) {
+  if (context.status(self) == Status::Running) return timed::fold_by_clock(context, self);
+  RateState& state = context.state<RateState>(self);
+  const bool is_over = context.has_constant_parameters(self) && timed::is_over(context, self);
+  if (!is_complete(state.result) || is_over) return fold::dead(context, self);
+  state.time = {.start = state.time.start - context.now(), .paused_at = Nanoseconds(0)};
 }
 
 }  // namespace

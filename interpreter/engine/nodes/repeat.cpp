@@ -18,33 +18,33 @@ struct RepeatState {
   std::int64_t done;
 };
 
-Status tick_repeat(Ticker& ticker, NodeIndex self) {
-  RepeatState& state = ticker.state<RepeatState>(self);
-  if (ticker.first_tick(self)) state.done = 0;
-  const Status status = ticker.tick(self + 1);
+Status tick_repeat(NodeContext& context, NodeIndex self) {
+  RepeatState& state = context.state<RepeatState>(self);
+  if (context.first_tick(self)) state.done = 0;
+  const Status status = context.tick(self + 1);
   if (status != Status::Success) return status;
   ++state.done;
-  return state.done == ticker.parameter(self, kTimes).integer ? Status::Success : Status::Running;
+  return state.done == context.parameter(self, kTimes).integer ? Status::Success : Status::Running;
 }
 
-double progress_of_repeat(Ticker& ticker, NodeIndex self) {
-  const std::int64_t times = ticker.parameter(self, kTimes).integer;
-  const double child = ticker.progress(self + 1);
+double progress_of_repeat(NodeContext& context, NodeIndex self) {
+  const std::int64_t times = context.parameter(self, kTimes).integer;
+  const double child = context.progress(self + 1);
   if (times == kForever) return child;
   // A child that has just succeeded is already counted as done.
-  const double current = ticker.status(self + 1) == Status::Running ? child : 0.0;
-  const auto done = static_cast<double>(ticker.state<RepeatState>(self).done);
+  const double current = context.status(self + 1) == Status::Running ? child : 0.0;
+  const auto done = static_cast<double>(context.state<RepeatState>(self).done);
   return (done + current) / static_cast<double>(times);
 }
 
 // How often does not matter for ever.
-void fold_repeat(Ticker& ticker, NodeIndex self) {
-  if (ticker.parameter(self, kTimes).integer == kForever) return fold::dead(ticker, self);
-  fold::dead_when_idle(ticker, self);
+void fold_repeat(NodeContext& context, NodeIndex self) {
+  if (context.parameter(self, kTimes).integer == kForever) return fold::dead(context, self);
+  fold::dead_when_idle(context, self);
 }
 
-Round round_of_repeat(Ticker& ticker, NodeIndex self) {
-  return {ticker.state<RepeatState>(self).done + 1, ticker.parameter(self, kTimes).integer};
+Round round_of_repeat(NodeContext& context, NodeIndex self) {
+  return {context.state<RepeatState>(self).done + 1, context.parameter(self, kTimes).integer};
 }
 
 }  // namespace

@@ -32,40 +32,41 @@ std::optional<RuleBreak> rule_of_resources(const ParameterValues& given) {
 
 // Of a node that runs: a synchronized parallel has withheld its last tick, and may do so again.
 // Such a member asks when a tick reaches it.
-bool is_held_by_parallel(const Ticker& ticker, NodeIndex node) {
-  const auto& labels = ticker.tree().labels;
-  while (ticker.held(node)) node = labels[node].parent;
-  return ticker.node(node).children > 1;
+bool is_held_by_parallel(const NodeContext& context, NodeIndex node) {
+  const auto& labels = context.tree().labels;
+  while (context.held(node)) node = labels[node].parent;
+  return context.node(node).children > 1;
 }
 
 // Lets those keep their resources that may. Of all others that ask, their numbers.
-std::span<std::uint32_t> who_asks(Ticker& ticker, NodeIndex self, std::span<const Member> members) {
-  const auto numbers = ticker.child_states<std::uint32_t>(self);
+std::span<std::uint32_t> who_asks(NodeContext& context, NodeIndex self,
+                                  std::span<const Member> members) {
+  const auto numbers = context.child_states<std::uint32_t>(self);
   std::size_t count = 0;
   for (const Member& member : members) {
-    ticker.state<ResourceUse>(member.node).limit = 0;
-    if (ticker.status(member.node) != Status::Running) continue;
-    if (resources::keeps(ticker, member.node)) {
-      resources::keep(ticker, member.node);
-    } else if (!is_held_by_parallel(ticker, member.node) && ticker.refresh(member.node)) {
+    context.state<ResourceUse>(member.node).limit = 0;
+    if (context.status(member.node) != Status::Running) continue;
+    if (resources::keeps(context, member.node)) {
+      resources::keep(context, member.node);
+    } else if (!is_held_by_parallel(context, member.node) && context.refresh(member.node)) {
       numbers[count++] = member.number;
     }
   }
   return numbers.first(count);
 }
 
-Status tick_resources(Ticker& ticker, NodeIndex self) {
-  ticker.state<ResourcePool>(self).owned = 0;
-  const auto members = ticker.tree().members_of(self);
-  const auto asking = who_asks(ticker, self, members);
+Status tick_resources(NodeContext& context, NodeIndex self) {
+  context.state<ResourcePool>(self).owned = 0;
+  const auto members = context.tree().members_of(self);
+  const auto asking = who_asks(context, self, members);
   const auto priority = [&](std::uint32_t number) {
-    return ticker.state<ResourceUse>(members[number].node).priority;
+    return context.state<ResourceUse>(members[number].node).priority;
   };
   std::ranges::sort(asking, [&](std::uint32_t one, std::uint32_t other) {
     if (priority(one) != priority(other)) return priority(one) > priority(other);
     return one < other;
   });
-  for (const std::uint32_t number : asking) resources::ask(ticker, members[number].node);
+  for (const std::uint32_t number : asking) resources::ask(context, members[number].node);
   return Status::Running;
 }
 
@@ -81,7 +82,7 @@ const NodeKind kResources{
              .rule = rule_of_resources,
              .synchronization = Synchronization::Resources},
     .tick = tick_resources,
-    .progress = [](Ticker&, NodeIndex) { return 0.0; },
+    .progress = [](NodeContext&, NodeIndex) { return 0.0; },
     .state_size = sizeof(ResourcePool),
     .state_per_child = sizeof(std::uint32_t),
     .fold = fold::dead};

@@ -5,8 +5,8 @@ namespace lockstep {
 namespace {
 
 template <Status kSuccessBecomes, Status kFailureBecomes>
-Status tick_result(Ticker& ticker, NodeIndex self) {
-  const Status status = ticker.tick(self + 1);
+Status tick_result(NodeContext& context, NodeIndex self) {
+  const Status status = context.tick(self + 1);
   if (status == Status::Success) return kSuccessBecomes;
   if (status == Status::Failure) return kFailureBecomes;
   return status;

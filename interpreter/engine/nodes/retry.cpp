@@ -18,18 +18,18 @@ struct RetryState {
   std::int64_t failed;
 };
 
-Status tick_retry(Ticker& ticker, NodeIndex self) {
-  RetryState& state = ticker.state<RetryState>(self);
-  if (ticker.first_tick(self)) state.failed = 0;
-  const Status status = ticker.tick(self + 1);
+Status tick_retry(NodeContext& context, NodeIndex self) {
+  RetryState& state = context.state<RetryState>(self);
+  if (context.first_tick(self)) state.failed = 0;
+  const Status status = context.tick(self + 1);
   if (status != Status::Failure) return status;
   ++state.failed;
-  return state.failed == ticker.parameter(self, kAttempts).integer ? Status::Failure
-                                                                   : Status::Running;
+  return state.failed == context.parameter(self, kAttempts).integer ? Status::Failure
+                                                                    : Status::Running;
 }
 
-Round round_of_retry(Ticker& ticker, NodeIndex self) {
-  return {ticker.state<RetryState>(self).failed + 1, ticker.parameter(self, kAttempts).integer};
+Round round_of_retry(NodeContext& context, NodeIndex self) {
+  return {context.state<RetryState>(self).failed + 1, context.parameter(self, kAttempts).integer};
 }
 
 }  // namespace

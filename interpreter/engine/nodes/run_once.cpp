@@ -18,21 +18,21 @@ struct RunOnceState {
   Status result;  // Idle: not yet completed
 };
 
-Status tick_once(Ticker& ticker, NodeIndex self, RunOnceState& state) {
-  const Status status = ticker.tick(self + 1);
+Status tick_once(NodeContext& context, NodeIndex self, RunOnceState& state) {
+  const Status status = context.tick(self + 1);
   if (is_complete(status)) state.result = status;
   return status;
 }
 
-Status tick_run_once(Ticker& ticker, NodeIndex self) {
-  RunOnceState& state = ticker.state<RunOnceState>(self);
-  return is_complete(state.result) ? state.result : tick_once(ticker, self, state);
+Status tick_run_once(NodeContext& context, NodeIndex self) {
+  RunOnceState& state = context.state<RunOnceState>(self);
+  return is_complete(state.result) ? state.result : tick_once(context, self, state);
 }
 
-Status tick_or_skip(Ticker& ticker, NodeIndex self) {
-  RunOnceState& state = ticker.state<RunOnceState>(self);
-  const bool skips = is_complete(state.result) && ticker.parameter(self, kThenSkip).boolean;
-  return skips ? Status::Skipped : tick_run_once(ticker, self);
+Status tick_or_skip(NodeContext& context, NodeIndex self) {
+  RunOnceState& state = context.state<RunOnceState>(self);
+  const bool skips = is_complete(state.result) && context.parameter(self, kThenSkip).boolean;
+  return skips ? Status::Skipped : tick_run_once(context, self);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Script, Check and, for BehaviorTree.CPP, ScriptCondition: leaves that run a script.
+#include "engine/node_context.h"
 #include "engine/nodes/at_once.h"
 #include "engine/nodes/kinds.h"
-#include "engine/ticker.h"
 
 namespace lockstep {
 namespace {
@@ -19,13 +19,13 @@ constexpr Parameter kCheckParameters[] = {{.name = "code",
                                            .required = true,
                                            .is_script = true}};
 
-Status tick_script(Ticker& ticker, NodeIndex self) {
-  const bool good = ticker.run_script(self, ticker.script(self, kCode), "code");
+Status tick_script(NodeContext& context, NodeIndex self) {
+  const bool good = context.run_script(self, context.script(self, kCode), "code");
   return good ? Status::Success : Status::Failure;
 }
 
-Status tick_check(Ticker& ticker, NodeIndex self) {
-  const auto holds = ticker.holds(self, ticker.script(self, kCode), "code");
+Status tick_check(NodeContext& context, NodeIndex self) {
+  const auto holds = context.holds(self, context.script(self, kCode), "code");
   return holds.value_or(false) ? Status::Success : Status::Failure;
 }
 

@@ -3,8 +3,8 @@
 namespace lockstep {
 namespace {
 
-Status tick_subtree(Ticker& ticker, NodeIndex self) {
-  return ticker.tick(self + 1);
+Status tick_subtree(NodeContext& context, NodeIndex self) {
+  return context.tick(self + 1);
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 #include <algorithm>
 
 #include "core/wording.h"
+#include "engine/node_context.h"
 #include "engine/nodes/fold.h"
 #include "engine/nodes/kinds.h"
-#include "engine/ticker.h"
 #include "expression/equal.h"
 
 namespace lockstep {
@@ -46,29 +46,29 @@ struct SwitchState {
 };
 
 // Of the first case that is equal, else what comes after the cases; 0: nothing does.
-NodeIndex choose(const Ticker& ticker, NodeIndex self, const Value& value) {
+NodeIndex choose(const NodeContext& context, NodeIndex self, const Value& value) {
   NodeIndex child = self + 1;
-  for (const std::string& text : ticker.texts(self, kCases)) {
+  for (const std::string& text : context.texts(self, kCases)) {
     if (equals_text(value, text)) return child;
-    child = ticker.end_of(child);
+    child = context.end_of(child);
   }
-  return child == ticker.end_of(self) ? 0 : child;
+  return child == context.end_of(self) ? 0 : child;
 }
 
-Status tick_switch(Ticker& ticker, NodeIndex self) {
-  SwitchState& state = ticker.state<SwitchState>(self);
-  if (ticker.first_tick(self)) state.current = 0;
-  const Value* value = ticker.result_of(self, ticker.script(self, kOn), "on");
+Status tick_switch(NodeContext& context, NodeIndex self) {
+  SwitchState& state = context.state<SwitchState>(self);
+  if (context.first_tick(self)) state.current = 0;
+  const Value* value = context.result_of(self, context.script(self, kOn), "on");
   if (value == nullptr) return Status::Failure;
-  const NodeIndex child = choose(ticker, self, *value);
-  if (state.current != 0 && state.current != child) ticker.halt(state.current);
+  const NodeIndex child = choose(context, self, *value);
+  if (state.current != 0 && state.current != child) context.halt(state.current);
   state.current = child;
-  return child == 0 ? Status::Failure : ticker.tick(child);
+  return child == 0 ? Status::Failure : context.tick(child);
 }
 
-double progress_of_switch(Ticker& ticker, NodeIndex self) {
-  const NodeIndex child = ticker.state<SwitchState>(self).current;
-  return child == 0 ? 0.0 : ticker.progress(child);
+double progress_of_switch(NodeContext& context, NodeIndex self) {
+  const NodeIndex child = context.state<SwitchState>(self).current;
+  return child == 0 ? 0.0 : context.progress(child);
 }
 
 }  // namespace

@@ -27,57 +27,57 @@ struct State {
   Nanoseconds paused_at;
 };
 
-inline void pause(Ticker& ticker, NodeIndex self) {
-  ticker.state<State>(self).paused_at = ticker.now();
+inline void pause(NodeContext& context, NodeIndex self) {
+  context.state<State>(self).paused_at = context.now();
 }
 
 // Call once in each tick, before anything else.
-inline void count(Ticker& ticker, NodeIndex self) {
-  State& state = ticker.state<State>(self);
-  if (ticker.first_tick(self)) state.start = ticker.now();
-  if (ticker.activity(self) == Activity::Paused) state.start += ticker.now() - state.paused_at;
+inline void count(NodeContext& context, NodeIndex self) {
+  State& state = context.state<State>(self);
+  if (context.first_tick(self)) state.start = context.now();
+  if (context.activity(self) == Activity::Paused) state.start += context.now() - state.paused_at;
 }
 
-inline bool is_over(Ticker& ticker, NodeIndex self) {
-  const Nanoseconds counted = ticker.now() - ticker.state<State>(self).start;
-  return counted >= from_seconds(ticker.parameter(self, kSeconds).number);
+inline bool is_over(NodeContext& context, NodeIndex self) {
+  const Nanoseconds counted = context.now() - context.state<State>(self).start;
+  return counted >= from_seconds(context.parameter(self, kSeconds).number);
 }
 
 // Of a node that runs: the times relative to now. If no entry changes what is counted, it is at
 // most `limit`.
-inline void count_from_now(Ticker& ticker, NodeIndex self, bool stands_while_held,
+inline void count_from_now(NodeContext& context, NodeIndex self, bool stands_while_held,
                            Nanoseconds limit) {
-  State& state = ticker.state<State>(self);
-  const bool is_paused = ticker.activity(self) == Activity::Paused;
-  if (!ticker.has_constant_parameters(self)) {
-    state.start -= ticker.now();
-    state.paused_at = is_paused ? state.paused_at - ticker.now() : Nanoseconds(0);
+  State& state = context.state<State>(self);
+  const bool is_paused = context.activity(self) == Activity::Paused;
+  if (!context.has_constant_parameters(self)) {
+    state.start -= context.now();
+    state.paused_at = is_paused ? state.paused_at - context.now() : Nanoseconds(0);
     return;
   }
-  const Nanoseconds until = is_paused && stands_while_held ? state.paused_at : ticker.now();
+  const Nanoseconds until = is_paused && stands_while_held ? state.paused_at : context.now();
   state = {.start = -std::min(until - state.start, limit), .paused_at = Nanoseconds(0)};
 }
 
 // Of Wait.
-inline void fold(Ticker& ticker, NodeIndex self) {
-  fold::dead_when_idle(ticker, self);
-  if (ticker.status(self) != Status::Running) return;
-  count_from_now(ticker, self, true, from_seconds(ticker.parameter(self, kSeconds).number));
+inline void fold(NodeContext& context, NodeIndex self) {
+  fold::dead_when_idle(context, self);
+  if (context.status(self) != Status::Running) return;
+  count_from_now(context, self, true, from_seconds(context.parameter(self, kSeconds).number));
 }
 
 // Of Timeout, Delay and a Rate that runs.
-inline void fold_by_clock(Ticker& ticker, NodeIndex self) {
-  fold::dead_when_idle(ticker, self);
-  if (ticker.status(self) != Status::Running) return;
-  count_from_now(ticker, self, ticker.parameter(self, kClock).integer != kWall,
-                 from_seconds(ticker.parameter(self, kSeconds).number));
+inline void fold_by_clock(NodeContext& context, NodeIndex self) {
+  fold::dead_when_idle(context, self);
+  if (context.status(self) != Status::Running) return;
+  count_from_now(context, self, context.parameter(self, kClock).integer != kWall,
+                 from_seconds(context.parameter(self, kSeconds).number));
 }
 
 // Of Timeout and Delay.
-inline bool is_over_by_clock(Ticker& ticker, NodeIndex self) {
-  const bool goes_on = ticker.parameter(self, kClock).integer == kWall;
-  if (!goes_on || ticker.first_tick(self)) count(ticker, self);
-  return is_over(ticker, self);
+inline bool is_over_by_clock(NodeContext& context, NodeIndex self) {
+  const bool goes_on = context.parameter(self, kClock).integer == kWall;
+  if (!goes_on || context.first_tick(self)) count(context, self);
+  return is_over(context, self);
 }
 
 }  // namespace lockstep::timed

@@ -14,9 +14,9 @@ constexpr Parameter kTimeoutParameters[] = {
     timed::kClockParameter,
 };
 
-Status tick_timeout(Ticker& ticker, NodeIndex self) {
-  if (!timed::is_over_by_clock(ticker, self)) return ticker.tick(self + 1);
-  ticker.halt(self + 1);
+Status tick_timeout(NodeContext& context, NodeIndex self) {
+  if (!timed::is_over_by_clock(context, self)) return context.tick(self + 1);
+  context.halt(self + 1);
   return Status::Failure;
 }
 

@@ -35,42 +35,42 @@ std::optional<RuleBreak> rule_of_use_resources(const ParameterValues& given) {
 // finite. Nobody who is reached in every tick waits so long.
 constexpr std::int64_t kMostWaits = 2;
 
-void raise_priority(Ticker& ticker, NodeIndex self, ResourceUse& use) {
-  const NodeIndex pool = ticker.membership(self).group;
-  const std::int64_t increment = ticker.parameter(pool, resources::kIncrement).integer;
-  const std::int64_t most = kMostWaits * ticker.node(pool).children * increment;
+void raise_priority(NodeContext& context, NodeIndex self, ResourceUse& use) {
+  const NodeIndex pool = context.membership(self).group;
+  const std::int64_t increment = context.parameter(pool, resources::kIncrement).integer;
+  const std::int64_t most = kMostWaits * context.node(pool).children * increment;
   use.priority = std::min(use.priority + increment, most);
 }
 
 // A member that is closed and reached has a SyncProgress inside that is held. That withholds the
 // ticks itself, so that all around it goes on: its barrier, and a Timeout in between.
-Status tick_child(Ticker& ticker, NodeIndex self) {
-  auto& use = ticker.state<ResourceUse>(self);
+Status tick_child(NodeContext& context, NodeIndex self) {
+  auto& use = context.state<ResourceUse>(self);
   if (use.grant == Grant::Denied) {
-    raise_priority(ticker, self, use);
-    if (ticker.hold_firmly(self + 1)) return Status::Running;
+    raise_priority(context, self, use);
+    if (context.hold_firmly(self + 1)) return Status::Running;
   }
-  const Status status = ticker.tick(self + 1);
-  if (status == Status::Skipped) resources::give_back(ticker, self);
+  const Status status = context.tick(self + 1);
+  if (status == Status::Skipped) resources::give_back(context, self);
   return status;
 }
 
 // The priority counts at any time, what it owns while its child keeps it.
-void fold_use_resources(Ticker& ticker, NodeIndex self) {
-  auto& use = ticker.state<ResourceUse>(self);
+void fold_use_resources(NodeContext& context, NodeIndex self) {
+  auto& use = context.state<ResourceUse>(self);
   ResourceUse folded{};
   folded.priority = use.priority;
-  if (resources::keeps(ticker, self)) folded.owned = use.owned;
+  if (resources::keeps(context, self)) folded.owned = use.owned;
   use = folded;
 }
 
-Status tick_use_resources(Ticker& ticker, NodeIndex self) {
-  auto& use = ticker.state<ResourceUse>(self);
-  ticker.reach(ticker.membership(self).group);
+Status tick_use_resources(NodeContext& context, NodeIndex self) {
+  auto& use = context.state<ResourceUse>(self);
+  context.reach(context.membership(self).group);
   // What a child keeps does not depend on what the entry says meanwhile.
-  if (!resources::keeps(ticker, self) && !ticker.reread(self)) return ticker.give_up(self);
-  if (!resources::has_asked(ticker, use)) resources::ask(ticker, self);
-  return tick_child(ticker, self);
+  if (!resources::keeps(context, self) && !context.reread(self)) return context.give_up(self);
+  if (!resources::has_asked(context, use)) resources::ask(context, self);
+  return tick_child(context, self);
 }
 
 }  // namespace

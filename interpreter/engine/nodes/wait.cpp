@@ -15,20 +15,20 @@ constexpr Parameter kWaitParameters[] = {
      .range = {.min = 0, .max = 1e9}},
 };
 
-Nanoseconds duration(const Ticker& ticker, NodeIndex self) {
-  return from_seconds(ticker.parameter(self, timed::kSeconds).number);
+Nanoseconds duration(const NodeContext& context, NodeIndex self) {
+  return from_seconds(context.parameter(self, timed::kSeconds).number);
 }
 
-Status tick_wait(Ticker& ticker, NodeIndex self) {
-  timed::count(ticker, self);
-  return timed::is_over(ticker, self) ? Status::Success : Status::Running;
+Status tick_wait(NodeContext& context, NodeIndex self) {
+  timed::count(context, self);
+  return timed::is_over(context, self) ? Status::Success : Status::Running;
 }
 
-double progress_of_wait(Ticker& ticker, NodeIndex self) {
-  const auto& state = ticker.state<timed::State>(self);
-  const bool paused = ticker.activity(self) == Activity::Paused;
-  const Nanoseconds elapsed = (paused ? state.paused_at : ticker.now()) - state.start;
-  return std::min(1.0, to_seconds(elapsed) / to_seconds(duration(ticker, self)));
+double progress_of_wait(NodeContext& context, NodeIndex self) {
+  const auto& state = context.state<timed::State>(self);
+  const bool paused = context.activity(self) == Activity::Paused;
+  const Nanoseconds elapsed = (paused ? state.paused_at : context.now()) - state.start;
+  return std::min(1.0, to_seconds(elapsed) / to_seconds(duration(context, self)));
 }
 
 }  // namespace

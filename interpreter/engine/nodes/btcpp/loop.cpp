@@ -50,43 +50,43 @@ std::optional<Value> item_of(const Value& list, std::size_t index) {
 
 // False: there is no list, which is a fault.
 template <ValueType kList>
-bool begin_loop(Ticker& ticker, NodeIndex self) {
-  ticker.state<LoopState>(self).next = 0;
-  const Value* queue = ticker.port_value(self, kQueue);
+bool begin_loop(NodeContext& context, NodeIndex self) {
+  context.state<LoopState>(self).next = 0;
+  const Value* queue = context.port_value(self, kQueue);
   auto list = queue == nullptr ? std::nullopt : convert_value(*queue, kList, nullptr);
   if (list) {
-    ticker.kept_value(self) = std::move(*list);
+    context.kept_value(self) = std::move(*list);
     return true;
   }
-  ticker.set_fault(self, queue == nullptr ? "its queue has no value"
-                                          : "its queue holds no " + std::string(to_string(kList)));
+  context.set_fault(self, queue == nullptr ? "its queue has no value"
+                                           : "its queue holds no " + std::string(to_string(kList)));
   return false;
 }
 
-Status if_empty(Ticker& ticker, NodeIndex self) {
-  const Value* word = ticker.port_value(self, kIfEmpty);
+Status if_empty(NodeContext& context, NodeIndex self) {
+  const Value* word = context.port_value(self, kIfEmpty);
   const auto* text = word == nullptr ? nullptr : std::get_if<std::string>(word);
   const auto* const it = text == nullptr ? std::end(kResults) : std::ranges::find(kResults, *text);
   if (it != std::end(kResults)) return static_cast<Status>(it - std::begin(kResults) + 1);
-  ticker.set_fault(self, "'if_empty' is none of RUNNING, SUCCESS, FAILURE, SKIPPED");
+  context.set_fault(self, "'if_empty' is none of RUNNING, SUCCESS, FAILURE, SKIPPED");
   return Status::Failure;
 }
 
 template <class T, ValueType kList, ValueType kItem>
-Status tick_loop(Ticker& ticker, NodeIndex self) {
-  if (ticker.first_tick(self) && !begin_loop<kList>(ticker, self)) return Status::Failure;
-  if (ticker.status(self + 1) != Status::Running) {
-    LoopState& state = ticker.state<LoopState>(self);
-    auto item = item_of<T>(ticker.kept_value(self), state.next);
-    if (!item) return if_empty(ticker, self);
+Status tick_loop(NodeContext& context, NodeIndex self) {
+  if (context.first_tick(self) && !begin_loop<kList>(context, self)) return Status::Failure;
+  if (context.status(self + 1) != Status::Running) {
+    LoopState& state = context.state<LoopState>(self);
+    auto item = item_of<T>(context.kept_value(self), state.next);
+    if (!item) return if_empty(context, self);
     ++state.next;
-    Entry* const entry = ticker.port_entry(self, kValue);
+    Entry* const entry = context.port_entry(self, kValue);
     if (entry != nullptr && !write_entry(*entry, kItem, nullptr, *std::move(item))) {
-      ticker.set_fault(self, "the item does not fit the entry of 'value'");
+      context.set_fault(self, "the item does not fit the entry of 'value'");
       return Status::Failure;
     }
   }
-  return ticker.tick(self + 1) == Status::Failure ? Status::Failure : Status::Running;
+  return context.tick(self + 1) == Status::Failure ? Status::Failure : Status::Running;
 }
 
 template <class T>
@@ -96,19 +96,19 @@ std::size_t count_of(const Value& list) {
 }
 
 template <class T>
-double progress_of_loop(Ticker& ticker, NodeIndex self) {
-  const auto all = static_cast<double>(count_of<T>(ticker.kept_value(self)));
+double progress_of_loop(NodeContext& context, NodeIndex self) {
+  const auto all = static_cast<double>(count_of<T>(context.kept_value(self)));
   if (all == 0) return 0.0;
-  const bool runs = ticker.status(self + 1) == Status::Running;
-  const double done = ticker.state<LoopState>(self).next - (runs ? 1.0 : 0.0);
-  return (done + (runs ? ticker.progress(self + 1) : 0.0)) / all;
+  const bool runs = context.status(self + 1) == Status::Running;
+  const double done = context.state<LoopState>(self).next - (runs ? 1.0 : 0.0);
+  return (done + (runs ? context.progress(self + 1) : 0.0)) / all;
 }
 
 // One that has completed goes on if it is ticked without a reset.
-inline void fold_loop(Ticker& ticker, NodeIndex self) {
-  if (ticker.status(self) != Status::Idle) return;
-  fold::dead(ticker, self);
-  ticker.drop_kept_value(self);
+inline void fold_loop(NodeContext& context, NodeIndex self) {
+  if (context.status(self) != Status::Idle) return;
+  fold::dead(context, self);
+  context.drop_kept_value(self);
 }
 
 template <class T, ValueType kList, ValueType kItem>
@@ -125,7 +125,7 @@ constexpr NodeKind kind_of_loop(std::string_view id) {
           .progress = progress_of_loop<T>,
           .state_size = sizeof(LoopState),
           .fold = fold_loop,
-          .unreset = [](Ticker&, NodeIndex) { return Unreset::GoesOn; }};
+          .unreset = [](NodeContext&, NodeIndex) { return Unreset::GoesOn; }};
 }
 
 }  // namespace

@@ -35,9 +35,9 @@ using parallel::check_count;
 using parallel::Tally;
 
 // The children that have completed in this activation, and those that were skipped in this tick.
-Tally& begin_tick(Ticker& ticker, NodeIndex self) {
-  Tally& tally = ticker.state<Tally>(self);
-  if (ticker.first_tick(self)) tally = {};
+Tally& begin_tick(NodeContext& context, NodeIndex self) {
+  Tally& tally = context.state<Tally>(self);
+  if (context.first_tick(self)) tally = {};
   tally.skipped = 0;
   return tally;
 }
@@ -58,63 +58,63 @@ std::optional<RuleBreak> all_rule(const ParameterValues& given) {
 
 // Decides after each child, so that those to the right of the one that decides are not ticked. The
 // counts wanted may be others than in the last tick.
-Status tick_parallel(Ticker& ticker, NodeIndex self) {
-  Tally& tally = begin_tick(ticker, self);
-  const std::int64_t all = ticker.node(self).children;
+Status tick_parallel(NodeContext& context, NodeIndex self) {
+  Tally& tally = begin_tick(context, self);
+  const std::int64_t all = context.node(self).children;
   bool may_decide = true;
-  for (NodeIndex child = self + 1; child != ticker.end_of(self); child = ticker.end_of(child)) {
-    if (!is_complete(ticker.status(child))) {
-      const Status status = ticker.tick(child);
-      if (ticker.faulted()) return Status::Running;
+  for (NodeIndex child = self + 1; child != context.end_of(self); child = context.end_of(child)) {
+    if (!is_complete(context.status(child))) {
+      const Status status = context.tick(child);
+      if (context.faulted()) return Status::Running;
       if (status != Status::Running) {
         may_decide = true;
         tally.add(status);
       }
     }
     if (!std::exchange(may_decide, false)) continue;
-    const std::int64_t given = ticker.parameter(self, kSuccessCount).integer;
+    const std::int64_t given = context.parameter(self, kSuccessCount).integer;
     const std::int64_t wanted = count_of(given, all);
-    const std::int64_t failures = count_of(ticker.parameter(self, kFailureCount).integer, all);
+    const std::int64_t failures = count_of(context.parameter(self, kFailureCount).integer, all);
     const std::int64_t counted = tally.succeeded + (given < 0 ? tally.skipped : 0);
     const bool success = counted >= wanted;
     if (success || all - tally.failed < wanted || tally.failed == failures) {
-      ticker.halt_running_children(self);
+      context.halt_running_children(self);
       return success ? Status::Success : Status::Failure;
     }
   }
   return tally.skipped == all ? Status::Skipped : Status::Running;
 }
 
-Status tick_all(Ticker& ticker, NodeIndex self) {
-  Tally& tally = begin_tick(ticker, self);
-  const std::int64_t all = ticker.node(self).children;
-  for (NodeIndex child = self + 1; child != ticker.end_of(self); child = ticker.end_of(child)) {
-    if (!is_complete(ticker.status(child))) tally.add(ticker.tick(child));
+Status tick_all(NodeContext& context, NodeIndex self) {
+  Tally& tally = begin_tick(context, self);
+  const std::int64_t all = context.node(self).children;
+  for (NodeIndex child = self + 1; child != context.end_of(self); child = context.end_of(child)) {
+    if (!is_complete(context.status(child))) tally.add(context.tick(child));
   }
-  if (ticker.faulted()) return Status::Running;
+  if (context.faulted()) return Status::Running;
   if (tally.skipped == all) return Status::Skipped;
   if (tally.succeeded + tally.failed + tally.skipped < all) return Status::Running;
-  const std::int64_t most = count_of(ticker.parameter(self, kMaxFailures).integer, all);
+  const std::int64_t most = count_of(context.parameter(self, kMaxFailures).integer, all);
   return tally.failed >= most ? Status::Failure : Status::Success;
 }
 
-double progress_of_parallel(Ticker& ticker, NodeIndex self) {
-  const std::int64_t all = ticker.node(self).children;
-  const std::int64_t wanted = count_of(ticker.parameter(self, kSuccessCount).integer, all);
-  return parallel::progress_of_mth(ticker, self, std::clamp(wanted, std::int64_t{1}, all));
+double progress_of_parallel(NodeContext& context, NodeIndex self) {
+  const std::int64_t all = context.node(self).children;
+  const std::int64_t wanted = count_of(context.parameter(self, kSuccessCount).integer, all);
+  return parallel::progress_of_mth(context, self, std::clamp(wanted, std::int64_t{1}, all));
 }
 
-void fold_parallel(Ticker& ticker, NodeIndex self) {
-  fold::dead_when_idle(ticker, self);
-  ticker.state<Tally>(self).skipped = 0;
+void fold_parallel(NodeContext& context, NodeIndex self) {
+  fold::dead_when_idle(context, self);
+  context.state<Tally>(self).skipped = 0;
 }
 
 // Of the children that are there.
-double least_progress(Ticker& ticker, NodeIndex self) {
+double least_progress(NodeContext& context, NodeIndex self) {
   double least = 1.0;
-  for (NodeIndex child = self + 1; child != ticker.end_of(self); child = ticker.end_of(child)) {
-    if (ticker.activity(child) == Activity::Skipped) continue;
-    if (ticker.status(child) != Status::Failure) least = std::min(least, ticker.progress(child));
+  for (NodeIndex child = self + 1; child != context.end_of(self); child = context.end_of(child)) {
+    if (context.activity(child) == Activity::Skipped) continue;
+    if (context.status(child) != Status::Failure) least = std::min(least, context.progress(child));
   }
   return least;
 }

@@ -24,25 +24,25 @@ struct PreconditionState {
   bool is_open;  // the script was true, and the child has not completed since
 };
 
-Status otherwise(const Ticker& ticker, NodeIndex self) {
-  return static_cast<Status>(ticker.parameter(self, kElse).integer + 1);
+Status otherwise(const NodeContext& context, NodeIndex self) {
+  return static_cast<Status>(context.parameter(self, kElse).integer + 1);
 }
 
-Status tick_precondition(Ticker& ticker, NodeIndex self) {
-  PreconditionState& state = ticker.state<PreconditionState>(self);
+Status tick_precondition(NodeContext& context, NodeIndex self) {
+  PreconditionState& state = context.state<PreconditionState>(self);
   if (!state.is_open) {
-    const auto holds = ticker.holds(self, ticker.script(self, kIf), "if");
+    const auto holds = context.holds(self, context.script(self, kIf), "if");
     if (!holds) return Status::Failure;
-    if (!*holds) return otherwise(ticker, self);
+    if (!*holds) return otherwise(context, self);
   }
   state.is_open = true;
-  const Status status = ticker.tick(self + 1);
+  const Status status = context.tick(self + 1);
   if (is_complete(status)) state.is_open = false;
   return status;
 }
 
-void forget_precondition(Ticker& ticker, NodeIndex self) {
-  ticker.state<PreconditionState>(self).is_open = false;
+void forget_precondition(NodeContext& context, NodeIndex self) {
+  context.state<PreconditionState>(self).is_open = false;
 }
 
 }  // namespace

@@ -27,25 +27,25 @@ struct RepeatState {
 
 // A child that completed at once lets the tree be ticked again; another one is ticked again here.
 template <Status kGoOn>
-Status tick_repeat(Ticker& ticker, NodeIndex self) {
-  RepeatState& state = ticker.state<RepeatState>(self);
+Status tick_repeat(NodeContext& context, NodeIndex self) {
+  RepeatState& state = context.state<RepeatState>(self);
   const auto has_more = [&] {
-    const std::int64_t times = ticker.parameter(self, 0).integer;
+    const std::int64_t times = context.parameter(self, 0).integer;
     return times == kEndless || state.done < times;
   };
   while (has_more()) {
-    const bool was_idle = ticker.first_tick(self + 1);
-    const Status status = ticker.tick(self + 1);
-    if (status == Status::Skipped) ticker.forget_range(self + 1, ticker.end_of(self));
+    const bool was_idle = context.first_tick(self + 1);
+    const Status status = context.tick(self + 1);
+    if (status == Status::Skipped) context.forget_range(self + 1, context.end_of(self));
     if (status == Status::Running || status == Status::Skipped) return status;
     if (status != kGoOn) {
       state.done = 0;
       return status;
     }
     ++state.done;
-    if (kGoOn == Status::Failure && !ticker.reread(self)) return Status::Failure;
+    if (kGoOn == Status::Failure && !context.reread(self)) return Status::Failure;
     if (was_idle && has_more()) {
-      ticker.ask_for_another_tick(self);
+      context.ask_for_another_tick(self);
       return Status::Running;
     }
   }
@@ -53,27 +53,28 @@ Status tick_repeat(Ticker& ticker, NodeIndex self) {
   return kGoOn;
 }
 
-void forget_repeat(Ticker& ticker, NodeIndex self) {
-  ticker.state<RepeatState>(self).done = 0;
+void forget_repeat(NodeContext& context, NodeIndex self) {
+  context.state<RepeatState>(self).done = 0;
 }
 
 // How often does not matter for ever.
-void fold_repeat(Ticker& ticker, NodeIndex self) {
-  const bool is_endless = ticker.parameter(self, 0).integer == kEndless;
-  if (is_endless && ticker.has_constant_parameters(self)) fold::dead(ticker, self);
+void fold_repeat(NodeContext& context, NodeIndex self) {
+  const bool is_endless = context.parameter(self, 0).integer == kEndless;
+  if (is_endless && context.has_constant_parameters(self)) fold::dead(context, self);
 }
 
-double progress_of_repeat(Ticker& ticker, NodeIndex self) {
-  const std::int64_t times = ticker.parameter(self, 0).integer;
-  const double child = ticker.status(self + 1) == Status::Running ? ticker.progress(self + 1) : 0.0;
+double progress_of_repeat(NodeContext& context, NodeIndex self) {
+  const std::int64_t times = context.parameter(self, 0).integer;
+  const double child =
+      context.status(self + 1) == Status::Running ? context.progress(self + 1) : 0.0;
   if (times <= 0) return child;
-  const auto done = static_cast<double>(ticker.state<RepeatState>(self).done);
+  const auto done = static_cast<double>(context.state<RepeatState>(self).done);
   return std::min(1.0, (done + child) / static_cast<double>(times));
 }
 
-Round round_of_repeat(Ticker& ticker, NodeIndex self) {
-  const std::int64_t times = ticker.parameter(self, 0).integer;
-  return {ticker.state<RepeatState>(self).done + 1, std::max(times, std::int64_t{0})};
+Round round_of_repeat(NodeContext& context, NodeIndex self) {
+  const std::int64_t times = context.parameter(self, 0).integer;
+  return {context.state<RepeatState>(self).done + 1, std::max(times, std::int64_t{0})};
 }
 
 }  // namespace

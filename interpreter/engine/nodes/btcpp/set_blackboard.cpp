@@ -1,9 +1,9 @@
 // SetBlackboard and UnsetBlackboard: write an entry, or remove it.
 #include "core/conversion.h"
 #include "core/wording.h"
+#include "engine/node_context.h"
 #include "engine/nodes/at_once.h"
 #include "engine/nodes/kinds.h"
-#include "engine/ticker.h"
 
 namespace lockstep::btcpp {
 namespace {
@@ -30,7 +30,7 @@ constexpr Parameter kUnsetParameters[] = {{.name = "key",
                                            .own_only = true}};
 
 // A text is converted to the type of the entry, if it has one.
-bool store_text(Ticker& ticker, NodeIndex self, Entry& target, const Value& text) {
+bool store_text(NodeContext& context, NodeIndex self, Entry& target, const Value& text) {
   if (!target.is_present) make_entry(target, Typing::Declared, ValueType::String);
   if (target.typing == Typing::Any) {
     target.value = text;
@@ -41,30 +41,31 @@ bool store_text(Ticker& ticker, NodeIndex self, Entry& target, const Value& text
     target.value = std::move(*converted);
     return true;
   }
-  ticker.set_fault(self, "cannot write '" + brief(std::get<std::string>(text)) +
-                             "' to an entry that holds " + std::string(expected_text(target.type)));
+  context.set_fault(self, "cannot write '" + brief(std::get<std::string>(text)) +
+                              "' to an entry that holds " +
+                              std::string(expected_text(target.type)));
   return false;
 }
 
-Status tick_set(Ticker& ticker, NodeIndex self) {
-  const auto named = ticker.named_entry(self, kOutputKey);
-  const Value* const value = ticker.port_value(self, kNewValue);
+Status tick_set(NodeContext& context, NodeIndex self) {
+  const auto named = context.named_entry(self, kOutputKey);
+  const Value* const value = context.port_value(self, kNewValue);
   if (!named || value == nullptr) return Status::Failure;
   Entry* const target = *named;
   if (target == nullptr) return Status::Success;  // without a name
-  if (const Entry* source = ticker.port_entry(self, kNewValue)) {
+  if (const Entry* source = context.port_entry(self, kNewValue)) {
     if (source == target) return Status::Success;
     if (!target->is_present) make_entry(*target, source->typing, source->type, source->object);
     target->value = *value;
-  } else if (!store_text(ticker, self, *target, *value)) {
+  } else if (!store_text(context, self, *target, *value)) {
     return Status::Failure;
   }
   ++target->writes;
   return Status::Success;
 }
 
-Status tick_unset(Ticker& ticker, NodeIndex self) {
-  const auto named = ticker.named_entry(self, kKey);
+Status tick_unset(NodeContext& context, NodeIndex self) {
+  const auto named = context.named_entry(self, kKey);
   if (!named) return Status::Failure;
   if (*named != nullptr) unset_entry(**named);
   return Status::Success;

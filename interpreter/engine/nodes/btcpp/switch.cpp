@@ -4,9 +4,9 @@
 #include <cmath>
 #include <string_view>
 
+#include "engine/node_context.h"
 #include "engine/nodes/fold.h"
 #include "engine/nodes/kinds.h"
-#include "engine/ticker.h"
 
 namespace lockstep::btcpp {
 namespace {
@@ -76,32 +76,32 @@ bool are_equal(std::string_view one, std::string_view other) {
   return real && second && std::fabs(*real - *second) < kTolerance;
 }
 
-bool chooses(Ticker& ticker, NodeIndex self, const Value& variable, unsigned number) {
-  const Value* value = ticker.port_value(self, number);
+bool chooses(NodeContext& context, NodeIndex self, const Value& variable, unsigned number) {
+  const Value* value = context.port_value(self, number);
   return value != nullptr && are_equal(*TextOf(variable), *TextOf(*value));
 }
 
 // The child of the first case that fits, else the last.
-NodeIndex choose(Ticker& ticker, NodeIndex self) {
-  const std::uint32_t cases = ticker.node(self).children - 1;
-  const Value* variable = ticker.port_value(self, kVariable);
+NodeIndex choose(NodeContext& context, NodeIndex self) {
+  const std::uint32_t cases = context.node(self).children - 1;
+  const Value* variable = context.port_value(self, kVariable);
   NodeIndex child = self + 1;
-  for (std::uint32_t i = 1; i <= cases; ++i, child = ticker.end_of(child)) {
-    if (variable != nullptr && chooses(ticker, self, *variable, i)) break;
+  for (std::uint32_t i = 1; i <= cases; ++i, child = context.end_of(child)) {
+    if (variable != nullptr && chooses(context, self, *variable, i)) break;
   }
   return child;
 }
 
-Status tick_switch(Ticker& ticker, NodeIndex self) {
-  SwitchState& state = ticker.state<SwitchState>(self);
-  const NodeIndex child = choose(ticker, self);
-  if (!ticker.first_tick(self) && state.current != child) ticker.halt(state.current);
+Status tick_switch(NodeContext& context, NodeIndex self) {
+  SwitchState& state = context.state<SwitchState>(self);
+  const NodeIndex child = choose(context, self);
+  if (!context.first_tick(self) && state.current != child) context.halt(state.current);
   state.current = child;
-  return ticker.tick(child);
+  return context.tick(child);
 }
 
-double progress_of_switch(Ticker& ticker, NodeIndex self) {
-  return ticker.progress(ticker.state<SwitchState>(self).current);
+double progress_of_switch(NodeContext& context, NodeIndex self) {
+  return context.progress(context.state<SwitchState>(self).current);
 }
 
 template <std::uint32_t kCases>

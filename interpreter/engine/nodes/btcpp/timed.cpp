@@ -29,8 +29,8 @@ constexpr Parameter kTimeoutParameters[] = {{.name = "msec",
                                              .unit = "ms",
                                              .range = {.min = 0, .max = 1e12}}};
 
-Nanoseconds time_of(const Ticker& ticker, NodeIndex self) {
-  return std::chrono::milliseconds(ticker.parameter(self, kTime).integer);
+Nanoseconds time_of(const NodeContext& context, NodeIndex self) {
+  return std::chrono::milliseconds(context.parameter(self, kTime).integer);
 }
 
 // Kept while the child is skipped, so not cleared by a first tick.
@@ -40,70 +40,70 @@ struct TimedState {
   bool over;     // it was over once
 };
 
-Nanoseconds begin(Ticker& ticker, TimedState& state) {
-  if (!state.started) state = {ticker.now(), true, false};
-  return ticker.now() - state.start;
+Nanoseconds begin(NodeContext& context, TimedState& state) {
+  if (!state.started) state = {context.now(), true, false};
+  return context.now() - state.start;
 }
 
-void forget_timed(Ticker& ticker, NodeIndex self) {
-  ticker.state<TimedState>(self) = {};
+void forget_timed(NodeContext& context, NodeIndex self) {
+  context.state<TimedState>(self) = {};
 }
 
 // A start relative to now. If no entry changes the time, at most that has passed.
-Nanoseconds folded(Ticker& ticker, NodeIndex self, Nanoseconds start) {
-  const Nanoseconds passed = ticker.now() - start;
-  const bool is_constant = ticker.has_constant_parameters(self);
-  return -(is_constant ? std::min(passed, time_of(ticker, self)) : passed);
+Nanoseconds folded(NodeContext& context, NodeIndex self, Nanoseconds start) {
+  const Nanoseconds passed = context.now() - start;
+  const bool is_constant = context.has_constant_parameters(self);
+  return -(is_constant ? std::min(passed, time_of(context, self)) : passed);
 }
 
-void fold_sleep(Ticker& ticker, NodeIndex self) {
-  fold::dead_when_idle(ticker, self);
-  if (ticker.status(self) != Status::Running) return;
-  Nanoseconds& start = ticker.state<TimedState>(self).start;
-  start = folded(ticker, self, start);
+void fold_sleep(NodeContext& context, NodeIndex self) {
+  fold::dead_when_idle(context, self);
+  if (context.status(self) != Status::Running) return;
+  Nanoseconds& start = context.state<TimedState>(self).start;
+  start = folded(context, self, start);
 }
 
-void fold_timed(Ticker& ticker, NodeIndex self) {
-  TimedState& state = ticker.state<TimedState>(self);
+void fold_timed(NodeContext& context, NodeIndex self) {
+  TimedState& state = context.state<TimedState>(self);
   const bool counts = state.started && !state.over;
-  state.start = counts ? folded(ticker, self, state.start) : Nanoseconds(0);
+  state.start = counts ? folded(context, self, state.start) : Nanoseconds(0);
 }
 
-Status tick_sleep(Ticker& ticker, NodeIndex self) {
-  Nanoseconds& start = ticker.state<TimedState>(self).start;
-  if (ticker.first_tick(self)) start = ticker.now();
-  return ticker.now() - start >= time_of(ticker, self) ? Status::Success : Status::Running;
+Status tick_sleep(NodeContext& context, NodeIndex self) {
+  Nanoseconds& start = context.state<TimedState>(self).start;
+  if (context.first_tick(self)) start = context.now();
+  return context.now() - start >= time_of(context, self) ? Status::Success : Status::Running;
 }
 
-double progress_of_sleep(Ticker& ticker, NodeIndex self) {
-  const Nanoseconds elapsed = ticker.now() - ticker.state<TimedState>(self).start;
-  return std::min(1.0, to_seconds(elapsed) / to_seconds(time_of(ticker, self)));
+double progress_of_sleep(NodeContext& context, NodeIndex self) {
+  const Nanoseconds elapsed = context.now() - context.state<TimedState>(self).start;
+  return std::min(1.0, to_seconds(elapsed) / to_seconds(time_of(context, self)));
 }
 
-Status tick_delay(Ticker& ticker, NodeIndex self) {
-  TimedState& state = ticker.state<TimedState>(self);
-  const Nanoseconds waited = begin(ticker, state);
-  if (!state.over && waited < time_of(ticker, self)) return Status::Running;
+Status tick_delay(NodeContext& context, NodeIndex self) {
+  TimedState& state = context.state<TimedState>(self);
+  const Nanoseconds waited = begin(context, state);
+  if (!state.over && waited < time_of(context, self)) return Status::Running;
   state.over = true;
-  const Status status = ticker.tick(self + 1);
+  const Status status = context.tick(self + 1);
   if (is_complete(status)) state = {};
   return status;
 }
 
 // A child that begins after the time is over runs as long as it likes.
-Status tick_timeout(Ticker& ticker, NodeIndex self) {
-  TimedState& state = ticker.state<TimedState>(self);
-  const Nanoseconds waited = begin(ticker, state);
-  const Nanoseconds limit = time_of(ticker, self);
+Status tick_timeout(NodeContext& context, NodeIndex self) {
+  TimedState& state = context.state<TimedState>(self);
+  const Nanoseconds waited = begin(context, state);
+  const Nanoseconds limit = time_of(context, self);
   if (!state.over && limit > Nanoseconds(0) && waited >= limit) {
     state.over = true;
-    if (ticker.status(self + 1) == Status::Running) {
-      ticker.halt(self + 1);
+    if (context.status(self + 1) == Status::Running) {
+      context.halt(self + 1);
       state = {};
       return Status::Failure;
     }
   }
-  const Status status = ticker.tick(self + 1);
+  const Status status = context.tick(self + 1);
   if (is_complete(status)) state = {};
   return status;
 }

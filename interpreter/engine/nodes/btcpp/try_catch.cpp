@@ -1,7 +1,7 @@
 // TryCatch: a Sequence of all children but the last, which is ticked after a Failure.
+#include "engine/node_context.h"
 #include "engine/nodes/fold.h"
 #include "engine/nodes/kinds.h"
-#include "engine/ticker.h"
 
 namespace lockstep::btcpp {
 namespace {
@@ -19,53 +19,53 @@ struct TryCatchState {
   std::uint32_t done, skipped;
 };
 
-NodeIndex last_child(Ticker& ticker, NodeIndex self) {
+NodeIndex last_child(NodeContext& context, NodeIndex self) {
   NodeIndex last = self + 1;
-  while (ticker.end_of(last) != ticker.end_of(self)) last = ticker.end_of(last);
+  while (context.end_of(last) != context.end_of(self)) last = context.end_of(last);
   return last;
 }
 
-Status tick_last(Ticker& ticker, NodeIndex last) {
-  const Status status = ticker.tick(last);
+Status tick_last(NodeContext& context, NodeIndex last) {
+  const Status status = context.tick(last);
   return status == Status::Running ? status : Status::Failure;
 }
 
-Status tick_try_catch(Ticker& ticker, NodeIndex self) {
-  TryCatchState& state = ticker.state<TryCatchState>(self);
-  const NodeIndex last = last_child(ticker, self);
-  if (ticker.first_tick(self)) state = {self + 1, 0, 0};
+Status tick_try_catch(NodeContext& context, NodeIndex self) {
+  TryCatchState& state = context.state<TryCatchState>(self);
+  const NodeIndex last = last_child(context, self);
+  if (context.first_tick(self)) state = {self + 1, 0, 0};
   while (state.current != last) {
-    const Status status = ticker.tick(state.current);
+    const Status status = context.tick(state.current);
     if (status == Status::Running) return status;
     if (status == Status::Failure) {
       state.current = last;
-      return tick_last(ticker, last);
+      return tick_last(context, last);
     }
     if (status == Status::Skipped) ++state.skipped;
     ++state.done;
-    state.current = ticker.end_of(state.current);
+    state.current = context.end_of(state.current);
     if (state.current != last) continue;
     if (state.skipped != state.done) return Status::Success;
-    ticker.forget_range(self + 1, ticker.end_of(self));
+    context.forget_range(self + 1, context.end_of(self));
     return Status::Skipped;
   }
-  return tick_last(ticker, last);
+  return tick_last(context, last);
 }
 
-void halt_try_catch(Ticker& ticker, NodeIndex self) {
-  const NodeIndex last = last_child(ticker, self);
-  const bool tries = ticker.state<TryCatchState>(self).current != last;
-  if (!tries || !ticker.parameter(self, kCatchOnHalt).boolean) return;
-  ticker.halt_range(self + 1, last);
-  if (ticker.faulted()) return;
-  if (ticker.tick(last) == Status::Running) ticker.halt(last);
+void halt_try_catch(NodeContext& context, NodeIndex self) {
+  const NodeIndex last = last_child(context, self);
+  const bool tries = context.state<TryCatchState>(self).current != last;
+  if (!tries || !context.parameter(self, kCatchOnHalt).boolean) return;
+  context.halt_range(self + 1, last);
+  if (context.faulted()) return;
+  if (context.tick(last) == Status::Running) context.halt(last);
 }
 
-double progress_of_try_catch(Ticker& ticker, NodeIndex self) {
-  const auto& state = ticker.state<TryCatchState>(self);
-  const NodeIndex last = last_child(ticker, self);
-  if (state.current == last) return ticker.progress(last);
-  return (state.done + ticker.progress(state.current)) / (ticker.node(self).children - 1.0);
+double progress_of_try_catch(NodeContext& context, NodeIndex self) {
+  const auto& state = context.state<TryCatchState>(self);
+  const NodeIndex last = last_child(context, self);
+  if (state.current == last) return context.progress(last);
+  return (state.done + context.progress(state.current)) / (context.node(self).children - 1.0);
 }
 
 }  // namespace

@@ -20,28 +20,28 @@ struct UpdatedState {
   bool runs;           // the child was ticked and has not completed
 };
 
-bool was_written(Ticker& ticker, NodeIndex self, UpdatedState& state) {
-  const Entry* entry = ticker.port_entry(self, kEntry);
+bool was_written(NodeContext& context, NodeIndex self, UpdatedState& state) {
+  const Entry* entry = context.port_entry(self, kEntry);
   if (entry == nullptr || !entry->is_present || entry->writes == state.seen) return false;
   state.seen = entry->writes;
   return true;
 }
 
 template <Status kElse>
-Status tick_updated(Ticker& ticker, NodeIndex self) {
-  UpdatedState& state = ticker.state<UpdatedState>(self);
-  if (!state.runs && !was_written(ticker, self, state)) return kElse;
-  const Status status = ticker.tick(self + 1);
+Status tick_updated(NodeContext& context, NodeIndex self) {
+  UpdatedState& state = context.state<UpdatedState>(self);
+  if (!state.runs && !was_written(context, self, state)) return kElse;
+  const Status status = context.tick(self + 1);
   state.runs = status == Status::Running;
   return status;
 }
 
-void halt_updated(Ticker& ticker, NodeIndex self) {
-  ticker.state<UpdatedState>(self).runs = false;
+void halt_updated(NodeContext& context, NodeIndex self) {
+  context.state<UpdatedState>(self).runs = false;
 }
 
-Status tick_condition(Ticker& ticker, NodeIndex self) {
-  const bool written = was_written(ticker, self, ticker.state<UpdatedState>(self));
+Status tick_condition(NodeContext& context, NodeIndex self) {
+  const bool written = was_written(context, self, context.state<UpdatedState>(self));
   return written ? Status::Success : Status::Failure;
 }
 

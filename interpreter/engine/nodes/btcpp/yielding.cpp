@@ -12,37 +12,37 @@ using ordered::State;  // its place is 0 before the first child
 // What stays when an activation ends without Success, or is halted.
 enum class Place : bool { Forgotten, Kept };
 
-void begin(Ticker& ticker, NodeIndex self, State& state, Place place) {
-  if (!ticker.first_tick(self)) return;
+void begin(NodeContext& context, NodeIndex self, State& state, Place place) {
+  if (!context.first_tick(self)) return;
   if (place == Place::Forgotten || state.current == 0) state = {self + 1, 0, 0};
   state.skipped = 0;
 }
 
 template <Status kGoOn, Place kPlace>
-Status tick_yielding(Ticker& ticker, NodeIndex self) {
-  State& state = ticker.state<State>(self);
-  begin(ticker, self, state, kPlace);
-  while (state.current != ticker.end_of(self)) {
-    const bool was_idle = ticker.first_tick(state.current);
-    const Status status = ticker.tick(state.current);
+Status tick_yielding(NodeContext& context, NodeIndex self) {
+  State& state = context.state<State>(self);
+  begin(context, self, state, kPlace);
+  while (state.current != context.end_of(self)) {
+    const bool was_idle = context.first_tick(state.current);
+    const Status status = context.tick(state.current);
     if (status != kGoOn && status != Status::Skipped) return status;
     if (status == Status::Skipped) ++state.skipped;
-    state.current = ticker.end_of(state.current);
+    state.current = context.end_of(state.current);
     ++state.done;
-    if (status == kGoOn && was_idle && state.current != ticker.end_of(self)) {
-      ticker.ask_for_another_tick(self);
+    if (status == kGoOn && was_idle && state.current != context.end_of(self)) {
+      context.ask_for_another_tick(self);
       return Status::Running;
     }
   }
-  const bool all_skipped = state.skipped == ticker.node(self).children;
+  const bool all_skipped = state.skipped == context.node(self).children;
   state = {};
-  if (all_skipped) ticker.forget_range(self + 1, ticker.end_of(self));
+  if (all_skipped) context.forget_range(self + 1, context.end_of(self));
   return all_skipped ? Status::Skipped : kGoOn;
 }
 
 // Its place counts at any time.
-void fold_place(Ticker& ticker, NodeIndex self) {
-  if (ticker.status(self) != Status::Running) ticker.state<State>(self).skipped = 0;
+void fold_place(NodeContext& context, NodeIndex self) {
+  if (context.status(self) != Status::Running) context.state<State>(self).skipped = 0;
 }
 
 }  // namespace
