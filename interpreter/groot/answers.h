@@ -7,10 +7,10 @@
 #include "groot/boards.h"
 #include "groot/hooks.h"
 #include "groot/message.h"
-#include "groot/status_feed.h"
 #include "groot/statuses.h"
 #include "groot/tree.h"
-#include "view/snapshot_feed.h"
+#include "live/snapshot_feed.h"
+#include "live/status_feed.h"
 
 namespace lockstep {
 

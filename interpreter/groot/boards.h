@@ -11,7 +11,7 @@
 #include "core/json.h"
 #include "engine/tree.h"
 #include "groot/board_keys.h"
-#include "view/snapshot.h"
+#include "live/snapshot.h"
 
 namespace lockstep {
 

@@ -11,10 +11,10 @@
 #include "core/clock.h"
 #include "groot/answers.h"
 #include "groot/sockets.h"
-#include "groot/status_feed.h"
+#include "live/snapshot_feed.h"
+#include "live/status_feed.h"
 #include "runtime/observer.h"
 #include "system/file_descriptor.h"
-#include "view/snapshot_feed.h"
 
 namespace lockstep {
 

@@ -10,12 +10,12 @@
 #include <thread>
 #include <vector>
 
+#include "live/snapshot_feed.h"
 #include "system/file_descriptor.h"
 #include "terminal/keys.h"
 #include "terminal/raw_terminal.h"
 #include "terminal/screen.h"
 #include "terminal/terminal.h"
-#include "view/snapshot_feed.h"
 #include "view/tree_browser.h"
 #include "view/tree_view.h"
 

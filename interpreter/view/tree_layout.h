@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/status.h"
-#include "view/snapshot.h"
+#include "live/snapshot.h"
 #include "view/tree_shape.h"
 
 namespace lockstep {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "view/snapshot.h"
+#include "live/snapshot.h"
 #include "view/tree_layout.h"
 #include "view/tree_shape.h"
 

@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "core/clock.h"
+#include "live/line_log.h"
 #include "web/answer.h"
-#include "web/line_log.h"
 
 namespace lockstep {
 

@@ -8,9 +8,10 @@
 #include <utility>
 
 #include "core/json.h"
+#include "live/orders.h"
+#include "recording/write/json_lines.h"
 #include "system/own_thread.h"
 #include "web/history.h"
-#include "web/orders.h"
 #include "web/page.h"
 #include "web/token.h"
 
@@ -87,7 +88,7 @@ Monitor::Monitor(const Tree& tree, MonitorOptions options)
     : tree_(tree),
       recording_(std::move(options.recording)),
       control_(options.control),
-      feed_(tree, std::move(options.run)),
+      feed_(tree, std::move(options.run), json_lines()),
       on_attached_(std::move(options.on_attached)),
       wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
       linger_(options.linger),

@@ -9,15 +9,15 @@
 #include <thread>
 
 #include "core/problem.h"
+#include "live/line_feed.h"
+#include "live/line_log.h"
+#include "live/run_status.h"
 #include "system/file_descriptor.h"
 #include "web/answer.h"
 #include "web/attach_socket.h"
-#include "web/feed.h"
 #include "web/gate.h"
 #include "web/http_server.h"
-#include "web/line_log.h"
 #include "web/server_socket.h"
-#include "web/status.h"
 
 namespace lockstep {
 

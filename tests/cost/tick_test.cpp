@@ -20,7 +20,9 @@
 #include "definition/resolve.h"
 #include "engine/compile.h"
 #include "expression/evaluator.h"
-#include "groot/status_feed.h"
+#include "live/line_feed.h"
+#include "live/snapshot_feed.h"
+#include "live/status_feed.h"
 #include "measure/entry_changes.h"
 #include "measure/measure_spec.h"
 #include "plugin/plugin_set.h"
@@ -32,8 +34,6 @@
 #include "study/run_measures.h"
 #include "summary/statistics.h"
 #include "support/paths.h"
-#include "view/snapshot_feed.h"
-#include "web/feed.h"
 
 namespace {
 thread_local bool t_counting = false;
@@ -234,7 +234,7 @@ TEST_CASE(
     "the monitor's feed passes lines on without allocating or locking, also when nobody takes "
     "them") {
   const TickingTree tree;
-  MonitorFeed feed(tree.tree(), {.tree_file = "cost.xml", .rate_hz = 100}, hurried);
+  MonitorFeed feed(tree.tree(), {.tree_file = "cost.xml", .rate_hz = 100}, json_lines(), hurried);
   WatchedRun run(tree.tree(), &feed);
   run.tick(10);
   g_allocations = g_locks = 0;

@@ -10,10 +10,10 @@
 
 #include "definition/resolve.h"
 #include "engine/compile.h"
+#include "live/orders.h"
 #include "runtime/run_control.h"
 #include "web/gate.h"
 #include "web/http_server.h"
-#include "web/orders.h"
 
 namespace {
 

@@ -14,7 +14,7 @@
 #include <system_error>
 
 #include "core/clock.h"
-#include "recording/write/packet_printer.h"
+#include "live/packet_printer.h"
 #include "system/own_thread.h"
 
 namespace lockstep {

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "core/clock.h"
+#include "live/packet_ring.h"
 #include "recording/write/json_lines.h"
-#include "recording/write/packet_ring.h"
 #include "system/bell.h"
 #include "system/output_file.h"
 

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/json.h"
+#include "recording/recording.h"
 
 namespace lockstep {
 namespace {

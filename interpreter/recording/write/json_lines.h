@@ -1,7 +1,7 @@
 // The recording format of docs/recording.md: JSON Lines. read/recording_json.h reads it.
 #pragma once
 
-#include "recording/write/recording_format.h"
+#include "live/line_format.h"
 
 namespace lockstep {
 

@@ -7,8 +7,8 @@
 #include <functional>
 #include <string>
 
+#include "live/run_packets.h"
 #include "recording/write/append_file.h"
-#include "recording/write/run_packets.h"
 #include "runtime/observer.h"
 
 namespace lockstep {

@@ -1,13 +1,13 @@
 // A second format of recordings, in one file: what a developer has to write, and that ring, printer
 // and file work with it.
-#include "recording/write/recording_format.h"
+#include "live/line_format.h"
 
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
 #include <iterator>
 
-#include "recording/write/packet_printer.h"
+#include "live/packet_printer.h"
 #include "recording/write/recorder.h"
 #include "unit/recording/watched_run.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "live/line_feed.h"
 #include "runtime/run_control.h"
-#include "web/feed.h"
 
 namespace lockstep {
 

@@ -1,5 +1,5 @@
 // The last lines of a run: where listeners begin, how they catch up, what is dropped.
-#include "web/line_log.h"
+#include "live/line_log.h"
 
 #include <fmt/format.h>
 #include <array>

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "core/clock.h"
+#include "live/snapshot.h"
+#include "live/triple_buffer.h"
 #include "measure/entry_changes.h"
 #include "runtime/leaf_lines.h"
-#include "view/snapshot.h"
-#include "view/triple_buffer.h"
 
 namespace lockstep {
 

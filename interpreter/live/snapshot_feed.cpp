@@ -1,4 +1,4 @@
-#include "view/snapshot_feed.h"
+#include "live/snapshot_feed.h"
 
 #include <numeric>
 

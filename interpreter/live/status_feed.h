@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "recording/write/packet_ring.h"
+#include "live/packet_ring.h"
 #include "runtime/observer.h"
 
 namespace lockstep {

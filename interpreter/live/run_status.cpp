@@ -1,4 +1,4 @@
-#include "web/status.h"
+#include "live/run_status.h"
 
 #include <algorithm>
 

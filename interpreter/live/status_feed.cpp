@@ -1,4 +1,4 @@
-#include "groot/status_feed.h"
+#include "live/status_feed.h"
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@ namespace lockstep {
 namespace {
 
 // For three ticks that change everything, and for many that change little.
-std::size_t room_for(const Tree& tree) {
+std::size_t room_for_statuses(const Tree& tree) {
   constexpr std::size_t kLeast = 256u << 10;
   return std::max<std::size_t>(kLeast, 3 * packet_size(tree.nodes.size(), 0));
 }
@@ -16,7 +16,7 @@ std::size_t room_for(const Tree& tree) {
 }  // namespace
 
 GrootStatusFeed::GrootStatusFeed(const Tree& tree)
-    : passed_on_(tree.nodes.size()), changes_(tree.nodes.size()), ring_(room_for(tree)) {}
+    : passed_on_(tree.nodes.size()), changes_(tree.nodes.size()), ring_(room_for_statuses(tree)) {}
 
 void GrootStatusFeed::after_tick(Ticker& ticker, const TickReport& report) {
   const std::span<const Activity> now = ticker.run_state().activity;

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "live/header_and_end.h"
+#include "live/line_format.h"
+#include "live/run_delta.h"
 #include "measure/entry_changes.h"
-#include "recording/recording.h"
-#include "recording/write/recording_delta.h"
-#include "recording/write/recording_format.h"
 #include "runtime/leaf_lines.h"
 #include "runtime/observer.h"
 

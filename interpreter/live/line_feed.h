@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "recording/write/packet_ring.h"
-#include "recording/write/run_packets.h"
+#include "live/packet_ring.h"
+#include "live/run_packets.h"
 #include "runtime/deadlines.h"
 #include "runtime/observer.h"
 #include "system/bell.h"
@@ -30,7 +30,8 @@ class MonitorFeed final : public Observer {
   using RealTime = Nanoseconds (*)();
 
   // `real_time` is for tests.
-  MonitorFeed(const Tree& tree, RunDescription run, RealTime real_time = monotonic_now);
+  MonitorFeed(const Tree& tree, RunDescription run, const RecordingFormat& format,
+              RealTime real_time = monotonic_now);
   ~MonitorFeed() override;
 
   // The next tick gets a line, however soon it comes.
@@ -50,7 +51,7 @@ class MonitorFeed final : public Observer {
   const std::string& header() const { return header_; }
   const std::string& end() const { return end_; }
   // Adds whole lines: those since the last call. One with the whole state also has what the run has
-  // had of everything that is counted (web/event_counts.h).
+  // had of everything that is counted (live/event_counts.h).
   void take(std::string& lines);
   // From here on somebody takes them, who can be woken by the tick thread; and not any more.
   void begin_taking(std::function<void()> wake);
@@ -71,6 +72,7 @@ class MonitorFeed final : public Observer {
   bool wait_to_push(const Packet& packet);
   void note_times(Nanoseconds time);
 
+  const RecordingFormat& format_;
   const RealTime real_time_;
   const Deadlines deadlines_;
   RunPackets packets_;

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "recording/write/recording_packet.h"
+#include "live/packet.h"
 
 namespace lockstep {
 

@@ -12,9 +12,9 @@
 
 #include "core/clock.h"
 #include "engine/ticker.h"
+#include "live/header_and_end.h"
+#include "live/packet.h"
 #include "measure/entry_changes.h"
-#include "recording/recording.h"
-#include "recording/write/recording_packet.h"
 
 namespace lockstep {
 

@@ -1,6 +1,6 @@
 // From the tick thread's packets to the text of a recording: the ring between the two, and the
 // printer. That the text is what docs/recording.md says: recording_test.cpp.
-#include "recording/write/packet_printer.h"
+#include "live/packet_printer.h"
 
 #include <fmt/format.h>
 

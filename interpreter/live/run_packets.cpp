@@ -1,4 +1,4 @@
-#include "recording/write/run_packets.h"
+#include "live/run_packets.h"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/json_reader.h"
-#include "recording/write/packet_ring.h"
+#include "live/packet_ring.h"
 
 namespace lockstep {
 

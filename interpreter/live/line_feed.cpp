@@ -1,12 +1,11 @@
-#include "web/feed.h"
+#include "live/line_feed.h"
 
 #include <algorithm>
 #include <string_view>
 #include <utility>
 
-#include "recording/write/json_lines.h"
-#include "recording/write/packet_printer.h"
-#include "web/event_counts.h"
+#include "live/event_counts.h"
+#include "live/packet_printer.h"
 
 namespace lockstep {
 namespace {
@@ -22,10 +21,12 @@ std::size_t room_for(const Tree& tree) {
 
 }  // namespace
 
-MonitorFeed::MonitorFeed(const Tree& tree, RunDescription run, RealTime real_time)
-    : real_time_(real_time),
+MonitorFeed::MonitorFeed(const Tree& tree, RunDescription run, const RecordingFormat& format,
+                         RealTime real_time)
+    : format_(format),
+      real_time_(real_time),
       deadlines_(run.rate_hz),
-      packets_(tree, std::move(run), json_lines()),
+      packets_(tree, std::move(run), format),
       ring_(room_for(tree)),
       room_(64u << 10),
       counts_(std::make_unique<EventCounts>()) {}
@@ -151,7 +152,7 @@ void MonitorFeed::end_taking() {
 
 void MonitorFeed::take(std::string& lines) {
   const std::size_t begin = lines.size();
-  PacketPrinter printer(ring_, json_lines());
+  PacketPrinter printer(ring_, format_);
   for (auto text = printer.print(room_); !text.empty(); text = printer.print(room_)) lines += text;
   std::vector<std::string> counted;
   counts_->take(ring_, ring_.taken(), printer.finished(), counted);

@@ -7,8 +7,8 @@
 #include <span>
 #include <string_view>
 
-#include "recording/write/packet_ring.h"
-#include "recording/write/recording_format.h"
+#include "live/line_format.h"
+#include "live/packet_ring.h"
 
 namespace lockstep {
 

@@ -1,4 +1,4 @@
-#include "web/orders.h"
+#include "live/orders.h"
 
 #include <fmt/format.h>
 

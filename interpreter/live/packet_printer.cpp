@@ -1,4 +1,4 @@
-#include "recording/write/packet_printer.h"
+#include "live/packet_printer.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "web/event_counts.h"
+#include "live/event_counts.h"
 
 #include <fmt/format.h>
 

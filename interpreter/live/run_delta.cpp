@@ -1,4 +1,4 @@
-#include "recording/write/recording_delta.h"
+#include "live/run_delta.h"
 
 #include <algorithm>
 #include <cstring>

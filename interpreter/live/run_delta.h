@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "recording/write/recording_packet.h"
+#include "live/packet.h"
 
 namespace lockstep {
 

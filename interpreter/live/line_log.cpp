@@ -1,4 +1,4 @@
-#include "web/line_log.h"
+#include "live/line_log.h"
 
 #include <fmt/format.h>
 

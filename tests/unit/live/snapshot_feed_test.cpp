@@ -1,6 +1,6 @@
 // The feed of snapshots: what it has of the blackboard and of logs, live and from a recording, and
 // what a view draws of it below the tree.
-#include "view/snapshot_feed.h"
+#include "live/snapshot_feed.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
