@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <set>
 #include <string>
 #include <vector>
@@ -90,6 +91,22 @@ const std::vector<Layer> kThirdParty{
               "interpreter/recording/",  "interpreter/view/",       "interpreter/web/",
               "interpreter/study/",      "interpreter/plots/",      "interpreter/describe/",
               "interpreter/convert/",    "interpreter/groot/",      "interpreter/cli/"}},
+};
+
+// The rooms of the monitor's page, the lowest first, and what each may import beside its own files.
+const std::vector<Layer> kPageRooms{
+    {"model", {}},
+    {"store", {"model"}},
+    {"source", {"store"}},
+    {"view/parts", {"model", "preact"}},
+    {"view/chart", {"model", "store", "view/parts", "preact", "uplot"}},
+    {"view/panels", {"model", "store", "view/parts", "preact"}},
+    {"view/timeline", {"model", "store", "view/parts", "preact"}},
+    {"view/tree", {"model", "store", "view/parts", "preact", "d3-flextree"}},
+    {"view",
+     {"model", "store", "view/parts", "view/chart", "view/panels", "view/timeline", "view/tree",
+      "preact"}},
+    {"", {"store", "source", "view", "preact"}},  // main.tsx
 };
 
 struct Include {
@@ -184,6 +201,28 @@ std::string broken_third_party(const Include& include) {
   return {};
 }
 
+// Of a script of the page: what stands behind `from`, at the end of an import.
+std::vector<Include> imports_of(const fs::path& file) {
+  static const std::regex kFrom("(from|import|import\\() ?\"([^\"]+)\"");
+  std::vector<Include> list;
+  std::ifstream stream(file);
+  int number = 0;
+  for (std::string line; std::getline(stream, line);) {
+    ++number;
+    std::smatch found;
+    if (!std::regex_search(line, found, kFrom)) continue;
+    list.push_back({file.generic_string(), number, found[2], false});
+  }
+  return list;
+}
+
+// The room of the page that the import is of, or the package.
+std::string room_of(const Include& import, const fs::path& root) {
+  if (!import.path.starts_with(".")) return import.path.substr(0, import.path.find('/'));
+  const auto target = (fs::path(import.file).parent_path() / import.path).lexically_normal();
+  return target.parent_path().lexically_relative(root).generic_string();
+}
+
 template <class Check>
 void check_all(Check check) {
   for (const char* folder : {"interpreter", "plugins"}) {
@@ -214,6 +253,34 @@ TEST_CASE("layers: a library is seen only where the table says") {
   INFO("tinyxml2 belongs in one source of document/: " << fmt::format("{}", fmt::join(xml, ", ")));
   CHECK(xml.size() == 1);
   CHECK(xml.begin()->ends_with(".cpp"));
+}
+
+TEST_CASE("layers: a room of the page imports only from those below it") {
+  const auto root = fs::path(LOCKSTEP_SOURCE_DIR) / "interpreter/web/page/src";
+  const auto row_of = [](const std::string& room) {
+    return std::ranges::find(kPageRooms, room == "." ? "" : room, &Layer::from);
+  };
+  for (auto row = kPageRooms.begin(); row != kPageRooms.end(); ++row) {
+    for (const std::string_view below : row->to) {
+      INFO(row->from << " may import from " << below << ", whose row is not above its own");
+      CHECK(std::none_of(row, kPageRooms.end(), [&](const Layer& it) { return it.from == below; }));
+    }
+  }
+  int seen = 0;
+  for (const auto& file : fs::recursive_directory_iterator(root)) {
+    if (!file.path().extension().string().starts_with(".ts")) continue;
+    const auto own = file.path().parent_path().lexically_relative(root).generic_string();
+    const auto row = row_of(own);
+    INFO(file.path().generic_string());
+    REQUIRE(row != kPageRooms.end());
+    for (const Include& import : imports_of(file.path())) {
+      ++seen;
+      const std::string room = room_of(import, root);
+      INFO("line " << import.line << ": imports \"" << import.path << "\"");
+      CHECK((room == own || std::ranges::find(row->to, room) != row->to.end()));
+    }
+  }
+  CHECK(seen > 100);
 }
 
 // What is known of a tree after the check is data. So whatever a document is written in, the check

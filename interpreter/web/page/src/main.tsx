@@ -1,8 +1,8 @@
 import { render } from "preact";
 import { pageAsItCame } from "./source/keep";
 import { begin } from "./source/source";
+import { Store } from "./store/store";
 import { App } from "./view/app";
-import { Store } from "./view/store";
 
 const page = pageAsItCame();
 const store = new Store();

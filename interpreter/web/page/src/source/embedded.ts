@@ -1,5 +1,5 @@
 // The recording that is in the page's file: base64 of gzip.
-import type { Store } from "../view/store";
+import type { Store } from "../store/store";
 import { feedLines } from "./lines";
 
 export async function playEmbedded(store: Store, recording: string) {

@@ -1,5 +1,5 @@
 // Feeds the lines of a stream to the run, and lets the page draw meanwhile.
-import type { Store } from "../view/store";
+import type { Store } from "../store/store";
 
 const SLICE = 40; // milliseconds of work before the page may draw
 

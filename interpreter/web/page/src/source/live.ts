@@ -1,37 +1,20 @@
 // A running program: first what there was, then what happens. Comes back after the connection was lost, and asks for
 // nothing while the page is out of sight.
-import type { Store } from "../view/store";
+import type { Connection, Live, ServerState } from "../store/live";
+import type { Store } from "../store/store";
 import { readEvents } from "./event_stream";
 import { Kept, download } from "./keep";
 import { feedLines } from "./lines";
-
-export type Connection = "connecting" | "open" | "lost" | "ended" | "asleep";
-export type When = "begins" | "completes" | "barrier";
-
-export interface Breakpoint {
-  node: number;
-  when: When;
-}
-
-export interface ServerState {
-  state?: "running" | "paused" | "ended";
-  speed?: number;
-  breakpoints?: Breakpoint[];
-  reached?: Breakpoint; // that paused the run
-  late_ms?: number;
-  tick_us?: number;
-  overruns?: number;
-}
 
 // Milliseconds.
 const SHORTEST = 250, LONGEST = 5000; // until the next attempt
 const SILENCE = 3000; // after which a connection may be dead: a cable that was pulled closes nothing
 const PATIENCE = 3000; // for an answer
 
-export class LiveSource {
+export class LiveSource implements Live {
   connection: Connection = "connecting";
   state: ServerState = {};
-  notice = ""; // what became of the last order
+  notice = "";
   private isSaved = false;
   private isServed = false; // also after the end: --monitor-linger
   private abort: AbortController | null = null;
@@ -149,7 +132,6 @@ export class LiveSource {
     this.store.feed(data);
   }
 
-  // `done` is what to say when it was taken.
   async order(what: object, done = "") {
     this.notice = "";
     try {

@@ -1,6 +1,6 @@
-import { useEffect } from "preact/hooks";
+import { useEffect, useState } from "preact/hooks";
+import type { Looking, Store } from "../store/store";
 import { Chart } from "./chart/chart";
-import { onColorChange } from "./colors";
 import { Control } from "./control";
 import { Header } from "./header";
 import { globalKey } from "./keys";
@@ -9,10 +9,16 @@ import { Entries } from "./panels/entries";
 import { Help } from "./panels/help";
 import { Log } from "./panels/log";
 import { Now } from "./panels/now";
-import { useStore, type Store } from "./store";
+import { onColorChange } from "./parts/colors";
 import { Timeline } from "./timeline/timeline";
 import { Tools } from "./tree/tools";
 import { Tree } from "./tree/tree";
+
+function useStore(store: Store): Looking {
+  const [, redraw] = useState(0);
+  useEffect(() => store.subscribe(() => redraw((count) => count + 1)), [store]);
+  return store.looking;
+}
 
 function useWindow(store: Store) {
   const { theme } = store.looking;

@@ -1,18 +1,18 @@
 // Acts on a run that goes on; only there if the program was started with --monitor-control.
 import { useState } from "preact/hooks";
-import type { LiveSource, When } from "../source/live";
-import type { Store } from "./store";
+import type { Live, When } from "../store/live";
+import type { Store } from "../store/store";
 
 const SPEEDS: [string, number][] = [
   ["0.1×", 0.1], ["0.5×", 0.5], ["1×", 1], ["2×", 2], ["10×", 10], ["100×", 100], ["as fast as possible", 0],
 ];
 const WHEN: Record<When, string> = { begins: "begins", completes: "completes", barrier: "comes to a barrier" };
 
-export function pauseOrResume(live: LiveSource) {
+export function pauseOrResume(live: Live) {
   void live.order({ do: live.state.state === "paused" ? "resume" : "pause" });
 }
 
-function Speed({ store, live }: { store: Store; live: LiveSource }) {
+function Speed({ store, live }: { store: Store; live: Live }) {
   if (store.run.header?.clock !== "virtual") return null;
   return (
     <label>speed <select aria-label="Speed of the run" value={live.state.speed ?? 1}
@@ -22,7 +22,7 @@ function Speed({ store, live }: { store: Store; live: LiveSource }) {
   );
 }
 
-function SetEntry({ store, live }: { store: Store; live: LiveSource }) {
+function SetEntry({ store, live }: { store: Store; live: Live }) {
   const entries = store.run.header?.entries ?? [];
   const [entry, setEntry] = useState(entries[0]?.key ?? "");
   const [value, setValue] = useState("");
@@ -48,7 +48,7 @@ function watched(store: Store, selected: number, when: When): number {
   return when === "barrier" && !synchronization && keeper !== null ? keeper : selected;
 }
 
-function Breakpoints({ store, live }: { store: Store; live: LiveSource }) {
+function Breakpoints({ store, live }: { store: Store; live: Live }) {
   const { selected } = store.looking;
   const [when, setWhen] = useState<When>("begins");
   const set = live.state.breakpoints ?? [];
@@ -72,7 +72,7 @@ function Breakpoints({ store, live }: { store: Store; live: LiveSource }) {
   );
 }
 
-function reachedText(store: Store, live: LiveSource): string {
+function reachedText(store: Store, live: Live): string {
   const { reached, state } = live.state;
   if (!reached || state !== "paused") return "";
   return `paused, since ${store.run.shape.nodes[reached.node]?.apart ?? "?"} ${WHEN[reached.when]}`;

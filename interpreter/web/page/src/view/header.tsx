@@ -1,8 +1,8 @@
 // What runs, where it stands, and how the page looks.
-import type { Connection } from "../source/live";
 import { seconds } from "../model/words";
+import type { Connection } from "../store/live";
+import type { Store, Theme } from "../store/store";
 import { Search } from "./panels/search";
-import type { Store, Theme } from "./store";
 
 const NEXT: Record<Theme, Theme> = { auto: "dark", dark: "light", light: "auto" };
 

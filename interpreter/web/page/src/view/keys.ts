@@ -1,7 +1,7 @@
 // Keys that work everywhere on the page.
+import { zoomed } from "../store/span";
+import type { Store } from "../store/store";
 import { pauseOrResume } from "./control";
-import type { Store } from "./store";
-import { zoomed } from "./timeline/span";
 
 function acts(store: Store): Record<string, () => void> {
   const { looking, live, moment } = store;

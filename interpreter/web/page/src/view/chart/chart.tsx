@@ -1,12 +1,12 @@
 // Progress over time of those that a synchronized node holds, as `lockstep log plot` draws it.
-import uPlot from "uplot";
 import { useEffect, useMemo, useRef } from "preact/hooks";
+import uPlot from "uplot";
 import type { Run } from "../../model/run";
 import { waitOf } from "../../model/waiting";
 import { stateOf } from "../../model/words";
-import { SERIES, colors, type Colors } from "../colors";
-import { Panel } from "../panels/panel";
-import type { Store } from "../store";
+import type { Store } from "../../store/store";
+import { SERIES, colors, type Colors } from "../parts/colors";
+import { Panel } from "../parts/panel";
 import { chartData, chartSpan, MOST_SERIES } from "./data";
 import { drawBehind, drawInFront } from "./drawings";
 

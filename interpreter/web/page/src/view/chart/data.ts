@@ -2,7 +2,7 @@
 import { HELD, STATUS } from "../../model/columns";
 import { RUNNING } from "../../model/recording";
 import type { Run } from "../../model/run";
-import type { Store } from "../store";
+import type { Store } from "../../store/store";
 
 export const MOST_SERIES = 12;
 

@@ -1,8 +1,8 @@
 // What the chart has beside its lines: barriers or the delta band, when each child was held, the moment.
 import type uPlot from "uplot";
 import type { Run } from "../../model/run";
-import { SERIES, type Colors } from "../colors";
-import type { Store } from "../store";
+import type { Store } from "../../store/store";
+import { SERIES, type Colors } from "../parts/colors";
 import { chartData, heldSpans, MOST_SERIES } from "./data";
 
 function barriers(plot: uPlot, run: Run, keeper: number, paint: Colors) {

@@ -4,8 +4,8 @@ import type { Moment } from "../../model/moment";
 import { STATUSES } from "../../model/recording";
 import { marksOf, ownersOf, short, spanOf, waitOf } from "../../model/waiting";
 import { seconds, stateOf, symbolOf } from "../../model/words";
-import type { Store } from "../store";
-import { Panel } from "./panel";
+import type { Store } from "../../store/store";
+import { Panel } from "../parts/panel";
 
 const MOST = 6;
 

@@ -3,8 +3,8 @@ import { useState } from "preact/hooks";
 import { Moment } from "../../model/moment";
 import type { EntryChange } from "../../model/run";
 import { seconds } from "../../model/words";
-import type { Store } from "../store";
-import { Panel } from "./panel";
+import type { Store } from "../../store/store";
+import { Panel } from "../parts/panel";
 
 const MOST = 50;
 

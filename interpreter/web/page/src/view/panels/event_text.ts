@@ -3,7 +3,7 @@ import type { RunEvent } from "../../model/events";
 import { Moment } from "../../model/moment";
 import type { Run } from "../../model/run";
 import { waitOf } from "../../model/waiting";
-import type { Store } from "../store";
+import type { Store } from "../../store/store";
 
 // Many events are of the same line.
 let last: Moment | null = null;

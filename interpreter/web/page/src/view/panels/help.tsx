@@ -1,6 +1,6 @@
 // The keys and the signs.
 import { useEffect, useRef } from "preact/hooks";
-import type { Store } from "../store";
+import type { Store } from "../../store/store";
 
 const KEYS = [
   [", .", "a tick back, forward"],

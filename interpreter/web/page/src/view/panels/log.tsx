@@ -2,9 +2,9 @@
 import { useState } from "preact/hooks";
 import type { EventKind, RunEvent } from "../../model/events";
 import { seconds } from "../../model/words";
-import type { Store } from "../store";
+import type { Store } from "../../store/store";
+import { Panel } from "../parts/panel";
 import { whatHappened } from "./event_text";
-import { Panel } from "./panel";
 
 const MOST = 120, FARTHEST = 50_000;
 

@@ -1,12 +1,12 @@
 // In words: what runs, who waits for whom, what happened last.
+import type { EventKind, RunEvent } from "../../model/events";
 import type { Moment } from "../../model/moment";
 import { RUNNING, STATUSES, SUCCESS } from "../../model/recording";
 import { waiting, waitOf } from "../../model/waiting";
 import { seconds, symbolOf } from "../../model/words";
-import type { EventKind, RunEvent } from "../../model/events";
+import type { Store } from "../../store/store";
+import { Bar } from "../parts/bar";
 import { eventText } from "./event_text";
-import type { Store } from "../store";
-import { Bar } from "../tree/bar";
 
 const MOST = 8;
 // What happened in the tree; how punctual it was is told elsewhere.

@@ -1,6 +1,6 @@
 // Finds nodes by a part of their path.
 import { useRef, useState } from "preact/hooks";
-import type { Store } from "../store";
+import type { Store } from "../../store/store";
 
 const MOST = 12;
 

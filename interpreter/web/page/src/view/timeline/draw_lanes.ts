@@ -2,7 +2,7 @@
 // sign from its completion on, a thicker one while it completes in each tick.
 import { HELD_STATE, laneSpans, type LaneSpan } from "../../model/lanes";
 import type { Run } from "../../model/run";
-import type { Colors } from "../colors";
+import type { Colors } from "../parts/colors";
 
 export const LANE = 18; // pixels
 export const RULER = 20;

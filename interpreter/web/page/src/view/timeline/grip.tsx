@@ -1,5 +1,5 @@
 // The upper edge of the timeline: dragged, or moved with the arrow keys, it makes the lanes higher or lower.
-import type { Store } from "../store";
+import type { Store } from "../../store/store";
 import { LANE } from "./draw_lanes";
 
 export const LEAST = 3 * LANE;

@@ -2,11 +2,11 @@
 import { useEffect, useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
 import { laneNodes, laneText } from "../../model/lanes";
 import { RUNNING } from "../../model/recording";
-import { colors } from "../colors";
-import { fittedName } from "../tree/measure";
-import type { Store } from "../store";
+import { spanShown, zoomed } from "../../store/span";
+import type { Store } from "../../store/store";
+import { colors } from "../parts/colors";
+import { fittedName } from "../parts/measure";
 import { END, LANE, RULER, drawLanes, drawRuler, timeOf, xOf, type Window } from "./draw_lanes";
-import { spanShown, zoomed } from "./span";
 
 interface Size {
   width: number;

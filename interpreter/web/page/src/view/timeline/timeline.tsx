@@ -1,10 +1,10 @@
 // The whole run, to go to any moment of it.
 import { useState } from "preact/hooks";
 import { seconds } from "../../model/words";
-import type { Store } from "../store";
+import { zoomed } from "../../store/span";
+import type { Store } from "../../store/store";
 import { Grip } from "./grip";
 import { Lanes } from "./lanes";
-import { zoomed } from "./span";
 import { Transport } from "./transport";
 
 export function Timeline({ store }: { store: Store }) {

@@ -1,6 +1,6 @@
 // Goes through the run: ticks, events, play, a number.
 import { useEffect, useState } from "preact/hooks";
-import type { Store } from "../store";
+import type { Store } from "../../store/store";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5, 10, 100];
 

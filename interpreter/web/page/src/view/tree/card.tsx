@@ -5,10 +5,10 @@ import { RUNNING } from "../../model/recording";
 import type { ShapeNode } from "../../model/shape";
 import { ownersOf, short } from "../../model/waiting";
 import { kindText, labelOf, sentenceOf, stateOf, symbolOf } from "../../model/words";
-import type { Store } from "../store";
-import { Bar, Race } from "./bar";
+import type { Store } from "../../store/store";
+import { Bar, Race } from "../parts/bar";
+import { fitted, fittedName, textWidth } from "../parts/measure";
 import type { Box } from "./layout";
-import { fitted, fittedName, textWidth } from "./measure";
 
 interface Props {
   store: Store;

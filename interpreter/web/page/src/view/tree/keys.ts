@@ -1,6 +1,6 @@
 // The keys of a tree, as in any other: up and down through what is shown, right and left through its depth.
 import { isOpen } from "../../model/folds";
-import type { Store } from "../store";
+import type { Store } from "../../store/store";
 
 export function treeKey(store: Store, shown: number[], event: KeyboardEvent) {
   if (event.altKey || event.ctrlKey || event.metaKey || shown.length === 0) return;

@@ -2,8 +2,8 @@
 import { flextree } from "d3-flextree";
 import type { Shape, ShapeNode } from "../../model/shape";
 import { kindText } from "../../model/words";
-import type { Arrangement } from "../store";
-import { textWidth } from "./measure";
+import type { Arrangement } from "../../store/store";
+import { textWidth } from "../parts/measure";
 
 export interface Box {
   node: number;

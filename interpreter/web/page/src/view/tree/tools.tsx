@@ -1,5 +1,5 @@
 // How the tree is drawn.
-import type { Looking, Store } from "../store";
+import type { Looking, Store } from "../../store/store";
 
 export function Tools({ store, looking }: { store: Store; looking: Looking }) {
   const { arrangement, follow, onlyActive } = looking;

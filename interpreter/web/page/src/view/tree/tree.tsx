@@ -3,7 +3,7 @@ import { useEffect, useMemo, useRef } from "preact/hooks";
 import { isOpen, shownNodes } from "../../model/folds";
 import type { Moment } from "../../model/moment";
 import { RUNNING } from "../../model/recording";
-import type { Looking, Store } from "../store";
+import type { Looking, Store } from "../../store/store";
 import { Card, cardId } from "./card";
 import { treeKey } from "./keys";
 import { layOut, type Layout } from "./layout";

@@ -1,11 +1,10 @@
 // What the user looks at, and the run that is looked at. One object; what draws subscribes to it.
-import { useEffect, useState } from "preact/hooks";
 import { firstLine } from "../model/decision";
 import { LARGE, SMALL, opened, type Folds } from "../model/folds";
 import { Moment } from "../model/moment";
 import { Run } from "../model/run";
-import type { LiveSource } from "../source/live";
-import { withMoment } from "./timeline/span";
+import type { Live } from "./live";
+import { withMoment } from "./span";
 
 export type Theme = "auto" | "light" | "dark";
 export type Arrangement = "diagram" | "outline";
@@ -29,7 +28,7 @@ export interface Looking {
 
 export class Store {
   run = new Run();
-  live: LiveSource | null = null; // null: a recording
+  live: Live | null = null; // null: a recording
   looking: Looking = {
     line: null, selected: null, folds: new Map(), onlyActive: false, follow: true,
     arrangement: innerWidth < 720 ? "outline" : "diagram", zoom: 1, span: null, lanesHeight: 152,
@@ -138,10 +137,4 @@ export class Store {
     }
     this.set({ folds });
   }
-}
-
-export function useStore(store: Store): Looking {
-  const [, redraw] = useState(0);
-  useEffect(() => store.subscribe(() => redraw((count) => count + 1)), [store]);
-  return store.looking;
 }

@@ -1,5 +1,5 @@
 // The part of the run that the timeline and the chart show.
-import type { Store } from "../store";
+import type { Store } from "./store";
 
 function wholeSpan(store: Store): [number, number] {
   const { run } = store;
