@@ -5,7 +5,7 @@
 
 namespace lockstep {
 
-GrootAnswers::GrootAnswers(const Tree& tree, GrootTree shown, GrootStatusFeed& statuses,
+GrootAnswers::GrootAnswers(const Tree& tree, GrootTree shown, StatusFeed& statuses,
                            SnapshotFeed& snapshots, RunControl* control)
     : document_(std::move(shown.document)),
       boards_(tree, std::move(shown.boards)),

@@ -16,8 +16,8 @@ namespace lockstep {
 
 class GrootAnswers {
  public:
-  GrootAnswers(const Tree& tree, GrootTree shown, GrootStatusFeed& statuses,
-               SnapshotFeed& snapshots, RunControl* control);
+  GrootAnswers(const Tree& tree, GrootTree shown, StatusFeed& statuses, SnapshotFeed& snapshots,
+               RunControl* control);
 
   // Whatever the request is.
   GrootMessage answer(const GrootMessage& request);
@@ -31,7 +31,7 @@ class GrootAnswers {
   const GrootTreeId id_ = make_groot_tree_id();
   const std::string document_;
   const GrootBoards boards_;
-  GrootStatusFeed& status_feed_;
+  StatusFeed& status_feed_;
   SnapshotFeed& snapshots_;
   GrootStatuses statuses_;
   GrootHooks hooks_;

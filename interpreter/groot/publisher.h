@@ -44,7 +44,7 @@ class GrootPublisher final : public Observer {
 
   const Tree& tree_;
   const std::function<void(const std::string& line)> print_;
-  GrootStatusFeed statuses_;
+  StatusFeed statuses_;
   SnapshotFeed snapshots_;
   GrootAnswers answers_;
   std::optional<GrootSockets> sockets_;

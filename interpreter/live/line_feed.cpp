@@ -21,8 +21,8 @@ std::size_t room_for(const Tree& tree) {
 
 }  // namespace
 
-MonitorFeed::MonitorFeed(const Tree& tree, RunDescription run, const RecordingFormat& format,
-                         RealTime real_time)
+LineFeed::LineFeed(const Tree& tree, RunDescription run, const LineFormat& format,
+                   RealTime real_time)
     : format_(format),
       real_time_(real_time),
       deadlines_(run.rate_hz),
@@ -31,19 +31,19 @@ MonitorFeed::MonitorFeed(const Tree& tree, RunDescription run, const RecordingFo
       room_(64u << 10),
       counts_(std::make_unique<EventCounts>()) {}
 
-MonitorFeed::~MonitorFeed() = default;
+LineFeed::~LineFeed() = default;
 
-void MonitorFeed::log(std::string_view who, std::string_view level, std::string_view text) {
+void LineFeed::log(std::string_view who, std::string_view level, std::string_view text) {
   packets_.log(who, level, text);
 }
 
-void MonitorFeed::run_started(Ticker&, const RunStart& start) {
+void LineFeed::run_started(Ticker&, const RunStart& start) {
   is_real_time_ = start.real_time;
   header_ = packets_.header(start);
 }
 
 // Only a tick whose line is due asks leaves for their progress.
-void MonitorFeed::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds time) {
+void LineFeed::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds time) {
   began_ = real_time_();
   if (is_real_time_) publish_before_late(time);
   is_due_ = began_ - published_ >= kPeriod;
@@ -54,7 +54,7 @@ void MonitorFeed::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds time) {
 
 // That a tick began late is seen from the one before it, so both have lines. Of that one nothing
 // but its time is left to tell.
-void MonitorFeed::publish_before_late(Nanoseconds time) {
+void LineFeed::publish_before_late(Nanoseconds time) {
   if (!has_ticked_ || 2 * (time - last_.time) < 3 * deadlines_.at(1)) return;
   Packet packet{.text = "]}\n"};
   packet.head.is_tick = 1;
@@ -64,7 +64,7 @@ void MonitorFeed::publish_before_late(Nanoseconds time) {
   hurry();
 }
 
-void MonitorFeed::after_tick(Ticker& ticker, const TickReport& report) {
+void LineFeed::after_tick(Ticker& ticker, const TickReport& report) {
   if (is_real_time_) note_times(report.time);
   last_ = report;
   has_ticked_ = true;
@@ -74,7 +74,7 @@ void MonitorFeed::after_tick(Ticker& ticker, const TickReport& report) {
 }
 
 // Another thread may take them in between: then they count for the next time, too.
-void MonitorFeed::note_times(Nanoseconds time) {
+void LineFeed::note_times(Nanoseconds time) {
   const auto raise = [](std::atomic<std::int64_t>& most, Nanoseconds it) {
     if (it.count() > most.load(std::memory_order_relaxed)) most = it.count();
   };
@@ -84,26 +84,26 @@ void MonitorFeed::note_times(Nanoseconds time) {
   raise(late_, is_on_time ? Nanoseconds(0) : time - deadlines_.at(next - 1));
 }
 
-std::optional<MonitorFeed::Times> MonitorFeed::take_times() {
+std::optional<LineFeed::Times> LineFeed::take_times() {
   const std::int64_t took = took_.exchange(-1), late = late_.exchange(-1);
   if (took < 0 || late < 0) return std::nullopt;
   return Times{.took = Nanoseconds(took), .late = Nanoseconds(late)};
 }
 
 // Nothing follows for a while, so what was held back is due; and so is the tick after it.
-void MonitorFeed::standing(Ticker& ticker) {
+void LineFeed::standing(Ticker& ticker) {
   is_due_ = !is_shown_ || wants_full_.load(std::memory_order_relaxed);
   if (has_ticked_ && is_due_) publish(ticker);
   hurry();
 }
 
-void MonitorFeed::run_ended(Ticker& ticker, const RunEnd& end) {
+void LineFeed::run_ended(Ticker& ticker, const RunEnd& end) {
   end_ = packets_.end(ticker, end, 0);
 }
 
 // A node that begins is asked for its progress in the next tick, so that nobody takes that of its
 // last activation for it.
-void MonitorFeed::publish(Ticker& ticker) {
+void LineFeed::publish(Ticker& ticker) {
   if (is_due_ && wants_full_.exchange(false, std::memory_order_relaxed)) packets_.start_over();
   last_.faults = faults_;
   const Packet packet = packets_.tick(ticker, last_);
@@ -118,7 +118,7 @@ void MonitorFeed::publish(Ticker& ticker) {
   }
 }
 
-bool MonitorFeed::push(Packet packet) {
+bool LineFeed::push(Packet packet) {
   packet.head.lost = lost_;
   packet.head.lost_from = lost_from_;
   const bool is_in = ring_.push(packet) || (!is_real_time_ && wait_to_push(packet));
@@ -127,7 +127,7 @@ bool MonitorFeed::push(Packet packet) {
 }
 
 // Time stands still meanwhile. False: nobody takes lines, or it is longer than the whole ring.
-bool MonitorFeed::wait_to_push(const Packet& packet) {
+bool LineFeed::wait_to_push(const Packet& packet) {
   constexpr std::chrono::milliseconds kLook{100};
   while (has_taker_.load(std::memory_order_acquire)) {
     const std::uint32_t seen = room_made_.rung();
@@ -140,17 +140,17 @@ bool MonitorFeed::wait_to_push(const Packet& packet) {
   return false;
 }
 
-void MonitorFeed::begin_taking(std::function<void()> wake) {
+void LineFeed::begin_taking(std::function<void()> wake) {
   wake_ = std::move(wake);
   has_taker_.store(true, std::memory_order_release);
 }
 
-void MonitorFeed::end_taking() {
+void LineFeed::end_taking() {
   has_taker_.store(false, std::memory_order_release);
   room_made_.ring();
 }
 
-void MonitorFeed::take(std::string& lines) {
+void LineFeed::take(std::string& lines) {
   const std::size_t begin = lines.size();
   PacketPrinter printer(ring_, format_);
   for (auto text = printer.print(room_); !text.empty(); text = printer.print(room_)) lines += text;

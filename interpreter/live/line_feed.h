@@ -23,16 +23,16 @@ namespace lockstep {
 
 class EventCounts;
 
-class MonitorFeed final : public Observer {
+class LineFeed final : public Observer {
  public:
   static constexpr std::chrono::milliseconds kPeriod{50};
 
   using RealTime = Nanoseconds (*)();
 
   // `real_time` is for tests.
-  MonitorFeed(const Tree& tree, RunDescription run, const RecordingFormat& format,
-              RealTime real_time = monotonic_now);
-  ~MonitorFeed() override;
+  LineFeed(const Tree& tree, RunDescription run, const LineFormat& format,
+           RealTime real_time = monotonic_now);
+  ~LineFeed() override;
 
   // The next tick gets a line, however soon it comes.
   void hurry() { published_ = Nanoseconds(0); }
@@ -72,7 +72,7 @@ class MonitorFeed final : public Observer {
   bool wait_to_push(const Packet& packet);
   void note_times(Nanoseconds time);
 
-  const RecordingFormat& format_;
+  const LineFormat& format_;
   const RealTime real_time_;
   const Deadlines deadlines_;
   RunPackets packets_;

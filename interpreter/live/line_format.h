@@ -1,6 +1,6 @@
-// How a recording is written: what comes between the packets of the tick thread and the bytes of
-// the file. A format is a file that implements this; json_lines.h is the one that exists. A format
-// has no state: an object of it is shared by threads and used again after a crash.
+// How a run is written: what comes between the packets of the tick thread and the bytes of a
+// recording. A format is a file that implements this; recording/write/json_lines.h is the one that
+// exists. A format has no state: an object of it is shared by threads and used again after a crash.
 //
 // A recording consists of lines. Each function below except the last two gives whole lines, and the
 // last two together give one: where a disk is full, the file ends after a '\n'.
@@ -29,7 +29,7 @@ struct TickEnd {
   bool is_full = false;  // the line has the whole state; nothing before it counts
 };
 
-class RecordingFormat {
+class LineFormat {
  public:
   // What the put functions may write at once: put_lost and put_tick together, one node.
   static constexpr std::size_t kMostAtOnce = 512;
@@ -60,7 +60,7 @@ class RecordingFormat {
                         bool first) const = 0;
 
  protected:
-  ~RecordingFormat() = default;
+  ~LineFormat() = default;
 };
 
 }  // namespace lockstep

@@ -1,6 +1,5 @@
-// What the tick thread passes to the thread that writes a recording: numbers, which that thread
-// prints. Only in the memory of one process, never in a file. Used by recorder, recording_delta,
-// append_file and packet_printer.
+// What the tick thread passes to the threads of those who watch: numbers, which these print or
+// count. Only in the memory of one process, never in a file.
 #pragma once
 
 #include <cstdint>
@@ -47,7 +46,7 @@ struct PacketHead {
 };
 
 // After the head come the changes of nodes, then text as it is in the file: for a tick what
-// RecordingFormat::set_tick_end made, otherwise whole lines.
+// LineFormat::set_tick_end made, otherwise whole lines.
 struct Packet {
   PacketHead head = {};
   std::span<const NodeChange> nodes = {};

@@ -14,10 +14,10 @@ namespace lockstep {
 
 class PacketPrinter {
  public:
-  static constexpr std::size_t kLeastRoom = RecordingFormat::kMostAtOnce;  // bytes, for print()
+  static constexpr std::size_t kLeastRoom = LineFormat::kMostAtOnce;  // bytes, for print()
 
   // Starts before the first packet in the ring.
-  PacketPrinter(const PacketRing& ring, const RecordingFormat& format)
+  PacketPrinter(const PacketRing& ring, const LineFormat& format)
       : ring_(ring), format_(format), at_(ring.taken()), finished_(at_) {}
 
   // The next part of the text that fits into `room`; "" when everything is printed.
@@ -37,7 +37,7 @@ class PacketPrinter {
   char* put_text(char* to, const char* end);
 
   const PacketRing& ring_;
-  const RecordingFormat& format_;
+  const LineFormat& format_;
   std::uint64_t at_;
   std::uint64_t finished_;
   std::uint64_t unfinished_text_ = 0;

@@ -34,7 +34,7 @@ void put_states(const RunState& run, std::uint32_t tick, const std::uint8_t* mov
 
 }  // namespace
 
-RecordingDelta::RecordingDelta(const Tree& tree)
+RunDelta::RunDelta(const Tree& tree)
     : synchronized_nodes_(synchronized_nodes(tree)),
       succeeded_(synchronized_nodes_),  // for its room
       limits_(synchronized_nodes_.size()),
@@ -57,7 +57,7 @@ RecordingDelta::RecordingDelta(const Tree& tree)
 
 // Only running nodes are asked. The progress of all others follows from their Activity, so it is
 // computed again only after a change of Activity.
-void RecordingDelta::before_tick(Ticker& ticker) {
+void RunDelta::before_tick(Ticker& ticker) {
   const std::span<const Activity> activity = ticker.run_state().activity;
   for_each_difference(activity, source_.data(), [&](NodeIndex node) {
     set_progress(node, ticker.progress(node));
@@ -66,7 +66,7 @@ void RecordingDelta::before_tick(Ticker& ticker) {
   });
 }
 
-std::span<const NodeChange> RecordingDelta::changes(Ticker& ticker) {
+std::span<const NodeChange> RunDelta::changes(Ticker& ticker) {
   take_snapshots(ticker);
   put_states(ticker.run_state(), ticker.tick_number(), moved_.data(), state_.data());
   NodeChange* next = changes_.data();
@@ -81,7 +81,7 @@ std::span<const NodeChange> RecordingDelta::changes(Ticker& ticker) {
   return {changes_.data(), count_};
 }
 
-std::span<const NodeIndex> RecordingDelta::succeeded(Ticker& ticker) {
+std::span<const NodeIndex> RunDelta::succeeded(Ticker& ticker) {
   succeeded_.clear();
   for (const NodeIndex node : synchronized_nodes_) {
     if (ticker.status(node) != Status::Idle || !ticker.ticked(node)) continue;
@@ -90,7 +90,7 @@ std::span<const NodeIndex> RecordingDelta::succeeded(Ticker& ticker) {
   return succeeded_;
 }
 
-std::span<const LimitChange> RecordingDelta::limits(Ticker& ticker) {
+std::span<const LimitChange> RunDelta::limits(Ticker& ticker) {
   limits_.clear();
   for (std::size_t i = 0; i < kept_limits_.size(); ++i) {
     const LimitChange& kept = kept_limits_[i];
@@ -101,7 +101,7 @@ std::span<const LimitChange> RecordingDelta::limits(Ticker& ticker) {
   return limits_;
 }
 
-std::span<const RoundChange> RecordingDelta::rounds(Ticker& ticker) {
+std::span<const RoundChange> RunDelta::rounds(Ticker& ticker) {
   rounds_.clear();
   for (const RoundChange& kept : kept_rounds_) {
     const bool is_running = ticker.status(kept.node) == Status::Running;
@@ -112,7 +112,7 @@ std::span<const RoundChange> RecordingDelta::rounds(Ticker& ticker) {
   return rounds_;
 }
 
-void RecordingDelta::start_over() {
+void RunDelta::start_over() {
   std::ranges::fill(kept_, 0);
   std::ranges::fill(kept_progress_, 0);
   for (NodeIndex node = 0; node < progress_.size(); ++node) set_progress(node, progress_[node]);
@@ -120,7 +120,7 @@ void RecordingDelta::start_over() {
   all_limits_ = true;
 }
 
-void RecordingDelta::keep() {
+void RunDelta::keep() {
   all_limits_ = false;
   auto kept_round = kept_rounds_.begin();
   for (const RoundChange& change : rounds_) {  // in the same order
@@ -139,13 +139,13 @@ void RecordingDelta::keep() {
   }
 }
 
-void RecordingDelta::set_progress(NodeIndex node, double progress) {
+void RunDelta::set_progress(NodeIndex node, double progress) {
   progress_[node] = progress;
   moved_[node] = progress != kept_progress_[node] ? kMoved : 0;
 }
 
 // What a synchronized node has seen counts more than what was seen before its tick.
-void RecordingDelta::take_snapshots(Ticker& ticker) {
+void RunDelta::take_snapshots(Ticker& ticker) {
   for (const NodeIndex node : synchronized_nodes_) {
     if (!compares_progress(synchronization(ticker.node(node)))) continue;
     if (!ticker.ticked(node)) continue;

@@ -12,9 +12,9 @@ namespace lockstep {
 class Ticker;
 struct Tree;
 
-class RecordingDelta {
+class RunDelta {
  public:
-  explicit RecordingDelta(const Tree& tree);
+  explicit RunDelta(const Tree& tree);
 
   // Asks every running node for its progress.
   void before_tick(Ticker& ticker);

@@ -27,7 +27,7 @@ std::vector<std::uint32_t> slots_of(const Tree& tree,
 
 }  // namespace
 
-RunPackets::RunPackets(const Tree& tree, RunDescription run, const RecordingFormat& format)
+RunPackets::RunPackets(const Tree& tree, RunDescription run, const LineFormat& format)
     : tree_(tree),
       run_(std::move(run)),
       format_(format),

@@ -28,7 +28,7 @@ struct RunDescription {
 
 class RunPackets {
  public:
-  RunPackets(const Tree& tree, RunDescription run, const RecordingFormat& format);
+  RunPackets(const Tree& tree, RunDescription run, const LineFormat& format);
 
   std::string header(const RunStart& start) const;
 
@@ -56,8 +56,8 @@ class RunPackets {
 
   const Tree& tree_;
   const RunDescription run_;
-  const RecordingFormat& format_;
-  RecordingDelta delta_;
+  const LineFormat& format_;
+  RunDelta delta_;
   std::vector<std::uint32_t> slots_;  // of the entries that are shown
   EntryChanges entries_;
   LeafLines lines_;

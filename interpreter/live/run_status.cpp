@@ -24,7 +24,7 @@ void RunStatus::note(Breakpoint breakpoint, bool is_on) {
   is_changed_ = true;
 }
 
-std::optional<std::string> RunStatus::next(const RunControl::State& state, MonitorFeed& feed,
+std::optional<std::string> RunStatus::next(const RunControl::State& state, LineFeed& feed,
                                            bool is_real_time, Nanoseconds now) {
   const bool is_new = is_changed_ || told_ != state;
   const bool is_due = now - told_at_ >= kPeriod;

@@ -19,8 +19,8 @@ class RunStatus {
   void note(Breakpoint breakpoint, bool is_on);
   // As JSON, if listeners are to be told now: at once if something has changed, except for the
   // times of ticks.
-  std::optional<std::string> next(const RunControl::State& state, MonitorFeed& feed,
-                                  bool is_real_time, Nanoseconds now);
+  std::optional<std::string> next(const RunControl::State& state, LineFeed& feed, bool is_real_time,
+                                  Nanoseconds now);
 
  private:
   std::optional<RunControl::State> told_ = {};

@@ -15,10 +15,10 @@ std::size_t room_for_statuses(const Tree& tree) {
 
 }  // namespace
 
-GrootStatusFeed::GrootStatusFeed(const Tree& tree)
+StatusFeed::StatusFeed(const Tree& tree)
     : passed_on_(tree.nodes.size()), changes_(tree.nodes.size()), ring_(room_for_statuses(tree)) {}
 
-void GrootStatusFeed::after_tick(Ticker& ticker, const TickReport& report) {
+void StatusFeed::after_tick(Ticker& ticker, const TickReport& report) {
   const std::span<const Activity> now = ticker.run_state().activity;
   std::size_t count = 0;
   for_each_difference(now, passed_on_.data(), [&](NodeIndex node) {

@@ -10,9 +10,9 @@
 
 namespace lockstep {
 
-class GrootStatusFeed final : public Observer {
+class StatusFeed final : public Observer {
  public:
-  explicit GrootStatusFeed(const Tree& tree);
+  explicit StatusFeed(const Tree& tree);
 
   void after_tick(Ticker& ticker, const TickReport& report) override;
 

@@ -132,8 +132,8 @@ void Monitor::run_started(Ticker& ticker, const RunStart& start) {
   feed_.begin_taking([this] { eventfd_write(wake_.number(), 1); });
   thread_ = own_thread([this] {
     // Also when memory runs out: a tick may wait for it.
-    const std::unique_ptr<MonitorFeed, void (*)(MonitorFeed*)> end(
-        &feed_, [](MonitorFeed* feed) { feed->end_taking(); });
+    const std::unique_ptr<LineFeed, void (*)(LineFeed*)> end(
+        &feed_, [](LineFeed* feed) { feed->end_taking(); });
     serve();
   });
 }

@@ -85,7 +85,7 @@ class Monitor final : public Observer, private Answering {
   const std::string recording_;
   RunControl* const control_;
   bool is_real_time_ = true;
-  MonitorFeed feed_;
+  LineFeed feed_;
   RunStatus status_;
   LineLog log_;
   std::optional<Entrance> entrance_;

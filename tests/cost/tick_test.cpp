@@ -234,7 +234,7 @@ TEST_CASE(
     "the monitor's feed passes lines on without allocating or locking, also when nobody takes "
     "them") {
   const TickingTree tree;
-  MonitorFeed feed(tree.tree(), {.tree_file = "cost.xml", .rate_hz = 100}, json_lines(), hurried);
+  LineFeed feed(tree.tree(), {.tree_file = "cost.xml", .rate_hz = 100}, json_lines(), hurried);
   WatchedRun run(tree.tree(), &feed);
   run.tick(10);
   g_allocations = g_locks = 0;
@@ -251,7 +251,7 @@ TEST_CASE(
 
 TEST_CASE("statuses for Groot2 are passed on likewise") {
   const TickingTree tree;
-  GrootStatusFeed feed(tree.tree());
+  StatusFeed feed(tree.tree());
   WatchedRun run(tree.tree(), &feed);
   run.tick(10);
   g_allocations = g_locks = 0;

@@ -67,7 +67,7 @@ class Answered {
   const GrootTree shown_;
   Run run_{tree_, {}};
   RunControl control_;
-  GrootStatusFeed statuses_{tree_};
+  StatusFeed statuses_{tree_};
   SnapshotFeed snapshots_{tree_};
   GrootAnswers answers_{tree_, shown_, statuses_, snapshots_, &control_};
   Nanoseconds now_{0};

@@ -56,7 +56,7 @@ void leave(AppendFile* file) {
 
 }  // namespace
 
-AppendFile::AppendFile(const std::string& path, std::size_t queue, const RecordingFormat& format)
+AppendFile::AppendFile(const std::string& path, std::size_t queue, const LineFormat& format)
     : ring_(queue),
       format_(format),
       path_(path),

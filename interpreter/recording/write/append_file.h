@@ -34,7 +34,7 @@ class AppendFile {
   // Creates the file; on failure error() has the reason. The file gets its name, and replaces an
   // existing file, when its first line is written: system/output_file.h.
   explicit AppendFile(const std::string& path, std::size_t queue = kQueue,
-                      const RecordingFormat& format = json_lines());
+                      const LineFormat& format = json_lines());
   // Flushes.
   ~AppendFile();
   AppendFile(const AppendFile&) = delete;
@@ -81,7 +81,7 @@ class AppendFile {
   void release();
 
   PacketRing ring_;
-  const RecordingFormat& format_;
+  const LineFormat& format_;
   const std::string path_;
   OutputFile out_;
   const int file_;

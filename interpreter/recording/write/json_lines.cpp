@@ -152,7 +152,7 @@ void add_log(std::string& text, const LeafLine& log) {
 
 // Longer than [4294967295,"success",0.00012345678901234567,1,0] and a comma.
 constexpr std::size_t kMostOfNode = 64;
-static_assert(kMostOfNode <= RecordingFormat::kMostAtOnce);
+static_assert(kMostOfNode <= LineFormat::kMostAtOnce);
 static_assert(std::ranges::all_of(kStatuses, [](const StatusRow& row) {
   return row.name.size() <= std::string_view("success").size();
 }));
@@ -166,7 +166,7 @@ char* put_node(char* to, const NodeChange& change) {
   return put(to, kFlags[2 * change.ticked() + (activity == Activity::Paused)]);
 }
 
-class JsonLines final : public RecordingFormat {
+class JsonLines final : public LineFormat {
  public:
   std::string header(const RecordingHeader& header) const override {
     Json json = {{"lockstep_recording", kRecordingVersion},
@@ -252,7 +252,7 @@ constexpr JsonLines kJsonLines{};  // needs no code at the start: a crash handle
 
 }  // namespace
 
-const RecordingFormat& json_lines() {
+const LineFormat& json_lines() {
   return kJsonLines;
 }
 

@@ -5,6 +5,6 @@
 
 namespace lockstep {
 
-const RecordingFormat& json_lines();
+const LineFormat& json_lines();
 
 }  // namespace lockstep

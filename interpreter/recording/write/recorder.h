@@ -20,7 +20,7 @@ struct RecorderOptions {
   // it; whether the run goes on is the caller's choice.
   std::function<void(const std::string& error)> on_error = {};
   std::size_t queue = AppendFile::kQueue;  // bytes that may wait for the disk, at least
-  const RecordingFormat& format = json_lines();
+  const LineFormat& format = json_lines();
 };
 
 class Recorder final : public Observer {

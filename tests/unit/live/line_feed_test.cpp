@@ -86,13 +86,13 @@ Known without_progress(Known known) {
 
 // Takes 7 ms for each tick, takes the lines out now and then, and wants a full one at times.
 struct Reader final : Observer {
-  explicit Reader(MonitorFeed& it) : feed(it) {}
+  explicit Reader(LineFeed& it) : feed(it) {}
   void after_tick(Ticker&, const TickReport& report) override {
     g_now += std::chrono::milliseconds(7);
     if (report.tick % 3 == 0) feed.take(lines);
     if (report.tick % 41 == 0) feed.want_full();
   }
-  MonitorFeed& feed;
+  LineFeed& feed;
   std::string lines;
 };
 
@@ -106,8 +106,7 @@ Watched watch(WatchedRun& run) {
   Recorder recorder(run.run.tree(),
                     {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
   g_now = std::chrono::seconds(1);
-  MonitorFeed feed(run.run.tree(), {.tree_file = "a.xml", .rate_hz = 10}, json_lines(),
-                   now_of_test);
+  LineFeed feed(run.run.tree(), {.tree_file = "a.xml", .rate_hz = 10}, json_lines(), now_of_test);
   Reader reader(feed);
   run.watch({&recorder, &feed, &reader}, 300);
   feed.take(reader.lines);
@@ -191,23 +190,23 @@ TEST_CASE("a node that fails in each tick has failed as often as there were tick
 TEST_CASE("lines that find no room are counted, and the next one has what they had") {
   WatchedRun run("Sequence(a)", "a=R");
   g_now = std::chrono::seconds(1);
-  MonitorFeed feed(run.run.tree(), {.tree_file = "a.xml"}, json_lines(), now_of_test);
+  LineFeed feed(run.run.tree(), {.tree_file = "a.xml"}, json_lines(), now_of_test);
   const std::string long_text(LeafLines::kRoom / 2, 'x');
   struct Chatter final : Observer {
     void before_tick(Ticker&, std::uint64_t tick, Nanoseconds) override {
       g_now += std::chrono::milliseconds(50);
       feed.log("Test/a", "info", std::to_string(tick) + text);
     }
-    Chatter(MonitorFeed& it, const std::string& said) : feed(it), text(said) {}
-    MonitorFeed& feed;
+    Chatter(LineFeed& it, const std::string& said) : feed(it), text(said) {}
+    LineFeed& feed;
     const std::string& text;
   } chatter(feed, long_text);
   struct LateTaker final : Observer {
     void after_tick(Ticker&, const TickReport& report) override {
       if (report.tick == 98) feed.take(lines);
     }
-    explicit LateTaker(MonitorFeed& it) : feed(it) {}
-    MonitorFeed& feed;
+    explicit LateTaker(LineFeed& it) : feed(it) {}
+    LineFeed& feed;
     std::string lines;
   } taker(feed);
   run.watch({&chatter, &feed, &taker}, 100);
@@ -226,11 +225,11 @@ TEST_CASE("lines that find no room are counted, and the next one has what they h
 TEST_CASE("on a virtual clock a tick waits for the one who takes lines, and none is lost") {
   WatchedRun run("Sequence(a)", "a=R");
   g_now = std::chrono::seconds(1);
-  MonitorFeed feed(run.run.tree(), {.tree_file = "a.xml"}, json_lines(), now_of_test);
+  LineFeed feed(run.run.tree(), {.tree_file = "a.xml"}, json_lines(), now_of_test);
   struct Chatter final : Observer {
     void before_tick(Ticker&, std::uint64_t, Nanoseconds) override { feed.log("a", "info", text); }
-    explicit Chatter(MonitorFeed& it) : feed(it), text(LeafLines::kRoom / 2, 'x') {}
-    MonitorFeed& feed;
+    explicit Chatter(LineFeed& it) : feed(it), text(LeafLines::kRoom / 2, 'x') {}
+    LineFeed& feed;
     const std::string text;
   } chatter(feed);
   Bell bell;

@@ -28,7 +28,7 @@ struct Taker final : Observer {
     }
     ++looks;
   }
-  GrootStatusFeed feed;
+  StatusFeed feed;
   std::uint64_t every;
   std::vector<Status> known;
   int looks = 0;

@@ -18,7 +18,7 @@ using test::TemporaryPath;
 using test::WatchedRun;
 
 // "3 @300 1:> 2:+ entries 1" is tick 3, at 300 ms, with two nodes that changed.
-class Signs final : public RecordingFormat {
+class Signs final : public LineFormat {
  public:
   std::string header(const RecordingHeader& header) const override {
     return "run of " + header.tree + "\n";
