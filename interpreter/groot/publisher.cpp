@@ -1,12 +1,9 @@
 #include "groot/publisher.h"
 
 #include <fmt/format.h>
-#include <sys/eventfd.h>
 
 #include <algorithm>
 #include <utility>
-
-#include "system/own_thread.h"
 
 namespace lockstep {
 namespace {
@@ -25,8 +22,7 @@ GrootPublisher::GrootPublisher(const Tree& tree, GrootOptions options, GrootSock
       statuses_(tree),
       snapshots_(tree),
       answers_(tree, std::move(options.shown), statuses_, snapshots_, options.control),
-      sockets_(std::move(sockets)),
-      wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
+      sockets_(std::move(sockets)) {}
 
 GrootPublisher::~GrootPublisher() {
   stop();
@@ -34,7 +30,7 @@ GrootPublisher::~GrootPublisher() {
 
 void GrootPublisher::run_started(Ticker& ticker, const RunStart& start) {
   snapshots_.run_started(ticker, start);
-  thread_ = own_thread([this] { serve(); });
+  thread_.start([this] { serve(); });
 }
 
 void GrootPublisher::after_tick(Ticker& ticker, const TickReport& report) {
@@ -54,16 +50,12 @@ void GrootPublisher::run_ended(Ticker& ticker, const RunEnd& end) {
 }
 
 void GrootPublisher::stop() {
-  if (thread_.joinable()) {
-    stopping_ = true;
-    eventfd_write(wake_.number(), 1);
-    thread_.join();
-  }
+  thread_.stop();
   sockets_.reset();
 }
 
 void GrootPublisher::serve() {
-  while (!stopping_.load(std::memory_order_acquire)) {
+  while (!thread_.is_stopping()) {
     serve_one(kLook);
     watch_hooks();
   }
@@ -72,8 +64,7 @@ void GrootPublisher::serve() {
 
 // The statuses after the last tick are what a client waits for.
 void GrootPublisher::serve_to_the_end() {
-  eventfd_t rung = 0;
-  eventfd_read(wake_.number(), &rung);
+  thread_.forget_wakes();
   const Nanoseconds now = monotonic_now();
   if (!heard_ || now - *heard_ > kPresent) return;
   const auto left = [&] {
@@ -86,7 +77,7 @@ void GrootPublisher::serve_to_the_end() {
 }
 
 std::optional<GrootRequest> GrootPublisher::serve_one(std::chrono::milliseconds longest) {
-  const auto request = sockets_->receive(wake_.number(), longest);
+  const auto request = sockets_->receive(thread_.descriptor(), longest);
   if (!request) return std::nullopt;
   heard_ = monotonic_now();
   sockets_->reply(answers_.answer(*request));

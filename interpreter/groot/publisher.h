@@ -2,19 +2,17 @@
 // has changed.
 #pragma once
 
-#include <atomic>
 #include <functional>
 #include <optional>
 #include <string>
-#include <thread>
 
 #include "core/clock.h"
 #include "groot/answers.h"
 #include "groot/sockets.h"
 #include "live/snapshot_feed.h"
 #include "live/status_feed.h"
+#include "live/watcher_thread.h"
 #include "runtime/observer.h"
-#include "system/file_descriptor.h"
 
 namespace lockstep {
 
@@ -48,13 +46,11 @@ class GrootPublisher final : public Observer {
   SnapshotFeed snapshots_;
   GrootAnswers answers_;
   std::optional<GrootSockets> sockets_;
-  FileDescriptor wake_;  // an eventfd
-  std::atomic<bool> stopping_{false};
   std::optional<Nanoseconds> heard_;                       // the last request came at this time
   bool is_absent_ = false;                                 // nobody has asked for long
   Nanoseconds patience_ = std::chrono::milliseconds(500);  // with the last request, at the end
   bool is_late_ = false;                                   // it did not come
-  std::thread thread_;
+  WatcherThread thread_;
 };
 
 }  // namespace lockstep

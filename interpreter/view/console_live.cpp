@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <poll.h>
-#include <sys/eventfd.h>
 
 #include <array>
 #include <new>
@@ -10,7 +9,6 @@
 
 #include "core/diagnostics.h"
 #include "summary/statistics.h"
-#include "system/own_thread.h"
 
 namespace lockstep {
 
@@ -20,8 +18,7 @@ ConsoleLive::ConsoleLive(const Tree& tree, const LiveOptions& options, Outlet& o
       options_(options),
       out_(out),
       feed_(tree),
-      screen_(out),
-      wake_(eventfd(0, EFD_CLOEXEC)) {}
+      screen_(out) {}
 
 ConsoleLive::~ConsoleLive() {
   try {
@@ -33,7 +30,7 @@ ConsoleLive::~ConsoleLive() {
 void ConsoleLive::run_started(Ticker& ticker, const RunStart& start) {
   feed_.run_started(ticker, start);
   terminal_.emplace(options_.keys, out_.file());
-  thread_ = own_thread([this] { draw_until_stopped(); });
+  thread_.start([this] { draw_until_stopped(); });
 }
 
 void ConsoleLive::after_tick(Ticker& ticker, const TickReport& report) {
@@ -62,11 +59,7 @@ void ConsoleLive::print(std::string line) {
 }
 
 void ConsoleLive::stop() {
-  if (thread_.joinable()) {
-    stopping_ = true;
-    eventfd_write(wake_.number(), 1);
-    thread_.join();
-  }
+  thread_.stop();
   terminal_.reset();
   {
     const std::lock_guard lock(mutex_);
@@ -116,13 +109,13 @@ DrawOptions ConsoleLive::draw_options() const {
 
 bool ConsoleLive::wait() {
   const bool listens = options_.keys >= 0 && !is_away_;
-  std::array<pollfd, 2> files{{{wake_.number(), POLLIN, 0},
+  std::array<pollfd, 2> files{{{thread_.descriptor(), POLLIN, 0},
                                {listens ? options_.keys : -1, POLLIN, 0}}};  // -1 is passed over
   const int ready =
       poll(files.data(), files.size(), static_cast<int>(SnapshotFeed::kPeriod.count()));
   if (ready == 0) press(decoder_.idle());
   if (ready > 0 && files[1].revents != 0) read_keys();
-  return !stopping_;
+  return !thread_.is_stopping();
 }
 
 void ConsoleLive::read_keys() {

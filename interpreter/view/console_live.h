@@ -3,15 +3,13 @@
 // on.
 #pragma once
 
-#include <atomic>
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "live/snapshot_feed.h"
-#include "system/file_descriptor.h"
+#include "live/watcher_thread.h"
 #include "terminal/keys.h"
 #include "terminal/raw_terminal.h"
 #include "terminal/screen.h"
@@ -74,13 +72,11 @@ class ConsoleLive final : public Observer {
   KeyDecoder decoder_;
   TreeBrowser browser_{shape_};
 
-  FileDescriptor wake_;  // an eventfd: the thread is to stop
-  std::atomic<bool> stopping_{false};
   std::mutex mutex_;  // for what follows
   std::vector<std::string> printed_;
   std::size_t left_out_ = 0;
   bool stopped_ = false;
-  std::thread thread_;
+  WatcherThread thread_;
 };
 
 }  // namespace lockstep
