@@ -4,25 +4,44 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "core/json_reader.h"
+#include "live/live_format.h"
 #include "live/packet_ring.h"
 
 namespace lockstep {
 
 class EventCounts {
  public:
+  enum Count : std::size_t { kSuccess, kFailure, kSkipped, kHalted, kHeld, kFault, kCounts };
+  using Counts = std::array<std::uint64_t, kCounts>;
+
+  explicit EventCounts(const LiveFormat& format);
+
   // Counts the ticks of a ring from one position to another. Of each line that has the whole state,
   // `counted` gets what was counted up to it, as a part of this line.
   void take(const PacketRing& ring, std::uint64_t from, std::uint64_t to,
             std::vector<std::string>& counted);
 
- private:
-  enum Count : std::size_t { kSuccess, kFailure, kSkipped, kHalted, kHeld, kFault, kCounts };
-  using Counts = std::array<std::uint64_t, kCounts>;
+  // --- for the format ----------------------------------------------------------------------------
 
+  // What the end of a tick's line says. No value: it is too long.
+  void take_fault(NodeIndex node);
+  void take_entry(std::size_t entry, std::optional<std::string_view> value);
+
+  std::size_t nodes() const { return nodes_.size(); }
+  Counts of_node(std::size_t node, std::uint64_t tick) const {
+    return nodes_[node].until(tick + 1);
+  }
+  std::size_t entries() const { return entries_.size(); }
+  // How many values it has had.
+  std::uint64_t of_entry(std::size_t entry) const { return entries_[entry].values; }
+
+ private:
   struct Node {
     Counts counts{};
     std::uint64_t since = 0;  // the tick with which it became as it is
@@ -35,18 +54,15 @@ class EventCounts {
 
   struct Entry {
     std::uint64_t values = 0;
-    bool is_long = false;  // the last
-    std::string value = {};
+    std::optional<std::string> value = {};  // the last
   };
 
   bool take_tick(const PacketRing& ring, std::uint64_t position, const PacketHead& head);
   void take_node(const NodeChange& change, std::uint64_t tick);
-  void take_text(std::string text);
-  void take_fault(JsonValue fault);
-  void take_entry(JsonValue entry);
-  std::string text(std::uint64_t tick) const;
 
-  JsonReader reader_;
+  const LiveFormat& format_;
+  const std::unique_ptr<TickEndReader> reader_;
+  std::string empty_end_;  // of a tick of which there is nothing but nodes to tell
   std::vector<Node> nodes_;
   std::vector<Entry> entries_;
   std::uint64_t tick_ = 0;  // how many were taken

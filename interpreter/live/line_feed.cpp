@@ -4,14 +4,10 @@
 #include <string_view>
 #include <utility>
 
-#include "live/event_counts.h"
 #include "live/packet_printer.h"
 
 namespace lockstep {
 namespace {
-
-// Of a line; no text in it has a line end.
-constexpr std::string_view kFullEnd = ",\"full\":true}\n";
 
 // Room for some lines that have all nodes, and for seconds of a smaller tree at 1 kHz.
 std::size_t room_for(const Tree& tree) {
@@ -21,7 +17,7 @@ std::size_t room_for(const Tree& tree) {
 
 }  // namespace
 
-LineFeed::LineFeed(const Tree& tree, RunDescription run, const LineFormat& format,
+LineFeed::LineFeed(const Tree& tree, RunDescription run, const LiveFormat& format,
                    RealTime real_time)
     : format_(format),
       real_time_(real_time),
@@ -29,9 +25,7 @@ LineFeed::LineFeed(const Tree& tree, RunDescription run, const LineFormat& forma
       packets_(tree, std::move(run), format),
       ring_(room_for(tree)),
       room_(64u << 10),
-      counts_(std::make_unique<EventCounts>()) {}
-
-LineFeed::~LineFeed() = default;
+      counts_(format) {}
 
 void LineFeed::log(std::string_view who, std::string_view level, std::string_view text) {
   packets_.log(who, level, text);
@@ -56,7 +50,9 @@ void LineFeed::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds time) {
 // but its time is left to tell.
 void LineFeed::publish_before_late(Nanoseconds time) {
   if (!has_ticked_ || 2 * (time - last_.time) < 3 * deadlines_.at(1)) return;
-  Packet packet{.text = "]}\n"};
+  std::string text;
+  format_.set_tick_end(text, {});
+  Packet packet{.text = text};
   packet.head.is_tick = 1;
   packet.head.tick = last_.tick;
   packet.head.time = last_.time.count();
@@ -155,14 +151,15 @@ void LineFeed::take(std::string& lines) {
   PacketPrinter printer(ring_, format_);
   for (auto text = printer.print(room_); !text.empty(); text = printer.print(room_)) lines += text;
   std::vector<std::string> counted;
-  counts_->take(ring_, ring_.taken(), printer.finished(), counted);
+  counts_.take(ring_, ring_.taken(), printer.finished(), counted);
   ring_.take_until(printer.finished());
   if (is_full_.exchange(false)) room_made_.ring();
+  const std::string_view full_end = format_.full_end();
   std::size_t at = begin;
   for (const std::string& counts : counted) {
-    at = lines.find(kFullEnd, at);
+    at = lines.find(full_end, at);
     lines.insert(at, counts);
-    at += counts.size() + kFullEnd.size();
+    at += counts.size() + full_end.size();
   }
 }
 

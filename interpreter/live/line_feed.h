@@ -8,11 +8,12 @@
 
 #include <atomic>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "live/event_counts.h"
+#include "live/live_format.h"
 #include "live/packet_ring.h"
 #include "live/run_packets.h"
 #include "runtime/deadlines.h"
@@ -21,8 +22,6 @@
 
 namespace lockstep {
 
-class EventCounts;
-
 class LineFeed final : public Observer {
  public:
   static constexpr std::chrono::milliseconds kPeriod{50};
@@ -30,9 +29,8 @@ class LineFeed final : public Observer {
   using RealTime = Nanoseconds (*)();
 
   // `real_time` is for tests.
-  LineFeed(const Tree& tree, RunDescription run, const LineFormat& format,
+  LineFeed(const Tree& tree, RunDescription run, const LiveFormat& format,
            RealTime real_time = monotonic_now);
-  ~LineFeed() override;
 
   // The next tick gets a line, however soon it comes.
   void hurry() { published_ = Nanoseconds(0); }
@@ -50,6 +48,7 @@ class LineFeed final : public Observer {
   // Once run_started, or run_ended, has returned.
   const std::string& header() const { return header_; }
   const std::string& end() const { return end_; }
+  const LiveFormat& format() const { return format_; }
   // Adds whole lines: those since the last call. One with the whole state also has what the run has
   // had of everything that is counted (live/event_counts.h).
   void take(std::string& lines);
@@ -72,7 +71,7 @@ class LineFeed final : public Observer {
   bool wait_to_push(const Packet& packet);
   void note_times(Nanoseconds time);
 
-  const LineFormat& format_;
+  const LiveFormat& format_;
   const RealTime real_time_;
   const Deadlines deadlines_;
   RunPackets packets_;
@@ -95,7 +94,7 @@ class LineFeed final : public Observer {
 
   // Of the taking thread.
   std::vector<char> room_;
-  const std::unique_ptr<EventCounts> counts_;
+  EventCounts counts_;
 };
 
 }  // namespace lockstep

@@ -11,11 +11,17 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace lockstep {
 
-// Of a line of a recording that is one of a tick.
-std::optional<std::uint64_t> tick_of_line(std::string_view line);
+// What listeners get at once: a line, or something beside the lines.
+struct LoggedEvent {
+  std::string text;                  // as it is sent
+  std::size_t line = 0, length = 0;  // where in it the line is; no length: it has none
+  std::optional<std::uint64_t> tick = {};
+  bool is_full = false;  // the line has the whole state
+};
 
 class LineLog {
  public:
@@ -26,16 +32,16 @@ class LineLog {
   // Where a listener is.
   struct Place {
     std::uint64_t event = 0;  // its number, counted from the first of all
-    // Its text, once it was begun: it is read to its end, also when the log has dropped it.
-    std::shared_ptr<const std::string> text = {};
+    // It, once it was begun: it is read to its end, also when the log has dropped it.
+    std::shared_ptr<const LoggedEvent> begun = {};
     std::size_t offset = 0;  // bytes of it that were read
   };
 
-  // The first line, and those that follow: of ticks, the end. Each ends in '\n'.
-  void add_header(std::string_view line);
-  void add(std::string_view line);
-  // An event beside the lines: "state", "end". The last state is repeated after each full line.
-  void add_event(std::string_view name, std::string_view json);
+  // All listeners get the first line first.
+  void set_header(LoggedEvent header) { header_ = std::move(header); }
+  void add(LoggedEvent event);
+  // The last of these is repeated after each line that has the whole state.
+  void add_state(LoggedEvent state);
 
   // Nothing follows.
   void close() { is_over_ = true; }
@@ -44,41 +50,40 @@ class LineLog {
   // A line with the whole state is needed, so that listeners can begin and catch up.
   bool wants_full() const;
 
-  // As server-sent events: the header, which all listeners get first, and what follows.
-  std::string_view header() const { return header_; }
+  std::string_view header() const { return header_.text; }
   // Where a listener begins that has seen the ticks up to this one, or none.
   Place begin(std::optional<std::uint64_t> seen) const;
   // Copies what comes next and moves on. 0: nothing yet.
   std::size_t read(Place& place, std::span<char> to);
 
   // As lines: the header and the rest of the log.
-  std::string_view header_line() const;
+  std::string_view header_line() const { return line_of(header_); }
   // The number of the event behind the last.
   std::uint64_t end() const { return first_ + events_.size(); }
   std::uint64_t first() const { return first_; }
   // Of the last line with the whole state.
   std::optional<std::uint64_t> last_full() const { return last_full_; }
-  std::optional<std::uint64_t> tick(std::uint64_t event) const { return at(event).tick; }
+  std::optional<std::uint64_t> tick(std::uint64_t event) const { return at(event).it->tick; }
   // "" if it is no line.
-  std::string_view line(std::uint64_t event) const;
+  std::string_view line(std::uint64_t event) const { return line_of(*at(event).it); }
 
  private:
   struct Event {
-    std::shared_ptr<const std::string> text;  // as it is sent
-    std::size_t line = 0;                     // where in it the line begins; 0: it has none
-    std::optional<std::uint64_t> tick = {};
-    bool is_full = false;
+    std::shared_ptr<const LoggedEvent> it;
     std::uint64_t begin = 0;  // bytes of all events before it
   };
 
-  void push(Event event);
+  static std::string_view line_of(const LoggedEvent& it) {
+    return std::string_view(it.text).substr(it.line, it.length);
+  }
+  void push(std::shared_ptr<const LoggedEvent> event);
   void drop_old();
   const Event& at(std::uint64_t event) const { return events_[event - first_]; }
   bool is_behind(const Place& place) const;
   void catch_up(Place& place);
 
-  std::string header_;
-  std::shared_ptr<const std::string> state_;  // the last event of this name
+  LoggedEvent header_;
+  std::shared_ptr<const LoggedEvent> state_;  // the last
   std::deque<Event> events_;
   std::uint64_t first_ = 0;                      // number of the first event that is kept
   std::optional<std::uint64_t> last_full_ = {};  // likewise

@@ -18,6 +18,8 @@ using Order = RunControl::Order;
 using What = Order::What;
 using When = Breakpoint::When;
 
+constexpr std::array<std::string_view, 3> kWhen{"begins", "completes", "barrier"};  // by When
+
 struct Fields {
   std::string what, entry, value, when;
   std::uint64_t ticks = 1, node = 0;
@@ -81,10 +83,9 @@ Result<Order> set(const Tree& tree, const Fields& fields) {
 }
 
 std::optional<When> when_of(std::string_view word) {
-  constexpr std::array<std::pair<std::string_view, When>, 3> kWords{
-      {{"begins", When::Begins}, {"completes", When::Completes}, {"barrier", When::Barrier}}};
-  const auto found = std::ranges::find(kWords, word, [](const auto& it) { return it.first; });
-  return found == kWords.end() ? std::nullopt : std::optional(found->second);
+  const auto found = std::ranges::find(kWhen, word);
+  if (found == kWhen.end()) return std::nullopt;
+  return static_cast<When>(found - kWhen.begin());
 }
 
 Result<Order> breakpoint(const Tree& tree, const Fields& fields) {
@@ -101,6 +102,10 @@ Result<Order> breakpoint(const Tree& tree, const Fields& fields) {
 }
 
 }  // namespace
+
+std::string_view word_of(When when) {
+  return kWhen[static_cast<std::size_t>(when)];
+}
 
 Result<Order> read_order(const Tree& tree, bool is_real_time, std::string text) {
   Fields fields;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "core/problem.h"
 #include "engine/tree.h"
@@ -11,5 +12,8 @@ namespace lockstep {
 
 // The order that the text has, checked: it can be carried out in a run of this tree.
 Result<RunControl::Order> read_order(const Tree& tree, bool is_real_time, std::string text);
+
+// When the run is to pause, as clients say it: "begins", "completes" or "barrier".
+std::string_view word_of(Breakpoint::When when);
 
 }  // namespace lockstep

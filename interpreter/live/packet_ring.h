@@ -66,6 +66,26 @@ class PacketRing {
     const std::string_view all = bytes(position, count * sizeof(NodeChange));
     return {reinterpret_cast<const NodeChange*>(all.data()), all.size() / sizeof(NodeChange)};
   }
+  // Visits them, and returns the position behind them.
+  template <class Visit>  // (const NodeChange&)
+  std::uint64_t each_node(std::uint64_t position, std::uint64_t count, Visit visit) const {
+    while (count > 0) {
+      const auto some = nodes(position, count);
+      for (const NodeChange& it : some) visit(it);
+      position += some.size_bytes();
+      count -= some.size();
+    }
+    return position;
+  }
+  // Visits the packets between two positions, each with that of its nodes.
+  template <class Visit>  // (std::uint64_t, const PacketHead&)
+  void each_packet(std::uint64_t from, std::uint64_t to, Visit visit) const {
+    while (from < to) {
+      const PacketHead it = head(from);
+      visit(from + sizeof it, it);
+      from += in_cells(packet_size(it));
+    }
+  }
   void take_until(std::uint64_t position) { begin_.store(position, std::memory_order_release); }
 
   // --- for all -----------------------------------------------------------------------------------

@@ -3,14 +3,10 @@
 #include <algorithm>
 
 #include "core/json.h"
+#include "live/orders.h"
 
 namespace lockstep {
 namespace {
-
-std::string_view word_of(Breakpoint::When when) {
-  if (when == Breakpoint::When::Begins) return "begins";
-  return when == Breakpoint::When::Completes ? "completes" : "barrier";
-}
 
 Json json_of(Breakpoint breakpoint) {
   return {{"node", breakpoint.node}, {"when", word_of(breakpoint.when)}};

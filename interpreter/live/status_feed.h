@@ -19,20 +19,13 @@ class StatusFeed final : public Observer {
   // For one other thread: visits the changes since the last call, in order, as whole ticks.
   template <class Visit>  // (NodeIndex, Status, Nanoseconds)
   void take(Visit visit) {
-    for (std::uint64_t at = ring_.taken(); at != ring_.pushed();) {
-      const PacketHead head = ring_.head(at);
-      std::uint64_t place = at + sizeof head;
-      for (std::uint64_t left = head.nodes; left > 0;) {
-        const auto nodes = ring_.nodes(place, left);
-        for (const NodeChange& it : nodes) {
-          visit(it.node, status_of(it.activity()), Nanoseconds(head.time));
-        }
-        left -= nodes.size();
-        place += nodes.size_bytes();
-      }
-      at += PacketRing::in_cells(packet_size(head));
-      ring_.take_until(at);
-    }
+    const std::uint64_t end = ring_.pushed();
+    ring_.each_packet(ring_.taken(), end, [&](std::uint64_t position, const PacketHead& head) {
+      ring_.each_node(position, head.nodes, [&](const NodeChange& it) {
+        visit(it.node, status_of(it.activity()), Nanoseconds(head.time));
+      });
+    });
+    ring_.take_until(end);
   }
 
  private:

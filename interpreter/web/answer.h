@@ -4,9 +4,10 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
+
+#include "live/stream.h"
 
 namespace lockstep {
 
@@ -17,26 +18,11 @@ struct WebRequest {
   std::string body = {};
 };
 
-// The content of an answer that comes in pieces.
-class WebStream {
- public:
-  virtual ~WebStream() = default;
-  // It goes on until the client leaves.
-  virtual bool is_endless() const = 0;
-  struct Piece {
-    enum class What { Bytes, Wait, End };
-    What what;
-    std::size_t count = 0;
-  };
-  // Wait: there is nothing now, and the server asks again when there may be more.
-  virtual Piece read(std::span<char> to) = 0;
-};
-
 struct WebAnswer {
   unsigned status = 200;
   std::string_view type = "text/plain; charset=utf-8";
   std::string body = {};
-  std::unique_ptr<WebStream> stream = {};     // instead of `body`
+  std::unique_ptr<Stream> stream = {};        // instead of `body`
   std::string policy = "default-src 'none'";  // what a page may load: Content-Security-Policy
 };
 

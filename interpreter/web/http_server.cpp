@@ -109,7 +109,7 @@ struct HttpServer::Implementation {
   }
 
   struct Open {
-    Open(Implementation& its_server, MHD_Connection* its_connection, std::unique_ptr<WebStream> it)
+    Open(Implementation& its_server, MHD_Connection* its_connection, std::unique_ptr<Stream> it)
         : server(its_server), connection(its_connection), stream(std::move(it)) {
       ++server.streams;
     }
@@ -119,14 +119,14 @@ struct HttpServer::Implementation {
 
     Implementation& server;
     MHD_Connection* const connection;
-    const std::unique_ptr<WebStream> stream;
+    const std::unique_ptr<Stream> stream;
   };
 
   static ssize_t on_read(void* open, std::uint64_t, char* to, std::size_t size) {
     auto& it = *static_cast<Open*>(open);
-    const WebStream::Piece piece = it.stream->read({to, size});
-    if (piece.what == WebStream::Piece::What::End) return MHD_CONTENT_READER_END_OF_STREAM;
-    if (piece.what == WebStream::Piece::What::Bytes) return static_cast<ssize_t>(piece.count);
+    const Stream::Piece piece = it.stream->read({to, size});
+    if (piece.what == Stream::Piece::What::End) return MHD_CONTENT_READER_END_OF_STREAM;
+    if (piece.what == Stream::Piece::What::Bytes) return static_cast<ssize_t>(piece.count);
     it.server.waiting.insert(it.connection);
     MHD_suspend_connection(it.connection);
     return 0;

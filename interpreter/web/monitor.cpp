@@ -2,17 +2,16 @@
 
 #include <fmt/format.h>
 #include <poll.h>
-#include <sys/eventfd.h>
 
 #include <memory>
 #include <utility>
 
 #include "core/json.h"
+#include "live/history.h"
 #include "live/orders.h"
 #include "recording/write/json_lines.h"
-#include "system/own_thread.h"
-#include "web/history.h"
 #include "web/page.h"
+#include "web/server_sent.h"
 #include "web/token.h"
 
 namespace lockstep {
@@ -26,50 +25,8 @@ constexpr std::chrono::milliseconds kPatience{500};
 // How long a page that is loaded again may take to come back.
 constexpr std::chrono::seconds kReload{3};
 
-// How often a listener gets something, so that it knows that the run is there, and the server
-// who has gone.
-constexpr std::chrono::milliseconds kBeat{1000};
-
 // How often those that wait look whether it is time for something.
 constexpr std::chrono::milliseconds kLook{100};
-
-// What follows a place in the log, for one listener.
-class Events final : public WebStream {
- public:
-  Events(LineLog& log, std::optional<std::uint64_t> seen)
-      : log_(log), place_(log.begin(seen)), is_at_header_(!seen) {}
-
-  bool is_endless() const override { return true; }
-
-  Piece read(std::span<char> to) override {
-    if (is_at_header_) return read_header(to);
-    const std::size_t count = log_.read(place_, to);
-    if (count > 0) return bytes(count);
-    if (log_.is_over()) return {Piece::What::End};
-    if (monotonic_now() - heard_ < kBeat) return {Piece::What::Wait};
-    constexpr std::string_view kComment = ":\n\n";
-    return bytes(kComment.copy(to.data(), to.size()));
-  }
-
- private:
-  Piece read_header(std::span<char> to) {
-    const std::size_t count = log_.header().copy(to.data(), to.size(), in_header_);
-    in_header_ += count;
-    is_at_header_ = in_header_ < log_.header().size();
-    return bytes(count);
-  }
-
-  Piece bytes(std::size_t count) {
-    heard_ = monotonic_now();
-    return {Piece::What::Bytes, count};
-  }
-
-  LineLog& log_;
-  LineLog::Place place_;
-  bool is_at_header_;
-  std::size_t in_header_ = 0;
-  Nanoseconds heard_{0};
-};
 
 }  // namespace
 
@@ -90,16 +47,13 @@ Monitor::Monitor(const Tree& tree, MonitorOptions options)
       control_(options.control),
       feed_(tree, std::move(options.run), json_lines()),
       on_attached_(std::move(options.on_attached)),
-      wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
       linger_(options.linger),
       stop_(std::move(options.stop)),
       on_linger_(std::move(options.on_linger)) {}
 
 Monitor::~Monitor() {
-  if (!thread_.joinable()) return;
-  stopping_ = gives_up_ = true;
-  eventfd_write(wake_.number(), 1);
-  thread_.join();
+  gives_up_ = true;
+  thread_.stop();
 }
 
 std::string Monitor::open(ServerSocket listener) {
@@ -128,9 +82,9 @@ void Monitor::log(std::string_view who, std::string_view level, std::string_view
 void Monitor::run_started(Ticker& ticker, const RunStart& start) {
   is_real_time_ = start.real_time;
   feed_.run_started(ticker, start);
-  log_.add_header(feed_.header());
-  feed_.begin_taking([this] { eventfd_write(wake_.number(), 1); });
-  thread_ = own_thread([this] {
+  log_.set_header(sent_line(feed_.format(), feed_.header()));
+  feed_.begin_taking([this] { thread_.wake(); });
+  thread_.start([this] {
     // Also when memory runs out: a tick may wait for it.
     const std::unique_ptr<LineFeed, void (*)(LineFeed*)> end(
         &feed_, [](LineFeed* feed) { feed->end_taking(); });
@@ -152,14 +106,13 @@ void Monitor::after_tick(Ticker& ticker, const TickReport& report) {
 void Monitor::standing(Ticker& ticker) {
   feed_.want_full();
   feed_.standing(ticker);
-  eventfd_write(wake_.number(), 1);
+  thread_.wake();
 }
 
 void Monitor::run_ended(Ticker& ticker, const RunEnd& end) {
   feed_.run_ended(ticker, end);
   patience_ = end.budget == nullptr ? kPatience : end.budget->share(kPatience);
-  stopping_ = true;
-  eventfd_write(wake_.number(), 1);
+  thread_.ask_to_stop();
   if (linger_ > Nanoseconds(0)) return;
   thread_.join();
   const bool has_readers = entrance_ && entrance_->server.streams() > 0;
@@ -167,7 +120,7 @@ void Monitor::run_ended(Ticker& ticker, const RunEnd& end) {
 }
 
 void Monitor::serve() {
-  while (!stopping_.load(std::memory_order_acquire)) {
+  while (!thread_.is_stopping()) {
     tell_status();
     if (entrance_) entrance_->server.run();
     wait(kNap);
@@ -178,8 +131,8 @@ void Monitor::serve() {
 // The end is what everybody waits for.
 void Monitor::serve_to_the_end() {
   take_lines();
-  if (!feed_.end().empty()) log_.add(feed_.end());
-  log_.add_event("end", "{}");
+  if (!feed_.end().empty()) log_.add(sent_line(feed_.format(), feed_.end()));
+  log_.add(sent_event("end", "{}"));
   if (entrance_) serve_those_who_linger();
   log_.close();
   if (!entrance_) return;
@@ -208,7 +161,7 @@ void Monitor::serve_those_who_linger() {
 
 void Monitor::linger() {
   is_waited_for_ = true;
-  if (thread_.joinable()) thread_.join();
+  if (thread_.is_started()) thread_.join();
 }
 
 // A pause is reported after the line of the last tick before it, and nothing before the first line
@@ -220,7 +173,7 @@ void Monitor::tell_status() {
   const bool is_early = !state.is_paused && !log_.last_full();
   const auto status = is_early ? std::nullopt : status_.next(state, feed_, is_real_time_, now);
   if (status) {
-    log_.add_event("state", *status);
+    log_.add_state(sent_event("state", *status));
     wake_streams();
   }
   if (now - woken_ < kLook) return;
@@ -233,7 +186,7 @@ void Monitor::take_lines() {
   feed_.take(lines_);
   for (std::string_view rest = lines_; !rest.empty();) {
     const std::size_t length = rest.find('\n') + 1;
-    log_.add(rest.substr(0, length));
+    log_.add(sent_line(feed_.format(), rest.substr(0, length)));
     rest.remove_prefix(length);
   }
   if (log_.wants_full()) feed_.want_full();
@@ -242,13 +195,12 @@ void Monitor::take_lines() {
 
 void Monitor::wait(std::chrono::milliseconds longest) {
   // A negative one is passed over.
-  pollfd files[] = {{wake_.number(), POLLIN, 0},
+  pollfd files[] = {{thread_.descriptor(), POLLIN, 0},
                     {entrance_ ? entrance_->server.descriptor() : -1, POLLIN, 0},
                     {socket_ ? socket_->descriptor() : -1, POLLIN, 0}};
   const bool has_more = entrance_ && entrance_->server.has_more();
   poll(files, std::size(files), has_more ? 0 : static_cast<int>(longest.count()));
-  eventfd_t rung = 0;
-  eventfd_read(wake_.number(), &rung);
+  thread_.forget_wakes();
   if ((files[2].revents & POLLIN) == 0) return;
   socket_->answer([this](const std::string& address) { return attach(address); });
 }
@@ -270,15 +222,15 @@ WebAnswer Monitor::answer(const WebRequest& request) {
   if (request.path == "/history") {
     return {.type = "application/x-ndjson", .stream = history()};
   }
-  return {.type = "text/event-stream", .stream = std::make_unique<Events>(log_, request.after)};
+  return {.type = "text/event-stream", .stream = std::make_unique<ServerSent>(log_, request.after)};
 }
 
 // What the recording has is followed by a line with the whole state: by a new one, if ticks come.
-std::unique_ptr<WebStream> Monitor::history() {
+std::unique_ptr<Stream> Monitor::history() {
   const bool is_paused = control_ != nullptr && control_->state().is_paused;
-  const bool goes_on = !is_paused && !stopping_;
+  const bool goes_on = !is_paused && !thread_.is_stopping();
   if (goes_on) feed_.want_full();
-  return std::make_unique<History>(log_, recording_, goes_on);
+  return std::make_unique<History>(log_, feed_.format(), recording_, goes_on);
 }
 
 WebAnswer Monitor::page() const {

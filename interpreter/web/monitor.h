@@ -1,18 +1,17 @@
 // Shows a run to browsers while it goes on. A thread serves them; the tick thread only passes on
-// what has changed (web/feed.h).
+// what has changed (live/line_feed.h).
 #pragma once
 
 #include <atomic>
 #include <functional>
 #include <optional>
 #include <string>
-#include <thread>
 
 #include "core/problem.h"
 #include "live/line_feed.h"
 #include "live/line_log.h"
 #include "live/run_status.h"
-#include "system/file_descriptor.h"
+#include "live/watcher_thread.h"
 #include "web/answer.h"
 #include "web/attach_socket.h"
 #include "web/gate.h"
@@ -78,7 +77,7 @@ class Monitor final : public Observer, private Answering {
   std::optional<WebAnswer> refuse(const WebRequest& head) override;
   WebAnswer answer(const WebRequest& request) override;
   WebAnswer page() const;
-  std::unique_ptr<WebStream> history();
+  std::unique_ptr<Stream> history();
   WebAnswer obey(const std::string& order);
 
   const Tree& tree_;
@@ -91,8 +90,6 @@ class Monitor final : public Observer, private Answering {
   std::optional<Entrance> entrance_;
   std::optional<AttachSocket> socket_;
   const std::function<void(const std::string& link)> on_attached_;
-  FileDescriptor wake_;  // an eventfd
-  std::atomic<bool> stopping_{false};
   std::string lines_;  // for its room
   Nanoseconds woken_{0};
   Nanoseconds patience_{0};  // with browsers, at the end
@@ -101,7 +98,7 @@ class Monitor final : public Observer, private Answering {
   const std::function<void()> on_linger_;
   std::atomic<bool> is_waited_for_{false};
   std::atomic<bool> gives_up_{false};
-  std::thread thread_;
+  WatcherThread thread_;
 };
 
 }  // namespace lockstep

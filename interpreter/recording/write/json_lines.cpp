@@ -13,6 +13,7 @@
 
 #include "core/json.h"
 #include "recording/recording.h"
+#include "recording/write/live_json.h"
 
 namespace lockstep {
 namespace {
@@ -166,7 +167,7 @@ char* put_node(char* to, const NodeChange& change) {
   return put(to, kFlags[2 * change.ticked() + (activity == Activity::Paused)]);
 }
 
-class JsonLines final : public LineFormat {
+class JsonLines final : public LiveFormat {
  public:
   std::string header(const RecordingHeader& header) const override {
     Json json = {{"lockstep_recording", kRecordingVersion},
@@ -211,8 +212,7 @@ class JsonLines final : public LineFormat {
     add_list(text, "faults", end.faults, add_fault);
     add_list(text, "entries", end.entries, add_entry);
     add_list(text, "logs", end.logs, add_log);
-    if (end.is_full) text += ",\"full\":true";
-    text += "}\n";
+    text += end.is_full ? kFullEnd : "}\n";
   }
 
   std::size_t most_of_tick_end(std::size_t nodes, std::size_t entries) const override {
@@ -246,13 +246,23 @@ class JsonLines final : public LineFormat {
     }
     return {to, count};
   }
+
+  std::optional<std::uint64_t> tick_of(std::string_view line) const override {
+    return tick_of_json(line);
+  }
+  bool is_end(std::string_view line) const override { return is_end_json(line); }
+  std::string_view full_end() const override { return kFullEnd; }
+  std::string counts_text(const EventCounts& counts, std::uint64_t tick) const override {
+    return counts_json(counts, tick);
+  }
+  std::unique_ptr<TickEndReader> tick_end_reader() const override { return json_tick_end_reader(); }
 };
 
 constexpr JsonLines kJsonLines{};  // needs no code at the start: a crash handler uses it
 
 }  // namespace
 
-const LineFormat& json_lines() {
+const LiveFormat& json_lines() {
   return kJsonLines;
 }
 

@@ -1,4 +1,4 @@
-#include "web/history.h"
+#include "live/history.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -23,8 +23,10 @@ std::FILE* open_regular(const std::string& path) {
 
 }  // namespace
 
-History::History(const LineLog& log, const std::string& recording, bool is_coming)
+History::History(const LineLog& log, const LiveFormat& format, const std::string& recording,
+                 bool is_coming)
     : log_(log),
+      format_(format),
       file_(open_regular(recording)),
       full_(log.last_full()),
       asked_(monotonic_now()),
@@ -46,7 +48,7 @@ bool History::is_seam_there() {
   return true;
 }
 
-WebStream::Piece History::read(std::span<char> to) {
+Stream::Piece History::read(std::span<char> to) {
   if (waits_ && !is_seam_there()) return {Piece::What::Wait};
   // The log may have dropped the line meanwhile.
   if (read_ != 0 && read_ - 1 < log_.first()) return {Piece::What::End};
@@ -84,10 +86,9 @@ std::optional<std::string_view> History::next_recorded() {
     line_ += static_cast<char>(letter);
   }
   is_at_header_ = false;
-  const auto tick = tick_of_line(line_);
+  const auto tick = format_.tick_of(line_);
   if (tick) next_tick_ = *tick + 1;
-  const bool is_end = line_.starts_with("{\"end\"");
-  return is_end || (tick && *tick >= until_) ? std::string_view() : line_;
+  return format_.is_end(line_) || (tick && *tick >= until_) ? std::string_view() : line_;
 }
 
 std::string_view History::next_logged() {

@@ -10,17 +10,19 @@
 
 #include "core/clock.h"
 #include "live/line_log.h"
-#include "web/answer.h"
+#include "live/live_format.h"
+#include "live/stream.h"
 
 namespace lockstep {
 
-class History final : public WebStream {
+class History final : public Stream {
  public:
   static constexpr std::chrono::milliseconds kPatience{300};
 
   // `recording` is the file that the run writes; "": none. If there is one, and a line with the
   // whole state `is_coming`, it goes on with that one.
-  History(const LineLog& log, const std::string& recording, bool is_coming);
+  History(const LineLog& log, const LiveFormat& format, const std::string& recording,
+          bool is_coming);
 
   bool is_endless() const override { return false; }
   Piece read(std::span<char> to) override;
@@ -36,6 +38,7 @@ class History final : public WebStream {
   };
 
   const LineLog& log_;
+  const LiveFormat& format_;
   std::unique_ptr<std::FILE, Close> file_;
   std::optional<std::uint64_t> full_;  // the last line with the whole state, when it was asked for
   const Nanoseconds asked_;

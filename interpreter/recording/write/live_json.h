@@ -1,0 +1,22 @@
+// What listeners need of the format of json_lines.h: which line is which, and counts.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "live/event_counts.h"
+
+namespace lockstep {
+
+// How a line ends that has the whole state. No text in a line has a line end.
+constexpr std::string_view kFullEnd = ",\"full\":true}\n";
+
+std::optional<std::uint64_t> tick_of_json(std::string_view line);
+bool is_end_json(std::string_view line);
+std::string counts_json(const EventCounts& counts, std::uint64_t tick);
+std::unique_ptr<TickEndReader> json_tick_end_reader();
+
+}  // namespace lockstep
