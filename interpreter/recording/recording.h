@@ -15,8 +15,6 @@
 
 namespace lockstep {
 
-constexpr int kRecordingVersion = 1;
-
 // The state of one node in one tick. Before the first tick all nodes are as constructed here.
 struct RecordedState {
   double progress = 0;  // at the start of the tick, as its parent used it

@@ -8,6 +8,7 @@
 
 #include "core/resource_set.h"
 #include "core/wording.h"
+#include "recording/lines.h"
 #include "recording/read/recording_json.h"
 
 namespace lockstep {
@@ -81,31 +82,32 @@ RecordedNode node_from(JsonObject object, std::size_t index) {
   RecordedNode node;
   std::uint64_t place = 0;
   bool is_absolute = false, is_relative = false;
-  object.read(
-      {{"index", into(place)},
-       {"path", into(node.path)},
-       {"kind", into(node.kind)},
-       {"name", into(node.name)},
-       {"parent",
-        [&](JsonValue value) {
-          if (!value.is_null()) node.parent = parent_from(value, index);
-        }},
-       {"barriers",
-        [&](JsonValue value) {
-          is_absolute = true;
-          if (!value.is_null()) node.barriers = barriers_from(value, index);
-        },
-        kMayLack},
-       {"delta",
-        [&](JsonValue value) {
-          is_relative = true;
-          if (!value.is_null()) node.delta = delta_from(value, index);
-        },
-        kMayLack},
-       {"idle", [&](JsonValue value) { node.ignores_idle = is_ignore(value, index); }, kMayLack},
-       {"resources", [&](JsonValue value) { node.resources = resources_from(value, index); },
-        kMayLack},
-       {"members", [&](JsonValue value) { node.members = members_from(value, index); }, kMayLack}});
+  object.read({{lines::kHeaderNode["index"], into(place)},
+               {lines::kHeaderNode["path"], into(node.path)},
+               {lines::kHeaderNode["kind"], into(node.kind)},
+               {lines::kHeaderNode["name"], into(node.name)},
+               {lines::kHeaderNode["parent"],
+                [&](JsonValue value) {
+                  if (!value.is_null()) node.parent = parent_from(value, index);
+                }},
+               {lines::kHeaderNode["barriers"],
+                [&](JsonValue value) {
+                  is_absolute = true;
+                  if (!value.is_null()) node.barriers = barriers_from(value, index);
+                },
+                kMayLack},
+               {lines::kHeaderNode["delta"],
+                [&](JsonValue value) {
+                  is_relative = true;
+                  if (!value.is_null()) node.delta = delta_from(value, index);
+                },
+                kMayLack},
+               {lines::kHeaderNode["idle"],
+                [&](JsonValue value) { node.ignores_idle = is_ignore(value, index); }, kMayLack},
+               {lines::kHeaderNode["resources"],
+                [&](JsonValue value) { node.resources = resources_from(value, index); }, kMayLack},
+               {lines::kHeaderNode["members"],
+                [&](JsonValue value) { node.members = members_from(value, index); }, kMayLack}});
   if (place != index) throw JsonError(fmt::format("node {} is missing", index));
   if (is_absolute && is_relative)
     throw JsonError(fmt::format("node {} has both barriers and delta", index));
@@ -127,7 +129,8 @@ std::vector<RecordedKey> keys_from(JsonValue value) {
   keys.reserve(value.count_items());
   value.each_item([&](JsonValue item) {
     RecordedKey& it = keys.emplace_back();
-    item.object().read({{"key", into(it.key)}, {"type", into(it.type)}});
+    item.object().read(
+        {{lines::kHeaderEntry["key"], into(it.key)}, {lines::kHeaderEntry["type"], into(it.type)}});
   });
   return keys;
 }
@@ -174,8 +177,8 @@ void check_paths(std::span<const RecordedNode> nodes) {
 void check_version(JsonReader& json, std::string& line) {
   std::optional<std::uint64_t> version;
   json.read(line, [&](JsonObject object) {
-    object.read(
-        {{"lockstep_recording", [&](JsonValue value) { version = value.whole(); }, kMayLack}});
+    object.read({{lines::kHeader["lockstep_recording"],
+                  [&](JsonValue value) { version = value.whole(); }, kMayLack}});
   });
   if (!version) throw JsonError("not a recording: the first line has no 'lockstep_recording'");
   if (*version != kRecordingVersion) {
@@ -191,16 +194,17 @@ RecordingHeader RecordingJson::header(std::string& line) {
   RecordingHeader header;
   json_.read(line, [&](JsonObject object) {
     object.read(
-        {{"tree", into(header.tree)},
-         {"file", into(header.file)},
-         {"version", into(header.version)},
-         {"law", [&](JsonValue value) { header.law = value.whole(); }, kMayLack},
-         {"rate_hz", [&](JsonValue value) { header.rate_hz = rate_from(value); }},
-         {"clock", into(header.clock)},
-         {"seed", into(header.seed)},
-         {"arguments", [&](JsonValue value) { read_arguments(value, header); }},
-         {"nodes", [&](JsonValue value) { header.nodes = nodes_from(value); }},
-         {"entries", [&](JsonValue value) { header.entries = keys_from(value); }, kMayLack}});
+        {{lines::kHeader["tree"], into(header.tree)},
+         {lines::kHeader["file"], into(header.file)},
+         {lines::kHeader["version"], into(header.version)},
+         {lines::kHeader["law"], [&](JsonValue value) { header.law = value.whole(); }, kMayLack},
+         {lines::kHeader["rate_hz"], [&](JsonValue value) { header.rate_hz = rate_from(value); }},
+         {lines::kHeader["clock"], into(header.clock)},
+         {lines::kHeader["seed"], into(header.seed)},
+         {lines::kHeader["arguments"], [&](JsonValue value) { read_arguments(value, header); }},
+         {lines::kHeader["nodes"], [&](JsonValue value) { header.nodes = nodes_from(value); }},
+         {lines::kHeader["entries"], [&](JsonValue value) { header.entries = keys_from(value); },
+          kMayLack}});
     keys_ = header.entries.size();
     users_ = resource_users(header);
   });

@@ -10,6 +10,7 @@
 
 #include "core/resource_set.h"
 #include "core/wording.h"
+#include "recording/lines.h"
 
 namespace lockstep {
 namespace {
@@ -212,7 +213,7 @@ auto into_logs(std::vector<LeafLine>& logs) {
 
 RecordedGap gap_from(JsonObject object) {
   RecordedGap gap;
-  object.read({{"ticks", into(gap.ticks)}, {"from", into(gap.from)}});
+  object.read({{lines::kLost["ticks"], into(gap.ticks)}, {lines::kLost["from"], into(gap.from)}});
   constexpr std::uint64_t kMost = std::uint64_t{1} << 63u;  // ticks of a run
   if (gap.ticks > 0 && gap.ticks <= kMost && gap.from <= kMost - gap.ticks) return gap;
   throw JsonError(fmt::format("{} ticks cannot be lost from tick {} on", gap.ticks, gap.from));
@@ -237,17 +238,18 @@ auto into_notes(std::vector<std::string>& notes) {
 
 RecordedEnd end_from(JsonObject object) {
   RecordedEnd end;
-  object.read({{"result", into(end.result)},
-               {"reason", into(end.reason)},
-               {"fault", into(end.fault), kMayLack},
-               {"signal", [&](JsonValue value) { end.signal = value.whole(); }, kMayLack},
-               {"ticks", into(end.ticks)},
-               {"time_s", into_seconds(end.time)},
-               {"overruns", into(end.overruns)},
-               {"skipped", into(end.skipped)},
-               {"lost", into(end.lost), kMayLack},
-               {"notes", into_notes(end.notes), kMayLack},
-               {"logs", into_logs(end.logs), kMayLack}});
+  object.read(
+      {{lines::kEnd["result"], into(end.result)},
+       {lines::kEnd["reason"], into(end.reason)},
+       {lines::kEnd["fault"], into(end.fault), kMayLack},
+       {lines::kEnd["signal"], [&](JsonValue value) { end.signal = value.whole(); }, kMayLack},
+       {lines::kEnd["ticks"], into(end.ticks)},
+       {lines::kEnd["time_s"], into_seconds(end.time)},
+       {lines::kEnd["overruns"], into(end.overruns)},
+       {lines::kEnd["skipped"], into(end.skipped)},
+       {lines::kEnd["lost"], into(end.lost), kMayLack},
+       {lines::kEnd["notes"], into_notes(end.notes), kMayLack},
+       {lines::kEnd["logs"], into_logs(end.logs), kMayLack}});
   return end;
 }
 
@@ -290,18 +292,20 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
     });
   };
   json_.read(line, [&](JsonObject object) {
-    object.read(
-        {{"tick", [&](JsonValue value) { tick = value.whole(); }, kMayLack},
-         {"time_s", [&](JsonValue value) { into_seconds(time.emplace())(value); }, kMayLack},
-         {"nodes", read_nodes, kMayLack},
-         {"limits", read_limits, kMayLack},
-         {"rounds", read_rounds, kMayLack},
-         {"succeeded", read_succeeded, kMayLack},
-         {"faults", read_faults, kMayLack},
-         {"entries", read_entries, kMayLack},
-         {"logs", into_logs(logs_), kMayLack},
-         {"lost", [&](JsonValue value) { gap = gap_from(value.object()); }, kMayLack},
-         {"end", [&](JsonValue value) { end = end_from(value.object()); }, kMayLack}});
+    object.read({{lines::kTick["tick"], [&](JsonValue value) { tick = value.whole(); }, kMayLack},
+                 {lines::kTick["time_s"],
+                  [&](JsonValue value) { into_seconds(time.emplace())(value); }, kMayLack},
+                 {lines::kTick["nodes"], read_nodes, kMayLack},
+                 {lines::kTick["limits"], read_limits, kMayLack},
+                 {lines::kTick["rounds"], read_rounds, kMayLack},
+                 {lines::kTick["succeeded"], read_succeeded, kMayLack},
+                 {lines::kTick["faults"], read_faults, kMayLack},
+                 {lines::kTick["entries"], read_entries, kMayLack},
+                 {lines::kTick["logs"], into_logs(logs_), kMayLack},
+                 {lines::kLostLine["lost"],
+                  [&](JsonValue value) { gap = gap_from(value.object()); }, kMayLack},
+                 {lines::kEndLine["end"], [&](JsonValue value) { end = end_from(value.object()); },
+                  kMayLack}});
   });
   const bool is_tick = tick || time || has_nodes;
   if (is_tick + gap.has_value() + end.has_value() > 1) throw JsonError("a line of two kinds");

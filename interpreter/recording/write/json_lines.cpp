@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "core/json.h"
-#include "recording/recording.h"
+#include "recording/lines.h"
 #include "recording/write/live_json.h"
 
 namespace lockstep {
@@ -22,22 +22,25 @@ namespace {
 // -----------------------------------------------------------------------
 
 Json json_of(const RecordedNode& node, std::size_t index) {
-  Json json = {{"index", index}, {"path", node.path}, {"kind", node.kind}, {"name", node.name}};
-  json["parent"] = node.parent;
+  Json json = {{lines::kHeaderNode["index"], index},
+               {lines::kHeaderNode["path"], node.path},
+               {lines::kHeaderNode["kind"], node.kind},
+               {lines::kHeaderNode["name"], node.name}};
+  json[lines::kHeaderNode["parent"]] = node.parent;
   if (node.synchronization == Synchronization::Absolute) {
-    json["barriers"] = node.barriers;
+    json[lines::kHeaderNode["barriers"]] = node.barriers;
   } else if (node.synchronization == Synchronization::Relative) {
-    json["delta"] = node.delta;
+    json[lines::kHeaderNode["delta"]] = node.delta;
   }
-  if (!node.resources.empty()) json["resources"] = node.resources;
-  if (!node.members.empty()) json["members"] = node.members;
-  if (node.ignores_idle) json["idle"] = "ignore";
+  if (!node.resources.empty()) json[lines::kHeaderNode["resources"]] = node.resources;
+  if (!node.members.empty()) json[lines::kHeaderNode["members"]] = node.members;
+  if (node.ignores_idle) json[lines::kHeaderNode["idle"]] = "ignore";
   return json;
 }
 
 Json json_of(const RecordedKey& entry) {
-  Json json = {{"key", entry.key}, {"type", entry.type}};
-  if (!entry.writers.empty()) json["writers"] = entry.writers;
+  Json json = {{lines::kHeaderEntry["key"], entry.key}, {lines::kHeaderEntry["type"], entry.type}};
+  if (!entry.writers.empty()) json[lines::kHeaderEntry["writers"]] = entry.writers;
   return json;
 }
 
@@ -57,6 +60,13 @@ Json list_of(const std::vector<Item>& items) {
 
 char* put(char* to, std::string_view text) {
   return std::copy(text.begin(), text.end(), to);
+}
+
+// {"key": or ,"key":
+char* put_key(char* to, char before, std::string_view key) {
+  *to++ = before;
+  *to++ = '"';
+  return put(put(to, key), "\":");
 }
 
 template <class Integer>
@@ -170,48 +180,48 @@ char* put_node(char* to, const NodeChange& change) {
 class JsonLines final : public LiveFormat {
  public:
   std::string header(const RecordingHeader& header) const override {
-    Json json = {{"lockstep_recording", kRecordingVersion},
-                 {"tree", header.tree},
-                 {"file", header.file},
-                 {"version", header.version},
-                 {"law", header.law},
-                 {"rate_hz", header.rate_hz},
-                 {"clock", header.clock},
-                 {"seed", header.seed}};
-    json["arguments"] = Json::object();
-    for (const auto& [name, value] : header.arguments) json["arguments"][name] = value;
-    json["nodes"] = Json::array();
+    Json json = {{lines::kHeader["lockstep_recording"], kRecordingVersion},
+                 {lines::kHeader["tree"], header.tree},
+                 {lines::kHeader["file"], header.file},
+                 {lines::kHeader["version"], header.version},
+                 {lines::kHeader["law"], header.law},
+                 {lines::kHeader["rate_hz"], header.rate_hz},
+                 {lines::kHeader["clock"], header.clock},
+                 {lines::kHeader["seed"], header.seed}};
+    Json& arguments = json[lines::kHeader["arguments"]] = Json::object();
+    for (const auto& [name, value] : header.arguments) arguments[name] = value;
+    Json& nodes = json[lines::kHeader["nodes"]] = Json::array();
     for (std::size_t index = 0; index < header.nodes.size(); ++index) {
-      json["nodes"].push_back(json_of(header.nodes[index], index));
+      nodes.push_back(json_of(header.nodes[index], index));
     }
-    if (!header.entries.empty()) json["entries"] = list_of(header.entries);
+    if (!header.entries.empty()) json[lines::kHeader["entries"]] = list_of(header.entries);
     return json.text() + '\n';
   }
 
   std::string end(const RecordedEnd& end) const override {
-    Json json = {{"result", end.result}, {"reason", end.reason}};
-    if (!end.fault.empty()) json["fault"] = end.fault;
-    if (end.signal) json["signal"] = *end.signal;
-    json["ticks"] = end.ticks;
-    json["time_s"] = end.time;
-    json["overruns"] = end.overruns;
-    json["skipped"] = end.skipped;
-    if (end.lost > 0) json["lost"] = end.lost;
-    if (!end.notes.empty()) json["notes"] = end.notes;
-    if (!end.logs.empty()) json["logs"] = list_of(end.logs);
-    return Json{{"end", std::move(json)}}.text() + '\n';
+    Json json = {{lines::kEnd["result"], end.result}, {lines::kEnd["reason"], end.reason}};
+    if (!end.fault.empty()) json[lines::kEnd["fault"]] = end.fault;
+    if (end.signal) json[lines::kEnd["signal"]] = *end.signal;
+    json[lines::kEnd["ticks"]] = end.ticks;
+    json[lines::kEnd["time_s"]] = end.time;
+    json[lines::kEnd["overruns"]] = end.overruns;
+    json[lines::kEnd["skipped"]] = end.skipped;
+    if (end.lost > 0) json[lines::kEnd["lost"]] = end.lost;
+    if (!end.notes.empty()) json[lines::kEnd["notes"]] = end.notes;
+    if (!end.logs.empty()) json[lines::kEnd["logs"]] = list_of(end.logs);
+    return Json{{lines::kEndLine["end"], std::move(json)}}.text() + '\n';
   }
 
   // ]} or ],"limits":[[1,0.5]],"rounds":[[2,3,8]],"succeeded":[1],"faults":[[3,"threw …"],…],… }
   // and a newline; of a long message only the beginning.
   void set_tick_end(std::string& text, const TickEnd& end) const override {
     text = ']';
-    add_list(text, "limits", end.limits, add_limit);
-    add_list(text, "rounds", end.rounds, add_round);
-    add_list(text, "succeeded", end.succeeded, add_number<NodeIndex>);
-    add_list(text, "faults", end.faults, add_fault);
-    add_list(text, "entries", end.entries, add_entry);
-    add_list(text, "logs", end.logs, add_log);
+    add_list(text, lines::kTick["limits"], end.limits, add_limit);
+    add_list(text, lines::kTick["rounds"], end.rounds, add_round);
+    add_list(text, lines::kTick["succeeded"], end.succeeded, add_number<NodeIndex>);
+    add_list(text, lines::kTick["faults"], end.faults, add_fault);
+    add_list(text, lines::kTick["entries"], end.entries, add_entry);
+    add_list(text, lines::kTick["logs"], end.logs, add_log);
     text += end.is_full ? kFullEnd : "}\n";
   }
 
@@ -221,17 +231,17 @@ class JsonLines final : public LiveFormat {
 
   // {"lost":{"ticks":2,"from":7}} and the end of the line.
   char* put_lost(char* to, std::uint64_t ticks, std::uint64_t from) const override {
-    to = put_integer(put(to, "{\"lost\":{\"ticks\":"), ticks);
-    to = put_integer(put(to, ",\"from\":"), from);
-    return put(to, "}}\n");
+    to = put_key(put_key(to, '{', lines::kLostLine["lost"]), '{', lines::kLost["ticks"]);
+    to = put_key(put_integer(to, ticks), ',', lines::kLost["from"]);
+    return put(put_integer(to, from), "}}\n");
   }
 
   // {"tick":3,"time_s":0.03,"nodes":[ with the exact time, where a double would say
   // 0.030000000000000002.
   char* put_tick(char* to, std::uint64_t tick, Nanoseconds time) const override {
-    to = put_integer(put(to, "{\"tick\":"), tick);
-    to = put_seconds(put(to, ",\"time_s\":"), time);
-    return put(to, ",\"nodes\":[");
+    to = put_integer(put_key(to, '{', lines::kTick["tick"]), tick);
+    to = put_seconds(put_key(to, ',', lines::kTick["time_s"]), time);
+    return put(put_key(to, ',', lines::kTick["nodes"]), "[");
   }
 
   // [3,"running",0.25,1,0],[4,…

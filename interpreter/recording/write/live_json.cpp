@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "core/json_reader.h"
+#include "recording/lines.h"
 
 namespace lockstep {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 class TickEndJson final : public TickEndReader {
  public:
   void read(std::string text, EventCounts& counts) override {
-    text.insert(0, "{\"nodes\":[");
+    text.insert(0, "{\"\":[");
     reader_.read(text, [&](JsonObject line) {
       const auto faults = [&](JsonValue all) {
         all.each_item([&](JsonValue it) { take_fault(it, counts); });
@@ -21,7 +22,8 @@ class TickEndJson final : public TickEndReader {
       const auto entries = [&](JsonValue all) {
         all.each_item([&](JsonValue it) { take_entry(it, counts); });
       };
-      line.read({{"faults", faults, kMayLack}, {"entries", entries, kMayLack}});
+      line.read({{lines::kTick["faults"], faults, kMayLack},
+                 {lines::kTick["entries"], entries, kMayLack}});
     });
   }
 
@@ -57,6 +59,7 @@ class TickEndJson final : public TickEndReader {
 // Of {"tick":7,…
 std::optional<std::uint64_t> tick_of_json(std::string_view line) {
   constexpr std::string_view kTick = "{\"tick\":";
+  static_assert(kTick.substr(2, kTick.size() - 4) == lines::kTick["tick"]);
   if (!line.starts_with(kTick)) return std::nullopt;
   std::uint64_t tick = 0;
   const auto read = std::from_chars(line.data() + kTick.size(), line.data() + line.size(), tick);
@@ -64,12 +67,14 @@ std::optional<std::uint64_t> tick_of_json(std::string_view line) {
 }
 
 bool is_end_json(std::string_view line) {
-  return line.starts_with("{\"end\"");
+  constexpr std::string_view kEnd = "{\"end\"";
+  static_assert(kEnd.substr(2, kEnd.size() - 3) == lines::kEndLine["end"]);
+  return line.starts_with(kEnd);
 }
 
 // ,"counts":[[3,1,150,0,0,2,0],…],"written":[[0,12],…]
 std::string counts_json(const EventCounts& counts, std::uint64_t tick) {
-  std::string text = ",\"counts\":[";
+  std::string text = fmt::format(",\"{}\":[", lines::kTick["counts"]);
   const char* separator = "";
   for (std::size_t node = 0; node < counts.nodes(); ++node) {
     const EventCounts::Counts it = counts.of_node(node, tick);
@@ -79,7 +84,7 @@ std::string counts_json(const EventCounts& counts, std::uint64_t tick) {
     text += ']';
     separator = ",";
   }
-  text += "],\"written\":[";
+  text += fmt::format("],\"{}\":[", lines::kTick["written"]);
   separator = "";
   for (std::size_t entry = 0; entry < counts.entries(); ++entry) {
     if (counts.of_entry(entry) == 0) continue;

@@ -8,11 +8,13 @@
 #include <string_view>
 
 #include "live/event_counts.h"
+#include "recording/lines.h"
 
 namespace lockstep {
 
 // How a line ends that has the whole state. No text in a line has a line end.
 constexpr std::string_view kFullEnd = ",\"full\":true}\n";
+static_assert(kFullEnd.substr(2, 4) == lines::kTick["full"]);
 
 std::optional<std::uint64_t> tick_of_json(std::string_view line);
 bool is_end_json(std::string_view line);

@@ -1,0 +1,240 @@
+// The lines of a recording: each key that one may have, its type and what it means. Whoever writes
+// or reads a line in C++ takes its keys from here: another key does not compile. From this table
+// `./dev generate` makes the tables of docs/recording.md, schema/recording.schema.json and the
+// types of the page, web/page/src/model/recording.ts; a test fails when one of them is stale.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+
+namespace lockstep {
+
+constexpr int kRecordingVersion = 1;
+
+namespace lines {
+
+// A value by itself: what TypeScript calls it, and what it is in a JSON Schema.
+struct Value {
+  std::string_view name, typescript, schema;
+};
+
+constexpr Value kValues[] = {
+    {"Text", "string", R"("type": "string")"},
+    {"Texts", "Record<string, string>",
+     R"("type": "object", "additionalProperties": {"type": "string"})"},
+    {"Version", "number", R"("const": 1)"},
+    {"Whole", "number", R"("type": "integer", "minimum": 0)"},
+    {"Index", "number", R"("type": "integer", "minimum": 0)"},
+    {"Real", "number", R"("type": "number")"},
+    {"Seconds", "number", R"("type": "number", "minimum": 0)"},
+    {"Progress", "number", R"("type": "number", "minimum": 0, "maximum": 1)"},
+    {"Bit", "number", R"("enum": [0, 1])"},
+    {"Yes", "boolean", R"("const": true)"},
+    {"Clock", R"("wall" | "virtual")", R"("enum": ["wall", "virtual"])"},
+    {"IdleMembers", R"("ignore" | "wait")", R"("enum": ["ignore", "wait"])"},
+    {"Level", "string", R"("enum": ["debug", "info", "warning"])"},
+};
+
+// Values that come in this order, as a list.
+struct Tuple {
+  struct Part {
+    std::string_view name, type;
+  };
+  std::string_view name;
+  std::array<Part, 7> parts;  // without a name: there are no more
+};
+
+// Also of the statuses, whose names are in core/status.h: "StatusName".
+constexpr Tuple kTuples[] = {
+    {"NodeChange",
+     {{{"index", "Index"},
+       {"status", "StatusName"},
+       {"progress", "Progress"},
+       {"ticked", "Bit"},
+       {"held", "Bit"}}}},
+    {"LimitChange", {{{"index", "Index"}, {"limit", "Real | null"}}}},
+    {"RoundChange", {{{"index", "Index"}, {"number", "Whole"}, {"of", "Whole"}}}},
+    {"Fault", {{{"index", "Index"}, {"message", "Text"}}}},
+    {"EntryValue", {{{"index", "Index"}, {"value", "Text | null"}}}},
+    {"LogLine", {{{"who", "Text"}, {"level", "Level"}, {"text", "Text"}}}},
+    {"NodeCounts",
+     {{{"index", "Index"},
+       {"succeeded", "Whole"},
+       {"failed", "Whole"},
+       {"skipped", "Whole"},
+       {"halted", "Whole"},
+       {"held", "Whole"},
+       {"faults", "Whole"}}}},
+    {"EntryCount", {{{"index", "Index"}, {"values", "Whole"}}}},
+};
+
+struct Field {
+  enum class Has { Always, Maybe };
+  std::string_view key;
+  std::string_view type;  // one of the names above or below; "[]": a list of these
+  Has has;
+  std::string_view meaning;
+};
+
+struct Object {
+  std::string_view name;
+  std::span<const Field> fields;
+
+  // The key, which the object has.
+  consteval std::string_view operator[](std::string_view key) const {
+    for (const Field& it : fields) {
+      if (it.key == key) return it.key;
+    }
+    throw "no such key: recording/lines.h has the table";
+  }
+};
+
+constexpr auto kAlways = Field::Has::Always, kMaybe = Field::Has::Maybe;
+
+constexpr Field kHeaderFields[] = {
+    {"lockstep_recording", "Version", kAlways,
+     "version of this format: 1. A reader refuses any other number, and skips keys that it does "
+     "not know"},
+    {"tree", "Text", kAlways, "ID of the tree that runs"},
+    {"file", "Text", kAlways, "the tree file as it was named on the command line"},
+    {"version", "Text", kAlways, "the version of lockstep"},
+    {"law", "Whole", kMaybe,
+     "the [version of the law](language.md#versions-of-the-law) that the run followed; 1 when it "
+     "is absent"},
+    {"rate_hz", "Real", kAlways, "ticks per second"},
+    {"clock", "Clock", kAlways, "`wall` or `virtual`"},
+    {"seed", "Whole", kAlways, "the seed of the random numbers"},
+    {"arguments", "Texts", kAlways, "the values of the load-time arguments, as strings"},
+    {"nodes", "HeaderNode[]", kAlways,
+     "every node in pre-order, and behind the nodes of the tree what stands beside it: barriers "
+     "and pools of resources"},
+    {"entries", "HeaderEntry[]", kMaybe,
+     "only if there are any: the blackboard entries in the recording. `--record-entries` chooses "
+     "them"},
+};
+constexpr Object kHeader{"Header", kHeaderFields};
+
+constexpr Field kHeaderNodeFields[] = {
+    {"index", "Index", kAlways, "its place in the list"},
+    {"path", "Text", kAlways, "its path"},
+    {"kind", "Text", kAlways, "its tag"},
+    {"name", "Text", kAlways, "its name"},
+    {"parent", "Index | null", kAlways,
+     "an index; `null` for the root and for what stands beside the tree"},
+    {"barriers", "Progress[] | null", kMaybe,
+     "of a ParallelAbsolute and of a barrier beside the tree; `null` if the value is a blackboard "
+     "entry"},
+    {"delta", "Progress | null", kMaybe, "of a ParallelRelative, and likewise"},
+    {"idle", "IdleMembers", kMaybe, "`ignore` for a barrier that leaves out idle members"},
+    {"resources", "Text[]", kMaybe, "of a pool of resources: their names"},
+    {"members", "Index[]", kMaybe,
+     "of what stands beside the tree: the nodes that the SyncProgress nodes of a barrier hold, or "
+     "the children of the UseResources nodes of a pool"},
+};
+constexpr Object kHeaderNode{"HeaderNode", kHeaderNodeFields};
+
+constexpr Field kHeaderEntryFields[] = {
+    {"key", "Text", kAlways, "its key"},
+    {"type", "Text", kAlways, "its type"},
+    {"writers", "Index[]", kMaybe,
+     "only if there are any: the nodes with a port or a script that may write it"},
+};
+constexpr Object kHeaderEntry{"HeaderEntry", kHeaderEntryFields};
+
+constexpr Field kTickFields[] = {
+    {"tick", "Whole", kAlways, "number of the tick: 0, 1, 2, …"},
+    {"time_s", "Seconds", kAlways,
+     "seconds from the start of the run to the start of this tick, exact to the nanosecond"},
+    {"nodes", "NodeChange[]", kAlways,
+     "{} for each node with a change since the line before. A node that no line has named yet is "
+     "`idle, 0, 0, 0`"},
+    {"limits", "LimitChange[]", kMaybe,
+     "only if there are any: {} for each synchronized node whose limit differs from the line "
+     "before. For a ParallelAbsolute "
+     "it is the barrier at which this tick holds its children, `null` when none is left; for a "
+     "ParallelRelative it is delta. For a UseResources, it is the sum of 2^i over the resources "
+     "that it owns in this tick, i being their places in the pool's `resources`; negative: over "
+     "those that it waits for; 0: neither"},
+    {"rounds", "RoundChange[]", kMaybe,
+     "only if there are any: {} for each Retry or Repeat whose round differs from the line before: "
+     "the number counts from 1, "
+     "and is 0 when the node is not running; `of` is 0 for an endless one"},
+    {"succeeded", "Index[]", kMaybe,
+     "only if there are any: the synchronized nodes that succeeded in this tick and are idle after "
+     "it, because an "
+     "ancestor ended in the same tick"},
+    {"faults", "Fault[]", kMaybe,
+     "only if there are any: {} for each fault of a leaf that counted as its Failure, so that the "
+     "run went on. A message has "
+     "at most 4096 bytes"},
+    {"entries", "EntryValue[]", kMaybe,
+     "only if there are any: {} for each entry whose value differs from the line before; the value "
+     "is text, as in a tree. "
+     "`null`: a value longer than 256 bytes was written"},
+    {"logs", "LogLine[]", kMaybe,
+     "only if there are any: {} for each line that a leaf logged since the line before: the path "
+     "of the leaf or the name of "
+     "its plugin (of a standstill that is reported or ended in this tick: the path of the node), "
+     "`debug`, `info` or `warning`, the text. At most 64 KiB for each tick; the closing `notes` "
+     "count the rest. `--log-level` has no effect"},
+    {"counts", "NodeCounts[]", kMaybe,
+     "only in a line with `full`: {} for each node, how often this happened to it until then"},
+    {"written", "EntryCount[]", kMaybe,
+     "only in a line with `full`: {} for each entry, how many it had until then"},
+    {"full", "Yes", kMaybe,
+     "only in what [the monitor](monitor.md#for-programs) sends: the line has the whole state, and "
+     "nothing before it counts"},
+};
+constexpr Object kTick{"TickLine", kTickFields};
+
+constexpr Field kLostFields[] = {
+    {"ticks", "Whole", kAlways,
+     "how many ticks in a row have no line, because the queue to the disk was full"},
+    {"from", "Whole", kAlways, "the first of them"},
+};
+constexpr Object kLost{"Lost", kLostFields};
+
+constexpr Field kEndFields[] = {
+    {"result", "Text", kAlways,
+     "the result of the root: `success`, `failure`, `skipped`, or `stopped` when it was still "
+     "running; `fault` when a leaf failed as a program"},
+    {"reason", "Text", kAlways,
+     "`completed`, `fault`, `timeout`, `max_ticks`, `signal`, `overrun` (with `--overrun fail`) or "
+     "`recording` (with `--on-record-error stop`)"},
+    {"fault", "Text", kMaybe,
+     "only after a fault: the path of the leaf and what it did, in a tick or when it was created"},
+    {"signal", "Whole", kMaybe, "only after a signal: its number"},
+    {"ticks", "Whole", kAlways, "how many ticks there were"},
+    {"time_s", "Seconds", kAlways,
+     "how long they took. On the virtual clock the last one, too, lasts until the next would "
+     "begin: ticks / rate"},
+    {"overruns", "Whole", kAlways, "ticks that ended too late"},
+    {"skipped", "Whole", kAlways, "the deadlines that were skipped because of them"},
+    {"lost", "Whole", kMaybe, "only if there are any: how many ticks have no line"},
+    {"notes", "Text[]", kMaybe,
+     "only if there are any, as texts, of which a reader keeps 1000: other leaves than that of "
+     "`fault` that could not be halted, leaves that reported a progress outside [0, 1]"},
+    {"logs", "LogLine[]", kMaybe,
+     "only if there are any: what leaves logged after the last tick, for example when they were "
+     "halted"},
+};
+constexpr Object kEnd{"End", kEndFields};
+
+// Lines that consist of one object under this key.
+constexpr Field kLostLineFields[] = {
+    {"lost", "Lost", kAlways, "instead of the lines of ticks for which there was no room"},
+};
+constexpr Object kLostLine{"LostLine", kLostLineFields};
+constexpr Field kEndLineFields[] = {
+    {"end", "End", kAlways, "how the run ended"},
+};
+constexpr Object kEndLine{"EndLine", kEndLineFields};
+
+// Each line is one of the first four; the others are in them.
+constexpr Object kObjects[] = {kHeader,     kTick,        kLostLine, kEndLine,
+                               kHeaderNode, kHeaderEntry, kLost,     kEnd};
+constexpr std::size_t kKinds = 4;
+
+}  // namespace lines
+}  // namespace lockstep
