@@ -1,21 +1,18 @@
-// The lines of a recording, as docs/recording.md describes them.
+// The lines of a recording, as docs/recording.md describes them. Made by `./dev generate` from
+// interpreter/recording/lines.h and core/status.h.
 
 export const STATUSES = ["idle", "running", "success", "failure", "skipped"] as const;
 export type StatusName = (typeof STATUSES)[number];
 export const IDLE = 0, RUNNING = 1, SUCCESS = 2, FAILURE = 3, SKIPPED = 4;
 
-export interface HeaderNode {
-  index: number;
-  path: string;
-  kind: string;
-  name: string;
-  parent: number | null;
-  barriers?: number[] | null;
-  delta?: number | null;
-  members?: number[];
-  resources?: string[];
-  idle?: "ignore";
-}
+export type NodeChange = [index: number, status: StatusName, progress: number, ticked: number, held: number];
+export type LimitChange = [index: number, limit: number | null];
+export type RoundChange = [index: number, number: number, of: number];
+export type Fault = [index: number, message: string];
+export type EntryValue = [index: number, value: string | null];
+export type LogLine = [who: string, level: string, text: string];
+export type NodeCounts = [index: number, succeeded: number, failed: number, skipped: number, halted: number, held: number, faults: number];
+export type EntryCount = [index: number, values: number];
 
 export interface Header {
   lockstep_recording: number;
@@ -28,25 +25,54 @@ export interface Header {
   seed: number;
   arguments: Record<string, string>;
   nodes: HeaderNode[];
-  entries?: { key: string; type: string; writers?: number[] }[];
+  entries?: HeaderEntry[];
 }
-
-export type LogLine = [who: string, level: string, text: string];
 
 export interface TickLine {
   tick: number;
   time_s: number;
-  full?: boolean; // live only: nodes that are not named are idle
-  nodes?: [index: number, status: StatusName, progress: number, ticked: number, held: number][];
-  limits?: [index: number, limit: number | null][];
-  rounds?: [index: number, number: number, of: number][];
+  nodes: NodeChange[];
+  limits?: LimitChange[];
+  rounds?: RoundChange[];
   succeeded?: number[];
-  faults?: [index: number, message: string][];
-  entries?: [index: number, value: string | null][];
+  faults?: Fault[];
+  entries?: EntryValue[];
   logs?: LogLine[];
-  // Live only, of a line with the whole state: what there was in the run until then.
-  counts?: [index: number, succeeded: number, failed: number, skipped: number, halted: number, held: number, faults: number][];
-  written?: [index: number, values: number][];
+  counts?: NodeCounts[];
+  written?: EntryCount[];
+  full?: boolean;
+}
+
+export interface LostLine {
+  lost: Lost;
+}
+
+export interface EndLine {
+  end: End;
+}
+
+export interface HeaderNode {
+  index: number;
+  path: string;
+  kind: string;
+  name: string;
+  parent: number | null;
+  barriers?: number[] | null;
+  delta?: number | null;
+  idle?: "ignore" | "wait";
+  resources?: string[];
+  members?: number[];
+}
+
+export interface HeaderEntry {
+  key: string;
+  type: string;
+  writers?: number[];
+}
+
+export interface Lost {
+  ticks: number;
+  from: number;
 }
 
 export interface End {
@@ -63,4 +89,4 @@ export interface End {
   logs?: LogLine[];
 }
 
-export type Line = Header | TickLine | { lost: { ticks: number; from: number } } | { end: End };
+export type Line = Header | TickLine | LostLine | EndLine;

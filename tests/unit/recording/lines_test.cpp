@@ -1,0 +1,340 @@
+// One table says what the lines of a recording have: what is made from it is not stale, and writer
+// and reader know each of its keys. With LOCKSTEP_GENERATE in the environment, what is stale is
+// written again.
+#include "recording/lines.h"
+
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "core/status.h"
+#include "live/event_counts.h"
+#include "recording/read/recording_reader.h"
+#include "recording/write/json_lines.h"
+#include "support/paths.h"
+
+namespace lockstep {
+namespace {
+
+using lines::Field;
+using lines::Object;
+using lines::Tuple;
+using nlohmann::ordered_json;
+
+template <class Rows>
+auto row_of(const Rows& rows, std::string_view name) {
+  const auto found = std::ranges::find_if(rows, [&](const auto& it) { return it.name == name; });
+  return found == std::end(rows) ? nullptr : &*found;
+}
+
+std::vector<Tuple::Part> parts(const Tuple& tuple) {
+  std::vector<Tuple::Part> parts;
+  for (const Tuple::Part& it : tuple.parts) {
+    if (!it.name.empty()) parts.push_back(it);
+  }
+  return parts;
+}
+
+bool cut(std::string_view& text, std::string_view end) {
+  if (!text.ends_with(end)) return false;
+  text.remove_suffix(end.size());
+  return true;
+}
+
+// --- the types of the page ---------------------------------------------------------------------
+
+std::string typescript(std::string_view type) {
+  if (cut(type, " | null")) return typescript(type) + " | null";
+  if (cut(type, "[]")) return typescript(type) + "[]";
+  const auto* value = row_of(lines::kValues, type);
+  return std::string(value != nullptr ? value->typescript : type);
+}
+
+std::string page_types() {
+  std::string text =
+      "// The lines of a recording, as docs/recording.md describes them. Made by `./dev generate` "
+      "from\n// interpreter/recording/lines.h and core/status.h.\n\nexport const STATUSES = [";
+  std::string numbers;
+  for (const StatusRow& row : kStatuses) {
+    const char* separator = row.status == kStatuses.front().status ? "" : ", ";
+    text += fmt::format("{}\"{}\"", separator, row.name);
+    numbers += separator;
+    for (const char letter : row.name) numbers += static_cast<char>(std::toupper(letter));
+    numbers += fmt::format(" = {}", index_of(row.status));
+  }
+  text += "] as const;\nexport type StatusName = (typeof STATUSES)[number];\nexport const ";
+  text += numbers + ";\n\n";
+  for (const Tuple& it : lines::kTuples) {
+    std::string list;
+    for (const Tuple::Part& part : parts(it)) {
+      list += fmt::format("{}{}: {}", list.empty() ? "" : ", ", part.name, typescript(part.type));
+    }
+    text += fmt::format("export type {} = [{}];\n", it.name, list);
+  }
+  for (const Object& it : lines::kObjects) {
+    text += fmt::format("\nexport interface {} {{\n", it.name);
+    for (const Field& field : it.fields) {
+      const char* sign = field.has == lines::kMaybe ? "?" : "";
+      text += fmt::format("  {}{}: {};\n", field.key, sign, typescript(field.type));
+    }
+    text += "}\n";
+  }
+  text += "\nexport type Line =";
+  for (const Object& it : std::span(lines::kObjects).first(lines::kKinds)) {
+    text += fmt::format("{} {}", it.name == lines::kObjects[0].name ? "" : " |", it.name);
+  }
+  return text + ";\n";
+}
+
+// --- the JSON Schema ---------------------------------------------------------------------------
+
+ordered_json schema(std::string_view type) {
+  if (cut(type, " | null")) return {{"anyOf", {schema(type), {{"type", "null"}}}}};
+  if (cut(type, "[]")) return {{"type", "array"}, {"items", schema(type)}};
+  const auto* value = row_of(lines::kValues, type);
+  if (value != nullptr) return ordered_json::parse("{" + std::string(value->schema) + "}");
+  return {{"$ref", fmt::format("#/definitions/{}", type)}};
+}
+
+ordered_json schema(const Tuple& tuple) {
+  ordered_json items;
+  for (const Tuple::Part& it : parts(tuple)) items.push_back(schema(it.type));
+  const std::size_t count = items.size();
+  return {{"type", "array"}, {"items", items}, {"minItems", count}, {"maxItems", count}};
+}
+
+ordered_json schema(const Object& object) {
+  ordered_json required, properties;
+  for (const Field& it : object.fields) {
+    if (it.has == lines::kAlways) required.push_back(it.key);
+    properties[std::string(it.key)] = schema(it.type);
+  }
+  return {{"type", "object"}, {"required", required}, {"properties", properties}};
+}
+
+// Each definition on a line.
+std::string whole_schema() {
+  ordered_json kinds, names, definitions;
+  for (const Object& it : std::span(lines::kObjects).first(lines::kKinds)) {
+    kinds.push_back(schema(it.name));
+  }
+  for (const StatusRow& row : kStatuses) names.push_back(row.name);
+  definitions["StatusName"] = {{"enum", names}};
+  for (const Tuple& it : lines::kTuples) definitions[std::string(it.name)] = schema(it);
+  for (const Object& it : lines::kObjects) definitions[std::string(it.name)] = schema(it);
+  std::string text;
+  for (const auto& it : definitions.items()) {
+    text += fmt::format("{}\n    \"{}\": {}", text.empty() ? "" : ",", it.key(), it.value().dump());
+  }
+  return fmt::format(
+      "{{\n  \"$schema\": \"http://json-schema.org/draft-07/schema#\",\n"
+      "  \"title\": \"A line of a recording. docs/recording.md\",\n"
+      "  \"anyOf\": {},\n  \"definitions\": {{{}\n  }}\n}}\n",
+      kinds.dump(), text);
+}
+
+// --- the tables of docs/recording.md -----------------------------------------------------------
+
+std::string notation(std::string_view type) {
+  std::string text = "`[";
+  cut(type, "[]");
+  for (const Tuple::Part& it : parts(*row_of(lines::kTuples, type))) {
+    text += fmt::format("{}{}", text.size() > 2 ? ", " : "", it.name);
+  }
+  return text + "]`";
+}
+
+std::string table(const Object& object) {
+  std::string text = "| Key | Meaning |\n|---|---|\n";
+  for (const Field& it : object.fields) {
+    std::string meaning(it.meaning);
+    const auto place = meaning.find("{}");
+    if (place != std::string::npos) meaning.replace(place, 2, notation(it.type));
+    text += fmt::format("| `{}` | {} |\n", it.key, meaning);
+  }
+  return text;
+}
+
+// Between <!-- lines: NAME --> and <!-- /lines -->, each on a line.
+std::string with_tables(std::string text) {
+  for (const Object& it : {lines::kHeader, lines::kHeaderNode, lines::kHeaderEntry, lines::kTick,
+                           lines::kLost, lines::kEnd}) {
+    const std::string begin = fmt::format("<!-- lines: {} -->\n", it.name);
+    const auto at = text.find(begin);
+    const auto end = text.find("<!-- /lines -->", at);
+    INFO(begin);
+    REQUIRE(end != std::string::npos);
+    const std::size_t from = at + begin.size();
+    text.replace(from, end - from, table(it));
+  }
+  return text;
+}
+
+std::string read_file(const std::string& path) {
+  std::ifstream in(path);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void check_file(const std::string& name, const std::string& text) {
+  const std::string path = std::string(LOCKSTEP_SOURCE_DIR) + "/" + name;
+  if (std::getenv("LOCKSTEP_GENERATE") != nullptr) std::ofstream(path) << text;
+  INFO(name << " is stale: ./dev generate");
+  CHECK((read_file(path) == text));
+}
+
+// --- a recording that has everything -----------------------------------------------------------
+
+std::string sample_header() {
+  RecordingHeader header;
+  header.tree = header.file = header.version = "T";
+  header.clock = "virtual";
+  header.arguments["x"] = "1";
+  header.entries = {{.key = "k", .type = "number", .writers = {2}}};
+  const auto add = [&](const char* path, std::optional<NodeIndex> parent) -> RecordedNode& {
+    RecordedNode& node = header.nodes.emplace_back();
+    node.path = node.kind = node.name = path;
+    node.parent = parent;
+    return node;
+  };
+  RecordedNode& root = add("p", std::nullopt);
+  root.synchronization = Synchronization::Absolute;
+  root.barriers = {0.5};
+  RecordedNode& inner = add("q", 0);
+  inner.synchronization = Synchronization::Relative;
+  inner.delta = 0.25;
+  add("a", 1);
+  RecordedNode& group = add("g", std::nullopt);
+  group.synchronization = Synchronization::Absolute;
+  group.barriers = {0.5};
+  group.members = {2};
+  group.ignores_idle = true;
+  RecordedNode& pool = add("r", std::nullopt);
+  pool.synchronization = Synchronization::Resources;
+  pool.resources = {"arm"};
+  pool.members = {2};
+  return json_lines().header(header);
+}
+
+std::string sample_tick(std::uint64_t tick, bool is_full) {
+  const std::string value = "1";
+  const NodeChange node{.progress = 0.5, .node = 2, .state = 1};
+  const LimitChange limit{.node = 0, .limit = 0.5};
+  const RoundChange round{.node = 1, .round = {1, 2}};
+  const NodeIndex succeeded = 1;
+  const Fault fault{.node = 2, .message = "threw"};
+  const EntryChange entry{.entry = 0, .text = &value};
+  const LeafLine log{"T/a", "info", "text"};
+  char room[LineFormat::kMostAtOnce];
+  std::string text(room, json_lines().put_tick(room, tick, Nanoseconds(0)));
+  text.append(room, json_lines().put_nodes(room, {&node, 1}, true).end);
+  std::string end;
+  json_lines().set_tick_end(end, {.limits = {&limit, 1},
+                                  .rounds = {&round, 1},
+                                  .succeeded = {&succeeded, 1},
+                                  .faults = {&fault, 1},
+                                  .entries = {&entry, 1},
+                                  .logs = {&log, 1},
+                                  .is_full = is_full});
+  if (!is_full) return text + end;
+  EventCounts counts(json_lines());
+  counts.take_fault(2);
+  counts.take_entry(0, "1");
+  const std::string_view full_end = json_lines().full_end();
+  return text + end.insert(end.size() - full_end.size(), json_lines().counts_text(counts, tick));
+}
+
+std::vector<ordered_json> sample() {
+  char room[LineFormat::kMostAtOnce];
+  const RecordedEnd end{.result = "success",
+                        .reason = "completed",
+                        .fault = "a: threw",
+                        .signal = 2,
+                        .ticks = 3,
+                        .lost = 1,
+                        .notes = {"note"},
+                        .logs = {{"T/a", "info", "text"}}};
+  const std::string text = sample_header() + sample_tick(0, false) +
+                           std::string(room, json_lines().put_lost(room, 1, 1)) +
+                           sample_tick(2, true) + json_lines().end(end);
+  std::vector<ordered_json> all;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) all.push_back(ordered_json::parse(line));
+  return all;
+}
+
+std::string error_of(const std::vector<ordered_json>& all) {
+  std::stringstream text;
+  for (const ordered_json& line : all) text << line.dump() << "\n";
+  RecordingReader reader(text, "r");
+  while (reader.next()) {
+  }
+  return reader.error();
+}
+
+// Each object of the sample, with its row of the table.
+template <class Visit>
+void each_object(std::vector<ordered_json>& all, Visit visit) {
+  visit(lines::kHeader, all[0]);
+  for (ordered_json& node : all[0]["nodes"]) visit(lines::kHeaderNode, node);
+  for (ordered_json& entry : all[0]["entries"]) visit(lines::kHeaderEntry, entry);
+  visit(lines::kTick, all[1]);
+  visit(lines::kLostLine, all[2]);
+  visit(lines::kLost, all[2]["lost"]);
+  visit(lines::kTick, all[3]);
+  visit(lines::kEndLine, all[4]);
+  visit(lines::kEnd, all[4]["end"]);
+}
+
+TEST_CASE("recording/lines.h: what is made from the table is not stale") {
+  check_file("interpreter/web/page/src/model/recording.ts", page_types());
+  check_file("schema/recording.schema.json", whole_schema());
+  const std::string docs = "docs/recording.md";
+  check_file(docs, with_tables(read_file(std::string(LOCKSTEP_SOURCE_DIR) + "/" + docs)));
+}
+
+TEST_CASE("recording/lines.h: the writer writes each key of the table") {
+  std::vector<ordered_json> all = sample();
+  std::set<std::string> missing, written;
+  for (const Object& object : lines::kObjects) {
+    for (const Field& it : object.fields) missing.insert(fmt::format("{}.{}", object.name, it.key));
+  }
+  each_object(all, [&](const Object& object, const ordered_json& value) {
+    for (const Field& it : object.fields) {
+      INFO(object.name << "." << it.key);
+      CHECK((it.has == lines::kMaybe || value.contains(std::string(it.key))));
+    }
+    for (const auto& member : value.items()) {
+      const std::string name = fmt::format("{}.{}", object.name, member.key());
+      INFO(name << " is not in the table");
+      CHECK((written.contains(name) || missing.erase(name) == 1));
+      written.insert(name);
+    }
+  });
+  INFO("not written: " << ordered_json(missing).dump());
+  CHECK(missing.empty());
+}
+
+TEST_CASE("recording/lines.h: the reader checks each key of the table") {
+  // What only the page reads.
+  const std::set<std::string_view> passed_over{"full", "counts", "written", "writers"};
+  std::vector<ordered_json> all = sample();
+  REQUIRE(error_of(all) == "");
+  each_object(all, [&](const Object& object, ordered_json& value) {
+    for (const Field& it : object.fields) {
+      const std::string key(it.key);
+      if (!value.contains(key) || passed_over.contains(it.key)) continue;
+      INFO(object.name << "." << key << " may be anything");
+      const ordered_json right = std::exchange(value[key], {ordered_json::object()});
+      CHECK(error_of(all) != "");
+      value[key] = right;
+    }
+  });
+}
+
+}  // namespace
+}  // namespace lockstep
