@@ -143,12 +143,13 @@ void JsonObject::each_field(const std::function<void(std::string_view, JsonValue
   }
 }
 
-void JsonObject::read(std::initializer_list<JsonField> fields) {
+void JsonObject::read(std::span<const JsonField> fields) {
   std::uint64_t seen = 0;  // a bit for each of the fields
-  const auto bit = [&](const JsonField* field) { return 1ull << (field - fields.begin()); };
+  const auto bit = [&](const JsonField* field) { return 1ull << (field - fields.data()); };
   each_field([&](std::string_view name, JsonValue value) {
-    const auto* const field = std::ranges::find(fields, name, &JsonField::name);
-    if (field == fields.end()) return value.skip();
+    const auto found = std::ranges::find(fields, name, &JsonField::name);
+    if (found == fields.end()) return value.skip();
+    const JsonField* const field = &*found;
     if ((seen & bit(field)) != 0) throw JsonError(fmt::format("'{}' is given twice", name));
     seen |= bit(field);
     field->read(value);

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -84,7 +85,10 @@ class JsonObject {
   explicit JsonObject(simdjson::ondemand::object object) : object_(object) {}
 
   // Reads these fields, in whatever order they come, and skips all others.
-  void read(std::initializer_list<JsonField> fields);
+  void read(std::span<const JsonField> fields);
+  void read(std::initializer_list<JsonField> fields) {
+    read(std::span(fields.begin(), fields.size()));
+  }
   void each_field(const std::function<void(std::string_view name, JsonValue)>& read);
 
  private:

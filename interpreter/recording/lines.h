@@ -7,6 +7,9 @@
 #include <array>
 #include <span>
 #include <string_view>
+#include <variant>
+
+#include "live/header_and_end.h"
 
 namespace lockstep {
 
@@ -69,12 +72,22 @@ constexpr Tuple kTuples[] = {
     {"EntryCount", {{{"index", "Index"}, {"values", "Whole"}}}},
 };
 
+// Where a header or an end keeps the value; none: the value has a reader and a writer of its own.
+using Member = std::variant<
+    std::monostate, std::string RecordingHeader::*, std::uint64_t RecordingHeader::*,
+    double RecordingHeader::*, std::map<std::string, std::string, std::less<>> RecordingHeader::*,
+    std::vector<RecordedNode> RecordingHeader::*, std::vector<RecordedKey> RecordingHeader::*,
+    std::string RecordedEnd::*, std::uint64_t RecordedEnd::*,
+    std::optional<std::uint64_t> RecordedEnd::*, double RecordedEnd::*,
+    std::vector<std::string> RecordedEnd::*, std::vector<LeafLine> RecordedEnd::*>;
+
 struct Field {
   enum class Has { Always, Maybe };
   std::string_view key;
   std::string_view type;  // one of the names above or below; "[]": a list of these
   Has has;
   std::string_view meaning;
+  Member member = {};
 };
 
 struct Object {
@@ -96,22 +109,27 @@ constexpr Field kHeaderFields[] = {
     {"lockstep_recording", "Version", kAlways,
      "version of this format: 1. A reader refuses any other number, and skips keys that it does "
      "not know"},
-    {"tree", "Text", kAlways, "ID of the tree that runs"},
-    {"file", "Text", kAlways, "the tree file as it was named on the command line"},
-    {"version", "Text", kAlways, "the version of lockstep"},
+    {"tree", "Text", kAlways, "ID of the tree that runs", &RecordingHeader::tree},
+    {"file", "Text", kAlways, "the tree file as it was named on the command line",
+     &RecordingHeader::file},
+    {"version", "Text", kAlways, "the version of lockstep", &RecordingHeader::version},
     {"law", "Whole", kMaybe,
      "the [version of the law](language.md#versions-of-the-law) that the run followed; 1 when it "
-     "is absent"},
-    {"rate_hz", "Real", kAlways, "ticks per second"},
-    {"clock", "Clock", kAlways, "`wall` or `virtual`"},
-    {"seed", "Whole", kAlways, "the seed of the random numbers"},
-    {"arguments", "Texts", kAlways, "the values of the load-time arguments, as strings"},
+     "is absent",
+     &RecordingHeader::law},
+    {"rate_hz", "Real", kAlways, "ticks per second", &RecordingHeader::rate_hz},
+    {"clock", "Clock", kAlways, "`wall` or `virtual`", &RecordingHeader::clock},
+    {"seed", "Whole", kAlways, "the seed of the random numbers", &RecordingHeader::seed},
+    {"arguments", "Texts", kAlways, "the values of the load-time arguments, as strings",
+     &RecordingHeader::arguments},
     {"nodes", "HeaderNode[]", kAlways,
      "every node in pre-order, and behind the nodes of the tree what stands beside it: barriers "
-     "and pools of resources"},
+     "and pools of resources",
+     &RecordingHeader::nodes},
     {"entries", "HeaderEntry[]", kMaybe,
      "only if there are any: the blackboard entries in the recording. `--record-entries` chooses "
-     "them"},
+     "them",
+     &RecordingHeader::entries},
 };
 constexpr Object kHeader{"Header", kHeaderFields};
 
@@ -198,26 +216,34 @@ constexpr Object kLost{"Lost", kLostFields};
 constexpr Field kEndFields[] = {
     {"result", "Text", kAlways,
      "the result of the root: `success`, `failure`, `skipped`, or `stopped` when it was still "
-     "running; `fault` when a leaf failed as a program"},
+     "running; `fault` when a leaf failed as a program",
+     &RecordedEnd::result},
     {"reason", "Text", kAlways,
      "`completed`, `fault`, `timeout`, `max_ticks`, `signal`, `overrun` (with `--overrun fail`) or "
-     "`recording` (with `--on-record-error stop`)"},
+     "`recording` (with `--on-record-error stop`)",
+     &RecordedEnd::reason},
     {"fault", "Text", kMaybe,
-     "only after a fault: the path of the leaf and what it did, in a tick or when it was created"},
-    {"signal", "Whole", kMaybe, "only after a signal: its number"},
-    {"ticks", "Whole", kAlways, "how many ticks there were"},
+     "only after a fault: the path of the leaf and what it did, in a tick or when it was created",
+     &RecordedEnd::fault},
+    {"signal", "Whole", kMaybe, "only after a signal: its number", &RecordedEnd::signal},
+    {"ticks", "Whole", kAlways, "how many ticks there were", &RecordedEnd::ticks},
     {"time_s", "Seconds", kAlways,
      "how long they took. On the virtual clock the last one, too, lasts until the next would "
-     "begin: ticks / rate"},
-    {"overruns", "Whole", kAlways, "ticks that ended too late"},
-    {"skipped", "Whole", kAlways, "the deadlines that were skipped because of them"},
-    {"lost", "Whole", kMaybe, "only if there are any: how many ticks have no line"},
+     "begin: ticks / rate",
+     &RecordedEnd::time},
+    {"overruns", "Whole", kAlways, "ticks that ended too late", &RecordedEnd::overruns},
+    {"skipped", "Whole", kAlways, "the deadlines that were skipped because of them",
+     &RecordedEnd::skipped},
+    {"lost", "Whole", kMaybe, "only if there are any: how many ticks have no line",
+     &RecordedEnd::lost},
     {"notes", "Text[]", kMaybe,
      "only if there are any, as texts, of which a reader keeps 1000: other leaves than that of "
-     "`fault` that could not be halted, leaves that reported a progress outside [0, 1]"},
+     "`fault` that could not be halted, leaves that reported a progress outside [0, 1]",
+     &RecordedEnd::notes},
     {"logs", "LogLine[]", kMaybe,
      "only if there are any: what leaves logged after the last tick, for example when they were "
-     "halted"},
+     "halted",
+     &RecordedEnd::logs},
 };
 constexpr Object kEnd{"End", kEndFields};
 
@@ -235,6 +261,18 @@ constexpr Object kEndLine{"EndLine", kEndLineFields};
 constexpr Object kObjects[] = {kHeader,     kTick,        kLostLine, kEndLine,
                                kHeaderNode, kHeaderEntry, kLost,     kEnd};
 constexpr std::size_t kKinds = 4;
+
+// Visits the members that the table names, in its order. (const Field&, value&)
+template <class Record, class Visit>
+void each_member(const Object& object, Record& record, Visit visit) {
+  for (const Field& field : object.fields) {
+    std::visit(
+        [&](auto member) {
+          if constexpr (requires { record.*member; }) visit(field, record.*member);
+        },
+        field.member);
+  }
+}
 
 }  // namespace lines
 }  // namespace lockstep

@@ -135,14 +135,35 @@ std::vector<RecordedKey> keys_from(JsonValue value) {
   return keys;
 }
 
-void read_arguments(JsonValue value, RecordingHeader& header) {
+using Arguments = decltype(RecordingHeader::arguments);
+
+Arguments arguments_from(JsonValue value) {
+  Arguments arguments;
   value.object().each_field([&](std::string_view name, JsonValue argument) {
     std::string_view text;
     if (!argument.get(text))
       throw JsonError(fmt::format("argument '{}' is not a string", brief(name)));
-    if (!header.arguments.emplace(name, text).second)
+    if (!arguments.emplace(name, text).second)
       throw JsonError(fmt::format("argument '{}' is given twice", brief(name)));
   });
+  return arguments;
+}
+
+template <class Value>
+auto into_header(Value& value) {
+  return into(value);
+}
+auto into_header(double& rate) {
+  return [&rate](JsonValue value) { rate = rate_from(value); };
+}
+auto into_header(Arguments& arguments) {
+  return [&arguments](JsonValue value) { arguments = arguments_from(value); };
+}
+auto into_header(std::vector<RecordedNode>& nodes) {
+  return [&nodes](JsonValue value) { nodes = nodes_from(value); };
+}
+auto into_header(std::vector<RecordedKey>& keys) {
+  return [&keys](JsonValue value) { keys = keys_from(value); };
 }
 
 // The nodes are in pre-order: the parent of a node is the node before it, or one of its ancestors.
@@ -192,19 +213,12 @@ void check_version(JsonReader& json, std::string& line) {
 RecordingHeader RecordingJson::header(std::string& line) {
   check_version(json_, line);
   RecordingHeader header;
+  std::vector<JsonField> fields;
+  lines::each_member(lines::kHeader, header, [&](const lines::Field& field, auto& value) {
+    fields.push_back({field.key, into_header(value), field.has == lines::kMaybe});
+  });
   json_.read(line, [&](JsonObject object) {
-    object.read(
-        {{lines::kHeader["tree"], into(header.tree)},
-         {lines::kHeader["file"], into(header.file)},
-         {lines::kHeader["version"], into(header.version)},
-         {lines::kHeader["law"], [&](JsonValue value) { header.law = value.whole(); }, kMayLack},
-         {lines::kHeader["rate_hz"], [&](JsonValue value) { header.rate_hz = rate_from(value); }},
-         {lines::kHeader["clock"], into(header.clock)},
-         {lines::kHeader["seed"], into(header.seed)},
-         {lines::kHeader["arguments"], [&](JsonValue value) { read_arguments(value, header); }},
-         {lines::kHeader["nodes"], [&](JsonValue value) { header.nodes = nodes_from(value); }},
-         {lines::kHeader["entries"], [&](JsonValue value) { header.entries = keys_from(value); },
-          kMayLack}});
+    object.read(fields);
     keys_ = header.entries.size();
     users_ = resource_users(header);
   });

@@ -236,20 +236,30 @@ auto into_notes(std::vector<std::string>& notes) {
   };
 }
 
+template <class Value>
+auto into_end(Value& value) {
+  return into(value);
+}
+auto into_end(std::optional<std::uint64_t>& number) {
+  return [&number](JsonValue value) { number = value.whole(); };
+}
+auto into_end(double& time) {
+  return into_seconds(time);
+}
+auto into_end(std::vector<std::string>& notes) {
+  return into_notes(notes);
+}
+auto into_end(std::vector<LeafLine>& logs) {
+  return into_logs(logs);
+}
+
 RecordedEnd end_from(JsonObject object) {
   RecordedEnd end;
-  object.read(
-      {{lines::kEnd["result"], into(end.result)},
-       {lines::kEnd["reason"], into(end.reason)},
-       {lines::kEnd["fault"], into(end.fault), kMayLack},
-       {lines::kEnd["signal"], [&](JsonValue value) { end.signal = value.whole(); }, kMayLack},
-       {lines::kEnd["ticks"], into(end.ticks)},
-       {lines::kEnd["time_s"], into_seconds(end.time)},
-       {lines::kEnd["overruns"], into(end.overruns)},
-       {lines::kEnd["skipped"], into(end.skipped)},
-       {lines::kEnd["lost"], into(end.lost), kMayLack},
-       {lines::kEnd["notes"], into_notes(end.notes), kMayLack},
-       {lines::kEnd["logs"], into_logs(end.logs), kMayLack}});
+  std::vector<JsonField> fields;
+  lines::each_member(lines::kEnd, end, [&](const lines::Field& field, auto& value) {
+    fields.push_back({field.key, into_end(value), field.has == lines::kMaybe});
+  });
+  object.read(fields);
   return end;
 }
 

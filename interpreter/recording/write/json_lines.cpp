@@ -48,11 +48,48 @@ Json json_of(const LeafLine& log) {
   return Json::array({log.who, log.level, log.text});
 }
 
+template <class Value>
+Json json_of(const Value& value) {
+  return value;
+}
+
 template <class Item>
-Json list_of(const std::vector<Item>& items) {
+Json json_of(const std::vector<Item>& items) {
   Json list = Json::array();
   for (const Item& item : items) list.push_back(json_of(item));
   return list;
+}
+
+Json json_of(const std::vector<RecordedNode>& nodes) {
+  Json list = Json::array();
+  for (std::size_t index = 0; index < nodes.size(); ++index) {
+    list.push_back(json_of(nodes[index], index));
+  }
+  return list;
+}
+
+Json json_of(const std::map<std::string, std::string, std::less<>>& texts) {
+  Json json = Json::object();
+  for (const auto& [name, text] : texts) json[name] = text;
+  return json;
+}
+
+// It may be left out.
+template <class Value>
+bool is_nothing(const Value& value) {
+  if constexpr (requires { value.empty(); }) {
+    return value.empty();
+  } else {
+    return value == Value();
+  }
+}
+
+template <class Record>
+void add_members(Json& json, const lines::Object& object, const Record& record) {
+  lines::each_member(object, record, [&](const lines::Field& field, const auto& value) {
+    const bool is_absent = field.has == lines::kMaybe && is_nothing(value);
+    if (!is_absent) json[field.key] = json_of(value);
+  });
 }
 
 // --- pieces of a tick
@@ -180,36 +217,15 @@ char* put_node(char* to, const NodeChange& change) {
 class JsonLines final : public LiveFormat {
  public:
   std::string header(const RecordingHeader& header) const override {
-    Json json = {{lines::kHeader["lockstep_recording"], kRecordingVersion},
-                 {lines::kHeader["tree"], header.tree},
-                 {lines::kHeader["file"], header.file},
-                 {lines::kHeader["version"], header.version},
-                 {lines::kHeader["law"], header.law},
-                 {lines::kHeader["rate_hz"], header.rate_hz},
-                 {lines::kHeader["clock"], header.clock},
-                 {lines::kHeader["seed"], header.seed}};
-    Json& arguments = json[lines::kHeader["arguments"]] = Json::object();
-    for (const auto& [name, value] : header.arguments) arguments[name] = value;
-    Json& nodes = json[lines::kHeader["nodes"]] = Json::array();
-    for (std::size_t index = 0; index < header.nodes.size(); ++index) {
-      nodes.push_back(json_of(header.nodes[index], index));
-    }
-    if (!header.entries.empty()) json[lines::kHeader["entries"]] = list_of(header.entries);
+    Json json = {{lines::kHeader["lockstep_recording"], kRecordingVersion}};
+    add_members(json, lines::kHeader, header);
     return json.text() + '\n';
   }
 
   std::string end(const RecordedEnd& end) const override {
-    Json json = {{lines::kEnd["result"], end.result}, {lines::kEnd["reason"], end.reason}};
-    if (!end.fault.empty()) json[lines::kEnd["fault"]] = end.fault;
-    if (end.signal) json[lines::kEnd["signal"]] = *end.signal;
-    json[lines::kEnd["ticks"]] = end.ticks;
-    json[lines::kEnd["time_s"]] = end.time;
-    json[lines::kEnd["overruns"]] = end.overruns;
-    json[lines::kEnd["skipped"]] = end.skipped;
-    if (end.lost > 0) json[lines::kEnd["lost"]] = end.lost;
-    if (!end.notes.empty()) json[lines::kEnd["notes"]] = end.notes;
-    if (!end.logs.empty()) json[lines::kEnd["logs"]] = list_of(end.logs);
-    return Json{{lines::kEndLine["end"], std::move(json)}}.text() + '\n';
+    Json json = {{lines::kEndLine["end"], Json::object()}};
+    add_members(json[lines::kEndLine["end"]], lines::kEnd, end);
+    return json.text() + '\n';
   }
 
   // ]} or ],"limits":[[1,0.5]],"rounds":[[2,3,8]],"succeeded":[1],"faults":[[3,"threw …"],…],… }
