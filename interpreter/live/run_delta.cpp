@@ -6,6 +6,7 @@
 #include "core/differences.h"
 #include "engine/resources.h"
 #include "engine/ticker.h"
+#include "live/watched_nodes.h"
 #include "measure/synchronized_measure.h"
 
 namespace lockstep {
@@ -49,9 +50,7 @@ RunDelta::RunDelta(const Tree& tree)
   for_each_resource_user(tree, [this](NodeIndex node) { kept_limits_.push_back({.node = node}); });
   first_user_ = synchronized_nodes_.size();
   limits_.reserve(kept_limits_.size());
-  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
-    if (tree.nodes[node].kind->round != nullptr) kept_rounds_.push_back({.node = node});
-  }
+  for (const NodeIndex node : repeating_nodes(tree)) kept_rounds_.push_back({.node = node});
   rounds_.reserve(kept_rounds_.size());
 }
 
@@ -149,11 +148,9 @@ void RunDelta::take_snapshots(Ticker& ticker) {
   for (const NodeIndex node : synchronized_nodes_) {
     if (!compares_progress(synchronization(ticker.node(node)))) continue;
     if (!ticker.ticked(node)) continue;
-    const double* used = child_progress(ticker, node).data();
-    for_each_child(ticker.tree(), node, [&](NodeIndex child) {
-      set_progress(child, is_left_out(*used) ? 0 : *used);
+    each_used_progress(ticker, node, [&](NodeIndex child, double used) {
+      set_progress(child, used);
       source_[child] = kUnknown;
-      ++used;
     });
   }
 }

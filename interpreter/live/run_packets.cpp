@@ -9,6 +9,7 @@
 #include "core/parameter_value.h"
 #include "core/wording.h"
 #include "engine/writers.h"
+#include "live/watched_nodes.h"
 #include "measure/synchronized_measure.h"
 #include "summary/statistics.h"
 
@@ -34,11 +35,9 @@ RunPackets::RunPackets(const Tree& tree, RunDescription run, const LineFormat& f
       delta_(tree),
       slots_(slots_of(tree, run_.entries)),
       entries_(slots_) {
-  const auto repeating = std::ranges::count_if(
-      tree.nodes, [](const Node& node) { return node.kind->round != nullptr; });
+  const std::size_t repeating = repeating_nodes(tree).size();
   line_end_.reserve(format_.most_of_tick_end(
-      synchronized_nodes(tree).size() + tree.members.size() + static_cast<std::size_t>(repeating),
-      slots_.size()));
+      synchronized_nodes(tree).size() + tree.members.size() + repeating, slots_.size()));
 }
 
 std::string RunPackets::header(const RunStart& start) const {

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "engine/resources.h"
+#include "live/watched_nodes.h"
 #include "measure/synchronized_measure.h"
 
 namespace lockstep {
@@ -19,6 +20,7 @@ std::vector<std::uint32_t> all_slots(const Tree& tree) {
 SnapshotFeed::SnapshotFeed(const Tree& tree, RealTime real_time)
     : real_time_(real_time),
       synchronized_nodes_(synchronized_nodes(tree)),
+      repeating_nodes_(repeating_nodes(tree)),
       activity_(tree.nodes.size()),
       changes_(all_slots(tree)),
       entries_(tree.slots.size()),
@@ -29,9 +31,6 @@ SnapshotFeed::SnapshotFeed(const Tree& tree, RealTime real_time)
   };
   make_room(entries_);
   snapshots_.for_each([&](Snapshot& snapshot) { make_room(snapshot.entries); });
-  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
-    if (tree.nodes[node].kind->round != nullptr) repeating_nodes_.push_back(node);
-  }
 }
 
 void SnapshotFeed::run_started(Ticker& ticker, const RunStart& start) {
@@ -116,10 +115,8 @@ void SnapshotFeed::take_round(Ticker& ticker, NodeIndex node, NodeView& view) {
 void SnapshotFeed::take_progress(Ticker& ticker, NodeIndex node,
                                  std::vector<NodeView>& views) const {
   views[node].limit = limit(ticker, node);
-  const double* used = child_progress(ticker, node).data();
-  for_each_child(ticker.tree(), node, [&](NodeIndex child) {
-    views[child].progress = shown_progress(views[child].activity, is_left_out(*used) ? 0 : *used);
-    ++used;
+  each_used_progress(ticker, node, [&](NodeIndex child, double used) {
+    views[child].progress = shown_progress(views[child].activity, used);
   });
 }
 
