@@ -196,3 +196,26 @@ TEST_CASE("a strict schema of all plugins accepts every tree that ships") {
     CHECK(outcome.code == 0);
   }
 }
+
+TEST_CASE("recordings keep schema/recording.schema.json, and what is no line does not") {
+  if (run({.arguments = {"-c", "import jsonschema"}, .program = "/usr/bin/python3"}).code != 0)
+    return;
+  const TemporaryDirectory directory;
+  const std::string file = directory.path("run.jsonl");
+  const std::string tree = LOCKSTEP_SOURCE_DIR "/trees/door_pulling.xml";
+  REQUIRE(lockstep::test::lockstep({"run", tree, "--clock", "virtual", "--record", file}).code ==
+          0);
+  const Outcome validated =
+      run({.arguments = {"-c", R"(
+import json, jsonschema, sys
+validator = jsonschema.Draft7Validator(json.load(open(sys.argv[1])))
+lines = [json.loads(line) for line in open(sys.argv[2])]
+for line in lines: validator.validate(line)
+wrong = [{}, {"tick": 0}, {**lines[1], "nodes": [[0, "runs", 0, 1, 0]]}, {**lines[0], "clock": "sun"}]
+print(len(lines) > 100, any(map(validator.is_valid, wrong)))
+)",
+                         LOCKSTEP_SOURCE_DIR "/schema/recording.schema.json", file},
+           .program = "/usr/bin/python3"});
+  INFO(validated.err);
+  CHECK(validated.out == "True False\n");
+}
