@@ -4,8 +4,8 @@
 
 #include <string_view>
 
-#include "plugin/isolated/served_plugin.h"
-#include "plugin/program/guardian.h"
+#include "remote/json_lines/guardian.h"
+#include "remote/shared_memory/served_plugin.h"
 #include "runtime/crash_report.h"
 #include "runtime/plugin_thread.h"
 #include "system/descriptors.h"

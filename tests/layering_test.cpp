@@ -38,6 +38,7 @@ const std::vector<Layer> kLayers{
     {"interpreter/engine/compile.cpp", {"definition/"}},
     {"interpreter/engine/nodes/leaf.cpp", {"lockstep/leaf.h"}},
     {"interpreter/plugin/", {"core/", "system/", "engine/", "lockstep/leaf.h"}},
+    {"interpreter/remote/", {"core/", "system/", "engine/", "plugin/", "lockstep/leaf.h"}},
     {"interpreter/runtime/", {"core/", "system/", "engine/", "plugin/", "measure/"}},
     {"interpreter/measure/", {"core/", "engine/"}},
     {"interpreter/terminal/", {"core/", "system/", "runtime/"}},
@@ -58,6 +59,10 @@ const std::vector<Layer> kLayers{
      {"core/", "system/", "definition/", "engine/", "runtime/", "measure/", "live/", "describe/",
       "convert/"}},
     {"interpreter/loading/", {"core/", "document/", "definition/", "engine/", "plugin/"}},
+     {"core/", "system/", "definition/", "engine/", "runtime/", "measure/", "recording/", "view/",
+      "describe/", "convert/"}},
+    {"interpreter/loading/",
+     {"core/", "document/", "definition/", "engine/", "plugin/", "remote/", "lockstep/leaf.h"}},
     {"interpreter/embedding/",
      {"core/", "system/", "document/", "definition/", "engine/", "plugin/", "loading/",
       "runtime/"}},
@@ -65,9 +70,12 @@ const std::vector<Layer> kLayers{
      {"core/",      "system/",  "document/",      "definition/", "engine/",  "plugin/",
       "loading/",   "runtime/", "measure/",       "terminal/",   "summary/", "live/",
       "recording/", "view/",    "web/",           "study/",      "plots/",   "describe/",
+     {"core/",      "system/",  "document/",      "definition/", "engine/",   "plugin/",
+      "remote/",    "loading/", "runtime/",       "measure/",    "terminal/", "summary/",
+      "recording/", "view/",    "web/",           "study/",      "plots/",    "describe/",
       "convert/",   "groot/",   "lockstep/leaf.h"}},
     {"interpreter/main.cpp", {"core/", "system/", "runtime/", "cli/"}},
-    {"interpreter/leafhost.cpp", {"core/", "system/", "plugin/", "runtime/"}},
+    {"interpreter/leafhost.cpp", {"core/", "system/", "remote/", "runtime/"}},
     {"plugins/", {"lockstep/"}},
     {"plugins/sdk/btcpp/", {"behaviortree_cpp/"}},
 };
@@ -75,7 +83,7 @@ const std::vector<Layer> kLayers{
 // What is not ours, by the beginning of its name, and the only places that may see it.
 const std::vector<Layer> kThirdParty{
     {"tinyxml2", {"interpreter/document/"}},
-    {"dlfcn.h", {"interpreter/plugin/", "interpreter/embedding/project.cpp"}},
+    {"dlfcn.h", {"interpreter/plugin/open/", "interpreter/embedding/project.cpp"}},
     {"CLI/", {"interpreter/cli/"}},
     {"simdjson.h", {"interpreter/core/json_reader.h", "plugins/motion/recorded.cpp"}},
     {"nlohmann/", {"interpreter/core/json.cpp", "interpreter/core/json_message_pack.cpp"}},
@@ -107,6 +115,11 @@ const std::vector<Layer> kPageRooms{
      {"model", "store", "view/parts", "view/chart", "view/panels", "view/timeline", "view/tree",
       "preact"}},
     {"", {"store", "source", "view", "preact"}},  // main.tsx
+              "interpreter/remote/",     "interpreter/loading/",    "interpreter/runtime/",
+              "interpreter/embedding/",  "interpreter/terminal/",   "interpreter/summary/",
+              "interpreter/recording/",  "interpreter/view/",       "interpreter/web/",
+              "interpreter/study/",      "interpreter/plots/",      "interpreter/describe/",
+              "interpreter/convert/",    "interpreter/groot/",      "interpreter/cli/"}},
 };
 
 struct Include {

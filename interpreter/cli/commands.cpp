@@ -17,7 +17,7 @@
 #include "cli/help_text.h"
 #include "cli/run/groot.h"
 #include "cli/usage.h"
-#include "plugin/call_mark.h"
+#include "plugin/contract/call_mark.h"
 #include "runtime/fuse.h"
 #include "runtime/outlet.h"
 #include "system/descriptors.h"

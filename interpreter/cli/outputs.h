@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "plugin/plugin_set.h"
+#include "loading/plugin_set.h"
 
 namespace lockstep {
 

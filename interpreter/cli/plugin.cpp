@@ -13,9 +13,9 @@
 #include "core/diagnostics.h"
 #include "core/wording.h"
 #include "loading/plugin_directories.h"
-#include "plugin/plugin_path.h"
-#include "plugin/program/conformance.h"
-#include "plugin/program/leaves_file.h"
+#include "plugin/open/plugin_path.h"
+#include "remote/json_lines/conformance.h"
+#include "remote/json_lines/leaves_file.h"
 #include "system/descriptors.h"
 #include "system/output_file.h"
 

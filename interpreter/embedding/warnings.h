@@ -9,7 +9,7 @@
 
 #include "engine/ticker.h"
 #include "engine/tree.h"
-#include "plugin/leaf_set.h"
+#include "plugin/contract/leaf_set.h"
 
 namespace lockstep {
 

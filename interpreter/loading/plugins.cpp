@@ -10,8 +10,8 @@
 #include "definition/plugin_requests.h"
 #include "engine/node_kind.h"
 #include "loading/plugin_directories.h"
-#include "plugin/descriptor.h"
-#include "plugin/plugin_path.h"
+#include "plugin/contract/descriptor.h"
+#include "plugin/open/plugin_path.h"
 
 namespace lockstep {
 namespace {

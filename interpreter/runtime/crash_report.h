@@ -6,7 +6,7 @@
 
 #include <pthread.h>
 
-#include "plugin/call_mark.h"
+#include "plugin/contract/call_mark.h"
 
 namespace lockstep {
 

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "plugin/call_mark.h"
+#include "plugin/contract/call_mark.h"
 #include "runtime/signal_text.h"
 
 namespace lockstep {

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <new>
 
-#include "plugin/call_mark.h"
-#include "plugin/shared_object.h"
+#include "plugin/contract/call_mark.h"
+#include "plugin/open/shared_object.h"
 #include "runtime/crash_report.h"
 #include "runtime/watchdog.h"
 #include "system/own_thread.h"

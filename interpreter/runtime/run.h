@@ -6,10 +6,10 @@
 
 #include "engine/blackboard.h"
 #include "engine/ticker.h"
-#include "plugin/leaf_set.h"
-#include "plugin/leaf_watch.h"
-#include "plugin/process_leaves.h"
-#include "plugin/workers.h"
+#include "plugin/contract/leaf_set.h"
+#include "plugin/contract/leaf_watch.h"
+#include "plugin/contract/process_leaves.h"
+#include "plugin/contract/workers.h"
 
 namespace lockstep {
 

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "core/clock.h"
-#include "plugin/call_mark.h"
+#include "plugin/contract/call_mark.h"
 
 namespace lockstep {
 

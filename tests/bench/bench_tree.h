@@ -8,7 +8,7 @@
 
 #include "definition/resolve.h"
 #include "engine/compile.h"
-#include "plugin/plugin_set.h"
+#include "loading/plugin_set.h"
 
 namespace lockstep {
 

@@ -13,7 +13,7 @@
 #include "core/clock.h"
 #include "definition/resolve.h"
 #include "engine/compile.h"
-#include "plugin/plugin_set.h"
+#include "loading/plugin_set.h"
 #include "runtime/run.h"
 
 namespace {

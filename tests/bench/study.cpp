@@ -10,8 +10,8 @@
 #include "core/random.h"
 #include "definition/resolve.h"
 #include "engine/compile.h"
+#include "loading/plugin_set.h"
 #include "measure/measure_spec.h"
-#include "plugin/plugin_set.h"
 #include "study/workers.h"
 
 namespace {

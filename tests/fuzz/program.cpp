@@ -12,10 +12,10 @@
 #include <string>
 #include <string_view>
 
-#include "plugin/plugin_set.h"
-#include "plugin/program/hello.h"
-#include "plugin/program/line_input.h"
-#include "plugin/program/reply.h"
+#include "loading/plugin_set.h"
+#include "remote/json_lines/hello.h"
+#include "remote/json_lines/line_input.h"
+#include "remote/json_lines/reply.h"
 #include "system/file_descriptor.h"
 
 namespace {

@@ -8,8 +8,8 @@
 
 #include "definition/resolve.h"
 #include "engine/compile.h"
+#include "loading/plugin_set.h"
 #include "mock_leaf.h"
-#include "plugin/plugin_set.h"
 #include "runtime/run.h"
 #include "tree_from_bytes.h"
 

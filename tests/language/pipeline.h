@@ -10,7 +10,7 @@
 #include "core/diagnostics.h"
 #include "document/project.h"
 #include "engine/tree.h"
-#include "plugin/plugin_set.h"
+#include "loading/plugin_set.h"
 
 namespace lockstep::test {
 

@@ -3,7 +3,7 @@
 #include <deque>
 #include <stdexcept>
 
-#include "plugin/descriptor.h"
+#include "plugin/contract/descriptor.h"
 
 namespace lockstep::test {
 namespace {

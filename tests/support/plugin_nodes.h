@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "plugin/host.h"
+#include "plugin/contract/host.h"
 
 namespace lockstep::test {
 

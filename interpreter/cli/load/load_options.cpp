@@ -9,7 +9,7 @@
 #include "cli/exit_code.h"
 #include "core/clock.h"
 #include "core/value.h"
-#include "plugin/program/orphans.h"
+#include "remote/json_lines/orphans.h"
 #include "runtime/plugin_thread.h"
 #include "system/freed_memory.h"
 

@@ -14,7 +14,7 @@
 #include "core/wording.h"
 #include "loading/load.h"
 #include "loading/plugins.h"
-#include "plugin/leaf_watch.h"
+#include "plugin/contract/leaf_watch.h"
 #include "runtime/progress_text.h"
 #include "runtime/run.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/node_type.h"
-#include "plugin/plugin_set.h"
+#include "loading/plugin_set.h"
 
 namespace lockstep {
 

@@ -12,7 +12,7 @@
 #include "cli/exit_code.h"
 #include "cli/plugin_check/leaf_examiner.h"
 #include "core/wording.h"
-#include "plugin/child_process.h"
+#include "remote/child_process.h"
 #include "runtime/plugin_thread.h"
 #include "system/descriptors.h"
 

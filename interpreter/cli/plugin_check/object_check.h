@@ -6,7 +6,7 @@
 #include <string>
 
 #include "loading/plugins.h"
-#include "plugin/program/conformance.h"
+#include "remote/json_lines/conformance.h"
 
 namespace lockstep {
 

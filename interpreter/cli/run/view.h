@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "plugin/leaf_set.h"
+#include "plugin/contract/leaf_set.h"
 #include "view/console_live.h"
 #include "view/console_plain.h"
 #include "view/line_budget.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/tree.h"
-#include "plugin/plugin_set.h"
+#include "loading/plugin_set.h"
 #include "support/paths.h"
 
 namespace lockstep::test {

@@ -1,11 +1,11 @@
 // Marks of calls, as the thread itself and as another one sees them.
-#include "plugin/call_mark.h"
+#include "plugin/contract/call_mark.h"
 
 #include <catch2/catch.hpp>
 #include <stdexcept>
 #include <thread>
 
-#include "plugin/leaf_set.h"
+#include "plugin/contract/leaf_set.h"
 #include "unit/plugin/probe_plugin.h"
 
 namespace lockstep::test {

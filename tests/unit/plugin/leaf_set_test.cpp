@@ -1,5 +1,5 @@
 // The leaves of a run: their lives, and what the host does for them.
-#include "plugin/leaf_set.h"
+#include "plugin/contract/leaf_set.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,5 +1,5 @@
 // What stands between the engine and a leaf when a run is watched, and that nothing does when not.
-#include "plugin/leaf_watch.h"
+#include "plugin/contract/leaf_watch.h"
 
 #include <catch2/catch.hpp>
 #include <cfenv>
@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "lockstep/leaf.h"
-#include "plugin/carried_time.h"
-#include "plugin/float_mode.h"
+#include "plugin/contract/carried_time.h"
+#include "plugin/contract/float_mode.h"
 #include "runtime/run.h"
 #include "unit/plugin/probe_plugin.h"
 

@@ -1,5 +1,5 @@
 // Types of objects whose functions do what they should not.
-#include "plugin/object_type.h"
+#include "plugin/contract/object_type.h"
 
 #include <catch2/catch.hpp>
 #include <cstddef>
@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/object.h"
-#include "plugin/call_mark.h"
+#include "plugin/contract/call_mark.h"
 
 namespace lockstep::test {
 namespace {

@@ -6,9 +6,9 @@
 #include <functional>
 
 #include "engine/tree.h"
+#include "loading/plugin_set.h"
 #include "lockstep/leaf.h"
-#include "plugin/call_mark.h"
-#include "plugin/plugin_set.h"
+#include "plugin/contract/call_mark.h"
 
 namespace lockstep::test {
 

@@ -11,7 +11,7 @@
 
 #include "definition/catalog.h"
 #include "document/project.h"
-#include "plugin/plugin_set.h"
+#include "loading/plugin_set.h"
 #include "runtime/run.h"
 
 namespace lockstep::test {

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "engine/tree.h"
-#include "plugin/plugin_set.h"
+#include "loading/plugin_set.h"
 
 namespace lockstep::test {
 

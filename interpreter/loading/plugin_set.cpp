@@ -1,0 +1,336 @@
+#include "loading/plugin_set.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "core/plugin_exception.h"
+#include "core/wording.h"
+#include "plugin/contract/call_mark.h"
+#include "plugin/contract/descriptor.h"
+#include "plugin/contract/initialize.h"
+#include "plugin/open/plugin_path.h"
+#include "plugin/open/shared_object.h"
+#include "plugin/open/trust.h"
+#include "remote/json_lines/leaves_file.h"
+#include "remote/json_lines/program_plugin.h"
+#include "remote/shared_memory/isolated_plugin.h"
+#include "remote/shared_memory/refusal.h"
+
+namespace lockstep {
+namespace {
+
+// `refusal` continues "plugin 'x.so' ".
+bool refuse(const std::string& origin, Problem refusal, Diagnostics& diagnostics,
+            SourceLocation where) {
+  diagnostics.error(std::move(where), fmt::format("plugin '{}' {}", brief(origin), refusal.message),
+                    std::move(refusal.hint));
+  return false;
+}
+
+std::optional<Problem> check_expected_name(std::string_view name, std::string_view expected) {
+  if (expected.empty() || name == expected) return std::nullopt;
+  return Problem{fmt::format("calls itself '{}', expected '{}'", name, expected),
+                 fmt::format("name the file '{}.so', or give the plugin the file's name", name)};
+}
+
+bool is_program(const std::string& path) {
+  const std::string name = std::filesystem::path(path).filename().string();
+  return name.find(".so") == name.npos && is_executable(path);
+}
+
+auto constant_of(const std::string& file) {
+  return open_shared_object(file).and_then(
+      [](const SharedObject& object) { return find_constant(object, LOCKSTEP_PLUGIN_ENTRY); });
+}
+
+// Two names of one file.
+bool is_same_file(const std::string& one, const std::string& other) {
+  std::error_code error;
+  return std::filesystem::equivalent(one, other, error);
+}
+
+}  // namespace
+
+struct PluginSet::Plugin {
+  const lockstep_plugin* entry;  // the plugin's own constant
+  std::string origin;
+  std::unique_ptr<IsolatedPlugin> isolated = {};  // both null: it lives in this process
+  std::unique_ptr<ProgramPlugin> program = {};
+  Descriptors descriptors = {};
+  bool initialized = false;
+
+  std::string_view name() const { return descriptors.plugin.name; }
+  std::string initialize() const {
+    return isolated != nullptr ? isolated->initialize() : initialize_plugin(descriptors.plugin);
+  }
+
+  // Refuses isolation when none of the leaves can be isolated.
+  std::optional<Problem> check_isolation() {
+    std::optional<Problem> first;
+    std::size_t refused = 0;
+    for (const auto& leaf : descriptors.leaves) {
+      auto refusal = refuse_isolation(*leaf);
+      refused += refusal.has_value();
+      if (!first) first = std::move(refusal);
+    }
+    descriptors.plugin.is_local = refused > 0;
+    const bool is_hopeless = isolated != nullptr && refused == descriptors.leaves.size();
+    return is_hopeless ? std::move(first) : std::nullopt;
+  }
+
+  // What keeps two plugins from living in one set.
+  static std::optional<Problem> check_against(const Plugin& newcomer, const Plugin& other);
+};
+
+std::optional<Problem> PluginSet::Plugin::check_against(const Plugin& newcomer,
+                                                        const Plugin& other) {
+  if (newcomer.name() == other.name()) {
+    return Problem{fmt::format("is named '{}', as is '{}'", newcomer.name(), other.origin),
+                   "load one of the two"};
+  }
+  for (const auto& leaf : newcomer.descriptors.leaves) {
+    for (const auto& known : other.descriptors.leaves) {
+      if (leaf->node_type.id != known->node_type.id) continue;
+      return Problem{fmt::format("has the leaf '{}', which plugin '{}' has already",
+                                 leaf->node_type.id, other.origin),
+                     "load one of the two, or rename the leaf"};
+    }
+  }
+  return std::nullopt;
+}
+
+PluginSet::PluginSet() = default;
+
+PluginSet::~PluginSet() {
+  for (auto plugin = plugins_.rbegin(); plugin != plugins_.rend(); ++plugin) {
+    if ((*plugin)->isolated || (*plugin)->program) {
+      (*plugin)->isolated.reset();
+      (*plugin)->program.reset();
+    } else if ((*plugin)->initialized) {
+      deinitialize_plugin((*plugin)->descriptors.plugin);
+    }
+  }
+}
+
+void PluginSet::set_isolation(IsolationOptions options) {
+  isolation_ = std::move(options);
+}
+
+bool PluginSet::load_file(const std::string& path, Diagnostics& diagnostics, SourceLocation where,
+                          Isolation isolation) {
+  if (is_program(path)) {
+    const std::string name = std::filesystem::path(path).stem().string();
+    return open_program({path, name, std::move(where)}, Hold::AsItSays, diagnostics);
+  }
+  return open({path, {}, std::move(where), isolation}, diagnostics);
+}
+
+bool PluginSet::load_named(std::string_view name, std::span<const std::string> directories,
+                           Diagnostics& diagnostics, SourceLocation where, Isolation isolation) {
+  if (!is_plugin_name(name)) {
+    diagnostics.error(std::move(where),
+                      fmt::format("'{}' is not the name of a plugin", brief(name)),
+                      "a plugin is named by letters, digits, '_' and '-', without path and '.so'");
+    return false;
+  }
+  if (has(name)) return true;
+  warn_of_writable_directories(directories, where, diagnostics);
+  auto path = find_plugin_file(name, directories);
+  if (!path) {
+    return refuse(std::string(name), std::move(path.error()), diagnostics, std::move(where));
+  }
+  return open({std::move(*path), name, std::move(where), isolation}, diagnostics);
+}
+
+bool PluginSet::load_program(const Program& program, std::span<const std::string> directories,
+                             Diagnostics& diagnostics, SourceLocation where) {
+  if (has(program.name)) return true;
+  warn_of_writable_directories(directories, where, diagnostics);
+  auto path = find_program_file(program.file, directories);
+  if (!path) {
+    return refuse(program.name, std::move(path.error()), diagnostics, std::move(where));
+  }
+  return open_program({std::move(*path), program.name, std::move(where)}, program.hold,
+                      diagnostics);
+}
+
+bool PluginSet::has(std::string_view name) const {
+  return std::ranges::any_of(plugins_, [&](const auto& it) { return it->name() == name; });
+}
+
+bool PluginSet::add(const lockstep_plugin& plugin, std::string origin, Diagnostics& diagnostics,
+                    SourceLocation where) {
+  const Request request{std::move(origin), {}, std::move(where)};
+  return accept(std::make_unique<Plugin>(Plugin{&plugin, request.origin}), 0, request, diagnostics);
+}
+
+bool PluginSet::open(const Request& request, Diagnostics& diagnostics) {
+  if (std::ranges::any_of(
+          plugins_, [&](const auto& it) { return is_same_file(it->origin, request.origin); })) {
+    return true;
+  }
+  warn_of_writable_plugin(request.origin, request.where, diagnostics);
+  if (isolation_.all || request.isolation == Isolation::Isolated) {
+    return open_isolated(request, diagnostics);
+  }
+  auto constant = constant_of(request.origin);
+  if (!constant) {
+    return refuse(request.origin, std::move(constant.error()), diagnostics, request.where);
+  }
+  const auto* const entry = static_cast<const lockstep_plugin*>(constant->address);
+  return accept(std::make_unique<Plugin>(Plugin{entry, request.origin}), constant->size, request,
+                diagnostics);
+}
+
+bool PluginSet::open_isolated(const Request& request, Diagnostics& diagnostics) {
+  auto opened = IsolatedPlugin::open(request.origin, isolation_);
+  if (!opened) {
+    return refuse(request.origin, std::move(opened.error()), diagnostics, request.where);
+  }
+  auto plugin = std::make_unique<Plugin>(Plugin{&(*opened)->entry(), request.origin});
+  plugin->isolated = std::move(*opened);
+  plugin->descriptors.plugin.isolated = plugin->isolated.get();
+  return accept(std::move(plugin), 0, request, diagnostics);
+}
+
+bool PluginSet::open_program(const Request& request, Hold hold, Diagnostics& diagnostics) {
+  if (has(request.expected_name)) return true;
+  warn_of_writable_plugin(request.origin, request.where, diagnostics);
+  auto opened =
+      ProgramPlugin::open(request.origin, std::string(request.expected_name), hold, isolation_);
+  if (!opened) {
+    return refuse(request.origin, std::move(opened.error()), diagnostics, request.where);
+  }
+  if ((*opened)->is_file_stale()) {
+    diagnostics.add({.severity = Severity::Warning,
+                     .location = request.where,
+                     .message = fmt::format("plugin '{}' has other leaves than '{}' says",
+                                            request.expected_name, leaves_file_of(request.origin)),
+                     .hint = "let 'lockstep plugin check --save' write it again",
+                     .excerpt = {}});
+  }
+  if ((*opened)->is_file_older()) {
+    diagnostics.add(
+        {.severity = Severity::Note,
+         .location = request.where,
+         .message = fmt::format("'{}' is older than the program: plugin '{}' may have "
+                                "other leaves now",
+                                leaves_file_of(request.origin), request.expected_name),
+         .hint = "give --run-programs, or let 'lockstep plugin check --save' write it again",
+         .excerpt = {}});
+  }
+  auto plugin = std::make_unique<Plugin>(Plugin{&(*opened)->entry(), request.origin});
+  plugin->program = std::move(*opened);
+  plugin->descriptors.plugin.program = plugin->program.get();
+  return accept(std::move(plugin), 0, request, diagnostics);
+}
+
+bool PluginSet::accept(std::unique_ptr<Plugin> plugin, std::size_t size, const Request& request,
+                       Diagnostics& diagnostics) {
+  const lockstep_plugin& entry = *plugin->entry;
+  if (std::ranges::any_of(plugins_, [&](const auto& it) { return it->entry == &entry; })) {
+    return true;
+  }
+  auto refusal = read_descriptors(entry, size, plugin->descriptors);
+  if (!refusal) refusal = plugin->check_isolation();
+  if (!refusal) refusal = check_expected_name(plugin->name(), request.expected_name);
+  for (const auto& other : plugins_) {
+    if (!refusal) refusal = Plugin::check_against(*plugin, *other);
+  }
+  if (refusal) return refuse(request.origin, std::move(*refusal), diagnostics, request.where);
+  std::unique_ptr<Plugin> rest;
+  if (plugin->isolated != nullptr && plugin->descriptors.plugin.is_local) {
+    rest = split_off(*plugin, request, diagnostics);
+    if (rest == nullptr) return false;
+  }
+  plugins_.push_back(std::move(plugin));
+  if (rest != nullptr) plugins_.push_back(std::move(rest));
+  return true;
+}
+
+std::unique_ptr<PluginSet::Plugin> PluginSet::split_off(Plugin& isolated, const Request& request,
+                                                        Diagnostics& diagnostics) {
+  auto constant = constant_of(request.origin);
+  auto rest = std::make_unique<Plugin>(Plugin{nullptr, request.origin});
+  std::optional<Problem> refusal;
+  if (constant) {
+    rest->entry = static_cast<const lockstep_plugin*>(constant->address);
+    refusal = read_descriptors(*rest->entry, constant->size, rest->descriptors);
+  } else {
+    refusal = std::move(constant.error());
+  }
+  if (refusal) {
+    refuse(request.origin, std::move(*refusal), diagnostics, request.where);
+    return nullptr;
+  }
+  const auto stays = [](const auto& leaf) { return refuse_isolation(*leaf).has_value(); };
+  std::erase_if(isolated.descriptors.leaves, stays);
+  std::erase_if(rest->descriptors.leaves, [&](const auto& leaf) { return !stays(leaf); });
+  rest->descriptors.plugin.is_local = true;
+  isolated.descriptors.plugin.is_local = false;
+  std::vector<std::string_view> ids;
+  for (const auto& leaf : rest->descriptors.leaves) ids.push_back(leaf->node_type.id);
+  const std::string why = refuse_isolation(*rest->descriptors.leaves.front())->message;
+  diagnostics.add(
+      {.severity = Severity::Warning,
+       .location = request.where,
+       .message = fmt::format("plugin '{}' is isolated only in part: {} {} in this process",
+                              brief(request.origin), listed(ids), ids.size() == 1 ? "runs" : "run"),
+       .hint =
+           fmt::format("{}; the two parts share nothing but ports", why.substr(why.find(": ") + 2)),
+       .excerpt = {}});
+  return rest;
+}
+
+bool PluginSet::initialize(Diagnostics& diagnostics) {
+  for (const auto& plugin : plugins_) {
+    if (plugin->initialized) continue;
+    if (std::string failure = plugin->initialize(); !failure.empty()) {
+      return refuse(plugin->origin,
+                    {std::move(failure), "ask the author of the plugin what it needs"}, diagnostics,
+                    {});
+    }
+    plugin->initialized = true;
+  }
+  return true;
+}
+
+std::vector<const NodeType*> PluginSet::types() const {
+  std::vector<const NodeType*> types;
+  for (const auto& plugin : plugins_) {
+    for (const auto& leaf : plugin->descriptors.leaves) types.push_back(&leaf->node_type);
+  }
+  return types;
+}
+
+std::map<std::string, double, std::less<>> PluginSet::words() const {
+  std::map<std::string, double, std::less<>> all;
+  for (const auto& plugin : plugins_) {
+    const lockstep_plugin& it = plugin->descriptors.plugin;
+    if (it.get_extension == nullptr) continue;
+    const void* table = nullptr;
+    const MarkedCall mark(CallSite::of_plugin(it.name), PluginFunction::Describe);
+    thrown_by([&] { table = it.get_extension(LOCKSTEP_WORDS); });
+    const auto* const words = static_cast<const lockstep_words*>(table);
+    for (std::uint32_t i = 0; words != nullptr && i < words->count; ++i) {
+      all.emplace(words->words[i], words->numbers[i]);
+    }
+  }
+  return all;
+}
+
+std::vector<PluginSet::Info> PluginSet::list() const {
+  const auto text = [](const char* it) { return std::string(it == nullptr ? "" : it); };
+  std::vector<Info> list;
+  for (const auto& plugin : plugins_) {
+    const lockstep_plugin& it = plugin->descriptors.plugin;
+    list.push_back({text(it.name), text(it.version), text(it.doc), plugin->origin,
+                    plugin->isolated != nullptr || plugin->program != nullptr});
+  }
+  return list;
+}
+
+}  // namespace lockstep

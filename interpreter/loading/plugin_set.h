@@ -1,0 +1,107 @@
+// The plugins of this process: opened, checked against the contract in lockstep/leaf.h, and listed
+// as node types. Nothing of a plugin runs until initialize().
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/diagnostics.h"
+#include "core/node_type.h"
+#include "lockstep/leaf.h"
+#include "remote/isolation_options.h"
+#include "remote/json_lines/hold.h"
+
+namespace lockstep {
+
+// Isolated: the plugin runs in a separate process. See remote/shared_memory/isolated_plugin.h.
+enum class Isolation : bool { InProcess, Isolated };
+
+class PluginSet {
+ public:
+  PluginSet();
+  // Deinitializes what was initialized, in reverse order. The shared objects stay mapped: a thread
+  // or an atexit handler that a plugin left behind must not lose its code (docs/plugins.md).
+  ~PluginSet();
+  PluginSet(const PluginSet&) = delete;
+  PluginSet& operator=(const PluginSet&) = delete;
+
+  // How plugins are isolated, for those loaded from now on. `leafhost` is the program
+  // lockstep-leafhost. A plugin that takes longer than `hang_limit` to return from a call is
+  // killed.
+  void set_isolation(IsolationOptions options);
+
+  // Opens a shared object, or a program whose name is that of the file. On failure, returns false
+  // with one error, and the set is unchanged. Opening the same file again does nothing, isolated or
+  // not: the first call decides. `where` is the place in a tree that asked for it, if any.
+  bool load_file(const std::string& path, Diagnostics& diagnostics, SourceLocation where = {},
+                 Isolation isolation = Isolation::InProcess);
+
+  // Opens <name>.so from the first of `directories` that has it, unless a plugin of this name is
+  // there already: one opened by its path takes the place of one found by its name.
+  bool load_named(std::string_view name, std::span<const std::string> directories,
+                  Diagnostics& diagnostics, SourceLocation where = {},
+                  Isolation isolation = Isolation::InProcess);
+
+  // Opens the program `file` from the first of `directories` that has it, as a plugin named `name`,
+  // unless a plugin of this name is there already. See
+  // remote/json_lines/program_plugin.h.
+  struct Program {
+    std::string name, file;
+    Hold hold = Hold::AsItSays;
+  };
+  bool load_program(const Program& program, std::span<const std::string> directories,
+                    Diagnostics& diagnostics, SourceLocation where = {});
+
+  // A plugin that is linked in; for tests. `origin` stands for its path in messages. The plugin and
+  // all that it points to must outlive the set.
+  bool add(const lockstep_plugin& plugin, std::string origin, Diagnostics& diagnostics,
+           SourceLocation where = {});
+
+  // Calls the init of each plugin that is not initialized yet. On failure, returns false with one
+  // error that names the plugin. A plugin has one state per process: what several sets share is
+  // initialized by the first and deinitialized by the last of them.
+  bool initialize(Diagnostics& diagnostics);
+
+  // The leaves of all plugins; `origin` and `leaf` are in full size whatever the plugin's age.
+  // Valid as long as the set.
+  std::vector<const NodeType*> types() const;
+
+  // The words of all plugins that scripts know as numbers; of two of one name, the first.
+  std::map<std::string, double, std::less<>> words() const;
+
+  // Of each plugin, in the order of loading.
+  struct Info {
+    std::string name, version, doc, path;
+    bool isolated = false;
+  };
+  std::vector<Info> list() const;
+
+ private:
+  struct Plugin;
+  struct Request {
+    std::string origin;
+    std::string_view expected_name;  // "" = any
+    SourceLocation where;
+    Isolation isolation = Isolation::InProcess;
+  };
+  bool open(const Request& request, Diagnostics& diagnostics);
+  bool open_isolated(const Request& request, Diagnostics& diagnostics);
+  bool open_program(const Request& request, Hold hold, Diagnostics& diagnostics);
+  bool has(std::string_view name) const;
+  // Takes what cannot be isolated away from a plugin: a part of it in this process. Null: an error.
+  static std::unique_ptr<Plugin> split_off(Plugin& isolated, const Request& request,
+                                           Diagnostics& diagnostics);
+  bool accept(std::unique_ptr<Plugin> plugin, std::size_t size, const Request& request,
+              Diagnostics& diagnostics);
+
+  IsolationOptions isolation_;
+  std::vector<std::unique_ptr<Plugin>> plugins_;
+};
+
+}  // namespace lockstep

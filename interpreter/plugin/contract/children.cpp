@@ -1,0 +1,127 @@
+// What a control node or decorator of a plugin does with its children: lockstep_children. Each
+// breach of the contract is an error of the node, which ends its call as set_error does.
+#include <fmt/format.h>
+
+#include "engine/ticker.h"
+#include "plugin/contract/host.h"
+
+namespace lockstep {
+namespace {
+
+void breach(const lockstep_caller* caller, std::string_view what) {
+  take_error(*caller, Shortened(what));
+}
+
+// True if the node may use its children in this way now.
+bool may(const lockstep_caller* caller, ChildAccess access, std::string_view what) {
+  if (caller->is_foreign()) return false;
+  const LeafSlot& slot = *caller->slot;
+  if (slot.access >= access) [[likely]]
+    return slot.error == nullptr && !slot.failed && !caller->ticker->faulted();
+  if (caller->children.empty()) {
+    breach(caller, fmt::format("{} a child, but has none", what));
+  } else if (access == ChildAccess::Tick) {
+    breach(caller, fmt::format("{} a child outside of its tick", what));
+  } else {
+    breach(caller, fmt::format("{} a child while it was not called by the host", what));
+  }
+  return false;
+}
+
+// And it has this child.
+bool may(const lockstep_caller* caller, ChildAccess access, std::string_view what,
+         std::uint32_t child) {
+  if (!may(caller, access, what)) return false;
+  const std::size_t count = caller->children.size();
+  if (child < count) [[likely]]
+    return true;
+  breach(caller, fmt::format("{} child {}, but has {} {}, counted from 0", what, child, count,
+                             count == 1 ? "child" : "children"));
+  return false;
+}
+
+std::uint32_t count(const lockstep_caller* caller) {
+  return caller->is_foreign() ? 0 : static_cast<std::uint32_t>(caller->children.size());
+}
+
+// Ticks a child in the way that `function` does.
+template <class Function>
+lockstep_status tick_by(const lockstep_caller* caller, std::uint32_t child, Function function) {
+  if (!may(caller, ChildAccess::Tick, "ticks", child)) return LOCKSTEP_RUNNING;
+  LeafSlot& slot = *caller->slot;
+  const NodeIndex node = caller->children[child];
+  const bool at_most_once = caller->ticker->tree().language == Language::Lockstep;
+  if (at_most_once && caller->ticker->ticked(node)) {
+    breach(caller, fmt::format("ticks child {} twice in one tick", child));
+    return LOCKSTEP_RUNNING;
+  }
+  // Code of the child that knows this caller must not use it.
+  slot.access = ChildAccess::None;
+  const Status status = function(*caller->ticker, node);
+  slot.access = ChildAccess::Tick;
+  return static_cast<lockstep_status>(status);
+}
+
+lockstep_status tick(const lockstep_caller* caller, std::uint32_t child) {
+  return tick_by(caller, child, [](Ticker& ticker, NodeIndex node) { return ticker.tick(node); });
+}
+
+lockstep_status tick_unreset(const lockstep_caller* caller, std::uint32_t child) {
+  return tick_by(caller, child, [](Ticker& ticker, NodeIndex node) {
+    const Status before = ticker.status(node);
+    const bool has_completed = before == Status::Success || before == Status::Failure;
+    return has_completed ? ticker.tick_unreset(node) : ticker.tick(node);
+  });
+}
+
+void halt(const lockstep_caller* caller, std::uint32_t child) {
+  if (!may(caller, ChildAccess::Tick, "halts", child)) return;
+  LeafSlot& slot = *caller->slot;
+  slot.access = ChildAccess::None;
+  caller->ticker->halt(caller->children[child]);
+  slot.access = ChildAccess::Tick;
+}
+
+void pause(const lockstep_caller* caller, std::uint32_t child) {
+  if (!may(caller, ChildAccess::Tick, "pauses", child)) return;
+  LeafSlot& slot = *caller->slot;
+  slot.access = ChildAccess::None;
+  caller->ticker->pause(caller->children[child]);
+  slot.access = ChildAccess::Tick;
+}
+
+lockstep_status status(const lockstep_caller* caller, std::uint32_t child) {
+  if (!may(caller, ChildAccess::Look, "asks for", child)) return LOCKSTEP_RUNNING;
+  return static_cast<lockstep_status>(caller->ticker->status(caller->children[child]));
+}
+
+double progress(const lockstep_caller* caller, std::uint32_t child) {
+  if (!may(caller, ChildAccess::Look, "asks for", child)) return 0;
+  LeafSlot& slot = *caller->slot;
+  const ChildAccess access = std::exchange(slot.access, ChildAccess::None);
+  const double value = caller->ticker->progress(caller->children[child]);
+  slot.access = access;
+  return value;
+}
+
+static_assert(static_cast<int>(Status::Idle) == LOCKSTEP_IDLE &&
+              static_cast<int>(Status::Running) == LOCKSTEP_RUNNING &&
+              static_cast<int>(Status::Success) == LOCKSTEP_SUCCESS &&
+              static_cast<int>(Status::Failure) == LOCKSTEP_FAILURE &&
+              static_cast<int>(Status::Skipped) == LOCKSTEP_SKIPPED);
+
+}  // namespace
+
+const lockstep_children& children_table() {
+  static constexpr lockstep_children kTable{.struct_size = sizeof(lockstep_children),
+                                            .count = count,
+                                            .tick = tick,
+                                            .halt = halt,
+                                            .pause = pause,
+                                            .status = status,
+                                            .progress = progress,
+                                            .tick_unreset = tick_unreset};
+  return kTable;
+}
+
+}  // namespace lockstep

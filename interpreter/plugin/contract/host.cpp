@@ -1,0 +1,442 @@
+#include "plugin/contract/host.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <new>
+#include <utility>
+
+#include "core/conversion.h"
+#include "core/parameter_value.h"
+#include "core/utf8.h"
+#include "core/wording.h"
+#include "plugin/contract/held.h"
+#include "plugin/contract/packed_object.h"
+#include "plugin/contract/workers.h"
+#include "system/fork_guard.h"
+
+namespace lockstep {
+namespace {
+
+// False: the entry has a value that the port does not take, which is an error of the caller.
+bool may_be_read(const lockstep_caller& caller, const BoundPort& port, const Value& value) {
+  const auto why = refuse_value(*port.limits, value);
+  if (why) take_error(caller, Shortened(refusal_text(*why, port.name, value, port.entry)));
+  return !why;
+}
+
+// The same of a value that the caller sets.
+bool may_be_set(const lockstep_caller& caller, std::uint32_t port, const Value& value) {
+  const auto why = refuse_value(*caller.ports[port].limits, value);
+  if (why)
+    take_error(caller, Shortened(fmt::format("cannot set '{}': {}; {}", caller.ports[port].name,
+                                             why->message, why->hint)));
+  return !why;
+}
+
+// The type whose values are of type T.
+template <class T, std::size_t kIndex = 1>
+constexpr ValueType type_of() {
+  if constexpr (std::is_same_v<T, std::variant_alternative_t<kIndex, Value>>) {
+    return static_cast<ValueType>(kIndex);
+  } else {
+    return type_of<T, kIndex + 1>();
+  }
+}
+
+// The value of an entry that has another type than the port, as one of the port's; or null. Another
+// type than the port's is no conversion, but an error of the caller.
+const Value* converted(const lockstep_caller* caller, std::uint32_t port, ValueType type) {
+  BoundPort& it = mine(caller).ports[port];
+  if (it.is_generic) return nullptr;
+  const bool is_number = type == ValueType::Int || type == ValueType::Double;
+  if (it.type != type && !(it.type == ValueType::Number && is_number)) return nullptr;
+  if (holds(*it.read, it.type)) return nullptr;  // the other kind of number
+  auto value = convert_value(*it.read, it.type, it.object);
+  if (!value) return nullptr;
+  if (it.converted == nullptr) it.converted = std::make_unique<Value>();
+  *it.converted = std::move(*value);
+  return it.converted.get();
+}
+
+// The port's value when it has one of this type.
+template <class T>
+const T* readable(const lockstep_caller* caller, std::uint32_t port) {
+  if (caller->is_foreign() || port >= caller->ports.size()) return nullptr;
+  const BoundPort& it = caller->ports[port];
+  if (it.read == nullptr) return nullptr;
+  const Value* value = it.read;
+  if (!std::holds_alternative<T>(*value)) {
+    const bool is_empty = std::holds_alternative<NoValue>(*value);
+    if (is_empty) return it.fallback == nullptr ? nullptr : std::get_if<T>(it.fallback);
+    value = converted(caller, port, type_of<T>());
+    if (value == nullptr) return nullptr;
+  }
+  if (it.limits != nullptr && !may_be_read(*caller, it, *value)) return nullptr;
+  return std::get_if<T>(value);
+}
+
+template <class T>
+bool get(const lockstep_caller* caller, std::uint32_t port, T* value) {
+  const T* found = readable<T>(caller, port);
+  if (found != nullptr) *value = *found;
+  return found != nullptr;
+}
+
+bool get_string(const lockstep_caller* caller, std::uint32_t port, const char** text,
+                std::size_t* length) {
+  const auto* found = readable<std::string>(caller, port);
+  if (found == nullptr) return false;
+  *text = found->c_str();
+  *length = found->size();
+  return true;
+}
+
+// A number is an int when the port is bound to an entry that is one, or has such a constant.
+bool get_double(const lockstep_caller* caller, std::uint32_t port, double* value) {
+  if (get(caller, port, value)) return true;
+  const auto* whole = readable<std::int64_t>(caller, port);
+  if (whole == nullptr || caller->ports[port].type != ValueType::Number) return false;
+  *value = static_cast<double>(*whole);
+  return true;
+}
+
+// The items as the contract has them; those of std::vector<T> look the same in memory.
+template <class T, class Item>
+bool get_list(const lockstep_caller* caller, std::uint32_t port, const Item** items,
+              std::size_t* count) {
+  static_assert(sizeof(T) == sizeof(Item));
+  const auto* found = readable<std::vector<T>>(caller, port);
+  if (found == nullptr) return false;
+  *items = reinterpret_cast<const Item*>(found->data());
+  *count = found->size();
+  return true;
+}
+
+bool get_string_list(const lockstep_caller* caller, std::uint32_t port, const lockstep_text** items,
+                     std::size_t* count) {
+  const auto* found = readable<std::vector<std::string>>(caller, port);
+  if (found == nullptr) return false;
+  auto& texts = mine(caller).ports[port].texts;
+  try {
+    texts.clear();
+    for (const std::string& text : *found) texts.push_back({text.c_str(), text.size()});
+  } catch (const std::exception&) {
+    return false;
+  }
+  *items = texts.data();
+  *count = texts.size();
+  return true;
+}
+
+void note_written(std::vector<Entry*>& written, Entry* entry) {
+  if (std::ranges::find(written, entry) == written.end()) written.push_back(entry);
+}
+
+// What the caller is about to write; counted as written.
+Value* writable(const lockstep_caller* caller, std::uint32_t port, ValueType type) {
+  if (caller->is_foreign() || port >= caller->ports.size()) return nullptr;
+  const BoundPort& it = caller->ports[port];
+  Entry* const entry = it.write;
+  if (entry == nullptr || (it.is_generic ? entry->type : it.type) != type) return nullptr;
+  ++entry->writes;
+  if (caller->written != nullptr) note_written(*caller->written, entry);
+  return &entry->value;
+}
+
+// What the caller sets there is to be checked first.
+bool has_limits(const lockstep_caller* caller, std::uint32_t port) {
+  if (caller->is_foreign() || port >= caller->ports.size()) return false;
+  const Parameter* const limits = caller->ports[port].limits;
+  return limits != nullptr && limits->direction != Direction::Input;
+}
+
+// The port is bound to an entry whose type may be another, or none.
+bool is_loose(const lockstep_caller* caller, std::uint32_t port, ValueType type) {
+  if (caller->is_foreign() || port >= caller->ports.size()) return false;
+  const BoundPort& it = caller->ports[port];
+  if (it.write == nullptr || it.write->typing == Typing::Strict) return false;
+  return it.is_generic ? type != ValueType::Object : it.type == type;
+}
+
+// Sets such an entry to a value of this type.
+bool set_loose(const lockstep_caller* caller, std::uint32_t port, ValueType type, Value value) {
+  const BoundPort& it = caller->ports[port];
+  if (!write_entry(*it.write, type, it.object, std::move(value))) return false;
+  if (caller->written != nullptr) note_written(*caller->written, it.write);
+  return true;
+}
+
+template <class T>
+bool set(const lockstep_caller* caller, std::uint32_t port, T value) {
+  if constexpr (std::is_same_v<T, double>) {
+    if (!std::isfinite(value) && !is_loose(caller, port, ValueType::Double)) return false;
+  }
+  if (has_limits(caller, port) && !may_be_set(*caller, port, Value(value))) return false;
+  if (is_loose(caller, port, type_of<T>())) return set_loose(caller, port, type_of<T>(), value);
+  Value* const target = writable(caller, port, type_of<T>());
+  if (target != nullptr) target->emplace<T>(value);
+  return target != nullptr;
+}
+
+bool set_string(const lockstep_caller* caller, std::uint32_t port, const char* text,
+                std::size_t length) {
+  if (text == nullptr && length != 0) return false;
+  try {
+    const bool is_limited = has_limits(caller, port);
+    if (is_limited && !may_be_set(*caller, port, std::string(length == 0 ? "" : text, length))) {
+      return false;
+    }
+    if (is_loose(caller, port, ValueType::String)) {
+      return set_loose(caller, port, ValueType::String,
+                       std::string(length == 0 ? "" : text, length));
+    }
+    Value* const target = writable(caller, port, ValueType::String);
+    if (target == nullptr) return false;
+    // Also right when the text is (a part of) this entry's own.
+    held<std::string>(*target).assign(length == 0 ? "" : text, length);
+  } catch (const std::exception&) {
+    return false;  // out of memory, or a length that is none
+  }
+  return true;
+}
+
+template <class T, class Item>
+bool set_list(const lockstep_caller* caller, std::uint32_t port, const Item* items,
+              std::size_t count) {
+  static_assert(sizeof(T) == sizeof(Item));
+  if (items == nullptr && count != 0) return false;
+  if constexpr (std::is_same_v<Item, double>) {
+    if (!std::all_of(items, items + count, [](double it) { return std::isfinite(it); })) {
+      return false;
+    }
+  }
+  try {
+    const auto* const values = reinterpret_cast<const T*>(items);
+    if (has_limits(caller, port) &&
+        !may_be_set(*caller, port, std::vector<T>(values, values + count))) {
+      return false;
+    }
+    if (is_loose(caller, port, type_of<std::vector<T>>())) {
+      return set_loose(caller, port, type_of<std::vector<T>>(),
+                       std::vector<T>(values, values + count));
+    }
+    Value* const target = writable(caller, port, type_of<std::vector<T>>());
+    if (target == nullptr) return false;
+    auto& list = held<std::vector<T>>(*target);
+    if (count > list.size()) {
+      list.assign(values, values + count);
+    } else {
+      // `values` may be a part of this very list.
+      if (count != 0) std::memmove(list.data(), values, count * sizeof(T));
+      list.resize(count);
+    }
+  } catch (const std::exception&) {
+    return false;
+  }
+  return true;
+}
+
+bool set_string_list(const lockstep_caller* caller, std::uint32_t port, const lockstep_text* items,
+                     std::size_t count) {
+  if (items == nullptr && count != 0) return false;
+  const auto is_text = [](const lockstep_text& it) { return it.text != nullptr || it.length == 0; };
+  if (!std::all_of(items, items + count, is_text)) return false;
+  const bool loose = is_loose(caller, port, ValueType::StringList);
+  Value* const target = loose ? nullptr : writable(caller, port, ValueType::StringList);
+  if (!loose && target == nullptr) return false;
+  try {
+    std::vector<std::string> list;  // the items may be texts of this very list
+    list.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      list.emplace_back(items[i].length == 0 ? "" : items[i].text, items[i].length);
+    }
+    if (loose) return set_loose(caller, port, ValueType::StringList, std::move(list));
+    *target = std::move(list);
+  } catch (const std::exception&) {
+    return false;
+  }
+  return true;
+}
+
+// An entry without a declared type may hold an object of any type.
+bool is_of_type(const Object& object, const ObjectType* type) {
+  return object.type() == type || (type != nullptr && object.type()->name() == type->name());
+}
+
+// An object of another process as one of the port's own type; null after an error.
+const Object* unpacked(lockstep_caller& caller, BoundPort& port, const Object& packed) {
+  if (port.packed == packed) return &port.unpacked;
+  auto made = port.object->from_bytes(PackedType::get(packed).bytes);
+  if (!made) {
+    take_error(caller,
+               Shortened(fmt::format("cannot read '{}': {}", port.name, made.error().message)));
+    return nullptr;
+  }
+  port.unpacked = *std::move(made);
+  port.packed = packed;
+  return &port.unpacked;
+}
+
+bool get_object(const lockstep_caller* caller, std::uint32_t port, void** object) {
+  const auto* found = readable<Object>(caller, port);
+  if (found == nullptr || !is_of_type(*found, caller->ports[port].object)) return false;
+  try {
+    if (found->type()->is_packed()) {
+      found = unpacked(mine(caller), mine(caller).ports[port], *found);
+    }
+  } catch (const std::exception&) {
+    return false;
+  }
+  if (found != nullptr) *object = found->get();
+  return found != nullptr;
+}
+
+// In a process that only mirrors the entries, an object is set as bytes. Nothing after an error.
+std::optional<Object> settable(const lockstep_caller& caller, std::uint32_t port, Object object) {
+  if (caller.written == nullptr) return object;
+  auto packed = pack(object, WithText::Yes);
+  if (packed) return *std::move(packed);
+  take_error(caller, Shortened(fmt::format("cannot set '{}': {}", caller.ports[port].name,
+                                           packed.error().message)));
+  return std::nullopt;
+}
+
+bool set_object(const lockstep_caller* caller, std::uint32_t port, void* object) {
+  if (object == nullptr || port >= caller->ports.size() || caller->ports[port].object == nullptr) {
+    return false;
+  }
+  const bool loose = is_loose(caller, port, ValueType::Object);
+  Value* const target = loose ? nullptr : writable(caller, port, ValueType::Object);
+  if (!loose && target == nullptr) return false;
+  const ObjectType& type = *caller->ports[port].object;
+  type.retain(object);
+  try {
+    auto held = settable(*caller, port, Object(type, object));
+    if (!held) return false;
+    if (loose) return set_loose(caller, port, ValueType::Object, *std::move(held));
+    // What the entry had is released at the end: its release finds the entry as it will be.
+    const Value before = std::exchange(*target, *std::move(held));
+  } catch (const std::exception&) {
+    return false;
+  }
+  return true;
+}
+
+void set_error(const lockstep_caller* caller, const char* message) {
+  if (caller->is_foreign()) return;
+  if (message == nullptr || *message == '\0') message = "unknown error";
+  take_error(*caller, Shortened(message));
+}
+
+double now(const lockstep_caller* caller) {
+  return caller->is_foreign() ? 0 : to_seconds(caller->time->now);
+}
+double tick_period(const lockstep_caller* caller) {
+  return to_seconds(caller->time->period);
+}
+
+std::uint64_t random_bits(const lockstep_caller* caller) {
+  return caller->is_foreign() ? 0 : mine(caller).random.next();
+}
+double random_double(const lockstep_caller* caller) {
+  return caller->is_foreign() ? 0 : mine(caller).random.next_double();
+}
+
+void log(const lockstep_caller* caller, lockstep_log_level level, const char* message) {
+  // A child that was forked off has neither the locks nor the threads that lines go through.
+  if (!*caller->log || ForkGuard::is_child()) return;
+  level = std::clamp<lockstep_log_level>(level, LOCKSTEP_LOG_DEBUG, LOCKSTEP_LOG_WARNING);
+  try {
+    const std::string_view text = message == nullptr ? "" : message;
+    (*caller->log)(caller->who, level, utf8_front(text, kLongestLogLine));
+  } catch (...) {  // NOLINT(bugprone-empty-catch): a lost line must not unwind through a plugin
+  }
+}
+
+const void* get_extension(const char* id) {
+  const std::string_view wanted = id == nullptr ? "" : id;
+  if (wanted == LOCKSTEP_CHILDREN) return &children_table();
+  if (wanted == LOCKSTEP_WORKERS) return &workers_table();
+  if (wanted == LOCKSTEP_PLACE) return &place_table();
+  return nullptr;
+}
+
+// A leaf knows its ports, only we know the entries: what leaf.hpp says of a port without a value is
+// made complete.
+Shortened with_entry(const lockstep_caller& caller, const Shortened& message) {
+  for (const BoundPort& port : caller.ports) {
+    if (port.entry.empty() || message.text() != fmt::format("port '{}' has no value", port.name)) {
+      continue;
+    }
+    if (std::holds_alternative<NoValue>(*port.read)) {
+      return Shortened(fmt::format("{}: nothing has written the entry '{{{}}}'", message.text(),
+                                   brief(port.entry)));
+    }
+    if (!convert_value(*port.read, port.type, port.object)) {
+      return Shortened(fmt::format("{}: the entry '{{{}}}' has '{}', which is not {}",
+                                   message.text(), brief(port.entry), brief(to_text(*port.read)),
+                                   expected_text(port.type, port.object)));
+    }
+  }
+  return message;
+}
+
+}  // namespace
+
+const Parameter* limits_of(const Parameter& port) {
+  const bool has_range = std::isfinite(port.range.min) || std::isfinite(port.range.max);
+  return has_range || !port.choices.empty() ? &port : nullptr;
+}
+
+void take_error(const lockstep_caller& caller, const Shortened& message) {
+  lockstep_caller& it = mine(&caller);
+  if (it.slot->error != nullptr) return;
+  if (it.error == nullptr) it.error.reset(new (std::nothrow) Shortened);
+  if (it.error == nullptr) {
+    it.slot->error = "an error, and no memory is left for its text";
+    return;
+  }
+  *it.error = with_entry(caller, message);
+  it.slot->error = it.error->c_str();
+}
+
+const lockstep_host& host_table() {
+  static constexpr lockstep_host kTable{
+      .abi_major = LOCKSTEP_ABI_MAJOR,
+      .abi_minor = LOCKSTEP_ABI_MINOR,
+      .struct_size = sizeof(lockstep_host),
+      .name = "lockstep",
+      .version = LOCKSTEP_VERSION,
+      .get_bool = get<bool>,
+      .get_int = get<std::int64_t>,
+      .get_double = get_double,
+      .get_string = get_string,
+      .get_double_list = get_list<double>,
+      .set_bool = set<bool>,
+      .set_int = set<std::int64_t>,
+      .set_double = set<double>,
+      .set_string = set_string,
+      .set_double_list = set_list<double>,
+      .set_error = set_error,
+      .now = now,
+      .tick_period = tick_period,
+      .random_bits = random_bits,
+      .random = random_double,
+      .log = log,
+      .get_extension = get_extension,
+      .get_int_list = get_list<std::int64_t>,
+      .get_bool_list = get_list<Flag>,
+      .get_string_list = get_string_list,
+      .set_int_list = set_list<std::int64_t>,
+      .set_bool_list = set_list<Flag>,
+      .set_string_list = set_string_list,
+      .get_object = get_object,
+      .set_object = set_object,
+  };
+  return kTable;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,64 @@
+#include "plugin/contract/initialize.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <mutex>
+#include <utility>
+
+#include "core/plugin_exception.h"
+#include "plugin/contract/call_mark.h"
+#include "plugin/contract/host.h"
+
+namespace lockstep {
+
+namespace {
+
+// How many users a plugin has. Its functions stand for it: the table of a set is a copy.
+using Functions = std::pair<decltype(lockstep_plugin::init), decltype(lockstep_plugin::deinit)>;
+struct Users {
+  std::mutex mutex;
+  std::map<Functions, int> counts;
+};
+// Never destroyed: plugins are deinitialized at the end of main, or of a program that embeds us.
+Users& users() {
+  static auto& all = *new Users;
+  return all;
+}
+
+Functions functions_of(const lockstep_plugin& plugin) {
+  return {plugin.init, plugin.deinit};
+}
+
+std::string call_init(const lockstep_plugin& plugin) {
+  if (plugin.init == nullptr) return {};
+  static const LeafTime no_time;
+  static const LeafLog no_log;
+  LeafSlot slot;
+  lockstep_caller caller{plugin.name, {}, RandomStream(0, 0), &no_time, &no_log, &slot};
+  const MarkedCall mark(CallSite::of_plugin(plugin.name), PluginFunction::Init);
+  bool works = false;
+  const std::string thrown = thrown_by([&] { works = plugin.init(&host_table(), &caller); });
+  if (!thrown.empty()) return fmt::format("refuses to work: its init {}", thrown);
+  if (slot.error != nullptr) return fmt::format("refuses to work: {}", slot.error);
+  return works ? "" : "refuses to work: its init returned false";
+}
+
+}  // namespace
+
+std::string initialize_plugin(const lockstep_plugin& plugin) {
+  const std::lock_guard lock(users().mutex);
+  int& count = users().counts[functions_of(plugin)];
+  std::string failure = count == 0 ? call_init(plugin) : "";
+  if (failure.empty()) ++count;
+  return failure;
+}
+
+void deinitialize_plugin(const lockstep_plugin& plugin) {
+  const std::lock_guard lock(users().mutex);
+  if (--users().counts[functions_of(plugin)] > 0 || plugin.deinit == nullptr) return;
+  const MarkedCall mark(CallSite::of_plugin(plugin.name), PluginFunction::Deinit);
+  thrown_by(plugin.deinit);  // the work is done; there is no one to report to
+}
+
+}  // namespace lockstep

@@ -1,0 +1,134 @@
+#include "plugin/contract/workers.h"
+
+#include <algorithm>
+
+#include "plugin/contract/host.h"
+
+// All members are guarded by the mutex of the set.
+struct lockstep_worker {
+  lockstep::Workers& set;
+  const lockstep::CallSite& site;
+  std::condition_variable turn = {};
+  double until = 0;  // it waits for this time
+  bool has_turn = false;
+  bool is_woken = true;  // its first turn waits for nothing
+  bool has_ended = false;
+
+  bool is_due(double now) const {
+    constexpr double kRounding = 1e-9;  // of a sum of durations
+    return !has_ended && (is_woken || until <= now + kRounding);
+  }
+};
+
+namespace lockstep {
+
+Workers::Workers() = default;
+Workers::~Workers() = default;
+
+lockstep_worker* Workers::begin(const CallSite& site, double now) {
+  const std::lock_guard lock(mutex_);
+  now_ = now;
+  all_.push_back(std::unique_ptr<lockstep_worker>(new lockstep_worker{*this, site}));
+  return all_.back().get();
+}
+
+void Workers::give_all(double now) {
+  for (std::size_t i = 0; i < all_.size(); ++i) {
+    bool is_due = false;
+    {
+      const std::lock_guard lock(mutex_);
+      now_ = now;
+      is_due = all_[i]->is_due(now);
+    }
+    if (is_due) give_turn(*all_[i]);
+  }
+}
+
+// The mark names the leaf when its worker blocks elsewhere, and the thread that does.
+void Workers::give_turn(lockstep_worker& worker) {
+  const MarkedCall mark(worker.site, PluginFunction::Run);
+  std::unique_lock lock(mutex_);
+  waiting_ = &CallMark::this_thread();
+  worker.has_turn = true;
+  worker.is_woken = false;
+  worker.turn.notify_one();
+  turn_over_.wait(lock, [&] { return !worker.has_turn; });
+  waiting_->set_worker(0);
+}
+
+void Workers::await_turn(lockstep_worker& worker, std::unique_lock<std::mutex>& lock) {
+  worker.turn.wait(lock, [&] { return worker.has_turn; });
+  waiting_->set_worker(pthread_self());
+}
+
+void Workers::finish(lockstep_worker* worker) {
+  Workers& set = worker->set;
+  const auto has_ended = [&] {
+    const std::lock_guard lock(set.mutex_);
+    return worker->has_ended;
+  };
+  while (!has_ended()) set.give_turn(*worker);
+  std::erase_if(set.all_, [&](const auto& it) { return it.get() == worker; });
+}
+
+void Workers::start(lockstep_worker* worker) {
+  std::unique_lock lock(worker->set.mutex_);
+  worker->set.await_turn(*worker, lock);
+}
+
+bool Workers::wait(lockstep_worker* worker, double until) {
+  Workers& set = worker->set;
+  std::unique_lock lock(set.mutex_);
+  worker->until = until;
+  worker->has_turn = false;
+  set.turn_over_.notify_one();
+  set.await_turn(*worker, lock);
+  return until <= set.now_;
+}
+
+void Workers::end(lockstep_worker* worker) {
+  Workers& set = worker->set;
+  const std::lock_guard lock(set.mutex_);
+  worker->has_turn = false;
+  worker->has_ended = true;
+  set.turn_over_.notify_one();
+}
+
+double Workers::now(lockstep_worker* worker) {
+  const std::lock_guard lock(worker->set.mutex_);
+  return worker->set.now_;
+}
+
+void Workers::wake(lockstep_worker* worker) {
+  const std::lock_guard lock(worker->set.mutex_);
+  worker->is_woken = true;
+}
+
+namespace {
+
+lockstep_worker* begin(const lockstep_caller* caller) {
+  Workers* const workers = caller->time->workers;
+  if (workers == nullptr || caller->is_foreign() || caller->site == nullptr) return nullptr;
+  try {
+    return workers->begin(*caller->site, to_seconds(caller->time->now));
+  } catch (const std::exception&) {
+    host_table().set_error(caller, "there is no memory for a worker");
+    return nullptr;
+  }
+}
+
+}  // namespace
+
+const lockstep_workers& workers_table() {
+  static constexpr lockstep_workers kTable{.struct_size = sizeof(lockstep_workers),
+                                           .begin = begin,
+                                           .finish = Workers::finish,
+                                           .start = Workers::start,
+                                           .wait = Workers::wait,
+                                           .end = Workers::end,
+                                           .now = Workers::now,
+                                           .wake = Workers::wake};
+  return kTable;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,223 @@
+#include "remote/json_lines/conformance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <memory>
+
+#include "core/parameter_value.h"
+#include "core/wording.h"
+#include "plugin/contract/descriptor.h"
+#include "remote/json_lines/program_leaf.h"
+#include "remote/json_lines/program_run.h"
+
+namespace lockstep {
+namespace {
+
+constexpr int kTicks = 20;
+
+// A value for a port that has no default.
+Value sample(const Parameter& port) {
+  if (port.default_text) return parse_value(port.type, *port.default_text).value_or(Value());
+  if (!port.choices.empty()) return std::string(port.choices.front());
+  for (const char* text : {"1", "0.5", "0", "-1", "100", "true"}) {
+    const auto value = parse_value(port.type, text);
+    if (value && !refuse_value(port, *value)) return *value;
+  }
+  return {};
+}
+
+// A leaf without a tree: its ports are bound to entries that nobody else has.
+class Trial {
+ public:
+  Trial(const Descriptors::Leaf& type, std::uint32_t number, Conversation& conversation, Hold hold)
+      : type_(type), name_(fmt::format("{} {}", type.type.id, number)) {
+    slot_.type = &type.type;
+    caller_.id = caller_.name = type.type.id;
+    caller_.who = name_;
+    for (const Parameter& port : type.parameters) bind(port);
+    leaf_ = std::make_unique<ProgramLeaf>(caller_, conversation, hold, nullptr);
+  }
+
+  ProgramLeaf& leaf() { return *leaf_; }
+  const std::string& name() const { return name_; }
+  void pass_time() { time_.now += time_.period; }
+  // What the leaf has been blamed for; "" for nothing.
+  std::string take_error() {
+    const char* const error = std::exchange(slot_.error, nullptr);
+    return error == nullptr ? "" : error;
+  }
+
+ private:
+  void bind(const Parameter& port) {
+    Entry& entry = entries_.emplace_back();
+    entry.type = port.type;
+    BoundPort bound{
+        .type = port.type, .direction = port.direction, .name = port.name, .entry = port.name};
+    if (port.direction != Direction::Output) entry.value = sample(port);
+    bound.read = &entry.value;
+    if (port.direction != Direction::Input) bound.write = &entry;
+    caller_.ports.push_back(std::move(bound));
+  }
+
+  const Descriptors::Leaf& type_;
+  const std::string name_;
+  LeafSlot slot_;
+  LeafTime time_{.period = std::chrono::milliseconds(10)};
+  LeafLog log_;
+  std::deque<Entry> entries_;
+  lockstep_caller caller_{"", {}, RandomStream(1, 1), &time_, &log_, &slot_};
+  std::unique_ptr<ProgramLeaf> leaf_;
+};
+
+class Examiner {
+ public:
+  Examiner(const std::string& path, const IsolationOptions& options)
+      : path_(path), options_(options) {}
+
+  Conformance examine() {
+    if (begin()) {
+      for (const auto& leaf : descriptors_.leaves) {
+        if (!examine_leaf(*leaf)) return std::move(result_);
+      }
+      end();
+    }
+    return std::move(result_);
+  }
+
+ private:
+  bool note(bool is_good, std::string text) {
+    result_.steps.push_back({is_good, std::move(text)});
+    return is_good;
+  }
+  bool refuse(std::string_view what, const Problem& problem) {
+    return note(false, fmt::format("{}{}{}{}", what, problem.message,
+                                   problem.hint.empty() ? "" : "; ", problem.hint));
+  }
+
+  bool begin() {
+    const Nanoseconds started = monotonic_now();
+    auto line = conversation_.start(path_);
+    if (!line) return refuse("it ", line.error());
+    const Nanoseconds took = monotonic_now() - started;
+    result_.first_line = *line;
+    auto hello = Hello::read(*line, "program", Hold::AsItSays, program_functions(),
+                             program_leaf_functions());
+    if (!hello) return refuse("it ", hello.error());
+    hello_ = std::move(*hello);
+    if (const auto refusal = read_descriptors(hello_->plugin(), 0, descriptors_)) {
+      return refuse("it ", *refusal);
+    }
+    conversation_.begin(run_);
+    std::vector<std::string_view> ids;
+    for (const auto& leaf : descriptors_.leaves) ids.push_back(leaf->type.id);
+    return note(!ids.empty(),
+                fmt::format("says after {} ms that it has {}", took.count() / 1'000'000,
+                            ids.empty() ? "no leaves" : listed(ids)));
+  }
+
+  // What a leaf has done, if it was not blamed.
+  bool passed(Trial& trial, std::string_view what) {
+    const std::string error = trial.take_error();
+    if (error.empty()) return note(true, fmt::format("'{}' {}", trial.name(), what));
+    // An error is an answer, too: to values that make no sense, perhaps.
+    return note(!conversation_.is_gone(), fmt::format("'{}' {}: {}", trial.name(), what, error));
+  }
+
+  bool examine_leaf(const Descriptors::Leaf& type) {
+    const Hold hold = hello_->hold_of(type.type.id);
+    trials_.push_back(std::make_unique<Trial>(type, 1, conversation_, hold));
+    trials_.push_back(std::make_unique<Trial>(type, 2, conversation_, hold));
+    Trial& one = *trials_[trials_.size() - 2];
+    Trial& two = *trials_.back();
+    for (Trial* it : {&one, &two}) {
+      it->leaf().create();
+      if (!passed(*it, "answers create")) return false;
+    }
+    const bool is_told = hold == Hold::Message || hold == Hold::Answered;
+    if (!run(one) || (is_told && !hold_and_go_on(one))) return false;
+    one.leaf().start();
+    two.leaf().start();
+    for (Trial* it : {&one, &two}) {
+      it->leaf().tick();
+      if (!passed(*it, "answers a tick beside the other")) return false;
+    }
+    for (Trial* it : {&one, &two}) {
+      it->leaf().halt();
+      if (!passed(*it, "answers halt")) return false;
+    }
+    return true;
+  }
+
+  // One activation, which may be cut short.
+  bool run(Trial& trial) {
+    trial.leaf().start();
+    lockstep_status status = LOCKSTEP_RUNNING;
+    std::vector<Nanoseconds> times;
+    while (status == LOCKSTEP_RUNNING && times.size() < kTicks) {
+      const Nanoseconds asked = monotonic_now();
+      trial.pass_time();
+      status = trial.leaf().tick();
+      times.push_back(monotonic_now() - asked);
+      if (std::string error = trial.take_error(); !error.empty()) {
+        note(!conversation_.is_gone(), fmt::format("'{}' answers tick {} with an error: {}",
+                                                   trial.name(), times.size(), error));
+        if (conversation_.is_gone()) return false;
+        trial.leaf().halt();
+        return passed(trial, "answers halt");
+      }
+    }
+    std::ranges::sort(times);
+    const bool is_running = status == LOCKSTEP_RUNNING;
+    note(true, fmt::format("'{}' answers {} (median {} us); it is {}, progress {:g}", trial.name(),
+                           counted(times.size(), "tick"), times[times.size() / 2].count() / 1000,
+                           is_running ? "running" : "done", trial.leaf().progress()));
+    if (is_running) trial.leaf().halt();
+    return !is_running || passed(trial, "answers halt");
+  }
+
+  bool hold_and_go_on(Trial& trial) {
+    trial.leaf().start();
+    trial.leaf().tick();
+    trial.leaf().pause();
+    trial.leaf().resume();
+    trial.leaf().tick();
+    trial.leaf().halt();
+    return passed(trial, "goes on after pause and resume");
+  }
+
+  void end() {
+    trials_.clear();
+    conversation_.begin_end();
+    const auto limit = options_.halt_limit;
+    conversation_.await_end(limit ? std::optional(monotonic_now() + *limit) : std::nullopt);
+    conversation_.hurry_end();
+    const std::string what = conversation_.end();
+    if (!what.empty()) {
+      note(false, "it " + what);
+    } else {
+      note(true, "ends when its input is closed");
+    }
+  }
+
+  const std::string& path_;
+  const IsolationOptions& options_;
+  Conformance result_;
+  std::unique_ptr<Hello> hello_;
+  Descriptors descriptors_;
+  LeafSlot slot_;
+  LeafTime time_;
+  LeafLog log_;
+  lockstep_caller run_{"", {}, RandomStream(0, 0), &time_, &log_, &slot_};
+  Conversation conversation_{options_};
+  std::vector<std::unique_ptr<Trial>> trials_;
+};
+
+}  // namespace
+
+Conformance check_conformance(const std::string& path, const IsolationOptions& options) {
+  return Examiner(path, options).examine();
+}
+
+}  // namespace lockstep

@@ -1,0 +1,39 @@
+// The thread that reads what the programs of a run say, on the wall clock, and writes to them:
+// neither of it costs the tick thread any time, nor does a program that takes its processor.
+#pragma once
+
+#include <atomic>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "remote/json_lines/conversation.h"
+#include "system/file_descriptor.h"
+
+namespace lockstep {
+
+class Listener {
+ public:
+  Listener();
+  // Nobody listens any more.
+  ~Listener();
+  Listener(const Listener&) = delete;
+  Listener& operator=(const Listener&) = delete;
+
+  // Which outlives it.
+  void add(Conversation& conversation);
+  // There is something to write, or a deadline that it does not know. One system call at most until
+  // it is awake.
+  void wake();
+
+ private:
+  void listen();
+
+  FileDescriptor bell_;
+  std::atomic<bool> is_over_{false}, is_woken_{false};
+  std::mutex mutex_;
+  std::vector<Conversation*> conversations_;
+  std::thread thread_;
+};
+
+}  // namespace lockstep

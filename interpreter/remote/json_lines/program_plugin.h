@@ -1,0 +1,51 @@
+// A plugin that is a program: a process for each concurrent run. To the rest of lockstep it is an
+// ordinary plugin, whose functions are proxies (program_run.h).
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "core/problem.h"
+#include "remote/isolation_options.h"
+#include "remote/json_lines/conversation.h"
+#include "remote/json_lines/hello.h"
+
+namespace lockstep {
+
+class ProgramPlugin {
+ public:
+  // Starts the first process, which says what leaves it has. Where programs are not run, a file
+  // beside it says so.
+  [[nodiscard]] static Result<std::unique_ptr<ProgramPlugin>> open(const std::string& path,
+                                                                   const std::string& name,
+                                                                   Hold hold,
+                                                                   const IsolationOptions& options);
+  ProgramPlugin(const ProgramPlugin&) = delete;
+  ProgramPlugin& operator=(const ProgramPlugin&) = delete;
+
+  // Valid as long as this object.
+  const lockstep_plugin& entry() const { return hello_->plugin(); }
+  const Hello& hello() const { return *hello_; }
+  // The file beside it says something else; or was read, and may do so.
+  bool is_file_stale() const { return is_file_stale_; }
+  bool is_file_older() const { return is_file_older_; }
+
+  // A process that has said the same as the first; null on failure, with the reason in `failure`.
+  // May be called from any thread.
+  std::unique_ptr<Conversation> acquire(std::string& failure);
+
+ private:
+  ProgramPlugin(std::string path, IsolationOptions options);
+  Result<std::string> first_line();
+
+  std::string path_;
+  IsolationOptions options_;
+  std::unique_ptr<Hello> hello_;
+  bool is_file_stale_ = false, is_file_older_ = false;
+
+  std::mutex mutex_;
+  std::unique_ptr<Conversation> first_;  // until a run takes it
+};
+
+}  // namespace lockstep

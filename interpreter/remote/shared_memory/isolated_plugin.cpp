@@ -1,0 +1,150 @@
+#include "remote/shared_memory/isolated_plugin.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "remote/shared_memory/remote_run.h"
+
+namespace lockstep {
+namespace {
+
+std::string words(const Session& session) {
+  const std::string& words = session.last_words();
+  return words.starts_with("did ") ? "it " + words : words;
+}
+
+// Calls init in the process. "" or why it did not work.
+std::string initialize_in(Session& session) {
+  session.begin_request(PluginFunction::Init);
+  if (!session.call({})) return "does not survive its init: " + words(session);
+  MessageReader answer = session.answer();
+  std::string failure(answer.text());
+  if (answer.good()) return failure;
+  session.reject_answer();
+  return "does not survive its init: " + words(session);
+}
+
+}  // namespace
+
+IsolatedPlugin::IsolatedPlugin(std::string path, IsolationOptions options)
+    : path_(std::move(path)), options_(std::move(options)) {}
+
+IsolatedPlugin::~IsolatedPlugin() {
+  for (const auto& session : idle_) session->end();
+}
+
+Result<std::unique_ptr<IsolatedPlugin>> IsolatedPlugin::open(const std::string& path,
+                                                             const IsolationOptions& options) {
+  std::unique_ptr<IsolatedPlugin> plugin(new IsolatedPlugin(path, options));
+  auto session = std::make_unique<Session>();
+  if (auto refusal = plugin->start(*session)) return tl::unexpected(std::move(*refusal));
+  plugin->idle_.push_back(std::move(session));
+  return plugin;
+}
+
+// A process that has the plugin loaded.
+std::optional<Problem> IsolatedPlugin::start(Session& session) {
+  if (std::string failure = session.start(options_, path_); !failure.empty()) {
+    return Problem{
+        fmt::format("cannot be isolated: '{}' does not start: {}", options_.leafhost, failure),
+        "lockstep-leafhost is installed with lockstep, in libexec/lockstep"};
+  }
+  session.begin_request(PluginFunction::Load);
+  if (!session.call({})) {
+    return Problem{"cannot be loaded: " + words(session),
+                   "the constructors of a shared object run while it is loaded"};
+  }
+  MessageReader answer = session.answer();
+  if (answer.has_text()) {
+    std::string message(answer.text());
+    return Problem{std::move(message), std::string(answer.text())};
+  }
+  return describe(answer);
+}
+
+// What the first process says, the others must say too.
+std::optional<Problem> IsolatedPlugin::describe(MessageReader description) {
+  const auto bytes = description.rest();
+  if (!description_.empty()) {
+    if (std::ranges::equal(bytes, description_)) return std::nullopt;
+    return Problem{"has changed since it was loaded", "start lockstep again"};
+  }
+  description_.assign(bytes.begin(), bytes.end());
+  const auto read_text = [this](const PackedType& type, std::string_view text) {
+    return from_text(type, text);
+  };
+  if (descriptors_.read(description, remote_plugin(), remote_leaf_type(), read_text)) {
+    return std::nullopt;
+  }
+  return Problem{"cannot be loaded: its process sent an invalid answer",
+                 "is lockstep-leafhost of the same build as lockstep?"};
+}
+
+std::optional<std::uint32_t> IsolatedPlugin::index_of(const lockstep_leaf_type& type) const {
+  for (std::uint32_t index = 0; index < entry().leaf_type_count; ++index) {
+    if (entry().leaf_types[index]->id == type.id) return index;
+  }
+  return std::nullopt;
+}
+
+std::string IsolatedPlugin::initialize() {
+  return idle_.empty() ? "" : initialize_in(*idle_.front());
+}
+
+// Null when all are used.
+std::unique_ptr<Session> IsolatedPlugin::take_idle() {
+  const std::lock_guard lock(mutex_);
+  while (!idle_.empty()) {
+    auto session = std::move(idle_.back());
+    idle_.pop_back();
+    if (!session->is_gone()) return session;
+  }
+  return nullptr;
+}
+
+// A process that was started for this ends with it: init has not been called in it.
+Result<Object> IsolatedPlugin::from_text(const PackedType& type, std::string_view text) {
+  auto session = take_idle();
+  const bool is_new = session == nullptr;
+  if (is_new) {
+    session = std::make_unique<Session>();
+    if (auto failure = start(*session)) return tl::unexpected(std::move(*failure));
+  }
+  MessageWriter& request = session->begin_request(PluginFunction::FromText);
+  request.put_text(type.name());
+  request.put_text(text);
+  Value value;
+  std::string why;
+  if (session->request_fits() && session->call({})) {
+    MessageReader answer = session->answer();
+    if (answer.value_into(value, &type)) {
+      why = answer.text();
+    } else {
+      session->reject_answer();
+    }
+  }
+  is_new ? session->end() : release(std::move(session));
+  auto* const object = std::get_if<Object>(&value);
+  if (object == nullptr) return problem(std::move(why));
+  return std::move(*object);
+}
+
+std::unique_ptr<Session> IsolatedPlugin::acquire(std::string& failure) {
+  if (auto idle = take_idle()) return idle;
+  auto session = std::make_unique<Session>();
+  if (auto refusal = start(*session)) {
+    failure = refusal->message;
+  } else {
+    failure = initialize_in(*session);
+  }
+  return failure.empty() ? std::move(session) : nullptr;
+}
+
+void IsolatedPlugin::release(std::unique_ptr<Session> session) {
+  if (session->is_gone()) return;
+  const std::lock_guard lock(mutex_);
+  idle_.push_back(std::move(session));
+}
+
+}  // namespace lockstep

@@ -1,0 +1,58 @@
+// A plugin in separate processes, one for each concurrent run. To the rest of the program it is an
+// ordinary plugin, whose functions are proxies (remote_run.h).
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/problem.h"
+#include "remote/isolation_options.h"
+#include "remote/shared_memory/descriptor_message.h"
+#include "remote/shared_memory/session.h"
+
+namespace lockstep {
+
+class IsolatedPlugin {
+ public:
+  // Starts the first process, which opens the file, checks it and describes the plugin.
+  [[nodiscard]] static Result<std::unique_ptr<IsolatedPlugin>> open(
+      const std::string& path, const IsolationOptions& options);
+  // Deinitializes the plugin in each of its processes and ends them. No run may be in progress.
+  ~IsolatedPlugin();
+  IsolatedPlugin(const IsolatedPlugin&) = delete;
+  IsolatedPlugin& operator=(const IsolatedPlugin&) = delete;
+
+  // Valid as long as this object.
+  const lockstep_plugin& entry() const { return descriptors_.plugin; }
+  // The place of a leaf type among those of the plugin, by its id, which is the very pointer that
+  // entry() has.
+  std::optional<std::uint32_t> index_of(const lockstep_leaf_type& type) const;
+
+  // Calls init in the first process. Returns "" or the reason of a failure.
+  std::string initialize();
+
+  // An initialized process for one run; null on failure, with the reason in `failure`. May be
+  // called from any thread.
+  std::unique_ptr<Session> acquire(std::string& failure);
+  void release(std::unique_ptr<Session> session);
+
+ private:
+  IsolatedPlugin(std::string path, IsolationOptions options);
+  std::optional<Problem> start(Session& session);
+  std::optional<Problem> describe(MessageReader description);
+  std::unique_ptr<Session> take_idle();
+  Result<Object> from_text(const PackedType& type, std::string_view text);
+
+  std::string path_;
+  IsolationOptions options_;
+  OwnedDescriptors descriptors_;
+  std::vector<std::byte> description_;  // what descriptors_ was made of
+
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Session>> idle_;  // initialized, but for the first of all
+};
+
+}  // namespace lockstep

@@ -1,0 +1,117 @@
+#include "remote/shared_memory/remote_entries.h"
+
+#include <cmath>
+
+#include "core/conversion.h"
+
+namespace lockstep {
+namespace {
+
+// Objects of this process are sent as bytes. Returns "" or why that failed; no value is sent then.
+std::string put_packed(const Value& value, MessageWriter& message) {
+  const auto* const object = std::get_if<Object>(&value);
+  if (object == nullptr || object->type()->is_packed()) {
+    message.put_value(value);
+    return {};
+  }
+  const auto packed = pack(*object, WithText::No);
+  message.put_value(packed ? Value(*packed) : Value());
+  return packed ? "" : packed.error().message;
+}
+
+// What a port of that type can read; none: nothing.
+Value readable_value(const Value& value, ValueType type, const ObjectType* object) {
+  auto converted = convert_value(value, type, object);
+  const auto* number = converted ? std::get_if<double>(&*converted) : nullptr;
+  if (!converted || (number != nullptr && !std::isfinite(*number))) return {};
+  return std::move(*converted);
+}
+
+// As a port of type LOCKSTEP_ANY sets it.
+bool write_generic(Entry& entry, const Value& value) {
+  if (entry.typing != Typing::Strict) {
+    return write_entry(entry, static_cast<ValueType>(value.index()), nullptr, value);
+  }
+  if (!holds(value, entry.type)) return false;
+  entry.value = value;
+  ++entry.writes;
+  return true;
+}
+
+// Of a port that takes a value of any type.
+constexpr auto kAnyType = static_cast<ValueType>(0xff);
+
+}  // namespace
+
+std::uint32_t RemoteEntries::number_of(const BoundPort& port) {
+  const std::pair key(port.read, port.is_generic  ? kAnyType
+                                 : port.is_strict ? ValueType::Number
+                                                  : port.type);
+  const auto [found, is_new] = numbers_.emplace(key, static_cast<std::uint32_t>(entries_.size()));
+  if (is_new) {
+    const PackedType* const objects =
+        port.object == nullptr ? nullptr : &PackedType::of(port.object->name());
+    entries_.push_back({.read = port.read,
+                        .write = nullptr,
+                        .type = port.type,
+                        .objects = objects,
+                        .object = port.object,
+                        .is_strict = port.is_strict,
+                        .is_generic = port.is_generic});
+  }
+  Entry& entry = entries_[found->second];
+  if (port.write != nullptr) entry.write = port.write;
+  return found->second;
+}
+
+std::string RemoteEntries::write(std::span<const std::uint32_t> ports, MessageWriter& message) {
+  std::string failure;
+  for (const std::uint32_t number : ports) {
+    if (number == kNone) continue;
+    Entry& entry = entries_[number];
+    Value converted;
+    if (entry.is_generic) {
+      if (!std::holds_alternative<Object>(*entry.read)) converted = *entry.read;
+    } else if (!entry.is_strict) {
+      converted = readable_value(*entry.read, entry.type, entry.object);
+    }
+    const Value& value = entry.is_strict && !entry.is_generic ? *entry.read : converted;
+    if (entry.known && entry.last == value) continue;
+    message.put(number);
+    std::string reason = put_packed(value, message);
+    entry.known = reason.empty();
+    entry.last = entry.known ? value : Value();
+    if (failure.empty()) failure = std::move(reason);
+  }
+  message.put(kNone);
+  return failure;
+}
+
+bool RemoteEntries::read(MessageReader& message, bool& refused) {
+  for (auto number = message.get<std::uint32_t>(); number != kNone;
+       number = message.get<std::uint32_t>()) {
+    if (number >= entries_.size() || entries_[number].write == nullptr) return false;
+    Entry& entry = entries_[number];
+    if (!message.value_into(entry.last, entry.objects)) return false;
+    if (entry.is_generic ? !entry.last.index() : !holds(entry.last, entry.type)) return false;
+    entry.known = true;
+    if (entry.is_generic) {
+      refused |= !write_generic(*entry.write, entry.last);
+    } else if (entry.is_strict) {
+      entry.write->value = entry.last;
+      ++entry.write->writes;
+    } else if (!write_entry(*entry.write, entry.type, entry.object, entry.last)) {
+      refused = true;
+    }
+  }
+  return message.good();
+}
+
+void RemoteEntries::forget() {
+  for (Entry& entry : entries_) {
+    entry.known = false;
+    entry.last = Value();
+  }
+}
+
+}  // namespace lockstep
