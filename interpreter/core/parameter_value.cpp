@@ -83,6 +83,18 @@ std::optional<RuleBreak> refuse_value(const Parameter& parameter, const Value& v
       .hint = "it must be one of " + listed(parameter.choices)};
 }
 
+Value sample_value(const Parameter& parameter) {
+  if (parameter.default_text) {
+    return parse_value(parameter.type, *parameter.default_text).value_or(Value());
+  }
+  if (!parameter.choices.empty()) return std::string(parameter.choices.front());
+  for (const char* text : {"1", "0.5", "0", "-1", "100", "true"}) {
+    const auto value = parse_value(parameter.type, text);
+    if (value && !refuse_value(parameter, *value)) return *value;
+  }
+  return {};
+}
+
 ListErrors list_errors(const NodeType& type, const Parameter& parameter, std::string_view text) {
   constexpr std::size_t kMostTold = 20;
   ListErrors errors;

@@ -24,6 +24,9 @@ std::string why_no_object(const ObjectType* object, std::string_view text);
 // choices. The message does not mention where the value comes from.
 std::optional<RuleBreak> refuse_value(const Parameter& parameter, const Value& value);
 
+// A value that the parameter takes, for one that is to be tried out; NoValue if none is known.
+Value sample_value(const Parameter& parameter);
+
 // Of a list that is wrong, all that is: items that are no numbers, those outside of the range, and
 // what the rule of the node says of the others. `parameter` is one of `type`.
 struct ListErrors {

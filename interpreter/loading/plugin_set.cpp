@@ -57,14 +57,13 @@ bool is_same_file(const std::string& one, const std::string& other) {
 struct PluginSet::Plugin {
   const lockstep_plugin* entry;  // the plugin's own constant
   std::string origin;
-  std::unique_ptr<IsolatedPlugin> isolated = {};  // both null: it lives in this process
-  std::unique_ptr<ProgramPlugin> program = {};
+  std::unique_ptr<RemotePlugin> remote = {};  // null: it lives in this process
   Descriptors descriptors = {};
   bool initialized = false;
 
   std::string_view name() const { return descriptors.plugin.name; }
   std::string initialize() const {
-    return isolated != nullptr ? isolated->initialize() : initialize_plugin(descriptors.plugin);
+    return remote != nullptr ? remote->initialize() : initialize_plugin(descriptors.plugin);
   }
 
   // Refuses isolation when none of the leaves can be isolated.
@@ -77,7 +76,7 @@ struct PluginSet::Plugin {
       if (!first) first = std::move(refusal);
     }
     descriptors.plugin.is_local = refused > 0;
-    const bool is_hopeless = isolated != nullptr && refused == descriptors.leaves.size();
+    const bool is_hopeless = remote != nullptr && refused == descriptors.leaves.size();
     return is_hopeless ? std::move(first) : std::nullopt;
   }
 
@@ -106,9 +105,8 @@ PluginSet::PluginSet() = default;
 
 PluginSet::~PluginSet() {
   for (auto plugin = plugins_.rbegin(); plugin != plugins_.rend(); ++plugin) {
-    if ((*plugin)->isolated || (*plugin)->program) {
-      (*plugin)->isolated.reset();
-      (*plugin)->program.reset();
+    if ((*plugin)->remote != nullptr) {
+      (*plugin)->remote.reset();
     } else if ((*plugin)->initialized) {
       deinitialize_plugin((*plugin)->descriptors.plugin);
     }
@@ -190,10 +188,7 @@ bool PluginSet::open_isolated(const Request& request, Diagnostics& diagnostics) 
   if (!opened) {
     return refuse(request.origin, std::move(opened.error()), diagnostics, request.where);
   }
-  auto plugin = std::make_unique<Plugin>(Plugin{&(*opened)->entry(), request.origin});
-  plugin->isolated = std::move(*opened);
-  plugin->descriptors.plugin.isolated = plugin->isolated.get();
-  return accept(std::move(plugin), 0, request, diagnostics);
+  return accept(*std::move(opened), request, diagnostics);
 }
 
 bool PluginSet::open_program(const Request& request, Hold hold, Diagnostics& diagnostics) {
@@ -222,9 +217,14 @@ bool PluginSet::open_program(const Request& request, Hold hold, Diagnostics& dia
          .hint = "give --run-programs, or let 'lockstep plugin check --save' write it again",
          .excerpt = {}});
   }
-  auto plugin = std::make_unique<Plugin>(Plugin{&(*opened)->entry(), request.origin});
-  plugin->program = std::move(*opened);
-  plugin->descriptors.plugin.program = plugin->program.get();
+  return accept(*std::move(opened), request, diagnostics);
+}
+
+bool PluginSet::accept(std::unique_ptr<RemotePlugin> remote, const Request& request,
+                       Diagnostics& diagnostics) {
+  auto plugin = std::make_unique<Plugin>(Plugin{&remote->entry(), request.origin});
+  plugin->descriptors.plugin.remote = remote.get();
+  plugin->remote = std::move(remote);
   return accept(std::move(plugin), 0, request, diagnostics);
 }
 
@@ -242,7 +242,7 @@ bool PluginSet::accept(std::unique_ptr<Plugin> plugin, std::size_t size, const R
   }
   if (refusal) return refuse(request.origin, std::move(*refusal), diagnostics, request.where);
   std::unique_ptr<Plugin> rest;
-  if (plugin->isolated != nullptr && plugin->descriptors.plugin.is_local) {
+  if (plugin->remote != nullptr && plugin->descriptors.plugin.is_local) {
     rest = split_off(*plugin, request, diagnostics);
     if (rest == nullptr) return false;
   }
@@ -327,8 +327,8 @@ std::vector<PluginSet::Info> PluginSet::list() const {
   std::vector<Info> list;
   for (const auto& plugin : plugins_) {
     const lockstep_plugin& it = plugin->descriptors.plugin;
-    list.push_back({text(it.name), text(it.version), text(it.doc), plugin->origin,
-                    plugin->isolated != nullptr || plugin->program != nullptr});
+    list.push_back(
+        {text(it.name), text(it.version), text(it.doc), plugin->origin, plugin->remote != nullptr});
   }
   return list;
 }

@@ -22,6 +22,8 @@ namespace lockstep {
 // Isolated: the plugin runs in a separate process. See remote/shared_memory/isolated_plugin.h.
 enum class Isolation : bool { InProcess, Isolated };
 
+class RemotePlugin;
+
 class PluginSet {
  public:
   PluginSet();
@@ -97,6 +99,8 @@ class PluginSet {
   // Takes what cannot be isolated away from a plugin: a part of it in this process. Null: an error.
   static std::unique_ptr<Plugin> split_off(Plugin& isolated, const Request& request,
                                            Diagnostics& diagnostics);
+  bool accept(std::unique_ptr<RemotePlugin> remote, const Request& request,
+              Diagnostics& diagnostics);
   bool accept(std::unique_ptr<Plugin> plugin, std::size_t size, const Request& request,
               Diagnostics& diagnostics);
 

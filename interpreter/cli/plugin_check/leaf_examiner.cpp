@@ -87,17 +87,6 @@ std::vector<Value> edges(const Parameter& port) {
   return all;
 }
 
-// A value that makes sense, if one is known.
-Value sample(const Parameter& port) {
-  if (port.default_text) return parse_value(port.type, *port.default_text).value_or(Value());
-  if (!port.choices.empty()) return std::string(port.choices.front());
-  for (const char* text : {"1", "0.5", "0", "-1", "100", "true"}) {
-    const auto value = parse_value(port.type, text);
-    if (value && !refuse_value(port, *value)) return *value;
-  }
-  return {};
-}
-
 // Of the entry of a port, by its number.
 std::string key_of(std::size_t port) {
   return fmt::format("port_{}", port);
@@ -115,7 +104,7 @@ class Examiner {
  public:
   Examiner(const NodeType& type, std::shared_ptr<PluginSet> plugins, const LeafReport& report)
       : type_(type), plugins_(std::move(plugins)), report_(report) {
-    for (const Parameter& port : type.parameters) samples_.push_back(sample(port));
+    for (const Parameter& port : type.parameters) samples_.push_back(sample_value(port));
   }
 
   void examine() {

@@ -16,13 +16,11 @@
 
 namespace lockstep {
 
-class IsolatedPlugin;
-class ProgramPlugin;
+class RemotePlugin;
 
 struct HostedPlugin : lockstep_plugin {
-  IsolatedPlugin* isolated = nullptr;  // null: its functions are the plugin's own
-  ProgramPlugin* program = nullptr;    // null: it is no program
-  bool is_local = false;               // it cannot be isolated
+  RemotePlugin* remote = nullptr;  // null: its functions are the plugin's own
+  bool is_local = false;           // it cannot be isolated
 };
 
 struct Descriptors {

@@ -61,21 +61,30 @@ const Value* converted(const lockstep_caller* caller, std::uint32_t port, ValueT
   return it.converted.get();
 }
 
-// The port's value when it has one of this type.
-template <class T>
-const T* readable(const lockstep_caller* caller, std::uint32_t port) {
+bool is_of(const Value& value, ValueType type) {
+  return value.index() == static_cast<std::size_t>(type);
+}
+
+// The port's value when it has one of this type; else null.
+inline const Value* readable(const lockstep_caller* caller, std::uint32_t port, ValueType type) {
   if (caller->is_foreign() || port >= caller->ports.size()) return nullptr;
   const BoundPort& it = caller->ports[port];
   if (it.read == nullptr) return nullptr;
   const Value* value = it.read;
-  if (!std::holds_alternative<T>(*value)) {
+  if (!is_of(*value, type)) {
     const bool is_empty = std::holds_alternative<NoValue>(*value);
-    if (is_empty) return it.fallback == nullptr ? nullptr : std::get_if<T>(it.fallback);
-    value = converted(caller, port, type_of<T>());
+    if (is_empty)
+      return it.fallback != nullptr && is_of(*it.fallback, type) ? it.fallback : nullptr;
+    value = converted(caller, port, type);
     if (value == nullptr) return nullptr;
   }
   if (it.limits != nullptr && !may_be_read(*caller, it, *value)) return nullptr;
-  return std::get_if<T>(value);
+  return value;
+}
+
+template <class T>
+const T* readable(const lockstep_caller* caller, std::uint32_t port) {
+  return std::get_if<T>(readable(caller, port, type_of<T>()));
 }
 
 template <class T>
@@ -169,38 +178,46 @@ bool set_loose(const lockstep_caller* caller, std::uint32_t port, ValueType type
   return true;
 }
 
+// Sets the port to the value of this type that `make` gives. `assign` puts it into an entry of the
+// type, without memory where it can.
+template <class Make, class Assign>
+bool store(const lockstep_caller* caller, std::uint32_t port, ValueType type, Make make,
+           Assign assign) {
+  if (has_limits(caller, port) && !may_be_set(*caller, port, make())) return false;
+  if (is_loose(caller, port, type)) return set_loose(caller, port, type, make());
+  Value* const target = writable(caller, port, type);
+  if (target != nullptr) assign(*target);
+  return target != nullptr;
+}
+
+// The same where memory may be needed, of which there may be none.
+template <class... Arguments>
+bool try_to_store(Arguments... arguments) {
+  try {
+    return store(arguments...);
+  } catch (const std::exception&) {
+    return false;  // out of memory, or a length that is none
+  }
+}
+
 template <class T>
 bool set(const lockstep_caller* caller, std::uint32_t port, T value) {
   if constexpr (std::is_same_v<T, double>) {
     if (!std::isfinite(value) && !is_loose(caller, port, ValueType::Double)) return false;
   }
-  if (has_limits(caller, port) && !may_be_set(*caller, port, Value(value))) return false;
-  if (is_loose(caller, port, type_of<T>())) return set_loose(caller, port, type_of<T>(), value);
-  Value* const target = writable(caller, port, type_of<T>());
-  if (target != nullptr) target->emplace<T>(value);
-  return target != nullptr;
+  return store(
+      caller, port, type_of<T>(), [&] { return Value(value); },
+      [&](Value& target) { target.emplace<T>(value); });
 }
 
 bool set_string(const lockstep_caller* caller, std::uint32_t port, const char* text,
                 std::size_t length) {
   if (text == nullptr && length != 0) return false;
-  try {
-    const bool is_limited = has_limits(caller, port);
-    if (is_limited && !may_be_set(*caller, port, std::string(length == 0 ? "" : text, length))) {
-      return false;
-    }
-    if (is_loose(caller, port, ValueType::String)) {
-      return set_loose(caller, port, ValueType::String,
-                       std::string(length == 0 ? "" : text, length));
-    }
-    Value* const target = writable(caller, port, ValueType::String);
-    if (target == nullptr) return false;
-    // Also right when the text is (a part of) this entry's own.
-    held<std::string>(*target).assign(length == 0 ? "" : text, length);
-  } catch (const std::exception&) {
-    return false;  // out of memory, or a length that is none
-  }
-  return true;
+  const char* const given = length == 0 ? "" : text;
+  return try_to_store(
+      caller, port, ValueType::String, [=] { return Value(std::string(given, length)); },
+      // Also right when the text is (a part of) this entry's own.
+      [=](Value& target) { held<std::string>(target).assign(given, length); });
 }
 
 template <class T, class Item>
@@ -213,19 +230,9 @@ bool set_list(const lockstep_caller* caller, std::uint32_t port, const Item* ite
       return false;
     }
   }
-  try {
-    const auto* const values = reinterpret_cast<const T*>(items);
-    if (has_limits(caller, port) &&
-        !may_be_set(*caller, port, std::vector<T>(values, values + count))) {
-      return false;
-    }
-    if (is_loose(caller, port, type_of<std::vector<T>>())) {
-      return set_loose(caller, port, type_of<std::vector<T>>(),
-                       std::vector<T>(values, values + count));
-    }
-    Value* const target = writable(caller, port, type_of<std::vector<T>>());
-    if (target == nullptr) return false;
-    auto& list = held<std::vector<T>>(*target);
+  const auto* const values = reinterpret_cast<const T*>(items);
+  const auto assign = [=](Value& target) {
+    auto& list = held<std::vector<T>>(target);
     if (count > list.size()) {
       list.assign(values, values + count);
     } else {
@@ -233,10 +240,10 @@ bool set_list(const lockstep_caller* caller, std::uint32_t port, const Item* ite
       if (count != 0) std::memmove(list.data(), values, count * sizeof(T));
       list.resize(count);
     }
-  } catch (const std::exception&) {
-    return false;
-  }
-  return true;
+  };
+  return try_to_store(
+      caller, port, type_of<std::vector<T>>(),
+      [=] { return Value(std::vector<T>(values, values + count)); }, assign);
 }
 
 bool set_string_list(const lockstep_caller* caller, std::uint32_t port, const lockstep_text* items,
@@ -244,21 +251,16 @@ bool set_string_list(const lockstep_caller* caller, std::uint32_t port, const lo
   if (items == nullptr && count != 0) return false;
   const auto is_text = [](const lockstep_text& it) { return it.text != nullptr || it.length == 0; };
   if (!std::all_of(items, items + count, is_text)) return false;
-  const bool loose = is_loose(caller, port, ValueType::StringList);
-  Value* const target = loose ? nullptr : writable(caller, port, ValueType::StringList);
-  if (!loose && target == nullptr) return false;
-  try {
-    std::vector<std::string> list;  // the items may be texts of this very list
+  const auto make = [=] {
+    std::vector<std::string> list;  // the items may be texts of the entry's own list
     list.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
       list.emplace_back(items[i].length == 0 ? "" : items[i].text, items[i].length);
     }
-    if (loose) return set_loose(caller, port, ValueType::StringList, std::move(list));
-    *target = std::move(list);
-  } catch (const std::exception&) {
-    return false;
-  }
-  return true;
+    return Value(std::move(list));
+  };
+  return try_to_store(caller, port, ValueType::StringList, make,
+                      [=](Value& target) { target = make(); });
 }
 
 // An entry without a declared type may hold an object of any type.
@@ -401,6 +403,19 @@ void take_error(const lockstep_caller& caller, const Shortened& message) {
   }
   *it.error = with_entry(caller, message);
   it.slot->error = it.error->c_str();
+}
+
+const Value* read_port(const lockstep_caller& caller, std::uint32_t port) {
+  const ValueType type = caller.ports[port].type;
+  if (type != ValueType::Number) return readable(&caller, port, type);
+  const Value* const number = readable(&caller, port, ValueType::Double);
+  return number != nullptr ? number : readable(&caller, port, ValueType::Int);
+}
+
+bool write_port(const lockstep_caller& caller, std::uint32_t port, const Value& value) {
+  return store(
+      &caller, port, static_cast<ValueType>(value.index()), [&] { return value; },
+      [&](Value& target) { target = value; });
 }
 
 const lockstep_host& host_table() {

@@ -92,6 +92,11 @@ inline lockstep_caller& mine(const lockstep_caller* caller) {
 // What set_error does after shortening the message; the first error of a call is kept.
 void take_error(const lockstep_caller& caller, const Shortened& message);
 
+// What the getters and setters of the table do, of a port of any type but Object. The value is null
+// when there is none that the leaf may read.
+const Value* read_port(const lockstep_caller& caller, std::uint32_t port);
+bool write_port(const lockstep_caller& caller, std::uint32_t port, const Value& value);
+
 // The port's declaration if it does not take every value of its type, else null.
 const Parameter* limits_of(const Parameter& port);
 // Where the node's ports read and write.

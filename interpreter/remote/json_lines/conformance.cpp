@@ -9,36 +9,29 @@
 #include "core/parameter_value.h"
 #include "core/wording.h"
 #include "plugin/contract/descriptor.h"
+#include "remote/json_lines/hello.h"
 #include "remote/json_lines/program_leaf.h"
-#include "remote/json_lines/program_run.h"
 
 namespace lockstep {
 namespace {
 
 constexpr int kTicks = 20;
 
-// A value for a port that has no default.
-Value sample(const Parameter& port) {
-  if (port.default_text) return parse_value(port.type, *port.default_text).value_or(Value());
-  if (!port.choices.empty()) return std::string(port.choices.front());
-  for (const char* text : {"1", "0.5", "0", "-1", "100", "true"}) {
-    const auto value = parse_value(port.type, text);
-    if (value && !refuse_value(port, *value)) return *value;
-  }
-  return {};
-}
-
 // A leaf without a tree: its ports are bound to entries that nobody else has.
 class Trial {
  public:
   Trial(const Descriptors::Leaf& type, std::uint32_t number, Conversation& conversation, Hold hold)
-      : type_(type), name_(fmt::format("{} {}", type.type.id, number)) {
+      : name_(fmt::format("{} {}", type.type.id, number)) {
     slot_.type = &type.type;
     caller_.id = caller_.name = type.type.id;
     caller_.who = name_;
     for (const Parameter& port : type.parameters) bind(port);
     leaf_ = std::make_unique<ProgramLeaf>(caller_, conversation, hold, nullptr);
   }
+
+  ~Trial() { leaf_->end(); }
+  Trial(const Trial&) = delete;
+  Trial& operator=(const Trial&) = delete;
 
   ProgramLeaf& leaf() { return *leaf_; }
   const std::string& name() const { return name_; }
@@ -55,13 +48,12 @@ class Trial {
     entry.type = port.type;
     BoundPort bound{
         .type = port.type, .direction = port.direction, .name = port.name, .entry = port.name};
-    if (port.direction != Direction::Output) entry.value = sample(port);
+    if (port.direction != Direction::Output) entry.value = sample_value(port);
     bound.read = &entry.value;
     if (port.direction != Direction::Input) bound.write = &entry;
     caller_.ports.push_back(std::move(bound));
   }
 
-  const Descriptors::Leaf& type_;
   const std::string name_;
   LeafSlot slot_;
   LeafTime time_{.period = std::chrono::milliseconds(10)};
@@ -102,8 +94,7 @@ class Examiner {
     if (!line) return refuse("it ", line.error());
     const Nanoseconds took = monotonic_now() - started;
     result_.first_line = *line;
-    auto hello = Hello::read(*line, "program", Hold::AsItSays, program_functions(),
-                             program_leaf_functions());
+    auto hello = Hello::read(*line, "program", Hold::AsItSays);
     if (!hello) return refuse("it ", hello.error());
     hello_ = std::move(*hello);
     if (const auto refusal = read_descriptors(hello_->plugin(), 0, descriptors_)) {

@@ -60,21 +60,19 @@ auto into_flag(bool& flag) {
 }  // namespace
 
 struct Hello::Reader {
-  using Functions = lockstep_leaf_type;
-
   Hello& hello;
   Hold hold;
-  const Functions& functions;
 
-  const char* keep(std::string text) { return hello.texts_.emplace_back(std::move(text)).c_str(); }
-  const char* keep_or_null(std::string text) { return text.empty() ? nullptr : keep(text); }
+  OwnedDescriptors& tables() const { return hello.tables_; }
+  const char* keep_or_null(std::string_view text) const {
+    return text.empty() ? nullptr : tables().keep(text);
+  }
   auto into_text(const char*& text) {
-    return [this, &text](JsonValue value) { text = keep_or_null(std::string(value.text())); };
+    return [this, &text](JsonValue value) { text = keep_or_null(value.text()); };
   }
 
   void read_port(JsonValue value) {
-    lockstep_port port{};
-    port.struct_size = sizeof port;
+    lockstep_port& port = tables().add_port();
     std::string type, direction = "input";
     std::vector<std::string> choices;
     double least = -HUGE_VAL, most = HUGE_VAL;
@@ -83,7 +81,8 @@ struct Hello::Reader {
         {{"name", into_text(port.name)},
          {"type", into(type)},
          {"direction", into(direction), kMayLack},
-         {"default", [&](JsonValue it) { port.default_value = keep(scalar_text(it)); }, kMayLack},
+         {"default", [&](JsonValue it) { port.default_value = tables().keep(scalar_text(it)); },
+          kMayLack},
          {"unit", into_text(port.unit), kMayLack},
          {"doc", into_text(port.doc), kMayLack},
          {"choices", into(choices), kMayLack},
@@ -99,15 +98,13 @@ struct Hello::Reader {
     port.min = is_limited ? least : 0;
     port.max = is_limited ? most : 0;
     port.flags = optional ? LOCKSTEP_OPTIONAL : 0;
-    hello.port_lists_.back().push_back(&hello.ports_.emplace_back(port));
   }
 
   void read_leaf(JsonValue value) {
-    lockstep_leaf_type leaf = functions;
-    leaf.struct_size = sizeof leaf;
+    lockstep_leaf_type& leaf = tables().add_leaf();
+    leaf.start_unreset = nullptr;
     std::string kind = "action";
     bool progress = false, pause = false, answers_pause = false, real_time = false;
-    hello.port_lists_.emplace_back();
     value.object().read(
         {{"id", into_text(leaf.id)},
          {"kind", into(kind), kMayLack},
@@ -120,8 +117,6 @@ struct Hello::Reader {
           kMayLack}});
     leaf.kind = one_of<lockstep_leaf_kind>(
         "kind of a leaf", kind, {{"action", LOCKSTEP_ACTION}, {"condition", LOCKSTEP_CONDITION}});
-    leaf.port_count = static_cast<std::uint32_t>(hello.port_lists_.back().size());
-    leaf.ports = hello.port_lists_.back().data();
     leaf.flags = real_time ? LOCKSTEP_REAL_TIME : 0;
     // On the wall clock, its answer comes later.
     if (leaf.kind == LOCKSTEP_CONDITION) leaf.flags |= LOCKSTEP_MAY_RUN;
@@ -131,15 +126,14 @@ struct Hello::Reader {
     if (its == Hold::Message && answers_pause) its = Hold::Answered;
     if (its == Hold::None) leaf.pause = leaf.resume = nullptr;
     hello.holds_.push_back(its);
-    hello.leaf_list_.push_back(&hello.leaves_.emplace_back(leaf));
   }
 
   void read(JsonObject object) {
     std::uint64_t protocol = 0;
     object.read(
         {{"lockstep", into(protocol)},
-         {"version", into_text(hello.plugin_.version), kMayLack},
-         {"doc", into_text(hello.plugin_.doc), kMayLack},
+         {"version", into_text(hello.tables_.plugin.version), kMayLack},
+         {"doc", into_text(hello.tables_.plugin.doc), kMayLack},
          {"leaves", [&](JsonValue leaves) { leaves.each_item([&](auto it) { read_leaf(it); }); }}});
     if (protocol == kProgramProtocol) return;
     throw JsonError(fmt::format("it speaks version {} of the protocol, this program {}", protocol,
@@ -147,31 +141,22 @@ struct Hello::Reader {
   }
 };
 
-Result<std::unique_ptr<Hello>> Hello::read(std::string line, const std::string& plugin, Hold hold,
-                                           const lockstep_plugin& plugin_functions,
-                                           const lockstep_leaf_type& functions) {
+Result<std::unique_ptr<Hello>> Hello::read(std::string line, const std::string& plugin, Hold hold) {
   std::unique_ptr<Hello> hello(new Hello);
-  lockstep_plugin& table = hello->plugin_;
-  table = plugin_functions;
-  Reader reader{*hello, hold, functions};
+  Reader reader{*hello, hold};
   try {
     JsonReader().read(line, [&](JsonObject object) { reader.read(object); });
   } catch (const JsonError& error) {
     return problem(fmt::format("does not say what leaves it has: {}", error.what()), kHint);
   }
-  table.abi_major = LOCKSTEP_ABI_MAJOR;
-  table.abi_minor = LOCKSTEP_ABI_MINOR;
-  table.struct_size = sizeof table;
-  table.name = reader.keep(plugin);
-  table.leaf_type_count = static_cast<std::uint32_t>(hello->leaf_list_.size());
-  table.leaf_types = hello->leaf_list_.data();
+  hello->tables_.plugin.name = hello->tables_.keep(plugin);
   hello->line_ = std::move(line);
   return hello;
 }
 
 Hold Hello::hold_of(std::string_view id) const {
-  for (std::size_t i = 0; i < leaves_.size(); ++i) {
-    if (leaves_[i].id == id) return holds_[i];
+  for (std::size_t i = 0; i < holds_.size(); ++i) {
+    if (plugin().leaf_types[i]->id == id) return holds_[i];
   }
   return Hold::None;
 }

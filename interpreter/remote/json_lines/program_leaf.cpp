@@ -19,18 +19,13 @@ constexpr Nanoseconds kLate = std::chrono::milliseconds(100);
 
 ProgramLeaf::ProgramLeaf(const lockstep_caller& caller, Conversation& conversation, Hold hold,
                          Listener* listener)
-    : caller_(caller),
+    : RemoteLeaf(caller),
       conversation_(conversation),
       hold_(hold),
       listener_(listener),
-      number_(conversation.add(caller)) {
-  // On the virtual clock nobody looks between two questions: when a program ends by itself is not
-  // the same in every run.
-  if (caller.time->processes != nullptr) caller.time->processes->add(caller.node, *this);
-}
+      number_(conversation.add(caller)) {}
 
-ProgramLeaf::~ProgramLeaf() {
-  if (caller_.time->processes != nullptr) caller_.time->processes->remove(*this);
+void ProgramLeaf::end() {
   if (!conversation_.is_gone()) {
     // The run is over: the time for a halt that was asked for in its last tick.
     conversation_.await(number_, Asked::Halt, conversation_.options().halt_limit);
@@ -43,10 +38,6 @@ ProgramLeaf::~ProgramLeaf() {
 
 double ProgramLeaf::now() const {
   return host_table().now(&caller_);
-}
-
-void ProgramLeaf::fail(const std::string& why) {
-  host_table().set_error(&caller_, why.c_str());
 }
 
 void ProgramLeaf::send(Conversation::Asked asked) {

@@ -6,30 +6,28 @@
 
 #include "lockstep/leaf.h"
 #include "plugin/contract/host.h"
-#include "plugin/contract/process_leaves.h"
 #include "remote/json_lines/conversation.h"
 #include "remote/json_lines/hello.h"
 #include "remote/json_lines/listener.h"
 #include "remote/json_lines/request.h"
+#include "remote/remote_plugin.h"
 
 namespace lockstep {
 
-class ProgramLeaf : public ProcessLeaf {
+class ProgramLeaf : public RemoteLeaf {
  public:
   // `listener` is that of the conversation, on the wall clock; else null.
   ProgramLeaf(const lockstep_caller& caller, Conversation& conversation, Hold hold,
               Listener* listener);
-  ~ProgramLeaf() override;
-  ProgramLeaf(const ProgramLeaf&) = delete;
-  ProgramLeaf& operator=(const ProgramLeaf&) = delete;
 
   bool create();  // false: the caller has an error
-  void start();
-  lockstep_status tick();
-  void halt();
-  void pause();
-  void resume();
-  double progress();
+  void start() override;
+  lockstep_status tick() override;
+  void halt() override;
+  void pause() override;
+  void resume() override;
+  double progress() override;
+  void end() override;
   std::string trouble() override;
 
  private:
@@ -42,12 +40,10 @@ class ProgramLeaf : public ProcessLeaf {
   void set_ports(std::string line);
   bool await(Conversation::Asked asked);
   void note_late(const Conversation::News& news);
-  void fail(const std::string& why);
   std::string why_gone();  // "" while it is there
   bool fail_if_gone();
   double now() const;
 
-  const lockstep_caller& caller_;
   Conversation& conversation_;
   const Hold hold_;
   Listener* const listener_;

@@ -18,8 +18,7 @@ Result<std::unique_ptr<ProgramPlugin>> ProgramPlugin::open(const std::string& pa
   std::unique_ptr<ProgramPlugin> plugin(new ProgramPlugin(path, options));
   auto line = plugin->first_line();
   if (!line) return tl::unexpected(std::move(line.error()));
-  auto hello =
-      Hello::read(std::move(*line), name, hold, program_functions(), program_leaf_functions());
+  auto hello = Hello::read(std::move(*line), name, hold);
   if (!hello) return tl::unexpected(std::move(hello.error()));
   plugin->hello_ = std::move(*hello);
   return plugin;
@@ -39,6 +38,10 @@ Result<std::string> ProgramPlugin::first_line() {
   auto line = first_->start(path_);
   is_file_stale_ = line && written && *line != *written;
   return line;
+}
+
+std::unique_ptr<RemoteRun> ProgramPlugin::begin_run(const lockstep_caller& caller) {
+  return begin_program_run(*this, caller);
 }
 
 std::unique_ptr<Conversation> ProgramPlugin::acquire(std::string& failure) {

@@ -1,5 +1,4 @@
-// A plugin that is a program: a process for each concurrent run. To the rest of lockstep it is an
-// ordinary plugin, whose functions are proxies (program_run.h).
+// A plugin that is a program: a process for each concurrent run.
 #pragma once
 
 #include <memory>
@@ -10,10 +9,11 @@
 #include "remote/isolation_options.h"
 #include "remote/json_lines/conversation.h"
 #include "remote/json_lines/hello.h"
+#include "remote/remote_plugin.h"
 
 namespace lockstep {
 
-class ProgramPlugin {
+class ProgramPlugin final : public RemotePlugin {
  public:
   // Starts the first process, which says what leaves it has. Where programs are not run, a file
   // beside it says so.
@@ -24,8 +24,8 @@ class ProgramPlugin {
   ProgramPlugin(const ProgramPlugin&) = delete;
   ProgramPlugin& operator=(const ProgramPlugin&) = delete;
 
-  // Valid as long as this object.
-  const lockstep_plugin& entry() const { return hello_->plugin(); }
+  const lockstep_plugin& entry() const override { return hello_->plugin(); }
+  std::unique_ptr<RemoteRun> begin_run(const lockstep_caller& caller) override;
   const Hello& hello() const { return *hello_; }
   // The file beside it says something else; or was read, and may do so.
   bool is_file_stale() const { return is_file_stale_; }

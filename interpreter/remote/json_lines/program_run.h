@@ -1,12 +1,12 @@
-// The functions of a plugin that is a program, as the host calls them: they say to the program what
-// they were called for, and return what it answers.
+// The leaves of a program in one run, and the processes that do them.
 #pragma once
 
-#include "lockstep/leaf.h"
+#include <memory>
+
+#include "remote/json_lines/program_plugin.h"
 
 namespace lockstep {
 
-const lockstep_plugin& program_functions();
-const lockstep_leaf_type& program_leaf_functions();
+std::unique_ptr<RemoteRun> begin_program_run(ProgramPlugin& plugin, const lockstep_caller& caller);
 
 }  // namespace lockstep

@@ -66,76 +66,58 @@ void write_descriptors(const Descriptors& descriptors, MessageWriter& message) {
   }
 }
 
-const char* OwnedDescriptors::read_text(MessageReader& message) {
-  if (!message.has_text()) return nullptr;
-  return texts_.emplace_back(message.text()).c_str();
+const char* ReadDescriptors::text(MessageReader& message) {
+  return message.has_text() ? tables_.keep(message.text()) : nullptr;
 }
 
-const lockstep_object_type* OwnedDescriptors::read_object_type(MessageReader& message) {
-  const std::string& name = texts_.emplace_back(message.text());
+const lockstep_object_type* ReadDescriptors::read_object_type(MessageReader& message) {
+  const char* const name = tables_.keep(message.text());
   const auto functions = message.get<std::uint8_t>();
   const bool has_from_text = (functions & kHasFromText) != 0;
   HostedObjectType& hosted = hosted_types_.emplace_back();
   hosted.struct_size = sizeof(lockstep_object_type);
-  hosted.name = name.c_str();
+  hosted.name = name;
   hosted.retain = hosted.release = HostedObjectType::mark;
   hosted.type = &object_types_.emplace_back(name, (functions & kHasBytes) != 0,
                                             has_from_text ? from_text_ : nullptr);
   return &hosted;
 }
 
-void OwnedDescriptors::read_port(MessageReader& message) {
-  lockstep_port port{};
-  port.struct_size = sizeof port;
+void ReadDescriptors::read_port(MessageReader& message) {
+  lockstep_port& port = tables_.add_port();
   port.type = message.get<lockstep_type>();
   port.direction = message.get<lockstep_direction>();
-  for (const char** text :
-       {&port.name, &port.default_value, &port.unit, &port.doc, &port.choices}) {
-    *text = read_text(message);
+  for (const char** it : {&port.name, &port.default_value, &port.unit, &port.doc, &port.choices}) {
+    *it = text(message);
   }
   port.min = message.get<double>();
   port.max = message.get<double>();
   port.flags = message.get<std::uint64_t>();
   if (port.type == LOCKSTEP_OBJECT) port.object = read_object_type(message);
-  port_lists_.back().push_back(&ports_.emplace_back(port));
 }
 
-bool OwnedDescriptors::read_leaf(MessageReader& message, const lockstep_leaf_type& functions) {
-  lockstep_leaf_type leaf = functions;
-  leaf.struct_size = sizeof leaf;
+bool ReadDescriptors::read_leaf(MessageReader& message) {
+  lockstep_leaf_type& leaf = tables_.add_leaf();
   leaf.kind = message.get<lockstep_leaf_kind>();
   leaf.flags = message.get<std::uint64_t>();
   keep_functions(leaf, message.get<std::uint8_t>());
-  leaf.id = read_text(message);
-  leaf.doc = read_text(message);
-  leaf.port_count = message.get<std::uint32_t>();
-  if (leaf.port_count > kMostDescriptors) return false;
-  port_lists_.emplace_back();
-  for (std::uint32_t port = 0; port < leaf.port_count && message.good(); ++port) {
-    read_port(message);
-  }
-  leaf.ports = port_lists_.back().data();
-  leaf_list_.push_back(&leaves_.emplace_back(leaf));
+  leaf.id = text(message);
+  leaf.doc = text(message);
+  const auto ports = message.get<std::uint32_t>();
+  if (ports > kMostDescriptors) return false;
+  for (std::uint32_t port = 0; port < ports && message.good(); ++port) read_port(message);
   return message.good();
 }
 
-bool OwnedDescriptors::read(MessageReader& message, const lockstep_plugin& plugin_functions,
-                            const lockstep_leaf_type& leaf_functions,
-                            RemoteObjectType::FromText from_text) {
+bool ReadDescriptors::read(MessageReader& message, RemoteObjectType::FromText from_text) {
   from_text_ = std::move(from_text);
-  plugin = plugin_functions;
-  plugin.abi_major = LOCKSTEP_ABI_MAJOR;
-  plugin.abi_minor = LOCKSTEP_ABI_MINOR;
-  plugin.struct_size = sizeof plugin;
-  for (const char** text : {&plugin.name, &plugin.version, &plugin.doc}) {
-    *text = read_text(message);
+  lockstep_plugin& plugin = tables_.plugin;
+  for (const char** it : {&plugin.name, &plugin.version, &plugin.doc}) *it = text(message);
+  const auto leaves = message.get<std::uint32_t>();
+  if (leaves > kMostDescriptors) return false;
+  for (std::uint32_t leaf = 0; leaf < leaves; ++leaf) {
+    if (!read_leaf(message)) return false;
   }
-  plugin.leaf_type_count = message.get<std::uint32_t>();
-  if (plugin.leaf_type_count > kMostDescriptors) return false;
-  for (std::uint32_t leaf = 0; leaf < plugin.leaf_type_count; ++leaf) {
-    if (!read_leaf(message, leaf_functions)) return false;
-  }
-  plugin.leaf_types = leaf_list_.data();
   return message.good();
 }
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "remote/shared_memory/remote_run.h"
+#include "remote/shared_memory/isolated_run.h"
 
 namespace lockstep {
 namespace {
@@ -74,7 +74,7 @@ std::optional<Problem> IsolatedPlugin::describe(MessageReader description) {
   const auto read_text = [this](const PackedType& type, std::string_view text) {
     return from_text(type, text);
   };
-  if (descriptors_.read(description, remote_plugin(), remote_leaf_type(), read_text)) {
+  if (descriptors_.read(description, read_text)) {
     return std::nullopt;
   }
   return Problem{"cannot be loaded: its process sent an invalid answer",
@@ -130,15 +130,21 @@ Result<Object> IsolatedPlugin::from_text(const PackedType& type, std::string_vie
   return std::move(*object);
 }
 
-std::unique_ptr<Session> IsolatedPlugin::acquire(std::string& failure) {
+Result<std::unique_ptr<Session>> IsolatedPlugin::acquire() {
   if (auto idle = take_idle()) return idle;
   auto session = std::make_unique<Session>();
-  if (auto refusal = start(*session)) {
-    failure = refusal->message;
-  } else {
-    failure = initialize_in(*session);
+  if (auto refusal = start(*session)) return tl::unexpected(std::move(*refusal));
+  if (auto failure = initialize_in(*session); !failure.empty()) return problem(std::move(failure));
+  return session;
+}
+
+std::unique_ptr<RemoteRun> IsolatedPlugin::begin_run(const lockstep_caller& caller) {
+  auto session = acquire();
+  if (!session) {
+    host_table().set_error(&caller, session.error().message.c_str());
+    return nullptr;
   }
-  return failure.empty() ? std::move(session) : nullptr;
+  return begin_isolated_run(*this, *std::move(session), caller);
 }
 
 void IsolatedPlugin::release(std::unique_ptr<Session> session) {

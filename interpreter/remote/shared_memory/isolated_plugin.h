@@ -1,5 +1,4 @@
-// A plugin in separate processes, one for each concurrent run. To the rest of the program it is an
-// ordinary plugin, whose functions are proxies (remote_run.h).
+// A plugin in separate processes, one for each concurrent run.
 #pragma once
 
 #include <memory>
@@ -10,45 +9,46 @@
 
 #include "core/problem.h"
 #include "remote/isolation_options.h"
+#include "remote/remote_plugin.h"
 #include "remote/shared_memory/descriptor_message.h"
 #include "remote/shared_memory/session.h"
 
 namespace lockstep {
 
-class IsolatedPlugin {
+class IsolatedPlugin final : public RemotePlugin {
  public:
   // Starts the first process, which opens the file, checks it and describes the plugin.
   [[nodiscard]] static Result<std::unique_ptr<IsolatedPlugin>> open(
       const std::string& path, const IsolationOptions& options);
   // Deinitializes the plugin in each of its processes and ends them. No run may be in progress.
-  ~IsolatedPlugin();
+  ~IsolatedPlugin() override;
   IsolatedPlugin(const IsolatedPlugin&) = delete;
   IsolatedPlugin& operator=(const IsolatedPlugin&) = delete;
 
-  // Valid as long as this object.
-  const lockstep_plugin& entry() const { return descriptors_.plugin; }
+  const lockstep_plugin& entry() const override { return descriptors_.plugin(); }
+  // In the first process.
+  std::string initialize() override;
+  std::unique_ptr<RemoteRun> begin_run(const lockstep_caller& caller) override;
+
   // The place of a leaf type among those of the plugin, by its id, which is the very pointer that
   // entry() has.
   std::optional<std::uint32_t> index_of(const lockstep_leaf_type& type) const;
 
-  // Calls init in the first process. Returns "" or the reason of a failure.
-  std::string initialize();
-
-  // An initialized process for one run; null on failure, with the reason in `failure`. May be
-  // called from any thread.
-  std::unique_ptr<Session> acquire(std::string& failure);
+  // Of a run that is over. May be called from any thread.
   void release(std::unique_ptr<Session> session);
 
  private:
   IsolatedPlugin(std::string path, IsolationOptions options);
   std::optional<Problem> start(Session& session);
   std::optional<Problem> describe(MessageReader description);
+  // An initialized process for one run.
+  Result<std::unique_ptr<Session>> acquire();
   std::unique_ptr<Session> take_idle();
   Result<Object> from_text(const PackedType& type, std::string_view text);
 
   std::string path_;
   IsolationOptions options_;
-  OwnedDescriptors descriptors_;
+  ReadDescriptors descriptors_;
   std::vector<std::byte> description_;  // what descriptors_ was made of
 
   std::mutex mutex_;

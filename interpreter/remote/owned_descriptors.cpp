@@ -1,0 +1,23 @@
+#include "remote/owned_descriptors.h"
+
+namespace lockstep {
+
+lockstep_leaf_type& OwnedDescriptors::add_leaf() {
+  lockstep_leaf_type& type = leaves_.emplace_back().type;
+  types_.push_back(&type);
+  plugin.leaf_types = types_.data();
+  plugin.leaf_type_count = static_cast<std::uint32_t>(types_.size());
+  return type;
+}
+
+lockstep_port& OwnedDescriptors::add_port() {
+  Leaf& leaf = leaves_.back();
+  lockstep_port& port = ports_.emplace_back();
+  port.struct_size = sizeof port;
+  leaf.ports.push_back(&port);
+  leaf.type.ports = leaf.ports.data();
+  leaf.type.port_count = static_cast<std::uint32_t>(leaf.ports.size());
+  return port;
+}
+
+}  // namespace lockstep
