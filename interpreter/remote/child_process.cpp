@@ -111,7 +111,10 @@ std::string ChildProcess::start(const std::string& program, std::vector<std::str
   if (const int error = plan.spawn(pid, program, std::move(arguments)); error != 0) {
     return error_text(error);
   }
-  pid_ = pid;
+  {
+    const Lock lock(mutex_);
+    pid_ = pid;
+  }
   descriptor_ = FileDescriptor(open_pidfd(pid));
   if (descriptor_.number() >= 0) return {};
   const std::string reason = error_text(errno);
@@ -120,27 +123,33 @@ std::string ChildProcess::start(const std::string& program, std::vector<std::str
   return fmt::format("it cannot be watched: {}", reason);
 }
 
+pid_t ChildProcess::number() const {
+  const Lock lock(mutex_);
+  return pid_;
+}
+
 ChildProcess::~ChildProcess() {
-  if (pid_ > 0) {
+  if (number() > 0) {
     kill();
     reap();
   }
 }
 
 void ChildProcess::kill() {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   if (pid_ <= 0) return;
   ::kill(-pid_, SIGKILL);
   ::kill(pid_, SIGKILL);  // which may have left its group
 }
 
 std::string ChildProcess::reap() {
+  const pid_t pid = number();
   siginfo_t info{};
   // First without taking its number away: as long as it is a zombie, the number of its group cannot
   // be somebody else's.
-  while (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOWAIT) != 0 && errno == EINTR) {
+  while (waitid(P_PID, static_cast<id_t>(pid), &info, WEXITED | WNOWAIT) != 0 && errno == EINTR) {
   }
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   ::kill(-pid_, SIGKILL);
   while (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED) != 0 && errno == EINTR) {
   }

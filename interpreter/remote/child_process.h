@@ -4,12 +4,12 @@
 
 #include <sys/types.h>
 
-#include <mutex>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "system/file_descriptor.h"
+#include "system/mutex.h"
 
 namespace lockstep {
 
@@ -39,7 +39,7 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  pid_t number() const { return pid_; }  // -1: none, or reaped
+  pid_t number() const;  // -1: none, or reaped
   // Becomes readable when the process has ended.
   int descriptor() const { return descriptor_.number(); }
   // Sends SIGKILL to it, even if it has left its group, and to that group, unless it has been
@@ -49,8 +49,8 @@ class ChildProcess {
   std::string reap();
 
  private:
-  std::mutex mutex_;
-  pid_t pid_ = -1;  // -1: none, or reaped
+  mutable Mutex mutex_;
+  pid_t pid_ LOCKSTEP_GUARDED_BY(mutex_) = -1;  // -1: none, or reaped
   FileDescriptor descriptor_;
 };
 

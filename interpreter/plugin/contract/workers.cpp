@@ -26,7 +26,7 @@ Workers::Workers() = default;
 Workers::~Workers() = default;
 
 lockstep_worker* Workers::begin(const CallSite& site, double now) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   now_ = now;
   all_.push_back(std::unique_ptr<lockstep_worker>(new lockstep_worker{*this, site}));
   return all_.back().get();
@@ -36,7 +36,7 @@ void Workers::give_all(double now) {
   for (std::size_t i = 0; i < all_.size(); ++i) {
     bool is_due = false;
     {
-      const std::lock_guard lock(mutex_);
+      const Lock lock(mutex_);
       now_ = now;
       is_due = all_[i]->is_due(now);
     }
@@ -47,24 +47,24 @@ void Workers::give_all(double now) {
 // The mark names the leaf when its worker blocks elsewhere, and the thread that does.
 void Workers::give_turn(lockstep_worker& worker) {
   const MarkedCall mark(worker.site, PluginFunction::Run);
-  std::unique_lock lock(mutex_);
+  Lock lock(mutex_);
   waiting_ = &CallMark::this_thread();
   worker.has_turn = true;
   worker.is_woken = false;
   worker.turn.notify_one();
-  turn_over_.wait(lock, [&] { return !worker.has_turn; });
+  while (worker.has_turn) lock.wait(turn_over_);
   waiting_->set_worker(0);
 }
 
-void Workers::await_turn(lockstep_worker& worker, std::unique_lock<std::mutex>& lock) {
-  worker.turn.wait(lock, [&] { return worker.has_turn; });
+void Workers::await_turn(lockstep_worker& worker, Lock& lock) {
+  while (!worker.has_turn) lock.wait(worker.turn);
   waiting_->set_worker(pthread_self());
 }
 
 void Workers::finish(lockstep_worker* worker) {
   Workers& set = worker->set;
   const auto has_ended = [&] {
-    const std::lock_guard lock(set.mutex_);
+    const Lock lock(set.mutex_);
     return worker->has_ended;
   };
   while (!has_ended()) set.give_turn(*worker);
@@ -72,13 +72,14 @@ void Workers::finish(lockstep_worker* worker) {
 }
 
 void Workers::start(lockstep_worker* worker) {
-  std::unique_lock lock(worker->set.mutex_);
-  worker->set.await_turn(*worker, lock);
+  Workers& set = worker->set;
+  Lock lock(set.mutex_);
+  set.await_turn(*worker, lock);
 }
 
 bool Workers::wait(lockstep_worker* worker, double until) {
   Workers& set = worker->set;
-  std::unique_lock lock(set.mutex_);
+  Lock lock(set.mutex_);
   worker->until = until;
   worker->has_turn = false;
   set.turn_over_.notify_one();
@@ -88,19 +89,19 @@ bool Workers::wait(lockstep_worker* worker, double until) {
 
 void Workers::end(lockstep_worker* worker) {
   Workers& set = worker->set;
-  const std::lock_guard lock(set.mutex_);
+  const Lock lock(set.mutex_);
   worker->has_turn = false;
   worker->has_ended = true;
   set.turn_over_.notify_one();
 }
 
 double Workers::now(lockstep_worker* worker) {
-  const std::lock_guard lock(worker->set.mutex_);
+  const Lock lock(worker->set.mutex_);
   return worker->set.now_;
 }
 
 void Workers::wake(lockstep_worker* worker) {
-  const std::lock_guard lock(worker->set.mutex_);
+  const Lock lock(worker->set.mutex_);
   worker->is_woken = true;
 }
 

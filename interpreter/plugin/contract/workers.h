@@ -5,12 +5,12 @@
 
 #include <condition_variable>
 #include <memory>
-#include <mutex>
 #include <vector>
 
 #include "core/clock.h"
 #include "lockstep/leaf.h"
 #include "plugin/contract/call_mark.h"
+#include "system/mutex.h"
 
 namespace lockstep {
 
@@ -42,12 +42,13 @@ class Workers {
  private:
   void give_all(double now);
   void give_turn(lockstep_worker& worker);
-  void await_turn(lockstep_worker& worker, std::unique_lock<std::mutex>& lock);
+  void await_turn(lockstep_worker& worker, Lock& lock) LOCKSTEP_REQUIRES(mutex_);
 
-  std::mutex mutex_;
+  Mutex mutex_;
   std::condition_variable turn_over_;
-  CallMark* waiting_ = nullptr;  // of the run's thread, while a worker has its turn
-  double now_ = 0;
+  CallMark* waiting_ LOCKSTEP_GUARDED_BY(mutex_) =
+      nullptr;  // of the run's thread, while a worker has its turn
+  double now_ LOCKSTEP_GUARDED_BY(mutex_) = 0;
   std::vector<std::unique_ptr<lockstep_worker>> all_;  // only the run's thread changes it
 };
 

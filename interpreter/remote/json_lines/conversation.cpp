@@ -67,18 +67,18 @@ bool Conversation::is_output_over() {
 }
 
 void Conversation::begin(const lockstep_caller& run) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   run_ = &run;
 }
 
 std::uint32_t Conversation::add(const lockstep_caller& leaf) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   leaves_.push_back({.caller = &leaf});
   return static_cast<std::uint32_t>(leaves_.size());
 }
 
 void Conversation::remove(std::uint32_t leaf) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   leaves_[leaf - 1].caller = nullptr;
 }
 
@@ -86,7 +86,7 @@ void Conversation::send(std::uint32_t number, Asked asked, std::string_view line
   if (is_gone() || (asked == Asked::Tick && !is_listened_ && find_unasked())) return;
   auto written = ProgramProcess::Written::Good;
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     Leaf& leaf = leaves_[number - 1];
     if (asked == Asked::Pause) {
       if (!leaf.owes_anything()) leaf.since = monotonic_now();
@@ -132,7 +132,7 @@ Nanoseconds Conversation::time_to_die() const {
 // Only what takes no time is done under the lock, for which the tick thread would wait.
 void Conversation::flush() {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     outgoing_.swap(written_);
   }
   const bool has_more = !written_.empty() || process_.has_unwritten();
@@ -141,22 +141,32 @@ void Conversation::flush() {
 }
 
 bool Conversation::await(std::uint32_t number, Asked asked, std::optional<Nanoseconds> patience) {
-  const Leaf& leaf = leaves_[number - 1];
-  if (!is_listened_) return await_here(leaf, asked, patience);
-  std::unique_lock lock(mutex_);
-  const auto is_over = [&] { return is_gone() || !leaf.owes(asked); };
-  if (!patience) {
-    answered_.wait(lock, is_over);
-  } else {
-    answered_.wait_for(lock, *patience, is_over);
+  if (!is_listened_) return await_here(number, asked, patience);
+  const Nanoseconds end = monotonic_now() + patience.value_or(Nanoseconds(0));
+  Lock lock(mutex_);
+  while (!is_gone() && leaves_[number - 1].owes(asked)) {
+    const Nanoseconds left = end - monotonic_now();
+    if (!patience) {
+      lock.wait(answered_);
+    } else if (left > Nanoseconds(0)) {
+      lock.wait_for(answered_, left);
+    } else {
+      return false;
+    }
   }
-  return !is_gone() && !leaf.owes(asked);
+  return !is_gone();
+}
+
+bool Conversation::owes(std::uint32_t leaf, Asked asked) {
+  const Lock lock(mutex_);
+  return leaves_[leaf - 1].owes(asked);
 }
 
 // Nothing that comes after the answer is taken: when it comes is not the same in every run.
-bool Conversation::await_here(const Leaf& leaf, Asked asked, std::optional<Nanoseconds> patience) {
+bool Conversation::await_here(std::uint32_t leaf, Asked asked,
+                              std::optional<Nanoseconds> patience) {
   const Nanoseconds end = monotonic_now() + patience.value_or(Nanoseconds(0));
-  while (!is_gone() && leaf.owes(asked)) {
+  while (!is_gone() && owes(leaf, asked)) {
     if (process_.lines.next(line_)) {
       take_line();
       continue;
@@ -176,9 +186,14 @@ bool Conversation::find_unasked() {
   while (process_.lines.look(place, line_)) {
     if (!read_reply(reader_, line_, reply_).empty()) return false;  // its time comes
     const bool is_answer = reply_.what == Reply::What::Status || reply_.what == Reply::What::Done;
-    if (!is_answer || reply_.leaf == 0 || reply_.leaf > leaves_.size()) continue;
-    if (leaves_[reply_.leaf - 1].has_erred) continue;
-    give_up(take_answer(leaves_[reply_.leaf - 1]));
+    std::string why;
+    {
+      const Lock lock(mutex_);
+      if (!is_answer || reply_.leaf == 0 || reply_.leaf > leaves_.size()) continue;
+      if (leaves_[reply_.leaf - 1].has_erred) continue;
+      why = take_answer(leaves_[reply_.leaf - 1]);
+    }
+    give_up(std::move(why));
     return true;
   }
   return false;
@@ -193,7 +208,7 @@ void Conversation::read_more(std::optional<Nanoseconds> patience) {
 }
 
 Conversation::News Conversation::take(std::uint32_t number) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   Leaf& leaf = leaves_[number - 1];
   News news = std::exchange(leaf.news, {});
   news.is_asked = leaf.owes_anything();
@@ -202,7 +217,7 @@ Conversation::News Conversation::take(std::uint32_t number) {
 }
 
 Conversation::News Conversation::take_error(std::uint32_t number) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   Leaf& leaf = leaves_[number - 1];
   return {.error = std::exchange(leaf.news.error, {}),
           .is_asked = leaf.owes_anything(),
@@ -210,12 +225,12 @@ Conversation::News Conversation::take_error(std::uint32_t number) {
 }
 
 double Conversation::progress(std::uint32_t leaf) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return leaves_[leaf - 1].progress;
 }
 
 void Conversation::forget(std::uint32_t number) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   Leaf& leaf = leaves_[number - 1];
   leaf.progress = 0;
   leaf.news.status = 0;
@@ -223,18 +238,18 @@ void Conversation::forget(std::uint32_t number) {
 }
 
 void Conversation::forgive(std::uint32_t leaf) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   leaves_[leaf - 1].since = monotonic_now();
 }
 
 std::string Conversation::why_gone() {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return why_gone_;
 }
 
 void Conversation::give_up(std::string why) {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     if (is_gone()) return;
     why_gone_ = std::move(why);
     gone_.store(true);
@@ -244,9 +259,14 @@ void Conversation::give_up(std::string why) {
   if (!is_listened_) bury();
 }
 
+bool Conversation::ends_softly() {
+  const Lock lock(mutex_);
+  return ends_softly_;
+}
+
 // One that is asked to end has time for that.
 void Conversation::bury() {
-  if (!ends_softly_) process_.bury();
+  if (!ends_softly()) process_.bury();
 }
 
 bool Conversation::listen() {
@@ -258,7 +278,7 @@ bool Conversation::listen() {
 std::optional<Nanoseconds> Conversation::deadline() {
   std::optional<Nanoseconds> first;
   const auto add = [&](Nanoseconds it) { first = first ? std::min(*first, it) : it; };
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   if (process_.has_unwritten()) add(monotonic_now() + kToFlush);
   if (!options_.halt_limit) return first;
   for (const Leaf& leaf : leaves_) {
@@ -275,9 +295,10 @@ bool Conversation::is_late(const Leaf& leaf, Nanoseconds now) const {
 void Conversation::check_deadline(Nanoseconds now) {
   std::string late;
   {
-    const std::lock_guard lock(mutex_);
-    const auto leaf = std::ranges::find_if(leaves_, [&](auto& it) { return is_late(it, now); });
-    if (leaf != leaves_.end()) late = leaf->caller->who;
+    const Lock lock(mutex_);
+    for (const Leaf& leaf : leaves_) {
+      if (late.empty() && is_late(leaf, now)) late = leaf.caller->who;
+    }
   }
   if (!late.empty()) end_late(late);
 }
@@ -285,7 +306,7 @@ void Conversation::check_deadline(Nanoseconds now) {
 // What it does when it is asked to end is its own affair.
 void Conversation::end_late(std::string_view leaf) {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     if (is_gone()) return;
     why_gone_ = fmt::format("did not answer halt of '{}' for {:g} s; it was ended", leaf,
                             to_seconds(*options_.halt_limit));
@@ -309,7 +330,7 @@ void Conversation::note_end() {
 
 // Who is to blame for what the program does: who it is to answer.
 std::string Conversation::blamed() {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   for (const Leaf& leaf : leaves_) {
     if (!leaf.owes_anything() || leaf.caller == nullptr) continue;
     return fmt::format(" when it was to answer {} of '{}'", name_of(leaf.owed_first()),
@@ -332,7 +353,7 @@ void Conversation::take_line() {
 
 // "" or why it is no reply.
 std::string Conversation::take_reply() {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   const bool is_known = reply_.leaf > 0 && reply_.leaf <= leaves_.size();
   Leaf* const leaf = is_known ? &leaves_[reply_.leaf - 1] : nullptr;
   const lockstep_caller* const caller = leaf != nullptr ? leaf->caller : run_;
@@ -430,8 +451,10 @@ void Conversation::hurry_end() {
 std::string Conversation::end() {
   const auto limit = options_.halt_limit;
   const auto to_the_kill = limit ? std::optional(*limit + kToDie) : std::nullopt;
-  if (was_gone_ && ends_softly_) process_.await_end(to_the_kill);
-  if (was_gone_) return {};
+  if (was_gone_) {
+    if (ends_softly()) process_.await_end(to_the_kill);
+    return {};
+  }
   if (is_gone()) return why_gone();
   const Nanoseconds waited = monotonic_now() - closed_;
   const auto how = process_.await_end(to_the_kill);

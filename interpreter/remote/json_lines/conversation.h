@@ -8,7 +8,6 @@
 
 #include <atomic>
 #include <condition_variable>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +18,7 @@
 #include "remote/isolation_options.h"
 #include "remote/json_lines/program_process.h"
 #include "remote/json_lines/reply.h"
+#include "system/mutex.h"
 
 namespace lockstep {
 
@@ -108,19 +108,21 @@ class Conversation {
     bool owes_anything() const { return asked != Asked::Nothing || pauses > 0; }
     Asked owed_first() const;
   };
-  bool await_here(const Leaf& leaf, Asked asked, std::optional<Nanoseconds> patience);
+  bool owes(std::uint32_t leaf, Asked asked);
+  bool await_here(std::uint32_t leaf, Asked asked, std::optional<Nanoseconds> patience);
   bool find_unasked();
   bool is_output_over();
   void read_more(std::optional<Nanoseconds> patience);
   void take_line();
   std::string take_reply();
-  void take_error(Leaf& leaf);
-  std::string take_answer(Leaf& leaf);
+  void take_error(Leaf& leaf) LOCKSTEP_REQUIRES(mutex_);
+  std::string take_answer(Leaf& leaf) LOCKSTEP_REQUIRES(mutex_);
   void note_end();
   void judge(ProgramProcess::Written written);
   void note_deaf();
   Nanoseconds time_to_die() const;
   void end_late(std::string_view leaf);
+  bool ends_softly();
   bool is_late(const Leaf& leaf, Nanoseconds now) const;
   std::string blamed();
 
@@ -132,15 +134,16 @@ class Conversation {
   Reply reply_;
   std::string written_;  // keeps its capacity
 
-  std::mutex mutex_;  // of all below
-  std::condition_variable answered_;
-  std::vector<Leaf> leaves_;
-  const lockstep_caller* run_ = nullptr;
-  std::string outgoing_;
-  std::string why_gone_;
-  bool ends_softly_ = false;
-  bool was_gone_ = false, is_hurried_ = false;  // at the end
+  bool was_gone_ = false, is_hurried_ = false;  // these: at the end
   Nanoseconds closed_{0};                       // when its input was
+
+  Mutex mutex_;
+  std::condition_variable answered_;
+  std::vector<Leaf> leaves_ LOCKSTEP_GUARDED_BY(mutex_);
+  const lockstep_caller* run_ LOCKSTEP_GUARDED_BY(mutex_) = nullptr;
+  std::string outgoing_ LOCKSTEP_GUARDED_BY(mutex_);
+  std::string why_gone_ LOCKSTEP_GUARDED_BY(mutex_);
+  bool ends_softly_ LOCKSTEP_GUARDED_BY(mutex_) = false;
   std::atomic<bool> gone_{false};
 };
 

@@ -42,7 +42,7 @@ Listener::~Listener() {
   is_over_.store(true);
   wake();
   thread_.join();
-  for (Conversation* conversation : conversations_) {
+  for (Conversation* conversation : conversations()) {
     conversation->flush();
     conversation->set_listened(false);
   }
@@ -51,10 +51,15 @@ Listener::~Listener() {
 void Listener::add(Conversation& conversation) {
   conversation.set_listened(true);
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     conversations_.push_back(&conversation);
   }
   wake();
+}
+
+std::vector<Conversation*> Listener::conversations() {
+  const Lock lock(mutex_);
+  return conversations_;
 }
 
 void Listener::wake() {
@@ -62,16 +67,12 @@ void Listener::wake() {
 }
 
 void Listener::listen() {
-  std::vector<Conversation*> known;
   std::vector<pollfd> descriptors;
   while (true) {
     // First: who has something new before this does not ring, and who has it later does.
     is_woken_.store(false);
     if (is_over_.load()) return;
-    {
-      const std::lock_guard lock(mutex_);
-      known = conversations_;
-    }
+    std::vector<Conversation*> known = conversations();
     std::erase_if(known, [](Conversation* it) {
       if (it->is_gone()) it->bury();
       return it->is_gone();

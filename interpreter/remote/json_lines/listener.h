@@ -3,12 +3,12 @@
 #pragma once
 
 #include <atomic>
-#include <mutex>
 #include <thread>
 #include <vector>
 
 #include "remote/json_lines/conversation.h"
 #include "system/file_descriptor.h"
+#include "system/mutex.h"
 
 namespace lockstep {
 
@@ -28,11 +28,12 @@ class Listener {
 
  private:
   void listen();
+  std::vector<Conversation*> conversations();
 
   FileDescriptor bell_;
   std::atomic<bool> is_over_{false}, is_woken_{false};
-  std::mutex mutex_;
-  std::vector<Conversation*> conversations_;
+  Mutex mutex_;
+  std::vector<Conversation*> conversations_ LOCKSTEP_GUARDED_BY(mutex_);
   std::thread thread_;
 };
 

@@ -34,6 +34,7 @@ Result<std::string> ProgramPlugin::first_line() {
                                "them to '{}'",
                                leaves_file_of(path_)));
   }
+  const Lock lock(mutex_);
   first_ = std::make_unique<Conversation>(options_);
   auto line = first_->start(path_);
   is_file_stale_ = line && written && *line != *written;
@@ -46,7 +47,7 @@ std::unique_ptr<RemoteRun> ProgramPlugin::begin_run(const lockstep_caller& calle
 
 std::unique_ptr<Conversation> ProgramPlugin::acquire(std::string& failure) {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     if (first_ != nullptr) return std::move(first_);
   }
   auto conversation = std::make_unique<Conversation>(options_);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <mutex>
 #include <string>
 
 #include "core/problem.h"
@@ -10,6 +9,7 @@
 #include "remote/json_lines/conversation.h"
 #include "remote/json_lines/hello.h"
 #include "remote/remote_plugin.h"
+#include "system/mutex.h"
 
 namespace lockstep {
 
@@ -44,8 +44,8 @@ class ProgramPlugin final : public RemotePlugin {
   std::unique_ptr<Hello> hello_;
   bool is_file_stale_ = false, is_file_older_ = false;
 
-  std::mutex mutex_;
-  std::unique_ptr<Conversation> first_;  // until a run takes it
+  Mutex mutex_;
+  std::unique_ptr<Conversation> first_ LOCKSTEP_GUARDED_BY(mutex_);  // until a run takes it
 };
 
 }  // namespace lockstep

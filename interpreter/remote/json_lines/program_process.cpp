@@ -92,6 +92,7 @@ std::string ProgramProcess::start(const std::string& leafhost, const std::string
                         recv(control_.number(), &report, sizeof report, 0) == sizeof report;
   if (!reported) return "its guardian does not start";
   if (report.what == GuardianReport::What::NotStarted) return text_of(report.number);
+  const Lock lock(mutex_);
   group_ = report.number;
   return {};
 }
@@ -106,7 +107,7 @@ void ProgramProcess::bury() {
   is_buried_ = true;
   pid_t group = -1;
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     group = std::exchange(group_, -1);
     shutdown(control_.number(), SHUT_RDWR);
   }
@@ -155,7 +156,7 @@ void ProgramProcess::end_softly(std::optional<Nanoseconds> limit) {
 
 // The guardian keeps the number of the group for us until the end of control_.
 void ProgramProcess::signal(int number) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   if (group_ > 0) ::kill(-group_, number);
 }
 

@@ -5,7 +5,6 @@
 #include <signal.h>
 #include <sys/types.h>
 
-#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,6 +13,7 @@
 #include "remote/child_process.h"
 #include "remote/json_lines/line_input.h"
 #include "system/file_descriptor.h"
+#include "system/mutex.h"
 
 namespace lockstep {
 
@@ -64,8 +64,8 @@ class ProgramProcess {
   ChildProcess guardian_;
   FileDescriptor control_, input_, output_;
   std::string unwritten_;
-  std::mutex mutex_;  // of control_ and group_, for signals from any thread
-  pid_t group_ = -1;
+  Mutex mutex_;  // for signals from any thread: the group is there until the end of control_
+  pid_t group_ LOCKSTEP_GUARDED_BY(mutex_) = -1;
   std::optional<std::string> end_;
   bool is_buried_ = false;
 };

@@ -39,7 +39,7 @@ Result<std::unique_ptr<IsolatedPlugin>> IsolatedPlugin::open(const std::string& 
   std::unique_ptr<IsolatedPlugin> plugin(new IsolatedPlugin(path, options));
   auto session = std::make_unique<Session>();
   if (auto refusal = plugin->start(*session)) return tl::unexpected(std::move(*refusal));
-  plugin->idle_.push_back(std::move(session));
+  plugin->release(std::move(session));
   return plugin;
 }
 
@@ -89,12 +89,13 @@ std::optional<std::uint32_t> IsolatedPlugin::index_of(const lockstep_leaf_type& 
 }
 
 std::string IsolatedPlugin::initialize() {
+  const Lock lock(mutex_);
   return idle_.empty() ? "" : initialize_in(*idle_.front());
 }
 
 // Null when all are used.
 std::unique_ptr<Session> IsolatedPlugin::take_idle() {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   while (!idle_.empty()) {
     auto session = std::move(idle_.back());
     idle_.pop_back();
@@ -149,7 +150,7 @@ std::unique_ptr<RemoteRun> IsolatedPlugin::begin_run(const lockstep_caller& call
 
 void IsolatedPlugin::release(std::unique_ptr<Session> session) {
   if (session->is_gone()) return;
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   idle_.push_back(std::move(session));
 }
 

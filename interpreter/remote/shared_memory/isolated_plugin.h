@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "remote/remote_plugin.h"
 #include "remote/shared_memory/descriptor_message.h"
 #include "remote/shared_memory/session.h"
+#include "system/mutex.h"
 
 namespace lockstep {
 
@@ -51,8 +51,9 @@ class IsolatedPlugin final : public RemotePlugin {
   ReadDescriptors descriptors_;
   std::vector<std::byte> description_;  // what descriptors_ was made of
 
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<Session>> idle_;  // initialized, but for the first of all
+  Mutex mutex_;
+  // Initialized, but for the first of all.
+  std::vector<std::unique_ptr<Session>> idle_ LOCKSTEP_GUARDED_BY(mutex_);
 };
 
 }  // namespace lockstep

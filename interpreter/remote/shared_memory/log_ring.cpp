@@ -34,7 +34,7 @@ void copy_out(const LogRing& ring, std::uint64_t at, void* data, std::size_t siz
 bool LogRingWriter::append(std::uint32_t caller, lockstep_log_level level, std::string_view text) {
   const std::string_view cut = utf8_front(text, kLongestLogLine);
   const Head head{static_cast<std::uint32_t>(cut.size()), caller, level};
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   const std::uint64_t at = ring_.written.load(std::memory_order_relaxed);
   const std::uint64_t used = at - ring_.read.load(std::memory_order_acquire);
   if (used + sizeof head + cut.size() > LogRing::kSize) {

@@ -7,11 +7,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <mutex>
 #include <string>
 #include <string_view>
 
 #include "lockstep/leaf.h"
+#include "system/mutex.h"
 
 namespace lockstep {
 
@@ -31,7 +31,7 @@ class LogRingWriter {
   bool append(std::uint32_t caller, lockstep_log_level level, std::string_view text);
 
  private:
-  std::mutex mutex_;
+  Mutex mutex_;  // of who writes
   LogRing& ring_;
 };
 

@@ -31,8 +31,8 @@ std::string Session::start(const IsolationOptions& options, const std::string& p
       !channel_.open(memory.number(), Channel::Side::Host)) {
     return std::strerror(errno);  // NOLINT(concurrency-mt-unsafe): known errors, constant texts
   }
-  call_log_.reader.emplace(channel_.call_log());
-  thread_log_.reader.emplace(channel_.thread_log());
+  call_log_.open(channel_.call_log());
+  thread_log_.open(channel_.thread_log());
   const ChildProcess::Given given[] = {{memory.number(), LeafhostDescriptors::kMemory},
                                        {bell_.number(), LeafhostDescriptors::kBell},
                                        {end.number(), LeafhostDescriptors::kParent}};
@@ -66,7 +66,7 @@ void Session::watch() {
   drain(call_log_);
   drain(thread_log_);
   {
-    const std::lock_guard lock(gone_mutex_);
+    const Lock lock(gone_mutex_);
     death_ = std::move(death);
     gone_.store(true);
   }
@@ -75,24 +75,29 @@ void Session::watch() {
 }
 
 void Session::await_end(std::optional<Nanoseconds> patience) {
-  std::unique_lock lock(gone_mutex_);
+  Lock lock(gone_mutex_);
   RunningTime time(RunningTime::interval_for(patience.value_or(kPatience)), monotonic_now());
   for (Nanoseconds waited{0}; !gone_ && (!patience || waited < *patience);
        waited += time.look(monotonic_now())) {
-    gone_signal_.wait_for(lock, time.interval());
+    lock.wait_for(gone_signal_, time.interval());
   }
+}
+
+std::string Session::death() const {
+  const Lock lock(gone_mutex_);
+  return death_;
 }
 
 // A lock for each line: who has a leaf to add must not wait until many are shown.
 void Session::tell(std::uint32_t number, lockstep_log_level level, const char* text) {
-  const std::lock_guard lock(listeners_mutex_);
+  const Lock lock(listeners_mutex_);
   const auto* const caller = number < listeners_.size() ? listeners_[number] : nullptr;
   if (caller != nullptr) host_table().log(caller, level, text);
 }
 
 // True when there is more.
 bool Session::drain(Log& log, std::size_t most) {
-  const std::lock_guard lock(log.mutex);
+  const Lock lock(log.mutex);
   if (log.reader->empty()) return false;
   std::uint32_t last = 0;
   log.reader->drain(
@@ -109,7 +114,7 @@ bool Session::drain(Log& log, std::size_t most) {
 }
 
 void Session::add_listener(std::uint32_t number, const lockstep_caller& caller) {
-  const std::lock_guard lock(listeners_mutex_);
+  const Lock lock(listeners_mutex_);
   if (number >= listeners_.size()) listeners_.resize(number + std::size_t{1});
   listeners_[number] = &caller;
 }
@@ -117,7 +122,7 @@ void Session::add_listener(std::uint32_t number, const lockstep_caller& caller) 
 void Session::forget_listeners() {
   drain(call_log_);
   drain(thread_log_);
-  const std::lock_guard lock(listeners_mutex_);
+  const Lock lock(listeners_mutex_);
   listeners_.clear();
 }
 
@@ -166,8 +171,8 @@ void Session::fail_call(std::string_view who, Ending ending) {
     last_words_ = "its process sent an invalid answer; it was killed";
     blame_ = fmt::format("was killed because its answer to {}{} was invalid", function, where);
   } else {
-    last_words_ = "its process " + death_;
-    blame_ = fmt::format("{} in {}{}", death_, function, where);
+    last_words_ = "its process " + death();
+    blame_ = fmt::format("{} in {}{}", death(), function, where);
   }
 }
 
@@ -181,7 +186,7 @@ void Session::reject_answer() {
 }
 
 std::string Session::epitaph() const {
-  return "its process is gone: it " + (blame_.empty() ? death_ : blame_);
+  return "its process is gone: it " + (blame_.empty() ? death() : blame_);
 }
 
 void Session::end() {

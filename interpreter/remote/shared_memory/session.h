@@ -6,7 +6,6 @@
 #include <atomic>
 #include <condition_variable>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +18,7 @@
 #include "remote/shared_memory/channel.h"
 #include "remote/shared_memory/message.h"
 #include "system/file_descriptor.h"
+#include "system/mutex.h"
 
 namespace lockstep {
 
@@ -62,14 +62,19 @@ class Session {
   enum class Ending : std::uint8_t { None, Late, Nonsense };
   void watch();
   struct Log {
-    std::mutex mutex;
-    std::optional<LogRingReader> reader;
+    void open(LogRing& ring) {
+      const Lock lock(mutex);
+      reader.emplace(ring);
+    }
+    Mutex mutex;
+    std::optional<LogRingReader> reader LOCKSTEP_GUARDED_BY(mutex) = {};
   };
   bool drain(Log& log, std::size_t most = ~std::size_t{0});
   void tell(std::uint32_t number, lockstep_log_level level, const char* text);
   void fail_call(std::string_view who, Ending ending);
   std::optional<Nanoseconds> limit() const;  // of a call
   void await_end(std::optional<Nanoseconds> patience);
+  std::string death() const;
 
   Nanoseconds hang_limit_{0};
   ChildProcess process_;
@@ -77,9 +82,9 @@ class Session {
   FileDescriptor bell_;
   std::thread watcher_;
   std::atomic<bool> gone_{false};
-  std::mutex gone_mutex_;
+  mutable Mutex gone_mutex_;
   std::condition_variable gone_signal_;
-  std::string death_;  // written by the watcher, before gone_
+  std::string death_ LOCKSTEP_GUARDED_BY(gone_mutex_);  // written by the watcher, before gone_
 
   PluginFunction function_ = PluginFunction::None;
   MessageWriter request_;
@@ -88,8 +93,8 @@ class Session {
 
   Log call_log_;    // drained by the caller after each call
   Log thread_log_;  // by the watcher
-  std::mutex listeners_mutex_;
-  std::vector<const lockstep_caller*> listeners_;
+  Mutex listeners_mutex_;
+  std::vector<const lockstep_caller*> listeners_ LOCKSTEP_GUARDED_BY(listeners_mutex_);
 };
 
 }  // namespace lockstep
