@@ -6,7 +6,7 @@
 namespace lockstep {
 
 void LeafLines::add(std::string_view who, std::string_view level, std::string_view text) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   const std::size_t size = sizeof(LeafLine) + who.size() + text.size();
   if (size_ + size > kRoom) {
     ++left_out_;
@@ -19,7 +19,7 @@ void LeafLines::add(std::string_view who, std::string_view level, std::string_vi
 
 std::span<const LeafLine> LeafLines::lines() {
   if (has_new_.exchange(false)) {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     std::ranges::move(new_, std::back_inserter(waiting_));
     new_.clear();
   }
@@ -29,7 +29,7 @@ std::span<const LeafLine> LeafLines::lines() {
 void LeafLines::keep() {
   if (waiting_.empty()) return;
   waiting_.clear();
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   size_ = 0;
   for (const LeafLine& line : new_) {
     size_ += sizeof(LeafLine) + line.who.size() + line.text.size();

@@ -4,11 +4,12 @@
 
 #include <atomic>
 #include <cstdint>
-#include <mutex>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "system/mutex.h"
 
 namespace lockstep {
 
@@ -35,10 +36,10 @@ class LeafLines {
  private:
   std::atomic<bool> has_new_{false};
   std::atomic<std::uint64_t> left_out_{0};
-  std::mutex mutex_;  // for the next two
-  std::vector<LeafLine> new_;
-  std::size_t size_ = 0;           // bytes of all that wait
-  std::vector<LeafLine> waiting_;  // of the tick thread
+  Mutex mutex_;
+  std::vector<LeafLine> new_ LOCKSTEP_GUARDED_BY(mutex_);
+  std::size_t size_ LOCKSTEP_GUARDED_BY(mutex_) = 0;  // bytes of all that wait
+  std::vector<LeafLine> waiting_;                     // of the tick thread
 };
 
 // The last lines of a run.

@@ -11,7 +11,6 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
-#include <mutex>
 #include <new>
 #include <string>
 #include <thread>
@@ -19,6 +18,7 @@
 
 #include "core/clock.h"
 #include "system/descriptors.h"
+#include "system/mutex.h"
 #include "system/own_thread.h"
 
 namespace lockstep {
@@ -57,12 +57,14 @@ struct Outlet::State {
   void lose(std::uint64_t count, int why);
   void write_until_stopped();
   bool is_idle() const { return done == said; }
+  bool waits() const LOCKSTEP_REQUIRES(mutex) { return mode == Mode::Queued && !is_idle(); }
 
   const int file;
-  std::mutex mutex;  // for the next four
-  Mode mode = Mode::Direct;
-  Batch waiting, passing;  // the thread reads the second without the lock
-  bool stopping = false;
+  Mutex mutex;
+  Mode mode LOCKSTEP_GUARDED_BY(mutex) = Mode::Direct;
+  Batch waiting LOCKSTEP_GUARDED_BY(mutex);
+  Batch passing;  // changed under the lock, which the thread needs not to read it
+  bool stopping LOCKSTEP_GUARDED_BY(mutex) = false;
   std::condition_variable wake;
   std::thread thread;
   std::atomic<std::uint64_t> said{0}, done{0};  // how often; done: with or without success
@@ -101,9 +103,9 @@ void Outlet::State::pass_on(const Batch& batch) {
 }
 
 void Outlet::State::write_until_stopped() {
-  std::unique_lock lock(mutex);
+  Lock lock(mutex);
   while (true) {
-    wake.wait(lock, [this] { return !is_idle() || stopping; });
+    while (is_idle() && !stopping) lock.wait(wake);
     if (is_idle() || mode == Mode::Closed) return;
     std::swap(passing, waiting);
     const std::uint64_t last = said;
@@ -124,7 +126,7 @@ int Outlet::file() const {
 
 void Outlet::say(std::string_view lines) noexcept {
   State& state = *state_;
-  const std::lock_guard lock(state.mutex);
+  const Lock lock(state.mutex);
   State::Batch& batch = state.waiting;
   if (state.mode == State::Mode::Closed) {
     state.lost += lines_of(lines);
@@ -146,7 +148,7 @@ void Outlet::say(std::string_view lines) noexcept {
 
 bool Outlet::show(std::string_view picture) noexcept {
   State& state = *state_;
-  const std::lock_guard lock(state.mutex);
+  const Lock lock(state.mutex);
   if (state.mode == State::Mode::Direct) return write_all(state.file, picture);
   if (state.mode == State::Mode::Closed || !state.is_idle()) return false;
   try {
@@ -175,14 +177,13 @@ Outlet::Loss Outlet::lost() const noexcept {
 Outlet::Loss Outlet::settle(std::chrono::nanoseconds patience) noexcept {
   State& state = *state_;
   const auto deadline = monotonic_now() + patience;
-  std::unique_lock lock(state.mutex);
-  const auto waits = [&] { return state.mode == State::Mode::Queued && !state.is_idle(); };
-  for (auto time = monotonic_now(); waits() && time < deadline; time = monotonic_now()) {
+  Lock lock(state.mutex);
+  for (auto time = monotonic_now(); state.waits() && time < deadline; time = monotonic_now()) {
     lock.unlock();
     flush(deadline - time);
     lock.lock();
   }
-  if (waits()) {
+  if (state.waits()) {
     state.mode = State::Mode::Closed;
     state.lost += state.passing.all_lines() + state.waiting.all_lines();
     state.thread.detach();
@@ -192,7 +193,7 @@ Outlet::Loss Outlet::settle(std::chrono::nanoseconds patience) noexcept {
 
 Outlet::Thread::Thread(Outlet& outlet) : outlet_(outlet) {
   State& state = *outlet.state_;
-  const std::lock_guard lock(state.mutex);
+  const Lock lock(state.mutex);
   if (state.mode != State::Mode::Direct) return;
   state.waiting.text.reserve(kRoom);
   state.passing.text.reserve(kRoom);
@@ -204,7 +205,7 @@ Outlet::Thread::Thread(Outlet& outlet) : outlet_(outlet) {
 Outlet::Thread::~Thread() {
   outlet_.settle();
   State& state = *outlet_.state_;
-  std::unique_lock lock(state.mutex);
+  Lock lock(state.mutex);
   if (state.mode != State::Mode::Queued) return;
   state.mode = State::Mode::Direct;
   state.stopping = true;

@@ -6,7 +6,7 @@ namespace lockstep {
 
 void RunControl::give(Order order) {
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     new_.push_back(std::move(order));
     has_new_.store(true, std::memory_order_release);
   }
@@ -14,7 +14,7 @@ void RunControl::give(Order order) {
 }
 
 RunControl::State RunControl::state() const {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   return state_;
 }
 
@@ -22,12 +22,12 @@ void RunControl::take_orders(Ticker& ticker, Blackboard& blackboard) {
   if (!has_new_.load(std::memory_order_acquire)) return;
   std::vector<Order> orders;
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     orders.swap(new_);
     has_new_.store(false, std::memory_order_release);
   }
   for (const Order& order : orders) obey(order, ticker, blackboard);
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   state_.speed = speed_;
 }
 
@@ -82,7 +82,7 @@ void RunControl::pause(bool is_stepping) {
 }
 
 void RunControl::report_standing(bool stands) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   state_.is_paused = stands;
   state_.breakpoint = stands ? reached_ : std::nullopt;
   if (stands) pauses_.fetch_add(1, std::memory_order_release);

@@ -4,7 +4,6 @@
 
 #include <atomic>
 #include <cstdint>
-#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "engine/ticker.h"
 #include "runtime/breakpoints.h"
 #include "system/bell.h"
+#include "system/mutex.h"
 
 namespace lockstep {
 
@@ -68,9 +68,9 @@ class RunControl {
   static void set(Entry& entry, const Order& order);
 
   std::atomic<bool> has_new_{false};
-  mutable std::mutex mutex_;  // for the next two
-  std::vector<Order> new_;
-  State state_;
+  mutable Mutex mutex_;
+  std::vector<Order> new_ LOCKSTEP_GUARDED_BY(mutex_);
+  State state_ LOCKSTEP_GUARDED_BY(mutex_);
   std::atomic<std::uint64_t> pauses_{0};
   Bell bell_;
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <condition_variable>
-#include <mutex>
 #include <semaphore>
 #include <thread>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "core/running_time.h"
 #include "runtime/crash_report.h"
 #include "runtime/stop_signals.h"
+#include "system/mutex.h"
 #include "system/own_thread.h"
 
 namespace lockstep {
@@ -80,18 +80,18 @@ class Watchdog::Patrol {
  private:
   void work();
 
-  std::mutex changing_;  // who adds and removes
-  std::thread thread_;
+  Mutex changing_;  // who adds and removes
+  std::thread thread_ LOCKSTEP_GUARDED_BY(changing_);
   std::binary_semaphore ready_{0};  // of the thread
-  std::mutex mutex_;                // of what follows
+  Mutex mutex_;
   std::condition_variable changed_;
-  std::vector<Implementation*> watched_;
+  std::vector<Implementation*> watched_ LOCKSTEP_GUARDED_BY(mutex_);
 };
 
 void Watchdog::Patrol::add(Implementation& watched) {
-  const std::lock_guard change(changing_);
+  const Lock change(changing_);
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     watched_.push_back(&watched);
   }
   changed_.notify_one();  // which may have to look more often
@@ -99,6 +99,7 @@ void Watchdog::Patrol::add(Implementation& watched) {
   try {
     thread_ = own_thread([this] { work(); }, StopSignals::numbers());
   } catch (...) {
+    const Lock lock(mutex_);
     watched_.clear();
     throw;
   }
@@ -106,10 +107,10 @@ void Watchdog::Patrol::add(Implementation& watched) {
 }
 
 void Watchdog::Patrol::remove(const Implementation& watched) {
-  const std::lock_guard change(changing_);
+  const Lock change(changing_);
   bool is_last = false;
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     std::erase(watched_, &watched);
     is_last = watched_.empty();
   }
@@ -122,11 +123,11 @@ void Watchdog::Patrol::work() {
   // To begin takes a lock of the dynamic linker, which a plugin that hangs while it is loaded
   // keeps.
   ready_.release();
-  std::unique_lock lock(mutex_);
+  Lock lock(mutex_);
   while (!watched_.empty()) {
     Nanoseconds interval = Nanoseconds::max();
     for (const Implementation* it : watched_) interval = std::min(interval, it->time.interval());
-    changed_.wait_for(lock, interval);
+    lock.wait_for(changed_, interval);
     for (Implementation* it : watched_) it->look();
   }
 }

@@ -7,11 +7,11 @@
 #include <climits>
 #include <cstddef>
 #include <exception>
-#include <mutex>
 #include <new>
 #include <utility>
 
 #include "system/alternate_stack.h"
+#include "system/mutex.h"
 #include "system/signal_mask.h"
 
 namespace lockstep {
@@ -20,8 +20,8 @@ namespace {
 constinit thread_local bool t_is_own = false;
 
 std::atomic<bool> g_has_failed{false};
-std::mutex g_failure_mutex;
-std::exception_ptr g_failure;  // the first
+Mutex g_failure_mutex;
+std::exception_ptr g_failure LOCKSTEP_GUARDED_BY(g_failure_mutex);  // the first
 
 // The stack of a thread that ends. Its thread_local objects go first, then, in rounds, what has a
 // key; both may be a plugin's. In the last round this goes.
@@ -50,7 +50,7 @@ void end_round(void* stack) {
 }
 
 void note_failure(std::exception_ptr failure) {
-  const std::lock_guard lock(g_failure_mutex);
+  const Lock lock(g_failure_mutex);
   if (g_failure == nullptr) g_failure = std::move(failure);
   g_has_failed = true;
 }
@@ -86,7 +86,7 @@ std::thread own_thread(std::function<void()> body, std::span<const int> taken) {
 
 void rethrow_thread_failure() {
   if (!g_has_failed.load(std::memory_order_acquire)) return;
-  const std::lock_guard lock(g_failure_mutex);
+  const Lock lock(g_failure_mutex);
   std::rethrow_exception(g_failure);
 }
 

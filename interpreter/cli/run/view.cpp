@@ -53,7 +53,7 @@ LeafLog View::leaf_log() {
 void View::log(const std::string& line) {
   std::uint64_t left_out = 0;
   {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     if (!budget_.take(monotonic_now())) return;
     left_out = budget_.take_left_out();
   }
@@ -67,7 +67,7 @@ void View::print_left_out(std::uint64_t lines) {
 
 void View::close() {
   live_.reset();
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   print_left_out(budget_.take_left_out());
 }
 

@@ -1,11 +1,11 @@
 // What the user sees during a run: the live view, plain lines or nothing.
 #pragma once
 
-#include <mutex>
 #include <optional>
 #include <string>
 
 #include "plugin/contract/leaf_set.h"
+#include "system/mutex.h"
 #include "view/console_live.h"
 #include "view/console_plain.h"
 #include "view/line_budget.h"
@@ -41,8 +41,8 @@ class View {
   void print_left_out(std::uint64_t lines);
 
   const lockstep_log_level least_;
-  std::mutex mutex_;  // leaves log from any thread
-  LineBudget budget_{kBurst};
+  Mutex mutex_;  // leaves log from any thread
+  LineBudget budget_ LOCKSTEP_GUARDED_BY(mutex_){kBurst};
   std::optional<ConsoleLive> live_;
   std::optional<ConsolePlain> plain_;
 };

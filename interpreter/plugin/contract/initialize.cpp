@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <map>
-#include <mutex>
 #include <utility>
 
 #include "core/plugin_exception.h"
 #include "plugin/contract/call_mark.h"
 #include "plugin/contract/host.h"
+#include "system/mutex.h"
 
 namespace lockstep {
 
@@ -17,8 +17,8 @@ namespace {
 // How many users a plugin has. Its functions stand for it: the table of a set is a copy.
 using Functions = std::pair<decltype(lockstep_plugin::init), decltype(lockstep_plugin::deinit)>;
 struct Users {
-  std::mutex mutex;
-  std::map<Functions, int> counts;
+  Mutex mutex;
+  std::map<Functions, int> counts LOCKSTEP_GUARDED_BY(mutex);
 };
 // Never destroyed: plugins are deinitialized at the end of main, or of a program that embeds us.
 Users& users() {
@@ -47,16 +47,18 @@ std::string call_init(const lockstep_plugin& plugin) {
 }  // namespace
 
 std::string initialize_plugin(const lockstep_plugin& plugin) {
-  const std::lock_guard lock(users().mutex);
-  int& count = users().counts[functions_of(plugin)];
+  Users& all = users();
+  const Lock lock(all.mutex);
+  int& count = all.counts[functions_of(plugin)];
   std::string failure = count == 0 ? call_init(plugin) : "";
   if (failure.empty()) ++count;
   return failure;
 }
 
 void deinitialize_plugin(const lockstep_plugin& plugin) {
-  const std::lock_guard lock(users().mutex);
-  if (--users().counts[functions_of(plugin)] > 0 || plugin.deinit == nullptr) return;
+  Users& all = users();
+  const Lock lock(all.mutex);
+  if (--all.counts[functions_of(plugin)] > 0 || plugin.deinit == nullptr) return;
   const MarkedCall mark(CallSite::of_plugin(plugin.name), PluginFunction::Deinit);
   thrown_by(plugin.deinit);  // the work is done; there is no one to report to
 }

@@ -84,7 +84,6 @@ void Conversation::remove(std::uint32_t leaf) {
 
 void Conversation::send(std::uint32_t number, Asked asked, std::string_view lines) {
   if (is_gone() || (asked == Asked::Tick && !is_listened_ && find_unasked())) return;
-  auto written = ProgramProcess::Written::Good;
   {
     const Lock lock(mutex_);
     Leaf& leaf = leaves_[number - 1];
@@ -100,15 +99,9 @@ void Conversation::send(std::uint32_t number, Asked asked, std::string_view line
         leaf.has_erred = false;
       }
     }
-    if (is_listened_) {
-      outgoing_ += lines;
-      const bool fits = outgoing_.size() <= ProgramProcess::kMostUnwritten;
-      if (!fits) written = ProgramProcess::Written::TooMuch;
-    } else {
-      written = process_.write(lines);
-    }
+    outgoing_ += lines;
   }
-  judge(written);
+  if (!is_listened_) flush();
 }
 
 void Conversation::judge(ProgramProcess::Written written) {
