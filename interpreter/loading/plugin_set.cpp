@@ -17,7 +17,6 @@
 #include "remote/json_lines/leaves_file.h"
 #include "remote/json_lines/program_plugin.h"
 #include "remote/shared_memory/isolated_plugin.h"
-#include "remote/shared_memory/refusal.h"
 
 namespace lockstep {
 namespace {
@@ -44,6 +43,24 @@ bool is_program(const std::string& path) {
 auto constant_of(const std::string& file) {
   return open_shared_object(file).and_then(
       [](const SharedObject& object) { return find_constant(object, LOCKSTEP_PLUGIN_ENTRY); });
+}
+
+// Why a leaf cannot run in a separate process. The message says what is wrong with its plugin.
+std::optional<Problem> refuse_isolation(const Descriptors::Leaf& leaf) {
+  for (const Parameter& port : leaf.parameters) {
+    if (port.object == nullptr || port.object->has_bytes()) continue;
+    return Problem{fmt::format("cannot be isolated: the port '{}' of '{}' carries objects, and the "
+                               "type '{}' has no to_bytes and from_bytes",
+                               port.name, leaf.type.id, port.object->name()),
+                   "load it without isolation, or give the type both functions"};
+  }
+  // The children of a control node are leaves of other processes, or of this one.
+  if (leaf.type.kind != LOCKSTEP_CONTROL && leaf.type.kind != LOCKSTEP_DECORATOR) {
+    return std::nullopt;
+  }
+  return Problem{fmt::format("cannot be isolated: '{}' is a {}", leaf.type.id,
+                             leaf.type.kind == LOCKSTEP_CONTROL ? "control node" : "decorator"),
+                 "load it without isolation, or move its leaves into another plugin"};
 }
 
 // Two names of one file.

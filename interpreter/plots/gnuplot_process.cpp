@@ -16,7 +16,7 @@
 #include <string_view>
 
 #include "runtime/stop_signals.h"
-#include "system/file_descriptor.h"
+#include "system/pipe.h"
 
 namespace lockstep {
 namespace {
@@ -83,17 +83,6 @@ int become_gnuplot(const Plan& plan, pid_t parent, int out) {
   return errno;
 }
 
-struct Pipe {
-  FileDescriptor read, write;
-  bool open() {
-    int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0) return false;
-    read = FileDescriptor(ends[0]);
-    write = FileDescriptor(ends[1]);
-    return true;
-  }
-};
-
 // Reads what it says until it has closed its end, or a stop signal comes: then it is killed.
 void listen(int file, pid_t pid, GnuplotEnd& ended) {
   std::array<char, 4096> buffer;
@@ -122,17 +111,17 @@ GnuplotEnd run_gnuplot(const std::filesystem::path& directory, const std::string
   const pid_t pid = fork();
   if (pid < 0) return {.reason = errno};
   if (pid == 0) {
-    const int reason = become_gnuplot(plan, parent, words.write.number());
-    const ssize_t told = write(failure.write.number(), &reason, sizeof reason);
+    const int reason = become_gnuplot(plan, parent, words.writing.number());
+    const ssize_t told = write(failure.writing.number(), &reason, sizeof reason);
     _exit(told == sizeof reason ? 127 : 126);
   }
-  words.write = FileDescriptor();
-  failure.write = FileDescriptor();
+  words.writing = FileDescriptor();
+  failure.writing = FileDescriptor();
   GnuplotEnd ended;
   ssize_t count = 0;
-  do count = read(failure.read.number(), &ended.reason, sizeof ended.reason);
+  do count = read(failure.reading.number(), &ended.reason, sizeof ended.reason);
   while (count < 0 && errno == EINTR);
-  if (ended.reason == 0) listen(words.read.number(), pid, ended);
+  if (ended.reason == 0) listen(words.reading.number(), pid, ended);
   int status = 0;
   while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {
   }

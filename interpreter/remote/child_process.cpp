@@ -77,11 +77,11 @@ int open_pidfd(pid_t process) {
   return static_cast<int>(syscall(SYS_pidfd_open, process, 0));
 }
 
+}  // namespace
+
 std::string error_text(int error) {
   return std::strerror(error);  // NOLINT(concurrency-mt-unsafe): known errors, constant texts
 }
-
-}  // namespace
 
 std::string describe_end(int code, int status) {
   if (code == CLD_EXITED) return fmt::format("ended with exit code {}", status);

@@ -17,6 +17,9 @@ namespace lockstep {
 // waitid has them.
 std::string describe_end(int code, int status);
 
+// What errno means.
+std::string error_text(int error);
+
 class ChildProcess {
  public:
   // A descriptor of ours, and the number under which the program finds it.

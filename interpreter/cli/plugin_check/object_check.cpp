@@ -1,6 +1,5 @@
 #include "cli/plugin_check/object_check.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -15,6 +14,7 @@
 #include "remote/child_process.h"
 #include "runtime/plugin_thread.h"
 #include "system/descriptors.h"
+#include "system/pipe.h"
 
 namespace lockstep {
 namespace {
@@ -88,27 +88,25 @@ void read_lines(int descriptor, Part& part) {
 
 std::optional<std::size_t> run_part(const std::string& file, const PluginOptions& options,
                                     std::size_t first, Conformance& result) {
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) {
+  Pipe findings;
+  if (!findings.open()) {
     result.steps.push_back({false, "cannot be examined: there is no pipe"});
     return std::nullopt;
   }
-  const FileDescriptor reading(ends[0]);
-  FileDescriptor writing(ends[1]);
   ChildProcess child;
-  const ChildProcess::Given given[] = {{writing.number(), kFindings}};
+  const ChildProcess::Given given[] = {{findings.writing.number(), kFindings}};
   const std::string failure =
       child.start("/proc/self/exe",
                   {"lockstep", "plugin", "check", file, "--hang-limit",
                    fmt::format("{}", options.hang_limit), "--from-leaf", fmt::format("{}", first)},
                   given);
-  writing = FileDescriptor();
+  findings.writing = FileDescriptor();
   if (!failure.empty()) {
     result.steps.push_back({false, "cannot be examined: no process starts: " + failure});
     return std::nullopt;
   }
   Part part(result, first);
-  read_lines(reading.number(), part);
+  read_lines(findings.reading.number(), part);
   return part.end(child.reap());
 }
 

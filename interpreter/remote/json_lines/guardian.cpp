@@ -17,7 +17,7 @@
 
 #include "core/clock.h"
 #include "remote/json_lines/orphans.h"
-#include "system/file_descriptor.h"
+#include "system/pipe.h"
 
 namespace lockstep {
 namespace {
@@ -55,21 +55,19 @@ void help_python() {
 
 // The process, or nothing after a report why there is none.
 std::optional<pid_t> start_program(const std::string& path) {
-  int errors[2];
-  if (pipe2(errors, O_CLOEXEC) != 0) {
+  Pipe errors;
+  if (!errors.open()) {
     report(GuardianReport::What::NotStarted, errno);
     return std::nullopt;
   }
-  const FileDescriptor reading(errors[0]);
-  FileDescriptor writing(errors[1]);
   const pid_t guardian = getpid();
   const pid_t pid = fork();
-  if (pid == 0) become_program(path, guardian, errors[1]);
+  if (pid == 0) become_program(path, guardian, errors.writing.number());
   int error = errno;
   if (pid > 0) {
     setpgid(pid, pid);
-    writing = FileDescriptor();
-    const bool failed = read(errors[0], &error, sizeof error) == sizeof error;
+    errors.writing = FileDescriptor();
+    const bool failed = read(errors.reading.number(), &error, sizeof error) == sizeof error;
     if (!failed) return pid;
     waitpid(pid, nullptr, 0);
   }
@@ -79,21 +77,9 @@ std::optional<pid_t> start_program(const std::string& path) {
 
 // What the program's children have started outlives them as a child of ours.
 void end_orphans() {
-  while (true) {
-    const FileDescriptor list(open("/proc/thread-self/children", O_RDONLY | O_CLOEXEC));
-    char text[4096];
-    const ssize_t size = read(list.number(), text, sizeof text);
-    pid_t number = 0;
-    for (ssize_t i = 0; i < size; ++i) {
-      if (text[i] != ' ') {
-        number = number * 10 + (text[i] - '0');
-        continue;
-      }
-      kill(number, SIGKILL);
-      number = 0;
-    }
-    if (waitpid(-1, nullptr, 0) < 0 && errno == ECHILD) return;
-  }
+  do {
+    for (const pid_t child : own_children()) kill(child, SIGKILL);
+  } while (waitpid(-1, nullptr, 0) >= 0 || errno != ECHILD);
 }
 
 class Guard {

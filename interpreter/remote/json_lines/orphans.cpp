@@ -31,6 +31,8 @@ bool is_marked(pid_t process, pid_t guardian) {
   return false;
 }
 
+}  // namespace
+
 std::vector<pid_t> own_children() {
   std::vector<pid_t> children;
   std::error_code error;
@@ -40,8 +42,6 @@ std::vector<pid_t> own_children() {
   }
   return children;
 }
-
-}  // namespace
 
 void take_over_orphans() {
   prctl(PR_SET_CHILD_SUBREAPER, 1);

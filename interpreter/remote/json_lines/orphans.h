@@ -5,6 +5,8 @@
 
 #include <sys/types.h>
 
+#include <vector>
+
 namespace lockstep {
 
 // From now on, what outlives a guardian becomes a child of this process.
@@ -13,6 +15,9 @@ void take_over_orphans();
 // The guardian has ended. Kills what it has left to this process, and waits for it: the group of
 // the program, and what has left it.
 void end_orphans_of(pid_t guardian, pid_t group);
+
+// Those of all threads of this process.
+std::vector<pid_t> own_children();
 
 // In the guardian: its number, for the environment of all that the program starts.
 void mark_own_orphans();

@@ -26,7 +26,7 @@ void append_item(std::string& to, double item) {
 void append_item(std::string& to, const std::string& item) {
   append_json(to, item);
 }
-void append_item(std::string& to, NoValue) {
+void append_item(std::string& to, const NoValue&) {
   to += "null";
 }
 void append_item(std::string& to, const Object&) {
@@ -65,7 +65,7 @@ bool read_item(JsonValue value, std::vector<Item>& items) {
   value.each_item([&](JsonValue it) { is_list &= read_item(it, items.emplace_back()); });
   return is_list;
 }
-bool read_item(JsonValue /*value*/, NoValue /*item*/) {
+bool read_item(JsonValue /*value*/, NoValue& /*item*/) {
   return false;
 }
 bool read_item(JsonValue /*value*/, Object& /*item*/) {

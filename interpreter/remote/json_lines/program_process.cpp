@@ -8,12 +8,12 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <initializer_list>
 #include <utility>
 
 #include "remote/json_lines/guardian.h"
 #include "remote/json_lines/orphans.h"
+#include "system/pipe.h"
 
 namespace lockstep {
 namespace {
@@ -38,47 +38,19 @@ bool await(std::initializer_list<int> descriptors, std::optional<Nanoseconds> pa
   }
 }
 
-// What the program reads is a socket: to write to one whose reader is gone sends no signal.
-struct Ends {
-  FileDescriptor reading, writing;
-
-  bool open_pipe() {
-    int ends[2];
-    return take(pipe2(ends, O_CLOEXEC), ends);
-  }
-  bool open_socket() {
-    int ends[2];
-    return take(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends), ends);
-  }
-
- private:
-  bool take(int error, const int (&ends)[2]) {
-    if (error != 0) return false;
-    reading = FileDescriptor(ends[0]);
-    writing = FileDescriptor(ends[1]);
-    return true;
-  }
-};
-
-std::string text_of(int error) {
-  return std::strerror(error);  // NOLINT(concurrency-mt-unsafe): known errors, constant texts
-}
-
 }  // namespace
 
 std::string ProgramProcess::start(const std::string& leafhost, const std::string& path) {
-  Ends requests, answers;
-  int control[2];
+  Pipe requests, answers, control;
   const FileDescriptor parent = ChildProcess::own_end();
-  if (parent.number() < 0 || !requests.open_socket() || !answers.open_pipe() ||
-      socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, control) != 0) {
-    return text_of(errno);
+  if (parent.number() < 0 || !requests.open_sockets(SOCK_STREAM) || !answers.open() ||
+      !control.open_sockets(SOCK_SEQPACKET)) {
+    return error_text(errno);
   }
-  control_ = FileDescriptor(control[0]);
-  const FileDescriptor theirs(control[1]);
+  control_ = std::move(control.reading);
   const ChildProcess::Given given[] = {{requests.reading.number(), GuardianDescriptors::kRequests},
                                        {answers.writing.number(), GuardianDescriptors::kAnswers},
-                                       {theirs.number(), GuardianDescriptors::kControl},
+                                       {control.writing.number(), GuardianDescriptors::kControl},
                                        {parent.number(), GuardianDescriptors::kParent}};
   if (auto failure = guardian_.start(leafhost, {"lockstep-leafhost", "--program", path}, given);
       !failure.empty()) {
@@ -91,7 +63,7 @@ std::string ProgramProcess::start(const std::string& leafhost, const std::string
   const bool reported = await({control_.number()}, kPatience) &&
                         recv(control_.number(), &report, sizeof report, 0) == sizeof report;
   if (!reported) return "its guardian does not start";
-  if (report.what == GuardianReport::What::NotStarted) return text_of(report.number);
+  if (report.what == GuardianReport::What::NotStarted) return error_text(report.number);
   const Lock lock(mutex_);
   group_ = report.number;
   return {};

@@ -5,7 +5,6 @@
 #include <sys/eventfd.h>
 
 #include <cerrno>
-#include <cstring>
 
 #include "core/running_time.h"
 #include "plugin/contract/host.h"
@@ -29,7 +28,7 @@ std::string Session::start(const IsolationOptions& options, const std::string& p
   const FileDescriptor end = ChildProcess::own_end();
   if (memory.number() < 0 || bell_.number() < 0 || end.number() < 0 ||
       !channel_.open(memory.number(), Channel::Side::Host)) {
-    return std::strerror(errno);  // NOLINT(concurrency-mt-unsafe): known errors, constant texts
+    return error_text(errno);
   }
   call_log_.open(channel_.call_log());
   thread_log_.open(channel_.thread_log());
