@@ -33,10 +33,12 @@ const std::vector<Layer> kLayers{
     {"interpreter/document/", {"core/", "system/"}},
     {"interpreter/expression/", {"core/"}},
     {"interpreter/definition/", {"core/", "document/", "expression/"}},
+    {"interpreter/definition/btcpp/", {"dialect/btcpp/"}},
     {"interpreter/engine/", {"core/", "expression/"}},
     {"interpreter/engine/compile.h", {"definition/"}},
     {"interpreter/engine/compile.cpp", {"definition/"}},
     {"interpreter/engine/nodes/leaf.cpp", {"lockstep/leaf.h"}},
+    {"interpreter/dialect/", {"core/", "document/", "definition/", "engine/"}},
     {"interpreter/plugin/", {"core/", "system/", "engine/", "lockstep/leaf.h"}},
     {"interpreter/remote/", {"core/", "system/", "engine/", "plugin/", "lockstep/leaf.h"}},
     {"interpreter/runtime/", {"core/", "system/", "engine/", "plugin/", "measure/"}},
@@ -54,7 +56,7 @@ const std::vector<Layer> kLayers{
     {"interpreter/plots/",
      {"core/", "system/", "runtime/", "measure/", "terminal/", "summary/", "recording/", "study/"}},
     {"interpreter/describe/", {"core/", "definition/"}},
-    {"interpreter/convert/", {"core/", "document/", "definition/"}},
+    {"interpreter/convert/", {"core/", "document/", "definition/", "dialect/"}},
     {"interpreter/groot/",
      {"core/", "system/", "definition/", "engine/", "runtime/", "measure/", "live/", "describe/",
       "convert/"}},
@@ -63,6 +65,8 @@ const std::vector<Layer> kLayers{
       "describe/", "convert/"}},
     {"interpreter/loading/",
      {"core/", "document/", "definition/", "engine/", "plugin/", "remote/", "lockstep/leaf.h"}},
+      "describe/", "convert/", "dialect/"}},
+    {"interpreter/loading/", {"core/", "document/", "definition/", "engine/", "plugin/"}},
     {"interpreter/embedding/",
      {"core/", "system/", "document/", "definition/", "engine/", "plugin/", "loading/",
       "runtime/"}},
@@ -320,6 +324,22 @@ TEST_CASE("layers: no stage after the check sees a document") {
       if (of_document && !starts_with_any(include.path, of_places))
         FAIL_CHECK(at(include) + "of a document, after the check");
       files.push_back("interpreter/" + include.path);
+    }
+  }
+}
+
+// A rule that differs is a member of LanguageRules. Only a converter, and Groot2 which draws all
+// trees as those of BehaviorTree.CPP, know two languages.
+TEST_CASE("layers: nobody asks in which language a tree is written") {
+  const Names know{"interpreter/dialect/", "interpreter/convert/", "interpreter/groot/",
+                   "interpreter/definition/btcpp/"};
+  for (const std::string& file : sources_under("interpreter")) {
+    if (starts_with_any(file, know)) continue;
+    std::ifstream stream(fs::path(LOCKSTEP_SOURCE_DIR) / file);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    for (const char* asks : {"btcpp::kRules", "== &kLockstepRules", "!= &kLockstepRules"}) {
+      INFO(file << ": " << asks);
+      CHECK(text.find(asks) == std::string::npos);
     }
   }
 }

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "cli/checks.h"
 #include "cli/command.h"
@@ -27,13 +28,12 @@ std::optional<std::string> converted(const ConvertOptions& options, Diagnostics&
   }
   const auto document = Document::parse(name, std::move(*text), diagnostics);
   if (!document || diagnostics.has_errors()) return std::nullopt;
-  const Language from = document->language();
-  const Language other =
-      from == Language::Lockstep ? Language::BehaviorTreeCpp : Language::Lockstep;
-  const Language to = options.to.empty()         ? other
-                      : options.to == "lockstep" ? Language::Lockstep
-                                                 : Language::BehaviorTreeCpp;
-  if (to == from) {
+  const LanguageRules& from = document->rules();
+  const auto is_meant = [&](const LanguageRules* it) {
+    return options.to.empty() ? it != &from : it->name == options.to;
+  };
+  const LanguageRules& to = **std::ranges::find_if(languages(), is_meant);
+  if (&to == &from) {
     diagnostics.error({name}, "is in that language already");
     return std::nullopt;
   }
@@ -41,7 +41,7 @@ std::optional<std::string> converted(const ConvertOptions& options, Diagnostics&
   const Catalog from_nodes = make_catalog(none, from), to_nodes = make_catalog(none, to);
   Sources sources;
   sources.add(document->source());
-  return convert(*document, {to, from_nodes, to_nodes}, Reporter(sources, diagnostics));
+  return convert(*document, {from, to, from_nodes, to_nodes}, Reporter(sources, diagnostics));
 }
 
 int convert_file(const ConvertOptions& options) {

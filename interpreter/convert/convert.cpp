@@ -66,7 +66,7 @@ class Converter {
   }
 
  private:
-  bool to_ours() const { return conversion_.to == Language::Lockstep; }
+  bool to_ours() const { return &conversion_.to == &kLockstepRules; }
   std::string_view other_language() const {
     return to_ours() ? "lockstep's language" : "BehaviorTree.CPP";
   }
@@ -276,8 +276,7 @@ class Converter {
       const Attribute* it = document_.find_attribute(element, name);
       return it == nullptr ? std::nullopt : std::optional(it->value);
     };
-    return lockstep::find_pair(to_ours() ? Language::BehaviorTreeCpp : Language::Lockstep, type,
-                               given);
+    return lockstep::find_pair(to_ours() ? Side::Theirs : Side::Ours, type, given);
   }
 
   // If one with another attribute can be said.
@@ -340,9 +339,9 @@ class Converter {
   }
 
   void to_their_attribute(const XmlToken& token, const Attribute& attribute) {
-    const auto hook = hook_named(attribute.name, Language::Lockstep);
+    const auto hook = hook_named(attribute.name, conversion_.from);
     if (!hook) return keep(token, attribute);
-    replace(token, attribute_of(*hook, Language::BehaviorTreeCpp), attribute.value);
+    replace(token, attribute_of(*hook, conversion_.to), attribute.value);
   }
 
   bool is_fixed(std::string_view name) const {
@@ -373,10 +372,10 @@ class Converter {
   void to_our_attribute(const XmlToken& token, const Attribute& attribute) {
     const std::string_view name = attribute.name, value = attribute.value;
     if (name == "__shared_blackboard") return replace(token, "_autoremap", value);
-    if (const auto hook = btcpp::hook_of(name)) {
-      return replace(token, attribute_of(*hook, Language::Lockstep), value);
+    if (const auto hook = hook_named(name, conversion_.from)) {
+      return replace(token, attribute_of(*hook, conversion_.to), value);
     }
-    if (hook_named(name, Language::Lockstep)) {
+    if (hook_named(name, conversion_.to)) {
       return cannot(attribute.place, fmt::format("a port called '{}'", name),
                     "there it is a script of the node");
     }

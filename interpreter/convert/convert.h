@@ -12,7 +12,8 @@
 namespace lockstep {
 
 struct Conversion {
-  Language to;
+  const LanguageRules& from;
+  const LanguageRules& to;
   const Catalog& from_nodes;  // the built-in nodes of the language of the document
   const Catalog& to_nodes;    // and of the other one
 };

@@ -80,8 +80,8 @@ std::span<const NodePair> node_pairs() {
   return kPairs;
 }
 
-const NodePair* find_pair(Language from, std::string_view type, const GivenAttribute& given) {
-  const bool is_ours = from == Language::Lockstep;
+const NodePair* find_pair(Side from, std::string_view type, const GivenAttribute& given) {
+  const bool is_ours = from == Side::Ours;
   for (const NodePair& pair : kPairs) {
     if ((is_ours ? pair.ours : pair.theirs) != type) continue;
     const FixedAttribute& fixed = is_ours ? pair.in_ours : pair.in_theirs;

@@ -8,8 +8,6 @@
 #include <string>
 #include <string_view>
 
-#include "core/language.h"
-
 namespace lockstep {
 
 // An attribute that must have this value; "" = none.
@@ -45,12 +43,14 @@ struct NodePair {
   bool is_different_when_held = false;             // and only below a synchronized node
 };
 
+enum class Side : bool { Theirs, Ours };
+
 std::span<const NodePair> node_pairs();
 
 // The pair of a node of one of the languages; null if it cannot be said in the other one. `given`
 // has the value of an attribute of the node, or nothing.
 using GivenAttribute = std::function<std::optional<std::string_view>(std::string_view name)>;
-const NodePair* find_pair(Language from, std::string_view type, const GivenAttribute& given);
+const NodePair* find_pair(Side from, std::string_view type, const GivenAttribute& given);
 
 // The value in the other language; "" if it is the same as none there. Nothing: it cannot be said.
 // `children`: how many the node has.

@@ -4,10 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
-#include <string_view>
-
-#include "core/language.h"
 
 namespace lockstep {
 
@@ -24,24 +20,5 @@ enum class Hook : std::uint8_t {
   OnHalted,
 };
 inline constexpr std::size_t kHooks = 8;
-
-inline constexpr std::string_view kHookAttributes[][kHooks] = {
-    {"failure_if", "success_if", "skip_if", "while", "on_success", "on_failure", "on_end",
-     "on_halt"},
-    {"_failureIf", "_successIf", "_skipIf", "_while", "_onSuccess", "_onFailure", "_post",
-     "_onHalted"}};
-
-// The attribute that has the script.
-constexpr std::string_view attribute_of(Hook hook, Language language) {
-  return kHookAttributes[static_cast<std::size_t>(language)][static_cast<std::size_t>(hook)];
-}
-
-constexpr std::optional<Hook> hook_named(std::string_view attribute, Language language) {
-  for (std::size_t hook = 0; hook < kHooks; ++hook) {
-    if (attribute_of(static_cast<Hook>(hook), language) == attribute)
-      return static_cast<Hook>(hook);
-  }
-  return std::nullopt;
-}
 
 }  // namespace lockstep

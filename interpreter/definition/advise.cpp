@@ -182,7 +182,7 @@ class Adviser {
                        unwritten_hint(&parameter, name, definition_.entries[entry].typing, valued),
                        Severity::Warning);
     });
-    if (definition_.language == Language::Lockstep) unwritten_in_scripts(valued, told);
+    if (definition_.rules->strict_types) unwritten_in_scripts(valued, told);
   }
 
   // Entries that a script reads.

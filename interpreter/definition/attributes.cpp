@@ -37,8 +37,9 @@ std::string_view key_of(std::string_view text) {
 
 class AttributeChecker {
  public:
-  AttributeChecker(const NodeElement& element, const Reporter& report, const CheckedNode& node)
-      : element_(element), report_(report), node_(node) {}
+  AttributeChecker(const NodeElement& element, const Reporter& report, const CheckedNode& node,
+                   const LanguageRules& rules)
+      : element_(element), report_(report), node_(node), rules_(rules) {}
 
   void find_unknown() const {
     for (const Attribute& attribute : element_.attributes) {
@@ -114,22 +115,21 @@ class AttributeChecker {
   // What is declared beside the trees is never ticked.
   bool has_hooks() const { return node_.type->category != NodeCategory::Group; }
   bool is_hook(std::string_view name) const {
-    return has_hooks() && hook_named(name, Language::Lockstep).has_value();
+    return has_hooks() && hook_named(name, rules_).has_value();
   }
 
   std::vector<std::string_view> names() const {
     std::vector<std::string_view> names{"name"};
     for (const Parameter& it : node_.type->parameters) names.push_back(it.name);
     if (!has_hooks()) return names;
-    for (std::size_t hook = 0; hook < kHooks; ++hook) {
-      names.push_back(attribute_of(static_cast<Hook>(hook), Language::Lockstep));
-    }
+    names.insert(names.end(), rules_.hooks.begin(), rules_.hooks.end());
     return names;
   }
 
   const NodeElement& element_;
   const Reporter& report_;
   const CheckedNode& node_;
+  const LanguageRules& rules_;
 };
 
 void check_name(const NodeElement& element, const Reporter& report) {
@@ -280,7 +280,7 @@ std::string parameters_hint(const NodeType& type) {
 
 void check_attributes(const NodeElement& element, const Reporter& report, CheckedNode& node,
                       CheckedTrees& trees) {
-  const AttributeChecker checker(element, report, node);
+  const AttributeChecker checker(element, report, node, *trees.rules);
   check_name(element, report);
   checker.find_unknown();
   check_parameters(element, report, checker, node, trees);
@@ -293,7 +293,7 @@ void check_subtree_attributes(const NodeElement& element, const Reporter& report
   check_hooks(element, report, node, trees);
   subtree.first = static_cast<std::uint32_t>(trees.remappings.size());
   for (const auto& [name, value, place] : element.attributes) {
-    if (is_common_attribute(name) || hook_named(name, Language::Lockstep)) continue;
+    if (is_common_attribute(name) || hook_named(name, *trees.rules)) continue;
     if (name == "ID") {
       subtree.id = value;
       subtree.place = place;

@@ -87,7 +87,7 @@ struct CheckedMain {
 };
 
 struct CheckedTrees {
-  Language language = Language::Lockstep;
+  const LanguageRules* rules = &kLockstepRules;
   std::shared_ptr<const ScriptEnums> words;  // that scripts know as numbers; null: none
   std::vector<CheckedNode> nodes;
   std::vector<Value> values;

@@ -17,6 +17,7 @@
 #include "core/board.h"
 #include "core/entry.h"
 #include "core/hook.h"
+#include "core/language.h"
 #include "core/node_type.h"
 #include "core/place.h"
 #include "expression/expression.h"
@@ -86,7 +87,7 @@ struct DefinitionGroup {
 
 struct Definition {
   std::string_view id;
-  Language language = Language::Lockstep;
+  const LanguageRules* rules = &kLockstepRules;
   std::shared_ptr<const ScriptEnums> words = {};  // for scripts that are compiled at run time
   std::vector<DefinitionNode> nodes;  // the root and its subtree, then one for each group
   std::vector<Value> values;

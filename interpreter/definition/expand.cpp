@@ -28,7 +28,7 @@ class Expander {
 
   Definition expand(std::string_view main) {
     definition_.id = main;
-    definition_.language = trees_.language;
+    definition_.rules = trees_.rules;
     definition_.words = trees_.words;
     definition_.values = std::move(trees_.values);
     definition_.written = std::move(trees_.written);
@@ -37,13 +37,13 @@ class Expander {
     members_.resize(trees_.groups.size());
     for (std::size_t i = 0; i < members_.size(); ++i) groups_.emplace(trees_.groups[i].name, i);
     definition_.nodes.reserve(trees_.nodes.size());  // without subtrees, all that will be needed
-    Scope scope(definition_.entries, trees_.language);
+    Scope scope(definition_.entries, *trees_.rules);
     for (const auto& [key, text] : values_) scope.set_text(key, text);
     if (trees_.names_at_run_time) definition_.boards.emplace_back();
     add(trees_.trees.at(main).root, 0, scope);
     add_groups(scope);
     keep_board(0, scope);
-    if (is_ours()) declare_entries(definition_, literals_, report_, guessed_);
+    if (is_strict()) declare_entries(definition_, literals_, report_, guessed_);
     check_set_keys(scope);
     return std::move(definition_);
   }
@@ -238,12 +238,12 @@ class Expander {
     return static_cast<std::uint32_t>(definition_.scripts.size() - 1);
   }
 
-  // For BehaviorTree.CPP, a start value has a type by itself until a port has another one.
+  // Without strict types, a start value has a type by itself until a port has another one.
   std::uint32_t find(std::string_view key, Scope& scope) {
     const Scope::Found found = scope.find(key);
     if (!found.has_text) return found.entry;
     literals_.emplace(found.entry, found.text);
-    if (is_ours()) return found.entry;
+    if (is_strict()) return found.entry;
     BlackboardEntry& entry = definition_.entries[found.entry];
     entry.type = btcpp::literal_type(found.text);
     entry.initial = value_from_text(entry.type, nullptr, found.text)->value;
@@ -254,7 +254,7 @@ class Expander {
 
   // Of a stand-in for a node that no plugin has: its entry has the type that others give it.
   bool is_guessed(const NodeType& type, const Parameter& parameter) const {
-    return is_ours() && type.mock != nullptr && parameter.is_generic;
+    return is_strict() && type.mock != nullptr && parameter.is_generic;
   }
 
   std::uint32_t use_guessed(const CheckedPort& port, Scope& scope) {
@@ -292,15 +292,15 @@ class Expander {
     return index;
   }
 
-  // Whether a start value is read as the port says. For BehaviorTree.CPP, a text stays one: ports
+  // Whether a start value is read as the port says. Without strict types, a text stays one: ports
   // of other types read it.
   bool takes_type(const Parameter& parameter, const BlackboardEntry& entry) const {
-    return !is_generic(parameter) && (is_ours() || entry.type != ValueType::String);
+    return !is_generic(parameter) && (is_strict() || entry.type != ValueType::String);
   }
 
   void set_type(Place place, const Parameter& parameter, BlackboardEntry& entry) const {
     entry.is_present = true;
-    entry.typing = is_ours()               ? Typing::Strict
+    entry.typing = is_strict()             ? Typing::Strict
                    : is_generic(parameter) ? Typing::Any
                                            : Typing::Declared;
     entry.type = parameter.type;
@@ -313,10 +313,10 @@ class Expander {
     return parameter.names_entry || parameter.is_generic;
   }
 
-  bool is_ours() const { return trees_.language == Language::Lockstep; }
+  bool is_strict() const { return trees_.rules->strict_types; }
 
   bool fits(const Parameter& parameter, const BlackboardEntry& entry) const {
-    if (!is_ours() &&
+    if (!is_strict() &&
         (is_generic(parameter) || entry.typing == Typing::Any || entry.type == ValueType::String)) {
       return true;
     }
@@ -366,7 +366,7 @@ class Expander {
   }
 
   std::optional<Value> start_value(const Parameter& parameter, std::string_view text) const {
-    if (is_ours()) return parse_value(parameter.type, parameter.object, text);
+    if (is_strict()) return parse_value(parameter.type, parameter.object, text);
     auto read = value_from_text(parameter.type, parameter.object, text);
     if (!read || read->has_rest) return std::nullopt;
     return std::move(read->value);

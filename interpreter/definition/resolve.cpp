@@ -6,11 +6,10 @@
 #include "core/suggest.h"
 #include "core/wording.h"
 #include "definition/advise.h"
-#include "definition/btcpp/read_trees.h"
 #include "definition/btcpp/unused_trees.h"
-#include "definition/check_trees.h"
 #include "definition/group_advice.h"
 #include "definition/groups.h"
+#include "definition/language_reader.h"
 #include "definition/references.h"
 #include "definition/resources.h"
 #include "document/reporter.h"
@@ -57,19 +56,18 @@ std::optional<std::string_view> choose_main(const CheckedTrees& trees, std::stri
 std::optional<Definition> resolve(const Project& project, const Catalog& catalog,
                                   const ResolveOptions& options, Diagnostics& diagnostics) {
   const Reporter report(project.sources, diagnostics);
-  const bool is_ours = project.language == Language::Lockstep;
-  const bool has_models = !is_ours || options.unknown == MissingNodes::AreMocked;
+  const LanguageRules& rules = *project.rules;
+  const bool has_models = rules.may_lack_nodes || options.unknown == MissingNodes::AreMocked;
   const auto models = has_models ? btcpp::read_models(project, report) : btcpp::Models();
   Catalog known = catalog;
   const auto stand_ins =
       add_stand_ins(project, models, options.unknown, options.mocks, known, report);
-  CheckedTrees trees = is_ours ? check_trees(project, known, diagnostics)
-                               : btcpp::read_trees(project, known, models, diagnostics);
+  CheckedTrees trees = rules.reader->read(project, known, models, diagnostics);
   const auto main = choose_main(trees, options.main_tree, report);
   if (!check_references(trees, report) || !main) return std::nullopt;
   Definition definition = expand(trees, *main, options.values, report);
   definition.stand_ins = stand_ins;
-  if (!is_ours) btcpp::check_unused(trees, *main, report);
+  if (rules.checks_unused_trees) btcpp::check_unused(trees, *main, report);
   resolve_resources(definition, report);
   if (report.has_errors()) return std::nullopt;
   check_groups(definition, report);

@@ -3,11 +3,11 @@
 namespace lockstep {
 
 bool Scope::passes_on(std::string_view key) const {
-  return autoremap_ && (language_ == Language::Lockstep || !key.starts_with('_'));
+  return autoremap_ && (!rules_.marked_keys || !key.starts_with('_'));
 }
 
 Scope::Found Scope::find(std::string_view key) {
-  if (language_ == Language::BehaviorTreeCpp && key.size() > 1 && key[0] == '@') {
+  if (rules_.marked_keys && key.size() > 1 && key[0] == '@') {
     return main().find(key.substr(1));
   }
   if (const auto it = known_.find(key); it != known_.end()) return {it->second, false, {}, false};

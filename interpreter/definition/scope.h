@@ -19,12 +19,12 @@ class Scope {
   static constexpr std::uint32_t kNone = Port::kNone;
 
   // The scope of the main tree.
-  Scope(std::vector<BlackboardEntry>& entries, Language language)
-      : entries_(entries), language_(language) {}
+  Scope(std::vector<BlackboardEntry>& entries, const LanguageRules& rules)
+      : entries_(entries), rules_(rules) {}
   // The scope of a SubTree inside `outer`; `prefix` names it in messages ("grasp/").
   Scope(Scope& outer, const std::string& prefix, bool autoremap)
       : entries_(outer.entries_),
-        language_(outer.language_),
+        rules_(outer.rules_),
         outer_(&outer),
         prefix_(outer.prefix_ + prefix),
         autoremap_(autoremap) {}
@@ -40,8 +40,7 @@ class Scope {
     std::string_view text;  // its start value as written, or ""
     bool has_text;
   };
-  // The entry that `key` means here; created if it does not exist. For BehaviorTree.CPP, "@key" is
-  // one of the main tree, and a key with '_' in front is passed on only by a remapping.
+  // The entry that `key` means here; created if it does not exist.
   Found find(std::string_view key);
   // Whether that entry belongs to this tree, not to an outer one.
   bool is_own(std::string_view key) const {
@@ -62,7 +61,7 @@ class Scope {
   Scope& main() { return outer_ == nullptr ? *this : outer_->main(); }
 
   std::vector<BlackboardEntry>& entries_;
-  Language language_;
+  const LanguageRules& rules_;
   Scope* outer_ = nullptr;
   std::string prefix_;
   bool autoremap_ = false;

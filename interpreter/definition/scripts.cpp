@@ -13,10 +13,10 @@ std::shared_ptr<const Expression> parse_script(const Attribute& attribute, const
                                                CheckedTrees& trees) {
   const auto same = trees.compiled.find(attribute.value);
   if (same != trees.compiled.end()) return same->second;
-  const bool is_ours = trees.language == Language::Lockstep;
+  const bool is_strict = trees.rules->strict_scripts;
   auto code =
       Expression::parse(attribute.value, trees.words,
-                        is_ours ? Expression::Words::AreSigns : Expression::Words::AreNames);
+                        is_strict ? Expression::Words::AreSigns : Expression::Words::AreNames);
   if (!code) {
     // A wrong or missing argument was reported already.
     const bool is_known = attribute.value.find("${") == std::string_view::npos;
@@ -27,9 +27,9 @@ std::shared_ptr<const Expression> parse_script(const Attribute& attribute, const
   }
   for (const auto& remark : code->remarks()) {
     report.in_value(attribute.place, remark.offset, remark.message, remark.hint,
-                    is_ours ? Severity::Error : Severity::Warning);
+                    is_strict ? Severity::Error : Severity::Warning);
   }
-  if (is_ours && !code->remarks().empty()) return nullptr;
+  if (is_strict && !code->remarks().empty()) return nullptr;
   const bool is_clean = code->remarks().empty();  // else each place has its messages
   auto script = std::make_shared<const Expression>(*std::move(code));
   if (is_clean) trees.compiled.emplace(attribute.value, script);
@@ -37,8 +37,9 @@ std::shared_ptr<const Expression> parse_script(const Attribute& attribute, const
 }
 
 // The moment at which the script in an attribute runs. A parameter of that name comes first.
-std::optional<Hook> hook_of(const NodeType& type, std::string_view attribute, Language language) {
-  const auto hook = hook_named(attribute, language);
+std::optional<Hook> hook_of(const NodeType& type, std::string_view attribute,
+                            const LanguageRules& rules) {
+  const auto hook = hook_named(attribute, rules);
   if (!hook ||
       std::ranges::find(type.parameters, attribute, &Parameter::name) != type.parameters.end()) {
     return std::nullopt;
@@ -62,7 +63,7 @@ void check_hooks(const NodeElement& element, const Reporter& report, CheckedNode
                  CheckedTrees& trees) {
   const auto first = static_cast<std::uint32_t>(trees.scripts.size());
   for (const Attribute& attribute : element.attributes) {
-    const auto hook = hook_of(*node.type, attribute.name, trees.language);
+    const auto hook = hook_of(*node.type, attribute.name, *trees.rules);
     if (!hook) continue;
     auto code = parse_script(attribute, report, trees);
     if (code != nullptr) {

@@ -117,7 +117,7 @@ class Builder {
     }
     for (const Attribute& attribute : document.attributes(node)) {
       const bool is_own = attribute.name == "name" || attribute.name == "ID" ||
-                          hook_named(attribute.name, project_.language).has_value();
+                          hook_named(attribute.name, *project_.rules).has_value();
       if (!is_own && btcpp::is_port_name(attribute.name)) use.attributes.insert(attribute.name);
     }
   }
@@ -253,8 +253,8 @@ class Builder {
 std::shared_ptr<const StandIns> add_stand_ins(const Project& project, const btcpp::Models& models,
                                               MissingNodes unknown, const Mocks& mocks,
                                               Catalog& catalog, const Reporter& report) {
-  const bool is_ours = project.language == Language::Lockstep;
-  if (is_ours && unknown == MissingNodes::AreNoted) unknown = MissingNodes::AreErrors;
+  const bool may_lack = project.rules->may_lack_nodes;
+  if (!may_lack && unknown == MissingNodes::AreNoted) unknown = MissingNodes::AreErrors;
   if (unknown == MissingNodes::AreErrors && mocks.empty()) return nullptr;
   return Builder(project, models, catalog, report).build(unknown, mocks);
 }

@@ -15,7 +15,7 @@ namespace lockstep {
 
 enum class MissingNodes : unsigned char {
   AreErrors,
-  AreNoted,  // if the tree is for BehaviorTree.CPP
+  AreNoted,  // if the language of the tree says so
   AreMocked
 };
 

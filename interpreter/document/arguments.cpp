@@ -112,7 +112,7 @@ std::optional<std::string> ArgumentTable::expand(const Attribute& attribute) {
 }
 
 bool ArgumentTable::is_text(std::string_view text, std::size_t at) const {
-  if (language_ == Language::Lockstep) return false;
+  if (!rules_->unknown_arguments_are_text) return false;
   const auto close = text.find('}', at);
   return close == std::string_view::npos || find(text.substr(at + 2, close - at - 2)) == nullptr;
 }

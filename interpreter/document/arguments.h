@@ -22,8 +22,7 @@ class ArgumentTable {
  public:
   // `report` is for the texts that elements are in.
   ArgumentTable(const Arguments& given, const Reporter& report) : given_(given), report_(report) {}
-  // In a document for BehaviorTree.CPP, ${name} is only text if no such argument is declared.
-  void set_language(Language language) { language_ = language; }
+  void set_rules(const LanguageRules& rules) { rules_ = &rules; }
 
   // `element` is an <arg>. Its attributes may use arguments that are declared before it.
   void declare(Document& document, std::uint32_t element);
@@ -50,7 +49,7 @@ class ArgumentTable {
 
   const Arguments& given_;
   Reporter report_;
-  Language language_ = Language::Lockstep;
+  const LanguageRules* rules_ = &kLockstepRules;
   std::vector<DeclaredArgument> declared_;
   std::map<std::string, Where, std::less<>> by_name_;
   std::size_t expanded_ = 0;  // bytes of all substituted values

@@ -46,7 +46,7 @@ class AnyTinyxml2 {
 
 struct Document::Implementation {
   std::shared_ptr<const Source> source;
-  Language language = Language::Lockstep;
+  const LanguageRules* rules = &kLockstepRules;
   std::vector<Element> elements;
   std::vector<Attribute> attributes;
   std::vector<std::uint32_t> coded;  // attributes whose values have references or line ends
@@ -74,10 +74,9 @@ bool Document::Implementation::check(Diagnostics& diagnostics) {
     report(std::move(*fault), diagnostics);
     return false;
   }
-  language = language_of(text);
-  auto written =
-      check_well_formed(text, source->place_of(0),
-                        language == Language::Lockstep ? Grammar::Strict : Grammar::Lenient);
+  rules = &language_of(text);
+  auto written = check_well_formed(text, source->place_of(0),
+                                   rules->lenient_xml ? Grammar::Lenient : Grammar::Strict);
   for (auto& fault : written.faults) report(std::move(fault), diagnostics);
   elements = std::move(written.elements);
   attributes = std::move(written.attributes);
@@ -134,8 +133,8 @@ const std::shared_ptr<const Source>& Document::source() const {
   return it_->source;
 }
 
-Language Document::language() const {
-  return it_->language;
+const LanguageRules& Document::rules() const {
+  return *it_->rules;
 }
 
 std::span<const Element> Document::elements() const {

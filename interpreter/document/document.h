@@ -31,7 +31,7 @@ class Document {
   ~Document();
 
   const std::shared_ptr<const Source>& source() const;
-  Language language() const;
+  const LanguageRules& rules() const;  // of the language that it is in
   // Elements in pre-order; 0 is the root element.
   std::span<const Element> elements() const;
   std::span<const Attribute> attributes(std::uint32_t element) const;

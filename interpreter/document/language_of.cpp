@@ -1,25 +1,44 @@
 #include "document/language_of.h"
 
+#include <algorithm>
+#include <ranges>
+#include <span>
+#include <vector>
+
 #include "document/scanner.h"
 
 namespace lockstep {
 
-Language language_of(std::string_view text) {
+namespace {
+
+// By the attributes of the root. Of two languages the later one in the list, so not our own.
+const LanguageRules& chosen(std::span<const std::string_view> attributes) {
+  for (const LanguageRules* it : languages() | std::views::reverse) {
+    if (std::ranges::find(attributes, it->root_attribute) != attributes.end()) return *it;
+  }
+  for (const LanguageRules* it : languages()) {
+    if (it->root_may_lack_it) return *it;
+  }
+  return kLockstepRules;
+}
+
+}  // namespace
+
+const LanguageRules& language_of(std::string_view text) {
   Scanner scanner(text, Grammar::Lenient);
-  bool is_ours = false, is_theirs = false;
+  std::vector<std::string_view> attributes;
   while (true) {
     const XmlToken token = scanner.next();
     switch (token.kind) {
       case TokenKind::OpenTag:
-        if (token.name != "root") return Language::Lockstep;
+        if (token.name != "root") return kLockstepRules;
         break;
       case TokenKind::Attribute:
-        is_ours |= token.name == "lockstep";
-        is_theirs |= token.name == "BTCPP_format";
+        attributes.push_back(token.name);
         break;
       case TokenKind::TagEnd:
       case TokenKind::EmptyTagEnd:
-        return is_theirs || !is_ours ? Language::BehaviorTreeCpp : Language::Lockstep;
+        return chosen(attributes);
       case TokenKind::Text:
       case TokenKind::Comment:
       case TokenKind::Instruction:
@@ -28,7 +47,7 @@ Language language_of(std::string_view text) {
       case TokenKind::CloseTag:
       case TokenKind::End:
       case TokenKind::Fault:
-        return Language::Lockstep;
+        return kLockstepRules;
     }
   }
 }

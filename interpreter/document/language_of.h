@@ -7,7 +7,7 @@
 
 namespace lockstep {
 
-// Lockstep where no language can be recognized.
-Language language_of(std::string_view text);
+// The own one where no language can be recognized.
+const LanguageRules& language_of(std::string_view text);
 
 }  // namespace lockstep

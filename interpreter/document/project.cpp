@@ -98,8 +98,8 @@ bool Loader::add(const Reading& file, std::string text) {
   project_->includes.emplace_back();
   auto& document = *project_->documents.emplace_back(std::move(parsed));
   if (open_.empty()) {
-    project_->language = document.language();
-    arguments_.set_language(document.language());
+    project_->rules = &document.rules();
+    arguments_.set_rules(document.rules());
   }
   if (!is_root(document)) {
     const Element& first = document.elements()[0];
@@ -145,9 +145,8 @@ void Loader::include(Document& document, std::uint32_t element) {
   includes(open_.back().document, read_.at(next.identity));
 }
 
-// In a document for BehaviorTree.CPP, other attributes have no meaning.
 bool Loader::check_include(const Document& document, std::uint32_t element) {
-  if (project_->language == Language::Lockstep) {
+  if (!project_->rules->lenient_includes) {
     return check_vocabulary(document, element, kIncludeAttributes, 1, report_);
   }
   if (document.find_attribute(element, "path") != nullptr) return true;
@@ -159,7 +158,7 @@ bool Loader::check_include(const Document& document, std::uint32_t element) {
 std::optional<fs::path> Loader::directory_of(const Document& document, std::uint32_t include,
                                              const fs::path& written) const {
   const Attribute* package = document.find_attribute(include, "ros_pkg");
-  const bool in_package = project_->language == Language::BehaviorTreeCpp && package != nullptr;
+  const bool in_package = project_->rules->lenient_includes && package != nullptr;
   if (!in_package || written.is_absolute())
     return fs::path(document.source()->path()).parent_path();
   if (auto share = packages_.find(package->value)) return share;

@@ -24,7 +24,7 @@ struct DeclaredArgument {
 };
 
 struct Project {
-  Language language = Language::Lockstep;  // of the main file, and so of all
+  const LanguageRules* rules = &kLockstepRules;  // of the main file, and so of all
   // The main file first, then as included. Their paths are as a user would write them: relative
   // ones stay relative.
   Sources sources;

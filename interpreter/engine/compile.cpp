@@ -22,19 +22,17 @@ const NodeKind* mock_of(NodeCategory category) {
   return category == NodeCategory::Control ? &kMockControl : &kMockDecorator;
 }
 
-// In BehaviorTree.CPP, a condition may be Running.
-const NodeKind* kind_of(const NodeType& type, Language language) {
+const NodeKind* kind_of(const NodeType& type, const LanguageRules& rules) {
   if (type.mock != nullptr) return mock_of(type.category);
   if (type.leaf != nullptr) {
     if (type.arity.max != 0) return &kPluginControl;
-    const bool is_at_once =
-        type.category == NodeCategory::Condition && language == Language::Lockstep;
+    const bool is_at_once = type.category == NodeCategory::Condition && !rules.conditions_may_run;
     return is_at_once ? &kPluginCondition : &kPluginAction;
   }
   static const auto by_type = [] {
     std::unordered_map<const NodeType*, const NodeKind*> map;
-    for (const Language each : {Language::Lockstep, Language::BehaviorTreeCpp}) {
-      for (const NodeKind* kind : built_in_kinds(each)) map.emplace(&kind->type, kind);
+    for (const LanguageRules* each : languages()) {
+      for (const NodeKind* kind : each->kinds) map.emplace(&kind->type, kind);
     }
     return map;
   }();
@@ -45,8 +43,8 @@ const NodeKind* kind_of(const NodeType& type, Language language) {
 const NodeKind* bound_kind_of(const NodeKind* kind) {
   static const auto by_kind = [] {
     std::unordered_map<const NodeKind*, NodeKind> map;
-    for (const Language language : {Language::Lockstep, Language::BehaviorTreeCpp}) {
-      for (const NodeKind* it : built_in_kinds(language)) {
+    for (const LanguageRules* each : languages()) {
+      for (const NodeKind* it : each->kinds) {
         NodeKind bound = *it;
         if (!it->chooses_to_read) {
           bound.tick = [](NodeContext& context, NodeIndex self) {
@@ -74,8 +72,8 @@ const NodeKind* hooked_kind_of(const NodeKind* kind) {
                                  &kMockCondition, &kMockControl, &kMockDecorator}) {
       add(leaf);
     }
-    for (const Language language : {Language::Lockstep, Language::BehaviorTreeCpp}) {
-      for (const NodeKind* it : built_in_kinds(language)) {
+    for (const LanguageRules* each : languages()) {
+      for (const NodeKind* it : each->kinds) {
         add(it);
         add(bound_kind_of(it));
       }
@@ -95,7 +93,7 @@ class Compiler {
   Tree compile() {
     tree_.id = definition_.id;
     tree_.stand_ins = definition_.stand_ins;
-    tree_.language = definition_.language;
+    tree_.rules = definition_.rules;
     tree_.boards = definition_.boards;
     tree_.words = definition_.words;
     tree_.nodes.reserve(definition_.nodes.size());
@@ -123,7 +121,7 @@ class Compiler {
   const NodeKind* kind(const NodeType& type) {
     if (&type != last_type_) {
       last_type_ = &type;
-      last_kind_ = kind_of(type, definition_.language);
+      last_kind_ = kind_of(type, *definition_.rules);
     }
     return last_kind_;
   }

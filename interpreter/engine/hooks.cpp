@@ -21,7 +21,7 @@ Status NodeContext::tick_hooked(NodeIndex node) {
 inline Truth NodeContext::ask(NodeIndex node, const HookedNode& hooked, Hook hook) {
   const Truth answer = scripts_.test(node, hooked.script(hook));
   if (answer == Truth::Error) [[unlikely]] {
-    fail_script(node, attribute_of(hook, tree_.language), scripts_.error());
+    fail_script(node, attribute_of(hook, *tree_.rules), scripts_.error());
   }
   return answer;
 }
@@ -59,7 +59,7 @@ Status NodeContext::finish(NodeIndex node, const HookedNode& hooked, Status stat
   for (const Hook hook : {first, Hook::Post}) {
     const std::uint32_t script = hooked.script(hook);
     if (script == HookedNode::kNoScript || scripts_.evaluate(node, script)) continue;
-    fail_script(node, attribute_of(hook, tree_.language), scripts_.error());
+    fail_script(node, attribute_of(hook, *tree_.rules), scripts_.error());
     return Status::Failure;
   }
   return status;
@@ -100,7 +100,7 @@ void NodeContext::run_halt_hooks(std::size_t from, NodeIndex next) {
     const NodeIndex node = halting_.back();
     halting_.pop_back();
     run_script(node, tree_.hooked[tree_.hooks[node]].script(Hook::OnHalted),
-               attribute_of(Hook::OnHalted, tree_.language));
+               attribute_of(Hook::OnHalted, *tree_.rules));
   }
 }
 

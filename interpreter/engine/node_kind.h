@@ -69,7 +69,10 @@ constexpr Unreset unreset_by(const NodeType& type) {
 }
 
 // The built-in kinds of a language, in the order in which they are documented.
-std::span<const NodeKind* const> built_in_kinds(Language language = Language::Lockstep);
+inline std::span<const NodeKind* const> built_in_kinds(
+    const LanguageRules& rules = kLockstepRules) {
+  return rules.kinds;
+}
 
 // The kinds of all nodes of plugins.
 extern const NodeKind kPluginAction;

@@ -14,6 +14,7 @@
 #include "core/board.h"
 #include "core/entry.h"
 #include "core/hook.h"
+#include "core/language.h"
 #include "engine/node_kind.h"
 #include "expression/expression.h"
 
@@ -139,7 +140,7 @@ struct Tree {
   std::shared_ptr<const ScriptEnums> words = {};  // for scripts that are compiled at run time
   std::vector<Board> boards;   // if names are looked up at run time; in the order of their nodes
   std::size_t state_size = 0;  // bytes of all node states
-  Language language = Language::Lockstep;
+  const LanguageRules* rules = &kLockstepRules;
   std::string id;                 // of the main BehaviorTree
   std::vector<NodeLabel> labels;  // not touched while ticking
   // What the labels' names point into; a copy of the tree shares it.

@@ -11,6 +11,7 @@
 #include "definition/node_check.h"
 #include "describe/node_reference.h"
 #include "describe/xsd.h"
+#include "dialect/btcpp/rules.h"
 #include "engine/node_kind.h"
 #include "groot/statuses.h"
 
@@ -21,7 +22,7 @@ class Writer {
  public:
   Writer(const Definition& definition, std::span<const GrootSubtree> subtrees)
       : definition_(definition), subtrees_(subtrees) {
-    for (const NodeKind* kind : built_in_kinds(Language::BehaviorTreeCpp)) {
+    for (const NodeKind* kind : btcpp::kRules.kinds) {
       theirs_.emplace(kind->type.id, &kind->type);
     }
     for (const GrootSubtree& it : subtrees.subspan(1)) by_node_.emplace(it.node, &it);
@@ -82,7 +83,7 @@ class Writer {
     if (!is_leaf) open_.push_back({node.end, tag});
   }
 
-  bool is_ours() const { return definition_.language == Language::Lockstep; }
+  bool is_ours() const { return definition_.rules == &kLockstepRules; }
 
   // Null also if a value of the node cannot be said there.
   const NodePair* pair_of(const DefinitionNode& node) const {
@@ -91,7 +92,7 @@ class Writer {
       const auto found = std::ranges::find(written, name, &WrittenAttribute::name);
       return found == written.end() ? std::nullopt : std::optional(found->value);
     };
-    const NodePair* pair = find_pair(Language::Lockstep, node.type->id, given);
+    const NodePair* pair = find_pair(Side::Ours, node.type->id, given);
     const bool can_be_said =
         pair != nullptr && std::ranges::all_of(written, [&](const WrittenAttribute& it) {
           const AttributePair* other = attribute_pair(*pair, it.name);
@@ -117,9 +118,9 @@ class Writer {
     }
     if (pair != nullptr) add_rounds(node, *pair);
     for (const WrittenAttribute& it : definition_.attributes(node)) {
-      const auto hook = hook_named(it.name, definition_.language);
+      const auto hook = hook_named(it.name, *definition_.rules);
       if (hook) {
-        add(attribute_of(*hook, Language::BehaviorTreeCpp), it.value);
+        add(attribute_of(*hook, btcpp::kRules), it.value);
       } else if (it.name != "ID" && !it.name.starts_with('_')) {
         add_parameter(it, pair);
       }

@@ -46,9 +46,9 @@ tl::expected<Loaded, LoadFailure> load(std::unique_ptr<Project> project, const L
   if (!good) return tl::unexpected(failed.value_or(LoadFailure::PluginRefused));
   std::optional<Definition> definition;
   if (project) {
-    warn_of_shadowed(*plugins, project->language, diagnostics);
+    warn_of_shadowed(*plugins, *project->rules, diagnostics);
     definition =
-        resolve(*project, make_catalog(*plugins, project->language),
+        resolve(*project, make_catalog(*plugins, *project->rules),
                 {options.main_tree, options.values, options.unknown, options.mocks}, diagnostics);
   }
   if (const auto wrong = failure_of(project.get(), diagnostics)) return tl::unexpected(*wrong);

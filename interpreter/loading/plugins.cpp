@@ -107,9 +107,9 @@ bool load_requested_plugins(const PluginOptions& options, const Project& project
   return good;
 }
 
-Catalog make_catalog(const PluginSet& plugins, Language language) {
+Catalog make_catalog(const PluginSet& plugins, const LanguageRules& rules) {
   Catalog catalog;
-  for (const NodeKind* kind : built_in_kinds(language)) catalog.add(&kind->type);
+  for (const NodeKind* kind : built_in_kinds(rules)) catalog.add(&kind->type);
   for (const NodeType* type : plugins.types()) {
     if (catalog.find(type->id) == nullptr) catalog.add(type);
   }
@@ -117,10 +117,11 @@ Catalog make_catalog(const PluginSet& plugins, Language language) {
   return catalog;
 }
 
-void warn_of_shadowed(const PluginSet& plugins, Language language, Diagnostics& diagnostics) {
+void warn_of_shadowed(const PluginSet& plugins, const LanguageRules& rules,
+                      Diagnostics& diagnostics) {
   for (const NodeType* type : plugins.types()) {
     const bool is_shadowed = std::ranges::any_of(
-        built_in_kinds(language), [&](const NodeKind* kind) { return kind->type.id == type->id; });
+        built_in_kinds(rules), [&](const NodeKind* kind) { return kind->type.id == type->id; });
     if (!is_shadowed) continue;
     diagnostics.add({.severity = Severity::Warning,
                      .location = {},

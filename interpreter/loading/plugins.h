@@ -40,8 +40,9 @@ enum class MissingPlugins : bool { AreErrors, AreTold };
 
 // The built-in nodes of a language and the leaves of `plugins` whose ID is none of theirs. It lives
 // as long as these.
-Catalog make_catalog(const PluginSet& plugins, Language language = Language::Lockstep);
+Catalog make_catalog(const PluginSet& plugins, const LanguageRules& rules = kLockstepRules);
 // Says which leaves are not in it.
-void warn_of_shadowed(const PluginSet& plugins, Language language, Diagnostics& diagnostics);
+void warn_of_shadowed(const PluginSet& plugins, const LanguageRules& rules,
+                      Diagnostics& diagnostics);
 
 }  // namespace lockstep

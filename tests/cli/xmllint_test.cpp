@@ -171,7 +171,7 @@ enum class Verdict { Xml, NotXml, NotOurs };
 Verdict verdict_of(const std::string& text) {
   lockstep::Diagnostics diagnostics;
   lockstep::Document::parse("f", text, diagnostics);
-  if (lockstep::language_of(text) != lockstep::Language::Lockstep) return Verdict::NotOurs;
+  if (&lockstep::language_of(text) != &lockstep::kLockstepRules) return Verdict::NotOurs;
   Verdict verdict = Verdict::Xml;
   for (const auto& it : diagnostics.all()) {
     const bool is_ours = it.message == "text is not part of the language" ||

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "definition/resolve.h"
+#include "dialect/btcpp/rules.h"
 #include "document/language_of.h"
 #include "engine/compile.h"
 #include "runtime/run.h"
@@ -29,7 +30,7 @@ void require(bool holds, const char* law) {
 
 std::optional<Tree> load(const std::string& text) {
   Catalog catalog;
-  for (const NodeKind* kind : built_in_kinds(Language::BehaviorTreeCpp)) catalog.add(&kind->type);
+  for (const NodeKind* kind : built_in_kinds(btcpp::kRules)) catalog.add(&kind->type);
   Diagnostics diagnostics;
   const auto project = load_project_text("/nowhere/tree.xml", text, {}, diagnostics);
   if (project == nullptr) {
@@ -89,7 +90,7 @@ std::string play(Run& run) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
-  if (language_of(text) != Language::BehaviorTreeCpp) return 0;
+  if (&language_of(text) != &btcpp::kRules) return 0;
   const auto tree = load(text);
   if (!tree) return 0;
   for (const FaultPolicy policy : {FaultPolicy::Stop, FaultPolicy::Fail}) {

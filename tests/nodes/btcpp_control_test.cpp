@@ -1,6 +1,7 @@
 // The control nodes of trees for BehaviorTree.CPP.
 #include <catch2/catch.hpp>
 
+#include "dialect/btcpp/rules.h"
 #include "support/tick_table.h"
 
 namespace lockstep::test {
@@ -204,15 +205,15 @@ constexpr TickRow kBranches[] = {
 }  // namespace
 
 TEST_CASE("BehaviorTree.CPP: sequences and fallbacks") {
-  check_rows(kSequences, FaultPolicy::Stop, Language::BehaviorTreeCpp);
+  check_rows(kSequences, FaultPolicy::Stop, btcpp::kRules);
 }
 
 TEST_CASE("BehaviorTree.CPP: parallels") {
-  check_rows(kParallels, FaultPolicy::Stop, Language::BehaviorTreeCpp);
+  check_rows(kParallels, FaultPolicy::Stop, btcpp::kRules);
 }
 
 TEST_CASE("BehaviorTree.CPP: nodes that choose a child") {
-  check_rows(kBranches, FaultPolicy::Stop, Language::BehaviorTreeCpp);
+  check_rows(kBranches, FaultPolicy::Stop, btcpp::kRules);
 }
 
 }  // namespace lockstep::test

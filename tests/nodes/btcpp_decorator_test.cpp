@@ -1,6 +1,7 @@
 // The decorators and leaves of trees for BehaviorTree.CPP, and the scripts around a node.
 #include <catch2/catch.hpp>
 
+#include "dialect/btcpp/rules.h"
 #include "support/tick_table.h"
 
 namespace lockstep::test {
@@ -230,16 +231,16 @@ constexpr TickRow kTolerated[] = {
 }  // namespace
 
 TEST_CASE("BehaviorTree.CPP: decorators and leaves") {
-  check_rows(kDecorators, FaultPolicy::Stop, Language::BehaviorTreeCpp);
+  check_rows(kDecorators, FaultPolicy::Stop, btcpp::kRules);
 }
 
 TEST_CASE("BehaviorTree.CPP: names and scripts that are in entries") {
-  check_rows(kNames, FaultPolicy::Stop, Language::BehaviorTreeCpp);
+  check_rows(kNames, FaultPolicy::Stop, btcpp::kRules);
 }
 
 TEST_CASE("BehaviorTree.CPP: scripts around a node") {
-  check_rows(kHooks, FaultPolicy::Stop, Language::BehaviorTreeCpp);
-  check_rows(kTolerated, FaultPolicy::Fail, Language::BehaviorTreeCpp);
+  check_rows(kHooks, FaultPolicy::Stop, btcpp::kRules);
+  check_rows(kTolerated, FaultPolicy::Fail, btcpp::kRules);
 }
 
 }  // namespace lockstep::test

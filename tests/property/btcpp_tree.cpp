@@ -1,4 +1,5 @@
 #include "property/btcpp_tree.h"
+#include "dialect/btcpp/rules.h"
 
 #include <catch2/catch.hpp>
 
@@ -26,7 +27,7 @@ const NodeType kCond{.id = "Cond",
 Tree tree_of(const Document& document) {
   const std::string xml = to_xml(document);
   Catalog catalog;
-  for (const NodeKind* kind : built_in_kinds(Language::BehaviorTreeCpp)) catalog.add(&kind->type);
+  for (const NodeKind* kind : built_in_kinds(btcpp::kRules)) catalog.add(&kind->type);
   catalog.add(&kAct);
   catalog.add(&kCond);
   Diagnostics diagnostics;

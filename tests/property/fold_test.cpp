@@ -102,8 +102,8 @@ void check_folded(const Trial& trial) {
 }  // namespace
 
 TEST_CASE("every node kind that keeps something says how it is folded") {
-  for (const Language language : {Language::Lockstep, Language::BehaviorTreeCpp}) {
-    for (const NodeKind* kind : built_in_kinds(language)) {
+  for (const LanguageRules* rules : languages()) {
+    for (const NodeKind* kind : rules->kinds) {
       INFO(kind->type.id);
       const bool keeps = kind->state_size + kind->state_per_child > 0;
       CHECK((kind->fold != nullptr) == keeps);

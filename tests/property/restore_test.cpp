@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <functional>
 
+#include "dialect/btcpp/rules.h"
 #include "property/btcpp_tree.h"
 #include "property/comparison.h"
 #include "support/tree_text.h"
@@ -112,7 +113,7 @@ TEST_CASE("a run that is taken back may go on otherwise: a parameter is what its
 }
 
 TEST_CASE("a run that is taken back has what it had kept, and the entries that it had made") {
-  Tree tree = tree_from_text("a", Language::BehaviorTreeCpp);
+  Tree tree = tree_from_text("a", btcpp::kRules);
   tree.boards.resize(1);  // names are looked up while it runs
   ScriptedRun run(std::move(tree), "a=R");
   Ticker& ticker = run.ticker();

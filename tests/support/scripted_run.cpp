@@ -24,8 +24,8 @@ std::map<std::string, LeafScript> scripts(std::string_view text) {
 }  // namespace
 
 ScriptedRun::ScriptedRun(std::string_view tree, std::string_view leaves, FaultPolicy policy,
-                         Language language)
-    : ScriptedRun(tree_from_text(tree, language), leaves, policy) {}
+                         const LanguageRules& rules)
+    : ScriptedRun(tree_from_text(tree, rules), leaves, policy) {}
 
 ScriptedRun::ScriptedRun(Tree tree, std::string_view leaves, FaultPolicy policy)
     : tree_(std::move(tree)),

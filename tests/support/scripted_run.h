@@ -18,7 +18,7 @@ class ScriptedRun {
   // `leaves`: "a=RRS b+.1 c=R~0,1", a script for each leaf of the tree. Throws
   // std::invalid_argument.
   ScriptedRun(std::string_view tree, std::string_view leaves,
-              FaultPolicy policy = FaultPolicy::Stop, Language language = Language::Lockstep);
+              FaultPolicy policy = FaultPolicy::Stop, const LanguageRules& rules = kLockstepRules);
   ScriptedRun(Tree tree, std::string_view leaves, FaultPolicy policy = FaultPolicy::Stop);
   ScriptedRun(const ScriptedRun&) = delete;
   ScriptedRun& operator=(const ScriptedRun&) = delete;

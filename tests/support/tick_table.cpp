@@ -97,8 +97,8 @@ std::string summary(const ScriptedRun& run, char status) {
 
 class Row {
  public:
-  Row(const TickRow& row, FaultPolicy policy, Language language)
-      : row_(row), run_(row.tree, row.leaves, policy, language) {}
+  Row(const TickRow& row, FaultPolicy policy, const LanguageRules& rules)
+      : row_(row), run_(row.tree, row.leaves, policy, rules) {}
 
   void check() {
     const auto steps = parse_expected(row_.expected);
@@ -151,8 +151,8 @@ class Row {
 
 }  // namespace
 
-void check_rows(std::span<const TickRow> rows, FaultPolicy policy, Language language) {
-  for (const TickRow& row : rows) Row(row, policy, language).check();
+void check_rows(std::span<const TickRow> rows, FaultPolicy policy, const LanguageRules& rules) {
+  for (const TickRow& row : rows) Row(row, policy, rules).check();
 }
 
 }  // namespace lockstep::test

@@ -29,6 +29,6 @@ struct TickRow {
 
 // Fails the Catch test for each row that does not hold, showing law, tree, expected and got.
 void check_rows(std::span<const TickRow> rows, FaultPolicy policy = FaultPolicy::Stop,
-                Language language = Language::Lockstep);
+                const LanguageRules& rules = kLockstepRules);
 
 }  // namespace lockstep::test

@@ -27,8 +27,8 @@ bool is_choice(const Parameter& parameter, const Value& value) {
 
 class Builder {
  public:
-  Builder(std::string_view text, Language language)
-      : all_(text), rest_(text), language_(language) {}
+  Builder(std::string_view text, const LanguageRules& rules)
+      : all_(text), rest_(text), rules_(rules) {}
 
   Definition build() {
     node(0);
@@ -104,7 +104,7 @@ class Builder {
     NodeHooks hooks;
     hooks.fill(Port::kNone);
     for (std::size_t hook = 0; hook < kHooks; ++hook) {
-      const std::string_view name = attribute_of(static_cast<Hook>(hook), language_);
+      const std::string_view name = attribute_of(static_cast<Hook>(hook), rules_);
       const auto it = std::ranges::find(given, name, &Attribute::name);
       if (it == given.end()) continue;
       hooks[hook] = script(it->value);
@@ -147,7 +147,7 @@ class Builder {
     const Sources sources;
     Diagnostics diagnostics;
     const Reporter reporter(sources, diagnostics);
-    if (language_ == Language::Lockstep) declare_entries(definition_, {}, reporter);
+    if (rules_.strict_types) declare_entries(definition_, {}, reporter);
     resolve_resources(definition_, reporter);
   }
 
@@ -196,7 +196,7 @@ class Builder {
   }
 
   const NodeType& built_in_type(std::string_view name) const {
-    for (const NodeKind* kind : built_in_kinds(language_)) {
+    for (const NodeKind* kind : built_in_kinds(rules_)) {
       if (kind->type.id == name) return kind->type;
     }
     if (const NodeType* type = plugin_node_type(name)) return *type;
@@ -260,7 +260,7 @@ class Builder {
     for (std::uint32_t i = 0; i < definition_.entries.size(); ++i) {
       BlackboardEntry& it = definition_.entries[i];
       if (it.name != key) continue;
-      if (type && !it.is_present && language_ == Language::Lockstep) {
+      if (type && !it.is_present && rules_.strict_types) {
         it.type = *type;
         it.is_present = true;
       }
@@ -269,7 +269,7 @@ class Builder {
     definition_.entries.push_back({std::string(key), type.value_or(ValueType::String), {}});
     BlackboardEntry& it = definition_.entries.back();
     it.is_present = type.has_value();
-    if (language_ == Language::BehaviorTreeCpp) {
+    if (!rules_.strict_types) {
       it.typing = type ? Typing::Declared : Typing::Any;
     }
     return static_cast<std::uint32_t>(definition_.entries.size() - 1);
@@ -277,15 +277,15 @@ class Builder {
 
   std::map<std::string, std::vector<std::uint32_t>> members_;  // of the groups, by name
   std::string_view all_, rest_;
-  Language language_;
+  const LanguageRules& rules_;
   bool names_at_run_time_ = false;
   Definition definition_;
 };
 
 }  // namespace
 
-Tree tree_from_text(std::string_view text, Language language) {
-  return compile(Builder(text, language).build());
+Tree tree_from_text(std::string_view text, const LanguageRules& rules) {
+  return compile(Builder(text, rules).build());
 }
 
 }  // namespace lockstep::test

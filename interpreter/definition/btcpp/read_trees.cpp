@@ -12,6 +12,7 @@
 #include "definition/btcpp/document_order.h"
 #include "definition/btcpp/version_3.h"
 #include "definition/node_check.h"
+#include "dialect/btcpp/rules.h"
 
 namespace lockstep::btcpp {
 namespace {
@@ -31,7 +32,7 @@ class TreeReader {
         report_(project.sources, diagnostics) {}
 
   CheckedTrees read() {
-    trees_.language = Language::BehaviorTreeCpp;
+    trees_.rules = &kRules;
     trees_.words = catalog_.words();
     for (const std::uint32_t document : document_order(project_)) {
       document_ = project_.documents[document].get();

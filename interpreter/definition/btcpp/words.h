@@ -6,12 +6,13 @@
 #include <optional>
 #include <string_view>
 
-#include "core/hook.h"
+#include "core/language.h"
+#include "dialect/btcpp/rules.h"
 
 namespace lockstep::btcpp {
 
-constexpr std::optional<Hook> hook_of(std::string_view attribute) {
-  return hook_named(attribute, Language::BehaviorTreeCpp);
+inline std::optional<Hook> hook_of(std::string_view attribute) {
+  return hook_named(attribute, kRules);
 }
 
 // Whether an attribute of that name is a port; all others only mark the node for editors.

@@ -1,11 +1,13 @@
-// IfThenElse and WhileDoElse: the first child is a condition that chooses one of the others. The
-// two languages differ in a condition that is skipped, and in one that goes on to be asked.
-#include "engine/node_context.h"
+// IfThenElse and WhileDoElse: the first child is a condition that chooses one of the others. Of a
+// condition that is skipped, and of one that goes on to be asked, there are two rules.
 #include "engine/nodes/fold.h"
 #include "engine/nodes/kinds.h"
 
 namespace lockstep {
 namespace {
+
+// Strict: a skipped condition is a fault, and one that has completed is asked again as it is.
+enum class Rule : bool { Plain, Strict };
 
 struct BranchState {
   NodeIndex branch;  // that was chosen in this activation; 0: none yet
@@ -31,22 +33,22 @@ NodeIndex else_of(NodeContext& context, NodeIndex self) {
 }
 
 // Without an answer there is no branch.
-template <Language kLanguage>
+template <Rule kRule>
 Status skipped_condition(NodeContext& context, NodeIndex self) {
   context.halt_running_children(self);
-  if (kLanguage == Language::Lockstep) return Status::Skipped;
+  if (kRule == Rule::Plain) return Status::Skipped;
   context.set_fault(self, "its condition was skipped, so no branch can be chosen");
   return Status::Failure;
 }
 
-template <Language kLanguage>
+template <Rule kRule>
 Status tick_if(NodeContext& context, NodeIndex self) {
   BranchState& state = context.state<BranchState>(self);
   if (context.first_tick(self)) state.branch = 0;
   if (state.branch == 0) {
     const Status condition = context.tick(condition_of(self));
     if (condition == Status::Running) return condition;
-    if (condition == Status::Skipped) return skipped_condition<kLanguage>(context, self);
+    if (condition == Status::Skipped) return skipped_condition<kRule>(context, self);
     const bool holds = condition == Status::Success;
     state.branch = holds ? then_of(context, self) : else_of(context, self);
     if (state.branch == 0) return Status::Failure;
@@ -54,25 +56,25 @@ Status tick_if(NodeContext& context, NodeIndex self) {
   return tick_branch(context, self, state.branch);
 }
 
-// The condition is asked in every tick; for BehaviorTree.CPP, it is not reset while a branch runs.
-template <Language kLanguage>
+// The condition is asked in every tick; by the strict rule, it is not reset while a branch runs.
+template <Rule kRule>
 Status ask(NodeContext& context, NodeIndex self) {
   const NodeIndex condition = condition_of(self);
-  const bool is_kept = kLanguage == Language::BehaviorTreeCpp && !context.first_tick(self) &&
-                       is_complete(context.status(condition));
+  const bool is_kept =
+      kRule == Rule::Strict && !context.first_tick(self) && is_complete(context.status(condition));
   return is_kept ? context.tick_unreset(condition) : context.tick(condition);
 }
 
-template <Language kLanguage>
+template <Rule kRule>
 Status tick_while(NodeContext& context, NodeIndex self) {
   BranchState& state = context.state<BranchState>(self);
   if (context.first_tick(self)) state.branch = 0;
-  const Status condition = ask<kLanguage>(context, self);
+  const Status condition = ask<kRule>(context, self);
   if (condition == Status::Running) {
-    if (kLanguage == Language::Lockstep && state.branch != 0) context.halt(state.branch);
+    if (kRule == Rule::Plain && state.branch != 0) context.halt(state.branch);
     return condition;
   }
-  if (condition == Status::Skipped) return skipped_condition<kLanguage>(context, self);
+  if (condition == Status::Skipped) return skipped_condition<kRule>(context, self);
   const bool holds = condition == Status::Success;
   const NodeIndex branch = holds ? then_of(context, self) : else_of(context, self);
   if (state.branch != 0 && state.branch != branch) context.halt(state.branch);
@@ -85,7 +87,7 @@ double progress_of_branch(NodeContext& context, NodeIndex self) {
   return branch == 0 ? 0.0 : context.progress(branch);
 }
 
-template <Language kLanguage>
+template <Rule kRule>
 constexpr NodeKind kIf{
     .type = {.id = "IfThenElse",
              .category = NodeCategory::Control,
@@ -93,13 +95,13 @@ constexpr NodeKind kIf{
                     "else the third. The result is that of the branch; Failure without a third "
                     "child.",
              .arity = {2, 3},
-             .begins_child_once = kLanguage == Language::Lockstep},
-    .tick = tick_if<kLanguage>,
+             .begins_child_once = kRule == Rule::Plain},
+    .tick = tick_if<kRule>,
     .progress = progress_of_branch,
     .state_size = sizeof(BranchState),
     .fold = fold::dead_when_idle};
 
-template <Language kLanguage>
+template <Rule kRule>
 constexpr NodeKind kWhile{
     .type = {.id = "WhileDoElse",
              .category = NodeCategory::Control,
@@ -107,16 +109,16 @@ constexpr NodeKind kWhile{
                     "child, else the third. The branch that is left is halted. Failure without a "
                     "third child.",
              .arity = {2, 3}},
-    .tick = tick_while<kLanguage>,
+    .tick = tick_while<kRule>,
     .progress = progress_of_branch,
     .state_size = sizeof(BranchState),
     .fold = fold::dead_when_idle};
 
 }  // namespace
 
-const NodeKind kIfThenElse = kIf<Language::Lockstep>;
-const NodeKind kWhileDoElse = kWhile<Language::Lockstep>;
-const NodeKind btcpp::kIfThenElse = kIf<Language::BehaviorTreeCpp>;
-const NodeKind btcpp::kWhileDoElse = kWhile<Language::BehaviorTreeCpp>;
+const NodeKind kIfThenElse = kIf<Rule::Plain>;
+const NodeKind kWhileDoElse = kWhile<Rule::Plain>;
+const NodeKind btcpp::kIfThenElse = kIf<Rule::Strict>;
+const NodeKind btcpp::kWhileDoElse = kWhile<Rule::Strict>;
 
 }  // namespace lockstep

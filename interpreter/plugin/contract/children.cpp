@@ -50,7 +50,7 @@ lockstep_status tick_by(const lockstep_caller* caller, std::uint32_t child, Func
   if (!may(caller, ChildAccess::Tick, "ticks", child)) return LOCKSTEP_RUNNING;
   LeafSlot& slot = *caller->slot;
   const NodeIndex node = caller->children[child];
-  const bool at_most_once = caller->ticker->tree().language == Language::Lockstep;
+  const bool at_most_once = !caller->ticker->tree().rules->may_tick_again;
   if (at_most_once && caller->ticker->ticked(node)) {
     breach(caller, fmt::format("ticks child {} twice in one tick", child));
     return LOCKSTEP_RUNNING;

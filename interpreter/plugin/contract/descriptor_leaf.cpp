@@ -18,15 +18,14 @@ constexpr std::string_view kReservedTags[] = {"root",    "BehaviorTree", "SubTre
                                               "plugin",  "arg",          "Action",  "Condition",
                                               "Control", "Decorator"};
 
-bool is_built_in(std::string_view id, Language language) {
-  return std::ranges::any_of(built_in_kinds(language),
-                             [&](const NodeKind* kind) { return kind->type.id == id; });
-}
-
-// What only one of the languages has is free in the other: 'Wait', 'Sleep'.
+// What only one of the languages has is free in the others: 'Wait', 'Sleep'.
 bool is_taken(std::string_view id) {
+  const auto has = [id](const LanguageRules* rules) {
+    return std::ranges::any_of(rules->kinds,
+                               [id](const NodeKind* kind) { return kind->type.id == id; });
+  };
   return std::ranges::find(kReservedTags, id) != std::end(kReservedTags) ||
-         (is_built_in(id, Language::Lockstep) && is_built_in(id, Language::BehaviorTreeCpp));
+         std::ranges::all_of(languages(), has);
 }
 
 std::optional<Problem> check_id(const char* id) {

@@ -136,7 +136,7 @@ void unset(const lockstep_caller* caller, std::uint32_t port) {
 
 void ask_for_tick(const lockstep_caller* caller) {
   if (caller->is_foreign() || caller->ticker == nullptr) return;
-  const bool may_ask = caller->ticker->tree().language == Language::BehaviorTreeCpp;
+  const bool may_ask = caller->ticker->tree().rules->may_tick_again;
   if (may_ask) caller->ticker->ask_for_another_tick(caller->node);
 }
 

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "definition/resolve.h"
+#include "dialect/btcpp/rules.h"
 #include "engine/node_kind.h"
 #include "unit/document/told.h"
 
@@ -47,7 +48,7 @@ Resolved resolved(const std::string& main, const std::string& sub) {
                                  {}, it.diagnostics);
   REQUIRE(it.project);
   Catalog catalog;
-  for (const NodeKind* kind : built_in_kinds(Language::BehaviorTreeCpp)) catalog.add(&kind->type);
+  for (const NodeKind* kind : built_in_kinds(btcpp::kRules)) catalog.add(&kind->type);
   catalog.add(&kLeaf);
   catalog.add(&kAll);
   it.definition = resolve(*it.project, catalog, {}, it.diagnostics);

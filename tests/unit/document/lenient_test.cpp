@@ -1,6 +1,7 @@
 // Documents for BehaviorTree.CPP: what is accepted that is no XML, and what is not.
 #include <catch2/catch.hpp>
 
+#include "dialect/btcpp/rules.h"
 #include "document/document.h"
 #include "document/language_of.h"
 #include "document/project.h"
@@ -30,9 +31,7 @@ std::string value_of(const std::string& text) {
 }  // namespace
 
 TEST_CASE("the attributes of the root say in which language a text is") {
-  const auto is_theirs = [](std::string_view text) {
-    return language_of(text) == Language::BehaviorTreeCpp;
-  };
+  const auto is_theirs = [](std::string_view text) { return &language_of(text) == &btcpp::kRules; };
   CHECK(is_theirs("<root BTCPP_format='4'/>"));
   CHECK(is_theirs("<?xml version='1.0'?><!-- <root lockstep='1'/> --><root/>"));
   CHECK(is_theirs("<root main_tree_to_execute='a < b' BTCPP_format='4'><A>"));

@@ -1,0 +1,18 @@
+// How the documents of a language are read: what a language hands in beside its rules.
+#pragma once
+
+#include "core/diagnostics.h"
+#include "definition/btcpp/models.h"
+#include "definition/catalog.h"
+#include "definition/checked_tree.h"
+#include "document/project.h"
+
+namespace lockstep {
+
+struct LanguageReader {
+  // Checks every BehaviorTree of the project, used or not.
+  CheckedTrees (*read)(const Project& project, const Catalog& catalog, const btcpp::Models& models,
+                       Diagnostics& diagnostics);
+};
+
+}  // namespace lockstep

@@ -1,0 +1,32 @@
+#include "dialect/btcpp/rules.h"
+
+#include "definition/btcpp/read_trees.h"
+#include "definition/language_reader.h"
+#include "engine/nodes/kinds.h"
+
+namespace lockstep::btcpp {
+namespace {
+
+constexpr LanguageReader kReader{.read = read_trees};
+
+}  // namespace
+
+constinit const LanguageRules kRules{.name = "btcpp4",
+                                     .root_attribute = "BTCPP_format",
+                                     .root_may_lack_it = true,  // before version 4
+                                     .hooks = {"_failureIf", "_successIf", "_skipIf", "_while",
+                                               "_onSuccess", "_onFailure", "_post", "_onHalted"},
+                                     .kinds = kBehaviorTreeCppKinds,
+                                     .reader = &kReader,
+                                     .lenient_xml = true,
+                                     .lenient_includes = true,
+                                     .unknown_arguments_are_text = true,
+                                     .may_lack_nodes = true,
+                                     .checks_unused_trees = true,
+                                     .strict_types = false,
+                                     .marked_keys = true,
+                                     .strict_scripts = false,
+                                     .conditions_may_run = true,
+                                     .may_tick_again = true};
+
+}  // namespace lockstep::btcpp
