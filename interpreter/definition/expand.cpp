@@ -13,7 +13,7 @@
 #include "core/pre_order.h"
 #include "core/suggest.h"
 #include "core/wording.h"
-#include "definition/btcpp/literal.h"
+#include "definition/literal.h"
 #include "definition/scope.h"
 #include "definition/script_entries.h"
 #include "definition/type_words.h"
@@ -245,7 +245,7 @@ class Expander {
     literals_.emplace(found.entry, found.text);
     if (is_strict()) return found.entry;
     BlackboardEntry& entry = definition_.entries[found.entry];
-    entry.type = btcpp::literal_type(found.text);
+    entry.type = literal_type(found.text);
     entry.initial = value_from_text(entry.type, nullptr, found.text)->value;
     entry.typing = Typing::Declared;
     entry.is_present = true;

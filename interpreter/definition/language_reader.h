@@ -2,16 +2,16 @@
 #pragma once
 
 #include "core/diagnostics.h"
-#include "definition/btcpp/models.h"
 #include "definition/catalog.h"
 #include "definition/checked_tree.h"
+#include "definition/models.h"
 #include "document/project.h"
 
 namespace lockstep {
 
 struct LanguageReader {
   // Checks every BehaviorTree of the project, used or not.
-  CheckedTrees (*read)(const Project& project, const Catalog& catalog, const btcpp::Models& models,
+  CheckedTrees (*read)(const Project& project, const Catalog& catalog, const Models& models,
                        Diagnostics& diagnostics);
 };
 

@@ -6,12 +6,12 @@
 #include "core/suggest.h"
 #include "core/wording.h"
 #include "definition/advise.h"
-#include "definition/btcpp/unused_trees.h"
 #include "definition/group_advice.h"
 #include "definition/groups.h"
 #include "definition/language_reader.h"
 #include "definition/references.h"
 #include "definition/resources.h"
+#include "definition/unused_trees.h"
 #include "document/reporter.h"
 
 namespace lockstep {
@@ -58,7 +58,7 @@ std::optional<Definition> resolve(const Project& project, const Catalog& catalog
   const Reporter report(project.sources, diagnostics);
   const LanguageRules& rules = *project.rules;
   const bool has_models = rules.may_lack_nodes || options.unknown == MissingNodes::AreMocked;
-  const auto models = has_models ? btcpp::read_models(project, report) : btcpp::Models();
+  const auto models = has_models ? read_models(project, report) : Models();
   Catalog known = catalog;
   const auto stand_ins =
       add_stand_ins(project, models, options.unknown, options.mocks, known, report);
@@ -67,7 +67,7 @@ std::optional<Definition> resolve(const Project& project, const Catalog& catalog
   if (!check_references(trees, report) || !main) return std::nullopt;
   Definition definition = expand(trees, *main, options.values, report);
   definition.stand_ins = stand_ins;
-  if (rules.checks_unused_trees) btcpp::check_unused(trees, *main, report);
+  if (rules.checks_unused_trees) check_unused(trees, *main, report);
   resolve_resources(definition, report);
   if (report.has_errors()) return std::nullopt;
   check_groups(definition, report);

@@ -10,7 +10,7 @@
 #include "core/parameter_value.h"
 #include "core/suggest.h"
 #include "core/wording.h"
-#include "definition/btcpp/literal.h"
+#include "definition/literal.h"
 #include "definition/script_types.h"
 #include "definition/type_words.h"
 
@@ -110,7 +110,7 @@ class Declarer {
   static void declare_started(BlackboardEntry& it, std::string_view text) {
     if (it.is_present) return;
     const bool is_flag = text == "true" || text == "false";
-    make(it, is_flag ? ValueType::Bool : btcpp::literal_type(text), nullptr);
+    make(it, is_flag ? ValueType::Bool : literal_type(text), nullptr);
     auto value = parse_value(it.type, text);
     if (!value) {  // not finite
       it.type = ValueType::String;

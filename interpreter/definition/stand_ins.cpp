@@ -48,8 +48,7 @@ constexpr std::string_view kReserved[] = {"root",   "BehaviorTree",   "SubTree",
 
 class Builder {
  public:
-  Builder(const Project& project, const btcpp::Models& models, Catalog& catalog,
-          const Reporter& report)
+  Builder(const Project& project, const Models& models, Catalog& catalog, const Reporter& report)
       : project_(project), models_(models), catalog_(catalog), report_(report) {}
 
   std::shared_ptr<const StandIns> build(MissingNodes unknown, const Mocks& mocks) {
@@ -212,10 +211,10 @@ class Builder {
     return category == NodeCategory::Decorator ? Arity{1, 1} : Arity{0, 0};
   }
 
-  std::vector<Parameter> ports_of(const btcpp::Model& model) {
+  std::vector<Parameter> ports_of(const Model& model) {
     std::vector<Parameter> ports;
-    for (const btcpp::ModelPort& it : model.ports) {
-      const auto type = btcpp::type_of_cpp(it.type);
+    for (const ModelPort& it : model.ports) {
+      const auto type = type_of_cpp(it.type);
       ports.push_back({.name = made_->keep(it.name),
                        .type = type.value_or(ValueType::String),
                        .doc = {},
@@ -238,7 +237,7 @@ class Builder {
   }
 
   const Project& project_;
-  const btcpp::Models& models_;
+  const Models& models_;
   Catalog& catalog_;
   const Reporter& report_;
   std::shared_ptr<StandIns> made_ = std::make_shared<StandIns>();
@@ -250,7 +249,7 @@ class Builder {
 
 }  // namespace
 
-std::shared_ptr<const StandIns> add_stand_ins(const Project& project, const btcpp::Models& models,
+std::shared_ptr<const StandIns> add_stand_ins(const Project& project, const Models& models,
                                               MissingNodes unknown, const Mocks& mocks,
                                               Catalog& catalog, const Reporter& report) {
   const bool may_lack = project.rules->may_lack_nodes;

@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "definition/btcpp/models.h"
 #include "definition/catalog.h"
+#include "definition/models.h"
 #include "document/project.h"
 #include "document/reporter.h"
 
@@ -27,7 +27,7 @@ class StandIns;
 
 // Adds to `catalog` the types of the nodes of `project` that it does not have: from a model, or
 // from how the trees use them. Null: there are none.
-std::shared_ptr<const StandIns> add_stand_ins(const Project& project, const btcpp::Models& models,
+std::shared_ptr<const StandIns> add_stand_ins(const Project& project, const Models& models,
                                               MissingNodes unknown, const Mocks& mocks,
                                               Catalog& catalog, const Reporter& report);
 

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/diagnostics.h"
-#include "definition/btcpp/models.h"
+#include "definition/models.h"
 #include "definition/node_check.h"
 #include "describe/node_reference.h"
 #include "describe/xsd.h"
@@ -16,7 +16,7 @@ std::string_view port_tag(Direction direction) {
 
 std::string cpp_type(const Parameter& it) {
   if (it.type == ValueType::Object) return std::string(it.object->name());
-  return std::string(btcpp::cpp_type_of(it.type));
+  return std::string(cpp_type_of(it.type));
 }
 
 std::string port_model(const Parameter& it) {

@@ -8,7 +8,7 @@
 namespace lockstep {
 namespace {
 
-CheckedTrees read(const Project& project, const Catalog& catalog, const btcpp::Models&,
+CheckedTrees read(const Project& project, const Catalog& catalog, const Models&,
                   Diagnostics& diagnostics) {
   return check_trees(project, catalog, diagnostics);
 }

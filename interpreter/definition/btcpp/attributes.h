@@ -2,8 +2,8 @@
 #pragma once
 
 #include "definition/attributes.h"
-#include "definition/btcpp/models.h"
 #include "definition/checked_tree.h"
+#include "definition/models.h"
 #include "document/reporter.h"
 
 namespace lockstep::btcpp {

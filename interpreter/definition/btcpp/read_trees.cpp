@@ -9,8 +9,8 @@
 #include "core/suggest.h"
 #include "core/wording.h"
 #include "definition/btcpp/attributes.h"
-#include "definition/btcpp/document_order.h"
 #include "definition/btcpp/version_3.h"
+#include "definition/document_order.h"
 #include "definition/node_check.h"
 #include "dialect/btcpp/rules.h"
 

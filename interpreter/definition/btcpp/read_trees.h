@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/diagnostics.h"
-#include "definition/btcpp/models.h"
 #include "definition/catalog.h"
 #include "definition/checked_tree.h"
+#include "definition/models.h"
 #include "document/project.h"
 
 namespace lockstep::btcpp {

@@ -1,11 +1,11 @@
-#include "definition/btcpp/unused_trees.h"
+#include "definition/unused_trees.h"
 
 #include <set>
 #include <span>
 
 #include "definition/expand.h"
 
-namespace lockstep::btcpp {
+namespace lockstep {
 namespace {
 
 std::span<const CheckedSubTree> subtrees_of(const CheckedTrees& trees, std::string_view id) {
@@ -34,4 +34,4 @@ void check_unused(CheckedTrees& trees, std::string_view main, const Reporter& re
   }
 }
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep

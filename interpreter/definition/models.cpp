@@ -1,4 +1,4 @@
-#include "definition/btcpp/models.h"
+#include "definition/models.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 
 #include "core/pre_order.h"
 #include "core/wording.h"
-#include "definition/btcpp/document_order.h"
+#include "definition/document_order.h"
 
-namespace lockstep::btcpp {
+namespace lockstep {
 namespace {
 
 struct CppType {
@@ -152,4 +152,4 @@ std::string_view cpp_type_of(ValueType type) {
   return found == std::end(kCppTypes) ? std::string_view("BT::AnyTypeAllowed") : found->name;
 }
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep

@@ -1,8 +1,8 @@
-#include "definition/btcpp/literal.h"
+#include "definition/literal.h"
 
 #include <charconv>
 
-namespace lockstep::btcpp {
+namespace lockstep {
 namespace {
 
 template <class Number>
@@ -19,4 +19,4 @@ ValueType literal_type(std::string_view text) {
   return is_all<double>(text) ? ValueType::Double : ValueType::String;
 }
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep

@@ -1,8 +1,8 @@
-#include "definition/btcpp/document_order.h"
+#include "definition/document_order.h"
 
 #include <algorithm>
 
-namespace lockstep::btcpp {
+namespace lockstep {
 namespace {
 
 // From the last to the first: then the first visit of a document is the one that counts.
@@ -27,4 +27,4 @@ std::vector<std::uint32_t> document_order(const Project& project) {
   return order;
 }
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep
