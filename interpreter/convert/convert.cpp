@@ -380,7 +380,7 @@ class Converter {
                     "there it is a script of the node");
     }
     if (name == "_autoremap" || name == "_description") return keep(token, attribute);
-    if (!btcpp::is_port_name(name)) return leave_out(token, attribute);
+    if (!is_port_name(name)) return leave_out(token, attribute);
     if (name == "name") return convert_name(token, attribute);
     const std::string_view key = btcpp::key_of(value, name);
     if (key.empty()) return keep(token, attribute);

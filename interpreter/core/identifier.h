@@ -17,4 +17,14 @@ constexpr bool is_identifier(std::string_view text) {
          std::ranges::all_of(text, [&](char c) { return is_letter(c) || (c >= '0' && c <= '9'); });
 }
 
+// Whether `name` may be that of a port of any plugin. No mark of editors is: they begin with '_'.
+constexpr bool is_port_name(std::string_view name) {
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  constexpr std::string_view kForbidden = " \t\r\n<>&\"'/\\:*?|.";
+  return !name.empty() && is_letter(name[0]) && std::ranges::none_of(name, [&](char c) {
+    return kForbidden.find(c) != std::string_view::npos || static_cast<unsigned char>(c) < 0x20 ||
+           c == 0x7f;
+  });
+}
+
 }  // namespace lockstep

@@ -1,5 +1,5 @@
-// The order in which documents are read where a later tree replaces an earlier one with its ID: what
-// a document includes comes before it.
+// The order in which documents are read where a later tree replaces an earlier one with its ID:
+// what a document includes comes before it.
 #pragma once
 
 #include <cstdint>

@@ -13,6 +13,8 @@ struct LanguageReader {
   // Checks every BehaviorTree of the project, used or not.
   CheckedTrees (*read)(const Project& project, const Catalog& catalog, const Models& models,
                        Diagnostics& diagnostics);
+  // Whether a node had this name in another version of the language. May be null.
+  bool (*is_old_name)(std::string_view id) = nullptr;
 };
 
 }  // namespace lockstep

@@ -7,11 +7,11 @@
 #include <set>
 #include <vector>
 
+#include "core/identifier.h"
 #include "core/pre_order.h"
 #include "core/suggest.h"
 #include "core/wording.h"
-#include "definition/btcpp/version_3.h"
-#include "definition/btcpp/words.h"
+#include "definition/language_reader.h"
 #include "definition/node_check.h"
 
 namespace lockstep {
@@ -100,8 +100,14 @@ class Builder {
 
   bool is_unknown(std::string_view id) const {
     return !id.empty() && catalog_.find(id) == nullptr && !trees_.contains(id) &&
-           std::ranges::find(kReserved, id) == std::end(kReserved) &&
-           btcpp::node_since_4(id).empty() && btcpp::hint_for_gone(id).empty();
+           std::ranges::find(kReserved, id) == std::end(kReserved) && !is_old_name(id);
+  }
+
+  // The reader has a better message for it.
+  static bool is_old_name(std::string_view id) {
+    return std::ranges::any_of(languages(), [id](const LanguageRules* it) {
+      return it->reader->is_old_name != nullptr && it->reader->is_old_name(id);
+    });
   }
 
   void note_use(const Document& document, std::uint32_t node, Use& use) const {
@@ -117,7 +123,7 @@ class Builder {
     for (const Attribute& attribute : document.attributes(node)) {
       const bool is_own = attribute.name == "name" || attribute.name == "ID" ||
                           hook_named(attribute.name, *project_.rules).has_value();
-      if (!is_own && btcpp::is_port_name(attribute.name)) use.attributes.insert(attribute.name);
+      if (!is_own && is_port_name(attribute.name)) use.attributes.insert(attribute.name);
     }
   }
 

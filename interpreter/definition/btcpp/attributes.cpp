@@ -3,28 +3,33 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "core/conversion.h"
+#include "core/identifier.h"
 #include "core/parameter_value.h"
 #include "core/suggest.h"
 #include "core/wording.h"
 #include "definition/btcpp/words.h"
 #include "definition/scripts.h"
+#include "dialect/btcpp/rules.h"
 
 namespace lockstep::btcpp {
 namespace {
 
 // Those that are not ports. What editors write has no meaning here.
-constexpr std::string_view kOwn[] = {"_failureIf", "_successIf", "_skipIf",
-                                     "_while",     "_onSuccess", "_onFailure",
-                                     "_post",      "_onHalted",  "_autoremap"};
+const auto kOwn = [] {
+  std::array<std::string_view, kHooks + 1> names{"_autoremap"};
+  std::ranges::copy(kRules.hooks, names.begin() + 1);
+  return names;
+}();
 constexpr std::string_view kMarks[] = {"_collapsed",   "_favorite", "_hardcoded", "_subtreeOnly",
                                        "_description", "_uid",      "_fullpath",  "_external"};
 
 // A word that has no meaning may be a misspelled one that has.
 void check_mark(const Attribute& attribute, const Reporter& report) {
   if (!attribute.name.starts_with('_')) return;
-  if (std::ranges::find(kOwn, attribute.name) != std::end(kOwn)) return;
+  if (std::ranges::find(kOwn, attribute.name) != kOwn.end()) return;
   if (std::ranges::find(kMarks, attribute.name) != std::end(kMarks)) return;
   const std::string hint = did_you_mean(attribute.name, kOwn);
   if (hint.empty() || report.counted_only(Severity::Warning)) return;

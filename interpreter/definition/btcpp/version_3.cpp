@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/identifier.h"
 #include "core/wording.h"
 #include "definition/btcpp/words.h"
 
@@ -91,6 +92,10 @@ std::string_view hint_for_gone(std::string_view id) {
                       id == "BlackboardCheckBool" || id == "BlackboardCheckString";
   return checks ? "write _skipIf=\"…\" at its child, or a <Precondition if=\"…\">"
                 : std::string_view();
+}
+
+bool is_old_name(std::string_view id) {
+  return !node_since_4(id).empty() || !hint_for_gone(id).empty();
 }
 
 }  // namespace lockstep::btcpp

@@ -21,4 +21,7 @@ std::vector<Attribute> attributes_since_4(std::span<const Attribute> attributes,
 // What to write instead of a node that is gone; "" if it is none.
 std::string_view hint_for_gone(std::string_view id);
 
+// Whether it is one of both.
+bool is_old_name(std::string_view id);
+
 }  // namespace lockstep::btcpp

@@ -1,29 +1,9 @@
-// The words of documents for BehaviorTree.CPP: what an attribute is by its name, and what its value
-// means.
+// What the value of an attribute means in a document for BehaviorTree.CPP.
 #pragma once
 
-#include <algorithm>
-#include <optional>
 #include <string_view>
 
-#include "core/language.h"
-#include "dialect/btcpp/rules.h"
-
 namespace lockstep::btcpp {
-
-inline std::optional<Hook> hook_of(std::string_view attribute) {
-  return hook_named(attribute, kRules);
-}
-
-// Whether an attribute of that name is a port; all others only mark the node for editors.
-constexpr bool is_port_name(std::string_view name) {
-  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
-  constexpr std::string_view kForbidden = " \t\r\n<>&\"'/\\:*?|.";
-  return !name.empty() && is_letter(name[0]) && std::ranges::none_of(name, [&](char c) {
-    return kForbidden.find(c) != std::string_view::npos || static_cast<unsigned char>(c) < 0x20 ||
-           c == 0x7f;
-  });
-}
 
 constexpr std::string_view without_blanks_around(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\r\n\v\f";

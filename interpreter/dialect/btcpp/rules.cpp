@@ -1,13 +1,14 @@
 #include "dialect/btcpp/rules.h"
 
 #include "definition/btcpp/read_trees.h"
+#include "definition/btcpp/version_3.h"
 #include "definition/language_reader.h"
-#include "engine/nodes/kinds.h"
+#include "engine/nodes/btcpp/kinds.h"
 
 namespace lockstep::btcpp {
 namespace {
 
-constexpr LanguageReader kReader{.read = read_trees};
+constexpr LanguageReader kReader{.read = read_trees, .is_old_name = is_old_name};
 
 }  // namespace
 
@@ -16,7 +17,7 @@ constinit const LanguageRules kRules{.name = "btcpp4",
                                      .root_may_lack_it = true,  // before version 4
                                      .hooks = {"_failureIf", "_successIf", "_skipIf", "_while",
                                                "_onSuccess", "_onFailure", "_post", "_onHalted"},
-                                     .kinds = kBehaviorTreeCppKinds,
+                                     .kinds = kKinds,
                                      .reader = &kReader,
                                      .lenient_xml = true,
                                      .lenient_includes = true,

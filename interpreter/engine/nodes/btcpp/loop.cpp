@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "core/conversion.h"
+#include "engine/nodes/btcpp/kinds.h"
 #include "engine/nodes/btcpp/results.h"
 #include "engine/nodes/decorator.h"
 #include "engine/nodes/fold.h"

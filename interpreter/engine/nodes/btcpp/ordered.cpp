@@ -1,8 +1,8 @@
 // Sequence, Fallback, ReactiveSequence and ReactiveFallback of BehaviorTree.CPP: the first two keep
 // their place, as with memory="true".
 #include "engine/nodes/ordered.h"
+#include "engine/nodes/btcpp/kinds.h"
 #include "engine/nodes/fold.h"
-#include "engine/nodes/kinds.h"
 
 namespace lockstep::btcpp {
 

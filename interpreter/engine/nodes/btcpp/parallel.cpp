@@ -4,8 +4,8 @@
 #include <optional>
 #include <utility>
 
+#include "engine/nodes/btcpp/kinds.h"
 #include "engine/nodes/fold.h"
-#include "engine/nodes/kinds.h"
 #include "engine/nodes/parallel_rule.h"
 
 namespace lockstep::btcpp {

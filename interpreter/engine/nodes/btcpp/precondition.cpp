@@ -1,3 +1,4 @@
+#include "engine/nodes/btcpp/kinds.h"
 #include "engine/nodes/btcpp/results.h"
 #include "engine/nodes/decorator.h"
 #include "engine/nodes/fold.h"

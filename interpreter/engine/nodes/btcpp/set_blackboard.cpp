@@ -3,7 +3,7 @@
 #include "core/wording.h"
 #include "engine/node_context.h"
 #include "engine/nodes/at_once.h"
-#include "engine/nodes/kinds.h"
+#include "engine/nodes/btcpp/kinds.h"
 
 namespace lockstep::btcpp {
 namespace {

@@ -5,8 +5,8 @@
 #include <string_view>
 
 #include "engine/node_context.h"
+#include "engine/nodes/btcpp/kinds.h"
 #include "engine/nodes/fold.h"
-#include "engine/nodes/kinds.h"
 
 namespace lockstep::btcpp {
 namespace {

@@ -1,7 +1,7 @@
 // TryCatch: a Sequence of all children but the last, which is ticked after a Failure.
 #include "engine/node_context.h"
+#include "engine/nodes/btcpp/kinds.h"
 #include "engine/nodes/fold.h"
-#include "engine/nodes/kinds.h"
 
 namespace lockstep::btcpp {
 namespace {

@@ -1,0 +1,31 @@
+// The built-in nodes of BehaviorTree.CPP.
+#pragma once
+
+#include "engine/nodes/kinds.h"
+
+namespace lockstep::btcpp {
+
+extern const NodeKind kSequence, kFallback, kReactiveSequence, kReactiveFallback, kAsyncSequence,
+    kAsyncFallback, kSequenceWithMemory, kParallel, kParallelAll, kIfThenElse, kWhileDoElse,
+    kSwitch2, kSwitch3, kSwitch4, kSwitch5, kSwitch6, kTryCatch;
+extern const NodeKind kRepeat, kRetryUntilSuccessful, kRunOnce, kDelay, kTimeout, kPrecondition,
+    kSkipUnlessUpdated, kWaitValueUpdate, kLoopInt, kLoopBool, kLoopDouble, kLoopString;
+extern const NodeKind kSleep, kScriptCondition, kSetBlackboard, kUnsetBlackboard, kWasEntryUpdated;
+
+// In the order in which they are documented. A kind that means the same is that of our language.
+inline constexpr const NodeKind* kKinds[] = {
+    // Control nodes
+    &kSequence, &kFallback, &kReactiveSequence, &kReactiveFallback, &kAsyncSequence,
+    &kAsyncFallback, &kSequenceWithMemory, &kParallel, &kParallelAll, &kIfThenElse, &kWhileDoElse,
+    &kSwitch2, &kSwitch3, &kSwitch4, &kSwitch5, &kSwitch6, &kTryCatch, &lockstep::kParallelAbsolute,
+    &lockstep::kParallelRelative,
+    // Decorators
+    &lockstep::kInverter, &lockstep::kForceSuccess, &lockstep::kForceFailure, &kRepeat,
+    &kRetryUntilSuccessful, &lockstep::kKeepRunningUntilFailure, &kRunOnce, &kDelay, &kTimeout,
+    &kPrecondition, &kSkipUnlessUpdated, &kWaitValueUpdate, &kLoopInt, &kLoopBool, &kLoopDouble,
+    &kLoopString, &lockstep::kSubTree,
+    // Leaves
+    &lockstep::kAlwaysSuccess, &lockstep::kAlwaysFailure, &kSleep, &lockstep::kScript,
+    &kScriptCondition, &kSetBlackboard, &kUnsetBlackboard, &kWasEntryUpdated};
+
+}  // namespace lockstep::btcpp
