@@ -12,9 +12,9 @@
 #include "core/identifier.h"
 #include "core/pre_order.h"
 #include "core/wording.h"
-#include "definition/btcpp/version_3.h"
-#include "definition/btcpp/words.h"
 #include "definition/node_check.h"
+#include "dialect/btcpp/version_3.h"
+#include "dialect/btcpp/words.h"
 #include "document/scanner.h"
 
 namespace lockstep {

@@ -7,7 +7,7 @@
 #include "core/identifier.h"
 #include "core/value.h"
 #include "core/wording.h"
-#include "definition/btcpp/words.h"
+#include "dialect/btcpp/words.h"
 
 namespace lockstep {
 namespace {

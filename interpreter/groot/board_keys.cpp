@@ -1,6 +1,6 @@
 #include "groot/board_keys.h"
 
-#include "definition/btcpp/words.h"
+#include "dialect/btcpp/words.h"
 
 namespace lockstep {
 namespace {

@@ -1,9 +1,9 @@
 #include "dialect/btcpp/rules.h"
 
-#include "definition/btcpp/read_trees.h"
-#include "definition/btcpp/version_3.h"
 #include "definition/language_reader.h"
-#include "engine/nodes/btcpp/kinds.h"
+#include "dialect/btcpp/nodes/kinds.h"
+#include "dialect/btcpp/read_trees.h"
+#include "dialect/btcpp/version_3.h"
 
 namespace lockstep::btcpp {
 namespace {

@@ -1,6 +1,5 @@
 // TryCatch: a Sequence of all children but the last, which is ticked after a Failure.
-#include "engine/node_context.h"
-#include "engine/nodes/btcpp/kinds.h"
+#include "dialect/btcpp/nodes/kinds.h"
 #include "engine/nodes/fold.h"
 
 namespace lockstep::btcpp {

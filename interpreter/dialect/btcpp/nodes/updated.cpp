@@ -1,7 +1,7 @@
 // SkipUnlessUpdated, WaitValueUpdate and WasEntryUpdated: whether an entry was written, also with
 // the value that it had, since the node looked last.
+#include "dialect/btcpp/nodes/kinds.h"
 #include "engine/nodes/at_once.h"
-#include "engine/nodes/btcpp/kinds.h"
 #include "engine/nodes/decorator.h"
 #include "engine/nodes/fold.h"
 

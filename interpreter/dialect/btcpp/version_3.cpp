@@ -1,4 +1,4 @@
-#include "definition/btcpp/version_3.h"
+#include "dialect/btcpp/version_3.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 #include "core/identifier.h"
 #include "core/wording.h"
-#include "definition/btcpp/words.h"
+#include "dialect/btcpp/words.h"
 
 namespace lockstep::btcpp {
 namespace {

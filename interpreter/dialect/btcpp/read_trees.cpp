@@ -1,4 +1,4 @@
-#include "definition/btcpp/read_trees.h"
+#include "dialect/btcpp/read_trees.h"
 
 #include <fmt/format.h>
 
@@ -8,11 +8,11 @@
 #include "core/pre_order.h"
 #include "core/suggest.h"
 #include "core/wording.h"
-#include "definition/btcpp/attributes.h"
-#include "definition/btcpp/version_3.h"
 #include "definition/document_order.h"
 #include "definition/node_check.h"
+#include "dialect/btcpp/attributes.h"
 #include "dialect/btcpp/rules.h"
+#include "dialect/btcpp/version_3.h"
 
 namespace lockstep::btcpp {
 namespace {

@@ -1,7 +1,7 @@
 // Sequence, Fallback, ReactiveSequence and ReactiveFallback of BehaviorTree.CPP: the first two keep
 // their place, as with memory="true".
 #include "engine/nodes/ordered.h"
-#include "engine/nodes/btcpp/kinds.h"
+#include "dialect/btcpp/nodes/kinds.h"
 #include "engine/nodes/fold.h"
 
 namespace lockstep::btcpp {

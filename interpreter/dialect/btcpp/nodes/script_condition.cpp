@@ -1,4 +1,4 @@
-#include "engine/nodes/btcpp/kinds.h"
+#include "dialect/btcpp/nodes/kinds.h"
 #include "engine/nodes/check.h"
 
 namespace lockstep::btcpp {

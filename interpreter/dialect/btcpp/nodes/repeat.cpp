@@ -1,7 +1,7 @@
 // Repeat and RetryUntilSuccessful of BehaviorTree.CPP.
 #include <algorithm>
 
-#include "engine/nodes/btcpp/kinds.h"
+#include "dialect/btcpp/nodes/kinds.h"
 #include "engine/nodes/decorator.h"
 #include "engine/nodes/fold.h"
 

@@ -2,7 +2,7 @@
 // its time. Time goes on while a node is held.
 #include <algorithm>
 
-#include "engine/nodes/btcpp/kinds.h"
+#include "dialect/btcpp/nodes/kinds.h"
 #include "engine/nodes/decorator.h"
 #include "engine/nodes/fold.h"
 

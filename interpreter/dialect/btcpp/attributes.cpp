@@ -1,4 +1,4 @@
-#include "definition/btcpp/attributes.h"
+#include "dialect/btcpp/attributes.h"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,9 @@
 #include "core/parameter_value.h"
 #include "core/suggest.h"
 #include "core/wording.h"
-#include "definition/btcpp/words.h"
 #include "definition/scripts.h"
 #include "dialect/btcpp/rules.h"
+#include "dialect/btcpp/words.h"
 
 namespace lockstep::btcpp {
 namespace {

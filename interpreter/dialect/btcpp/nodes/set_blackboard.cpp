@@ -1,9 +1,9 @@
 // SetBlackboard and UnsetBlackboard: write an entry, or remove it.
 #include "core/conversion.h"
 #include "core/wording.h"
+#include "dialect/btcpp/nodes/kinds.h"
 #include "engine/node_context.h"
 #include "engine/nodes/at_once.h"
-#include "engine/nodes/btcpp/kinds.h"
 
 namespace lockstep::btcpp {
 namespace {

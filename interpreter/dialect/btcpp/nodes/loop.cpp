@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "core/conversion.h"
-#include "engine/nodes/btcpp/kinds.h"
-#include "engine/nodes/btcpp/results.h"
+#include "dialect/btcpp/nodes/kinds.h"
+#include "dialect/btcpp/nodes/results.h"
 #include "engine/nodes/decorator.h"
 #include "engine/nodes/fold.h"
 

@@ -1,6 +1,6 @@
 #include "engine/nodes/branches.h"
 
-#include "engine/nodes/btcpp/kinds.h"
+#include "dialect/btcpp/nodes/kinds.h"
 
 namespace lockstep::btcpp {
 

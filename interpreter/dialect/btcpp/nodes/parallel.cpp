@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "engine/nodes/btcpp/kinds.h"
+#include "dialect/btcpp/nodes/kinds.h"
 #include "engine/nodes/fold.h"
 #include "engine/nodes/parallel_rule.h"
 

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "engine/node_context.h"
-#include "engine/nodes/btcpp/kinds.h"
+#include "dialect/btcpp/nodes/kinds.h"
 #include "engine/nodes/fold.h"
 
 namespace lockstep::btcpp {
