@@ -6,19 +6,25 @@
 #include <set>
 #include <vector>
 
-#include "convert/node_pairs.h"
 #include "convert/switch_node.h"
 #include "convert/text_edits.h"
 #include "core/identifier.h"
 #include "core/pre_order.h"
 #include "core/wording.h"
 #include "definition/node_check.h"
+#include "dialect/btcpp/pairs.h"
 #include "dialect/btcpp/version_3.h"
 #include "dialect/btcpp/words.h"
 #include "document/scanner.h"
 
 namespace lockstep {
 namespace {
+
+using btcpp::AttributePair;
+using btcpp::Conversions;
+using btcpp::FixedAttribute;
+using btcpp::NodePair;
+using btcpp::Side;
 
 constexpr std::string_view kModels = "TreeNodesModel";
 
@@ -276,12 +282,12 @@ class Converter {
       const Attribute* it = document_.find_attribute(element, name);
       return it == nullptr ? std::nullopt : std::optional(it->value);
     };
-    return lockstep::find_pair(to_ours() ? Side::Theirs : Side::Ours, type, given);
+    return btcpp::find_pair(to_ours() ? Side::Theirs : Side::Ours, type, given);
   }
 
   // If one with another attribute can be said.
   std::string hint_of(std::string_view type) const {
-    for (const NodePair& pair : node_pairs()) {
+    for (const NodePair& pair : btcpp::node_pairs()) {
       if ((to_ours() ? pair.theirs : pair.ours) != type) continue;
       const FixedAttribute& fixed = to_ours() ? pair.in_theirs : pair.in_ours;
       return fmt::format("one with {}=\"{}\" can", fixed.name, fixed.value);
@@ -358,12 +364,12 @@ class Converter {
 
   void convert_value(const XmlToken& token, const Attribute& attribute, const AttributePair& pair) {
     const std::uint32_t children = count_children(open_.back().element);
-    const auto value = to_ours() ? value_here(pair.conversion, attribute.value, children)
-                                 : value_there(pair.conversion, attribute.value);
+    const auto value = to_ours() ? btcpp::value_here(pair.conversion, attribute.value, children)
+                                 : btcpp::value_there(pair.conversion, attribute.value);
     if (!value) {
       return cannot(attribute.place,
                     fmt::format("{}=\"{}\"", attribute.name, brief(attribute.value)),
-                    std::string(lockstep::hint_of(pair.conversion)));
+                    std::string(btcpp::hint_of(pair.conversion)));
     }
     if (value->empty()) return remove(token);
     replace(token, to_ours() ? pair.ours : pair.theirs, *value);

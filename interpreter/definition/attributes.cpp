@@ -9,7 +9,7 @@
 #include "core/parameter_value.h"
 #include "core/suggest.h"
 #include "core/wording.h"
-#include "definition/foreign_nodes.h"
+#include "definition/foreign_hints.h"
 #include "definition/scripts.h"
 
 namespace lockstep {

@@ -9,7 +9,7 @@
 #include "core/suggest.h"
 #include "core/wording.h"
 #include "definition/attributes.h"
-#include "definition/foreign_nodes.h"
+#include "definition/foreign_hints.h"
 #include "definition/node_check.h"
 
 namespace lockstep {

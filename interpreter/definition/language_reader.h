@@ -4,6 +4,7 @@
 #include "core/diagnostics.h"
 #include "definition/catalog.h"
 #include "definition/checked_tree.h"
+#include "definition/foreign_hints.h"
 #include "definition/models.h"
 #include "document/project.h"
 
@@ -15,6 +16,8 @@ struct LanguageReader {
                        Diagnostics& diagnostics);
   // Whether a node had this name in another version of the language. May be null.
   bool (*is_old_name)(std::string_view id) = nullptr;
+  // For those who use its words in another language. May be null.
+  const ForeignHints* hints = nullptr;
 };
 
 }  // namespace lockstep

@@ -6,17 +6,20 @@
 #include <map>
 #include <vector>
 
-#include "convert/node_pairs.h"
 #include "core/identifier.h"
 #include "definition/node_check.h"
 #include "describe/node_reference.h"
 #include "describe/xsd.h"
+#include "dialect/btcpp/pairs.h"
 #include "dialect/btcpp/rules.h"
 #include "engine/node_kind.h"
 #include "groot/statuses.h"
 
 namespace lockstep {
 namespace {
+
+using btcpp::AttributePair;
+using btcpp::NodePair;
 
 class Writer {
  public:
@@ -92,11 +95,11 @@ class Writer {
       const auto found = std::ranges::find(written, name, &WrittenAttribute::name);
       return found == written.end() ? std::nullopt : std::optional(found->value);
     };
-    const NodePair* pair = find_pair(Side::Ours, node.type->id, given);
+    const NodePair* pair = btcpp::find_pair(btcpp::Side::Ours, node.type->id, given);
     const bool can_be_said =
         pair != nullptr && std::ranges::all_of(written, [&](const WrittenAttribute& it) {
           const AttributePair* other = attribute_pair(*pair, it.name);
-          return other == nullptr || value_there(other->conversion, it.value);
+          return other == nullptr || btcpp::value_there(other->conversion, it.value);
         });
     return can_be_said ? pair : nullptr;
   }
@@ -131,7 +134,7 @@ class Writer {
   void add_rounds(const DefinitionNode& node, const NodePair& pair) {
     for (const AttributePair& it : pair.attributes) {
       const bool is_given = !written_value(definition_, node, it.ours).empty();
-      if (it.conversion == Conversions::Rounds && !is_given) add(it.theirs, "-1");
+      if (it.conversion == btcpp::Conversions::Rounds && !is_given) add(it.theirs, "-1");
     }
   }
 
@@ -140,7 +143,7 @@ class Writer {
     if (pair->in_ours.name == it.name) return;
     const AttributePair* other = attribute_pair(*pair, it.name);
     if (other == nullptr) return add(it.name, it.value);
-    const std::string value = *value_there(other->conversion, it.value);
+    const std::string value = *btcpp::value_there(other->conversion, it.value);
     if (!value.empty()) add(other->theirs, value);
   }
 

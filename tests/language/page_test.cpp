@@ -7,10 +7,15 @@
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include "definition/definition.h"
-#include "definition/foreign_nodes.h"
+#include "dialect/btcpp/hints.h"
+#include "dialect/btcpp/pairs.h"
+#include "dialect/btcpp/rules.h"
+#include "dialect/btcpp/version_3.h"
+#include "dialect/btcpp/words.h"
 #include "document/arguments.h"
 #include "document/well_formed.h"
 #include "engine/synchronized.h"
@@ -167,39 +172,65 @@ TEST_CASE("the page names every built-in node and parameter, and every limit") {
   names("| 1,000 |");
 }
 
-// The table of docs/language.md that the hints are made from.
+std::string in_code(std::string_view text) {
+  return fmt::format("`{}`", text);
+}
+
+// The names there for which there is a hint, also those before version 4.
+std::vector<std::string> hinted_names(const btcpp::NodePair& pair) {
+  std::vector<std::string> names;
+  if (btcpp::needs_hint(pair, pair.theirs)) names.push_back(in_code(pair.theirs));
+  for (const auto& [before, since] : btcpp::renamed_nodes()) {
+    if (since == pair.theirs) names.push_back(in_code(before));
+  }
+  return names;
+}
+
+std::string foreign_row(const btcpp::NodePair& pair, const std::vector<std::string>& names) {
+  const auto note = [](btcpp::Conversions conversion) -> std::string_view {
+    if (conversion == btcpp::Conversions::Milliseconds) return " (not milliseconds)";
+    return conversion == btcpp::Conversions::Rounds ? " (left out = for ever)" : "";
+  };
+  std::vector<std::string> theirs, ours;
+  for (const auto& attributes : {pair.attributes, pair.words}) {
+    for (const btcpp::AttributePair& it : attributes) {
+      theirs.push_back(in_code(it.theirs));
+      if (!it.ours.empty()) ours.push_back(in_code(it.ours).append(note(it.conversion)));
+    }
+  }
+  const std::regex tag("((?:<[^>]+>)+)");
+  return fmt::format("| {}{}{} | {}{}{} | {} |\n", fmt::join(names, ", "),
+                     theirs.empty() ? "" : ": ", fmt::join(theirs, ", "),
+                     pair.ours.empty() ? "none" : in_code(btcpp::instead_of(pair)),
+                     ours.empty() ? "" : ": ", fmt::join(ours, ", "),
+                     std::regex_replace(std::string(pair.remark), tag, "`$1`"));
+}
+
+// The table of docs/language.md, from that of the hints.
 std::string foreign_table() {
-  const auto in_code = [](std::string_view text) { return fmt::format("`{}`", text); };
-  const auto same = [](const ForeignNode& a, const ForeignNode& b) {
-    return a.ours == b.ours && a.remark == b.remark && a.attributes.data() == b.attributes.data();
-  };
-  const auto here = [&](const ForeignNode& node, bool has_attributes) -> std::string {
-    if (!node.ours.empty()) return in_code(node.ours);
-    return has_attributes ? "any node" : "none";
-  };
-  const auto note = [](ForeignValue value) -> std::string_view {
-    if (value == ForeignValue::Milliseconds) return " (not milliseconds)";
-    return value == ForeignValue::OrEndless ? " (left out = for ever)" : "";
+  const auto same = [](const btcpp::NodePair& a, const btcpp::NodePair& b) {
+    return a.ours == b.ours && a.remark == b.remark && a.in_ours.value == b.in_ours.value &&
+           a.words.data() == b.words.data() && a.attributes.empty() && b.attributes.empty();
   };
   std::string table = "| There | Here | |\n|---|---|---|\n";
-  const auto nodes = foreign_nodes();
-  for (std::size_t i = 0; i < nodes.size();) {
-    const ForeignNode& node = nodes[i];
-    std::vector<std::string> tags, theirs, ours;
-    for (; i < nodes.size() && same(node, nodes[i]); ++i) {
-      tags.push_back(nodes[i].tag.empty() ? "any node" : in_code(nodes[i].tag));
+  for (const auto& pairs : {btcpp::node_pairs(), btcpp::similar_nodes()}) {
+    for (std::size_t i = 0; i < pairs.size();) {
+      const btcpp::NodePair& pair = pairs[i];
+      std::vector<std::string> names = hinted_names(pair);
+      for (++i; i < pairs.size() && !names.empty() && same(pair, pairs[i]); ++i) {
+        std::ranges::move(hinted_names(pairs[i]), std::back_inserter(names));
+      }
+      if (!names.empty()) table += foreign_row(pair, names);
     }
-    for (const ForeignAttribute& it : node.attributes) {
-      theirs.push_back(in_code(it.name));
-      if (!it.ours.empty()) ours.push_back(in_code(it.ours).append(note(it.value)));
-    }
-    const std::regex tag("((?:<[^>]+>)+)");
-    table += fmt::format("| {}{}{} | {}{}{} | {} |\n", fmt::join(tags, ", "),
-                         theirs.empty() ? "" : ": ", fmt::join(theirs, ", "),
-                         here(node, !ours.empty()), ours.empty() ? "" : ": ", fmt::join(ours, ", "),
-                         std::regex_replace(std::string(node.remark), tag, "`$1`"));
   }
-  return table;
+  std::vector<std::string> theirs, ours, marks;
+  for (const std::string_view it : btcpp::kRules.hooks) theirs.push_back(in_code(it));
+  for (const std::string_view it : kLockstepRules.hooks) ours.push_back(in_code(it));
+  for (const std::string_view it : btcpp::kMarks) marks.push_back(in_code(it));
+  return table +
+         fmt::format("| any node: {} | any node: {} |  |\n", fmt::join(theirs, ", "),
+                     fmt::join(ours, ", ")) +
+         fmt::format("| any node: {} | none | a mark of an editor |\n", fmt::join(marks, ", "));
 }
 
 TEST_CASE("what to write instead of the nodes of other libraries is what the hints say") {
@@ -211,17 +242,66 @@ TEST_CASE("what to write instead of the nodes of other libraries is what the hin
 
 TEST_CASE("no node and no parameter of ours is taken for one of another library") {
   for (const NodeKind* kind : built_in_kinds()) {
-    for (const ForeignNode& node : foreign_nodes()) {
-      if (node.tag != kind->type.id) continue;
-      INFO(node.tag);
-      CHECK(node.ours == node.tag);
-      for (const ForeignAttribute& attribute : node.attributes) {
-        for (const Parameter& parameter : kind->type.parameters) {
-          CHECK(attribute.name != parameter.name);
-        }
+    for (const auto& pairs : {btcpp::node_pairs(), btcpp::similar_nodes()}) {
+      const auto pair = std::ranges::find(pairs, kind->type.id, &btcpp::NodePair::theirs);
+      if (pair == pairs.end()) continue;
+      INFO(pair->theirs);
+      CHECK(pair->ours == pair->theirs);
+      for (const btcpp::AttributePair& attribute : pair->attributes) {
+        const auto& parameters = kind->type.parameters;
+        const bool is_ours =
+            std::ranges::find(parameters, attribute.theirs, &Parameter::name) != parameters.end();
+        CHECK((!is_ours || attribute.ours == attribute.theirs));
       }
     }
   }
+}
+
+TEST_CASE("the pairs of both languages name nodes and attributes that they have") {
+  const auto find = [](const LanguageRules& rules, std::string_view id) {
+    const auto kind = std::ranges::find(rules.kinds, id, [](auto* it) { return it->type.id; });
+    REQUIRE(kind != rules.kinds.end());
+    return (*kind)->type;
+  };
+  const auto has = [](const NodeType& type, std::string_view name) {
+    return std::ranges::find(type.parameters, name, &Parameter::name) != type.parameters.end();
+  };
+  for (const btcpp::NodePair& pair : btcpp::node_pairs()) {
+    INFO(pair.theirs);
+    const NodeType theirs = find(btcpp::kRules, pair.theirs),
+                   ours = find(kLockstepRules, pair.ours);
+    CHECK((pair.in_theirs.name.empty() || has(theirs, pair.in_theirs.name)));
+    CHECK((pair.in_ours.name.empty() || has(ours, pair.in_ours.name)));
+    for (const btcpp::AttributePair& it : pair.attributes) {
+      INFO(it.theirs);
+      CHECK((has(theirs, it.theirs) || it.theirs.ends_with("threshold")));  // before version 4
+      CHECK(has(ours, it.ours));
+    }
+  }
+  for (const NodeKind* kind : btcpp::kRules.kinds) {
+    const auto is_it = [&](const btcpp::NodePair& it) { return it.theirs == kind->type.id; };
+    INFO(kind->type.id);
+    CHECK((std::ranges::any_of(btcpp::node_pairs(), is_it) ||
+           std::ranges::any_of(btcpp::similar_nodes(), is_it)));
+  }
+}
+
+// A program that uses the library asks for them where no lockstep is.
+TEST_CASE("the nodes that the SDK says every tree has are those of the language") {
+  std::ifstream file(LOCKSTEP_SOURCE_DIR
+                     "/plugins/sdk/btcpp/include/behaviortree_cpp/lockstep/node_ids.h");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::set<std::string> said, are;
+  const std::regex id("[{ ]\"([A-Za-z0-9]+)\"[,}]");
+  for (std::sregex_iterator it(text.begin(), text.end(), id), end; it != end; ++it) {
+    said.insert((*it)[1].str());
+  }
+  for (const NodeKind* kind : btcpp::kRules.kinds) {
+    const std::string_view name = kind->type.id;
+    const bool is_ours_alone = name == "ParallelAbsolute" || name == "ParallelRelative";
+    if (!is_ours_alone) are.emplace(name);
+  }
+  CHECK(said == are);
 }
 
 TEST_CASE("links inside the page lead to its headings") {

@@ -17,18 +17,16 @@
 namespace lockstep::btcpp {
 namespace {
 
-// Those that are not ports. What editors write has no meaning here.
+// Those that are not ports.
 const auto kOwn = [] {
   std::array<std::string_view, kHooks + 1> names{"_autoremap"};
   std::ranges::copy(kRules.hooks, names.begin() + 1);
   return names;
 }();
-constexpr std::string_view kMarks[] = {"_collapsed",   "_favorite", "_hardcoded", "_subtreeOnly",
-                                       "_description", "_uid",      "_fullpath",  "_external"};
 
 // A word that has no meaning may be a misspelled one that has.
 void check_mark(const Attribute& attribute, const Reporter& report) {
-  if (!attribute.name.starts_with('_')) return;
+  if (!attribute.name.starts_with('_') || attribute.name == "_description") return;
   if (std::ranges::find(kOwn, attribute.name) != kOwn.end()) return;
   if (std::ranges::find(kMarks, attribute.name) != std::end(kMarks)) return;
   const std::string hint = did_you_mean(attribute.name, kOwn);

@@ -1,6 +1,7 @@
 #include "dialect/btcpp/rules.h"
 
 #include "definition/language_reader.h"
+#include "dialect/btcpp/hints.h"
 #include "dialect/btcpp/nodes/kinds.h"
 #include "dialect/btcpp/read_trees.h"
 #include "dialect/btcpp/version_3.h"
@@ -8,7 +9,7 @@
 namespace lockstep::btcpp {
 namespace {
 
-constexpr LanguageReader kReader{.read = read_trees, .is_old_name = is_old_name};
+constexpr LanguageReader kReader{.read = read_trees, .is_old_name = is_old_name, .hints = &kHints};
 
 }  // namespace
 

@@ -11,11 +11,6 @@
 namespace lockstep::btcpp {
 namespace {
 
-struct Renamed {
-  std::string_view before;
-  std::string_view since;
-};
-
 constexpr Renamed kNodes[] = {{"SequenceStar", "SequenceWithMemory"},
                               {"FallbackStar", "Fallback"},
                               {"RetryUntilSuccesful", "RetryUntilSuccessful"},
@@ -64,6 +59,10 @@ void check_dollar(Attribute& attribute, const Reporter& report) {
 }
 
 }  // namespace
+
+std::span<const Renamed> renamed_nodes() {
+  return kNodes;
+}
 
 std::string_view node_since_4(std::string_view id) {
   const auto* const found = std::ranges::find(kNodes, id, &Renamed::before);

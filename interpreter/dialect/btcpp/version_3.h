@@ -11,6 +11,13 @@
 
 namespace lockstep::btcpp {
 
+struct Renamed {
+  std::string_view before;
+  std::string_view since;
+};
+
+std::span<const Renamed> renamed_nodes();
+
 // The node that is called like that since version 4; "" if the name says the same in both.
 std::string_view node_since_4(std::string_view id);
 

@@ -1,9 +1,13 @@
-// What the value of an attribute means in a document for BehaviorTree.CPP.
+// The words of documents for BehaviorTree.CPP: marks, and what the value of an attribute means.
 #pragma once
 
 #include <string_view>
 
 namespace lockstep::btcpp {
+
+// What editors write. It has no meaning here.
+inline constexpr std::string_view kMarks[] = {"_uid",       "_fullpath", "_collapsed",  "_favorite",
+                                              "_hardcoded", "_external", "_subtreeOnly"};
 
 constexpr std::string_view without_blanks_around(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\r\n\v\f";

@@ -1,4 +1,5 @@
-// Which built-in nodes of the two languages mean the same.
+// The built-in nodes of BehaviorTree.CPP, and some of Nav2, beside those of our language. This is
+// the one table of how both are called: `convert`, Groot2, hints and docs/language.md come from it.
 #pragma once
 
 #include <cstdint>
@@ -8,44 +9,51 @@
 #include <string>
 #include <string_view>
 
-namespace lockstep {
+namespace lockstep::btcpp {
 
 // An attribute that must have this value; "" = none.
 struct FixedAttribute {
   std::string_view name = {};
   std::string_view value = {};
   bool is_default = false;  // so it may be absent
+  bool is_detail = false;   // a hint leaves it out
 };
 
 // How a value is converted.
 enum class Conversions : unsigned char {
-  None,          // it means the same
-  Milliseconds,  // there, and seconds here
-  Rounds,        // -1 there is for ever, and absent here
-  Attempts,      // -1 there is for ever, which cannot be said here
-  Children,      // -1 there is all, -2 all but one, …; here a number, and absent is all
+  None,           // it means the same
+  Milliseconds,   // there, and seconds here
+  Rounds,         // -1 there is for ever, and absent here
+  Attempts,       // -1 there is for ever, which cannot be said here
+  Children,       // -1 there is all, -2 all but one, …; here a number, and absent is all
+  WithoutBraces,  // a {key} there, its name here
 };
 
 // The names of an attribute there and here.
 struct AttributePair {
   std::string_view theirs;
-  std::string_view ours;
+  std::string_view ours;  // "": none
   Conversions conversion = Conversions::None;
 };
 
 struct NodePair {
   std::string_view theirs;
-  std::string_view ours;
+  std::string_view ours = {};  // "": none
   FixedAttribute in_theirs = {};
   FixedAttribute in_ours = {};
   std::span<const AttributePair> attributes = {};  // that differ
+  std::span<const AttributePair> words = {};       // more of them, for hints alone
   std::string_view difference = {};                // in what they do; "" = none
   bool is_different_when_held = false;             // and only below a synchronized node
+  std::string_view remark = {};  // of a hint: what is different, or what to do instead
 };
 
-enum class Side : bool { Theirs, Ours };
-
+// Those that can be converted.
 std::span<const NodePair> node_pairs();
+// And those that have something like it at most.
+std::span<const NodePair> similar_nodes();
+
+enum class Side : bool { Theirs, Ours };
 
 // The pair of a node of one of the languages; null if it cannot be said in the other one. `given`
 // has the value of an attribute of the node, or nothing.
@@ -60,4 +68,4 @@ std::optional<std::string> value_here(Conversions conversion, std::string_view t
 // Which values can be said.
 std::string_view hint_of(Conversions conversion);
 
-}  // namespace lockstep
+}  // namespace lockstep::btcpp

@@ -1,0 +1,19 @@
+// Hints to those who write nodes and attributes of BehaviorTree.CPP or Nav2 in another language.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "definition/foreign_hints.h"
+#include "dialect/btcpp/pairs.h"
+
+namespace lockstep::btcpp {
+
+extern const ForeignHints kHints;
+
+// Whether it is called otherwise here than `tag`, or an attribute of it is.
+bool needs_hint(const NodePair& pair, std::string_view tag);
+// What to write instead, as a start tag without its brackets: `Sequence memory="true"`.
+std::string instead_of(const NodePair& pair);
+
+}  // namespace lockstep::btcpp

@@ -1,0 +1,220 @@
+#include "dialect/btcpp/pairs.h"
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/value.h"
+
+namespace lockstep::btcpp {
+namespace {
+
+constexpr FixedAttribute kRemembers{.name = "memory", .value = "true"};
+constexpr FixedAttribute kForgets{.name = "memory", .value = "false", .is_default = true};
+constexpr FixedAttribute kKeepsResults{.name = "memory", .value = "true", .is_default = true};
+constexpr FixedAttribute kWallClock{.name = "clock", .value = "wall", .is_detail = true};
+constexpr FixedAttribute kRepeatsResult{.name = "then_skip", .value = "false"};
+
+constexpr AttributePair kMsec[] = {{"msec", "seconds", Conversions::Milliseconds}};
+constexpr AttributePair kDelayMsec[] = {{"delay_msec", "seconds", Conversions::Milliseconds}};
+constexpr AttributePair kCycles[] = {{"num_cycles", "times", Conversions::Rounds}};
+constexpr AttributePair kAttempts[] = {{"num_attempts", "attempts", Conversions::Attempts}};
+constexpr AttributePair kCounts[] = {
+    {"success_count", "success_count", Conversions::Children},
+    {"failure_count", "failure_count", Conversions::Children},
+    {"success_threshold", "success_count", Conversions::Children},  // before version 4
+    {"threshold", "success_count", Conversions::Children},
+    {"failure_threshold", "failure_count", Conversions::Children}};
+constexpr AttributePair kThenSkip[] = {{"then_skip", ""}};
+constexpr AttributePair kSubTreeWords[] = {
+    {"ID", "ID"}, {"__autoremap", "_autoremap"}, {"__shared_blackboard", "_autoremap"}};
+constexpr AttributePair kCode[] = {{"code", "code"}};
+constexpr AttributePair kMaxFailures[] = {{"max_failures", "failure_count", Conversions::Children}};
+constexpr AttributePair kVariable[] = {{"variable", "on", Conversions::WithoutBraces}};
+constexpr AttributePair kWaitDuration[] = {{"wait_duration", "seconds"}};
+
+constexpr std::string_view kRounds =
+    "for BehaviorTree.CPP, a round that ends at once is followed by the next one in the same "
+    "period; in lockstep's language each round takes a tick";
+constexpr std::string_view kDecides =
+    "for BehaviorTree.CPP, it decides after each child; in lockstep's language when all were "
+    "ticked, and conditions are asked in every tick";
+constexpr std::string_view kStands =
+    "while it is held, the time of a Wait stands still; that of a Sleep goes on";
+
+constexpr std::string_view kOneEach =
+    "one attempt in each tick; for ever: a <Repeat> between two <Inverter>";
+constexpr std::string_view kFirstResult = "after that it returns the first result";
+constexpr std::string_view kAgain = "after a Failure it begins with the first child";
+constexpr std::string_view kCaseList = "its cases are one list: cases=\"dock;drive\"";
+constexpr std::string_view kTry =
+    "write <Fallback memory=\"true\"> of a Sequence of the others and <ForceFailure> of the last";
+constexpr std::string_view kNav = "the plugin nav has it: add <plugin name=\"nav\"/>";
+constexpr std::string_view kAsk = "put a <Check> before it, in a Sequence";
+constexpr std::string_view kAskNot = "put a condition before it, in a Fallback";
+constexpr std::string_view kOften = "<Rate seconds=\"…\"> starts its child at most so often";
+constexpr std::string_view kCompare = "write <Check code=\"key == 'value'\"/>";
+constexpr std::string_view kNoQueues = "there are no queues: let a leaf take the next item";
+constexpr std::string_view kStart =
+    "give the entry a start value with --set, or as an attribute of the SubTree";
+constexpr std::string_view kWriter =
+    "let the leaf that writes the entry set a flag in another entry";
+constexpr std::string_view kModel =
+    "delete it: ports come from the plugin, and `lockstep nodes` lists them";
+
+constexpr NodePair kPairs[] = {
+    {.theirs = "Sequence", .ours = "Sequence", .in_ours = kRemembers},
+    {.theirs = "Fallback", .ours = "Fallback", .in_ours = kRemembers},
+    {.theirs = "ReactiveSequence", .ours = "Sequence", .in_ours = kForgets},
+    {.theirs = "ReactiveFallback", .ours = "Fallback", .in_ours = kForgets},
+    {.theirs = "ParallelAbsolute", .ours = "ParallelAbsolute"},
+    {.theirs = "ParallelRelative", .ours = "ParallelRelative"},
+    {.theirs = "Parallel",
+     .ours = "Parallel",
+     .in_ours = kKeepsResults,
+     .attributes = kCounts,
+     .difference = kDecides,
+     .remark = "counts are 1 or more"},
+    {.theirs = "Repeat",
+     .ours = "Repeat",
+     .attributes = kCycles,
+     .difference = kRounds,
+     .remark = "one iteration in each tick"},
+    {.theirs = "RetryUntilSuccessful",
+     .ours = "Retry",
+     .attributes = kAttempts,
+     .difference = kRounds,
+     .remark = kOneEach},
+    {.theirs = "Inverter", .ours = "Inverter"},
+    {.theirs = "ForceSuccess", .ours = "ForceSuccess"},
+    {.theirs = "ForceFailure", .ours = "ForceFailure"},
+    {.theirs = "KeepRunningUntilFailure", .ours = "KeepRunningUntilFailure"},
+    {.theirs = "RunOnce",
+     .ours = "RunOnce",
+     .in_theirs = kRepeatsResult,
+     .words = kThenSkip,
+     .remark = kFirstResult},
+    {.theirs = "Timeout", .ours = "Timeout", .in_ours = kWallClock, .attributes = kMsec},
+    {.theirs = "Delay", .ours = "Delay", .in_ours = kWallClock, .attributes = kDelayMsec},
+    {.theirs = "Sleep",
+     .ours = "Wait",
+     .attributes = kMsec,
+     .difference = kStands,
+     .is_different_when_held = true},
+    {.theirs = "SubTree", .ours = "SubTree", .words = kSubTreeWords},
+    {.theirs = "IfThenElse", .ours = "IfThenElse"},
+    {.theirs = "WhileDoElse", .ours = "WhileDoElse"},
+    {.theirs = "Script", .ours = "Script"},
+    {.theirs = "ScriptCondition", .ours = "Check", .words = kCode},
+    {.theirs = "AlwaysSuccess", .ours = "AlwaysSuccess"},
+    {.theirs = "AlwaysFailure", .ours = "AlwaysFailure"},
+};
+
+// A Switch is converted too, by convert/switch_node.h.
+constexpr NodePair kSimilar[] = {
+    {.theirs = "AsyncSequence", .ours = "Sequence", .in_ours = kRemembers},
+    {.theirs = "AsyncFallback", .ours = "Fallback", .in_ours = kRemembers},
+    {.theirs = "SequenceWithMemory", .ours = "Sequence", .in_ours = kRemembers, .remark = kAgain},
+    {.theirs = "ParallelAll",
+     .ours = "Parallel",
+     .words = kMaxFailures,
+     .remark = "it ends with the decisive failure"},
+    {.theirs = "Switch2", .ours = "Switch", .words = kVariable, .remark = kCaseList},
+    {.theirs = "Switch3", .ours = "Switch", .words = kVariable, .remark = kCaseList},
+    {.theirs = "Switch4", .ours = "Switch", .words = kVariable, .remark = kCaseList},
+    {.theirs = "Switch5", .ours = "Switch", .words = kVariable, .remark = kCaseList},
+    {.theirs = "Switch6", .ours = "Switch", .words = kVariable, .remark = kCaseList},
+    {.theirs = "TryCatch", .remark = kTry},
+    {.theirs = "Precondition", .remark = kAsk},
+    {.theirs = "WaitValueUpdate", .remark = "put a leaf that waits before it, in a Sequence"},
+    {.theirs = "SkipUnlessUpdated", .remark = kAskNot},
+    {.theirs = "LoopInt", .remark = kNoQueues},
+    {.theirs = "LoopBool", .remark = kNoQueues},
+    {.theirs = "LoopDouble", .remark = kNoQueues},
+    {.theirs = "LoopString", .remark = kNoQueues},
+    {.theirs = "BlackboardCheckInt", .remark = kCompare},
+    {.theirs = "BlackboardCheckDouble", .remark = kCompare},
+    {.theirs = "BlackboardCheckBool", .remark = kCompare},
+    {.theirs = "BlackboardCheckString", .remark = kCompare},
+    {.theirs = "SetBlackboard", .remark = kStart},
+    {.theirs = "UnsetBlackboard", .remark = kWriter},
+    {.theirs = "WasEntryUpdated", .remark = kWriter},
+    {.theirs = "TreeNodeModel", .remark = kModel},
+    // Of Nav2.
+    {.theirs = "RecoveryNode", .remark = kNav},
+    {.theirs = "PipelineSequence", .remark = kNav},
+    {.theirs = "RoundRobin", .remark = kNav},
+    {.theirs = "RateController", .remark = kNav},
+    {.theirs = "NonblockingSequence",
+     .ours = "Parallel",
+     .remark = "actions that succeeded are not ticked again"},
+    {.theirs = "PersistentSequence",
+     .ours = "Sequence",
+     .in_ours = kRemembers,
+     .remark = "its place is not on the blackboard"},
+    {.theirs = "SingleTrigger", .ours = "RunOnce", .remark = kFirstResult},
+    {.theirs = "SpeedController", .remark = kOften},
+    {.theirs = "DistanceController", .remark = kOften},
+    {.theirs = "GoalUpdatedController", .remark = kAskNot},
+    {.theirs = "PathLongerOnApproach", .remark = kAskNot},
+    {.theirs = "Wait", .ours = "Wait", .words = kWaitDuration},
+};
+
+}  // namespace
+
+std::span<const NodePair> node_pairs() {
+  return kPairs;
+}
+
+std::span<const NodePair> similar_nodes() {
+  return kSimilar;
+}
+
+const NodePair* find_pair(Side from, std::string_view type, const GivenAttribute& given) {
+  const bool is_ours = from == Side::Ours;
+  for (const NodePair& pair : kPairs) {
+    if ((is_ours ? pair.ours : pair.theirs) != type) continue;
+    const FixedAttribute& fixed = is_ours ? pair.in_ours : pair.in_theirs;
+    if (fixed.name.empty()) return &pair;
+    const auto value = given(fixed.name);
+    if (value ? *value == fixed.value : fixed.is_default) return &pair;
+  }
+  return nullptr;
+}
+
+std::optional<std::string> value_there(Conversions conversion, std::string_view ours) {
+  if (conversion != Conversions::Milliseconds) return std::string(ours);
+  const auto seconds = parse_double(ours);
+  if (!seconds || *seconds <= 0 || *seconds > 1e9) return std::nullopt;
+  const double milliseconds = std::round(*seconds * 1000);
+  if (std::abs(milliseconds - *seconds * 1000) >= 1e-6) return std::nullopt;
+  return to_text(Value(static_cast<std::int64_t>(milliseconds)));
+}
+
+std::optional<std::string> value_here(Conversions conversion, std::string_view theirs,
+                                      std::uint32_t children) {
+  const bool is_time = conversion == Conversions::Milliseconds;
+  if (conversion == Conversions::None || (!is_time && theirs.starts_with('{'))) {
+    return std::string(theirs);
+  }
+  auto number = parse_int(theirs);
+  if (number && *number == -1 && conversion == Conversions::Rounds) return "";
+  if (number && *number < 0 && conversion == Conversions::Children) *number += children + 1;
+  if (!number || *number <= 0) return std::nullopt;
+  if (is_time) return to_text(Value(static_cast<double>(*number) / 1000));
+  return to_text(Value(*number));
+}
+
+std::string_view hint_of(Conversions conversion) {
+  switch (conversion) {
+    case Conversions::Milliseconds:
+      return "only a positive number of whole milliseconds can";
+    case Conversions::Rounds:
+      return "only a positive number, or -1, can";
+    case Conversions::Attempts:
+      return "only a positive number can; a Repeat between two Inverters tries for ever";
+    default:
+      return "only a number of children from 1 on can";
+  }
+}
+
+}  // namespace lockstep::btcpp
