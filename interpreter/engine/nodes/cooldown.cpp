@@ -6,12 +6,7 @@ namespace lockstep {
 namespace {
 
 constexpr Parameter kCooldownParameters[] = {
-    {.name = "seconds",
-     .type = ValueType::Double,
-     .doc = "How long the node is skipped after its child has completed.",
-     .required = true,
-     .unit = "s",
-     .range = {.min = 0, .max = 1e9}},
+    timed::seconds("How long the node is skipped after its child has completed."),
 };
 
 // Not cleared by a new activation.

@@ -5,12 +5,7 @@ namespace lockstep {
 namespace {
 
 constexpr Parameter kDelayParameters[] = {
-    {.name = "seconds",
-     .type = ValueType::Double,
-     .doc = "How long to wait before the child is ticked.",
-     .required = true,
-     .unit = "s",
-     .range = {.min = 0, .max = 1e9}},
+    timed::seconds("How long to wait before the child is ticked."),
     timed::kClockParameter,
 };
 

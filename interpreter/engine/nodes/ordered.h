@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "engine/node_context.h"
+#include "engine/nodes/fold.h"
 
 namespace lockstep::ordered {
 
@@ -31,7 +32,7 @@ bool has_memory(const NodeContext& context, NodeIndex self) {
   return kMemory == Memory::Always;
 }
 
-template <Status kGoOn, Memory kMemory = Memory::ByParameter>
+template <Status kGoOn, Memory kMemory>
 Status tick(NodeContext& context, NodeIndex self) {
   State& state = context.state<State>(self);
   const NodeIndex end = context.end_of(self);
@@ -65,6 +66,24 @@ inline double progress_of_sequence(NodeContext& context, NodeIndex self) {
 
 inline double progress_of_fallback(NodeContext& context, NodeIndex self) {
   return context.progress(context.state<State>(self).current);
+}
+
+// The row of a kind.
+template <Status kGoOn, Memory kMemory>
+constexpr NodeKind kind(std::string_view id, std::string_view doc) {
+  constexpr bool kIsSequence = kGoOn == Status::Success;
+  NodeKind kind{.type = {.id = id,
+                         .category = NodeCategory::Control,
+                         .doc = doc,
+                         .arity = {1},
+                         .sign = kIsSequence ? "→" : "?",
+                         .goes_on_after = kGoOn},
+                .tick = tick<kGoOn, kMemory>,
+                .progress = kIsSequence ? progress_of_sequence : progress_of_fallback,
+                .state_size = sizeof(State),
+                .fold = fold::dead_when_idle};
+  if (kMemory == Memory::ByParameter) kind.type.parameters = kParameters;
+  return kind;
 }
 
 }  // namespace lockstep::ordered

@@ -6,12 +6,7 @@ namespace lockstep {
 namespace {
 
 constexpr Parameter kRateParameters[] = {
-    {.name = "seconds",
-     .type = ValueType::Double,
-     .doc = "The least time from one start of the child to the next.",
-     .required = true,
-     .unit = "s",
-     .range = {.min = 0, .max = 1e9}},
+    timed::seconds("The least time from one start of the child to the next."),
     timed::kClockParameter,
 };
 

@@ -1,10 +1,11 @@
+// Repeat and Retry: the child begins again after one of its results.
 #include "engine/nodes/decorator.h"
 #include "engine/nodes/fold.h"
 
 namespace lockstep {
 namespace {
 
-constexpr unsigned kTimes = 0;
+constexpr unsigned kTimes = 0;        // or attempts
 constexpr std::int64_t kForever = 0;  // the cell of an absent number
 
 constexpr Parameter kRepeatParameters[] = {
@@ -14,17 +15,26 @@ constexpr Parameter kRepeatParameters[] = {
      .range = {.min = 1}},
 };
 
-struct RepeatState {
-  std::int64_t done;
+constexpr Parameter kRetryParameters[] = {
+    {.name = "attempts",
+     .type = ValueType::Int,
+     .doc = "How often the child may fail before this node does.",
+     .required = true,
+     .range = {.min = 1}},
 };
 
+struct RepeatState {
+  std::int64_t done;  // rounds
+};
+
+template <Status kGoOn>
 Status tick_repeat(NodeContext& context, NodeIndex self) {
   RepeatState& state = context.state<RepeatState>(self);
   if (context.first_tick(self)) state.done = 0;
   const Status status = context.tick(self + 1);
-  if (status != Status::Success) return status;
+  if (status != kGoOn) return status;
   ++state.done;
-  return state.done == context.parameter(self, kTimes).integer ? Status::Success : Status::Running;
+  return state.done == context.parameter(self, kTimes).integer ? kGoOn : Status::Running;
 }
 
 double progress_of_repeat(NodeContext& context, NodeIndex self) {
@@ -57,10 +67,24 @@ const NodeKind kRepeat{
              .arity = {1, 1},
              .parameters = kRepeatParameters,
              .can_run = true},
-    .tick = tick_repeat,
+    .tick = tick_repeat<Status::Success>,
     .progress = progress_of_repeat,
     .state_size = sizeof(RepeatState),
     .fold = fold_repeat,
+    .round = round_of_repeat};
+
+const NodeKind kRetry{
+    .type = {.id = "Retry",
+             .category = NodeCategory::Decorator,
+             .doc = "Ticks its child until it succeeds, at most a number of attempts, once per "
+                    "tick.",
+             .arity = {1, 1},
+             .parameters = kRetryParameters,
+             .can_run = true},
+    .tick = tick_repeat<Status::Failure>,
+    .progress = decorator::child_progress,
+    .state_size = sizeof(RepeatState),
+    .fold = fold::dead_when_idle,
     .round = round_of_repeat};
 
 }  // namespace lockstep

@@ -11,6 +11,15 @@ namespace lockstep::timed {
 inline constexpr unsigned kSeconds = 0;
 inline constexpr unsigned kClock = 1;  // not of Wait
 
+constexpr Parameter seconds(std::string_view doc) {
+  return {.name = "seconds",
+          .type = ValueType::Double,
+          .doc = doc,
+          .required = true,
+          .unit = "s",
+          .range = {.min = 0, .max = 1e9}};
+}
+
 inline constexpr std::string_view kClocks[] = {"active", "wall"};
 inline constexpr std::int64_t kWall = 1;
 inline constexpr Parameter kClockParameter{

@@ -7,12 +7,7 @@ namespace lockstep {
 namespace {
 
 constexpr Parameter kWaitParameters[] = {
-    {.name = "seconds",
-     .type = ValueType::Double,
-     .doc = "How long to wait; the time during which it is held does not count.",
-     .required = true,
-     .unit = "s",
-     .range = {.min = 0, .max = 1e9}},
+    timed::seconds("How long to wait; the time during which it is held does not count."),
 };
 
 Nanoseconds duration(const NodeContext& context, NodeIndex self) {

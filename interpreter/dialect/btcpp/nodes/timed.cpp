@@ -11,24 +11,20 @@ namespace {
 
 constexpr unsigned kTime = 0;  // in each of the kinds
 
-constexpr Parameter kSleepParameters[] = {{.name = "msec",
-                                           .type = ValueType::Int,
-                                           .doc = "How long to sleep.",
-                                           .required = true,
-                                           .unit = "ms",
-                                           .range = {.min = 0, .max = 1e12}}};
-constexpr Parameter kDelayParameters[] = {{.name = "delay_msec",
-                                           .type = ValueType::Int,
-                                           .doc = "How long to wait before the child is ticked.",
-                                           .required = true,
-                                           .unit = "ms",
-                                           .range = {.min = 0, .max = 1e12}}};
-constexpr Parameter kTimeoutParameters[] = {{.name = "msec",
-                                             .type = ValueType::Int,
-                                             .doc = "How long the child may run; 0: for ever.",
-                                             .required = true,
-                                             .unit = "ms",
-                                             .range = {.min = 0, .max = 1e12}}};
+constexpr Parameter milliseconds(std::string_view name, std::string_view doc) {
+  return {.name = name,
+          .type = ValueType::Int,
+          .doc = doc,
+          .required = true,
+          .unit = "ms",
+          .range = {.min = 0, .max = 1e12}};
+}
+
+constexpr Parameter kSleepParameters[] = {milliseconds("msec", "How long to sleep.")};
+constexpr Parameter kDelayParameters[] = {
+    milliseconds("delay_msec", "How long to wait before the child is ticked.")};
+constexpr Parameter kTimeoutParameters[] = {
+    milliseconds("msec", "How long the child may run; 0: for ever.")};
 
 Nanoseconds time_of(const NodeContext& context, NodeIndex self) {
   return std::chrono::milliseconds(context.parameter(self, kTime).integer);

@@ -45,48 +45,30 @@ void fold_place(NodeContext& context, NodeIndex self) {
   if (context.status(self) != Status::Running) context.state<State>(self).skipped = 0;
 }
 
+template <Status kGoOn, Place kPlace>
+constexpr NodeKind kind_of_yielding(std::string_view id, std::string_view doc) {
+  NodeKind kind = ordered::kind<kGoOn, ordered::Memory::Always>(id, doc);
+  kind.type.can_run = true;
+  kind.tick = tick_yielding<kGoOn, kPlace>;
+  if (kPlace == Place::Kept) kind.fold = fold_place;
+  return kind;
+}
+
 }  // namespace
 
-const NodeKind kAsyncSequence{
-    .type = {.id = "AsyncSequence",
-             .category = NodeCategory::Control,
-             .doc = "A Sequence that lets the tree be ticked again after a child that succeeds at "
-                    "once.",
-             .arity = {1},
-             .sign = "→",
-             .goes_on_after = Status::Success,
-             .can_run = true},
-    .tick = tick_yielding<Status::Success, Place::Forgotten>,
-    .progress = ordered::progress_of_sequence,
-    .state_size = sizeof(State),
-    .fold = fold::dead_when_idle};
+const NodeKind kAsyncSequence = kind_of_yielding<Status::Success, Place::Forgotten>(
+    "AsyncSequence",
+    "A Sequence that lets the tree be ticked again after a child that succeeds at "
+    "once.");
 
-const NodeKind kAsyncFallback{
-    .type = {.id = "AsyncFallback",
-             .category = NodeCategory::Control,
-             .doc = "A Fallback that lets the tree be ticked again after a child that fails at "
-                    "once.",
-             .arity = {1},
-             .sign = "?",
-             .goes_on_after = Status::Failure,
-             .can_run = true},
-    .tick = tick_yielding<Status::Failure, Place::Forgotten>,
-    .progress = ordered::progress_of_fallback,
-    .state_size = sizeof(State),
-    .fold = fold::dead_when_idle};
+const NodeKind kAsyncFallback = kind_of_yielding<Status::Failure, Place::Forgotten>(
+    "AsyncFallback",
+    "A Fallback that lets the tree be ticked again after a child that fails at "
+    "once.");
 
-const NodeKind kSequenceWithMemory{
-    .type = {.id = "SequenceWithMemory",
-             .category = NodeCategory::Control,
-             .doc = "An AsyncSequence that goes on with the child that failed, or was halted, when "
-                    "it is ticked again.",
-             .arity = {1},
-             .sign = "→",
-             .goes_on_after = Status::Success,
-             .can_run = true},
-    .tick = tick_yielding<Status::Success, Place::Kept>,
-    .progress = ordered::progress_of_sequence,
-    .state_size = sizeof(State),
-    .fold = fold_place};
+const NodeKind kSequenceWithMemory = kind_of_yielding<Status::Success, Place::Kept>(
+    "SequenceWithMemory",
+    "An AsyncSequence that goes on with the child that failed, or was halted, when "
+    "it is ticked again.");
 
 }  // namespace lockstep::btcpp
