@@ -73,9 +73,6 @@ class Converter {
 
  private:
   bool to_ours() const { return &conversion_.to == &kLockstepRules; }
-  std::string_view other_language() const {
-    return to_ours() ? "lockstep's language" : "BehaviorTree.CPP";
-  }
 
   // What a part of the text has become.
   struct Open {
@@ -207,7 +204,7 @@ class Converter {
 
   void cannot(Place place, std::string_view what, std::string hint = {}) const {
     if (report_.counted_only(Severity::Error)) return;
-    report_.at(place, fmt::format("{} cannot be said in {}", what, other_language()),
+    report_.at(place, fmt::format("{} cannot be said in {}", what, conversion_.to.title),
                std::move(hint));
   }
 

@@ -17,6 +17,7 @@ struct LanguageReader;  // definition/language_reader.h
 
 struct LanguageRules {
   std::string_view name;            // as `convert --to` has it
+  std::string_view title;           // in messages, after "is for" or "in"
   std::string_view root_attribute;  // by which the root of a file says that it is in this language
   bool root_may_lack_it;            // so a root that says nothing is in it, too
   std::array<std::string_view, kHooks> hooks;  // the attributes of these scripts

@@ -26,6 +26,12 @@ bool is_read_elsewhere(std::string_view tag) {
   return std::ranges::find(kTags, tag) != std::end(kTags);
 }
 
+// Whose files have this attribute of the root.
+const LanguageRules* language_marked(std::string_view attribute) {
+  const auto found = std::ranges::find(languages(), attribute, &LanguageRules::root_attribute);
+  return found == languages().end() ? nullptr : *found;
+}
+
 std::string element_hint(std::string_view tag) {
   constexpr std::string_view kTags[] = {"BehaviorTree", "plugin",  "arg",
                                         "include",      "barrier", "resources"};
@@ -93,9 +99,9 @@ class TreeChecker {
                            fmt::format("version '{}' of the language is not known", brief(value)),
                            "this program reads lockstep=\"1\"");
         }
-      } else if (name == "BTCPP_format") {
+      } else if (const LanguageRules* other = language_marked(name)) {
         report_.at(
-            place, "this file is for BehaviorTree.CPP",
+            place, fmt::format("this file is for {}", other->title),
             "the file that includes it is in lockstep's language; all files of a tree are in "
             "the same");
         versioned = true;

@@ -19,6 +19,7 @@ constexpr LanguageReader kReader{.read = read};
 
 constinit const LanguageRules kLockstepRules{
     .name = "lockstep",
+    .title = "lockstep's language",
     .root_attribute = "lockstep",
     .root_may_lack_it = false,
     .hooks = {"failure_if", "success_if", "skip_if", "while", "on_success", "on_failure", "on_end",

@@ -14,6 +14,7 @@ constexpr LanguageReader kReader{.read = read_trees, .is_old_name = is_old_name,
 }  // namespace
 
 constinit const LanguageRules kRules{.name = "btcpp4",
+                                     .title = "BehaviorTree.CPP",
                                      .root_attribute = "BTCPP_format",
                                      .root_may_lack_it = true,  // before version 4
                                      .hooks = {"_failureIf", "_successIf", "_skipIf", "_while",
