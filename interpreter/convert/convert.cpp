@@ -11,7 +11,7 @@
 #include "core/identifier.h"
 #include "core/pre_order.h"
 #include "core/wording.h"
-#include "definition/node_check.h"
+#include "definition/check/node_check.h"
 #include "dialect/btcpp/pairs.h"
 #include "dialect/btcpp/version_3.h"
 #include "dialect/btcpp/words.h"

@@ -3,9 +3,9 @@
 
 #include "core/diagnostics.h"
 #include "definition/catalog.h"
+#include "definition/check/foreign_hints.h"
+#include "definition/check/models.h"
 #include "definition/checked_tree.h"
-#include "definition/foreign_hints.h"
-#include "definition/models.h"
 #include "document/project.h"
 
 namespace lockstep {

@@ -6,9 +6,9 @@
 
 #include "core/diagnostics.h"
 #include "definition/catalog.h"
+#include "definition/check/stand_ins.h"
 #include "definition/definition.h"
-#include "definition/expand.h"
-#include "definition/stand_ins.h"
+#include "definition/expand/expand.h"
 #include "document/project.h"
 
 namespace lockstep {

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include "core/diagnostics.h"
-#include "definition/models.h"
-#include "definition/node_check.h"
+#include "definition/check/models.h"
+#include "definition/check/node_check.h"
 #include "describe/node_reference.h"
 #include "describe/xsd.h"
 

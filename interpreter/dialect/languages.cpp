@@ -1,6 +1,6 @@
 // The list of languages, and the rules of our own.
 #include "core/language.h"
-#include "definition/check_trees.h"
+#include "definition/check/check_trees.h"
 #include "definition/language_reader.h"
 #include "dialect/btcpp/rules.h"
 #include "engine/nodes/kinds.h"

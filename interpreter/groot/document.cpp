@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/identifier.h"
-#include "definition/node_check.h"
+#include "definition/check/node_check.h"
 #include "describe/node_reference.h"
 #include "describe/xsd.h"
 #include "dialect/btcpp/pairs.h"

@@ -7,7 +7,7 @@
 
 #include "core/clock.h"
 #include "core/wording.h"
-#include "definition/plugin_requests.h"
+#include "definition/check/plugin_requests.h"
 #include "engine/node_kind.h"
 #include "loading/plugin_directories.h"
 #include "plugin/contract/descriptor.h"

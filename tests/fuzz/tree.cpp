@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "definition/plugin_requests.h"
+#include "definition/check/plugin_requests.h"
 #include "definition/resolve.h"
 #include "document/language_of.h"
 #include "document/scanner.h"

@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "definition/plugin_requests.h"
+#include "definition/check/plugin_requests.h"
 #include "definition/resolve.h"
 #include "engine/compile.h"
 #include "language/robot_plugin.h"

@@ -6,8 +6,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "definition/resources.h"
-#include "definition/script_entries.h"
+#include "definition/expand/resources.h"
+#include "definition/types/script_entries.h"
 #include "engine/compile.h"
 #include "support/plugin_nodes.h"
 #include "support/scripted_types.h"

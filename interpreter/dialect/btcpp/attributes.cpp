@@ -10,7 +10,7 @@
 #include "core/parameter_value.h"
 #include "core/suggest.h"
 #include "core/wording.h"
-#include "definition/scripts.h"
+#include "definition/check/scripts.h"
 #include "dialect/btcpp/rules.h"
 #include "dialect/btcpp/words.h"
 

@@ -1,9 +1,9 @@
 // The attributes of a node in a document for BehaviorTree.CPP: ports, scripts and marks.
 #pragma once
 
-#include "definition/attributes.h"
+#include "definition/check/attributes.h"
+#include "definition/check/models.h"
 #include "definition/checked_tree.h"
-#include "definition/models.h"
 #include "document/reporter.h"
 
 namespace lockstep::btcpp {

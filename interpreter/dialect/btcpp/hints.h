@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "definition/foreign_hints.h"
+#include "definition/check/foreign_hints.h"
 #include "dialect/btcpp/pairs.h"
 
 namespace lockstep::btcpp {

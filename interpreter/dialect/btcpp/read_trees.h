@@ -3,8 +3,8 @@
 
 #include "core/diagnostics.h"
 #include "definition/catalog.h"
+#include "definition/check/models.h"
 #include "definition/checked_tree.h"
-#include "definition/models.h"
 #include "document/project.h"
 
 namespace lockstep::btcpp {

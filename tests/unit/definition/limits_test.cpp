@@ -5,10 +5,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "definition/check_trees.h"
+#include "definition/check/check_trees.h"
+#include "definition/check/plugin_requests.h"
+#include "definition/check/references.h"
 #include "definition/definition.h"
-#include "definition/plugin_requests.h"
-#include "definition/references.h"
 #include "engine/node_kind.h"
 #include "unit/document/told.h"
 

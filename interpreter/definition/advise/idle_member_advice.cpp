@@ -1,0 +1,117 @@
+#include <fmt/format.h>
+
+#include <string>
+#include <string_view>
+
+#include "core/wording.h"
+#include "definition/advise/group_advice.h"
+
+namespace lockstep {
+namespace {
+
+// Where idle members are waited for, the others wait for ever for one that a node never runs.
+class IdleMemberAdviser {
+ public:
+  IdleMemberAdviser(const Definition& definition, const Reporter& report)
+      : definition_(definition), report_(report) {}
+
+  void advise() const {
+    for (const DefinitionGroup& group : definition_.groups) {
+      if (definition_.waits(group)) advise(group);
+    }
+  }
+
+ private:
+  static constexpr int kMostTold = 10;  // of a barrier
+
+  const DefinitionNode& at(std::uint32_t node) const { return definition_.nodes[node]; }
+
+  // What is around all of the members keeps all of them from running.
+  void advise(const DefinitionGroup& barrier) const {
+    const std::uint32_t ancestor = definition_.common_ancestor(barrier.members);
+    const bool repeats = may_repeat(ancestor);
+    int told = 0;
+    for (const std::uint32_t member : barrier.members) {
+      for (std::uint32_t node = member; node != ancestor; node = at(node).parent) {
+        const Reason reason = why_not(node, repeats);
+        if (reason.text.empty()) continue;
+        add(barrier, member, reason);
+        if (++told == kMostTold) return;
+        break;
+      }
+    }
+  }
+
+  struct Reason {
+    std::uint32_t node = 0;
+    std::string_view text = {};
+  };
+
+  // Why that node may not be ticked, though the common ancestor is. One that is skipped is waited
+  // for by nobody.
+  Reason why_not(std::uint32_t node, bool repeats) const {
+    if (may_end_at_once(node)) return {node, "a script may end it without a tick"};
+    const std::uint32_t around = at(node).parent;
+    if (at(around).type->goes_on_after == Status::Failure && node != around + 1) {
+      return {around, "a Fallback ticks a later child only after the earlier ones have failed"};
+    }
+    if (is_branch(node)) return {around, "a branch runs only if it is chosen"};
+    const NodeType& type = *at(node).type;
+    if (repeats && type.category == NodeCategory::Decorator && !type.acts_again && !skips(type)) {
+      return {node, "when what is around begins again, it may return the last result instead"};
+    }
+    return {};
+  }
+
+  bool may_end_at_once(std::uint32_t node) const {
+    if (at(node).hooks >= definition_.hooks.size()) return false;
+    const NodeHooks& hooks = definition_.hooks[at(node).hooks];
+    return hooks[static_cast<std::size_t>(Hook::FailureIf)] != Port::kNone ||
+           hooks[static_cast<std::size_t>(Hook::SuccessIf)] != Port::kNone;
+  }
+
+  // Of a control node that chooses among its children. The first one is a condition, but for a
+  // Switch, which has cases.
+  bool is_branch(std::uint32_t node) const {
+    const DefinitionNode& around = at(at(node).parent);
+    if (around.type->category != NodeCategory::Control) return false;
+    if (around.type->goes_on_after != Status::Idle || around.type->latches) return false;
+    return node != at(node).parent + 1 || definition_.has(around, "cases");
+  }
+
+  // A Cooldown is skipped instead.
+  static bool skips(const NodeType& type) { return type.id == "Cooldown"; }
+
+  // Whether that node may begin again in the run: something around it ticks it after its success.
+  bool may_repeat(std::uint32_t node) const {
+    while (node != at(node).parent) {
+      node = at(node).parent;
+      const NodeType& type = *at(node).type;
+      const bool is_decorator = type.category == NodeCategory::Decorator;
+      if (is_decorator && (type.can_run || !type.acts_again)) return true;
+      if (definition_.forgets(at(node))) return true;
+    }
+    return false;
+  }
+
+  void add(const DefinitionGroup& barrier, std::uint32_t member, const Reason& reason) const {
+    if (report_.counted_only(Severity::Note)) return;
+    report_.at(at(member).place,
+               fmt::format("the others at '{}' wait for '{}' for ever if '{}' does not run it",
+                           brief(at(barrier.node).name), brief(at(member).name),
+                           brief(at(reason.node).name)),
+               fmt::format("{}; idle=\"ignore\" waits only for members that run", reason.text),
+               Severity::Note);
+  }
+
+  const Definition& definition_;
+  const Reporter& report_;
+};
+
+}  // namespace
+
+void note_idle_members(const Definition& definition, const Reporter& report) {
+  IdleMemberAdviser(definition, report).advise();
+}
+
+}  // namespace lockstep

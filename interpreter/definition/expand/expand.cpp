@@ -1,0 +1,408 @@
+#include "definition/expand/expand.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <span>
+#include <utility>
+
+#include "core/audience.h"
+#include "core/conversion.h"
+#include "core/parameter_value.h"
+#include "core/pre_order.h"
+#include "core/suggest.h"
+#include "core/wording.h"
+#include "definition/expand/scope.h"
+#include "definition/types/literal.h"
+#include "definition/types/script_entries.h"
+#include "definition/types/type_words.h"
+
+namespace lockstep {
+namespace {
+
+class Expander {
+ public:
+  Expander(CheckedTrees& trees, const StartValues& values, const Reporter& report)
+      : trees_(trees), values_(values), report_(report) {}
+
+  Definition expand(std::string_view main) {
+    definition_.id = main;
+    definition_.rules = trees_.rules;
+    definition_.words = trees_.words;
+    definition_.values = std::move(trees_.values);
+    definition_.written = std::move(trees_.written);
+    definition_.texts = std::move(trees_.texts);
+    shared_.assign(trees_.ports.size(), Port::kNone);
+    members_.resize(trees_.groups.size());
+    for (std::size_t i = 0; i < members_.size(); ++i) groups_.emplace(trees_.groups[i].name, i);
+    definition_.nodes.reserve(trees_.nodes.size());  // without subtrees, all that will be needed
+    Scope scope(definition_.entries, *trees_.rules);
+    for (const auto& [key, text] : values_) scope.set_text(key, text);
+    if (trees_.names_at_run_time) definition_.boards.emplace_back();
+    add(trees_.trees.at(main).root, 0, scope);
+    add_groups(scope);
+    keep_board(0, scope);
+    if (is_strict()) declare_entries(definition_, literals_, report_, guessed_);
+    check_set_keys(scope);
+    return std::move(definition_);
+  }
+
+ private:
+  void add(std::uint32_t from, std::uint32_t parent, Scope& scope) {
+    const CheckedNode& checked = trees_.nodes[from];
+    if (checked.type == nullptr) return;  // reported already
+    const auto place = static_cast<std::uint32_t>(definition_.nodes.size());
+    definition_.nodes.push_back({.type = checked.type,
+                                 .end = 0,
+                                 .parent = parent,
+                                 .children = checked.children,
+                                 .first = 0,
+                                 .name = checked.name,
+                                 .place = checked.place,
+                                 .written = checked.written});
+    if (checked.scripts != Port::kNone) {
+      definition_.nodes[place].hooks = bind_hooks(checked.scripts, scope);
+    }
+    if (checked.type->category == NodeCategory::SubTree) {
+      definition_.nodes[place].children = 1;
+      enter_subtree(trees_.subtrees[checked.first], checked.name, place, scope);
+    } else if (!checked.type->parameters.empty()) {
+      definition_.nodes[place].first = bind_ports(checked, scope);
+      join_group(place, checked, scope);
+    }
+    for (const std::uint32_t child : children_in(trees_.nodes, from)) {
+      add(child, place, scope);
+    }
+    definition_.nodes[place].end = static_cast<std::uint32_t>(definition_.nodes.size());
+  }
+
+  void enter_subtree(const CheckedSubTree& subtree, std::string_view name, std::uint32_t place,
+                     Scope& outer) {
+    const auto tree = trees_.trees.find(subtree.id);
+    if (tree == trees_.trees.end()) return;  // reported already
+    Scope scope(outer, std::string(name) + "/", subtree.autoremap);
+    const auto remappings = std::span(trees_.remappings).subspan(subtree.first, subtree.remappings);
+    for (const Remapping& it : remappings) {
+      it.is_entry ? scope.remap(it.key, it.value) : scope.set_text(it.key, it.value);
+    }
+    add_inner(tree->second.root, place, scope);
+    for (const Remapping& it : remappings) {
+      const bool may_be_used = trees_.names_at_run_time || scope.used(it.key);
+      if (!it.is_written || may_be_used || report_.counted_only(Severity::Warning)) continue;
+      report_.at(
+          it.place,
+          fmt::format("the tree '{}' does not use '{{{}}}'", brief(subtree.id), brief(it.key)),
+          suggest(it.key, scope.open_keys(), "it also uses"), Severity::Warning);
+    }
+  }
+
+  // The tree of the SubTree at `place`, with a board for it.
+  void add_inner(std::uint32_t root, std::uint32_t place, Scope& scope) {
+    const std::uint32_t outside = std::exchange(board_, count(definition_.boards));
+    if (trees_.names_at_run_time) {
+      definition_.boards.push_back({.parent = outside, .node = place});
+    }
+    add(root, place, scope);
+    keep_board(board_, scope);
+    board_ = outside;
+  }
+
+  // When all of its entries are known.
+  void keep_board(std::uint32_t number, const Scope& scope) {
+    if (!trees_.names_at_run_time) return;
+    Board& board = definition_.boards[number];
+    Board kept = scope.board();
+    kept.parent = board.parent;
+    kept.node = board.node;
+    board = std::move(kept);
+  }
+
+  template <class T>
+  static std::uint32_t count(const std::vector<T>& all) {
+    return static_cast<std::uint32_t>(all.size());
+  }
+
+  // The groups that have members, each with its parameters in the scope of the main tree.
+  void add_groups(Scope& scope) {
+    for (std::size_t i = 0; i < trees_.groups.size(); ++i) {
+      const CheckedNode& group = trees_.groups[i];
+      if (members_[i].empty()) {
+        if (report_.has_errors()) continue;  // it may be for want of what they refuse
+        report_.at(group.place,
+                   fmt::format("no node of '{}' uses the {} '{}'", brief(definition_.id),
+                               group.type->id, brief(group.name)),
+                   {}, Severity::Note);
+        continue;
+      }
+      const auto place = static_cast<std::uint32_t>(definition_.nodes.size());
+      definition_.groups.push_back({place, std::move(members_[i])});
+      definition_.nodes.push_back({.type = group.type,
+                                   .end = place + 1,
+                                   .parent = place,
+                                   .children = 0,
+                                   .first = bind_ports(group, scope),
+                                   .name = group.name,
+                                   .place = group.place,
+                                   .written = group.written});
+    }
+  }
+
+  // Adds a node to the group that one of its parameters names, if there is such a parameter.
+  void join_group(std::uint32_t place, const CheckedNode& checked, Scope& scope) {
+    const auto& parameters = checked.type->parameters;
+    for (std::uint32_t i = 0; i < parameters.size(); ++i) {
+      const CheckedPort& port = trees_.ports[checked.first + i];
+      if (parameters[i].group.empty() || port.value == Port::kNone) continue;
+      const std::string_view written = std::get<std::string>(definition_.values[port.value]);
+      const std::string_view name = scope.group(written);
+      const auto group = groups_.find(name);
+      if (group != groups_.end() && trees_.groups[group->second].type->id == parameters[i].group) {
+        members_[group->second].push_back(place);
+      } else if (unknown_groups_.emplace(port.place.byte, name).second) {
+        unknown_group(parameters[i], port.place, written, name);
+      }
+      return;
+    }
+  }
+
+  void unknown_group(const Parameter& parameter, Place place, std::string_view written,
+                     std::string_view name) const {
+    if (report_.counted_only(Severity::Error)) return;
+    const std::string_view type = parameter.group;
+    std::vector<std::string_view> names;
+    for (const CheckedNode& it : trees_.groups) {
+      if (it.type->id == type) names.push_back(it.name);
+    }
+    std::string hint = suggest(name, names, fmt::format("declared with <{}>", type));
+    if (hint.empty())
+      hint = fmt::format("declare it in 'root': <{} name=\"{}\" …/>", type, brief(name));
+    const std::string origin =
+        name == written ? "" : fmt::format(", which a SubTree gives for '{}'", brief(written));
+    report_.at_value(place, fmt::format("unknown {} '{}'{}", parameter.name, brief(name), origin),
+                     hint);
+  }
+
+  // Where nothing comes from an entry, all expansions of a tree share their ports.
+  std::uint32_t bind_ports(const CheckedNode& checked, Scope& scope) {
+    if (shared_[checked.first] != Port::kNone) return shared_[checked.first];
+    const auto first = static_cast<std::uint32_t>(definition_.ports.size());
+    bool constant = true;
+    for (std::uint32_t i = 0; i < checked.type->parameters.size(); ++i) {
+      const CheckedPort& port = trees_.ports[checked.first + i];
+      const Parameter& parameter = checked.type->parameters[i];
+      Port bound{.value = port.value};
+      if (!port.key.empty()) {
+        constant = false;
+        const bool is_none =
+            parameter.own_only && port.is_name(parameter) && !scope.is_own(port.key);
+        if (parameter.is_script) {
+          bound = {.script = add_script({.entries = {use(port, parameter, scope)}})};
+        } else if (!is_none) {
+          bound.entry = is_guessed(*checked.type, parameter) ? use_guessed(port, scope)
+                                                             : use(port, parameter, scope);
+        }
+      } else if (parameter.is_script && port.value != Port::kNone) {
+        constant = false;
+        bound = {.script = bind_script(trees_.scripts[port.value], scope)};
+      }
+      definition_.ports.push_back(bound);
+    }
+    if (constant) shared_[checked.first] = first;
+    return first;
+  }
+
+  // Those of one node; `script` is its first.
+  std::uint32_t bind_hooks(std::uint32_t script, Scope& scope) {
+    NodeHooks hooks;
+    hooks.fill(Port::kNone);
+    while (true) {
+      const CheckedScript& it = trees_.scripts[script++];
+      hooks[static_cast<std::size_t>(it.hook)] = bind_script(it, scope);
+      if (it.is_last) break;
+    }
+    definition_.hooks.push_back(hooks);
+    return static_cast<std::uint32_t>(definition_.hooks.size() - 1);
+  }
+
+  std::uint32_t bind_script(const CheckedScript& script, Scope& scope) {
+    BoundScript bound{.code = script.code, .place = script.place};
+    for (const std::string& name : script.code->names()) {
+      bound.entries.push_back(find(name, scope));
+    }
+    return add_script(std::move(bound));
+  }
+
+  std::uint32_t add_script(BoundScript script) {
+    definition_.scripts.push_back(std::move(script));
+    return static_cast<std::uint32_t>(definition_.scripts.size() - 1);
+  }
+
+  // Without strict types, a start value has a type by itself until a port has another one.
+  std::uint32_t find(std::string_view key, Scope& scope) {
+    const Scope::Found found = scope.find(key);
+    if (!found.has_text) return found.entry;
+    literals_.emplace(found.entry, found.text);
+    if (is_strict()) return found.entry;
+    BlackboardEntry& entry = definition_.entries[found.entry];
+    entry.type = literal_type(found.text);
+    entry.initial = value_from_text(entry.type, nullptr, found.text)->value;
+    entry.typing = Typing::Declared;
+    entry.is_present = true;
+    return found.entry;
+  }
+
+  // Of a stand-in for a node that no plugin has: its entry has the type that others give it.
+  bool is_guessed(const NodeType& type, const Parameter& parameter) const {
+    return is_strict() && type.mock != nullptr && parameter.is_generic;
+  }
+
+  std::uint32_t use_guessed(const CheckedPort& port, Scope& scope) {
+    guessed_.push_back(find(port.key, scope));
+    return guessed_.back();
+  }
+
+  std::uint32_t use(const CheckedPort& port, const Parameter& parameter, Scope& scope) {
+    const std::uint32_t index = find(port.key, scope);
+    if (port.is_name(parameter)) return index;
+    BlackboardEntry& entry = definition_.entries[index];
+    const auto literal = literals_.find(index);
+    if (literal != literals_.end() && takes_type(parameter, entry)) {
+      set_type(port.place, parameter, entry);
+      set_initial(port.place, parameter, literal->second, entry);
+      literals_.erase(literal);
+    } else if (!entry.is_present) {
+      set_type(port.place, parameter, entry);
+    } else if (entry.type == ValueType::Number && is_number(parameter.type)) {
+      narrow(port.place, parameter, entry);
+    } else if (!fits(parameter, entry)) {
+      report_.at_value(port.place,
+                       fmt::format("'{{{}}}' is {} for '{}', but {} elsewhere", brief(port.key),
+                                   with_article(parameter.type, parameter.object), parameter.name,
+                                   with_article(entry.type, entry.object)),
+                       other_use(entry));
+    } else if (!can_cross(parameter, entry)) {
+      report_.at_value(
+          port.place,
+          fmt::format("'{{{}}}' carries a {} between processes, but the plugin of one of its uses "
+                      "has no to_bytes and from_bytes for it",
+                      brief(port.key), entry.object->name()),
+          other_use(entry));
+    }
+    return index;
+  }
+
+  // Whether a start value is read as the port says. Without strict types, a text stays one: ports
+  // of other types read it.
+  bool takes_type(const Parameter& parameter, const BlackboardEntry& entry) const {
+    return !is_generic(parameter) && (is_strict() || entry.type != ValueType::String);
+  }
+
+  void set_type(Place place, const Parameter& parameter, BlackboardEntry& entry) const {
+    entry.is_present = true;
+    entry.typing = is_strict()             ? Typing::Strict
+                   : is_generic(parameter) ? Typing::Any
+                                           : Typing::Declared;
+    entry.type = parameter.type;
+    entry.object = parameter.object;
+    entry.first_use = place;
+  }
+
+  // Takes an entry of any type.
+  static bool is_generic(const Parameter& parameter) {
+    return parameter.names_entry || parameter.is_generic;
+  }
+
+  bool is_strict() const { return trees_.rules->strict_types; }
+
+  bool fits(const Parameter& parameter, const BlackboardEntry& entry) const {
+    if (!is_strict() &&
+        (is_generic(parameter) || entry.typing == Typing::Any || entry.type == ValueType::String)) {
+      return true;
+    }
+    if (parameter.type == ValueType::Number && is_number(entry.type)) return true;
+    if (parameter.type != entry.type) return false;
+    return parameter.type != ValueType::Object || parameter.object->name() == entry.object->name();
+  }
+
+  // An object of another process is bytes in this one. What is no object yet, such as a text that a
+  // port of an object reads, becomes one where it is read.
+  static bool can_cross(const Parameter& parameter, const BlackboardEntry& entry) {
+    if (parameter.object == nullptr || entry.object == nullptr) return true;
+    return parameter.object->is_packed() == entry.object->is_packed() ||
+           (parameter.object->has_bytes() && entry.object->has_bytes());
+  }
+
+  std::string other_use(const BlackboardEntry& entry) const {
+    return fmt::format("the other use is at {}",
+                       to_text(report_.sources().locate(entry.first_use)));
+  }
+
+  static bool is_number(ValueType type) {
+    return type == ValueType::Int || type == ValueType::Double;
+  }
+
+  // Until now, all uses of the entry took an int or a double; this one takes one of them.
+  void narrow(Place place, const Parameter& parameter, BlackboardEntry& entry) {
+    entry.type = parameter.type;
+    if (std::holds_alternative<NoValue>(entry.initial)) return;
+    const std::string text = to_text(std::exchange(entry.initial, Value()));
+    set_initial(place, parameter, text, entry);
+  }
+
+  void set_initial(Place place, const Parameter& parameter, std::string_view text,
+                   BlackboardEntry& entry) {
+    if (auto value = start_value(parameter, text)) {
+      entry.initial = *std::move(value);
+      return;
+    }
+    const std::string why = why_no_object(parameter.object, text);
+    report_.at_value(place,
+                     fmt::format("the start value '{}' of '{}' is not {}, which '{}' must be",
+                                 brief(text), brief(entry.name),
+                                 expected_text(parameter.type, parameter.object), parameter.name),
+                     fmt::format("it comes from {} or from an attribute of a SubTree{}{}",
+                                 worded("--set", "the project"), why.empty() ? "" : "; ", why));
+  }
+
+  std::optional<Value> start_value(const Parameter& parameter, std::string_view text) const {
+    if (is_strict()) return parse_value(parameter.type, parameter.object, text);
+    auto read = value_from_text(parameter.type, parameter.object, text);
+    if (!read || read->has_rest) return std::nullopt;
+    return std::move(read->value);
+  }
+
+  void check_set_keys(const Scope& scope) {
+    std::vector<std::string_view> keys;
+    for (const BlackboardEntry& entry : definition_.entries) {
+      if (entry.name.find('/') == std::string::npos) keys.push_back(entry.name);
+    }
+    for (const auto& [key, text] : values_) {
+      if (scope.used(key)) continue;
+      report_.nowhere(fmt::format("{0} {1}: the main tree does not use '{{{1}}}'",
+                                  worded("--set", "start value of"), key),
+                      suggest(key, keys, "entries of the main tree"));
+    }
+  }
+
+  CheckedTrees& trees_;
+  const StartValues& values_;
+  const Reporter& report_;
+  Definition definition_;
+  std::map<std::string_view, std::size_t> groups_;   // by name: its place in trees_.groups
+  std::vector<std::vector<std::uint32_t>> members_;  // of each of them
+  std::set<std::pair<std::uint32_t, std::string_view>> unknown_groups_;  // reported: where, name
+  StartTexts literals_;                 // those whose type no port gave yet
+  std::vector<std::uint32_t> guessed_;  // entries that stand-ins use
+  std::uint32_t board_ = 0;             // of the tree that is being added, when boards are kept
+  std::vector<std::uint32_t> shared_;   // of each first checked port: its ports, made already
+};
+
+}  // namespace
+
+Definition expand(CheckedTrees& trees, std::string_view main, const StartValues& values,
+                  const Reporter& report) {
+  return Expander(trees, values, report).expand(main);
+}
+
+}  // namespace lockstep
