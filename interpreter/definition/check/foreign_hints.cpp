@@ -1,5 +1,7 @@
 #include "definition/check/foreign_hints.h"
 
+#include <utility>
+
 #include "core/language.h"
 #include "definition/language_reader.h"
 

@@ -1,7 +1,6 @@
 // AsyncSequence, AsyncFallback and SequenceWithMemory: after a child that completed at once, they
 // let the tree be ticked again before they go on.
 #include "dialect/btcpp/nodes/kinds.h"
-#include "engine/nodes/fold.h"
 #include "engine/nodes/ordered.h"
 
 namespace lockstep::btcpp {
