@@ -37,7 +37,14 @@ void BoundParameters::restore(const State& from) {
   numbers_ = own_.numbers.data();
 }
 
-std::string BoundParameters::read(std::uint32_t bound) {
+std::span<const std::string> BoundParameters::texts(NodeIndex node, unsigned index) const {
+  const Cell& cell = cells_[tree_.nodes[node].params + index];
+  const Value& constant = tree_.constants[static_cast<std::size_t>(cell.integer)];
+  return std::get<std::vector<std::string>>(constant);
+}
+
+std::string BoundParameters::read_bound(NodeIndex index) {
+  const std::uint32_t bound = tree_.place_in_front(index, FrontCell::Bound);
   const BoundNode& node = tree_.bound[bound];
   Values& values = own_.values[bound];
   if (is_current(node, values)) return {};

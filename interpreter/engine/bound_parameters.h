@@ -21,12 +21,19 @@ class BoundParameters {
 
   const Blackboard& board() const { return board_; }
   const Cell* cells() const { return cells_; }
-  const double* numbers() const { return numbers_; }
+  std::span<const double> numbers(NodeIndex node, unsigned index) const {
+    const Cell& cell = cells_[tree_.nodes[node].params + index];
+    return {numbers_ + cell.list.first, cell.list.count};
+  }
+  // A list of texts that is a constant.
+  std::span<const std::string> texts(NodeIndex node, unsigned index) const;
+  // No entry gives a parameter of the node.
+  bool are_constant(NodeIndex node) const { return !tree_.nodes[node].kind->reads_entries; }
 
-  // Stores the entries that were written. Returns "" or the error in a value; after an error the
-  // node's cells are unchanged. Allocates only for longer texts and lists, or if the kind's rule
-  // does.
-  std::string read(std::uint32_t bound);
+  // Stores the entries of a node's parameters that were written. Returns "" or the error in a
+  // value; after an error the node's cells are unchanged. Allocates only for longer texts and
+  // lists, or if the kind's rule does.
+  std::string read(NodeIndex node) { return are_constant(node) ? std::string() : read_bound(node); }
   // As new, for the next run.
   void reset();
 
@@ -47,6 +54,7 @@ class BoundParameters {
   void restore(const State& from);
 
  private:
+  std::string read_bound(NodeIndex node);
   bool is_current(const BoundNode& node, const Values& values) const;
   std::string take_values(const BoundNode& node, Values& values) const;
   static bool take_value(const Parameter& parameter, const Value& from, Value& value);

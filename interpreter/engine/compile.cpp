@@ -9,7 +9,9 @@
 #include <unordered_map>
 
 #include "core/pre_order.h"
+#include "engine/bound_node.h"
 #include "engine/node_context.h"
+#include "engine/node_scripts.h"
 #include "engine/nodes/kinds.h"
 #include "engine/resources.h"
 
@@ -47,9 +49,7 @@ const NodeKind* bound_kind_of(const NodeKind* kind) {
       for (const NodeKind* it : each->kinds) {
         NodeKind bound = *it;
         if (!it->chooses_to_read) {
-          bound.tick = [](NodeContext& context, NodeIndex self) {
-            return context.tick_bound(self);
-          };
+          bound.tick = tick_bound;
         }
         bound.reads_entries = true;
         map.emplace(it, bound);
@@ -66,7 +66,9 @@ const NodeKind* hooked_kind_of(const NodeKind* kind) {
     std::unordered_map<const NodeKind*, NodeKind> map;
     const auto add = [&map](const NodeKind* it) {
       NodeKind& hooked = map.emplace(it, *it).first->second;
-      hooked.tick = [](NodeContext& context, NodeIndex self) { return context.tick_hooked(self); };
+      hooked.tick = [](NodeContext& context, NodeIndex self) {
+        return context.scripts().tick(self);
+      };
     };
     for (const NodeKind* leaf : {&kPluginAction, &kPluginCondition, &kPluginControl, &kMockAction,
                                  &kMockCondition, &kMockControl, &kMockDecorator}) {
@@ -239,14 +241,13 @@ class Compiler {
     return it != numbers_.end() && !is_pool(tree_, tree_.members[it->second].group);
   }
 
-  // Its place among the members is in the cell before that of a bound node.
   void add_member(const DefinitionNode& from, NodeIndex self, Node& node) {
-    tree_.cells.push_back({.integer = numbers_.at(self)});
+    append_front(FrontCell::Member, numbers_.at(self));
     if (is_bound(from)) {
       add_bound(from, node);
       return;
     }
-    tree_.cells.push_back({.integer = 0});
+    append_front(FrontCell::Bound, 0);
     node.params = append_parameters(from);
     const auto& parameters = from.type->parameters;
     for (std::size_t i = 0; i < parameters.size(); ++i) {
@@ -359,7 +360,7 @@ class Compiler {
   }
 
   void add_bound(const DefinitionNode& from, Node& node) {
-    tree_.cells.push_back({.integer = static_cast<std::int64_t>(tree_.bound.size())});
+    append_front(FrontCell::Bound, tree_.bound.size());
     tree_.bound.push_back({.node = static_cast<NodeIndex>(tree_.nodes.size()),
                            .kind = node.kind,
                            .first_port = add_ports(from)});
@@ -383,6 +384,13 @@ class Compiler {
     if (first != kNone) return first;
     first = append_parameters(from);
     return first;
+  }
+
+  // Call it for a member first, then for what is bound, then append the parameters.
+  void append_front(FrontCell /*which*/, std::size_t place) {
+    static_assert(static_cast<int>(FrontCell::Bound) == 1 &&
+                  static_cast<int>(FrontCell::Member) == 2);
+    tree_.cells.push_back({.integer = static_cast<std::int64_t>(place)});
   }
 
   std::uint32_t append_parameters(const DefinitionNode& from) {

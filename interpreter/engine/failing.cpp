@@ -3,6 +3,8 @@
 // program while its ticks are withheld: it does not wait for them.
 #include <algorithm>
 
+#include "engine/groups.h"
+#include "engine/node_scripts.h"
 #include "engine/synchronized.h"
 #include "engine/ticker.h"
 
@@ -29,20 +31,11 @@ bool Ticker::take_failed(NodeIndex node) {
   return fail(node);
 }
 
-// What ends was ticked, as a synchronized node is.
-void NodeContext::reach_groups_in(NodeIndex node) {
-  for (const Group& group : tree_.groups) {
-    const bool is_inside = node <= group.ancestor && group.ancestor < end_of(node);
-    if (is_inside && status(group.ancestor) == Status::Running) reach(group.node);
-  }
-}
-
 // A node of a plugin halts its children in its own way, so it fails as after a fault. The children
 // of a built-in node are halted as when it completes by itself.
 Status NodeContext::fail(NodeIndex node) {
-  reach_groups_in(node);
-  const bool is_hooked = !tree_.hooks.empty() && tree_.hooks[node] != HookedNode::kNoScript;
-  const HookedNode* const hooked = is_hooked ? &tree_.hooked[tree_.hooks[node]] : nullptr;
+  groups_.reach_below(node);  // what ends was ticked, as a synchronized node is
+  const HookedNode* const hooked = scripts_.around(node);
   Status status = Status::Failure;
   if (tree_.labels[node].type->leaf != nullptr) {
     leaf(node).failed = true;
@@ -53,7 +46,7 @@ Status NodeContext::fail(NodeIndex node) {
       state<SynchronizedState>(node).succeeded = false;
     }
   }
-  if (hooked != nullptr && hooked->ends) status = finish(node, *hooked, status);
+  if (hooked != nullptr && hooked->ends) status = scripts_.finish(node, *hooked, status);
   if (state_.faulted) status = Status::Running;
   state_.activity[node] = static_cast<Activity>(status);
   state_.last_tick[node] = state_.tick_number;

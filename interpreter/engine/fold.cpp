@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "engine/groups.h"
 #include "engine/ticker.h"
 
 namespace lockstep {
@@ -33,9 +34,7 @@ void Ticker::fold() {
     const auto fold = nodes_[node].kind->fold;
     if (fold != nullptr) fold(*this, node);
   }
-  for (const Group& group : tree_.groups) {
-    if (status(group.ancestor) != Status::Running) state_.activity[group.node] = Activity::Idle;
-  }
+  groups_.fold();
   fold_entries();
   std::ranges::fill(state_.last_tick, 0);
   state_.tick_number = 0;

@@ -4,6 +4,11 @@
 #include <cstring>
 #include <utility>
 
+#include "engine/groups.h"
+#include "engine/held_leaves.h"
+#include "engine/node_ports.h"
+#include "engine/node_scripts.h"
+
 namespace lockstep {
 namespace {
 
@@ -16,42 +21,52 @@ bool has_no_idle(const Activity* first) {
 
 }  // namespace
 
+// What node kinds and this file reach by reference, so that the header does not include it.
+struct NodeContext::Beside {
+  Beside(NodeContext& context, Blackboard& board, RunState& state, std::size_t leaves)
+      : ports(context.tree(), board),
+        scripts(context, context.tree(), board, ports.names()),
+        groups(context.tree(), state),
+        held_leaves(leaves) {}
+
+  NodePorts ports;
+  NodeScripts scripts;
+  Groups groups;
+  HeldLeaves held_leaves;
+};
+
 NodeContext::NodeContext(const Tree& tree, std::span<LeafSlot> leaves, Blackboard& board,
                          FaultPolicy policy)
-    : tree_(tree),
-      nodes_(tree.nodes.data()),
+    : RunView(tree, board),
       leaves_(leaves),
-      board_(board),
       parameters_(tree, board),
-      state_(tree),
-      names_(tree.boards, board.entries),
-      scripts_(tree, board, names_),
-      policy_(policy),
-      held_leaves_(leaves.size()) {
-  if (tree.has_halt_hooks) halting_.reserve(tree.hooked.size());
-}
+      beside_(std::make_unique<Beside>(*this, board, state_, leaves.size())),
+      ports_(beside_->ports),
+      scripts_(beside_->scripts),
+      groups_(beside_->groups),
+      held_leaves_(beside_->held_leaves),
+      policy_(policy) {}
 
-bool NodeContext::refresh(NodeIndex node) {
-  return !nodes_[node].kind->reads_entries || parameters_.read(bound_of(node)).empty();
-}
+NodeContext::~NodeContext() = default;
 
-bool NodeContext::reread(NodeIndex node) {
-  if (!nodes_[node].kind->reads_entries) return true;
-  std::string wrong = parameters_.read(bound_of(node));
-  if (wrong.empty()) return true;
-  set_fault(node, std::move(wrong));
-  return false;
-}
-
-Status NodeContext::give_up(NodeIndex node) {
+Status NodeContext::tick_unreset(NodeIndex node) {
   if (state_.faulted) return Status::Running;
-  halt_running_children(node);
-  return Status::Failure;
-}
-
-Status NodeContext::tick_bound(NodeIndex node) {
-  if (!reread(node)) return give_up(node);
-  return tree_.bound[bound_of(node)].kind->tick(*this, node);
+  const Node& it = nodes_[node];
+  const HookedNode* const hooked = scripts_.around(node);
+  const NodeKind& kind = hooked != nullptr ? *hooked->kind : *it.kind;
+  const Unreset how =
+      kind.unreset != nullptr ? kind.unreset(*this, node) : unreset_by(*tree_.labels[node].type);
+  Status result = status(node);
+  if (how != Unreset::KeepsResult) {
+    if (it.children != 0) forget_descendants(node);
+    state_.activity[node] = how == Unreset::GoesOn ? Activity::Running : Activity::Idle;
+    result = kind.tick(*this, node);
+  }
+  if (hooked != nullptr) result = scripts_.finish(node, *hooked, result);
+  if (state_.faulted) result = Status::Running;
+  state_.activity[node] = static_cast<Activity>(result);
+  state_.last_tick[node] = state_.tick_number;
+  return result;
 }
 
 // A subtree that was not reached costs nothing, however large it is: below an idle node all are
@@ -91,20 +106,19 @@ NodeIndex NodeContext::end_activation(NodeIndex node) {
   const NodeKind& kind = *nodes_[node].kind;
   if (activity == Activity::Skipped && kind.forget != nullptr) kind.forget(*this, node);
   activity = Activity::Idle;
-  if (running && tree_.has_halt_hooks) note_halt(node);
+  if (running && tree_.has_halt_hooks) scripts_.note_halt(node);
   if (running && kind.halt != nullptr) kind.halt(*this, node);
   return node + 1;
 }
 
-// The scripts of halted nodes run from the left, those of children before those of their parent.
 void NodeContext::halt_range(NodeIndex first, NodeIndex last) {
-  const std::size_t hooks = halting_.size();
+  const std::size_t begin = scripts_.halted();
   // After a fault all halts are halt_all's, so that they come in one order.
   for (NodeIndex node = first; node < last && (!state_.faulted || state_.in_last_halt);) {
-    if (halting_.size() > hooks) run_halt_hooks(hooks, node);
+    if (scripts_.halted() > begin) scripts_.run_halted(begin, node);
     node = end_activation(node);
   }
-  if (halting_.size() > hooks) run_halt_hooks(hooks, last);
+  if (scripts_.halted() > begin) scripts_.run_halted(begin, last);
   if (state_.in_last_halt) return;
   // A fault of a leaf's halt: its siblings may still run, so the nodes around them do too.
   if (state_.faulted) [[unlikely]]
@@ -152,6 +166,10 @@ void NodeContext::keep_ancestors_running(NodeIndex node) {
 void NodeContext::note_out_of_range(NodeIndex node, double reported) {
   if (std::exchange(leaf(node).out_of_range, true)) return;
   state_.out_of_range.push_back({node, reported});
+}
+
+void NodeContext::watch_held(NodeIndex node) {
+  held_leaves_.add(node, leaf(node));
 }
 
 }  // namespace lockstep

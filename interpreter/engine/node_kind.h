@@ -54,10 +54,9 @@ struct NodeKind {
   // May be null: then an action that takes time keeps its result, all else begins. Called before
   // the tick (NodeContext::tick_unreset).
   Unreset (*unreset)(NodeContext& context, NodeIndex self) = nullptr;
-  bool reads_entries = false;  // before each tick: its parameters are Tree::bound
-  bool chooses_to_read =
-      false;  // not before each tick: it calls NodeContext::reread where it needs them
-  bool counts_writes = false;  // its first port names an entry whose Entry::writes it looks at
+  bool reads_entries = false;    // before each tick: its parameters are Tree::bound
+  bool chooses_to_read = false;  // not before each tick: it calls reread where it needs them
+  bool counts_writes = false;    // its first port names an entry whose Entry::writes it looks at
   // For views. Null if the child runs once. Called only while the node is Running.
   Round (*round)(NodeContext& context, NodeIndex self) = nullptr;
 };

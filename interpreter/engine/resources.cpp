@@ -9,7 +9,7 @@ namespace {
 
 // Whether the barriers and the outer pools of a member let ticks through.
 bool is_open(NodeContext& context, NodeIndex gate) {
-  const bool is_barrier = !is_pool(context.tree(), context.membership(gate).group);
+  const bool is_barrier = !is_pool(context.tree(), context.tree().membership(gate).group);
   if (is_barrier) return !is_held_at_barrier(context, gate);
   const auto& outer = context.state<ResourceUse>(gate);
   return has_asked(context, outer) && outer.grant == Grant::Owned;
@@ -49,7 +49,7 @@ std::optional<RuleBreak> check_list(const ParameterValues& given, unsigned param
 }
 
 void ask(NodeContext& context, NodeIndex node) {
-  const Member& member = context.membership(node);
+  const Member& member = context.tree().membership(node);
   const auto wanted = static_cast<ResourceSet>(context.parameter(node, kResources).integer);
   const auto gates = context.tree().gates_of(member);
   if (!std::ranges::all_of(gates, [&](NodeIndex gate) { return is_open(context, gate); })) {
@@ -65,12 +65,13 @@ bool keeps(NodeContext& context, NodeIndex node) {
 }
 
 void keep(NodeContext& context, NodeIndex node) {
-  answer(context, context.membership(node), context.state<ResourceUse>(node).owned, Grant::Owned);
+  answer(context, context.tree().membership(node), context.state<ResourceUse>(node).owned,
+         Grant::Owned);
 }
 
 void give_back(NodeContext& context, NodeIndex node) {
   auto& use = context.state<ResourceUse>(node);
-  context.state<ResourcePool>(context.membership(node).group).owned &= ~use.owned;
+  context.state<ResourcePool>(context.tree().membership(node).group).owned &= ~use.owned;
   use.owned = 0;
   use.limit = 0.0;
 }

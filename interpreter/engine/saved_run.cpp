@@ -1,5 +1,6 @@
 #include "engine/saved_run.h"
 
+#include "engine/node_ports.h"
 #include "engine/ticker.h"
 
 namespace lockstep {
@@ -7,7 +8,7 @@ namespace lockstep {
 void Ticker::save(SavedRun& into) const {
   into.run = state_;
   into.entries = board_.entries;
-  into.named = names_.made();
+  into.named = ports_.names().made();
   into.parameters = parameters_.state();
   into.held_leaves = held_leaves_;
   into.leaves.clear();
@@ -20,7 +21,7 @@ void Ticker::save(SavedRun& into) const {
 void Ticker::restore(const SavedRun& from) {
   state_ = from.run;
   board_.entries = from.entries;  // each stays where it is
-  names_.restore(from.named);
+  ports_.names().restore(from.named);
   parameters_.restore(from.parameters);
   held_leaves_ = from.held_leaves;
   for (std::size_t i = 0; i < leaves_.size(); ++i) {

@@ -14,7 +14,7 @@ namespace lockstep {
 // Tolerance for comparing progress: 0.8 <= 0.7 + 0.1 is false in doubles.
 inline constexpr double kProgressEpsilon = 1e-9;
 
-// The state of a synchronized node, with the progress of each child behind it (child_numbers).
+// The state of a synchronized node, with the progress of each child behind it (child_states).
 struct SynchronizedState {
   double limit;    // see limit()
   bool succeeded;  // in the last tick
@@ -26,8 +26,8 @@ inline Synchronization synchronization(const Node& node) {
 
 // The limit in the node's last tick. ParallelAbsolute: the current barrier, infinity if none is
 // left. ParallelRelative: delta. Also of a node that uses resources: engine/resources.h.
-inline double limit(NodeContext& context, NodeIndex node) {
-  return context.state<SynchronizedState>(node).limit;
+inline double limit(const RunView& run, NodeIndex node) {
+  return run.state<SynchronizedState>(node).limit;
 }
 
 // The most progress that a child may have without being held, given that limit and the least
@@ -52,14 +52,14 @@ void for_each_child(const Tree& tree, NodeIndex node, Visit visit) {
 // The progress of each child at the start of its parallel's last tick, as the node used it: 1 for a
 // child that has succeeded, not a number for one that was left out. Only for nodes that compare
 // progress; valid until the next tick.
-inline std::span<const double> child_progress(NodeContext& context, NodeIndex node) {
-  return context.child_numbers(node);
+inline std::span<const double> child_progress(const RunView& run, NodeIndex node) {
+  return run.child_states<double>(node);
 }
 
 // For a synchronized node that the last tick reached: whether it succeeded in that tick, even if an
 // ancestor that ended in the same tick has made it idle again.
-inline bool succeeded(NodeContext& context, NodeIndex node) {
-  return context.state<SynchronizedState>(node).succeeded;
+inline bool succeeded(const RunView& run, NodeIndex node) {
+  return run.state<SynchronizedState>(node).succeeded;
 }
 
 // What stands for the progress of a child that is left out: nobody waits for it, and it is not

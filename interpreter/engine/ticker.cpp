@@ -1,5 +1,9 @@
 #include "engine/ticker.h"
 
+#include "engine/groups.h"
+#include "engine/node_ports.h"
+#include "engine/node_scripts.h"
+
 namespace lockstep {
 
 Status Ticker::tick_root(Nanoseconds now) {
@@ -7,35 +11,16 @@ Status Ticker::tick_root(Nanoseconds now) {
   ++state_.tick_number;
   if (!held_leaves_.empty()) [[unlikely]]
     held_leaves_.look(*this);
-  if (tree_.groups.empty()) [[likely]]
+  if (groups_.empty()) [[likely]]
     return tick(0);
-  return tick_with_groups();
+  groups_.tick(*this);
+  const Status result = tick(0);
+  groups_.end_tick();
+  return result;
 }
 
 Status Ticker::tick_root_again() {
   return tick(0);
-}
-
-// A group is idle when its common ancestor does not run: the ancestor's next tick begins an
-// activation, and the group begins again with it. Whether the tick reached the group, its members
-// say.
-Status Ticker::tick_with_groups() {
-  const auto rests = [this](const Group& group) {
-    return status(group.ancestor) != Status::Running;
-  };
-  for (const std::uint32_t number : tree_.group_order) {
-    const Group& group = tree_.groups[number];
-    Activity& activity = state_.activity[group.node];
-    if (rests(group)) activity = Activity::Idle;
-    const Status status = nodes_[group.node].kind->tick(*this, group.node);
-    activity = static_cast<Activity>(state_.faulted ? Status::Running : status);
-  }
-  const Status result = tick(0);
-  for (const Group& group : tree_.groups) {
-    Activity& activity = state_.activity[group.node];
-    if (rests(group) && activity == Activity::Running) activity = Activity::Idle;
-  }
-  return result;
 }
 
 void Ticker::halt_all() {
@@ -47,7 +32,7 @@ void Ticker::halt_all() {
 void Ticker::reset() {
   state_.reset();
   parameters_.reset();
-  names_.reset();
+  ports_.names().reset();
   scripts_.reset();
   held_leaves_.reset();
   for (LeafSlot& leaf : leaves_) leaf.out_of_range = leaf.went_on = false;

@@ -1,4 +1,5 @@
-// Ticks one run of a tree, for the owner of the run. One thread at a time.
+// Ticks one run of a tree, for the owner of the run: from its start to its last halt. Node kinds
+// see the same run as a NodeContext, observers should only read it (RunView). One thread at a time.
 #pragma once
 
 #include <optional>
@@ -6,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/held_leaves.h"
 #include "engine/node_context.h"
 
 namespace lockstep {
@@ -18,8 +20,6 @@ class Ticker : public NodeContext {
   Ticker(const Tree& tree, std::span<LeafSlot> leaves, Blackboard& board,
          FaultPolicy policy = FaultPolicy::Stop)
       : NodeContext(tree, leaves, board, policy) {}
-
-  // --- for the owner of the run ------------------------------------------------------------------
 
   // The time of the next tick, which must not decrease. From now on, progress is computed for that
   // time.
@@ -60,7 +60,6 @@ class Ticker : public NodeContext {
   std::span<const OutOfRange> out_of_range() const { return state_.out_of_range; }
   // The same of those that went on while they were held.
   std::span<const WentOn> went_on() const { return held_leaves_.went_on(); }
-  const RunState& run_state() const { return state_; }
 
   // Between two ticks: all of the run but what the leaves keep in themselves. After `restore` the
   // run goes on as it did after `save`. The saved run is one of this ticker, or of another one of
@@ -76,7 +75,6 @@ class Ticker : public NodeContext {
  private:
   void fold_entries();
   void forget_below_ended();
-  Status tick_with_groups();
 };
 
 }  // namespace lockstep

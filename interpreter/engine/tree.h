@@ -43,6 +43,13 @@ union Cell {
   } list;
 };
 
+// The compiler's own cells in front of the parameters of some nodes, counted back from the first
+// parameter. Each is a place in another list of the tree.
+enum class FrontCell : std::uint8_t {
+  Bound = 1,  // of a bound node: in Tree::bound
+  Member,     // of a member of a group, which has both: in Tree::members
+};
+
 // Where a parameter gets its value.
 struct PortBinding {
   static constexpr std::uint32_t kUnbound = 0xffffffff;
@@ -60,7 +67,7 @@ struct LeafNode {
 };
 
 // A built-in node with a parameter from an entry. Its kind in Tree::nodes reads the entries and
-// then ticks like this kind. The cell before its first one has its index in Tree::bound.
+// then ticks like this kind.
 struct BoundNode {
   NodeIndex node;
   const NodeKind* kind;
@@ -155,7 +162,15 @@ struct Tree {
   }
   // Of a node whose kind has a parameter that names a group.
   const Member& membership(NodeIndex node) const {
-    return members[static_cast<std::size_t>(cells[nodes[node].params - 2].integer)];
+    return members[place_in_front(node, FrontCell::Member)];
+  }
+  // Of a node of `bound`.
+  const BoundNode& bound_of(NodeIndex node) const {
+    return bound[place_in_front(node, FrontCell::Bound)];
+  }
+  std::uint32_t place_in_front(NodeIndex node, FrontCell which) const {
+    const Cell& cell = cells[nodes[node].params - static_cast<std::uint32_t>(which)];
+    return static_cast<std::uint32_t>(cell.integer);
   }
   std::span<const NodeIndex> gates_of(const Member& member) const {
     return std::span(gates).subspan(member.first_gate, member.gates);

@@ -118,20 +118,20 @@ TEST_CASE("a run that is taken back has what it had kept, and the entries that i
   ScriptedRun run(std::move(tree), "a=R");
   Ticker& ticker = run.ticker();
   const auto write = [&](std::string_view key, std::int64_t number) {
-    Entry& entry = ticker.entry_at(0, key);
+    Entry& entry = ticker.ports().at(0, key);
     make_entry(entry, Typing::Any);
     entry.value = number;
   };
   write("before", 1);
-  ticker.kept_value(0) = std::int64_t{1};
+  ticker.kept_values()[0] = std::int64_t{1};
   const ScriptedRun::Saved saved = run.save();
   write("before", 2);
   write("after", 2);
-  ticker.kept_value(0) = std::int64_t{2};
+  ticker.kept_values()[0] = std::int64_t{2};
   run.restore(saved);
-  CHECK(ticker.entry_at(0, "before").value == Value(std::int64_t{1}));
-  CHECK_FALSE(ticker.entry_at(0, "after").is_present);
-  CHECK(ticker.kept_value(0) == Value(std::int64_t{1}));
+  CHECK(ticker.ports().at(0, "before").value == Value(std::int64_t{1}));
+  CHECK_FALSE(ticker.ports().at(0, "after").is_present);
+  CHECK(ticker.kept_values()[0] == Value(std::int64_t{1}));
 }
 
 TEST_CASE("a run of a tree for BehaviorTree.CPP that is taken back goes on as it did") {

@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "engine/bound_node.h"
+#include "engine/groups.h"
 #include "engine/nodes/barrier_list.h"
 #include "engine/nodes/decorator.h"
 #include "engine/nodes/fold.h"
@@ -45,7 +47,7 @@ std::optional<RuleBreak> rule_of_barrier(const ParameterValues& given) {
   return RuleBreak{-1, "'barriers', 'barrier_count' or 'delta' is missing", kOne};
 }
 
-// Of the barrier; behind it the progress of each member (child_numbers), and its Place.
+// Of the barrier; behind it the progress of each member (child_states), and its Place.
 struct BarrierState {
   SynchronizedState synchronized;
   std::uint64_t succeeded;  // how many members
@@ -60,7 +62,7 @@ struct Place {
 };
 
 Place& place_of(NodeContext& context, NodeIndex barrier, std::uint32_t number) {
-  const auto numbers = context.child_numbers(barrier);
+  const auto numbers = context.child_states<double>(barrier);
   return reinterpret_cast<Place*>(numbers.data() + numbers.size())[number];
 }
 
@@ -112,7 +114,7 @@ void note_result(NodeContext& context, const Member& member, Place& place, Statu
   BarrierState& state = context.state<BarrierState>(member.group);
   succeeded ? ++state.succeeded : --state.succeeded;
   state.synchronized.succeeded = state.succeeded == context.node(member.group).children;
-  context.set_complete(member.group, state.synchronized.succeeded);
+  context.groups().set_complete(member.group, state.synchronized.succeeded);
 }
 
 // The progress of all members before the root is ticked.
@@ -126,7 +128,7 @@ Snapshot take_snapshot(NodeContext& context, NodeIndex self) {
   const bool ignores_idle = context.parameter(self, kIdle).integer == kIgnore;
   const double of_idle = ignores_idle ? kLeftOut : 0.0;
   const bool begins = context.status(self) == Status::Idle;
-  const auto progress = context.child_numbers(self);
+  const auto progress = context.child_states<double>(self);
   Snapshot snapshot{};
   for (const Member& it : tree.members_of(self)) {
     Place& place = place_of(context, self, it.number);
@@ -143,7 +145,7 @@ Snapshot take_snapshot(NodeContext& context, NodeIndex self) {
 
 template <class Held>
 void hold(NodeContext& context, NodeIndex self, Held held) {
-  const auto progress = context.child_numbers(self);
+  const auto progress = context.child_states<double>(self);
   for (const Member& it : context.tree().members_of(self)) {
     Place& place = place_of(context, self, it.number);
     place.held = !place.succeeded && !context.is_guard(it.node) && held(progress[it.number]);
@@ -158,7 +160,7 @@ void set_limit(NodeContext& context, NodeIndex self, double least) {
     const double most = least + limit + kProgressEpsilon;
     hold(context, self, [most](double reached) { return reached > most; });
   } else {
-    const auto barriers = context.numbers(context.parameter(self, absolute::kBarriers));
+    const auto barriers = context.parameters().numbers(self, absolute::kBarriers);
     limit = absolute::current_barrier(barriers, least);
     const bool ticks =
         context.parameter(self, absolute::kAtBarrier).integer == absolute::kTickAtBarrier;
@@ -177,8 +179,9 @@ Status tick_barrier(NodeContext& context, NodeIndex self) {
   BarrierState& state = context.state<BarrierState>(self);
   if (context.status(self) == Status::Idle) state = {};
   const Snapshot snapshot = take_snapshot(context, self);
-  const bool readable = snapshot.runs ? context.reread(self) : context.refresh(self);
-  if (!readable && snapshot.runs) return context.give_up(self);
+  const bool readable =
+      snapshot.runs ? reread(context, self) : context.parameters().read(self).empty();
+  if (!readable && snapshot.runs) return give_up(context, self);
   if (readable) {
     set_limit(context, self, snapshot.least);
   } else {
@@ -193,7 +196,7 @@ void fold_barrier(NodeContext& context, NodeIndex self) {
     return fold::dead(context, self);
   }
   context.state<BarrierState>(self).synchronized.limit = 0;
-  std::ranges::fill(context.child_numbers(self), 0.0);
+  std::ranges::fill(context.child_states<double>(self), 0.0);
   for (const Member& it : context.tree().members_of(self)) {
     place_of(context, self, it.number).held = false;
   }
@@ -211,9 +214,9 @@ constexpr Parameter kMemberParameters[] = {
               .group = "barrier"}};
 
 Status tick_member(NodeContext& context, NodeIndex self) {
-  const Member& member = context.membership(self);
+  const Member& member = context.tree().membership(self);
   const NodeIndex child = self + 1;
-  context.reach(member.group);
+  context.groups().reach(member.group);
   Place& place = place_of(context, member.group, member.number);
   place.begun = true;
   if (context.status(member.group) == Status::Failure) {  // an entry has no value that it accepts
@@ -229,7 +232,7 @@ Status tick_member(NodeContext& context, NodeIndex self) {
 // A script has decided for it, so it has begun and ended.
 void member_decided(NodeContext& context, NodeIndex self, Status result) {
   if (!is_complete(result)) return;
-  const Member& member = context.membership(self);
+  const Member& member = context.tree().membership(self);
   Place& place = place_of(context, member.group, member.number);
   place.begun = true;
   note_result(context, member, place, result);
@@ -238,7 +241,7 @@ void member_decided(NodeContext& context, NodeIndex self, Status result) {
 }  // namespace
 
 bool is_held_at_barrier(NodeContext& context, NodeIndex node) {
-  const Member& member = context.membership(node);
+  const Member& member = context.tree().membership(node);
   return place_of(context, member.group, member.number).held;
 }
 
@@ -255,7 +258,7 @@ const NodeKind kBarrier{
              .synchronization = Synchronization::Absolute},
     .tick = tick_barrier,
     .progress = [](NodeContext& context,
-                   NodeIndex self) { return least_progress(context.child_numbers(self)); },
+                   NodeIndex self) { return least_progress(context.child_states<double>(self)); },
     .state_size = sizeof(BarrierState),
     .state_per_child = sizeof(double) + sizeof(Place),
     .fold = fold_barrier,

@@ -1,6 +1,8 @@
 // A condition that asks a script, under the name that it has in a language.
 #pragma once
 
+#include "engine/node_context.h"
+#include "engine/node_scripts.h"
 #include "engine/nodes/at_once.h"
 
 namespace lockstep::check {
@@ -14,7 +16,7 @@ inline constexpr Parameter kParameters[] = {{.name = "code",
                                              .is_script = true}};
 
 inline Status tick(NodeContext& context, NodeIndex self) {
-  const auto holds = context.holds(self, context.script(self, kCode), "code");
+  const auto holds = context.scripts().holds(self, kCode);
   return holds.value_or(false) ? Status::Success : Status::Failure;
 }
 

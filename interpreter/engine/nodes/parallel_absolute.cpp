@@ -23,7 +23,7 @@ std::optional<RuleBreak> rule_of_absolute(const ParameterValues& given) {
 }
 
 Status tick_absolute(NodeContext& context, NodeIndex self) {
-  const auto barriers = context.numbers(context.parameter(self, absolute::kBarriers));
+  const auto barriers = context.parameters().numbers(self, absolute::kBarriers);
   const double least = synchronized::take_snapshot(context, self);
   const double barrier = absolute::current_barrier(barriers, least);
   context.state<SynchronizedState>(self).limit = barrier;

@@ -55,10 +55,10 @@ inline std::optional<RuleBreak> check_counts(const ParameterValues& given, const
 }
 
 // The progress of the child that is the M-th when the farthest is the first: where M children will
-// have arrived. One that was skipped is not there. Uses child_numbers, which asking must not
+// have arrived. One that was skipped is not there. Uses child_states, which asking must not
 // change.
 inline double progress_of_mth(NodeContext& context, NodeIndex self, std::int64_t m) {
-  const auto numbers = context.child_numbers(self);
+  const auto numbers = context.child_states<double>(self);
   std::size_t count = 0;
   for (NodeIndex child = self + 1; child != context.end_of(self); child = context.end_of(child)) {
     if (context.activity(child) != Activity::Skipped) numbers[count++] = context.progress(child);

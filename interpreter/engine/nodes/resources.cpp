@@ -48,7 +48,8 @@ std::span<std::uint32_t> who_asks(NodeContext& context, NodeIndex self,
     if (context.status(member.node) != Status::Running) continue;
     if (resources::keeps(context, member.node)) {
       resources::keep(context, member.node);
-    } else if (!is_held_by_parallel(context, member.node) && context.refresh(member.node)) {
+    } else if (!is_held_by_parallel(context, member.node) &&
+               context.parameters().read(member.node).empty()) {
       numbers[count++] = member.number;
     }
   }

@@ -1,4 +1,6 @@
 // Script and Check: leaves that run a script.
+#include "engine/node_context.h"
+#include "engine/node_scripts.h"
 #include "engine/nodes/at_once.h"
 #include "engine/nodes/check.h"
 #include "engine/nodes/kinds.h"
@@ -15,7 +17,7 @@ constexpr Parameter kScriptParameters[] = {{.name = "code",
                                             .is_script = true}};
 
 Status tick_script(NodeContext& context, NodeIndex self) {
-  const bool good = context.run_script(self, context.script(self, kCode), "code");
+  const bool good = context.scripts().run(self, kCode);
   return good ? Status::Success : Status::Failure;
 }
 

@@ -2,6 +2,7 @@
 
 #include "core/wording.h"
 #include "engine/node_context.h"
+#include "engine/node_scripts.h"
 #include "engine/nodes/fold.h"
 #include "engine/nodes/kinds.h"
 #include "expression/equal.h"
@@ -46,9 +47,9 @@ struct SwitchState {
 };
 
 // Of the first case that is equal, else what comes after the cases; 0: nothing does.
-NodeIndex choose(const NodeContext& context, NodeIndex self, const Value& value) {
+NodeIndex choose(NodeContext& context, NodeIndex self, const Value& value) {
   NodeIndex child = self + 1;
-  for (const std::string& text : context.texts(self, kCases)) {
+  for (const std::string& text : context.parameters().texts(self, kCases)) {
     if (equals_text(value, text)) return child;
     child = context.end_of(child);
   }
@@ -58,7 +59,7 @@ NodeIndex choose(const NodeContext& context, NodeIndex self, const Value& value)
 Status tick_switch(NodeContext& context, NodeIndex self) {
   SwitchState& state = context.state<SwitchState>(self);
   if (context.first_tick(self)) state.current = 0;
-  const Value* value = context.result_of(self, context.script(self, kOn), "on");
+  const Value* value = context.scripts().value_of(self, kOn);
   if (value == nullptr) return Status::Failure;
   const NodeIndex child = choose(context, self, *value);
   if (state.current != 0 && state.current != child) context.halt(state.current);

@@ -14,7 +14,7 @@ namespace lockstep::synchronized {
 inline double take_snapshot(NodeContext& context, NodeIndex self) {
   double least = 1.0;
   NodeIndex child = self + 1;
-  for (double& number : context.child_numbers(self)) {
+  for (double& number : context.child_states<double>(self)) {
     number = snapshot_of(context, child);
     if (number < least) least = number;
     child = context.end_of(child);
@@ -27,7 +27,7 @@ template <class Held>
 Status tick_each(NodeContext& context, NodeIndex self, const parallel::Places& places, Held held) {
   parallel::Tally tally;
   NodeIndex child = self + 1;
-  for (const double reached : context.child_numbers(self)) {
+  for (const double reached : context.child_states<double>(self)) {
     if (context.faulted()) return Status::Running;
     Status status = context.status(child);
     if (!parallel::is_over(context, child)) {
@@ -53,7 +53,7 @@ Status tick_children(NodeContext& context, NodeIndex self, const parallel::Place
 // it is.
 inline void decided(NodeContext& context, NodeIndex self, Status result) {
   const bool succeeded = result == Status::Success;
-  std::ranges::fill(context.child_numbers(self), succeeded ? 1.0 : 0.0);
+  std::ranges::fill(context.child_states<double>(self), succeeded ? 1.0 : 0.0);
   context.state<SynchronizedState>(self).succeeded = succeeded;
 }
 

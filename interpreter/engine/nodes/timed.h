@@ -58,7 +58,7 @@ inline void count_from_now(NodeContext& context, NodeIndex self, bool stands_whi
                            Nanoseconds limit) {
   State& state = context.state<State>(self);
   const bool is_paused = context.activity(self) == Activity::Paused;
-  if (!context.has_constant_parameters(self)) {
+  if (!context.parameters().are_constant(self)) {
     state.start -= context.now();
     state.paused_at = is_paused ? state.paused_at - context.now() : Nanoseconds(0);
     return;

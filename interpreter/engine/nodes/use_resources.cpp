@@ -1,5 +1,7 @@
 #include <algorithm>
 
+#include "engine/bound_node.h"
+#include "engine/groups.h"
 #include "engine/nodes/decorator.h"
 #include "engine/resources.h"
 
@@ -36,7 +38,7 @@ std::optional<RuleBreak> rule_of_use_resources(const ParameterValues& given) {
 constexpr std::int64_t kMostWaits = 2;
 
 void raise_priority(NodeContext& context, NodeIndex self, ResourceUse& use) {
-  const NodeIndex pool = context.membership(self).group;
+  const NodeIndex pool = context.tree().membership(self).group;
   const std::int64_t increment = context.parameter(pool, resources::kIncrement).integer;
   const std::int64_t most = kMostWaits * context.node(pool).children * increment;
   use.priority = std::min(use.priority + increment, most);
@@ -66,9 +68,9 @@ void fold_use_resources(NodeContext& context, NodeIndex self) {
 
 Status tick_use_resources(NodeContext& context, NodeIndex self) {
   auto& use = context.state<ResourceUse>(self);
-  context.reach(context.membership(self).group);
+  context.groups().reach(context.tree().membership(self).group);
   // What a child keeps does not depend on what the entry says meanwhile.
-  if (!resources::keeps(context, self) && !context.reread(self)) return context.give_up(self);
+  if (!resources::keeps(context, self) && !reread(context, self)) return give_up(context, self);
   if (!resources::has_asked(context, use)) resources::ask(context, self);
   return tick_child(context, self);
 }

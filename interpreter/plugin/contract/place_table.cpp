@@ -1,5 +1,6 @@
 // What a node of a plugin may ask about its place in the tree and its ports: lockstep_place.
 #include "core/conversion.h"
+#include "engine/node_ports.h"
 #include "engine/ticker.h"
 #include "plugin/contract/host.h"
 #include "plugin/contract/object_type.h"
@@ -120,7 +121,7 @@ std::uint32_t open(const lockstep_caller* caller, const char* text, std::size_t 
   }
   try {
     const std::string& kept = mine(caller).opened.emplace_back(key);
-    ports.push_back(opened_port(caller->ticker->entry_at(caller->node, kept), kept));
+    ports.push_back(opened_port(caller->ticker->ports().at(caller->node, kept), kept));
   } catch (const std::exception&) {
     return UINT32_MAX;
   }
@@ -130,7 +131,7 @@ std::uint32_t open(const lockstep_caller* caller, const char* text, std::size_t 
 void unset(const lockstep_caller* caller, std::uint32_t port) {
   const BoundPort* const it = port_of(caller, port);
   if (it == nullptr || port < caller->ports.size() - caller->opened.size()) return;
-  Entry* const own = caller->ticker->own_entry_at(caller->node, it->name);
+  Entry* const own = caller->ticker->ports().own_at(caller->node, it->name);
   if (own != nullptr) unset_entry(*own);
 }
 

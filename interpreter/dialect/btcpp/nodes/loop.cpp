@@ -6,6 +6,7 @@
 #include "core/conversion.h"
 #include "dialect/btcpp/nodes/kinds.h"
 #include "dialect/btcpp/nodes/results.h"
+#include "engine/node_ports.h"
 #include "engine/nodes/decorator.h"
 #include "engine/nodes/fold.h"
 
@@ -53,10 +54,10 @@ std::optional<Value> item_of(const Value& list, std::size_t index) {
 template <ValueType kList>
 bool begin_loop(NodeContext& context, NodeIndex self) {
   context.state<LoopState>(self).next = 0;
-  const Value* queue = context.port_value(self, kQueue);
+  const Value* queue = context.ports().value(self, kQueue);
   auto list = queue == nullptr ? std::nullopt : convert_value(*queue, kList, nullptr);
   if (list) {
-    context.kept_value(self) = std::move(*list);
+    context.kept_values()[self] = std::move(*list);
     return true;
   }
   context.set_fault(self, queue == nullptr ? "its queue has no value"
@@ -65,7 +66,7 @@ bool begin_loop(NodeContext& context, NodeIndex self) {
 }
 
 Status if_empty(NodeContext& context, NodeIndex self) {
-  const Value* word = context.port_value(self, kIfEmpty);
+  const Value* word = context.ports().value(self, kIfEmpty);
   const auto* text = word == nullptr ? nullptr : std::get_if<std::string>(word);
   const auto* const it = text == nullptr ? std::end(kResults) : std::ranges::find(kResults, *text);
   if (it != std::end(kResults)) return static_cast<Status>(it - std::begin(kResults) + 1);
@@ -78,10 +79,10 @@ Status tick_loop(NodeContext& context, NodeIndex self) {
   if (context.first_tick(self) && !begin_loop<kList>(context, self)) return Status::Failure;
   if (context.status(self + 1) != Status::Running) {
     LoopState& state = context.state<LoopState>(self);
-    auto item = item_of<T>(context.kept_value(self), state.next);
+    auto item = item_of<T>(context.kept_values()[self], state.next);
     if (!item) return if_empty(context, self);
     ++state.next;
-    Entry* const entry = context.port_entry(self, kValue);
+    Entry* const entry = context.ports().entry(self, kValue);
     if (entry != nullptr && !write_entry(*entry, kItem, nullptr, *std::move(item))) {
       context.set_fault(self, "the item does not fit the entry of 'value'");
       return Status::Failure;
@@ -98,7 +99,7 @@ std::size_t count_of(const Value& list) {
 
 template <class T>
 double progress_of_loop(NodeContext& context, NodeIndex self) {
-  const auto all = static_cast<double>(count_of<T>(context.kept_value(self)));
+  const auto all = static_cast<double>(count_of<T>(context.kept_values()[self]));
   if (all == 0) return 0.0;
   const bool runs = context.status(self + 1) == Status::Running;
   const double done = context.state<LoopState>(self).next - (runs ? 1.0 : 0.0);
@@ -109,7 +110,7 @@ double progress_of_loop(NodeContext& context, NodeIndex self) {
 inline void fold_loop(NodeContext& context, NodeIndex self) {
   if (context.status(self) != Status::Idle) return;
   fold::dead(context, self);
-  context.drop_kept_value(self);
+  context.kept_values().erase(self);
 }
 
 template <class T, ValueType kList, ValueType kItem>

@@ -1,5 +1,6 @@
 #include "dialect/btcpp/nodes/kinds.h"
 #include "dialect/btcpp/nodes/results.h"
+#include "engine/node_scripts.h"
 #include "engine/nodes/decorator.h"
 #include "engine/nodes/fold.h"
 
@@ -32,7 +33,7 @@ Status otherwise(const NodeContext& context, NodeIndex self) {
 Status tick_precondition(NodeContext& context, NodeIndex self) {
   PreconditionState& state = context.state<PreconditionState>(self);
   if (!state.is_open) {
-    const auto holds = context.holds(self, context.script(self, kIf), "if");
+    const auto holds = context.scripts().holds(self, kIf);
     if (!holds) return Status::Failure;
     if (!*holds) return otherwise(context, self);
   }

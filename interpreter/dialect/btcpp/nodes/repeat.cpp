@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "dialect/btcpp/nodes/kinds.h"
+#include "engine/bound_node.h"
 #include "engine/nodes/decorator.h"
 #include "engine/nodes/fold.h"
 
@@ -44,7 +45,7 @@ Status tick_repeat(NodeContext& context, NodeIndex self) {
       return status;
     }
     ++state.done;
-    if (kGoOn == Status::Failure && !context.reread(self)) return Status::Failure;
+    if (kGoOn == Status::Failure && !reread(context, self)) return Status::Failure;
     if (was_idle && has_more()) {
       context.ask_for_another_tick(self);
       return Status::Running;
@@ -61,7 +62,7 @@ void forget_repeat(NodeContext& context, NodeIndex self) {
 // How often does not matter for ever.
 void fold_repeat(NodeContext& context, NodeIndex self) {
   const bool is_endless = context.parameter(self, 0).integer == kEndless;
-  if (is_endless && context.has_constant_parameters(self)) fold::dead(context, self);
+  if (is_endless && context.parameters().are_constant(self)) fold::dead(context, self);
 }
 
 double progress_of_repeat(NodeContext& context, NodeIndex self) {

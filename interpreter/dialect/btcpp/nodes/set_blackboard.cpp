@@ -3,6 +3,7 @@
 #include "core/wording.h"
 #include "dialect/btcpp/nodes/kinds.h"
 #include "engine/node_context.h"
+#include "engine/node_ports.h"
 #include "engine/nodes/at_once.h"
 
 namespace lockstep::btcpp {
@@ -47,13 +48,20 @@ bool store_text(NodeContext& context, NodeIndex self, Entry& target, const Value
   return false;
 }
 
+// Nothing: the name has no value, which is a fault.
+std::optional<Entry*> named(NodeContext& context, NodeIndex self, unsigned port) {
+  const auto entry = context.ports().named(self, port);
+  if (!entry) context.set_fault(self, context.ports().missing_name(self, port));
+  return entry;
+}
+
 Status tick_set(NodeContext& context, NodeIndex self) {
-  const auto named = context.named_entry(self, kOutputKey);
-  const Value* const value = context.port_value(self, kNewValue);
-  if (!named || value == nullptr) return Status::Failure;
-  Entry* const target = *named;
+  const auto entry = named(context, self, kOutputKey);
+  const Value* const value = context.ports().value(self, kNewValue);
+  if (!entry || value == nullptr) return Status::Failure;
+  Entry* const target = *entry;
   if (target == nullptr) return Status::Success;  // without a name
-  if (const Entry* source = context.port_entry(self, kNewValue)) {
+  if (const Entry* source = context.ports().entry(self, kNewValue)) {
     if (source == target) return Status::Success;
     if (!target->is_present) make_entry(*target, source->typing, source->type, source->object);
     target->value = *value;
@@ -65,9 +73,9 @@ Status tick_set(NodeContext& context, NodeIndex self) {
 }
 
 Status tick_unset(NodeContext& context, NodeIndex self) {
-  const auto named = context.named_entry(self, kKey);
-  if (!named) return Status::Failure;
-  if (*named != nullptr) unset_entry(**named);
+  const auto entry = named(context, self, kKey);
+  if (!entry) return Status::Failure;
+  if (*entry != nullptr) unset_entry(**entry);
   return Status::Success;
 }
 

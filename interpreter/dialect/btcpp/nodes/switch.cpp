@@ -5,6 +5,8 @@
 #include <string_view>
 
 #include "dialect/btcpp/nodes/kinds.h"
+#include "engine/node_context.h"
+#include "engine/node_ports.h"
 #include "engine/nodes/fold.h"
 
 namespace lockstep::btcpp {
@@ -76,14 +78,14 @@ bool are_equal(std::string_view one, std::string_view other) {
 }
 
 bool chooses(NodeContext& context, NodeIndex self, const Value& variable, unsigned number) {
-  const Value* value = context.port_value(self, number);
+  const Value* value = context.ports().value(self, number);
   return value != nullptr && are_equal(*TextOf(variable), *TextOf(*value));
 }
 
 // The child of the first case that fits, else the last.
 NodeIndex choose(NodeContext& context, NodeIndex self) {
   const std::uint32_t cases = context.node(self).children - 1;
-  const Value* variable = context.port_value(self, kVariable);
+  const Value* variable = context.ports().value(self, kVariable);
   NodeIndex child = self + 1;
   for (std::uint32_t i = 1; i <= cases; ++i, child = context.end_of(child)) {
     if (variable != nullptr && chooses(context, self, *variable, i)) break;

@@ -49,7 +49,7 @@ void forget_timed(NodeContext& context, NodeIndex self) {
 // A start relative to now. If no entry changes the time, at most that has passed.
 Nanoseconds folded(NodeContext& context, NodeIndex self, Nanoseconds start) {
   const Nanoseconds passed = context.now() - start;
-  const bool is_constant = context.has_constant_parameters(self);
+  const bool is_constant = context.parameters().are_constant(self);
   return -(is_constant ? std::min(passed, time_of(context, self)) : passed);
 }
 

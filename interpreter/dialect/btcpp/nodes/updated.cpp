@@ -1,6 +1,7 @@
 // SkipUnlessUpdated, WaitValueUpdate and WasEntryUpdated: whether an entry was written, also with
 // the value that it had, since the node looked last.
 #include "dialect/btcpp/nodes/kinds.h"
+#include "engine/node_ports.h"
 #include "engine/nodes/at_once.h"
 #include "engine/nodes/decorator.h"
 #include "engine/nodes/fold.h"
@@ -22,7 +23,7 @@ struct UpdatedState {
 };
 
 bool was_written(NodeContext& context, NodeIndex self, UpdatedState& state) {
-  const Entry* entry = context.port_entry(self, kEntry);
+  const Entry* entry = context.ports().entry(self, kEntry);
   if (entry == nullptr || !entry->is_present || entry->writes == state.seen) return false;
   state.seen = entry->writes;
   return true;

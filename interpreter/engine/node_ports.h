@@ -1,0 +1,53 @@
+// What the ports of a built-in node name in one run (NodeType::reads_ports), and the entries whose
+// names are known only while it runs.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "engine/blackboard.h"
+#include "engine/named_entries.h"
+#include "engine/tree.h"
+
+namespace lockstep {
+
+class NodePorts {
+ public:
+  // Both must outlive this, and the entries of `board` stay where they are.
+  NodePorts(const Tree& tree, Blackboard& board)
+      : tree_(tree), board_(board), names_(tree.boards, board.entries) {}
+
+  // Null: no {key}.
+  Entry* entry(NodeIndex node, unsigned index) {
+    const std::uint32_t slot = binding(node, index).slot;
+    return slot == PortBinding::kUnbound ? nullptr : &board_.entries[slot];
+  }
+  // Null: it has no value.
+  const Value* value(NodeIndex node, unsigned index) const;
+  // The entry that a port names (Parameter::is_key), which may not be present. Null if this tree
+  // has no such entry. Nothing if the name has no value: missing_name says so.
+  std::optional<Entry*> named(NodeIndex node, unsigned index);
+  std::string missing_name(NodeIndex node, unsigned index) const;
+
+  // What `key` means where the node is, in a tree with boards; and null if it belongs to an outer
+  // tree. Allocates.
+  Entry& at(NodeIndex node, std::string_view key) { return names_.at(tree_.board_of(node), key); }
+  Entry* own_at(NodeIndex node, std::string_view key) {
+    return names_.own(tree_.board_of(node), key);
+  }
+  NamedEntries& names() { return names_; }
+  const NamedEntries& names() const { return names_; }
+
+ private:
+  const PortBinding& binding(NodeIndex node, unsigned index) const {
+    return tree_.ports[tree_.nodes[node].params + index];
+  }
+
+  const Tree& tree_;
+  Blackboard& board_;
+  NamedEntries names_;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,69 @@
+// A run at this moment, to read: what the tree says of a node, and what RunState does.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "engine/blackboard.h"
+#include "engine/run_state.h"
+#include "engine/tree.h"
+
+namespace lockstep {
+
+class RunView {
+ public:
+  RunView(const RunView&) = delete;
+  RunView& operator=(const RunView&) = delete;
+
+  const Tree& tree() const { return tree_; }
+  const Blackboard& blackboard() const { return board_; }
+  const RunState& run_state() const { return state_; }
+
+  const Node& node(NodeIndex node) const { return nodes_[node]; }
+  NodeIndex end_of(NodeIndex node) const { return nodes_[node].end; }
+  bool is_guard(NodeIndex node) const { return nodes_[node].is_guard != 0; }
+  bool is_latched(NodeIndex node) const { return nodes_[node].is_latched != 0; }
+
+  Activity activity(NodeIndex node) const { return state_.activity[node]; }
+  Status status(NodeIndex node) const { return status_of(state_.activity[node]); }
+  // True until the node has been Running: the first tick of an activation.
+  bool first_tick(NodeIndex node) const { return status(node) != Status::Running; }
+  bool held(NodeIndex node) const { return state_.activity[node] == Activity::Paused; }
+  bool ticked(NodeIndex node) const {  // in the last tick
+    return state_.tick_number != 0 && state_.last_tick[node] == state_.tick_number;
+  }
+  // What a node keeps in RunState.
+  template <class State>
+  const State& state(NodeIndex node) const {
+    return *reinterpret_cast<const State*>(state_bytes() + nodes_[node].state);
+  }
+  // What a kind with state_per_child keeps behind that, one for each child.
+  template <class T>
+  std::span<const T> child_states(NodeIndex node) const {
+    const Node& it = nodes_[node];
+    const std::byte* const first = state_bytes() + it.state + it.kind->state_size;
+    return {reinterpret_cast<const T*>(first), it.children};
+  }
+
+  // Of the last tick; the first is 1.
+  std::uint32_t tick_number() const { return state_.tick_number; }
+  Nanoseconds now() const { return state_.now; }  // of this tick, since the run began
+  bool faulted() const { return state_.faulted; }
+
+ protected:
+  // Both must outlive this.
+  RunView(const Tree& tree, Blackboard& board)
+      : tree_(tree), nodes_(tree.nodes.data()), board_(board), state_(tree) {}
+  ~RunView() = default;
+  const std::byte* state_bytes() const {
+    return reinterpret_cast<const std::byte*>(state_.bytes.data());
+  }
+
+  const Tree& tree_;
+  const Node* const nodes_;  // of the tree
+  Blackboard& board_;
+  RunState state_;
+};
+
+}  // namespace lockstep
