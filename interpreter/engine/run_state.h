@@ -2,7 +2,6 @@
 // the leaves are separate (engine/saved_run.h has them all).
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <unordered_map>
@@ -50,26 +49,9 @@ struct OutOfRange {
 
 struct RunState {
   RunState() = default;
-  explicit RunState(const Tree& tree)
-      : activity(tree.nodes.size(), Activity::Idle),
-        last_tick(tree.nodes.size(), 0),
-        bytes((tree.state_size + 7) / 8, 0) {}
-
+  explicit RunState(const Tree& tree);
   // Resets everything, without allocating.
-  void reset() {
-    std::ranges::fill(activity, Activity::Idle);
-    std::ranges::fill(last_tick, 0);
-    std::ranges::fill(bytes, 0);
-    now = Nanoseconds(0);
-    tick_number = asked_by = 0;
-    in_last_halt = interrupted = faulted = false;
-    fault = {};
-    failing.clear();
-    failed_leaves.clear();
-    tolerated.clear();
-    out_of_range.clear();
-    kept_values.clear();
-  }
+  void reset();
 
   std::vector<Activity> activity;        // of each node
   std::vector<std::uint32_t> last_tick;  // number of the last tick that reached it; 0 = none yet

@@ -53,8 +53,7 @@ class RunView {
 
  protected:
   // Both must outlive this.
-  RunView(const Tree& tree, Blackboard& board)
-      : tree_(tree), nodes_(tree.nodes.data()), board_(board), state_(tree) {}
+  RunView(const Tree& tree, Blackboard& board);
   ~RunView() = default;
   const std::byte* state_bytes() const {
     return reinterpret_cast<const std::byte*>(state_.bytes.data());

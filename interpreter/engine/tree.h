@@ -16,9 +16,11 @@
 #include "core/hook.h"
 #include "core/language.h"
 #include "engine/node_kind.h"
-#include "expression/expression.h"
+#include "expression/script_enums.h"
 
 namespace lockstep {
+
+class Expression;
 
 struct Node {
   const NodeKind* kind;

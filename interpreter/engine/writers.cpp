@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "expression/expression.h"
+
 namespace lockstep {
 namespace {
 

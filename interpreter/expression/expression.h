@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -14,11 +13,9 @@
 #include <vector>
 
 #include "expression/program.h"
+#include "expression/script_enums.h"
 
 namespace lockstep {
-
-// Words that stand for numbers.
-using ScriptEnums = std::map<std::string, double, std::less<>>;
 
 class Expression {
  public:

@@ -1,0 +1,8 @@
+#include "engine/run_view.h"
+
+namespace lockstep {
+
+RunView::RunView(const Tree& tree, Blackboard& board)
+    : tree_(tree), nodes_(tree.nodes.data()), board_(board), state_(tree) {}
+
+}  // namespace lockstep
