@@ -62,6 +62,8 @@ bool fail(std::string_view reason) noexcept;
 // "the key".
 bool is_text(std::string_view what, const char* text) noexcept;
 bool is_text(std::string_view what, const char* text, std::size_t length) noexcept;
+// The slot of an entry that a node of the tree uses; else there is an error.
+std::optional<std::uint32_t> find_slot(const Tree& tree, const char* key);
 // Nothing is wrong with this call.
 void forget_error() noexcept;
 

@@ -7,6 +7,7 @@
 
 #include "core/audience.h"
 #include "core/parameter_value.h"
+#include "core/suggest.h"
 #include "core/utf8.h"
 #include "core/wording.h"
 #include "embedding/handles.h"
@@ -110,6 +111,17 @@ bool is_text(std::string_view what, const char* text, std::size_t length) noexce
   if (text == nullptr) return fail("an argument is NULL");
   if (is_utf8({text, length})) return true;
   return shielded([&] { return fail(fmt::format("{} is not UTF-8", what)); });
+}
+
+std::optional<std::uint32_t> find_slot(const Tree& tree, const char* key) {
+  if (!is_text("the key", key)) return std::nullopt;
+  const auto found = std::ranges::find(tree.slots, std::string_view(key), &Slot::name);
+  if (found != tree.slots.end()) return static_cast<std::uint32_t>(found - tree.slots.begin());
+  std::vector<std::string_view> keys;
+  for (const Slot& slot : tree.slots) keys.push_back(slot.name);
+  const std::string hint = did_you_mean(key, keys);
+  fail(fmt::format("no node uses an entry '{}'{}{}", brief(key), hint.empty() ? "" : "; ", hint));
+  return std::nullopt;
 }
 
 void forget_error() noexcept {
@@ -270,5 +282,17 @@ bool lockstep_project_entry(const lockstep_project* project, uint32_t index,
          .key = slot.name.c_str(),
          .type_name = is_any ? "any" : project->program->texts().types[index].c_str()},
         entry);
+  });
+}
+
+bool lockstep_project_find_entry(const lockstep_project* project, const char* key,
+                                 uint32_t* index) {
+  return guarded([&] {
+    const Tree* const tree = tree_of(project);
+    if (tree == nullptr) return fail("the project has not been loaded");
+    if (index == nullptr) return fail("an argument is NULL");
+    const auto slot = find_slot(*tree, key);
+    if (slot) *index = *slot;
+    return slot.has_value();
   });
 }

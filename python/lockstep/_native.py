@@ -135,17 +135,17 @@ _FUNCTIONS = {
     "run_new": (c_void_p, c_void_p, POINTER(RunOptions)), "run_free": (None, c_void_p),
     "run_restart": (c_bool, c_void_p, c_uint64), "run_tick": (c_int32, c_void_p, c_double),
     "run_halt": (None, c_void_p), "run_fault": (c_char_p, c_void_p, POINTER(c_uint32)),
-    "run_node": (c_bool, c_void_p, c_uint32, POINTER(NodeState)), "run_value_type": (c_int32, c_void_p, c_char_p),
-    "run_get_text": (c_char_p, c_void_p, c_char_p), "run_set_text": (c_bool, c_void_p, c_char_p, c_char_p),
+    "run_node": (c_bool, c_void_p, c_uint32, POINTER(NodeState)), "run_value_type_at": (c_int32, c_void_p, c_uint32),
+    "run_get_text_at": (c_char_p, c_void_p, c_uint32), "run_set_text_at": (c_bool, c_void_p, c_uint32, c_char_p),
     "run_observe": (c_bool, c_void_p, OBSERVE, c_void_p),
     "run_loop": (c_bool, c_void_p, POINTER(LoopOptions), POINTER(LoopResult)),
 }
 for _name, _item in (("bool", c_bool), ("int", c_int64), ("double", c_double), ("text", Text)):
     if _name != "text":
-        _FUNCTIONS["run_get_" + _name] = (c_bool, c_void_p, c_char_p, POINTER(_item))
-        _FUNCTIONS["run_set_" + _name] = (c_bool, c_void_p, c_char_p, _item)
-    _FUNCTIONS[f"run_get_{_name}_list"] = (c_bool, c_void_p, c_char_p, POINTER(POINTER(_item)), POINTER(c_size_t))
-    _FUNCTIONS[f"run_set_{_name}_list"] = (c_bool, c_void_p, c_char_p, POINTER(_item), c_size_t)
+        _FUNCTIONS[f"run_get_{_name}_at"] = (c_bool, c_void_p, c_uint32, POINTER(_item))
+        _FUNCTIONS[f"run_set_{_name}_at"] = (c_bool, c_void_p, c_uint32, _item)
+    _FUNCTIONS[f"run_get_{_name}_list_at"] = (c_bool, c_void_p, c_uint32, POINTER(POINTER(_item)), POINTER(c_size_t))
+    _FUNCTIONS[f"run_set_{_name}_list_at"] = (c_bool, c_void_p, c_uint32, POINTER(_item), c_size_t)
 
 
 class Library:
@@ -154,7 +154,7 @@ class Library:
     def __init__(self, path):
         loaded = ctypes.CDLL(path)
         loaded.lockstep_runtime_version.restype = c_uint32
-        if loaded.lockstep_runtime_version() < (1 << 16 | 2):
+        if loaded.lockstep_runtime_version() < (1 << 16 | 3):
             raise Error(2, f"'{path}' is older than this package: install both from one version of lockstep")
         for name, (result, *arguments) in _FUNCTIONS.items():
             function = getattr(loaded, "lockstep_" + name)

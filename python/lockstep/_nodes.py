@@ -60,8 +60,8 @@ class Entries(collections.abc.Mapping):
         raise KeyError(f"no node uses an entry '{key}'" + hint(key, types))
 
     def __getitem__(self, key):
-        self._declared(key)
-        value = self._tree._read(lambda library, handle: _read_entry(library, handle, native.bytes_of(key)))
+        index, _, _ = self._declared(key)
+        value = self._tree._read(lambda library, handle: _read_entry(library, handle, index))
         if value is None:
             raise KeyError(f"nothing has written the entry '{key}'")
         return value
@@ -74,15 +74,15 @@ class Entries(collections.abc.Mapping):
             return default
 
     def __setitem__(self, key, value):
-        number, name = self._declared(key)
+        index, number, name = self._declared(key)
         type_ = _type_for(value, number, name)
-        data, library = native.bytes_of(key), self._tree._library
+        library = self._tree._library
 
         def write(handle):
             if type_ is None:
-                return library.run_set_text(handle, data, native.bytes_of(value))
-            set_ = getattr(library, "run_set_" + native.function_name(type_, "text"))
-            return type_.write(set_, handle, data, value=value)
+                return library.run_set_text_at(handle, index, native.bytes_of(value))
+            set_ = getattr(library, f"run_set_{native.function_name(type_, 'text')}_at")
+            return type_.write(set_, handle, index, value=value)
 
         try:
             good = self._tree._using(write)
@@ -93,8 +93,8 @@ class Entries(collections.abc.Mapping):
 
     def __iter__(self):
         types = self._tree._entries
-        return (key for key in types if self._tree._read(
-            lambda library, handle: library.run_value_type(handle, native.bytes_of(key))))
+        return (key for key, (index, _, _) in types.items() if self._tree._read(
+            lambda library, handle: library.run_value_type_at(handle, index)))
 
     def __len__(self):
         return sum(1 for _ in self)
@@ -106,13 +106,13 @@ class Entries(collections.abc.Mapping):
         return repr(dict(self))
 
 
-def _read_entry(library, handle, key):
-    number = library.run_value_type(handle, key)
+def _read_entry(library, handle, index):
+    number = library.run_value_type_at(handle, index)
     if number in (native.OBJECT, 4):
-        return native.text_of(library.run_get_text(handle, key))
+        return native.text_of(library.run_get_text_at(handle, index))
     for type_ in native.TYPES.values():
         if type_.number == number:
-            return type_.read(getattr(library, "run_get_" + native.function_name(type_, "text")), handle, key)
+            return type_.read(getattr(library, f"run_get_{native.function_name(type_, 'text')}_at"), handle, index)
     return None
 
 

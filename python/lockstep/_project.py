@@ -105,7 +105,7 @@ class Project:
     def _entry(self, index):
         it = native.sized(native.Entry)
         self._library.project_entry(self._held.handle, index, it)
-        return native.text_of(it.key), (it.type, native.text_of(it.type_name))
+        return native.text_of(it.key), (index, it.type, native.text_of(it.type_name))
 
     def close(self):
         "Its trees live on."

@@ -362,6 +362,61 @@ TEST_CASE("entries are read and written by key") {
   CHECK(error_of([&] { run.set("step", 1.0 / 0.0); }) == "a number must be finite");
 }
 
+TEST_CASE("an entry that was found once is read and written by its handle, in all runs") {
+  std::optional<runtime::Run> first, second;
+  runtime::EntryHandle step, n;
+  {
+    const runtime::Project project = project_of("<Step step=\"{step}\" ticks=\"{n}\"/>");
+    step = project.find_entry("step");
+    n = project.find_entry("n");
+    CHECK(error_of([&] { project.find_entry("steep"); }) ==
+          "no node uses an entry 'steep'; did you mean 'step'?");
+    first.emplace(project);
+    second.emplace(project);
+  }
+  CHECK(error_of([&] { first->get<double>(step); }) == "nothing has written the entry 'step'");
+  first->set(step, 0.5);
+  second->set(step, "0.25");
+  CHECK(first->tick(0) == Status::Running);
+  CHECK(second->tick(0) == Status::Running);
+  CHECK(first->get<double>("step") == 0.5);
+  CHECK(second->get<double>(step) == 0.25);
+  CHECK(second->get<std::string>(n) == "1");
+  second->set(n, 10);
+  CHECK(second->tick(0) == Status::Running);
+  CHECK(second->get<std::int64_t>(n) == 11);
+  CHECK(first->get<std::int64_t>(n) == 1);
+  CHECK(lockstep_run_value_type_at(first->get(), n.index) == LOCKSTEP_INT);
+  CHECK(error_of([&] { first->set(n, 1.0); }) == "the entry 'n' is of type int");
+  CHECK(error_of([&] { first->set(n, "many"); }) ==
+        "the entry 'n' is of type int: expected a whole number");
+  CHECK(error_of([&] { first->get<bool>(n); }) == "the entry 'n' has another type");
+  CHECK(error_of([&] { first->get<bool>(runtime::EntryHandle{7}); }) == "no such entry");
+}
+
+TEST_CASE("lists and objects by their handles") {
+  runtime::Project project;
+  project.add_leaf<Carry>("Carry", "Adds something to each of its ports");
+  project.load_text(
+      tree(R"(<Carry flags="{flags}" counts="{counts}" points="{points}" words="{words}"
+                number="{number}" from="{from}" to="{to}"/>)"));
+  const auto handle = [&](const char* key) { return project.find_entry(key); };
+  runtime::Run run(project);
+  run.set(handle("flags"), std::vector<bool>{false, true});
+  run.set(handle("counts"), std::vector<std::int64_t>{-1});
+  run.set(handle("points"), std::vector<double>{0.5});
+  run.set(handle("words"), Strings{"", std::string("x\0y", 3)});
+  run.set(handle("number"), 3);
+  run.set(handle("from"), "1;2");
+  CHECK(run.get<double>(handle("number")) == 3);
+  CHECK(run.tick(0) == Status::Success);
+  CHECK(run.get<std::vector<bool>>(handle("flags")) == std::vector<bool>{false, true, true});
+  CHECK(run.get<std::vector<std::int64_t>>(handle("counts")) == std::vector<std::int64_t>{-1, 7});
+  CHECK(run.get<std::vector<double>>(handle("points")) == std::vector<double>{0.5, 3});
+  CHECK(run.get<Strings>(handle("words")) == Strings{"", std::string("x\0y", 3), "a;b"});
+  CHECK(run.get<std::string>(handle("to")) == "2;4");
+}
+
 TEST_CASE("entries that are lists, numbers of either kind and objects") {
   runtime::Project project;
   project.add_leaf<Carry>("Carry", "Adds something to each of its ports");
@@ -761,6 +816,8 @@ TEST_CASE("NULL is an error and no crash") {
   CHECK(refused(lockstep_run_restart(nullptr, 1)));
   CHECK(refused(lockstep_run_loop(nullptr, nullptr, nullptr)));
   CHECK(refused(lockstep_run_get_text(nullptr, "x") != nullptr));
+  CHECK(refused(lockstep_run_get_text_at(nullptr, 0) != nullptr));
+  CHECK(refused(lockstep_project_find_entry(project, "x", nullptr)));
   CHECK(lockstep_run_fault(nullptr, nullptr) == nullptr);
   CHECK(lockstep_project_node_count(nullptr) == 0);
   lockstep_run_free(nullptr);

@@ -35,7 +35,7 @@ extern "C" {
 #endif
 
 #define LOCKSTEP_RUNTIME_MAJOR 1u
-#define LOCKSTEP_RUNTIME_MINOR 2u
+#define LOCKSTEP_RUNTIME_MINOR 3u
 
 /* The library's own (major << 16 | minor), which may be newer than the header's. */
 LOCKSTEP_EXPORT uint32_t lockstep_runtime_version(void);
@@ -132,6 +132,10 @@ typedef struct lockstep_entry {
 LOCKSTEP_EXPORT uint32_t lockstep_project_entry_count(const lockstep_project* project);
 LOCKSTEP_EXPORT bool lockstep_project_entry(const lockstep_project* project, uint32_t index,
                                             lockstep_entry* entry);
+/* Since 1.3: the index of the entry with this key, a search among all of them. It is the handle of
+ * the entry in all runs of this project, as long as one of them lives, and in any thread. */
+LOCKSTEP_EXPORT bool lockstep_project_find_entry(const lockstep_project* project, const char* key,
+                                                 uint32_t* index);
 
 /* ---- Runs --------------------------------------------------------------------------------------
  */
@@ -226,6 +230,35 @@ LOCKSTEP_EXPORT bool lockstep_run_set_text_list(lockstep_run* run, const char* k
 /* Since 1.1: the type of the value that an entry has now, of which the get of that type returns it.
  * 0 while nothing has written the entry; and when no node uses it, with lockstep_last_error. */
 LOCKSTEP_EXPORT lockstep_type lockstep_run_value_type(lockstep_run* run, const char* key);
+
+/* Since 1.3: the same by the index of the entry, without a search for its key: for programs that
+ * read and write entries around each tick. Values, threads and errors are as above; an index that
+ * no entry has is an error. Numbers and flags are read and written without an allocation. */
+LOCKSTEP_EXPORT const char* lockstep_run_get_text_at(lockstep_run* run, uint32_t entry);
+LOCKSTEP_EXPORT bool lockstep_run_get_bool_at(lockstep_run* run, uint32_t entry, bool* value);
+LOCKSTEP_EXPORT bool lockstep_run_get_int_at(lockstep_run* run, uint32_t entry, int64_t* value);
+LOCKSTEP_EXPORT bool lockstep_run_get_double_at(lockstep_run* run, uint32_t entry, double* value);
+LOCKSTEP_EXPORT bool lockstep_run_set_text_at(lockstep_run* run, uint32_t entry, const char* text);
+LOCKSTEP_EXPORT bool lockstep_run_set_bool_at(lockstep_run* run, uint32_t entry, bool value);
+LOCKSTEP_EXPORT bool lockstep_run_set_int_at(lockstep_run* run, uint32_t entry, int64_t value);
+LOCKSTEP_EXPORT bool lockstep_run_set_double_at(lockstep_run* run, uint32_t entry, double value);
+LOCKSTEP_EXPORT bool lockstep_run_get_bool_list_at(lockstep_run* run, uint32_t entry,
+                                                   const bool** values, size_t* count);
+LOCKSTEP_EXPORT bool lockstep_run_get_int_list_at(lockstep_run* run, uint32_t entry,
+                                                  const int64_t** values, size_t* count);
+LOCKSTEP_EXPORT bool lockstep_run_get_double_list_at(lockstep_run* run, uint32_t entry,
+                                                     const double** values, size_t* count);
+LOCKSTEP_EXPORT bool lockstep_run_get_text_list_at(lockstep_run* run, uint32_t entry,
+                                                   const lockstep_text** values, size_t* count);
+LOCKSTEP_EXPORT bool lockstep_run_set_bool_list_at(lockstep_run* run, uint32_t entry,
+                                                   const bool* values, size_t count);
+LOCKSTEP_EXPORT bool lockstep_run_set_int_list_at(lockstep_run* run, uint32_t entry,
+                                                  const int64_t* values, size_t count);
+LOCKSTEP_EXPORT bool lockstep_run_set_double_list_at(lockstep_run* run, uint32_t entry,
+                                                     const double* values, size_t count);
+LOCKSTEP_EXPORT bool lockstep_run_set_text_list_at(lockstep_run* run, uint32_t entry,
+                                                   const lockstep_text* values, size_t count);
+LOCKSTEP_EXPORT lockstep_type lockstep_run_value_type_at(lockstep_run* run, uint32_t entry);
 
 /* Called after each tick, also of the loop, in the thread that ticks. It may read the run, and must
  * not tick, halt or free it. Several may observe; NULL as `observe` removes those of this `user`.

@@ -45,6 +45,11 @@ struct NodeInfo {
   std::string path, name, id;
 };
 
+// An entry of the blackboard, found once: for all runs of its project, in any thread.
+struct EntryHandle {
+  std::uint32_t index = 0;
+};
+
 struct NodeState {
   std::optional<Status> status;  // nothing when it is idle
   double progress = 0;
@@ -56,6 +61,23 @@ namespace detail {
 inline void require(bool good) {
   if (!good) throw Error(lockstep_last_error());
 }
+
+// How a call names an entry: by key, which is searched each time, or by handle.
+class EntryName {
+ public:
+  EntryName(const char* key) : key_(key) {}
+  EntryName(const std::string& key) : key_(key.c_str()) {}
+  EntryName(EntryHandle entry) : index_(entry.index) {}
+
+  template <class ByKey, class ByIndex, class... Rest>
+  auto call(ByKey by_key, ByIndex by_index, lockstep_run* run, Rest... rest) const {
+    return key_ != nullptr ? by_key(run, key_, rest...) : by_index(run, index_, rest...);
+  }
+
+ private:
+  const char* key_ = nullptr;
+  std::uint32_t index_ = 0;
+};
 
 template <class Struct>
 Struct sized() {
@@ -151,6 +173,13 @@ class Project {
     std::uint32_t index = 0;
     detail::require(lockstep_project_find_node(it_.get(), path.c_str(), &index));
     return index;
+  }
+
+  // The entry with this key: "height", or "Deliver/height" in a SubTree.
+  EntryHandle find_entry(const std::string& key) const {
+    EntryHandle entry;
+    detail::require(lockstep_project_find_entry(it_.get(), key.c_str(), &entry.index));
+    return entry;
   }
 
   lockstep_project* get() const { return it_.get(); }
@@ -261,6 +290,8 @@ struct LoopResult {
 
 // One run of a tree, with separate leaves. Used by one thread at a time.
 class Run {
+  using EntryName = detail::EntryName;
+
  public:
   explicit Run(const Project& project, RunSettings settings = {})
       : leaves_(project.leaves_), hooks_(std::make_unique<Hooks>()) {
@@ -325,43 +356,46 @@ class Run {
             state.progress, state.held, state.ticked};
   }
 
-  // The entry `key` of the blackboard, "height" or "Deliver/height": a bool, std::int64_t, double,
-  // a std::vector of one of these or of std::string, or as text (std::string), which works for
-  // every type, also for objects whose type has texts. get throws while nothing has written the
-  // entry. A double is also what an entry that is "int or double" has.
+  // An entry of the blackboard, by key, "height" or "Deliver/height", or by the handle that
+  // Project::find_entry gives, which saves the search: a bool, std::int64_t, double, a std::vector
+  // of one of these or of std::string, or as text (std::string), which works for every type, also
+  // for objects whose type has texts. get throws while nothing has written the entry. A double is
+  // also what an entry that is "int or double" has.
   template <class T>
-  T get(const std::string& key) const;
-  void set(const std::string& key, bool value) {
-    detail::require(lockstep_run_set_bool(it_.get(), key.c_str(), value));
+  T get(const EntryName& entry) const;
+  void set(const EntryName& entry, bool value) {
+    write(entry, lockstep_run_set_bool, lockstep_run_set_bool_at, value);
   }
-  void set(const std::string& key, std::int64_t value) {
-    detail::require(lockstep_run_set_int(it_.get(), key.c_str(), value));
+  void set(const EntryName& entry, std::int64_t value) {
+    write(entry, lockstep_run_set_int, lockstep_run_set_int_at, value);
   }
-  void set(const std::string& key, int value) { set(key, std::int64_t{value}); }
-  void set(const std::string& key, double value) {
-    detail::require(lockstep_run_set_double(it_.get(), key.c_str(), value));
+  void set(const EntryName& entry, int value) { set(entry, std::int64_t{value}); }
+  void set(const EntryName& entry, double value) {
+    write(entry, lockstep_run_set_double, lockstep_run_set_double_at, value);
   }
-  void set(const std::string& key, const std::string& text) {
-    detail::require(lockstep_run_set_text(it_.get(), key.c_str(), text.c_str()));
+  void set(const EntryName& entry, const std::string& text) {
+    write(entry, lockstep_run_set_text, lockstep_run_set_text_at, text.c_str());
   }
-  void set(const std::string& key, const char* text) { set(key, std::string(text)); }
-  void set(const std::string& key, const std::vector<bool>& values) {
+  void set(const EntryName& entry, const char* text) { set(entry, std::string(text)); }
+  void set(const EntryName& entry, const std::vector<bool>& values) {
     const std::unique_ptr<bool[]> flags(new bool[values.size()]);  // NOLINT: std::vector has none
     std::copy(values.begin(), values.end(), flags.get());
-    detail::require(lockstep_run_set_bool_list(it_.get(), key.c_str(), flags.get(), values.size()));
+    write(entry, lockstep_run_set_bool_list, lockstep_run_set_bool_list_at, flags.get(),
+          values.size());
   }
-  void set(const std::string& key, const std::vector<std::int64_t>& values) {
-    detail::require(
-        lockstep_run_set_int_list(it_.get(), key.c_str(), values.data(), values.size()));
+  void set(const EntryName& entry, const std::vector<std::int64_t>& values) {
+    write(entry, lockstep_run_set_int_list, lockstep_run_set_int_list_at, values.data(),
+          values.size());
   }
-  void set(const std::string& key, const std::vector<double>& values) {
-    detail::require(
-        lockstep_run_set_double_list(it_.get(), key.c_str(), values.data(), values.size()));
+  void set(const EntryName& entry, const std::vector<double>& values) {
+    write(entry, lockstep_run_set_double_list, lockstep_run_set_double_list_at, values.data(),
+          values.size());
   }
-  void set(const std::string& key, const std::vector<std::string>& values) {
+  void set(const EntryName& entry, const std::vector<std::string>& values) {
     std::vector<lockstep_text> texts;
     for (const std::string& text : values) texts.push_back({text.data(), text.size()});
-    detail::require(lockstep_run_set_text_list(it_.get(), key.c_str(), texts.data(), texts.size()));
+    write(entry, lockstep_run_set_text_list, lockstep_run_set_text_list_at, texts.data(),
+          texts.size());
   }
 
   // Called after each tick, also of the loop, with the tick's number from 0, its time and the
@@ -374,6 +408,24 @@ class Run {
 
  private:
   using Stop = std::function<bool()>;
+
+  template <class ByKey, class ByIndex, class... Rest>
+  void write(const EntryName& entry, ByKey by_key, ByIndex by_index, Rest... value) {
+    detail::require(entry.call(by_key, by_index, it_.get(), value...));
+  }
+  template <class T, class ByKey, class ByIndex>
+  T read(const EntryName& entry, ByKey by_key, ByIndex by_index) const {
+    T value{};
+    detail::require(entry.call(by_key, by_index, it_.get(), &value));
+    return value;
+  }
+  template <class T, class Item, class ByKey, class ByIndex>
+  std::vector<T> read_list(const EntryName& entry, ByKey by_key, ByIndex by_index) const {
+    const Item* values = nullptr;
+    std::size_t count = 0;
+    detail::require(entry.call(by_key, by_index, it_.get(), &values, &count));
+    return std::vector<T>(values, values + count);
+  }
 
   // What the C functions call back. No exception may pass through them: it is kept and thrown after
   // the tick.
@@ -425,58 +477,43 @@ class Run {
 };
 
 template <>
-inline bool Run::get<bool>(const std::string& key) const {
-  bool value = false;
-  detail::require(lockstep_run_get_bool(it_.get(), key.c_str(), &value));
-  return value;
+inline bool Run::get<bool>(const EntryName& entry) const {
+  return read<bool>(entry, lockstep_run_get_bool, lockstep_run_get_bool_at);
 }
 template <>
-inline std::int64_t Run::get<std::int64_t>(const std::string& key) const {
-  std::int64_t value = 0;
-  detail::require(lockstep_run_get_int(it_.get(), key.c_str(), &value));
-  return value;
+inline std::int64_t Run::get<std::int64_t>(const EntryName& entry) const {
+  return read<std::int64_t>(entry, lockstep_run_get_int, lockstep_run_get_int_at);
 }
 template <>
-inline double Run::get<double>(const std::string& key) const {
-  double value = 0;
-  detail::require(lockstep_run_get_double(it_.get(), key.c_str(), &value));
-  return value;
+inline double Run::get<double>(const EntryName& entry) const {
+  return read<double>(entry, lockstep_run_get_double, lockstep_run_get_double_at);
 }
 template <>
-inline std::string Run::get<std::string>(const std::string& key) const {
-  const char* const text = lockstep_run_get_text(it_.get(), key.c_str());
+inline std::string Run::get<std::string>(const EntryName& entry) const {
+  const char* const text = entry.call(lockstep_run_get_text, lockstep_run_get_text_at, it_.get());
   detail::require(text != nullptr);
   return text;
 }
-
 template <>
-inline std::vector<bool> Run::get<std::vector<bool>>(const std::string& key) const {
-  const bool* values = nullptr;
-  std::size_t count = 0;
-  detail::require(lockstep_run_get_bool_list(it_.get(), key.c_str(), &values, &count));
-  return std::vector<bool>(values, values + count);
+inline std::vector<bool> Run::get<std::vector<bool>>(const EntryName& entry) const {
+  return read_list<bool, bool>(entry, lockstep_run_get_bool_list, lockstep_run_get_bool_list_at);
 }
 template <>
-inline std::vector<std::int64_t> Run::get<std::vector<std::int64_t>>(const std::string& key) const {
-  const std::int64_t* values = nullptr;
-  std::size_t count = 0;
-  detail::require(lockstep_run_get_int_list(it_.get(), key.c_str(), &values, &count));
-  return std::vector<std::int64_t>(values, values + count);
+inline std::vector<std::int64_t> Run::get<std::vector<std::int64_t>>(const EntryName& entry) const {
+  return read_list<std::int64_t, std::int64_t>(entry, lockstep_run_get_int_list,
+                                               lockstep_run_get_int_list_at);
 }
 template <>
-inline std::vector<double> Run::get<std::vector<double>>(const std::string& key) const {
-  const double* values = nullptr;
-  std::size_t count = 0;
-  detail::require(lockstep_run_get_double_list(it_.get(), key.c_str(), &values, &count));
-  return std::vector<double>(values, values + count);
+inline std::vector<double> Run::get<std::vector<double>>(const EntryName& entry) const {
+  return read_list<double, double>(entry, lockstep_run_get_double_list,
+                                   lockstep_run_get_double_list_at);
 }
 template <>
-inline std::vector<std::string> Run::get<std::vector<std::string>>(const std::string& key) const {
-  const lockstep_text* values = nullptr;
-  std::size_t count = 0;
-  detail::require(lockstep_run_get_text_list(it_.get(), key.c_str(), &values, &count));
+inline std::vector<std::string> Run::get<std::vector<std::string>>(const EntryName& entry) const {
   std::vector<std::string> texts;
-  for (std::size_t i = 0; i < count; ++i) texts.emplace_back(values[i].text, values[i].length);
+  const auto views = read_list<lockstep_text, lockstep_text>(entry, lockstep_run_get_text_list,
+                                                             lockstep_run_get_text_list_at);
+  for (const lockstep_text& it : views) texts.emplace_back(it.text, it.length);
   return texts;
 }
 
