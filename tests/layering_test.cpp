@@ -342,6 +342,11 @@ TEST_CASE("layers: nobody asks in which language a tree is written") {
     for (const char* asks : {"btcpp::", "== &kLockstepRules", "!= &kLockstepRules"}) {
       INFO(file << ": " << asks);
       CHECK(text.find(asks) == std::string::npos);
+// A node kind has its run as a NodeContext. The ticker is for the owner of the run.
+TEST_CASE("layers: a node kind does not see the ticker") {
+  for (const std::string& file : sources_under("interpreter/engine/nodes")) {
+    for (const Include& include : includes_of(file)) {
+      if (include.path == "engine/ticker.h") FAIL_CHECK(at(include) + "of the owner of a run");
     }
   }
 }
