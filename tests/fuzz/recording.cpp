@@ -9,7 +9,7 @@
 #include "recording/use/recording_diff.h"
 #include "recording/use/recording_info.h"
 #include "recording/use/recording_measures.h"
-#include "view/replay_view.h"
+#include "view/replay/replay_view.h"
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include "recording/write/recorder.h"
 #include "unit/recording/watched_run.h"
 #include "view/console_live.h"
-#include "view/replay_view.h"
+#include "view/replay/replay_view.h"
 
 namespace lockstep {
 namespace {

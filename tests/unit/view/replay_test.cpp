@@ -5,7 +5,7 @@
 #include "recording/write/recorder.h"
 #include "unit/recording/random_recording.h"
 #include "unit/recording/watched_run.h"
-#include "view/replay_view.h"
+#include "view/replay/replay_view.h"
 
 namespace lockstep {
 

@@ -1,4 +1,4 @@
-#include "cli/study/study_loading.h"
+#include "cli/tools/study/study_loading.h"
 
 #include <fmt/format.h>
 

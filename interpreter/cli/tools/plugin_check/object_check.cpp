@@ -1,4 +1,4 @@
-#include "cli/plugin_check/object_check.h"
+#include "cli/tools/plugin_check/object_check.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -9,7 +9,7 @@
 
 #include "cli/console.h"
 #include "cli/exit_code.h"
-#include "cli/plugin_check/leaf_examiner.h"
+#include "cli/tools/plugin_check/leaf_examiner.h"
 #include "core/wording.h"
 #include "remote/child_process.h"
 #include "runtime/plugin_thread.h"

@@ -1,4 +1,4 @@
-#include "cli/study/study_compare.h"
+#include "cli/tools/study/study_compare.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "cli/study/study_fault.h"
+#include "cli/tools/study/study_fault.h"
 
 #include <fmt/format.h>
 

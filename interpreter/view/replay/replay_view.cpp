@@ -1,4 +1,4 @@
-#include "view/replay_view.h"
+#include "view/replay/replay_view.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "cli/study/study_progress.h"
+#include "cli/tools/study/study_progress.h"
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "cli/study/study_loading.h"
+#include "cli/tools/study/study_loading.h"
 #include "study/workers.h"
 
 namespace lockstep {

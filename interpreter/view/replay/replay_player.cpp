@@ -1,4 +1,4 @@
-#include "view/replay_player.h"
+#include "view/replay/replay_player.h"
 
 #include <fmt/format.h>
 

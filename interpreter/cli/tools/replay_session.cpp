@@ -1,4 +1,4 @@
-#include "cli/replay_session.h"
+#include "cli/tools/replay_session.h"
 
 #include <signal.h>
 #include <unistd.h>

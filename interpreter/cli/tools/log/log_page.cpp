@@ -7,8 +7,8 @@
 
 #include "cli/console.h"
 #include "cli/exit_code.h"
-#include "cli/log/log.h"
 #include "cli/outputs.h"
+#include "cli/tools/log/log.h"
 #include "system/descriptors.h"
 #include "system/output_file.h"
 #include "web/page.h"

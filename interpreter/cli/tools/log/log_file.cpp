@@ -10,7 +10,7 @@
 
 #include "cli/console.h"
 #include "cli/exit_code.h"
-#include "cli/log/log.h"
+#include "cli/tools/log/log.h"
 
 namespace lockstep {
 

@@ -6,7 +6,7 @@
 
 #include "cli/console.h"
 #include "cli/exit_code.h"
-#include "cli/log/log.h"
+#include "cli/tools/log/log.h"
 #include "measure/measure_spec.h"
 #include "recording/use/recording_measures.h"
 

@@ -1,4 +1,4 @@
-#include "cli/study/study_out_of_range.h"
+#include "cli/tools/study/study_out_of_range.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cli/study/study_loading.h"
+#include "cli/tools/study/study_loading.h"
 #include "study/workers.h"
 
 namespace lockstep {

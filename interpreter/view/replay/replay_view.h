@@ -2,7 +2,7 @@
 // the replay. Pure functions.
 #pragma once
 
-#include "view/replay_player.h"
+#include "view/replay/replay_player.h"
 #include "view/tree_view.h"
 
 namespace lockstep {

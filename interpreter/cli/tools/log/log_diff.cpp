@@ -7,7 +7,7 @@
 #include "cli/checks.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
-#include "cli/log/log.h"
+#include "cli/tools/log/log.h"
 #include "recording/use/recording_diff.h"
 
 namespace lockstep {

@@ -9,7 +9,7 @@
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/load/load_options.h"
-#include "cli/plugin_check/object_check.h"
+#include "cli/tools/plugin_check/object_check.h"
 #include "core/diagnostics.h"
 #include "core/wording.h"
 #include "loading/plugin_directories.h"

@@ -1,4 +1,4 @@
-#include "cli/plugin_check/leaf_examiner.h"
+#include "cli/tools/plugin_check/leaf_examiner.h"
 
 #include <fmt/format.h>
 

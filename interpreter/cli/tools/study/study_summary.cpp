@@ -1,4 +1,4 @@
-#include "cli/study/study_summary.h"
+#include "cli/tools/study/study_summary.h"
 
 #include <fmt/format.h>
 
