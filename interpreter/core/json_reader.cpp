@@ -1,9 +1,12 @@
 #include "core/json_reader.h"
 
 #include <fmt/format.h>
+#include <simdjson.h>
 
 #include <algorithm>
+#include <bit>
 #include <new>
+#include <type_traits>
 #include <utility>
 
 #include "core/wording.h"
@@ -12,6 +15,21 @@ namespace lockstep {
 namespace {
 
 namespace ondemand = simdjson::ondemand;
+
+template <class Place>
+JsonPlace hidden(const Place& place) {
+  return std::bit_cast<JsonPlace>(place);
+}
+ondemand::value& value_at(JsonPlace& place) {
+  static_assert(sizeof(ondemand::value) == sizeof(JsonPlace));
+  static_assert(std::is_trivially_copyable_v<ondemand::value>);
+  return *std::launder(reinterpret_cast<ondemand::value*>(place.bytes));
+}
+ondemand::object& object_at(JsonPlace& place) {
+  static_assert(sizeof(ondemand::object) == sizeof(JsonPlace));
+  static_assert(std::is_trivially_copyable_v<ondemand::object>);
+  return *std::launder(reinterpret_cast<ondemand::object*>(place.bytes));
+}
 
 // simdjson reads a bit beyond the end of a text. Zeros there are the beginning of no value.
 class Padding {
@@ -55,26 +73,26 @@ void JsonValue::fail(std::string_view expected) const {
 }
 
 bool JsonValue::get(std::string_view& text) {
-  return take(value_.get_string(), text);
+  return take(value_at(place_).get_string(), text);
 }
 bool JsonValue::get(bool& flag) {
-  return take(value_.get_bool(), flag);
+  return take(value_at(place_).get_bool(), flag);
 }
 bool JsonValue::get(double& number) {
-  return take(value_.get_double(), number);
+  return take(value_at(place_).get_double(), number);
 }
 bool JsonValue::get(std::uint64_t& number) {
-  return take(value_.get_uint64(), number);
+  return take(value_at(place_).get_uint64(), number);
 }
 bool JsonValue::get(std::int64_t& number) {
-  return take(value_.get_int64(), number);
+  return take(value_at(place_).get_int64(), number);
 }
 bool JsonValue::is_null() {
   bool is_null = false;
-  return take(value_.is_null(), is_null) && is_null;
+  return take(value_at(place_).is_null(), is_null) && is_null;
 }
 bool JsonValue::is_list() {
-  return ondemand::json_type(value_.type()) == ondemand::json_type::array;
+  return ondemand::json_type(value_at(place_).type()) == ondemand::json_type::array;
 }
 
 std::string_view JsonValue::text() {
@@ -97,23 +115,23 @@ std::uint64_t JsonValue::whole() {
 
 JsonObject JsonValue::object() {
   ondemand::object object;
-  if (!take(value_.get_object(), object)) fail("a JSON object");
-  return JsonObject(object);
+  if (!take(value_at(place_).get_object(), object)) fail("a JSON object");
+  return JsonObject(hidden(object));
 }
 
-ondemand::array JsonValue::list() {
+void JsonValue::each_item(void* reader, void (*read)(void* reader, JsonValue item)) {
   ondemand::array list;
-  if (!take(value_.get_array(), list)) fail("a list");
-  return list;
+  if (!take(value_at(place_).get_array(), list)) fail("a list");
+  for (ondemand::value item : list) read(reader, JsonValue(hidden(item), name_, Of::List));
 }
 
 std::size_t JsonValue::count_items() {
   if (!is_list()) fail("a list");
-  return value_.count_elements();
+  return value_at(place_).count_elements();
 }
 
 void JsonValue::skip(unsigned levels) {
-  const ondemand::json_type type = value_.type();
+  const ondemand::json_type type = value_at(place_).type();
   const bool nests = type == ondemand::json_type::array || type == ondemand::json_type::object;
   if (nests && levels == 0)
     throw JsonError(fmt::format("values are nested deeper than {} levels", kDeepest));
@@ -123,13 +141,13 @@ void JsonValue::skip(unsigned levels) {
     case ondemand::json_type::object:
       return object().each_field([&](auto, JsonValue value) { value.skip(levels - 1); });
     case ondemand::json_type::string:
-      static_cast<void>(std::string_view(value_.get_string()));
+      static_cast<void>(std::string_view(value_at(place_).get_string()));
       return;
     case ondemand::json_type::number:
-      static_cast<void>(double(value_.get_double()));
+      static_cast<void>(double(value_at(place_).get_double()));
       return;
     case ondemand::json_type::boolean:
-      static_cast<void>(bool(value_.get_bool()));
+      static_cast<void>(bool(value_at(place_).get_bool()));
       return;
     case ondemand::json_type::null:
       if (!is_null()) throw NotJson();
@@ -137,9 +155,9 @@ void JsonValue::skip(unsigned levels) {
 }
 
 void JsonObject::each_field(const std::function<void(std::string_view, JsonValue)>& read) {
-  for (auto field : object_) {
+  for (auto field : object_at(place_)) {
     const std::string_view name = field.unescaped_key();
-    read(name, JsonValue(field.value(), name, JsonValue::Of::Field));
+    read(name, JsonValue(hidden(ondemand::value(field.value())), name, JsonValue::Of::Field));
   }
 }
 
@@ -160,11 +178,16 @@ void JsonObject::read(std::span<const JsonField> fields) {
   }
 }
 
+struct JsonReader::Parser : ondemand::parser {};
+
+JsonReader::JsonReader() : parser_(std::make_unique<Parser>()) {}
+JsonReader::~JsonReader() = default;
+
 void JsonReader::read(std::string& text, const std::function<void(JsonObject)>& use) {
   const Padding padding(text);
   try {
-    ondemand::document document = parser_.iterate(text.data(), padding.size(), text.size());
-    use(JsonObject(root(document)));
+    ondemand::document document = parser_->iterate(text.data(), padding.size(), text.size());
+    use(JsonObject(hidden(root(document))));
     if (document.current_location().error() != simdjson::OUT_OF_BOUNDS) throw NotJson();
   } catch (const simdjson::simdjson_error& error) {
     if (error.error() == simdjson::MEMALLOC) throw std::bad_alloc();

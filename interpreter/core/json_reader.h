@@ -1,13 +1,13 @@
 // Reads untrusted JSON in one pass, without building a tree. Every value is checked, even if no one
-// reads it. A text needs at most six times its size in memory, whatever its content. The only file
-// that uses simdjson.
+// reads it. A text needs at most six times its size in memory, whatever its content. Only the
+// source of this file sees simdjson.
 #pragma once
 
-#include <simdjson.h>
-
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -27,6 +27,11 @@ struct NotJson : JsonError {
 
 class JsonObject;
 
+// Room for a place in a text, as simdjson has it.
+struct JsonPlace {
+  alignas(void*) std::byte bytes[24];
+};
+
 // Must be read once, before the next value of its object or list.
 class JsonValue {
  public:
@@ -34,8 +39,8 @@ class JsonValue {
 
   enum class Of : bool { Field, List };
   // `name` is that of the field, or of the list.
-  JsonValue(simdjson::ondemand::value value, std::string_view name, Of of)
-      : value_(value), name_(name), of_(of) {}
+  JsonValue(const JsonPlace& place, std::string_view name, Of of)
+      : place_(place), name_(name), of_(of) {}
 
   // False if the value has another type; then the caller may ask for that type. Strings are valid
   // until the whole text has been read.
@@ -55,18 +60,18 @@ class JsonValue {
   std::size_t count_items();
   template <class Read>
   void each_item(Read read) {
-    for (simdjson::ondemand::value item : list()) read(JsonValue(item, name_, Of::List));
+    each_item(&read, [](void* reader, JsonValue item) { (*static_cast<Read*>(reader))(item); });
   }
 
   // Only checks it.
   void skip() { skip(kDeepest); }
 
  private:
-  simdjson::ondemand::array list();
+  void each_item(void* reader, void (*read)(void* reader, JsonValue item));
   void skip(unsigned levels);
   [[noreturn]] void fail(std::string_view expected) const;
 
-  simdjson::ondemand::value value_;
+  JsonPlace place_;
   std::string_view name_;
   Of of_;
 };
@@ -82,7 +87,7 @@ struct JsonField {
 
 class JsonObject {
  public:
-  explicit JsonObject(simdjson::ondemand::object object) : object_(object) {}
+  explicit JsonObject(const JsonPlace& place) : place_(place) {}
 
   // Reads these fields, in whatever order they come, and skips all others.
   void read(std::span<const JsonField> fields);
@@ -92,16 +97,22 @@ class JsonObject {
   void each_field(const std::function<void(std::string_view name, JsonValue)>& read);
 
  private:
-  simdjson::ondemand::object object_;
+  JsonPlace place_;
 };
 
 class JsonReader {
  public:
+  JsonReader();
+  ~JsonReader();
+  JsonReader(const JsonReader&) = delete;
+  JsonReader& operator=(const JsonReader&) = delete;
+
   // Reads an object that is the whole of `text`, which is the same again afterwards.
   void read(std::string& text, const std::function<void(JsonObject)>& use);
 
  private:
-  simdjson::ondemand::parser parser_;
+  struct Parser;
+  std::unique_ptr<Parser> parser_;
 };
 
 // For JsonField: stores the value.
