@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "core/json.h"
 #include "core/utf8.h"
+#include "json/json.h"
 
 namespace lockstep {
 namespace {

@@ -14,8 +14,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/board.h"
-#include "core/entry.h"
+#include "blackboard/board.h"
+#include "blackboard/entry.h"
 #include "core/hook.h"
 #include "core/language.h"
 #include "core/node_type.h"

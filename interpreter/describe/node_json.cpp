@@ -1,8 +1,8 @@
 #include <cmath>
 
-#include "core/json.h"
 #include "core/parameter_value.h"
 #include "describe/node_reference.h"
+#include "json/json.h"
 
 namespace lockstep {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/entry.h"
+#include "blackboard/entry.h"
 #include "engine/tree.h"
 
 namespace lockstep {

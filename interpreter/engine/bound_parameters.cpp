@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/conversion.h"
+#include "blackboard/conversion.h"
 #include "core/parameter_value.h"
 #include "core/resource_set.h"
 #include "core/suggest.h"

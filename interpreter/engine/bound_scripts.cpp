@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "core/conversion.h"
+#include "blackboard/conversion.h"
 #include "core/wording.h"
 
 namespace lockstep {

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/board.h"
-#include "core/entry.h"
+#include "blackboard/board.h"
+#include "blackboard/entry.h"
 
 namespace lockstep {
 

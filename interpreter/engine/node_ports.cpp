@@ -1,6 +1,6 @@
 #include "engine/node_ports.h"
 
-#include "core/conversion.h"
+#include "blackboard/conversion.h"
 
 namespace lockstep {
 

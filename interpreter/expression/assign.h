@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/entry.h"
+#include "blackboard/entry.h"
 #include "expression/expression.h"
 #include "expression/operand.h"
 

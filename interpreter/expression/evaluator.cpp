@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/conversion.h"
+#include "blackboard/conversion.h"
 #include "core/wording.h"
 #include "expression/assign.h"
 #include "expression/equal.h"

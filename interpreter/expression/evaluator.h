@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/entry.h"
+#include "blackboard/entry.h"
 #include "expression/expression.h"
 #include "expression/operand.h"
 

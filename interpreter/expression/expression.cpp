@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/conversion.h"
+#include "blackboard/conversion.h"
 #include "core/wording.h"
 #include "expression/token.h"
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/conversion.h"
+#include "blackboard/conversion.h"
 #include "core/value.h"
 #include "expression/equal.h"
 #include "expression/program.h"

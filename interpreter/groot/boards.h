@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/json.h"
 #include "engine/tree.h"
 #include "groot/board_keys.h"
+#include "json/json.h"
 #include "live/snapshot.h"
 
 namespace lockstep {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "core/diagnostics.h"
-#include "core/json.h"
-#include "core/json_reader.h"
 #include "groot/statuses.h"
+#include "json/json.h"
+#include "json/reader.h"
 
 namespace lockstep {
 namespace {

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "core/diagnostics.h"
-#include "core/json_reader.h"
 #include "engine/synchronized.h"
+#include "json/reader.h"
 
 namespace lockstep {
 namespace {

@@ -6,8 +6,8 @@
 #include <array>
 #include <map>
 
-#include "core/json.h"
-#include "core/json_reader.h"
+#include "json/json.h"
+#include "json/reader.h"
 #include "study/plan_check.h"
 #include "study/precision.h"
 

@@ -1,5 +1,5 @@
 
-#include "core/json.h"
+#include "json/json.h"
 #include "summary/summary.h"
 
 namespace lockstep {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "core/json.h"
+#include "json/json.h"
 #include "live/history.h"
 #include "live/orders.h"
 #include "recording/write/json_lines.h"

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/entry.h"
+#include "blackboard/entry.h"
 #include "expression/evaluator.h"
 
 namespace lockstep::test {

@@ -7,8 +7,8 @@
 #include <span>
 #include <utility>
 
+#include "blackboard/conversion.h"
 #include "core/audience.h"
-#include "core/conversion.h"
 #include "core/parameter_value.h"
 #include "core/pre_order.h"
 #include "core/suggest.h"

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/board.h"
+#include "blackboard/board.h"
 #include "core/language.h"
 #include "definition/definition.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/conversion.h"
+#include "blackboard/conversion.h"
 #include "core/identifier.h"
 #include "core/parameter_value.h"
 #include "core/suggest.h"

@@ -8,7 +8,7 @@
 #include <new>
 #include <utility>
 
-#include "core/conversion.h"
+#include "blackboard/conversion.h"
 #include "core/parameter_value.h"
 #include "core/utf8.h"
 #include "core/wording.h"

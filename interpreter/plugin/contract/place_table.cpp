@@ -1,5 +1,5 @@
 // What a node of a plugin may ask about its place in the tree and its ports: lockstep_place.
-#include "core/conversion.h"
+#include "blackboard/conversion.h"
 #include "engine/node_ports.h"
 #include "engine/ticker.h"
 #include "plugin/contract/host.h"

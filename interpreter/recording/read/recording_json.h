@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/json_reader.h"
+#include "json/reader.h"
 #include "recording/recording.h"
 
 namespace lockstep {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/diagnostics.h"
-#include "core/json.h"
+#include "json/json.h"
 #include "recording/use/recording_diff.h"
 #include "summary/summary.h"
 #include "terminal/style.h"

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "core/diagnostics.h"
-#include "core/json.h"
 #include "core/value.h"
+#include "json/json.h"
 #include "measure/measuring.h"
 #include "recording/use/recorded_probe.h"
 #include "summary/summary.h"

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/json.h"
+#include "json/json.h"
 #include "recording/lines.h"
 #include "recording/write/live_json.h"
 

@@ -4,7 +4,7 @@
 
 #include <charconv>
 
-#include "core/json_reader.h"
+#include "json/reader.h"
 #include "recording/lines.h"
 
 namespace lockstep {

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "core/json_reader.h"
 #include "core/problem.h"
+#include "json/reader.h"
 #include "lockstep/leaf.h"
 #include "remote/isolation_options.h"
 #include "remote/json_lines/program_process.h"

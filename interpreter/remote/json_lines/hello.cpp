@@ -6,9 +6,9 @@
 #include <initializer_list>
 #include <map>
 
-#include "core/json_reader.h"
 #include "core/value.h"
 #include "core/wording.h"
+#include "json/reader.h"
 
 namespace lockstep {
 namespace {

@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/json.h"
+#include "json/json.h"
 #include "plugin/contract/host.h"
 
 namespace lockstep {

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "core/json_reader.h"
 #include "core/value.h"
+#include "json/reader.h"
 #include "lockstep/leaf.h"
 
 namespace lockstep {

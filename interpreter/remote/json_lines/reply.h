@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "core/json_reader.h"
+#include "json/reader.h"
 #include "lockstep/leaf.h"
 
 namespace lockstep {

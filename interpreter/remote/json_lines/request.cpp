@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/json.h"
+#include "json/json.h"
 #include "plugin/contract/host.h"
 #include "remote/json_lines/port_json.h"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/conversion.h"
+#include "blackboard/conversion.h"
 
 namespace lockstep {
 namespace {

@@ -3,7 +3,7 @@
 #include <limits>
 #include <string>
 
-#include "core/conversion.h"
+#include "blackboard/conversion.h"
 #include "support/script_board.h"
 
 using namespace lockstep;

@@ -6,8 +6,8 @@
 #include <map>
 
 #include "core/diagnostics.h"
-#include "core/json.h"
 #include "core/wording.h"
+#include "json/json.h"
 #include "study/column_names.h"
 #include "study/precision.h"
 #include "terminal/text_table.h"

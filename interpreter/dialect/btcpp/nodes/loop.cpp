@@ -3,7 +3,7 @@
 #include <array>
 #include <string_view>
 
-#include "core/conversion.h"
+#include "blackboard/conversion.h"
 #include "dialect/btcpp/nodes/kinds.h"
 #include "dialect/btcpp/nodes/results.h"
 #include "engine/node_ports.h"

@@ -1,5 +1,5 @@
 // SetBlackboard and UnsetBlackboard: write an entry, or remove it.
-#include "core/conversion.h"
+#include "blackboard/conversion.h"
 #include "core/wording.h"
 #include "dialect/btcpp/nodes/kinds.h"
 #include "engine/node_context.h"

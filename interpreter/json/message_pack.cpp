@@ -1,6 +1,6 @@
 #include <nlohmann/json.hpp>
 
-#include "core/json.h"
+#include "json/json.h"
 
 namespace lockstep {
 

@@ -1,5 +1,5 @@
 // What ports write into entries of their type, of another, and of none.
-#include "core/entry.h"
+#include "blackboard/entry.h"
 
 #include <catch2/catch.hpp>
 

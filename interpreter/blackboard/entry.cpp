@@ -1,8 +1,8 @@
-#include "core/entry.h"
+#include "blackboard/entry.h"
 
 #include <utility>
 
-#include "core/conversion.h"
+#include "blackboard/conversion.h"
 
 namespace lockstep {
 namespace {

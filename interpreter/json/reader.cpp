@@ -1,4 +1,4 @@
-#include "core/json_reader.h"
+#include "json/reader.h"
 
 #include <fmt/format.h>
 #include <simdjson.h>

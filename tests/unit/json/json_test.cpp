@@ -1,5 +1,5 @@
 // JSON as it is written, compared with what nlohmann's library makes of the same values.
-#include "core/json.h"
+#include "json/json.h"
 
 #include <catch2/catch.hpp>
 #include <limits>

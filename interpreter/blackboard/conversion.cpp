@@ -1,4 +1,4 @@
-#include "core/conversion.h"
+#include "blackboard/conversion.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "core/json_reader.h"
+#include "json/reader.h"
 
 namespace lockstep {
 namespace {
