@@ -139,7 +139,7 @@ serve()
 TEST_CASE("a program for lockstep that is started in a terminal asks for requests") {
   const PythonLeaves leaves;
   Process process({.arguments = {leaves.program},
-                   .environment = {{"PYTHONPATH", LOCKSTEP_SOURCE_DIR "/python"}},
+                   .environment = {{"PYTHONPATH", LOCKSTEP_SOURCE_DIR "/plugins/sdk/python"}},
                    .program = "/usr/bin/python3"},
                   Process::Output::Terminal);
   REQUIRE(process.wait_for("> "));
@@ -217,7 +217,7 @@ TEST_CASE("python3 -m lockstep_leaf tries leaves by hand") {
   const PythonLeaves leaves;
   const Outcome outcome =
       run({.arguments = {"-m", "lockstep_leaf", leaves.program},
-           .environment = {{"PYTHONPATH", LOCKSTEP_SOURCE_DIR "/python"}},
+           .environment = {{"PYTHONPATH", LOCKSTEP_SOURCE_DIR "/plugins/sdk/python"}},
            .input = "start Grip force=20\ntick 2\nhalt\nstart Grip force=60\ntick\nquit\n",
            .program = "/usr/bin/python3"});
   INFO(outcome.out << outcome.err);

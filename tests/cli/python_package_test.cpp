@@ -17,7 +17,7 @@ Outcome python(std::vector<std::string> arguments, const std::string& path,
               .program = program});
 }
 
-const std::string kPackage = LOCKSTEP_SOURCE_DIR "/python";
+const std::string kPackage = LOCKSTEP_SOURCE_DIR "/plugins/sdk/python";
 
 }  // namespace
 

@@ -63,7 +63,7 @@ Outcome run_module(const std::string& attributes) {
       "print(lockstep.Tree(text='" +
       tree_around(attributes) + "', leaves=unbound, log=say).run().result)\n";
   return run({.arguments = {"-c", script},
-              .environment = {{"PYTHONPATH", LOCKSTEP_SOURCE_DIR "/python:" + kPrograms},
+              .environment = {{"PYTHONPATH", LOCKSTEP_SOURCE_DIR "/plugins/sdk/python:" + kPrograms},
                               {"PYTHONDONTWRITEBYTECODE", "1"},
                               {"LOCKSTEP", LOCKSTEP_BINARY_DIR "/lockstep"},
                               {"LD_PRELOAD", LOCKSTEP_PRELOAD},
