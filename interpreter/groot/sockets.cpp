@@ -15,9 +15,39 @@
 
 #include "groot/connection_guard.h"
 #include "groot/sockets.h"
+#include "system/late_library.h"
 
 namespace lockstep {
 namespace {
+
+struct ZeroMq : LateLibrary {
+  ZeroMq() : LateLibrary(LOCKSTEP_ZMQ) {}
+
+  decltype(&zmq_bind) bind = function("zmq_bind");
+  decltype(&zmq_close) close = function("zmq_close");
+  decltype(&zmq_connect) connect = function("zmq_connect");
+  decltype(&zmq_ctx_new) ctx_new = function("zmq_ctx_new");
+  decltype(&zmq_ctx_term) ctx_term = function("zmq_ctx_term");
+  decltype(&zmq_errno) last_error = function("zmq_errno");
+  decltype(&zmq_msg_close) msg_close = function("zmq_msg_close");
+  decltype(&zmq_msg_data) msg_data = function("zmq_msg_data");
+  decltype(&zmq_msg_get) msg_get = function("zmq_msg_get");
+  decltype(&zmq_msg_init) msg_init = function("zmq_msg_init");
+  decltype(&zmq_msg_more) msg_more = function("zmq_msg_more");
+  decltype(&zmq_msg_recv) msg_recv = function("zmq_msg_recv");
+  decltype(&zmq_msg_size) msg_size = function("zmq_msg_size");
+  decltype(&zmq_poll) poll = function("zmq_poll");
+  decltype(&zmq_send) send = function("zmq_send");
+  decltype(&zmq_setsockopt) setsockopt = function("zmq_setsockopt");
+  decltype(&zmq_socket) socket = function("zmq_socket");
+  decltype(&zmq_socket_monitor) socket_monitor = function("zmq_socket_monitor");
+  decltype(&zmq_strerror) strerror = function("zmq_strerror");
+};
+
+const ZeroMq& zmq() {
+  static const ZeroMq library;
+  return library;
+}
 
 // A request is larger only if it is not one of Groot2.
 constexpr std::int64_t kLargest = 64 << 10;  // bytes of a part
@@ -29,25 +59,26 @@ constexpr int kHandshake = 2000;  // ms
 constexpr std::chrono::milliseconds kGlance{20};
 
 struct CloseContext {
-  void operator()(void* it) const { zmq_ctx_term(it); }
+  void operator()(void* it) const { zmq().ctx_term(it); }
 };
 struct CloseSocket {
-  void operator()(void* it) const { zmq_close(it); }
+  void operator()(void* it) const { zmq().close(it); }
 };
 using Context = std::unique_ptr<void, CloseContext>;
 using Socket = std::unique_ptr<void, CloseSocket>;
 
 [[noreturn]] void fail(const char* what) {
-  throw std::runtime_error(std::string("ZeroMQ: ") + what + ": " + zmq_strerror(zmq_errno()));
+  throw std::runtime_error(std::string("ZeroMQ: ") + what + ": " +
+                           zmq().strerror(zmq().last_error()));
 }
 
 template <class T>
 void set(const Socket& socket, int option, T value) {
-  if (zmq_setsockopt(socket.get(), option, &value, sizeof value) != 0) fail("an option");
+  if (zmq().setsockopt(socket.get(), option, &value, sizeof value) != 0) fail("an option");
 }
 
 Socket new_socket(const Context& context, int type) {
-  Socket socket(zmq_socket(context.get(), type));
+  Socket socket(zmq().socket(context.get(), type));
   if (socket == nullptr) fail("a socket");
   return socket;
 }
@@ -66,15 +97,15 @@ Socket listening(const Context& context, int type, const FileDescriptor& listene
 }
 
 void listen(const Socket& socket) {
-  if (zmq_bind(socket.get(), "tcp://127.0.0.1:*") != 0) fail("listening");
+  if (zmq().bind(socket.get(), "tcp://127.0.0.1:*") != 0) fail("listening");
 }
 
 // Hears of the connections of a socket that does not listen yet.
 Socket watching(const Context& context, const Socket& socket, const char* name) {
-  if (zmq_socket_monitor(socket.get(), name, ZMQ_EVENT_ACCEPTED) != 0) fail("watching");
+  if (zmq().socket_monitor(socket.get(), name, ZMQ_EVENT_ACCEPTED) != 0) fail("watching");
   Socket watcher = new_socket(context, ZMQ_PAIR);
   set(watcher, ZMQ_RCVHWM, 0);  // else the threads of ZeroMQ would wait for it
-  if (zmq_connect(watcher.get(), name) != 0) fail("watching");
+  if (zmq().connect(watcher.get(), name) != 0) fail("watching");
   return watcher;
 }
 
@@ -89,23 +120,25 @@ std::uint16_t port_of(const FileDescriptor& listener) {
 void send(const Socket& socket, const GrootMessage& message) {
   for (std::size_t part = 0; part < message.size(); ++part) {
     const int more = part + 1 < message.size() ? ZMQ_SNDMORE : 0;
-    zmq_send(socket.get(), message[part].data(), message[part].size(), ZMQ_DONTWAIT | more);
+    zmq().send(socket.get(), message[part].data(), message[part].size(), ZMQ_DONTWAIT | more);
   }
 }
 
 // A part of a message; nothing: there is none.
 struct Part {
-  Part() { zmq_msg_init(&it); }
-  ~Part() { zmq_msg_close(&it); }
+  Part() { zmq().msg_init(&it); }
+  ~Part() { zmq().msg_close(&it); }
   Part(const Part&) = delete;
   Part& operator=(const Part&) = delete;
 
-  bool receive(const Socket& socket) { return zmq_msg_recv(&it, socket.get(), ZMQ_DONTWAIT) >= 0; }
-  std::string_view bytes() {
-    return {static_cast<const char*>(zmq_msg_data(&it)), zmq_msg_size(&it)};
+  bool receive(const Socket& socket) {
+    return zmq().msg_recv(&it, socket.get(), ZMQ_DONTWAIT) >= 0;
   }
-  bool is_last() { return zmq_msg_more(&it) == 0; }
-  int source() { return zmq_msg_get(&it, ZMQ_SRCFD); }
+  std::string_view bytes() {
+    return {static_cast<const char*>(zmq().msg_data(&it)), zmq().msg_size(&it)};
+  }
+  bool is_last() { return zmq().msg_more(&it) == 0; }
+  int source() { return zmq().msg_get(&it, ZMQ_SRCFD); }
 
   zmq_msg_t it;
 };
@@ -117,7 +150,7 @@ struct GrootSockets::Implementation {
   // Else the threads of ZeroMQ would go on to tell who is no longer there.
   ~Implementation() {
     for (const Socket* socket : {&requests, &events}) {
-      if (*socket != nullptr) zmq_socket_monitor(socket->get(), nullptr, 0);
+      if (*socket != nullptr) zmq().socket_monitor(socket->get(), nullptr, 0);
     }
   }
 
@@ -142,7 +175,7 @@ struct GrootSockets::Implementation {
 GrootSockets::GrootSockets(FileDescriptor requests, FileDescriptor events)
     : it_(std::make_unique<Implementation>(
           std::vector<std::uint16_t>{port_of(requests), port_of(events)})) {
-  it_->context.reset(zmq_ctx_new());
+  it_->context.reset(zmq().ctx_new());
   if (it_->context == nullptr) fail("a context");
   it_->requests = listening(it_->context, ZMQ_REP, requests);
   it_->events = listening(it_->context, ZMQ_PUB, events);
@@ -162,7 +195,7 @@ std::optional<GrootMessage> GrootSockets::receive(int wake, std::chrono::millise
                                        {it_->request_watcher.get(), -1, ZMQ_POLLIN, 0},
                                        {it_->event_watcher.get(), -1, ZMQ_POLLIN, 0},
                                        {nullptr, wake, ZMQ_POLLIN, 0}}};
-  zmq_poll(items.data(), static_cast<int>(items.size()), static_cast<long>(wait.count()));
+  zmq().poll(items.data(), static_cast<int>(items.size()), static_cast<long>(wait.count()));
   it_->take_connections();
   GrootMessage message;
   while (true) {

@@ -14,9 +14,38 @@
 #include <utility>
 
 #include "core/value.h"
+#include "system/late_library.h"
 
 namespace lockstep {
 namespace {
+
+struct Microhttpd : LateLibrary {
+  Microhttpd() : LateLibrary(LOCKSTEP_MICROHTTPD) {}
+
+  decltype(&MHD_add_connection) add_connection = function("MHD_add_connection");
+  decltype(&MHD_add_response_header) add_response_header = function("MHD_add_response_header");
+  decltype(&MHD_create_response_from_buffer) create_response_from_buffer =
+      function("MHD_create_response_from_buffer");
+  decltype(&MHD_create_response_from_callback) create_response_from_callback =
+      function("MHD_create_response_from_callback");
+  decltype(&MHD_destroy_response) destroy_response = function("MHD_destroy_response");
+  decltype(&MHD_get_connection_info) get_connection_info = function("MHD_get_connection_info");
+  decltype(&MHD_get_daemon_info) get_daemon_info = function("MHD_get_daemon_info");
+  decltype(&MHD_get_timeout) get_timeout = function("MHD_get_timeout");
+  decltype(&MHD_lookup_connection_value) lookup_connection_value =
+      function("MHD_lookup_connection_value");
+  decltype(&MHD_queue_response) queue_response = function("MHD_queue_response");
+  decltype(&MHD_resume_connection) resume_connection = function("MHD_resume_connection");
+  decltype(&MHD_run) run = function("MHD_run");
+  decltype(&MHD_start_daemon) start_daemon = function("MHD_start_daemon");
+  decltype(&MHD_stop_daemon) stop_daemon = function("MHD_stop_daemon");
+  decltype(&MHD_suspend_connection) suspend_connection = function("MHD_suspend_connection");
+};
+
+const Microhttpd& mhd() {
+  static const Microhttpd library;
+  return library;
+}
 
 constexpr unsigned kMostConnections = 250;
 constexpr std::size_t kMostStreams = 150;  // so that other requests find a place
@@ -30,7 +59,7 @@ constexpr std::chrono::seconds kLongestRequest{10}, kLongestAnswer{120};
 constexpr std::chrono::milliseconds kBetweenLooks{100};
 
 std::optional<std::string> header(MHD_Connection* connection, const char* name) {
-  const char* value = MHD_lookup_connection_value(connection, MHD_HEADER_KIND, name);
+  const char* value = mhd().lookup_connection_value(connection, MHD_HEADER_KIND, name);
   return value == nullptr ? std::nullopt : std::optional<std::string>(value);
 }
 
@@ -47,7 +76,7 @@ WebRequest read_head(MHD_Connection* connection, const char* url, const char* me
           .origin = header(connection, MHD_HTTP_HEADER_ORIGIN),
           .token = header(connection, "X-Lockstep-Token"),
           .after = whole_number(
-              MHD_lookup_connection_value(connection, MHD_GET_ARGUMENT_KIND, "after"))};
+              mhd().lookup_connection_value(connection, MHD_GET_ARGUMENT_KIND, "after"))};
 }
 
 // Only a body whose length is known is read.
@@ -128,7 +157,7 @@ struct HttpServer::Implementation {
     if (piece.what == Stream::Piece::What::End) return MHD_CONTENT_READER_END_OF_STREAM;
     if (piece.what == Stream::Piece::What::Bytes) return static_cast<ssize_t>(piece.count);
     it.server.waiting.insert(it.connection);
-    MHD_suspend_connection(it.connection);
+    mhd().suspend_connection(it.connection);
     return 0;
   }
 
@@ -156,7 +185,7 @@ struct HttpServer::Implementation {
     MHD_Response* response = make_response(connection, answer);
     if (response == nullptr) throw std::bad_alloc();
     const auto add = [response](const char* name, const std::string& value) {
-      MHD_add_response_header(response, name, value.c_str());
+      mhd().add_response_header(response, name, value.c_str());
     };
     add(MHD_HTTP_HEADER_CONTENT_TYPE, std::string(answer.type));
     add("Content-Security-Policy", answer.policy + "; frame-ancestors 'none'");
@@ -165,19 +194,19 @@ struct HttpServer::Implementation {
     add("Referrer-Policy", "no-referrer");
     add(MHD_HTTP_HEADER_CACHE_CONTROL, "no-store");
     add(MHD_HTTP_HEADER_CONNECTION, "close");
-    const MHD_Result result = MHD_queue_response(connection, answer.status, response);
-    MHD_destroy_response(response);
+    const MHD_Result result = mhd().queue_response(connection, answer.status, response);
+    mhd().destroy_response(response);
     return result;
   }
 
   MHD_Response* make_response(MHD_Connection* connection, WebAnswer& answer) {
     if (!answer.stream) {
-      return MHD_create_response_from_buffer(answer.body.size(), answer.body.data(),
-                                             MHD_RESPMEM_MUST_COPY);
+      return mhd().create_response_from_buffer(answer.body.size(), answer.body.data(),
+                                               MHD_RESPMEM_MUST_COPY);
     }
     auto open = std::make_unique<Open>(*this, connection, std::move(answer.stream));
     MHD_Response* response =
-        MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, kPiece, on_read, open.get(), on_free);
+        mhd().create_response_from_callback(MHD_SIZE_UNKNOWN, kPiece, on_read, open.get(), on_free);
     if (response != nullptr) open.release();
     return response;
   }
@@ -189,7 +218,7 @@ struct HttpServer::Implementation {
     if (now < next_look) return;
     next_look = now + kBetweenLooks;
     for (const auto& [connection, deadline] : deadlines) {
-      const auto* info = MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CONNECTION_FD);
+      const auto* info = mhd().get_connection_info(connection, MHD_CONNECTION_INFO_CONNECTION_FD);
       const bool has_left = deadline.asks && is_at_end(info->connect_fd);
       if (has_left || now >= deadline.at) shutdown(info->connect_fd, SHUT_RDWR);
     }
@@ -227,7 +256,7 @@ HttpServer::HttpServer(FileDescriptor listener, Answering& answering)
   const unsigned flags = MHD_USE_EPOLL | MHD_ALLOW_SUSPEND_RESUME;
   MHD_OptionItem listening[] = {{MHD_OPTION_LISTEN_SOCKET, socket, nullptr},
                                 {MHD_OPTION_END, 0, nullptr}};
-  it_->daemon = MHD_start_daemon(
+  it_->daemon = mhd().start_daemon(
       listens ? flags : flags | MHD_USE_NO_LISTEN_SOCKET, 0, nullptr, nullptr,
       Implementation::on_request, it_.get(), MHD_OPTION_ARRAY, listens ? listening : listening + 1,
       MHD_OPTION_CONNECTION_LIMIT, kMostConnections, MHD_OPTION_CONNECTION_MEMORY_LIMIT, kMemory,
@@ -241,36 +270,36 @@ HttpServer::HttpServer(FileDescriptor listener, Answering& answering)
 // A suspended connection would be a mistake for libmicrohttpd.
 HttpServer::~HttpServer() {
   wake_streams();
-  MHD_run(it_->daemon);
+  mhd().run(it_->daemon);
   wake_streams();
-  MHD_stop_daemon(it_->daemon);
+  mhd().stop_daemon(it_->daemon);
 }
 
 int HttpServer::descriptor() const {
-  return MHD_get_daemon_info(it_->daemon, MHD_DAEMON_INFO_EPOLL_FD)->epoll_fd;
+  return mhd().get_daemon_info(it_->daemon, MHD_DAEMON_INFO_EPOLL_FD)->epoll_fd;
 }
 
 bool HttpServer::serve(FileDescriptor connection) {
   sockaddr address{.sa_family = AF_UNIX, .sa_data = {}};
   const int socket = fcntl(connection.number(), F_DUPFD_CLOEXEC, 0);
-  return MHD_add_connection(it_->daemon, socket, &address, sizeof address.sa_family) == MHD_YES;
+  return mhd().add_connection(it_->daemon, socket, &address, sizeof address.sa_family) == MHD_YES;
 }
 
 // What libmicrohttpd knows to be ready does not make its descriptor readable.
 void HttpServer::run() {
   constexpr int kMostTurns = 64;
   it_->cut_off();
-  for (int turn = 0; turn == 0 || (has_more() && turn < kMostTurns); ++turn) MHD_run(it_->daemon);
+  for (int turn = 0; turn == 0 || (has_more() && turn < kMostTurns); ++turn) mhd().run(it_->daemon);
 }
 
 bool HttpServer::has_more() const {
   MHD_UNSIGNED_LONG_LONG milliseconds = 1;
-  return MHD_get_timeout(it_->daemon, &milliseconds) == MHD_YES && milliseconds == 0;
+  return mhd().get_timeout(it_->daemon, &milliseconds) == MHD_YES && milliseconds == 0;
 }
 
 void HttpServer::wake_streams() {
   for (MHD_Connection* connection : std::exchange(it_->waiting, {})) {
-    MHD_resume_connection(connection);
+    mhd().resume_connection(connection);
   }
 }
 
