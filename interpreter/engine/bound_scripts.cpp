@@ -21,6 +21,7 @@ BoundScripts::BoundScripts(const Tree& tree, Blackboard& board, NamedEntries& na
     }
     bound.entries = {entries_.data() + entries_.size(), script.slots.size()};
     bound.comparison = script.code->comparison();
+    bound.change = only_change(script.code->program().code);
     for (const std::uint32_t slot : script.slots) entries_.push_back(&board.entries[slot]);
   }
 }
@@ -32,6 +33,12 @@ bool BoundScripts::evaluate(NodeIndex node, std::uint32_t script) {
     if (it.code == nullptr) return true;
   }
   return evaluator_.evaluate(*it.code, it.entries, value_);
+}
+
+bool BoundScripts::run_all(NodeIndex node, std::uint32_t script) {
+  const Bound& it = scripts_[script];
+  if (it.source != nullptr && !compile(node, script)) return false;
+  return it.code == nullptr || evaluator_.execute(*it.code, it.entries);
 }
 
 Truth BoundScripts::test_all(NodeIndex node, std::uint32_t script) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "engine/blackboard.h"
 #include "engine/named_entries.h"
 #include "engine/tree.h"
+#include "expression/change.h"
 #include "expression/evaluator.h"
 #include "expression/relation.h"
 
@@ -22,8 +24,13 @@ class BoundScripts {
   BoundScripts(const Tree& tree, Blackboard& board, NamedEntries& names);
 
   // Runs a script of a node. False after an error. An empty text does nothing.
+  bool run(NodeIndex node, std::uint32_t script) {
+    const Bound& it = scripts_[script];
+    return (it.change && apply(*it.change, *it.entries.front())) || run_all(node, script);
+  }
+  // The same, with its value.
   bool evaluate(NodeIndex node, std::uint32_t script);
-  // What the last one gave.
+  // What the last one of these gave.
   const Value& value() const { return value_; }
   // The same, of one that is a condition.
   Truth test(NodeIndex node, std::uint32_t script) {
@@ -51,10 +58,12 @@ class BoundScripts {
   struct Bound {
     const Expression* code;  // null: there is none now
     std::span<Entry* const> entries = {};
-    const Instruction* comparison = nullptr;  // that it is, if no more
+    const Instruction* comparison = nullptr;  // set while nothing else is needed
+    std::optional<Change> change = {};        // the same
     std::unique_ptr<FromEntry> source = {};
   };
   bool compile(NodeIndex node, std::uint32_t script);
+  bool run_all(NodeIndex node, std::uint32_t script);
   Truth test_all(NodeIndex node, std::uint32_t script);
 
   const Tree& tree_;

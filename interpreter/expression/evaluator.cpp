@@ -9,6 +9,7 @@
 #include "blackboard/conversion.h"
 #include "core/wording.h"
 #include "expression/assign.h"
+#include "expression/change.h"
 #include "expression/equal.h"
 #include "expression/operator_words.h"
 #include "expression/relation.h"
@@ -60,22 +61,6 @@ bool take(const Operand& operand, bool& holds) {
   }
   holds = operand.whole == 1;
   return operand.kind == Operand::Kind::Whole && (operand.whole == 0 || operand.whole == 1);
-}
-
-inline double calculated(double left, Operation operation, double right) {
-  switch (operation) {
-    case Operation::Add:
-    case Operation::AddTo:
-      return left + right;
-    case Operation::Subtract:
-    case Operation::SubtractFrom:
-      return left - right;
-    case Operation::Multiply:
-    case Operation::MultiplyBy:
-      return left * right;
-    default:
-      return left / right;
-  }
 }
 
 inline bool combined(bool left, Operation operation, bool right) {
@@ -499,6 +484,10 @@ bool Evaluator::evaluate(const Expression& expression, std::span<Entry* const> e
   const Operand* const last = run(expression, entries);
   if (last != nullptr) last->store(result);
   return last != nullptr;
+}
+
+bool Evaluator::execute(const Expression& expression, std::span<Entry* const> entries) {
+  return run(expression, entries) != nullptr;
 }
 
 Truth Evaluator::test(const Expression& expression, std::span<Entry* const> entries) {

@@ -25,6 +25,8 @@ class Evaluator {
   // `entries`: of each of the expression's names(). False after an error; what was assigned before
   // it stays. `result`: the value of the last statement, which may be none.
   bool evaluate(const Expression& expression, std::span<Entry* const> entries, Value& result);
+  // The same, when nobody asks for the result.
+  bool execute(const Expression& expression, std::span<Entry* const> entries);
   // The same, of an expression that is a condition.
   Truth test(const Expression& expression, std::span<Entry* const> entries);
   // What was wrong in the last one that failed.
