@@ -39,4 +39,15 @@ Nanoseconds Histogram::quantile(double fraction) const {
   return std::min(max_, Nanoseconds(static_cast<std::int64_t>(largest_of(bucket))));
 }
 
+std::vector<std::uint64_t> Histogram::by_digits() const {
+  std::vector<std::uint64_t> counts;
+  for (std::size_t bucket = 0; bucket < buckets_.size(); ++bucket) {
+    if (buckets_[bucket] == 0) continue;
+    const auto digits = static_cast<std::size_t>(std::bit_width(largest_of(bucket)));
+    if (counts.size() <= digits) counts.resize(digits + 1);
+    counts[digits] += buckets_[bucket];
+  }
+  return counts;
+}
+
 }  // namespace lockstep

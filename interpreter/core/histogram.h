@@ -25,6 +25,9 @@ class Histogram {
   // The smallest duration that at least `fraction` (in [0, 1]) of all do not exceed, never too
   // small and at most 1/2^bits too large; exact below 2^bits ns; 0 when nothing was recorded.
   Nanoseconds quantile(double fraction) const;
+  // How many durations had so many binary digits in ns: [0] are those of 0, [1] of 1 ns, [2] of 2
+  // and 3 ns, … up to the largest.
+  std::vector<std::uint64_t> by_digits() const;
 
  private:
   std::size_t bucket_of(std::uint64_t value) const;

@@ -128,6 +128,7 @@ class Loop {
   // True while the run goes on.
   bool tick() {
     const Nanoseconds now = clock_.now() - start_;
+    const Nanoseconds late = is_real_ ? now - deadlines_.at(deadline_) : Nanoseconds(0);
     Ticker& ticker = run_.ticker();
     run_.set_now(now);
     for (Observer* observer : observers_) observer->before_tick(ticker, end_.ticks, now);
@@ -139,7 +140,7 @@ class Loop {
     std::vector<Fault> faults;
     if (!ticker.tolerated().empty()) [[unlikely]]
       faults = ticker.take_tolerated();
-    const TickReport report{end_.ticks, now, end_.status, skipped_before_, faults};
+    const TickReport report{end_.ticks, now, end_.status, skipped_before_, faults, late};
     for (Observer* observer : observers_) observer->after_tick(ticker, report);
     if (options_.control != nullptr) options_.control->count_tick(ticker);
     ++end_.ticks;
@@ -181,8 +182,11 @@ class Loop {
   void wait() {
     const Nanoseconds deadline = start_ + deadlines_.at(deadline_);
     if (!is_real_) return clock_.sleep_until(deadline);
-    for (auto now = clock_.now(); now < deadline && !is_wait_over(); now = clock_.now()) {
-      clock_.sleep_until(std::min(deadline, now + kLongestSleep));
+    const Nanoseconds awake = deadline - options_.spin;
+    for (auto now = clock_.now(); now < awake && !is_wait_over(); now = clock_.now()) {
+      clock_.sleep_until(std::min(awake, now + kLongestSleep));
+    }
+    while (clock_.now() < deadline && !stop_requested()) {
     }
   }
 

@@ -35,6 +35,7 @@ struct LoopOptions {
                                            // real clock, time in which the run is paused counts too
   std::function<int()> stop_signal = {};   // called before each tick: nonzero = stop
   OverrunPolicy overrun = OverrunPolicy::Skip;
+  Nanoseconds spin{0};  // on a real clock, the end of a wait that looks at the clock without sleep
   std::function<bool()> recording_failed = {};  // called before each tick: true = stop
   RunControl* control = nullptr;                // who may pause the run, and more; or nobody
   StallFail* stall_fail = nullptr;              // who ends standstills, or nobody

@@ -24,6 +24,7 @@ struct TickReport {
   Status status = Status::Running;     // of the root
   std::uint64_t skipped = 0;           // deadlines that were skipped because this tick was late
   std::span<const Fault> faults = {};  // of leaves, since the last report; the run goes on
+  Nanoseconds late{0};                 // it began so long after its deadline; 0 on a virtual clock
 };
 
 enum class StopReason : std::uint8_t {

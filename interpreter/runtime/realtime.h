@@ -6,15 +6,15 @@
 #include <vector>
 
 #include "core/problem.h"
+#include "system/processors.h"
 
 namespace lockstep {
 
-// Above what is usual for the threads of drivers (50), below the kernel's own (99).
-constexpr int kRealtimePriority = 80;
-
 struct RealtimeOptions {
-  bool realtime = false;   // SCHED_FIFO at kRealtimePriority, mlockall, timer slack of 1 ns
-  std::optional<int> cpu;  // the processor that the thread is bound to
+  bool realtime = false;  // SCHED_FIFO, mlockall, timer slack of 1 ns
+  // In [1, 99]. Above what is usual for the threads of drivers (50), below the kernel's own (99).
+  int priority = 80;
+  std::optional<Processors> processors = {};  // that the thread is bound to
 };
 
 // Applies to the calling thread; locked memory is the process's. The priority does not pass to

@@ -24,6 +24,7 @@ void Statistics::run_started(Ticker&, const RunStart& start) {
 void Statistics::after_tick(Ticker& ticker, const TickReport& report) {
   if (report.tick > 0) periods_.record(report.time - last_start_);
   last_start_ = report.time;
+  lateness_.record(report.late);
   for (Measured& node : nodes_) {
     node.measure.after_tick(node.probe.read(ticker, report.time));
   }
@@ -52,6 +53,7 @@ Summary Statistics::summary() const {
                   .ticks = end_.ticks,
                   .seconds = to_seconds(end_.time),
                   .period = {},
+                  .lateness = {},
                   .overruns = end_.overruns,
                   .skipped = end_.skipped,
                   .worst = worst_tick(),
@@ -75,6 +77,12 @@ Summary Statistics::summary() const {
     summary.period = PeriodSummary{.p50 = to_seconds(periods_.quantile(0.5)),
                                    .p99 = to_seconds(periods_.quantile(0.99)),
                                    .max = to_seconds(periods_.max())};
+  }
+  if (real_time_ && lateness_.count() > 0) {
+    summary.lateness = LatenessSummary{.p50 = to_seconds(lateness_.quantile(0.5)),
+                                       .p99 = to_seconds(lateness_.quantile(0.99)),
+                                       .max = to_seconds(lateness_.max()),
+                                       .ticks = lateness_.by_digits()};
   }
   for (const DecidingNode& node : why_failed_) {
     summary.why_failed.push_back(

@@ -36,6 +36,7 @@ class Statistics final : public Observer {
   const Tree& tree_;
   std::vector<Measured> nodes_;
   Histogram periods_;
+  Histogram lateness_{Histogram::kCoarse};
   bool real_time_ = false;
   Nanoseconds last_start_{0};
   std::vector<DecidingNode> why_failed_;

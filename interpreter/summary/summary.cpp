@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <iterator>
+#include <numeric>
 
 #include "core/diagnostics.h"
 #include "measure/measure_spec.h"
@@ -35,11 +37,34 @@ std::string why(const Summary& summary) {
   return {};
 }
 
+// "91.2 % within 0.0164 ms, 99.9 % within 0.131 ms, all within 1.05 ms": a step is eight times the
+// one before.
+std::string shares(const LatenessSummary& lateness) {
+  constexpr std::size_t kFirst = 14, kStep = 3;  // binary digits of ns
+  const auto all = std::accumulate(lateness.ticks.begin(), lateness.ticks.end(), std::uint64_t{0});
+  std::string text;
+  for (std::size_t digits = kFirst;; digits += kStep) {
+    const auto end = lateness.ticks.begin() +
+                     static_cast<std::ptrdiff_t>(std::min(digits + 1, lateness.ticks.size()));
+    const auto within = std::accumulate(lateness.ticks.begin(), end, std::uint64_t{0});
+    const double limit = std::ldexp(1e-6, static_cast<int>(digits));
+    if (within == all) return text + fmt::format("all within {:.3g} ms", limit);
+    text += fmt::format("{:.3g} % within {:.3g} ms, ",
+                        100 * static_cast<double>(within) / static_cast<double>(all), limit);
+  }
+}
+
+std::string lateness_text(const LatenessSummary& lateness) {
+  return fmt::format("  late       p50 {:.3f} ms, p99 {:.3f} ms, max {:.3f} ms\n             {}\n",
+                     lateness.p50 * 1e3, lateness.p99 * 1e3, lateness.max * 1e3, shares(lateness));
+}
+
 std::string timing(const Summary& summary) {
   if (!summary.period) return {};
   return fmt::format("  period     p50 {:.3f} ms, p99 {:.3f} ms, max {:.3f} ms\n",
                      summary.period->p50 * 1e3, summary.period->p99 * 1e3,
                      summary.period->max * 1e3) +
+         (summary.lateness ? lateness_text(*summary.lateness) : "") +
          fmt::format("  overruns   {} (deadlines skipped: {})\n", summary.overruns,
                      summary.skipped);
 }

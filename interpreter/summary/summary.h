@@ -63,6 +63,12 @@ struct PeriodSummary {
   double p50 = 0, p99 = 0, max = 0;  // seconds from the start of a tick to the start of the next
 };
 
+// Seconds from the deadline of a tick to its start.
+struct LatenessSummary {
+  double p50 = 0, p99 = 0, max = 0;
+  std::vector<std::uint64_t> ticks;  // by the binary digits of their lateness in ns
+};
+
 // Of a leaf whose ticks were over the budget.
 struct LeafTimingSummary {
   std::string path;
@@ -103,7 +109,8 @@ struct Summary {
   std::vector<DecidingSummary> why_failed;  // from the root down, when it failed
   std::uint64_t ticks = 0;
   double seconds = 0;
-  std::optional<PeriodSummary> period;  // real time only, and from two ticks on
+  std::optional<PeriodSummary> period;      // real time only, and from two ticks on
+  std::optional<LatenessSummary> lateness;  // real time only
   std::uint64_t overruns = 0, skipped = 0;
   std::optional<WorstTickSummary> worst;  // real time only
   std::uint64_t faults = 0;               // of leaves after which the run went on

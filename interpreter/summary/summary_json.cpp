@@ -31,6 +31,19 @@ Json json_of(const PeriodSummary& period) {
   return {{"p50_s", period.p50}, {"p99_s", period.p99}, {"max_s", period.max}};
 }
 
+Json json_of(const LatenessSummary& lateness) {
+  Json ticks = Json::array();
+  for (std::size_t digits = 0; digits < lateness.ticks.size(); ++digits) {
+    if (lateness.ticks[digits] == 0) continue;
+    const double limit = std::ldexp(1e-9, static_cast<int>(digits));
+    ticks.push_back({{"below_s", limit}, {"ticks", lateness.ticks[digits]}});
+  }
+  return {{"p50_s", lateness.p50},
+          {"p99_s", lateness.p99},
+          {"max_s", lateness.max},
+          {"histogram", std::move(ticks)}};
+}
+
 Json json_of(const WorstTickSummary& worst) {
   Json json = {{"tick", worst.tick}, {"took_s", worst.took}};
   if (!worst.leaf.empty()) {
@@ -111,6 +124,7 @@ std::string to_json(const Summary& summary) {
   json["ticks"] = summary.ticks;
   json["time_s"] = summary.seconds;
   json["period"] = summary.period ? json_of(*summary.period) : Json();
+  json["lateness"] = summary.lateness ? json_of(*summary.lateness) : Json();
   json["overruns"] = summary.overruns;
   json["skipped"] = summary.skipped;
   json["worst_tick"] = summary.worst ? json_of(*summary.worst) : Json();

@@ -19,6 +19,8 @@ namespace {
 
 constinit thread_local bool t_is_own = false;
 
+std::optional<Processors> g_processors;
+
 std::atomic<bool> g_has_failed{false};
 Mutex g_failure_mutex;
 std::exception_ptr g_failure LOCKSTEP_GUARDED_BY(g_failure_mutex);  // the first
@@ -70,12 +72,17 @@ bool is_own_thread() {
   return t_is_own;
 }
 
+void keep_own_threads_on(const std::optional<Processors>& processors) {
+  g_processors = processors;
+}
+
 std::thread own_thread(std::function<void()> body, std::span<const int> taken) {
   sigset_t blocked = all_signals_but({SIGSEGV, SIGBUS, SIGFPE, SIGILL});
   for (const int number : taken) sigdelset(&blocked, number);
   const SignalMask mask(SIG_SETMASK, blocked);
-  return std::thread([body = std::move(body)] {
+  return std::thread([body = std::move(body), processors = g_processors] {
     adopt_thread();
+    if (processors) processors->bind_this_thread();
     try {
       body();
     } catch (const std::exception&) {

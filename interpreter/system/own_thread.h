@@ -4,8 +4,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <thread>
+
+#include "system/processors.h"
 
 namespace lockstep {
 
@@ -17,6 +20,9 @@ bool is_own_thread();
 
 // Starts a thread. It still receives the signals of a crash, and those in `taken`.
 std::thread own_thread(std::function<void()> body, std::span<const int> taken = {});
+
+// Where threads run that are started from now on; nothing: where the one that starts them does.
+void keep_own_threads_on(const std::optional<Processors>& processors);
 
 // Rethrows the exception that ended one of these threads. If there is none, this is one atomic
 // load.

@@ -150,10 +150,12 @@ int main(int argc, char** argv) {
   std::string out, format;
   app.add_option("--seconds", seconds, "Of each loop and period")->capture_default_str();
   app.add_flag("--realtime", realtime.realtime, "SCHED_FIFO, memory locked");
-  app.add_option("--cpu", realtime.cpu, "Stay on this processor");
+  std::string cpu;
+  app.add_option("--cpu", cpu, "Stay on these processors, as 1 or 0-1");
   app.add_option("--benchmark_out", out, "Write the results as JSON");
   app.add_option("--benchmark_out_format", format, "json");
   CLI11_PARSE(app, argc, argv);
+  if (!cpu.empty()) realtime.processors = Processors::parse(cpu);
   const auto missing = apply_realtime(realtime);
   for (const Problem& problem : missing) fmt::print(stderr, "{}\n", problem.message);
   if (!missing.empty()) return 1;

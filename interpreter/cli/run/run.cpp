@@ -23,6 +23,7 @@
 #include "summary/standstills.h"
 #include "summary/statistics.h"
 #include "system/freed_memory.h"
+#include "system/own_thread.h"
 #include "terminal/fitted.h"
 #include "view/line_budget.h"
 
@@ -291,6 +292,15 @@ std::vector<NamedFile> inputs_of_run(const RunCommandOptions& options, const Loa
   return inputs;
 }
 
+// Before the first of lockstep's threads starts.
+bool place_helpers(const RunCommandOptions& options) {
+  if (!options.helper_processors) return true;
+  const auto refusal = options.helper_processors->refusal();
+  if (refusal) print_error("--helper-cpu: " + refusal->message, refusal->hint);
+  keep_own_threads_on(options.helper_processors);
+  return !refusal;
+}
+
 int run(const RunCommandOptions& options) {
   // First, while /dev/stdout still is what the user means by it.
   if (!options.record.empty() && would_overwrite("--record", options.record, standard_outputs())) {
@@ -304,6 +314,7 @@ int run(const RunCommandOptions& options) {
   if (!loaded) return exit_code_of(loaded.error());
   // Until here a signal ends the program as it ends any other: there is nothing to halt or to save.
   StopSignals::install(last_words);
+  if (!place_helpers(options)) return kExitUsage;
   const Outlet::Thread messages_thread(messages());
   if (!options.record.empty() &&
       would_overwrite("--record", options.record, inputs_of_run(options, *loaded)))
@@ -348,7 +359,7 @@ const Command kRunCommand{
     "  lockstep run trees/door_pulling.xml --arg barriers=0.5 --record run.jsonl\n"
     "  lockstep run trees/door_pulling.xml --clock virtual --seed 7 --json\n"
     "  lockstep run trees/door_pulling.xml --monitor 8080 --groot2 1667\n"
-    "  lockstep run trees/door_pulling.xml --isolate --realtime --cpu 1",
+    "  lockstep run trees/door_pulling.xml --realtime --cpu 1 --helper-cpu 0 --spin 50",
     define_run};
 
 }  // namespace lockstep

@@ -67,6 +67,20 @@ void define_loop_options(CLI::App& app, RunCommandOptions& options) {
       ->capture_default_str();
 }
 
+void add_processors(CLI::App& app, const std::string& name, std::optional<Processors>& to,
+                    const std::string& help) {
+  app.add_option_function<std::string>(
+         name,
+         [name, &to](const std::string& text) {
+           to = Processors::parse(text);
+           if (to) return;
+           throw CLI::ValidationError(name,
+                                      "'" + text + "' is no list of processors, as 3 or 0-1,3");
+         },
+         help)
+      ->type_name("LIST");
+}
+
 void define_time_options(CLI::App& app, RunCommandOptions& options) {
   add_choice<OverrunPolicy>(app, "--overrun", options.overrun,
                             {{"skip", OverrunPolicy::Skip},
@@ -86,9 +100,22 @@ void define_time_options(CLI::App& app, RunCommandOptions& options) {
   app.add_flag("--realtime", options.realtime.realtime,
                "Tick with real-time priority (SCHED_FIFO), memory locked and timer slack 1 ns; "
                "needs privileges");
-  app.add_option("--cpu", options.realtime.cpu, "Tick on this processor only, counted from 0")
+  app.add_option("--priority", options.realtime.priority, "The priority of --realtime, 1 to 99")
       ->type_name("N")
-      ->transform(whole_number(0, 4095));
+      ->check(CLI::Range(1, 99))
+      ->needs("--realtime")
+      ->capture_default_str();
+  add_processors(app, "--cpu", options.realtime.processors,
+                 "Tick on these processors only, counted from 0, as 3 or 0-1,3");
+  add_processors(app, "--helper-cpu", options.helper_processors,
+                 "Where lockstep's other threads run, which record, watch and serve (default: as "
+                 "the system likes)");
+  app.add_option("--spin", options.spin_us,
+                 "Before each tick, look at the clock for the last US microseconds instead of "
+                 "sleeping: less late, for a processor that is busy")
+      ->type_name("US")
+      ->check(number_between(0.0, 1e6))
+      ->capture_default_str();
 }
 
 void define_fault_options(CLI::App& app, RunCommandOptions& options) {
@@ -154,7 +181,8 @@ LoopOptions RunCommandOptions::loop() const {
                    .max_ticks = max_ticks,
                    .timeout = std::nullopt,
                    .stop_signal = StopSignals::received,
-                   .overrun = overrun};
+                   .overrun = overrun,
+                   .spin = from_seconds(spin_us / 1e6)};
   if (timeout) loop.timeout = from_seconds(*timeout);
   // A tree that never completes would fill a disk with its recording in minutes.
   if (!is_wall() && !timeout && !max_ticks) loop.max_ticks = kMostVirtualTicks;

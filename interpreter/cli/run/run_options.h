@@ -27,6 +27,8 @@ struct RunCommandOptions {
   bool exactly_once = false;  // a tick of the tree in each period, also when a node asks for more
   std::optional<double> tick_budget_ms;  // none: the period; 0: no budget
   RealtimeOptions realtime;
+  std::optional<Processors> helper_processors;  // of lockstep's other threads
+  double spin_us = 0;                           // before each tick, without sleep
   FaultPolicy on_fault = FaultPolicy::Stop;
 
   std::string record;

@@ -55,5 +55,17 @@ TEST_CASE("the histogram is exact below 1024 ns and takes every duration") {
   CHECK(histogram.quantile(1) > Nanoseconds::max() - Nanoseconds::max() / 100);
 }
 
+TEST_CASE("the histogram counts durations by their binary digits") {
+  for (const unsigned bits : {Histogram::kCoarse, Histogram::kFine}) {
+    Histogram histogram(bits);
+    CHECK(histogram.by_digits().empty());
+    for (const int value : {0, 1, 2, 3, 4, 1023, 1024, 1025, 2047, 2048}) {
+      histogram.record(Nanoseconds(value));
+    }
+    CHECK(histogram.by_digits() ==
+          std::vector<std::uint64_t>{1, 1, 2, 1, 0, 0, 0, 0, 0, 0, 1, 3, 1});
+  }
+}
+
 }  // namespace
 }  // namespace lockstep

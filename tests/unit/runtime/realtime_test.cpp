@@ -104,6 +104,10 @@ int last_allowed_cpu() {
   return last;
 }
 
+std::optional<Processors> only(int cpu) {
+  return Processors::parse(std::to_string(cpu));
+}
+
 }  // namespace
 
 TEST_CASE("who may gets a real-time priority, locked memory and exact timers") {
@@ -113,7 +117,13 @@ TEST_CASE("who may gets a real-time priority, locked memory and exact timers") {
   }
   const std::string expected =
       std::string("no problem\nfifo 80 exact") + (kMemoryIsLocked ? " locked" : " pageable");
-  CHECK(in_child([] { return state_after({.realtime = true, .cpu = {}}); }) == expected);
+  CHECK(in_child([] { return state_after({.realtime = true}); }) == expected);
+}
+
+TEST_CASE("the priority can be chosen") {
+  if (!may_be_realtime()) return;
+  const std::string all = in_child([] { return state_after({.realtime = true, .priority = 42}); });
+  CHECK_THAT(all, Catch::StartsWith("no problem\nfifo 42 "));
 }
 
 TEST_CASE("a child of a real-time thread is an ordinary one") {
@@ -122,7 +132,7 @@ TEST_CASE("a child of a real-time thread is an ordinary one") {
     return;
   }
   CHECK(in_child([] {
-          const auto problems = apply_realtime({.realtime = true, .cpu = {}});
+          const auto problems = apply_realtime({.realtime = true});
           if (!problems.empty()) return problems[0].message;
           return in_child(
               [] { return std::to_string(sched_getscheduler(0) & ~SCHED_RESET_ON_FORK); });
@@ -132,7 +142,7 @@ TEST_CASE("a child of a real-time thread is an ordinary one") {
 TEST_CASE("who may not get real time reads which privilege is missing and who gives it") {
   const std::string all = in_child([] {
     become_nobody();
-    return state_after({.realtime = true, .cpu = {}});
+    return state_after({.realtime = true});
   });
   CHECK_THAT(all, Catch::Contains("cannot take the real-time priority 80 (SCHED_FIFO)") &&
                       Catch::Contains("CAP_SYS_NICE") && Catch::Contains("RLIMIT_RTPRIO") &&
@@ -150,7 +160,7 @@ TEST_CASE("who may not get real time reads which privilege is missing and who gi
 TEST_CASE("a thread is bound to the cpu that was asked for, and to nothing else") {
   const int cpu = last_allowed_cpu();
   const std::string bound = in_child([cpu] {
-    const std::string said = state_after({.realtime = false, .cpu = cpu});
+    const std::string said = state_after({.processors = only(cpu)});
     const cpu_set_t now = allowed_cpus();
     return said + (CPU_COUNT(&now) == 1 && CPU_ISSET(cpu, &now) ? " bound" : " not bound");
   });
@@ -162,13 +172,12 @@ TEST_CASE("a cpu that is not there or not allowed is refused with those that are
   const std::string hint = "allowed is " + std::to_string(cpu) + "\n";
   const auto refusal = [cpu](int asked) {
     return in_child([cpu, asked] {
-      const auto problems = apply_realtime({.realtime = false, .cpu = cpu});
+      const auto problems = apply_realtime({.processors = only(cpu)});
       if (!problems.empty()) return problems[0].message;
-      return told(apply_realtime({.realtime = false, .cpu = asked}));
+      return told(apply_realtime({.processors = only(asked)}));
     });
   };
-  CHECK(refusal(100000) == "cpu 100000 does not exist\n" + hint);
-  CHECK(refusal(-1) == "cpu -1 does not exist\n" + hint);
+  CHECK(refusal(1023) == "cpu 1023 does not exist\n" + hint);
   if (cpu > 0)
     CHECK(refusal(cpu - 1) ==
           "cpu " + std::to_string(cpu - 1) + " is not allowed for this process\n" + hint);

@@ -87,6 +87,27 @@ TEST_CASE("tick periods are measured on a real clock only") {
   CHECK(summary.period->p50 == Approx(0.1).epsilon(0.01));
 }
 
+TEST_CASE("how late ticks began is counted by powers of two") {
+  WatchedRun run(kTree, "a+.1 b+.3");
+  run.start.real_time = true;
+  Summary summary = summary_of(run);
+  summary.lateness = LatenessSummary{.p50 = 2e-6, .p99 = 0.1, .max = 0.1, .ticks = {}};
+  summary.lateness->ticks.resize(28);
+  summary.lateness->ticks[12] = 6;  // 2 to 4 us
+  summary.lateness->ticks[17] = 2;  // 66 to 131 us
+  summary.lateness->ticks[27] = 2;  // 67 to 134 ms
+  std::string text;
+  write_text(summary, text, false);
+  CHECK_THAT(text, Catch::Contains("  late       p50 0.002 ms, p99 100.000 ms, max 100.000 ms\n"
+                                   "             60 % within 0.0164 ms, 80 % within 0.131 ms, "
+                                   "80 % within 1.05 ms, 80 % within 8.39 ms, 80 % within 67.1 ms, "
+                                   "all within 537 ms\n"));
+  CHECK_THAT(to_json(summary),
+             Catch::Contains(R"("histogram":[{"below_s":4.096e-06,"ticks":6},)") &&
+                 Catch::Contains(R"({"below_s":0.000131072,"ticks":2},)") &&
+                 Catch::Contains(R"({"below_s":0.134217728,"ticks":2}]})"));
+}
+
 TEST_CASE("two ticks have one period between them") {
   WatchedRun run(kTree, "a+.5 b+.5");
   run.start.real_time = true;
@@ -120,6 +141,8 @@ TEST_CASE("the summary as text") {
   CHECK(text_of(summary) ==
         "success after 10 ticks, 0.900 s\n"
         "  period     p50 100.000 ms, p99 100.000 ms, max 100.000 ms\n"
+        "  late       p50 0.000 ms, p99 0.000 ms, max 0.000 ms\n"
+        "             all within 0.0164 ms\n"
         "  overruns   2 (deadlines skipped: 3)\n"
         "  Test/ParallelAbsolute (ParallelAbsolute, 10 ticks)\n"
         "    progress distance 2.1, mean 0.21 a tick\n"
