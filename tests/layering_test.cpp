@@ -43,7 +43,6 @@ const std::vector<Layer> kThirdParty{
     {"tinyxml2", {"interpreter/document/"}},
     {"dlfcn.h",
      {"interpreter/plugin/open/", "interpreter/system/late_library.cpp",
-     {"interpreter/plugin/", "interpreter/system/late_library.cpp",
       "interpreter/embedding/project.cpp"}},
     {"CLI/", {"interpreter/cli/"}},
     {"simdjson.h", {"interpreter/json/reader.cpp"}},

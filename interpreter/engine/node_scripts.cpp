@@ -21,7 +21,7 @@ std::string_view NodeScripts::name(NodeIndex node, unsigned parameter) const {
 
 bool NodeScripts::run(NodeIndex node, unsigned parameter) {
   const std::uint32_t it = script(node, parameter);
-  if (it == HookedNode::kNoScript || scripts_.evaluate(node, it)) return true;
+  if (it == HookedNode::kNoScript || scripts_.run(node, it)) return true;
   fail(node, name(node, parameter), scripts_.error());
   return false;
 }
@@ -34,9 +34,9 @@ std::optional<bool> NodeScripts::holds(NodeIndex node, unsigned parameter) {
 }
 
 const Value* NodeScripts::value_of(NodeIndex node, unsigned parameter) {
-  if (!run(node, parameter)) return nullptr;
-  if (!std::holds_alternative<NoValue>(scripts_.value())) return &scripts_.value();
-  fail(node, name(node, parameter), "it has no value");
+  const bool ran = scripts_.evaluate(node, script(node, parameter));
+  if (ran && !std::holds_alternative<NoValue>(scripts_.value())) return &scripts_.value();
+  fail(node, name(node, parameter), ran ? "it has no value" : scripts_.error());
   return nullptr;
 }
 
@@ -93,7 +93,7 @@ Status NodeScripts::finish(NodeIndex node, const HookedNode& hooked, Status stat
   const Hook first = status == Status::Success ? Hook::OnSuccess : Hook::OnFailure;
   for (const Hook hook : {first, Hook::Post}) {
     const std::uint32_t script = hooked.script(hook);
-    if (script == HookedNode::kNoScript || scripts_.evaluate(node, script)) continue;
+    if (script == HookedNode::kNoScript || scripts_.run(node, script)) continue;
     fail(node, attribute_of(hook, *tree_.rules), scripts_.error());
     return Status::Failure;
   }
@@ -111,7 +111,7 @@ void NodeScripts::run_halted(std::size_t begin, NodeIndex next) {
   while (halted_.size() > begin && tree_.nodes[halted_.back()].end <= next) {
     const NodeIndex node = halted_.back();
     halted_.pop_back();
-    if (scripts_.evaluate(node, around(node)->script(Hook::OnHalted))) continue;
+    if (scripts_.run(node, around(node)->script(Hook::OnHalted))) continue;
     fail(node, attribute_of(Hook::OnHalted, *tree_.rules), scripts_.error());
   }
 }
