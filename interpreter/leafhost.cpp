@@ -25,21 +25,21 @@ constexpr const char* kHelp =
 }  // namespace
 
 int main(int argc, char** argv) {
-  lockstep::hold_standard_descriptors();
+  lockstep::host::hold_standard_descriptors();
   const std::string_view first = argc > 1 ? argv[1] : "";
   if (first == "--help" || first == "-h") {
-    return lockstep::write_all(STDOUT_FILENO, kHelp) ? 0 : kExitUsage;
+    return lockstep::host::write_all(STDOUT_FILENO, kHelp) ? 0 : kExitUsage;
   }
-  if (argc == 3 && first == "--program" && lockstep::is_guardian()) {
-    return lockstep::guard_program(argv[2]);
+  if (argc == 3 && first == "--program" && lockstep::host::is_guardian()) {
+    return lockstep::host::guard_program(argv[2]);
   }
-  if (argc != 2 || !lockstep::ServedPlugin::has_host()) {
-    lockstep::write_all(
+  if (argc != 2 || !lockstep::host::ServedPlugin::has_host()) {
+    lockstep::host::write_all(
         STDERR_FILENO,
         "lockstep-leafhost: is started by lockstep only; 'lockstep run --isolate' does it\n");
     return kExitUsage;
   }
   // The host reports that the process died; only this process knows which function was called.
-  lockstep::CrashReport::install(lockstep::CrashReport::kAsWithoutReport);
-  lockstep::end_process(lockstep::ServedPlugin::serve(argv[1]));
+  lockstep::host::CrashReport::install(lockstep::host::CrashReport::kAsWithoutReport);
+  lockstep::host::end_process(lockstep::host::ServedPlugin::serve(argv[1]));
 }

@@ -11,8 +11,8 @@
 // NOLINTBEGIN(bugprone-reserved-identifier)
 // What plugins end the process with: a name of the program is found before that of the C library.
 extern "C" void _exit(int exit_code) {
-  lockstep::CrashReport::foreign_exit();
-  lockstep::end_at_once(exit_code);
+  lockstep::host::CrashReport::foreign_exit();
+  lockstep::host::end_at_once(exit_code);
 }
 extern "C" void _Exit(int exit_code) noexcept {
   _exit(exit_code);
@@ -20,7 +20,7 @@ extern "C" void _Exit(int exit_code) noexcept {
 // NOLINTEND(bugprone-reserved-identifier)
 
 int main(int argc, char** argv) {
-  lockstep::hold_standard_descriptors();
-  lockstep::CrashReport::install(lockstep::kExitLeafCrash);
-  lockstep::end_process(lockstep::run_program(argc, argv));
+  lockstep::host::hold_standard_descriptors();
+  lockstep::host::CrashReport::install(lockstep::host::kExitLeafCrash);
+  lockstep::host::end_process(lockstep::host::run_program(argc, argv));
 }

@@ -16,7 +16,7 @@
 
 #include "support/paths.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -404,4 +404,4 @@ TEST_CASE("layers: nobody asks in which language a tree is written") {
               CHECK(seen > 0);
             }
 
-          }  // namespace lockstep::test
+          }  // namespace lockstep::host::test

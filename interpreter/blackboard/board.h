@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct Board {
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
@@ -42,4 +42,4 @@ inline Home home_of(std::span<const Board> boards, std::uint32_t board, std::str
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 
 #include "json/reader.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 template <class Number>
@@ -241,4 +241,4 @@ void append_plain(double number, std::string& out) {
   out += fmt::format("{:f}", number);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

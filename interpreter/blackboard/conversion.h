@@ -9,7 +9,7 @@
 
 #include "core/value.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Up to it, every whole number is exact as a double.
 inline constexpr std::int64_t kLargestExact = (std::int64_t{1} << 53) - 1;
@@ -41,4 +41,4 @@ std::optional<Value> convert_value(const Value& value, ValueType type, const Obj
 void append_plain(std::int64_t number, std::string& out);
 void append_plain(double number, std::string& out);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,7 +4,7 @@
 
 #include "blackboard/conversion.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 bool is_of(const Entry& entry, ValueType type, const ObjectType* object) {
@@ -35,4 +35,4 @@ bool write_entry(Entry& entry, ValueType type, const ObjectType* object, Value v
   return true;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

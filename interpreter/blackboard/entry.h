@@ -5,7 +5,7 @@
 
 #include "core/value.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 enum class Typing : std::uint8_t {
   Strict,    // it holds values of its type only, and exists from the beginning to the end
@@ -40,4 +40,4 @@ inline void unset_entry(Entry& entry) {
 // another type goes what converts to it; else returns false, and the entry is as it was.
 bool write_entry(Entry& entry, ValueType type, const ObjectType* object, Value value);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

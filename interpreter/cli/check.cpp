@@ -13,7 +13,7 @@
 #include "core/wording.h"
 #include "runtime/outlet.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 struct CheckOptions {
@@ -103,4 +103,4 @@ const Command kCheckCommand{
     "  lockstep check --strict --format github trees/*.xml",
     define_check};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

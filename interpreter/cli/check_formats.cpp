@@ -10,7 +10,7 @@
 #include "core/utf8.h"
 #include "json/json.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // The message and, in a separate line, the hint. A line end inside of them is made visible.
@@ -146,4 +146,4 @@ std::string as_sarif(std::span<const Diagnostic> messages) {
   return log.printable(2) + "\n";
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

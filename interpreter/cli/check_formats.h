@@ -6,7 +6,7 @@
 
 #include "core/diagnostics.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // An array of objects.
 std::string as_json(std::span<const Diagnostic> messages);
@@ -17,4 +17,4 @@ std::string as_github(std::span<const Diagnostic> messages);
 // A log in SARIF 2.1.0 (OASIS), as code scanners write it.
 std::string as_sarif(std::span<const Diagnostic> messages);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

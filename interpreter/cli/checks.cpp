@@ -9,7 +9,7 @@
 #include "core/suggest.h"
 #include "core/wording.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
@@ -64,4 +64,4 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
   return {check, joined(words, "|")};
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

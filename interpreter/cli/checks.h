@@ -11,7 +11,7 @@ namespace CLI {
 class Validator;
 }
 
-namespace lockstep {
+namespace lockstep::host {
 
 // "", or the error in it as a whole number of 64 bits.
 std::string check_count(const std::string& text);
@@ -24,4 +24,4 @@ CLI::Validator whole_number(std::uint64_t least = 0,
 CLI::Validator number_between(double least, double most);
 CLI::Validator one_of(const std::vector<std::string>& words);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

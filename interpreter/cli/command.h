@@ -9,7 +9,7 @@ namespace CLI {
 class App;
 }
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct Command {
   const char* name;
@@ -32,4 +32,4 @@ std::span<const Command* const> commands();
 // Parses the command line and runs the command. Returns the exit code.
 int run_program(int argc, char** argv);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

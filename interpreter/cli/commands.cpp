@@ -26,7 +26,7 @@
 #include "terminal/terminal.h"
 #include "web/server_socket.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 std::span<const Command* const> commands() {
   static constexpr const Command* kAll[] = {&kRunCommand,    &kCheckCommand,  &kShowCommand,
@@ -173,4 +173,4 @@ int run_program(int argc, char** argv) {
   return kExitInternal;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

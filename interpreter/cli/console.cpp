@@ -16,7 +16,7 @@
 #include "system/descriptors.h"
 #include "terminal/terminal.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 int g_results = STDOUT_FILENO;
@@ -111,4 +111,4 @@ int write_results(std::string_view text, int stopped_by) {
   return kExitUsage;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 
 #include "core/diagnostics.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 bool is_terminal(int file);
 // A terminal, and neither NO_COLOR nor TERM=dumb.
@@ -36,4 +36,4 @@ std::size_t results_width();
 int write_results(std::string_view text);
 int write_results(std::string_view text, int stopped_by);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

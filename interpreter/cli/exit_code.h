@@ -1,7 +1,7 @@
 // How lockstep ends: an interface, documented in docs/cli.md.
 #pragma once
 
-namespace lockstep {
+namespace lockstep::host {
 
 enum ExitCode : int {
   kExitSuccess = 0,
@@ -23,4 +23,4 @@ constexpr int first_failure(int first, int second) {
   return first == kExitSuccess ? second : first;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::size_t kColumn = 30;     // where descriptions begin
@@ -87,4 +87,4 @@ std::shared_ptr<CLI::FormatterBase> help_formatter(std::size_t width) {
   return std::make_shared<WrappedHelp>(width);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -9,7 +9,7 @@ namespace CLI {
 class FormatterBase;
 }  // namespace CLI
 
-namespace lockstep {
+namespace lockstep::host {
 
 // `text` with line breaks between words, so that no line is longer than `width` columns where its
 // words allow that.
@@ -17,4 +17,4 @@ std::string wrapped(std::string_view text, std::size_t width);
 
 std::shared_ptr<CLI::FormatterBase> help_formatter(std::size_t width);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

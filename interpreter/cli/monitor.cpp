@@ -15,7 +15,7 @@
 #include "web/registry.h"
 #include "web/server_socket.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 struct MonitorCommandOptions {
@@ -111,4 +111,4 @@ const Command kMonitorCommand{
     "  lockstep monitor --attach /tmp/robot.sock",
     define_monitor};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,7 +4,7 @@
 #include "web/browser.h"
 #include "web/http_server.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 namespace {
 
@@ -38,4 +38,4 @@ void MonitorLink::tell(const std::string& link, bool opens) {
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

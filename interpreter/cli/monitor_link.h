@@ -9,7 +9,7 @@
 #include "web/registry.h"
 #include "web/server_socket.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // The values of --monitor and --monitor-socket; refused if this lockstep has no monitor.
 Result<ServerSocket> listen_for_monitor(const std::string& address);
@@ -29,4 +29,4 @@ class MonitorLink {
   Registration registration_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -1,11 +1,11 @@
 // In place of the commands that a build without tools leaves out.
 #include "cli/command.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 const Command kShowCommand = absent("show"), kNodesCommand = absent("nodes"),
               kSchemaCommand = absent("schema"), kConvertCommand = absent("convert"),
               kPluginCommand = absent("plugin"), kLogCommand = absent("log"),
               kReplayCommand = absent("replay"), kStudyCommand = absent("study");
 
-}  // namespace lockstep
+}  // namespace lockstep::host

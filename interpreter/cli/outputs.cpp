@@ -8,7 +8,7 @@
 #include "cli/console.h"
 #include "system/output_file.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 std::string path_of(int descriptor) {
@@ -46,4 +46,4 @@ bool would_overwrite(std::string_view option, const std::string& output,
   return false;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

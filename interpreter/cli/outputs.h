@@ -9,7 +9,7 @@
 
 #include "loading/plugin_set.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct NamedFile {
   std::string name;  // as the user knows it
@@ -28,4 +28,4 @@ std::vector<NamedFile> standard_outputs();
 bool would_overwrite(std::string_view option, const std::string& output,
                      std::span<const NamedFile> used);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

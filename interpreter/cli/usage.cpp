@@ -10,7 +10,7 @@
 #include "core/suggest.h"
 #include "core/wording.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // How far a command line can be followed.
@@ -241,4 +241,4 @@ UsageError explain(const CLI::App& program, std::span<const std::string> words,
   return {reason(error), with_help(command, "")};
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

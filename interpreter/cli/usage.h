@@ -11,7 +11,7 @@ class App;
 class ParseError;
 }  // namespace CLI
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct UsageError {
   std::string message;
@@ -26,4 +26,4 @@ std::optional<UsageError> find_unknown_command(const CLI::App& program,
 UsageError explain(const CLI::App& program, std::span<const std::string> words,
                    const CLI::ParseError& error);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -17,7 +17,7 @@
 #include "dialect/btcpp/words.h"
 #include "document/scanner.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using btcpp::AttributePair;
@@ -496,4 +496,4 @@ std::optional<std::string> convert(const Document& document, const Conversion& c
   return Converter(document, conversion, report).convert();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

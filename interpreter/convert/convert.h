@@ -9,7 +9,7 @@
 #include "document/document.h"
 #include "document/reporter.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct Conversion {
   const LanguageRules& from;
@@ -24,4 +24,4 @@ struct Conversion {
 std::optional<std::string> convert(const Document& document, const Conversion& conversion,
                                    const Reporter& report);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

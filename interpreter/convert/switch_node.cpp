@@ -9,7 +9,7 @@
 #include "core/wording.h"
 #include "dialect/btcpp/words.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::uint32_t kFewest = 2, kMost = 6;
@@ -134,4 +134,4 @@ ConvertedSwitch switch_to_theirs(const Document& document, std::uint32_t element
   return Switch(document, element).to_theirs(children);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

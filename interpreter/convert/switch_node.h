@@ -10,7 +10,7 @@
 
 #include "document/document.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // The attributes of one in the other language, in order; or why it cannot be said there.
 struct ConvertedSwitch {
@@ -28,4 +28,4 @@ ConvertedSwitch switch_to_ours(const Document& document, std::uint32_t element,
 ConvertedSwitch switch_to_theirs(const Document& document, std::uint32_t element,
                                  std::uint32_t children);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

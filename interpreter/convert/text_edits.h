@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lockstep {
+namespace lockstep::host {
 
 class TextEdits {
  public:
@@ -40,4 +40,4 @@ class TextEdits {
   std::vector<Edit> edits_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 thread_local bool t_for_program = false;
@@ -19,4 +19,4 @@ bool is_for_program() {
   return t_for_program;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

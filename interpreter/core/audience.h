@@ -2,7 +2,7 @@
 // embeds lockstep, which has called functions. Each calls the same by another name.
 #pragma once
 
-namespace lockstep {
+namespace lockstep::host {
 
 // As long as it lives, what this thread does is for a program.
 class ForProgram {
@@ -24,4 +24,4 @@ Text worded(Text for_command_line, Text for_program) {
   return is_for_program() ? for_program : for_command_line;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

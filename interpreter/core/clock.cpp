@@ -2,7 +2,7 @@
 
 #include <ctime>
 
-namespace lockstep {
+namespace lockstep::host {
 
 Nanoseconds monotonic_now() {
   timespec time{};
@@ -16,4 +16,4 @@ void WallClock::sleep_until(Nanoseconds deadline) {
   clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &time, nullptr);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-namespace lockstep {
+namespace lockstep::host {
 
 using Nanoseconds = std::chrono::nanoseconds;
 
@@ -54,4 +54,4 @@ class VirtualClock final : public Clock {
   Nanoseconds now_{0};
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

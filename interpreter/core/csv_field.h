@@ -3,9 +3,9 @@
 #include <string>
 #include <string_view>
 
-namespace lockstep {
+namespace lockstep::host {
 
 // `text` in quotes if it holds a comma, a quote or a line break (RFC 4180).
 std::string csv_field(std::string_view text);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

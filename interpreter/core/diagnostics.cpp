@@ -9,7 +9,7 @@
 
 #include "core/utf8.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // Bytes of a message or a hint. Names in them are brief() already; what a plugin or the system says
@@ -161,4 +161,4 @@ std::string printable(std::string_view text) {
   return visible(text, Tabs::Escaped);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

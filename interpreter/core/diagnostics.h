@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Line and column count from 1, the column in bytes; 0 = not known (the file as a whole).
 struct SourceLocation {
@@ -74,4 +74,4 @@ std::string render(const Diagnostic& diagnostic, bool color);
 // `text` without effect on a terminal: control characters and invalid UTF-8 become \xNN or \uNNNN.
 std::string printable(std::string_view text);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <span>
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Visits each index at which they differ; `other` is as long.
 template <class Byte, class Visit>
@@ -30,4 +30,4 @@ void for_each_difference(std::span<const Byte> one, const std::uint8_t* other, V
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

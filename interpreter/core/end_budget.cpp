@@ -7,7 +7,7 @@
 
 #include "core/wording.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 std::optional<Nanoseconds> EndBudget::rest() const {
   if (!limit_ || !end_) return std::nullopt;
@@ -35,4 +35,4 @@ std::string EndBudget::note() const {
                      to_seconds(*limit_), joined(users_, " and "));
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -10,7 +10,7 @@
 
 #include "core/clock.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class EndBudget {
  public:
@@ -39,4 +39,4 @@ class EndBudget {
   std::vector<std::string> users_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-namespace lockstep {
+namespace lockstep::host {
 
 Histogram::Histogram(unsigned bits) : bits_(bits), buckets_((64 - std::size_t{bits}) << bits) {}
 
@@ -50,4 +50,4 @@ std::vector<std::uint64_t> Histogram::by_digits() const {
   return counts;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

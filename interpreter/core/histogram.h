@@ -7,7 +7,7 @@
 
 #include "core/clock.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Histogram {
  public:
@@ -39,4 +39,4 @@ class Histogram {
   Nanoseconds max_{0};
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

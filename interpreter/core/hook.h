@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace lockstep {
+namespace lockstep::host {
 
 enum class Hook : std::uint8_t {
   // Before a tick of an idle node. True: the result without a tick.
@@ -21,4 +21,4 @@ enum class Hook : std::uint8_t {
 };
 inline constexpr std::size_t kHooks = 8;
 
-}  // namespace lockstep
+}  // namespace lockstep::host

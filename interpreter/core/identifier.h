@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
-namespace lockstep {
+namespace lockstep::host {
 
 constexpr std::string_view kIdentifierRule = "a letter or '_', then letters, digits or '_'";
 
@@ -27,4 +27,4 @@ constexpr bool is_port_name(std::string_view name) {
   });
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

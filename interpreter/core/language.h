@@ -10,7 +10,7 @@
 
 #include "core/hook.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct NodeKind;        // engine/node_kind.h
 struct LanguageReader;  // definition/language_reader.h
@@ -61,4 +61,4 @@ constexpr std::optional<Hook> hook_named(std::string_view attribute, const Langu
 // The version of what trees mean: docs/language.md has what each has changed. Recordings name it.
 inline constexpr std::uint64_t kLawVersion = 2;
 
-}  // namespace lockstep
+}  // namespace lockstep::host

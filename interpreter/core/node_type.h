@@ -16,7 +16,7 @@
 struct lockstep_plugin;
 struct lockstep_leaf_type;
 
-namespace lockstep {
+namespace lockstep::host {
 
 // A Group is declared beside the trees and joins nodes anywhere in them, its members.
 enum class NodeCategory : std::uint8_t { Control, Decorator, Action, Condition, SubTree, Group };
@@ -134,4 +134,4 @@ constexpr std::string_view to_string(Direction direction) {
   return kNames[static_cast<unsigned>(direction)];
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -9,7 +9,7 @@
 
 #include "core/problem.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Object;
 
@@ -69,4 +69,4 @@ class Object {
   void* object_ = nullptr;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -9,7 +9,7 @@
 
 #include "core/wording.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // The first number of a value that the range does not allow.
@@ -148,4 +148,4 @@ std::string range_text(const Range& range) {
   return fmt::format("at most {}", range.max);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 
 #include "core/node_type.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // The type in words: "int", or the name of a type of objects.
 std::string_view type_name(ValueType type, const ObjectType* object);
@@ -43,4 +43,4 @@ std::string refusal_text(const RuleBreak& why, std::string_view parameter, const
 // "from 0 to 1", "more than 0, at most 1", …; "" when every number is allowed.
 std::string range_text(const Range& range);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,10 +4,10 @@
 
 #include <cstdint>
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct Place {
   std::uint32_t byte = 0;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

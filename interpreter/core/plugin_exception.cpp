@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 std::string describe(const char* what) {
@@ -25,4 +25,4 @@ std::string describe_exception() {
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 
 #include "core/shortened.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Within a catch block: "threw an exception: out of reach". Its words are shortened.
 std::string describe_exception();
@@ -45,4 +45,4 @@ auto rethrowing(Call call) {
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace lockstep {
+namespace lockstep::host {
 
 template <class Nodes>
 struct ChildIterator {
@@ -31,4 +31,4 @@ ChildRange<Nodes> children_in(const Nodes& nodes, std::uint32_t parent) {
   return {nodes, parent};
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 #include <tl/expected.hpp>
 #include <utility>
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct Problem {
   std::string message;    // lower case, no full stop, names in single quotes
@@ -20,4 +20,4 @@ inline tl::unexpected<Problem> problem(std::string message, std::string hint = {
   return tl::unexpected(Problem{std::move(message), std::move(hint)});
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace lockstep {
+namespace lockstep::host {
 
 class RandomStream {
  public:
@@ -28,4 +28,4 @@ class RandomStream {
   std::uint64_t state_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

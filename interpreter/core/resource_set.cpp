@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::string_view kBetweenNames = ";, \t\r\n";
@@ -41,4 +41,4 @@ std::string to_text(ResourceSet set, std::span<const std::string> names) {
   return text;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

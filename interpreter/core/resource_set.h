@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lockstep {
+namespace lockstep::host {
 
 using ResourceSet = std::uint64_t;
 // Of a pool: a set fits into the whole numbers of a double, as which recordings have it.
@@ -29,4 +29,4 @@ ResourceList resource_list(std::string_view list, std::span<const std::string> n
 // "left;gripper".
 std::string to_text(ResourceSet set, std::span<const std::string> names);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

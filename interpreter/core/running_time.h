@@ -7,7 +7,7 @@
 
 #include "core/clock.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class RunningTime {
  public:
@@ -32,4 +32,4 @@ class RunningTime {
   Nanoseconds last_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

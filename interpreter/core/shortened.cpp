@@ -6,7 +6,7 @@
 
 #include "core/utf8.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 void Shortened::append(std::string_view part) {
   const std::string_view fits = utf8_front(part, text_.size() - 1 - size_);
@@ -33,4 +33,4 @@ Shortened Shortened::as_it_is(std::string_view text) {
   return shortened;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <string_view>
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Shortened {
  public:
@@ -33,4 +33,4 @@ class Shortened {
   std::size_t size_ = 0;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

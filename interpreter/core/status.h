@@ -9,7 +9,7 @@
 
 #include "core/style.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // The numbers are those of lockstep/leaf.h.
 // Skipped: as if the node were not there in this tick.
@@ -62,4 +62,4 @@ constexpr bool is_complete(Status status) {
   return status == Status::Success || status == Status::Failure;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

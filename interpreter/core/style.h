@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-namespace lockstep {
+namespace lockstep::host {
 
 enum class Style : std::uint8_t { Plain, Strong, Dim, Good, Bad, Warning, Active };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 
 #include "core/wording.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::size_t kLongestWord = 256;
@@ -103,4 +103,4 @@ std::string suggest(std::string_view word, std::span<const std::string_view> can
   return hint;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Of a word of two letters or more: the candidate with the smallest edit distance (insert, delete,
 // replace, swap of neighbors; case does not count) if that is at most a third of the word's length,
@@ -22,4 +22,4 @@ std::string did_you_mean(std::string_view word, std::span<const std::string_view
 std::string suggest(std::string_view word, std::span<const std::string_view> candidates,
                     std::string_view what);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

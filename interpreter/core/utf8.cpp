@@ -7,7 +7,7 @@
 #include <cstring>
 #include <iterator>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr bool is_continuation(char c) {
@@ -71,4 +71,4 @@ bool is_obeyed_by_terminals(char32_t code) {
                      [code](auto block) { return code >= block.first && code <= block.last; });
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

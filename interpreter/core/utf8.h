@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string_view>
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct Character {
   std::size_t bytes = 0;  // 1 to 4
@@ -33,4 +33,4 @@ std::size_t columns(std::string_view text);
 // U+009F), line ends, and marks that reverse the direction of the following text.
 bool is_obeyed_by_terminals(char32_t code);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iterator>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n";
@@ -266,4 +266,4 @@ std::span<const ValueType> all_value_types() {
   return kAll;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

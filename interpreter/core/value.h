@@ -12,7 +12,7 @@
 
 #include "core/object.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Number, "int or double", is a type of ports and entries; a value is one of the two.
 enum class ValueType : std::uint8_t {
@@ -83,4 +83,4 @@ struct SchemaType {
 const SchemaType& schema_type(ValueType type);
 std::span<const ValueType> all_value_types();
 
-}  // namespace lockstep
+}  // namespace lockstep::host

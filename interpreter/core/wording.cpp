@@ -8,7 +8,7 @@
 
 #include "core/utf8.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::size_t kMaxName = 256;  // bytes, so no more letters
@@ -83,4 +83,4 @@ std::string counted(std::uint64_t count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

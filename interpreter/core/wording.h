@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace lockstep {
+namespace lockstep::host {
 
 // `name`, or its first letters and "…": no more than 256.
 std::string brief(std::string_view name);
@@ -43,4 +43,4 @@ std::string rounded_within(double value, double range);
 // "1 tick", "2 ticks".
 std::string counted(std::uint64_t count, std::string_view noun);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

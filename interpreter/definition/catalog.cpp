@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace lockstep {
+namespace lockstep::host {
 
 void Catalog::add(const NodeType* type) {
   types_.push_back(type);
@@ -27,4 +27,4 @@ std::vector<std::string_view> Catalog::ids() const {
   return ids;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 #include "core/node_type.h"
 #include "expression/expression.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Catalog {
  public:
@@ -36,4 +36,4 @@ class Catalog {
   std::shared_ptr<const ScriptEnums> words_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

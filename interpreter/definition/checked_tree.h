@@ -17,7 +17,7 @@
 #include "core/place.h"
 #include "definition/definition.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // A parameter of a node: a constant, a {key} with its default, or absent.
 struct CheckedPort {
@@ -105,4 +105,4 @@ struct CheckedTrees {
   std::optional<CheckedMain> main;                // none: it is no tree file
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -22,7 +22,7 @@
 #include "core/place.h"
 #include "expression/expression.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class StandIns;
 
@@ -213,4 +213,4 @@ inline constexpr std::uint32_t kMaxDepth = 1'000;
 // All paths together: recordings, messages and leaves contain them.
 inline constexpr std::uint64_t kMaxPathBytes = std::uint64_t{512} << 20u;
 
-}  // namespace lockstep
+}  // namespace lockstep::host

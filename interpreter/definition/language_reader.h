@@ -8,7 +8,7 @@
 #include "definition/checked_tree.h"
 #include "document/project.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct LanguageReader {
   // Checks every BehaviorTree of the project, used or not.
@@ -20,4 +20,4 @@ struct LanguageReader {
   const ForeignHints* hints = nullptr;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -14,7 +14,7 @@
 #include "definition/language_reader.h"
 #include "document/reporter.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // The ID of the tree to run; nothing after an error.
@@ -81,4 +81,4 @@ std::optional<Definition> resolve(const Project& project, const Catalog& catalog
   return definition;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 #include "definition/expand/expand.h"
 #include "document/project.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct ResolveOptions {
   std::string main_tree;  // "": main_tree_to_execute, or the only
@@ -24,4 +24,4 @@ struct ResolveOptions {
 std::optional<Definition> resolve(const Project& project, const Catalog& catalog,
                                   const ResolveOptions& options, Diagnostics& diagnostics);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

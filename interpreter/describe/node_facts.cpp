@@ -5,7 +5,7 @@
 #include "core/wording.h"
 #include "describe/node_reference.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 std::span<const NodeGroup> node_groups() {
   static constexpr NodeGroup kGroups[] = {
@@ -89,4 +89,4 @@ std::string usage_text(const NodeType& type) {
   return text + fmt::format("> … </{}>", type.id);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

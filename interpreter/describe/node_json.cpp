@@ -4,7 +4,7 @@
 #include "describe/node_reference.h"
 #include "json/json.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 Json range_json(const Range& range) {
@@ -60,4 +60,4 @@ std::string nodes_as_json(NodeTypes types) {
   return all.printable(2) + "\n";
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

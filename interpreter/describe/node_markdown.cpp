@@ -3,7 +3,7 @@
 #include "core/diagnostics.h"
 #include "describe/node_reference.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // So that what a plugin says of itself stays text.
@@ -73,4 +73,4 @@ std::string nodes_as_markdown(NodeTypes types) {
   return text;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 #include "describe/node_reference.h"
 #include "describe/xsd.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 std::string_view port_tag(Direction direction) {
@@ -47,4 +47,4 @@ std::string tree_nodes_model(NodeTypes types) {
   return text + "  </TreeNodesModel>\n";
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 
 #include "core/node_type.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 using NodeTypes = std::span<const NodeType* const>;
 
@@ -46,4 +46,4 @@ std::span<const CommonAttribute> common_attributes();
 std::span<const CommonAttribute> script_attributes();
 std::span<const CommonAttribute> subtree_attributes();
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 #include "core/utf8.h"
 #include "describe/node_reference.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::size_t kColumns = 100;
@@ -105,4 +105,4 @@ std::string node_as_text(const NodeType& type) {
   return parameters.empty() ? text : text + "\n" + table(parameters, 2);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 #include "core/diagnostics.h"
 #include "core/wording.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::size_t kMostBarriers = 12;
@@ -64,4 +64,4 @@ std::vector<std::string> shown_lines(const Definition& definition, const Definit
   return lines;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

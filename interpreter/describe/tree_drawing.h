@@ -7,7 +7,7 @@
 
 #include "definition/definition.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Lines of box-drawing characters, or of ASCII.
 std::string tree_as_text(const Definition& definition, bool ascii);
@@ -22,4 +22,4 @@ std::vector<std::string> shown_attributes(const Definition& definition, const De
 // name when it has one; barriers or delta; its attributes.
 std::vector<std::string> shown_lines(const Definition& definition, const DefinitionNode& node);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 #include "core/diagnostics.h"
 #include "describe/tree_drawing.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 std::string dot_escaped(std::string_view text) {
@@ -109,4 +109,4 @@ std::string tree_as_mermaid(const Definition& definition) {
   return text;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

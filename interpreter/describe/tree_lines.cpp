@@ -3,7 +3,7 @@
 #include "core/diagnostics.h"
 #include "describe/tree_drawing.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 struct Strokes {
@@ -40,4 +40,4 @@ std::string tree_as_text(const Definition& definition, bool ascii) {
   return text;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 #include "core/diagnostics.h"
 #include "describe/node_reference.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // What every schema begins with. XSD cannot keep a node from being the first element, but it can
@@ -329,4 +329,4 @@ std::string make_xsd(NodeTypes types, UnknownNodes unknown) {
   return text;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

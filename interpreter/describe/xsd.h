@@ -12,7 +12,7 @@
 
 #include "core/node_type.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 enum class UnknownNodes : bool { Allowed, Refused };
 
@@ -24,4 +24,4 @@ std::string xsd_type(const Parameter& parameter);
 // For attributes and texts of XML.
 std::string xsd_escaped(std::string_view text);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

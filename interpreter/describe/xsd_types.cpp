@@ -6,7 +6,7 @@
 
 #include "describe/xsd.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // XSD compares single numbers only. What can be said of a list with a pattern is the range from 0
@@ -96,4 +96,4 @@ std::string xsd_escaped(std::string_view text) {
   return safe;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

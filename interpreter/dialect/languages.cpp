@@ -5,7 +5,7 @@
 #include "dialect/btcpp/rules.h"
 #include "engine/nodes/kinds.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 CheckedTrees read(const Project& project, const Catalog& catalog, const Models&,
@@ -45,4 +45,4 @@ std::span<const LanguageRules* const> languages() {
   return kLanguages;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -10,7 +10,7 @@
 #include "core/wording.h"
 #include "document/vocabulary.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::size_t kMaxUnknown = 10;  // reported of one value: each place is counted out
@@ -151,4 +151,4 @@ void ArgumentTable::check_given() const {
                       list_declared(name));
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

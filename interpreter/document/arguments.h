@@ -12,7 +12,7 @@
 #include "document/project.h"
 #include "document/reporter.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Of one attribute value after substitution, and of all of them together.
 constexpr std::size_t kMaxValueMiB = 1;
@@ -56,4 +56,4 @@ class ArgumentTable {
   bool is_full_ = false;      // there were too many
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

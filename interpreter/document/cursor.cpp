@@ -5,7 +5,7 @@
 
 #include "core/utf8.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 struct Block {
@@ -51,4 +51,4 @@ std::optional<std::string_view> Cursor::take_quoted() {
   return inside;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

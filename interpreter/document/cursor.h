@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace lockstep {
+namespace lockstep::host {
 
 // An error at a byte of a text. (Fault is the error of a leaf: engine/ticker.h.)
 struct XmlFault {
@@ -83,4 +83,4 @@ class Cursor {
   std::size_t position_ = 0;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

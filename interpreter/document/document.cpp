@@ -12,7 +12,7 @@
 #include "document/references.h"
 #include "document/well_formed.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // An '&' that begins none is one of the value.
@@ -147,7 +147,7 @@ std::span<const Attribute> Document::attributes(std::uint32_t element) const {
 }
 
 const Attribute* Document::find_attribute(std::uint32_t element, std::string_view name) const {
-  return lockstep::find_attribute(attributes(element), name);
+  return lockstep::host::find_attribute(attributes(element), name);
 }
 
 void Document::set_value(const Attribute& attribute, std::string value) {
@@ -156,4 +156,4 @@ void Document::set_value(const Attribute& attribute, std::string value) {
       it_->values.emplace_back(std::move(value));
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

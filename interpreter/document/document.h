@@ -15,7 +15,7 @@
 #include "document/element.h"
 #include "document/sources.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Document {
  public:
@@ -45,4 +45,4 @@ class Document {
   std::unique_ptr<Implementation> it_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

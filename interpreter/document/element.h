@@ -8,7 +8,7 @@
 
 #include "core/place.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct Attribute {
   std::string_view name;
@@ -32,4 +32,4 @@ inline const Attribute* find_attribute(std::span<const Attribute> attributes,
   return nullptr;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

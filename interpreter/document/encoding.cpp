@@ -3,7 +3,7 @@
 #include "core/utf8.h"
 #include "document/well_formed.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr auto kSaveAsUtf8 = "save it as UTF-8";
@@ -57,4 +57,4 @@ std::optional<XmlFault> check_encoding(std::string_view text) {
   return std::nullopt;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

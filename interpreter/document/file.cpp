@@ -10,7 +10,7 @@
 
 #include "system/file_descriptor.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 tl::unexpected<Problem> failed(int error) {
@@ -68,4 +68,4 @@ Result<std::string> read_stdin(std::size_t limit) {
   return read_all(STDIN_FILENO, status, limit);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

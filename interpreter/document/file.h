@@ -8,7 +8,7 @@
 
 #include "core/problem.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 enum class FileKinds : bool { Regular, RegularOrPipe };
 
@@ -21,4 +21,4 @@ enum class FileKinds : bool { Regular, RegularOrPipe };
 // The same for stdin, unless it is a terminal or another device.
 [[nodiscard]] Result<std::string> read_stdin(std::size_t limit);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

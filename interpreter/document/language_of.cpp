@@ -7,7 +7,7 @@
 
 #include "document/scanner.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 namespace {
 
@@ -52,4 +52,4 @@ const LanguageRules& language_of(std::string_view text) {
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

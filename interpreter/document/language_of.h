@@ -5,9 +5,9 @@
 
 #include "core/language.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // The own one where no language can be recognized.
 const LanguageRules& language_of(std::string_view text);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

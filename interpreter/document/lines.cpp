@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace lockstep {
+namespace lockstep::host {
 
 namespace {
 
@@ -46,4 +46,4 @@ std::string_view LineIndex::line(std::uint32_t number) const {
   return line;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

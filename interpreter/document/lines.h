@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct LineColumn {
   std::uint32_t line;
@@ -31,4 +31,4 @@ class LineIndex {
   std::vector<std::uint32_t> ends_;  // line ends before each block, and in all of the text
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -14,7 +14,7 @@
 #include "document/reporter.h"
 #include "document/vocabulary.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 namespace fs = std::filesystem;
@@ -228,4 +228,4 @@ std::unique_ptr<Project> load_project_text(const std::string& path, std::string 
   return Loader(arguments, packages, diagnostics).load(path, std::move(text));
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 #include "document/document.h"
 #include "document/ros_packages.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // `--arg name=value`.
 using Arguments = std::map<std::string, std::string, std::less<>>;
@@ -52,4 +52,4 @@ std::unique_ptr<Project> load_project_text(const std::string& path, std::string 
                                            const Arguments& arguments, Diagnostics& diagnostics,
                                            const RosPackages& packages = {});
 
-}  // namespace lockstep
+}  // namespace lockstep::host

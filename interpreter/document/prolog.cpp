@@ -6,7 +6,7 @@
 
 #include "core/wording.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 bool is_letter(char c) {
@@ -147,4 +147,4 @@ std::optional<XmlFault> skip_doctype(Cursor& at) {
                   "write <!DOCTYPE root>, or leave it out"};
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

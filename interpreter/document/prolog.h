@@ -6,7 +6,7 @@
 
 #include "document/cursor.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Moves `at`, which is at "<?", behind the processing instruction or the XML declaration. Returns
 // the error in it, if any.
@@ -15,4 +15,4 @@ std::optional<XmlFault> skip_instruction(Cursor& at);
 // The same for "<!DOCTYPE". A DOCTYPE with definitions is refused.
 std::optional<XmlFault> skip_doctype(Cursor& at);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

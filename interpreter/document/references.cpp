@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cstdint>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 bool is_xml_character(std::uint32_t code) {
@@ -60,4 +60,4 @@ std::size_t raw_offset(std::string_view raw, std::size_t read) {
   return offset;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

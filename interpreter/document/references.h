@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-namespace lockstep {
+namespace lockstep::host {
 
 // The item at the front of a raw value, and how many bytes it becomes.
 struct RawUnit {
@@ -21,4 +21,4 @@ std::optional<RawUnit> read_reference(std::string_view raw);
 // Where in `raw` the byte `read` of the value comes from.
 std::size_t raw_offset(std::string_view raw, std::size_t read);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

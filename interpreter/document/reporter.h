@@ -6,7 +6,7 @@
 #include "core/diagnostics.h"
 #include "document/sources.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Reporter {
  public:
@@ -62,4 +62,4 @@ class Reporter {
   Diagnostics& diagnostics_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

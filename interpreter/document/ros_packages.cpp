@@ -1,6 +1,6 @@
 #include "document/ros_packages.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 std::optional<std::filesystem::path> RosPackages::find(std::string_view name) const {
   if (const auto it = given.find(name); it != given.end()) return it->second;
@@ -12,4 +12,4 @@ std::optional<std::filesystem::path> RosPackages::find(std::string_view name) co
   return std::nullopt;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct RosPackages {
   std::map<std::string, std::string, std::less<>> given;  // --ros-package NAME=DIR
@@ -18,4 +18,4 @@ struct RosPackages {
   std::optional<std::filesystem::path> find(std::string_view name) const;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

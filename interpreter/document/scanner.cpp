@@ -10,7 +10,7 @@
 #include "core/wording.h"
 #include "document/prolog.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr auto kInValue = [] {
@@ -170,4 +170,4 @@ XmlToken Scanner::fail(std::size_t offset, std::string message, std::string hint
   return {TokenKind::Fault, offset};
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

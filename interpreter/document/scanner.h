@@ -10,7 +10,7 @@
 
 #include "document/cursor.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Lenient: also what programs for BehaviorTree.CPP write. '<' and '&' in values, no blank between
 // attributes, "--" in comments, any declaration and DOCTYPE.
@@ -76,4 +76,4 @@ class Scanner {
   std::optional<XmlFault> fault_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 #include "core/utf8.h"
 #include "document/references.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::size_t kExcerptBytes = 200;
@@ -64,4 +64,4 @@ std::string to_text(const SourceLocation& location) {
   return fmt::format("{}:{}:{}", location.file, location.line, location.column);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

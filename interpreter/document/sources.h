@@ -13,7 +13,7 @@
 #include "core/place.h"
 #include "document/lines.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // One text. Lines are counted when the first location is asked for.
 class Source {
@@ -67,4 +67,4 @@ class Sources {
 // "file:line:column", for a hint.
 std::string to_text(const SourceLocation& location);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

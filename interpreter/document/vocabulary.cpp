@@ -7,7 +7,7 @@
 #include "core/suggest.h"
 #include "core/wording.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 bool check_vocabulary(const Document& document, std::uint32_t element,
                       std::span<const std::string_view> known, std::size_t required,
@@ -31,4 +31,4 @@ bool check_vocabulary(const Document& document, std::uint32_t element,
   return complete;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 #include "document/document.h"
 #include "document/reporter.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Reports attributes of `element` that are not in `known`, required ones that are missing (the
 // first `required` of `known`), and elements inside it. False when a required one is missing.
@@ -15,4 +15,4 @@ bool check_vocabulary(const Document& document, std::uint32_t element,
                       std::span<const std::string_view> known, std::size_t required,
                       const Reporter& report);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

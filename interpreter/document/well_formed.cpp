@@ -10,7 +10,7 @@
 #include "core/wording.h"
 #include "document/references.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // No tree has as many, and each takes memory.
@@ -261,4 +261,4 @@ WellFormed check_well_formed(std::string_view text, Place first, Grammar grammar
   return Checker(text, first, grammar).run();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

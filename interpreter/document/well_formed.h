@@ -10,7 +10,7 @@
 #include "document/element.h"
 #include "document/scanner.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Levels of elements; more than the 1,000 that a tree may have.
 constexpr std::size_t kMaxElementDepth = 1'024;
@@ -34,4 +34,4 @@ struct WellFormed {
 WellFormed check_well_formed(std::string_view text, Place first = {},
                              Grammar grammar = Grammar::Strict);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

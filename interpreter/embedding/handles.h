@@ -18,7 +18,7 @@
 #include "loading/load.h"
 #include "system/own_process.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Of the nodes of a tree, and the types of its entries, as strings that end in a NUL.
 struct TreeTexts {
@@ -43,18 +43,19 @@ class Program {
   mutable std::optional<TreeTexts> texts_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host
 
 struct lockstep_project {
-  lockstep::LoadOptions options;
-  std::shared_ptr<lockstep::PluginSet> plugins = std::make_shared<lockstep::PluginSet>();
-  lockstep::Diagnostics diagnostics;
-  std::shared_ptr<const lockstep::Program> program;  // null until it is loaded
+  lockstep::host::LoadOptions options;
+  std::shared_ptr<lockstep::host::PluginSet> plugins =
+      std::make_shared<lockstep::host::PluginSet>();
+  lockstep::host::Diagnostics diagnostics;
+  std::shared_ptr<const lockstep::host::Program> program;  // null until it is loaded
   bool load_tried = false;
-  lockstep::OwnProcess process;  // that has loaded it, or made it
+  lockstep::host::OwnProcess process;  // that has loaded it, or made it
 };
 
-namespace lockstep::embedding {
+namespace lockstep::host::embedding {
 
 // Keeps the reason for lockstep_last_error, of a length that anybody can show. Returns false.
 bool fail(std::string_view reason) noexcept;
@@ -108,4 +109,4 @@ bool write_struct(Struct whole, Struct* target) {
   return true;
 }
 
-}  // namespace lockstep::embedding
+}  // namespace lockstep::host::embedding

@@ -12,7 +12,7 @@
 #include "core/wording.h"
 #include "embedding/handles.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 TreeTexts::TreeTexts(const Tree& tree) {
   for (const Slot& slot : tree.slots) types.emplace_back(type_name(slot.type, slot.object));
@@ -23,9 +23,9 @@ TreeTexts::TreeTexts(const Tree& tree) {
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host
 
-namespace lockstep::embedding {
+namespace lockstep::host::embedding {
 namespace {
 
 thread_local std::string t_error;
@@ -128,10 +128,10 @@ void forget_error() noexcept {
   t_error.clear();
 }
 
-}  // namespace lockstep::embedding
+}  // namespace lockstep::host::embedding
 
-using namespace lockstep;
-using namespace lockstep::embedding;
+using namespace lockstep::host;
+using namespace lockstep::host::embedding;
 
 uint32_t lockstep_runtime_version(void) {
   return kVersion;

@@ -19,12 +19,14 @@ struct lockstep_run {
     void* user;
   };
 
-  lockstep_run(std::shared_ptr<const lockstep::Program> loaded, const lockstep::RunOptions& options)
+  lockstep_run(std::shared_ptr<const lockstep::host::Program> loaded,
+               const lockstep::host::RunOptions& options)
       : program(std::move(loaded)),
         run(program->runnable.tree, options),
         warnings(program->runnable.tree, options.log) {}
 
-  void notify(double seconds, lockstep_status status, std::span<const lockstep::Fault> faults) {
+  void notify(double seconds, lockstep_status status,
+              std::span<const lockstep::host::Fault> faults) {
     const std::uint64_t tick = run.ticker().tick_number() - 1;
     warnings.tell(run.ticker(), faults, tick);
     for (std::size_t i = 0; i < watchers.size(); ++i) {
@@ -32,18 +34,18 @@ struct lockstep_run {
     }
   }
 
-  std::shared_ptr<const lockstep::Program> program;
-  lockstep::Run run;
-  lockstep::Warnings warnings;
+  std::shared_ptr<const lockstep::host::Program> program;
+  lockstep::host::Run run;
+  lockstep::host::Warnings warnings;
   std::vector<Watcher> watchers;
-  lockstep::Nanoseconds last{0};  // when it was ticked last
-  bool is_busy = false;           // in a call that calls back
-  const lockstep::OwnProcess process;
+  lockstep::host::Nanoseconds last{0};  // when it was ticked last
+  bool is_busy = false;                 // in a call that calls back
+  const lockstep::host::OwnProcess process;
   std::string text;                  // of the last get_text or fault
   std::vector<lockstep_text> texts;  // of the last get_text_list
 };
 
-namespace lockstep::embedding {
+namespace lockstep::host::embedding {
 namespace {
 
 const Tree& tree_of(const lockstep_run& run) {
@@ -338,15 +340,15 @@ bool run_loop(lockstep_run& run, const lockstep_loop_options& given, RunEnd& end
   Observing observing(run);
   Observer* const observers[] = {&observing};
   Clock& clock = given.virtual_clock ? static_cast<Clock&>(virtual_clock) : wall;
-  end = lockstep::run_loop(run.run, clock, options, observers);
+  end = lockstep::host::run_loop(run.run, clock, options, observers);
   return true;
 }
 
 }  // namespace
-}  // namespace lockstep::embedding
+}  // namespace lockstep::host::embedding
 
-using namespace lockstep;
-using namespace lockstep::embedding;
+using namespace lockstep::host;
+using namespace lockstep::host::embedding;
 
 lockstep_run* lockstep_run_new(lockstep_project* project, const lockstep_run_options* given) {
   return guarded([&]() -> lockstep_run* {

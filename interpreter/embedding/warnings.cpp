@@ -7,7 +7,7 @@
 
 #include "runtime/progress_text.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 Warnings::Warnings(const Tree& tree, LeafLog log) : tree_(tree), log_(std::move(log)) {}
 
@@ -32,4 +32,4 @@ void Warnings::tell(const Ticker& ticker, std::span<const Fault> faults, std::ui
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

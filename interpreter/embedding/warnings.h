@@ -11,7 +11,7 @@
 #include "engine/tree.h"
 #include "plugin/contract/leaf_set.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Warnings {
  public:
@@ -29,4 +29,4 @@ class Warnings {
   std::size_t out_of_range_ = 0, went_on_ = 0;  // leaves that were told
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -1,6 +1,6 @@
 #include "engine/blackboard.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 void Blackboard::reset(const Tree& tree) {
   entries.resize(tree.slots.size());
@@ -18,4 +18,4 @@ void Blackboard::reset(const Tree& tree) {
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

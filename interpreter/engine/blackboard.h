@@ -6,7 +6,7 @@
 #include "blackboard/entry.h"
 #include "engine/tree.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct Blackboard {
   explicit Blackboard(const Tree& tree) { reset(tree); }
@@ -15,4 +15,4 @@ struct Blackboard {
   std::vector<Entry> entries;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 
 #include "engine/node_context.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 Status tick_bound(NodeContext& context, NodeIndex self) {
   if (!reread(context, self)) return give_up(context, self);
@@ -25,4 +25,4 @@ Status give_up(NodeContext& context, NodeIndex self) {
   return Status::Failure;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 #include "core/status.h"
 #include "engine/node_kind.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Reads the entries, then ticks as the node's kind does.
 Status tick_bound(NodeContext& context, NodeIndex self);
@@ -14,4 +14,4 @@ bool reread(NodeContext& context, NodeIndex self);
 // The status that the node's tick returns after that.
 Status give_up(NodeContext& context, NodeIndex self);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 #include "core/suggest.h"
 #include "core/wording.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 BoundParameters::BoundParameters(const Tree& tree, const Blackboard& board)
     : tree_(tree), board_(board), cells_(tree.cells.data()), numbers_(tree.numbers.data()) {
@@ -183,4 +183,4 @@ void BoundParameters::set_list(Cell& cell, std::uint32_t& space, const std::vect
   std::ranges::copy(list, own_.numbers.begin() + cell.list.first);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

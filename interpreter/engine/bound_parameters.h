@@ -10,7 +10,7 @@
 #include "engine/blackboard.h"
 #include "engine/tree.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class BoundParameters {
  public:
@@ -76,4 +76,4 @@ class BoundParameters {
   State own_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

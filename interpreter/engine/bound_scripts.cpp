@@ -5,7 +5,7 @@
 #include "blackboard/conversion.h"
 #include "core/wording.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 BoundScripts::BoundScripts(const Tree& tree, Blackboard& board, NamedEntries& names)
     : tree_(tree), names_(names) {
@@ -84,4 +84,4 @@ bool BoundScripts::compile(NodeIndex node, std::uint32_t script) {
   return true;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -16,7 +16,7 @@
 #include "expression/evaluator.h"
 #include "expression/relation.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class BoundScripts {
  public:
@@ -74,4 +74,4 @@ class BoundScripts {
   Value value_;  // of the last script
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

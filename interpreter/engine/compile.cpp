@@ -15,7 +15,7 @@
 #include "engine/nodes/kinds.h"
 #include "engine/resources.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 const NodeKind* mock_of(NodeCategory category) {
@@ -489,4 +489,4 @@ Tree compile(const Definition& definition) {
   return Compiler(definition).compile();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,9 +4,9 @@
 #include "definition/definition.h"
 #include "engine/tree.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // The tree points to the node types of the definition's catalog; it does not need the definition.
 Tree compile(const Definition& definition);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

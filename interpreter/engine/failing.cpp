@@ -8,7 +8,7 @@
 #include "engine/synchronized.h"
 #include "engine/ticker.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 void Ticker::fail_next(NodeIndex node) {
   if (std::ranges::find(state_.failing, node) == state_.failing.end())
@@ -82,4 +82,4 @@ void NodeContext::halt_failed(NodeIndex node) {
   leaf(node).failed = true;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

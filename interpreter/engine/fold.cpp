@@ -5,7 +5,7 @@
 #include "engine/groups.h"
 #include "engine/ticker.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // How often an entry was written is looked at by a few nodes. An entry that may be removed begins
@@ -60,4 +60,4 @@ void Ticker::fold_entries() {
   parameters_.reset();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

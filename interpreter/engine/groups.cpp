@@ -2,7 +2,7 @@
 
 #include "engine/node_context.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 void Groups::tick(NodeContext& context) {
   for (const std::uint32_t number : tree_.group_order) {
@@ -34,4 +34,4 @@ void Groups::fold() {
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

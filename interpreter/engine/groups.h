@@ -7,7 +7,7 @@
 #include "engine/run_state.h"
 #include "engine/tree.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class NodeContext;
 
@@ -42,4 +42,4 @@ class Groups {
   RunState& state_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

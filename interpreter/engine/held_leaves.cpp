@@ -5,7 +5,7 @@
 #include "engine/node_context.h"
 #include "engine/synchronized.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // What is less is noise: of a sensor, or of an arm that slows down.
@@ -43,4 +43,4 @@ void HeldLeaves::reset() {
   went_on_.clear();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -10,7 +10,7 @@
 #include "engine/leaf_slot.h"
 #include "engine/node_kind.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class NodeContext;
 
@@ -48,4 +48,4 @@ class HeldLeaves {
 // those to find who need it. In nodes/leaf.cpp.
 std::optional<double> look_at_progress(LeafSlot& leaf);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 
 struct lockstep_leaf_type;
 
-namespace lockstep {
+namespace lockstep::host {
 
 // What a control node of a plugin may do with its children at this moment.
 enum class ChildAccess : std::uint8_t { None, Look, Tick };
@@ -25,4 +25,4 @@ struct LeafSlot {
 };
 static_assert(sizeof(LeafSlot) <= 32);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -1,6 +1,6 @@
 #include "engine/named_entries.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 Entry& NamedEntries::at(std::uint32_t board, std::string_view key) {
   const Home home = home_of(boards_, board, key);
@@ -31,4 +31,4 @@ void NamedEntries::reset() {
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -12,7 +12,7 @@
 #include "blackboard/board.h"
 #include "blackboard/entry.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class NamedEntries {
  public:
@@ -39,4 +39,4 @@ class NamedEntries {
   Made made_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

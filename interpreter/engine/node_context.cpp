@@ -9,7 +9,7 @@
 #include "engine/node_ports.h"
 #include "engine/node_scripts.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // Of the next eight nodes: no byte is 0 (S. E. Anderson, "Bit Twiddling Hacks").
@@ -172,4 +172,4 @@ void NodeContext::watch_held(NodeIndex node) {
   held_leaves_.add(node, leaf(node));
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -14,7 +14,7 @@
 #include "engine/leaf_slot.h"
 #include "engine/run_view.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Groups;
 class HeldLeaves;
@@ -163,4 +163,4 @@ class NodeContext : public RunView {
   const FaultPolicy policy_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

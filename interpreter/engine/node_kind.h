@@ -9,7 +9,7 @@
 #include "core/node_type.h"
 #include "core/status.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class NodeContext;
 using NodeIndex = std::uint32_t;
@@ -80,4 +80,4 @@ extern const NodeKind kPluginControl;  // also decorators
 // Of stand-ins for them.
 extern const NodeKind kMockAction, kMockCondition, kMockControl, kMockDecorator;
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -2,7 +2,7 @@
 
 #include "blackboard/conversion.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 const Value* NodePorts::value(NodeIndex node, unsigned index) const {
   const PortBinding& it = binding(node, index);
@@ -33,4 +33,4 @@ std::string NodePorts::missing_name(NodeIndex node, unsigned index) const {
   return message.append(tree_.slots[binding(node, index).slot].name).append("}'");
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 #include "engine/named_entries.h"
 #include "engine/tree.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class NodePorts {
  public:
@@ -50,4 +50,4 @@ class NodePorts {
   NamedEntries names_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

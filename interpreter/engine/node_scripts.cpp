@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-namespace lockstep {
+namespace lockstep::host {
 
 NodeScripts::NodeScripts(NodeContext& context, const Tree& tree, Blackboard& board,
                          NamedEntries& names)
@@ -125,4 +125,4 @@ void NodeScripts::fail(NodeIndex node, std::string_view attribute, std::string_v
   if (tree_.labels[node].type->leaf != nullptr) context_.leaf(node).failed = false;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

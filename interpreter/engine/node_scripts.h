@@ -11,7 +11,7 @@
 #include "engine/bound_scripts.h"
 #include "engine/node_context.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class NodeScripts {
  public:
@@ -63,4 +63,4 @@ class NodeScripts {
   std::vector<NodeIndex> halted_ = {};  // that have a script for it
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,7 +4,7 @@
 
 #include "core/wording.h"
 
-namespace lockstep::resources {
+namespace lockstep::host::resources {
 namespace {
 
 // Whether the barriers and the outer pools of a member let ticks through.
@@ -76,4 +76,4 @@ void give_back(NodeContext& context, NodeIndex node) {
   use.limit = 0.0;
 }
 
-}  // namespace lockstep::resources
+}  // namespace lockstep::host::resources

@@ -8,7 +8,7 @@
 #include "core/resource_set.h"
 #include "engine/synchronized.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // What a member got when it asked for its resources.
 enum class Grant : std::uint8_t {
@@ -80,4 +80,4 @@ void give_back(NodeContext& context, NodeIndex member);
 
 }  // namespace resources
 
-}  // namespace lockstep
+}  // namespace lockstep::host

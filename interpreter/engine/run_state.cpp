@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace lockstep {
+namespace lockstep::host {
 
 RunState::RunState(const Tree& tree)
     : activity(tree.nodes.size(), Activity::Idle),
@@ -24,4 +24,4 @@ void RunState::reset() {
   kept_values.clear();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 #include "core/status.h"
 #include "engine/tree.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 inline constexpr std::uint8_t kWithheld = 8;  // above the bits of a Status
 static_assert(index_of(kLastStatus) < kWithheld);
@@ -73,4 +73,4 @@ struct RunState {
   friend bool operator==(const RunState&, const RunState&) = default;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

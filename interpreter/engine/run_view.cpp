@@ -1,8 +1,8 @@
 #include "engine/run_view.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 RunView::RunView(const Tree& tree, Blackboard& board)
     : tree_(tree), nodes_(tree.nodes.data()), board_(board), state_(tree) {}
 
-}  // namespace lockstep
+}  // namespace lockstep::host

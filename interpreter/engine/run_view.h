@@ -9,7 +9,7 @@
 #include "engine/run_state.h"
 #include "engine/tree.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class RunView {
  public:
@@ -65,4 +65,4 @@ class RunView {
   RunState state_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

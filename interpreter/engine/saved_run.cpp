@@ -3,7 +3,7 @@
 #include "engine/node_ports.h"
 #include "engine/ticker.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 void Ticker::save(SavedRun& into) const {
   into.run = state_;
@@ -33,4 +33,4 @@ void Ticker::restore(const SavedRun& from) {
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

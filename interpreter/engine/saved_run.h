@@ -10,7 +10,7 @@
 #include "engine/named_entries.h"
 #include "engine/run_state.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // What the engine keeps of a leaf beside the leaf.
 struct SlotState {
@@ -28,4 +28,4 @@ struct SavedRun {
   std::vector<SlotState> leaves;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

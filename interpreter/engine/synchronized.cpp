@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 std::size_t place_of(const Tree& tree, NodeIndex node, std::string_view parameter) {
@@ -50,4 +50,4 @@ bool ignores_idle(const Tree& tree, NodeIndex node) {
              cell_of(tree, node, "idle").integer)] == "ignore";
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -9,7 +9,7 @@
 
 #include "engine/node_context.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Tolerance for comparing progress: 0.8 <= 0.7 + 0.1 is false in doubles.
 inline constexpr double kProgressEpsilon = 1e-9;
@@ -97,4 +97,4 @@ std::optional<double> delta(const Tree& tree, NodeIndex node);
 // A group that leaves out the members that are idle.
 bool ignores_idle(const Tree& tree, NodeIndex node);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,7 +4,7 @@
 #include "engine/node_ports.h"
 #include "engine/node_scripts.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 Status Ticker::tick_root(Nanoseconds now) {
   set_now(now);
@@ -38,4 +38,4 @@ void Ticker::reset() {
   for (LeafSlot& leaf : leaves_) leaf.out_of_range = leaf.went_on = false;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

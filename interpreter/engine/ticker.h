@@ -10,7 +10,7 @@
 #include "engine/held_leaves.h"
 #include "engine/node_context.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct SavedRun;
 
@@ -77,4 +77,4 @@ class Ticker : public NodeContext {
   void forget_below_ended();
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,7 +4,7 @@
 
 #include "core/resource_set.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 Cell scalar_cell(const Parameter& parameter, const Value& value) {
   Cell cell{.integer = 0};
@@ -69,4 +69,4 @@ void Tree::path(NodeIndex node, std::string& text) const {
   append_path(*this, node, 0, text);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -18,7 +18,7 @@
 #include "engine/node_kind.h"
 #include "expression/script_enums.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Expression;
 
@@ -194,4 +194,4 @@ Cell scalar_cell(const Parameter& parameter, const Value& value);
 // Of a value that names resources: their set.
 Cell resource_cell(std::span<const std::string> names, const Value& value);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

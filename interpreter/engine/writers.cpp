@@ -5,7 +5,7 @@
 
 #include "expression/expression.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 class Writers {
@@ -69,4 +69,4 @@ std::vector<std::vector<NodeIndex>> writers(const Tree& tree) {
   return Writers(tree).find();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

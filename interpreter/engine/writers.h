@@ -6,10 +6,10 @@
 
 #include "engine/tree.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // By slot, each in pre-order: nodes with a port or a script that writes it. Not those that look
 // entries up by name while they run.
 std::vector<std::vector<NodeIndex>> writers(const Tree& tree);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

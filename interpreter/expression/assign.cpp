@@ -10,7 +10,7 @@
 #include "core/parameter_value.h"
 #include "core/wording.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // The value that an entry gets, or nothing: it does not take the operand.
@@ -152,4 +152,4 @@ std::string refusal(const Entry& entry, const Operand& value, std::string_view n
                      what);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 #include "expression/expression.h"
 #include "expression/operand.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // The number that a text means in a script: true, false, a word of `enums`, or the number that it
 // begins with.
@@ -22,4 +22,4 @@ bool assign_number(Entry& entry, const Operand& value);
 // The error after that. `name`: of the entry.
 std::string refusal(const Entry& entry, const Operand& value, std::string_view name);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -1,6 +1,6 @@
 #include "expression/change.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 std::optional<double> constant(const Instruction& it) {
@@ -30,4 +30,4 @@ std::optional<Change> only_change(const std::vector<Instruction>& code) {
   return by && is_change ? std::optional(Change{operation, *by}) : std::nullopt;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -10,7 +10,7 @@
 #include "expression/program.h"
 #include "expression/relation.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 inline double calculated(double left, Operation operation, double right) {
   switch (operation) {
@@ -57,4 +57,4 @@ inline bool apply(const Change& change, Entry& entry) {
   return true;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -3,7 +3,7 @@
 #include "expression/assign.h"
 #include "expression/operand.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 bool equals_text(const Value& value, const std::string& text) {
   const Operand operand = Operand::of(value);
@@ -15,4 +15,4 @@ bool equals_text(const Value& value, const std::string& text) {
   return other && is_equal(number, *other);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 
 #include "core/value.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 inline constexpr double kEqualWithin = std::numeric_limits<float>::epsilon();
 
@@ -18,4 +18,4 @@ inline bool is_equal(double left, double right) {
 // What `value == 'text'` is in a script; false where it would be an error.
 bool equals_text(const Value& value, const std::string& text);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

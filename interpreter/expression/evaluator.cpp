@@ -14,7 +14,7 @@
 #include "expression/operator_words.h"
 #include "expression/relation.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 bool are_related(const std::string& left, Relation relation, const std::string& right) {
@@ -499,4 +499,4 @@ Truth Evaluator::test(const Expression& expression, std::span<Entry* const> entr
   return Truth::Error;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

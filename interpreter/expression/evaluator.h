@@ -12,7 +12,7 @@
 #include "expression/expression.h"
 #include "expression/operand.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Of a condition.
 enum class Truth : std::uint8_t { No, Yes, Error };
@@ -46,4 +46,4 @@ class Evaluator {
   std::vector<std::string> texts_;  // those that were made for the operand at that place
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -10,7 +10,7 @@
 #include "core/wording.h"
 #include "expression/token.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr unsigned kDeepest = 256;  // levels of brackets, signs, assignments and conditions
@@ -425,4 +425,4 @@ tl::expected<Expression, Expression::Error> Expression::parse(
   return ExpressionParser(text, std::move(enums), words).parse();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

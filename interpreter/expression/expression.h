@@ -15,7 +15,7 @@
 #include "expression/program.h"
 #include "expression/script_enums.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Expression {
  public:
@@ -68,4 +68,4 @@ class Expression {
   std::shared_ptr<const ScriptEnums> enums_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,7 +4,7 @@
 
 #include "core/wording.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 Value Operand::value() const {
   switch (kind) {
@@ -38,4 +38,4 @@ std::string Operand::shown() const {
   return "an entry without value";
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 
 #include "core/value.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct Operand {
   enum class Kind : std::uint8_t { Empty, Whole, Real, Text, Other };
@@ -77,4 +77,4 @@ struct Operand {
   };
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

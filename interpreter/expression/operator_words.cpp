@@ -1,6 +1,6 @@
 #include "expression/operator_words.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 std::string_view sign_of(Operation operation, Relation relation) {
   constexpr std::string_view kRelations[] = {"==", "!=", "<", "<=", ">", ">="};
@@ -73,4 +73,4 @@ std::string_view operands_of(Operation operation) {
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

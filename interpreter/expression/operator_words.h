@@ -5,11 +5,11 @@
 
 #include "expression/program.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // As it is written. `relation` is that of a comparison.
 std::string_view sign_of(Operation operation, Relation relation);
 // What it takes: "two numbers".
 std::string_view operands_of(Operation operation);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace lockstep {
+namespace lockstep::host {
 
 enum class Operation : std::uint8_t {
   // Push a constant, or the value of an entry.
@@ -76,4 +76,4 @@ struct ScriptProgram {
   std::vector<std::string> texts;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 #include "expression/equal.h"
 #include "expression/program.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // NaN is neither "less or equal" nor "more or equal", and so both less and more. Without branches:
 // a bit for each relation.
@@ -38,4 +38,4 @@ inline bool take(const Value& value, double& number) {
   return whole != nullptr && take_exactly(*whole, number);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

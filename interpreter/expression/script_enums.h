@@ -5,8 +5,8 @@
 #include <map>
 #include <string>
 
-namespace lockstep {
+namespace lockstep::host {
 
 using ScriptEnums = std::map<std::string, double, std::less<>>;
 
-}  // namespace lockstep
+}  // namespace lockstep::host

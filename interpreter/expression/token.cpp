@@ -9,7 +9,7 @@
 #include "core/utf8.h"
 #include "core/wording.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using TokenResult = tl::expected<Token, Expression::Error>;
@@ -195,4 +195,4 @@ tl::expected<Token, Expression::Error> next_token(std::string_view script, std::
   return token;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -9,7 +9,7 @@
 
 #include "expression/expression.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 enum class Symbol : std::uint8_t {
   End,
@@ -59,4 +59,4 @@ struct Token {
 // The token at the beginning of script.substr(offset), after blanks; `offset` moves behind it.
 tl::expected<Token, Expression::Error> next_token(std::string_view script, std::size_t& offset);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

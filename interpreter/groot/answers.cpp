@@ -3,7 +3,7 @@
 #include <chrono>
 #include <utility>
 
-namespace lockstep {
+namespace lockstep::host {
 
 GrootAnswers::GrootAnswers(const Tree& tree, GrootTree shown, StatusFeed& statuses,
                            SnapshotFeed& snapshots, RunControl* control)
@@ -82,4 +82,4 @@ GrootMessage GrootAnswers::toggle_recording(std::string_view word, std::string h
   return {std::move(header), std::to_string(since.count())};
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

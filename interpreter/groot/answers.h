@@ -12,7 +12,7 @@
 #include "live/snapshot_feed.h"
 #include "live/status_feed.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class GrootAnswers {
  public:
@@ -38,4 +38,4 @@ class GrootAnswers {
   const bool has_control_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

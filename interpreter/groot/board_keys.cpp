@@ -2,7 +2,7 @@
 
 #include "dialect/btcpp/words.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using Slots = std::map<std::string, std::uint32_t, std::less<>>;
@@ -68,4 +68,4 @@ std::vector<GrootBoardKeys> groot_board_keys(const Definition& definition,
   return boards;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

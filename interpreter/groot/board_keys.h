@@ -9,7 +9,7 @@
 
 #include "groot/subtrees.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Of one subtree.
 struct GrootBoardKeys {
@@ -22,4 +22,4 @@ struct GrootBoardKeys {
 std::vector<GrootBoardKeys> groot_board_keys(const Definition& definition,
                                              std::span<const GrootSubtree> subtrees);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

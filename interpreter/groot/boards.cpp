@@ -9,7 +9,7 @@
 #include "engine/synchronized.h"
 #include "measure/synchronized_measure.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // Of the main tree's board, where it is not asked for by its own.
@@ -118,4 +118,4 @@ std::string GrootBoards::dump(std::string_view names, const Snapshot& snapshot) 
   return json.message_pack();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -13,7 +13,7 @@
 #include "json/json.h"
 #include "live/snapshot.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class GrootBoards {
  public:
@@ -44,4 +44,4 @@ class GrootBoards {
   std::map<NodeIndex, std::size_t> by_node_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -10,7 +10,7 @@
 
 #include "system/file_descriptor.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // Stays the same connection, whatever becomes of the descriptor.
@@ -78,4 +78,4 @@ void ConnectionGuard::forget_closed() {
   });
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

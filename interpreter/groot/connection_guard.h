@@ -9,7 +9,7 @@
 
 #include "core/clock.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class ConnectionGuard {
  public:
@@ -40,4 +40,4 @@ class ConnectionGuard {
   std::map<int, Connection> connections_;  // by descriptor
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -15,7 +15,7 @@
 #include "engine/node_kind.h"
 #include "groot/statuses.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using btcpp::AttributePair;
@@ -166,4 +166,4 @@ std::string groot_document(const Definition& definition, std::span<const GrootSu
   return Writer(definition, subtrees).write();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

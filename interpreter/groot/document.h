@@ -6,10 +6,10 @@
 
 #include "groot/subtrees.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Each subtree is a BehaviorTree, and each node has the uid of its status. Nodes that the library
 // has too are called as there; TreeNodesModel describes all.
 std::string groot_document(const Definition& definition, std::span<const GrootSubtree> subtrees);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -9,7 +9,7 @@
 #include "json/json.h"
 #include "json/reader.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr const char* kGoesOn = "SKIPPED";
@@ -198,4 +198,4 @@ void GrootHooks::go_on_from(const Hook& hook) {
   if (is_paused_by(hook)) control_->give({.what = RunControl::Order::What::Resume});
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

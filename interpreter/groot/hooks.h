@@ -12,7 +12,7 @@
 #include "engine/tree.h"
 #include "runtime/run_control.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class GrootHooks {
  public:
@@ -68,4 +68,4 @@ class GrootHooks {
   std::uint64_t pauses_ = 0;  // that were looked at
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

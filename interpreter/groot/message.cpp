@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr char kProtocol = 2;
@@ -52,4 +52,4 @@ GrootMessage groot_error(std::string text) {
   return {"error", std::move(text)};
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

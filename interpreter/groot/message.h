@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lockstep {
+namespace lockstep::host {
 
 using GrootMessage = std::vector<std::string>;
 
@@ -48,4 +48,4 @@ GrootMessage groot_error(std::string text);
 // Appends `count` bytes of a number.
 void append_number(std::string& to, std::uint64_t number, unsigned count);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::chrono::milliseconds kLook{100};
@@ -103,4 +103,4 @@ void GrootPublisher::watch_hooks() {
                      tree_.path(*node), kAbsent.count()));
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -14,7 +14,7 @@
 #include "live/watcher_thread.h"
 #include "runtime/observer.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct GrootOptions {
   GrootTree shown;
@@ -53,4 +53,4 @@ class GrootPublisher final : public Observer {
   WatcherThread thread_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

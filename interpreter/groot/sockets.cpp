@@ -17,7 +17,7 @@
 #include "groot/sockets.h"
 #include "system/late_library.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 struct ZeroMq : LateLibrary {
@@ -216,4 +216,4 @@ void GrootSockets::publish(const GrootMessage& message) {
   send(it_->events, message);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

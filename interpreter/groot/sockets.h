@@ -9,7 +9,7 @@
 #include "groot/message.h"
 #include "system/file_descriptor.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class GrootSockets {
  public:
@@ -31,4 +31,4 @@ class GrootSockets {
   std::unique_ptr<Implementation> it_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 
 #include "groot/message.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // An idle node has what it was before: 10 and that status.
@@ -56,4 +56,4 @@ std::string GrootStatuses::take_transitions() {
   return bytes;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -12,7 +12,7 @@
 #include "core/status.h"
 #include "engine/node_kind.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // It has 16 bits.
 constexpr std::size_t kMostGrootNodes = 65'535;
@@ -52,4 +52,4 @@ class GrootStatuses {
   std::deque<Transition> transitions_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

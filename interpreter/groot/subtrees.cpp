@@ -7,7 +7,7 @@
 
 #include "groot/statuses.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // As the library calls it: by its name, or by its tree and uid.
@@ -48,4 +48,4 @@ std::string_view written_value(const Definition& definition, const DefinitionNod
   return found == written.end() ? std::string_view() : found->value;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 
 #include "definition/definition.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct GrootSubtree {
   std::string_view id;      // of the BehaviorTree
@@ -39,4 +39,4 @@ void for_each_node(const Definition& definition, const GrootSubtree& subtree, Vi
 std::string_view written_value(const Definition& definition, const DefinitionNode& node,
                                std::string_view attribute);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 #include "groot/document.h"
 #include "groot/statuses.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 Result<GrootTree> groot_tree(const Definition& definition) {
   const std::size_t nodes = definition.nodes[0].end;
@@ -25,4 +25,4 @@ Result<GrootTree> groot_tree(const Definition& definition) {
                    groot_board_keys(definition, subtrees)};
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

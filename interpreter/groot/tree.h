@@ -9,7 +9,7 @@
 #include "definition/definition.h"
 #include "groot/board_keys.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct GrootTree {
   std::string document;
@@ -20,4 +20,4 @@ struct GrootTree {
 // Refuses a tree with more nodes than the protocol has numbers for.
 Result<GrootTree> groot_tree(const Definition& definition);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

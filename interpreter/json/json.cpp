@@ -7,7 +7,7 @@
 
 #include "core/utf8.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using Scalar = nlohmann::json;
@@ -135,4 +135,4 @@ void append_json(std::string& to, std::string_view text) {
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -17,7 +17,7 @@
 
 #include "core/value.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct JsonMember;
 
@@ -75,4 +75,4 @@ struct JsonMember {
 // Adds a text with its quotes. Allocates nothing where `to` has room, if nothing must be escaped.
 void append_json(std::string& to, std::string_view text);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

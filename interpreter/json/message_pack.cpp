@@ -2,7 +2,7 @@
 
 #include "json/json.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 std::string Json::message_pack() const {
   std::string bytes;
@@ -10,4 +10,4 @@ std::string Json::message_pack() const {
   return bytes;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 
 #include "core/wording.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 namespace ondemand = simdjson::ondemand;
@@ -195,4 +195,4 @@ void JsonReader::read(std::string& text, const std::function<void(JsonObject)>& 
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

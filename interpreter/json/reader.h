@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lockstep {
+namespace lockstep::host {
 
 // The text does not have the expected content: "'seed' is missing".
 struct JsonError : std::runtime_error {
@@ -132,4 +132,4 @@ inline auto into(std::uint64_t& number) {
   return [&number](JsonValue value) { number = value.whole(); };
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 template <class Item>
@@ -94,4 +94,4 @@ void EventCounts::take_entry(std::size_t entry, std::optional<std::string_view> 
   known.value = value;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

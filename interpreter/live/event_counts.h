@@ -13,7 +13,7 @@
 #include "live/live_format.h"
 #include "live/packet_ring.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class EventCounts {
  public:
@@ -68,4 +68,4 @@ class EventCounts {
   std::uint64_t tick_ = 0;  // how many were taken
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -1,6 +1,6 @@
 #include "live/header_and_end.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 std::vector<RecordedNode> describe(const Tree& tree) {
   std::vector<RecordedNode> nodes(tree.nodes.size());
@@ -23,4 +23,4 @@ std::vector<RecordedNode> describe(const Tree& tree) {
   return nodes;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

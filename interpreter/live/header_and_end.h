@@ -10,7 +10,7 @@
 #include "engine/synchronized.h"
 #include "runtime/leaf_lines.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct RecordedNode {
   std::string path, kind, name;
@@ -56,4 +56,4 @@ struct RecordedEnd {
 // The header's part about the nodes.
 std::vector<RecordedNode> describe(const Tree& tree);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 
 #include "system/file_descriptor.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // Nothing but a file: a pipe would take what is for its reader.
@@ -101,4 +101,4 @@ std::string_view History::next_logged() {
   return {};
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

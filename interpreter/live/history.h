@@ -13,7 +13,7 @@
 #include "live/live_format.h"
 #include "live/stream.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class History final : public Stream {
  public:
@@ -52,4 +52,4 @@ class History final : public Stream {
   std::uint64_t read_ = 0;  // the event that it is of, and 1 more; 0: none
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

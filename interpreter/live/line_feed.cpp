@@ -6,7 +6,7 @@
 
 #include "live/packet_printer.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // Room for some lines that have all nodes, and for seconds of a smaller tree at 1 kHz.
@@ -163,4 +163,4 @@ void LineFeed::take(std::string& lines) {
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -20,7 +20,7 @@
 #include "runtime/observer.h"
 #include "system/bell.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class LineFeed final : public Observer {
  public:
@@ -97,4 +97,4 @@ class LineFeed final : public Observer {
   EventCounts counts_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -16,7 +16,7 @@
 #include "live/packet.h"
 #include "measure/entry_changes.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // What a tick has besides its nodes.
 struct TickEnd {
@@ -63,4 +63,4 @@ class LineFormat {
   ~LineFormat() = default;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

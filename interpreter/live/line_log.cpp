@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace lockstep {
+namespace lockstep::host {
 
 void LineLog::add(LoggedEvent event) {
   const bool is_full = event.is_full;
@@ -93,4 +93,4 @@ void LineLog::catch_up(Place& place) {
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <utility>
 
-namespace lockstep {
+namespace lockstep::host {
 
 // What listeners get at once: a line, or something beside the lines.
 struct LoggedEvent {
@@ -94,4 +94,4 @@ class LineLog {
   bool is_somebody_behind_ = false;  // with no full line to go on at
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

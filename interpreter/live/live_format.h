@@ -10,7 +10,7 @@
 
 #include "live/line_format.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class EventCounts;
 
@@ -37,4 +37,4 @@ class LiveFormat : public LineFormat {
   ~LiveFormat() = default;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

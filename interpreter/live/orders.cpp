@@ -11,7 +11,7 @@
 #include "engine/synchronized.h"
 #include "json/reader.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using Order = RunControl::Order;
@@ -125,4 +125,4 @@ Result<Order> read_order(const Tree& tree, bool is_real_time, std::string text) 
                  "pause, resume, step, halt, speed, set, break");
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

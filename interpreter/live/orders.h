@@ -8,7 +8,7 @@
 #include "engine/tree.h"
 #include "runtime/run_control.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // The order that the text has, checked: it can be carried out in a run of this tree.
 Result<RunControl::Order> read_order(const Tree& tree, bool is_real_time, std::string text);
@@ -16,4 +16,4 @@ Result<RunControl::Order> read_order(const Tree& tree, bool is_real_time, std::s
 // When the run is to pause, as clients say it: "begins", "completes" or "barrier".
 std::string_view word_of(Breakpoint::When when);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -10,7 +10,7 @@
 #include "engine/node_kind.h"
 #include "engine/run_state.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // What a tick line says of one node.
 struct NodeChange {
@@ -71,4 +71,4 @@ constexpr std::uint64_t packet_size(const Packet& packet) {
   return packet_size(packet.nodes.size(), packet.text.size());
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

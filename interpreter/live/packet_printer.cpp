@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace lockstep {
+namespace lockstep::host {
 
 std::string_view PacketPrinter::print(std::span<char> room) {
   char* const end = room.data() + room.size();
@@ -68,4 +68,4 @@ char* PacketPrinter::put_text(char* to, const char* end) {
   return std::copy(piece.begin(), piece.end(), to);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -10,7 +10,7 @@
 #include "live/line_format.h"
 #include "live/packet_ring.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class PacketPrinter {
  public:
@@ -49,4 +49,4 @@ class PacketPrinter {
   PacketHead head_ = {};
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

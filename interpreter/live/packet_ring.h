@@ -13,7 +13,7 @@
 
 #include "live/packet.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class PacketRing {
  public:
@@ -113,4 +113,4 @@ class PacketRing {
   std::vector<char> bytes_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -9,7 +9,7 @@
 #include "live/watched_nodes.h"
 #include "measure/synchronized_measure.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::uint8_t kMoved = 32;     // above NodeChange::kTicked
@@ -84,7 +84,7 @@ std::span<const NodeIndex> RunDelta::succeeded(Ticker& ticker) {
   succeeded_.clear();
   for (const NodeIndex node : synchronized_nodes_) {
     if (ticker.status(node) != Status::Idle || !ticker.ticked(node)) continue;
-    if (lockstep::succeeded(ticker, node)) succeeded_.push_back(node);
+    if (lockstep::host::succeeded(ticker, node)) succeeded_.push_back(node);
   }
   return succeeded_;
 }
@@ -94,7 +94,7 @@ std::span<const LimitChange> RunDelta::limits(Ticker& ticker) {
   for (std::size_t i = 0; i < kept_limits_.size(); ++i) {
     const LimitChange& kept = kept_limits_[i];
     const bool is_as_kept = i < first_user_ && !ticker.ticked(kept.node);
-    const double limit = is_as_kept ? kept.limit : lockstep::limit(ticker, kept.node);
+    const double limit = is_as_kept ? kept.limit : lockstep::host::limit(ticker, kept.node);
     if (limit != (all_limits_ ? 0 : kept.limit)) limits_.push_back({kept.node, limit});
   }
   return limits_;
@@ -155,4 +155,4 @@ void RunDelta::take_snapshots(Ticker& ticker) {
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

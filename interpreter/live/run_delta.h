@@ -7,7 +7,7 @@
 
 #include "live/packet.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Ticker;
 struct Tree;
@@ -63,4 +63,4 @@ class RunDelta {
   bool has_turns_ = false, has_begun_ = false;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

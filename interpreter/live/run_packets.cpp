@@ -13,7 +13,7 @@
 #include "measure/synchronized_measure.h"
 #include "summary/statistics.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 std::vector<std::uint32_t> slots_of(const Tree& tree,
@@ -125,4 +125,4 @@ std::string RunPackets::end(const Ticker& ticker, const RunEnd& end, std::uint64
   return format_.end(closing);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -16,7 +16,7 @@
 #include "runtime/leaf_lines.h"
 #include "runtime/observer.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct RunDescription {
   std::string tree_file;  // as the user named it
@@ -66,4 +66,4 @@ class RunPackets {
   bool has_events_ = false;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

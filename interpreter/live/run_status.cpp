@@ -5,7 +5,7 @@
 #include "json/json.h"
 #include "live/orders.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 Json json_of(Breakpoint breakpoint) {
@@ -42,4 +42,4 @@ std::optional<std::string> RunStatus::next(const RunControl::State& state, LineF
   return json.text();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

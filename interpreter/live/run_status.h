@@ -9,7 +9,7 @@
 #include "live/line_feed.h"
 #include "runtime/run_control.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class RunStatus {
  public:
@@ -29,4 +29,4 @@ class RunStatus {
   bool is_changed_ = false;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -13,7 +13,7 @@
 #include "runtime/leaf_lines.h"
 #include "runtime/observer.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct NodeView {
   Activity activity = Activity::Idle;
@@ -43,4 +43,4 @@ struct Snapshot {
   RecentLines logs = {};
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 #include "live/watched_nodes.h"
 #include "measure/synchronized_measure.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 std::vector<std::uint32_t> all_slots(const Tree& tree) {
@@ -120,4 +120,4 @@ void SnapshotFeed::take_progress(Ticker& ticker, NodeIndex node,
   });
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

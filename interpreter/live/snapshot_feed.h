@@ -12,7 +12,7 @@
 #include "measure/entry_changes.h"
 #include "runtime/leaf_lines.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class SnapshotFeed final : public Observer {
  public:
@@ -57,4 +57,4 @@ class SnapshotFeed final : public Observer {
   TripleBuffer<Snapshot> snapshots_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,7 +4,7 @@
 
 #include "core/differences.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // For three ticks that change everything, and for many that change little.
@@ -31,4 +31,4 @@ void StatusFeed::after_tick(Ticker& ticker, const TickReport& report) {
   for (const NodeChange& it : changes) passed_on_[it.node] = it.state;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 #include "live/packet_ring.h"
 #include "runtime/observer.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class StatusFeed final : public Observer {
  public:
@@ -34,4 +34,4 @@ class StatusFeed final : public Observer {
   PacketRing ring_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Stream {
  public:
@@ -20,4 +20,4 @@ class Stream {
   virtual Piece read(std::span<char> to) = 0;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 #include <atomic>
 #include <cstdint>
 
-namespace lockstep {
+namespace lockstep::host {
 
 template <class T>
 class TripleBuffer {
@@ -41,4 +41,4 @@ class TripleBuffer {
   std::uint32_t front_ = 2;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

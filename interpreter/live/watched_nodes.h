@@ -6,7 +6,7 @@
 #include "engine/synchronized.h"
 #include "engine/ticker.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Those that run their child again and again.
 inline std::vector<NodeIndex> repeating_nodes(const Tree& tree) {
@@ -28,4 +28,4 @@ void each_used_progress(Ticker& ticker, NodeIndex node, Visit visit) {
   });
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 
 #include "system/own_thread.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 WatcherThread::WatcherThread() : wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
 
@@ -34,4 +34,4 @@ void WatcherThread::forget_wakes() const {
   eventfd_read(wake_.number(), &rung);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 
 #include "system/file_descriptor.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class WatcherThread {
  public:
@@ -36,4 +36,4 @@ class WatcherThread {
   std::thread thread_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

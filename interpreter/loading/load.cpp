@@ -7,7 +7,7 @@
 
 #include "engine/compile.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // What is wrong with the options has no place in a file.
@@ -81,4 +81,4 @@ Runnable make_runnable(Loaded loaded) {
   return runnable;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

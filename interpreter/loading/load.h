@@ -13,7 +13,7 @@
 #include "engine/tree.h"
 #include "loading/plugins.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct LoadOptions {
   PluginOptions plugins;
@@ -60,4 +60,4 @@ struct Runnable {
 
 [[nodiscard]] Runnable make_runnable(Loaded loaded);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -9,7 +9,7 @@
 
 #include "core/audience.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 namespace fs = std::filesystem;
@@ -93,4 +93,4 @@ bool check_plugin_options(const PluginOptions& options, Diagnostics& diagnostics
   return good;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 
 #include "loading/plugins.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Of the options, else of this program; "" when the system does not tell.
 std::filesystem::path program_directory(const PluginOptions& options);
@@ -22,4 +22,4 @@ std::vector<std::string> plugin_directories(const PluginOptions& options);
 // choose the code. Then it also warns that LOCKSTEP_PLUGIN_PATH is not read.
 bool check_plugin_options(const PluginOptions& options, Diagnostics& diagnostics);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -18,7 +18,7 @@
 #include "remote/json_lines/program_plugin.h"
 #include "remote/shared_memory/isolated_plugin.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // `refusal` continues "plugin 'x.so' ".
@@ -350,4 +350,4 @@ std::vector<PluginSet::Info> PluginSet::list() const {
   return list;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

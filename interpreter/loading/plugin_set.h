@@ -17,7 +17,7 @@
 #include "remote/isolation_options.h"
 #include "remote/json_lines/hold.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Isolated: the plugin runs in a separate process. See remote/shared_memory/isolated_plugin.h.
 enum class Isolation : bool { InProcess, Isolated };
@@ -108,4 +108,4 @@ class PluginSet {
   std::vector<std::unique_ptr<Plugin>> plugins_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

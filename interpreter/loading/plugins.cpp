@@ -13,7 +13,7 @@
 #include "plugin/contract/descriptor.h"
 #include "plugin/open/plugin_path.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // Where lockstep-leafhost is: beside this program in a build directory, else where it is installed.
@@ -133,4 +133,4 @@ void warn_of_shadowed(const PluginSet& plugins, const LanguageRules& rules,
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

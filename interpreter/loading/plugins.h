@@ -8,7 +8,7 @@
 #include "document/project.h"
 #include "loading/plugin_set.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Messages call them by the options of the command line.
 struct PluginOptions {
@@ -45,4 +45,4 @@ Catalog make_catalog(const PluginSet& plugins, const LanguageRules& rules = kLoc
 void warn_of_shadowed(const PluginSet& plugins, const LanguageRules& rules,
                       Diagnostics& diagnostics);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 #include "engine/ticker.h"
 #include "measure/synchronized_measure.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // Of several children that agree with their parent, the last one: of a Fallback, the one after
@@ -46,4 +46,4 @@ std::vector<DecidingNode> deciding_path(const Ticker& ticker) {
   });
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -9,7 +9,7 @@
 #include "core/status.h"
 #include "engine/tree.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Ticker;
 
@@ -31,4 +31,4 @@ struct TickedTree {
 std::vector<DecidingNode> deciding_path(const TickedTree& tree);
 std::vector<DecidingNode> deciding_path(const Ticker& ticker);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -1,7 +1,7 @@
 // A number on the blackboard after the last tick.
 #include "measure/measure.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 class EntryAtEnd final : public Accumulator {
@@ -31,4 +31,4 @@ extern const Measure kEntry{
                       const MeasuredRun&) { return std::isfinite(value); },
     .label = [](const MeasureSpec& spec) { return spec.name; }};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // Of a value as text, so that one that is far too long is not written.
@@ -90,4 +90,4 @@ void EntryChanges::start_over() {
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -10,7 +10,7 @@
 
 #include "engine/blackboard.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct EntryChange {
   std::uint32_t entry = 0;            // its number among those that are watched
@@ -56,4 +56,4 @@ class EntryChanges {
   const Blackboard* board_ = nullptr;  // that they are of
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 #include "engine/resources.h"
 #include "measure/measure.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 class Fairness final : public Accumulator {
@@ -49,4 +49,4 @@ extern const Measure kFairness{
       return value > 0 && value <= 1;
     }};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -1,6 +1,6 @@
 #include "measure/fall.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 void FallWatch::after_tick(const SynchronizedTick& tick) {
   constexpr double kRounding = 1e-9;
@@ -22,4 +22,4 @@ void FallWatch::after_tick(const SynchronizedTick& tick) {
   runs_ = tick.status == Status::Running;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -10,7 +10,7 @@
 #include "core/clock.h"
 #include "measure/tick_view.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class FallWatch {
  public:
@@ -35,4 +35,4 @@ class FallWatch {
   std::optional<Fall> while_ticked_, while_held_, rise_while_held_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -1,6 +1,6 @@
 #include "measure/held.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 void HeldChild::after_tick(const TickView& view) {
   const SynchronizedTick& tick = view.parallels[place_];
@@ -50,4 +50,4 @@ extern const Measure kPauses{
     .make = make_accumulator<Pauses>,
     .is_possible = is_count_of_ticks};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

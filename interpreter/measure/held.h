@@ -6,7 +6,7 @@
 
 #include "measure/measure.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class HeldChild : public Accumulator {
  public:
@@ -41,4 +41,4 @@ class HeldChild : public Accumulator {
   Nanoseconds time_{0}, last_{0};
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

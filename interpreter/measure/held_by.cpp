@@ -6,7 +6,7 @@
 #include "engine/synchronized.h"
 #include "measure/measure.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 class HeldBy final : public Accumulator {
@@ -97,4 +97,4 @@ extern const Measure kHeldBy{
     .parse = parse_names,
     .label = [](const MeasureSpec& spec) { return "held by " + spec.other + " (ticks)"; }};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

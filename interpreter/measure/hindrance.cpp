@@ -6,7 +6,7 @@
 #include "engine/resources.h"
 #include "engine/ticker.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // Null: it is no member of any group.
@@ -140,4 +140,4 @@ std::vector<NodeIndex> lasting_owners(Ticker& ticker, const Member& denied) {
   return owners;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

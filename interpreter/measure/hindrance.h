@@ -6,7 +6,7 @@
 
 #include "engine/tree.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Ticker;
 
@@ -62,4 +62,4 @@ class Hindrance {
 // them in one of the next ticks.
 std::vector<NodeIndex> lasting_owners(Ticker& ticker, const Member& denied);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 #include "engine/synchronized.h"
 #include "engine/ticker.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 namespace {
 
@@ -93,4 +93,4 @@ TickView LiveTicks::read(Ticker& ticker, std::uint64_t tick, Nanoseconds time) {
           .entries = numbers_};
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 #include "measure/measuring.h"
 #include "measure/synchronized_measure.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 MeasuredTree measured_tree(const Tree& tree);
 
@@ -36,4 +36,4 @@ class LiveTicks {
   std::vector<ResourceTick> user_ticks_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -12,7 +12,7 @@
 
 #include "measure/tick_view.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // NaN: nothing was measured.
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
@@ -104,4 +104,4 @@ inline bool is_count_of_ticks(double value, const MeasureSpec&, const MeasuredRu
   return value >= 0 && value <= static_cast<double>(run.ticks) && value == std::floor(value);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

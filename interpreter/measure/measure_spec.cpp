@@ -6,7 +6,7 @@
 
 #include "core/suggest.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 std::string quoted(std::string_view text) {
@@ -117,4 +117,4 @@ std::string last_segment(std::string_view path) {
   return std::string(path.substr(path.rfind('/') + 1));
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

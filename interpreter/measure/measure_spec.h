@@ -8,7 +8,7 @@
 #include "core/problem.h"
 #include "measure/measure.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // The measure that `text` names.
 Result<MeasureSpec> parse_measure(std::string_view text);
@@ -28,4 +28,4 @@ Result<std::size_t> find_path(std::span<const std::string> paths, std::string_vi
 // "arm" of "Main/pull/arm".
 std::string last_segment(std::string_view path);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

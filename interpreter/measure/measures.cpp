@@ -1,6 +1,6 @@
 #include "measure/measure.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 extern const Measure kProgressDistance, kProgressDistanceMean, kProgressDistanceSeconds, kSpread,
     kStepLength, kHeld, kHeldBy, kPauses, kWaits, kFairness, kDuration, kTicks, kSuccess, kEntry,
@@ -26,4 +26,4 @@ std::span<const Measure* const> all_measures() {
   return kMeasures;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

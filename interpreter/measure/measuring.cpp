@@ -5,7 +5,7 @@
 
 #include "measure/measure_spec.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 bool is_parallel(const MeasuredTree::Node& node) {
@@ -262,4 +262,4 @@ double Measuring::value(std::size_t column, const EndView& end) const {
   return accumulators_[column]->value(end);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 #include "engine/tree.h"
 #include "measure/measure.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // What can be measured.
 struct MeasuredTree {
@@ -77,4 +77,4 @@ class Measuring {
   std::string error_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -1,7 +1,7 @@
 // The measures of a whole run, which follow from its end.
 #include "measure/measure.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 template <double (*kValue)(const EndView& end)>
@@ -63,4 +63,4 @@ extern const Measure kSuccess{
       return value == (run.succeeded ? 1 : 0);
     }};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 
 #include "core/value.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr double kEqualGap = 1e-9;
@@ -116,4 +116,4 @@ extern const Measure kPredictability{
           return what + to_text(Value(spec.numbers[0])) + " (ticks)";
         }};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

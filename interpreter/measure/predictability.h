@@ -7,7 +7,7 @@
 
 #include "measure/measure.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // The first instant of a run at which the progress was nearest to a target. Gaps that differ by
 // less than 1e-9 are equal, so the first of them counts. Samples come in the order of time.
@@ -57,4 +57,4 @@ class Predictability final : public Accumulator {
   bool succeeded_ = false;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 
 #include "core/value.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 namespace {
 
@@ -122,4 +122,4 @@ extern const Measure kProgressDistanceSeconds{
     .make = make_accumulator<ProgressDistanceSeconds>,
     .is_possible = is_sum};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

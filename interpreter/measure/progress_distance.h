@@ -8,7 +8,7 @@
 
 #include "measure/measure.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // The sum of |p_i - p_j| over all unordered pairs. `scratch` must be as long as `progress`; it
 // holds them in order afterwards. O(n log n), no allocation.
@@ -41,4 +41,4 @@ class ProgressDistance : public Accumulator {
   double sum_ = 0;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace lockstep {
+namespace lockstep::host {
 
 void Spread::after_tick(const TickView& view) {
   const SynchronizedTick& tick = view.parallels[place_];
@@ -23,4 +23,4 @@ extern const Measure kSpread{
     .make = make_accumulator<Spread>,
     .is_possible = is_share};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -3,7 +3,7 @@
 
 #include "measure/measure.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Spread final : public Accumulator {
  public:
@@ -18,4 +18,4 @@ class Spread final : public Accumulator {
   double largest_ = kNoValue;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 #include "engine/resources.h"
 #include "engine/ticker.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr double kNoChange = 1e-9;
@@ -125,4 +125,4 @@ void StallWatch::look(Ticker& ticker, Standing& at, Nanoseconds time) {
   if (!is_known) report_(found);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -13,7 +13,7 @@
 #include "measure/synchronized_measure.h"
 #include "measure/wait_chain.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // A circle of nodes that wait for each other, or a chain of them that ends at what does not come.
 struct Standstill {
@@ -101,4 +101,4 @@ class StallWatch {
   Report report_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -1,6 +1,6 @@
 #include "measure/step_length.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 void StepLength::after_tick(const TickView& view) {
   const SynchronizedTick& tick = view.parallels[place_];
@@ -28,4 +28,4 @@ extern const Measure kStepLength{
     .make = make_accumulator<StepLength>,
     .is_possible = is_share};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 
 #include "measure/measure.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class StepLength final : public Accumulator {
  public:
@@ -24,4 +24,4 @@ class StepLength final : public Accumulator {
   double longest_ = kNoValue;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

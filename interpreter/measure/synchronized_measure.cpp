@@ -9,7 +9,7 @@
 #include "engine/resources.h"
 #include "engine/ticker.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 std::vector<NodeIndex> synchronized_nodes(const Tree& tree) {
   std::vector<NodeIndex> nodes;
@@ -164,4 +164,4 @@ SynchronizedTick SynchronizedProbe::read(Ticker& ticker, Nanoseconds time) {
   return tick;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

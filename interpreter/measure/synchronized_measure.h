@@ -16,7 +16,7 @@
 #include "measure/spread.h"
 #include "measure/step_length.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Ticker;
 
@@ -108,4 +108,4 @@ class SynchronizedProbe {
   std::vector<double> progress_;  // only where the node does not synchronize
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

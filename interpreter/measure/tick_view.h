@@ -10,7 +10,7 @@
 #include "core/clock.h"
 #include "core/status.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Of one parallel, after a tick of the run.
 struct SynchronizedTick {
@@ -60,4 +60,4 @@ struct EndView {
   std::optional<Nanoseconds> ended = {};  // when the run did; None: unknown
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 #include "engine/resources.h"
 #include "engine/ticker.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // What a node calls its children; a barrier and a pool call them by the members around them.
@@ -160,4 +160,4 @@ WaitChain wait_chain(Ticker& ticker, NodeIndex node) {
   return WaitSearch(ticker).from({node, first_held(ticker, node).value_or(node)});
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 #include "engine/tree.h"
 #include "measure/hindrance.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // A barrier and a pool call what they hold by their members.
 struct WaitLink {
@@ -35,4 +35,4 @@ bool holds_somebody(Ticker& ticker, NodeIndex node);
 // node in the tree.
 WaitChain wait_chain(Ticker& ticker, NodeIndex node);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 #include "engine/resources.h"
 #include "measure/measure.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 class LongestWait final : public Accumulator {
@@ -49,4 +49,4 @@ extern const Measure kWaits{
     .make = make_accumulator<LongestWait>,
     .is_possible = is_count_of_ticks};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -15,7 +15,7 @@
 #include "plots/plot_style.h"
 #include "plots/templates.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::size_t kLongestLabel = 24;
@@ -170,4 +170,4 @@ PlotResult draw(const BoxPlot& plot, const std::filesystem::path& directory, Plo
                         .images = {plot.stem + ".svg", plot.stem + ".png"}});
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

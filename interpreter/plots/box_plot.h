@@ -11,7 +11,7 @@
 #include "plots/plot.h"
 #include "study/table.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct BoxGroup {
   std::string label;                 // below it
@@ -38,4 +38,4 @@ PlotResult draw(const BoxPlot& plot, const std::filesystem::path& directory, Plo
 std::string box_plot_data(const BoxPlot& plot);
 std::string box_plot_script(const BoxPlot& plot, PlotSize size);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -13,7 +13,7 @@
 #include "plots/gnuplot_process.h"
 #include "plots/plot_style.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr double kPointsPerPixel = 11.0 / 15;
@@ -163,4 +163,4 @@ PlotResult draw(const PlotFiles& files) {
   return result;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -10,7 +10,7 @@
 
 #include "plots/plot.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // A string literal of gnuplot for exactly this text; control characters are made visible as
 // printable() does.
@@ -38,4 +38,4 @@ struct PlotFiles {
 // Finished files are moved from there; the rest is removed.
 PlotResult draw(const PlotFiles& files);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

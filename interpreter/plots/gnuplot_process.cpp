@@ -18,7 +18,7 @@
 #include "runtime/stop_signals.h"
 #include "system/pipe.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::size_t kMostSaid = 16384;  // bytes; a reader needs only the first error
@@ -129,4 +129,4 @@ GnuplotEnd run_gnuplot(const std::filesystem::path& directory, const std::string
   return ended;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct GnuplotEnd {
   int reason = 0;        // why it could not be started, or 0
@@ -18,4 +18,4 @@ struct GnuplotEnd {
 // an absolute directory of PATH, or /usr/bin/gnuplot if the program has more rights than its user.
 GnuplotEnd run_gnuplot(const std::filesystem::path& directory, const std::string& script);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct PlotResult {
   std::vector<std::filesystem::path> files;  // written, the images last
@@ -22,4 +22,4 @@ struct PlotSize {
   static constexpr int kMost = 8000;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -9,7 +9,7 @@
 #include "core/utf8.h"
 #include "plots/gnuplot.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr int kLargest = 15, kSmallest = 10;  // pixels of a letter
@@ -66,4 +66,4 @@ std::string plot_title(std::string_view text, PlotSize size) {
                      gnuplot_string(std::string_view(all).substr(second)));
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

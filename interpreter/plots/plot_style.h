@@ -6,7 +6,7 @@
 
 #include "plots/plot.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // How many lines progress_plot.gp can distinguish: six colors, solid or with one of five patterns
 // of dashes.
@@ -24,4 +24,4 @@ std::string shortened(std::string_view text, std::size_t most);
 // A gnuplot expression: the title in one or two lines. A longer title loses its beginning.
 std::string plot_title(std::string_view text, PlotSize size);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

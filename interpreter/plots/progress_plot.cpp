@@ -13,7 +13,7 @@
 #include "plots/templates.h"
 #include "summary/summary.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 bool is_relative(const ProgressPlot& plot) {
@@ -141,4 +141,4 @@ PlotResult draw(const ProgressPlot& plot, const std::filesystem::path& image, Pl
                         .images = {image.filename().string()}});
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 #include "plots/progress_sample.h"
 #include "recording/read/recording_reader.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct ProgressPlot {
   NodeIndex index = 0;  // in the recording
@@ -36,4 +36,4 @@ std::string progress_plot_data(const ProgressPlot& plot);
 std::string progress_plot_script(const ProgressPlot& plot, const std::filesystem::path& image,
                                  PlotSize size);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::size_t kPerLine = 4;
@@ -86,4 +86,4 @@ void thin(std::vector<ProgressSample>& samples, std::size_t columns) {
   samples = std::move(thinned);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

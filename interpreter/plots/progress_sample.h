@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct ProgressSample {
   double time = 0;                 // seconds
@@ -22,4 +22,4 @@ struct ProgressSample {
 constexpr std::size_t kMostPerColumn = 8;
 void thin(std::vector<ProgressSample>& samples, std::size_t columns);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 #include "plots/progress_plot.h"
 #include "recording/use/recorded_probe.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // All plots together keep no more numbers than this, however many nodes and children there are.
@@ -126,4 +126,4 @@ std::vector<ProgressPlot> progress_plots(RecordingReader& reader, std::span<cons
   return plots;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 
 #include "live/header_and_end.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 constexpr int kRecordingVersion = 1;
 
@@ -275,4 +275,4 @@ void each_member(const Object& object, Record& record, Visit visit) {
 }
 
 }  // namespace lines
-}  // namespace lockstep
+}  // namespace lockstep::host

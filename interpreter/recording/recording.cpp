@@ -4,7 +4,7 @@
 
 #include "core/wording.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 std::string kind_text(const RecordedNode& node) {
   if (!node.resources.empty()) {
@@ -39,4 +39,4 @@ std::string shown_value(const RecordedEntry& entry) {
   return entry.value.value_or("(too long to be recorded)");
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

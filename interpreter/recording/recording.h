@@ -13,7 +13,7 @@
 #include "engine/node_kind.h"
 #include "live/header_and_end.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // The state of one node in one tick. Before the first tick all nodes are as constructed here.
 struct RecordedState {
@@ -70,4 +70,4 @@ std::vector<bool> resource_users(const RecordingHeader& header);
 // From one tick to the next; 0 when the rate is not known.
 Nanoseconds period_of(const RecordingHeader& header);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -12,7 +12,7 @@
 #include <cerrno>
 #include <cstring>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // What posix_spawn is to do in the child, before the program begins.
@@ -157,4 +157,4 @@ std::string ChildProcess::reap() {
   return describe_end(info.si_code, info.si_status);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 #include "system/file_descriptor.h"
 #include "system/mutex.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // "was killed by SIGSEGV (Segmentation fault)", "ended with exit code 3"; `code` and `status` as
 // waitid has them.
@@ -57,4 +57,4 @@ class ChildProcess {
   FileDescriptor descriptor_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 
 #include "core/clock.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct IsolationOptions {
   std::string leafhost;                               // path of the program lockstep-leafhost
@@ -17,4 +17,4 @@ struct IsolationOptions {
   bool run_programs = false;  // else what they have is read from a file beside them
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

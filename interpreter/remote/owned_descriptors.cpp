@@ -1,6 +1,6 @@
 #include "remote/owned_descriptors.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 lockstep_leaf_type& OwnedDescriptors::add_leaf() {
   lockstep_leaf_type& type = leaves_.emplace_back().type;
@@ -20,4 +20,4 @@ lockstep_port& OwnedDescriptors::add_port() {
   return port;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

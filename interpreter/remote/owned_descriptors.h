@@ -9,7 +9,7 @@
 #include "lockstep/leaf.h"
 #include "remote/remote_plugin.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class OwnedDescriptors {
  public:
@@ -36,4 +36,4 @@ class OwnedDescriptors {
   std::vector<const lockstep_leaf_type*> types_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

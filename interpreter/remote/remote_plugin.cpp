@@ -2,7 +2,7 @@
 
 #include "plugin/contract/descriptor.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 void* create_run(const lockstep_host* /*host*/, const lockstep_caller* caller) {
@@ -73,4 +73,4 @@ const lockstep_leaf_type& proxy_leaf_type() {
   return kType;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

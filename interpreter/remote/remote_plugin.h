@@ -10,7 +10,7 @@
 #include "plugin/contract/host.h"
 #include "plugin/contract/process_leaves.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // A call that goes wrong leaves an error at the caller of the leaf, as one of a leaf does.
 class RemoteLeaf : public ProcessLeaf {
@@ -61,4 +61,4 @@ class RemotePlugin {
 const lockstep_plugin& proxy_plugin();
 const lockstep_leaf_type& proxy_leaf_type();
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 
 #include "engine/synchronized.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 void Breakpoints::set(Ticker& ticker, Breakpoint breakpoint) {
   remove(breakpoint);
@@ -63,4 +63,4 @@ bool Breakpoints::is_barrier_reached(Ticker& ticker, Watched& watched) {
   return is_new || moves_on;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

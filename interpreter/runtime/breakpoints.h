@@ -7,7 +7,7 @@
 
 #include "engine/ticker.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct Breakpoint {
   enum class When : std::uint8_t {
@@ -43,4 +43,4 @@ class Breakpoints {
   std::vector<Watched> watched_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

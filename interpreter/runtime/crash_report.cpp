@@ -20,7 +20,7 @@
 #include "system/own_thread.h"
 #include "system/signal_mask.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::array kFatalSignals{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
@@ -234,4 +234,4 @@ void CrashReport::hang(pthread_t thread, const CallMark& mark, double seconds) {
   report(g_hang, Backtrace::No);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

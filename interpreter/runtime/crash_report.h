@@ -8,7 +8,7 @@
 
 #include "plugin/contract/call_mark.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class CrashReport {
  public:
@@ -34,4 +34,4 @@ class CrashReport {
   [[noreturn]] static void hang(pthread_t thread, const CallMark& mark, double seconds);
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

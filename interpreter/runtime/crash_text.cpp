@@ -2,7 +2,7 @@
 
 #include <signal.h>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 bool is_inside_call(const Crash& crash) {
@@ -177,4 +177,4 @@ void describe(const Crash& crash, SignalText& text) {
   put_hints(crash, text);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 #include "plugin/contract/call_mark.h"
 #include "runtime/signal_text.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 enum class CrashKind : std::uint8_t { Signal, Exit, Hang, Fork };
 
@@ -30,4 +30,4 @@ struct Crash {
 // Lines for a person: what happened, and hints about what to do.
 void describe(const Crash& crash, SignalText& text);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace lockstep {
+namespace lockstep::host {
 
 Deadlines::Deadlines(double rate) : rate_(rate) {
   const double period = 1e9 / rate;
@@ -26,4 +26,4 @@ Nanoseconds deadline_of(std::uint64_t k, double rate) {
   return Nanoseconds(std::llround(static_cast<long double>(k) * 1e9L / rate));
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

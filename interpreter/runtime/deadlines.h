@@ -6,7 +6,7 @@
 
 #include "core/clock.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 Nanoseconds deadline_of(std::uint64_t k, double rate);
 
@@ -30,4 +30,4 @@ class Deadlines {
   std::uint64_t period_ = 0;  // 0: not whole
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 
 #include "system/signal_mask.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 volatile sig_atomic_t g_fuse_code = 0;
@@ -25,4 +25,4 @@ void end_at_once(int exit_code) {
   while (true) syscall(SYS_exit_group, exit_code);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-namespace lockstep {
+namespace lockstep::host {
 
 void LeafLines::add(std::string_view who, std::string_view level, std::string_view text) {
   const Lock lock(mutex_);
@@ -46,4 +46,4 @@ void RecentLines::add(const LeafLine& line) {
   ++earlier;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 
 #include "system/mutex.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct LeafLine {
   std::string who, level, text;  // the path of a leaf, or the name of a plugin; "info"; the line
@@ -54,4 +54,4 @@ struct RecentLines {
   friend bool operator==(const RecentLines&, const RecentLines&) = default;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

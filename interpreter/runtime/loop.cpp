@@ -10,7 +10,7 @@
 #include "runtime/stall_fail.h"
 #include "system/own_thread.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // A stop signal that comes between the look at it and the sleep does not end the sleep.
@@ -219,4 +219,4 @@ RunEnd run_loop(Run& run, Clock& clock, const LoopOptions& options,
   return Loop(run, clock, options, observers).run();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

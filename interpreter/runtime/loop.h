@@ -13,7 +13,7 @@
 #include "runtime/observer.h"
 #include "runtime/run.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class RunControl;
 class StallFail;
@@ -45,4 +45,4 @@ struct LoopOptions {
 RunEnd run_loop(Run& run, Clock& clock, const LoopOptions& options,
                 std::span<Observer* const> observers);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 #include "core/status.h"
 #include "engine/ticker.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct RunStart {
   Nanoseconds period{0};
@@ -86,4 +86,4 @@ class Observer {
   virtual void run_ended(Ticker&, const RunEnd&) {}
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -21,7 +21,7 @@
 #include "system/mutex.h"
 #include "system/own_thread.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 const char* text_of_reason(int reason) {
@@ -222,4 +222,4 @@ Outlet& messages() {
   return *outlet;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

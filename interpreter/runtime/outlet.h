@@ -13,7 +13,7 @@
 #include <string_view>
 #include <utility>
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Outlet {
  public:
@@ -68,4 +68,4 @@ class Outlet {
 // The outlet of stderr. Needs no memory, and exists until the very end of the process.
 Outlet& messages();
 
-}  // namespace lockstep
+}  // namespace lockstep::host

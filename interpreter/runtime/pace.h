@@ -5,7 +5,7 @@
 
 #include "core/clock.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Pace {
  public:
@@ -34,4 +34,4 @@ class Pace {
   Nanoseconds step_{0}, due_{0};
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 #include "runtime/watchdog.h"
 #include "system/own_thread.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 void watch_this_thread(Nanoseconds hang_limit) {
   if (gettid() == getpid()) {
@@ -37,4 +37,4 @@ void end_process(int exit_code) {
   CrashReport::exit(exit_code);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

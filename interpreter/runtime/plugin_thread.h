@@ -4,7 +4,7 @@
 
 #include "core/clock.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // A call of this thread that lasts longer than `hang_limit` ends the process with a crash report;
 // 0 = never. Until the end of the thread; for the main thread, of the process. Once is enough.
@@ -17,4 +17,4 @@ void leave_thread_to_plugins();
 // plugins hang, crash or call exit() while it ends.
 [[noreturn]] void end_process(int exit_code);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace lockstep {
+namespace lockstep::host {
 
 std::string out_of_range_text(double reported) {
   return fmt::format(
@@ -15,4 +15,4 @@ std::string went_on_text(double from, double to) {
                      to);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <cstring>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using Problems = std::vector<Problem>;
@@ -59,4 +59,4 @@ std::vector<Problem> apply_realtime(const RealtimeOptions& options) {
   return problems;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 #include "core/problem.h"
 #include "system/processors.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct RealtimeOptions {
   bool realtime = false;  // SCHED_FIFO, mlockall, timer slack of 1 ns
@@ -23,4 +23,4 @@ struct RealtimeOptions {
 // alternatives.
 [[nodiscard]] std::vector<Problem> apply_realtime(const RealtimeOptions& options);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace lockstep {
+namespace lockstep::host {
 
 Run::Run(const Tree& tree, const RunOptions& options)
     : blackboard_(tree),
@@ -81,4 +81,4 @@ const Fault* Run::fault() const {
   return ticker_.fault();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 #include "plugin/contract/process_leaves.h"
 #include "plugin/contract/workers.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct RunOptions {
   std::uint64_t seed = 0;
@@ -76,4 +76,4 @@ class Run {
   Ticker ticker_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

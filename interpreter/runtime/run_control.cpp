@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace lockstep {
+namespace lockstep::host {
 
 void RunControl::give(Order order) {
   {
@@ -93,4 +93,4 @@ void RunControl::wait(Nanoseconds longest) {
   if (!has_new_.load(std::memory_order_acquire)) bell_.wait(seen, longest);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -13,7 +13,7 @@
 #include "system/bell.h"
 #include "system/mutex.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class RunControl {
  public:
@@ -83,4 +83,4 @@ class RunControl {
   std::optional<Breakpoint> reached_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <string_view>
 
-namespace lockstep {
+namespace lockstep::host {
 
 class SignalText {
  public:
@@ -43,4 +43,4 @@ class SignalText {
   std::size_t size_ = 0;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

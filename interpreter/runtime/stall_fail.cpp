@@ -7,7 +7,7 @@
 #include "engine/resources.h"
 #include "engine/ticker.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 NodeIndex lowest_above(const Tree& tree, NodeIndex one, NodeIndex other) {
@@ -106,4 +106,4 @@ void StallFail::after_tick(Ticker& ticker, Nanoseconds time) {
   nodes_.after_tick(ticker, time);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 
 #include "measure/stall.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class StallFail {
  public:
@@ -40,4 +40,4 @@ class StallFail {
 // the lowest node that all of its members are below; of a circle, the lowest that contains it.
 NodeIndex stalled_node(const Tree& tree, const Standstill& standstill);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

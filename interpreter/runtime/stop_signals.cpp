@@ -11,7 +11,7 @@
 #include "runtime/fuse.h"
 #include "system/fork_guard.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr int kNumbers[] = {SIGINT,  SIGQUIT, SIGTERM,   SIGHUP,  SIGUSR1, SIGUSR2,  SIGALRM,
@@ -72,4 +72,4 @@ std::span<const int> StopSignals::numbers() {
   return kNumbers;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,7 +4,7 @@
 
 #include <span>
 
-namespace lockstep {
+namespace lockstep::host {
 
 class StopSignals {
  public:
@@ -19,4 +19,4 @@ class StopSignals {
   static std::span<const int> numbers();
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

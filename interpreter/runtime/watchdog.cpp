@@ -13,7 +13,7 @@
 #include "system/mutex.h"
 #include "system/own_thread.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // How often to look, so that a limit is noticed soon after it is reached.
@@ -151,4 +151,4 @@ WatchdogOptions ends_process(Nanoseconds hang_limit) {
           }};
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -9,7 +9,7 @@
 #include "core/clock.h"
 #include "plugin/contract/call_mark.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct WatchdogOptions {
   Nanoseconds hang_limit{0};  // a call that lasts longer, unless it is bounded; 0 = never
@@ -38,4 +38,4 @@ class Watchdog {
 // process with a crash report.
 WatchdogOptions ends_process(Nanoseconds hang_limit);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

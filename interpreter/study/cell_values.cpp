@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace lockstep {
+namespace lockstep::host {
 
 void CellValues::add(const RowResult& row) {
   results_.add(row.result);
@@ -16,4 +16,4 @@ void CellValues::clear() {
   results_ = {};
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

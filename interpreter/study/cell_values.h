@@ -8,7 +8,7 @@
 #include "study/row_text.h"
 #include "study/sample_summary.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class CellValues {
  public:
@@ -26,4 +26,4 @@ class CellValues {
   ResultCounts results_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

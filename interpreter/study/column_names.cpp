@@ -2,7 +2,7 @@
 
 #include <set>
 
-namespace lockstep {
+namespace lockstep::host {
 
 std::vector<std::string> grid_columns(const StudyPlan& plan) {
   std::set<std::string, std::less<>> taken(kRowColumns.begin(), kRowColumns.end());
@@ -25,4 +25,4 @@ std::string column_name(const StudyColumn& column) {
   return (column.is_gap ? "gap " : "") + column.measure + ' ' + column.node;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

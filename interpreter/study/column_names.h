@@ -8,7 +8,7 @@
 
 #include "study/plan.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // In this order. A column per grid name follows the cell, those of the measures follow the result.
 constexpr std::array<std::string_view, 5> kRowColumns{"cell", "run", "seed", "ticks", "result"};
@@ -27,4 +27,4 @@ std::vector<std::string> grid_columns(const StudyPlan& plan);
 // "duration Main"; of a gap "gap predictability:arm@0.6 Main/pull/arm".
 std::string column_name(const StudyColumn& column);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 #include "study/row_reader.h"
 #include "study/sample_summary.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using Values = std::vector<double>;   // run after run; NaN: the run has none
@@ -97,4 +97,4 @@ Result<std::vector<Comparison>> compare_cells(const std::string& path, const Stu
   return comparisons;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 #include "study/rank_tests.h"
 #include "study/shift.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 using CellPair = std::pair<std::uint64_t, std::uint64_t>;
 
@@ -33,4 +33,4 @@ struct Comparison {
 Result<std::vector<Comparison>> compare_cells(const std::string& path, const StudyPlan& plan,
                                               CellPair cells);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,7 +4,7 @@
 #include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // In long double, which is its custom, the library computes constants before main: for every
@@ -44,4 +44,4 @@ double largest_share(std::uint64_t count, std::uint64_t all, double probability)
                                          probability);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

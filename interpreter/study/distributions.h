@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace lockstep {
+namespace lockstep::host {
 
 // The probability that a standard normal number is z or farther from 0.
 double normal_two_sided(double z);
@@ -16,4 +16,4 @@ std::optional<std::uint64_t> fair_coin_quantile(std::uint64_t throws, double pro
 double least_share(std::uint64_t count, std::uint64_t all, double probability);
 double largest_share(std::uint64_t count, std::uint64_t all, double probability);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -16,7 +16,7 @@
 #include "study/row_reader.h"
 #include "system/descriptors.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 namespace fs = std::filesystem;
@@ -159,4 +159,4 @@ Result<std::vector<SummaryRow>> StudyFolder::finish(const StudyPlan& plan) {
   return write_whole("summary.csv", summary_csv(plan, *rows)).map([&] { return std::move(*rows); });
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -13,7 +13,7 @@
 #include "study/table.h"
 #include "system/file_descriptor.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class StudyFolder {
  public:
@@ -47,4 +47,4 @@ class StudyFolder {
   FileDescriptor runs_;  // runs.csv; it carries the lock
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

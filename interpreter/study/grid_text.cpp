@@ -7,7 +7,7 @@
 #include <optional>
 #include <set>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using Texts = std::vector<std::string>;
@@ -151,4 +151,4 @@ Result<std::vector<GridAxis>> parse_grid(std::string_view text) {
   return several_axes(name, names, values);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

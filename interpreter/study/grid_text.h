@@ -11,11 +11,11 @@
 #include "core/problem.h"
 #include "study/plan.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 constexpr std::uint64_t kMostCells = 100'000;
 
 // All axes after the first have `follows`. Each has a value at least, and none is named twice.
 Result<std::vector<GridAxis>> parse_grid(std::string_view text);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -2,7 +2,7 @@
 
 #include "study/distributions.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr double kTail = (1 - kConfidence) / 2;
@@ -19,4 +19,4 @@ Interval share_interval(std::uint64_t count, std::uint64_t all) {
   return {least_share(count, all, kTail), largest_share(count, all, kTail)};
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

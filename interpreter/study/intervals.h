@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct Interval {
   double low = 0, high = 0;
@@ -22,4 +22,4 @@ std::optional<Interval> median_interval(std::span<const double> sorted);
 // 95 % too, for every probability and number of runs. `all` is at least 1.
 Interval share_interval(std::uint64_t count, std::uint64_t all);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -9,7 +9,7 @@
 #include "study/plan_json.h"
 #include "study/row_reader.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 class Merger {
@@ -118,4 +118,4 @@ Result<MergedStudy> merge_studies(std::span<const std::string> parts, const std:
   return rows.map([&](auto& all) { return MergedStudy{merger.whole(), std::move(all)}; });
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 #include "core/problem.h"
 #include "study/folder.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct MergedStudy {
   StudyPlan plan;
@@ -20,4 +20,4 @@ struct MergedStudy {
 Result<MergedStudy> merge_studies(std::span<const std::string> parts, const std::string& out,
                                   int (*stop_signal)());
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::int64_t kMinusZero = std::numeric_limits<std::int64_t>::min();
@@ -60,4 +60,4 @@ double nth_own_sum(std::span<const double> x, std::uint64_t n) {
   });
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

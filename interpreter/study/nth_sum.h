@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-namespace lockstep {
+namespace lockstep::host {
 
 // The n-th smallest, from 0, of all sums of a value of `x` and one of `y`. Both are ascending, and
 // n < x.size() * y.size().
@@ -15,4 +15,4 @@ double nth_sum(std::span<const double> x, std::span<const double> y, std::uint64
 // The same of the sums x[i] + x[j] with i <= j; n < x.size() * (x.size() + 1) / 2.
 double nth_own_sum(std::span<const double> x, std::uint64_t n);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 
 #include "core/random.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 std::uint64_t runs_of_part(const StudyPlan& plan) {
@@ -82,4 +82,4 @@ std::uint64_t run_seed(std::uint64_t seed, std::uint64_t cell, std::uint64_t run
   return RandomStream(RandomStream(seed, cell).next(), run).next();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

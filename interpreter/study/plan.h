@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct GridAxis {
   // An <arg> of the tree takes precedence over the study's own names.
@@ -103,4 +103,4 @@ inline std::uint64_t run_seed(const StudyPlan& plan, StudyRow row) {
   return run_seed(cell_seed(plan, row.cell), seeding_cell(plan, row.cell), row.run);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 #include "measure/measure_spec.h"
 #include "study/column_names.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::uint64_t kMostRows = std::uint64_t{1} << 48u;
@@ -165,4 +165,4 @@ std::string check_plan(const StudyPlan& plan) {
   return check_columns(plan);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

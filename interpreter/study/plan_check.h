@@ -7,7 +7,7 @@
 
 #include "study/plan.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 constexpr double kLeastRate = 0.001, kMostRate = 100000;
 
@@ -24,4 +24,4 @@ std::string check_plan(const StudyPlan& plan);
 // Checks only that it does not have too many cells and runs.
 std::string check_size(const StudyPlan& plan);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 #include "study/plan_check.h"
 #include "study/precision.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr int kFormat = 2;
@@ -197,4 +197,4 @@ std::string first_difference(const StudyPlan& one, const StudyPlan& other, bool 
   return with_shard && one.shard != other.shard ? "shard" : "";
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

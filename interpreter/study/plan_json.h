@@ -7,7 +7,7 @@
 #include "core/problem.h"
 #include "study/plan.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Ends with a newline. The same plan gives the same bytes.
 std::string to_json(const StudyPlan& plan);
@@ -19,4 +19,4 @@ Result<StudyPlan> plan_from_json(std::string text);
 // `with_shard` false: perhaps different parts of it).
 std::string first_difference(const StudyPlan& one, const StudyPlan& other, bool with_shard);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

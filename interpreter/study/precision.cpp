@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 bool is_near(const Interval& interval, double value, double width) {
@@ -38,4 +38,4 @@ bool is_narrow(const Precision& precision, std::string_view measure, const Sampl
          is_near(*summary.median_interval, summary.median, precision.width * unit * of);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -9,7 +9,7 @@
 #include "study/results.h"
 #include "study/sample_summary.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // "5%", of the value; "0.5", in the unit of the measure. Nothing if it is neither.
 std::optional<Precision> precision_from(std::string_view text);
@@ -27,4 +27,4 @@ constexpr std::uint64_t next_look(std::uint64_t runs) {
   return runs == 0 ? 100 : runs + runs / 4;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 
 #include "study/ranks.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 RankTest mann_whitney(std::span<const double> first, std::span<const double> second) {
   std::vector<double> all(first.begin(), first.end());
@@ -48,4 +48,4 @@ std::vector<double> holm(std::span<const double> p) {
   return adjusted;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct RankTest {
   // Of all pairs of a value of either: the share in which the second is larger, less the share in
@@ -25,4 +25,4 @@ RankTest signed_rank(std::span<const double> differences);
 // Holm: what each p is when all are looked at.
 std::vector<double> holm(std::span<const double> p);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

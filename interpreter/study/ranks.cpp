@@ -6,7 +6,7 @@
 
 #include "study/distributions.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 Ranks ranks_of(std::span<const double> values) {
   std::vector<std::size_t> order(values.size());
@@ -38,4 +38,4 @@ double rank_sum_p(double off, double variance) {
   return normal_two_sided(std::max(0.0, std::abs(off) - 0.5) / std::sqrt(variance));
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct Ranks {
   std::vector<double> of;  // each value, from 1; equal ones share theirs
@@ -25,4 +25,4 @@ double signed_rank_variance(double count, double zeros, double ties);
 // correction for continuity. 1 without variance: all values are equal.
 double rank_sum_p(double off, double variance);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

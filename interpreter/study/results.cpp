@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace lockstep {
+namespace lockstep::host {
 
 StudyResult result_of(const RunEnd& end) {
   if (end.reason != StopReason::Completed) return StudyResult::Limit;
@@ -34,4 +34,4 @@ std::string to_text(const ResultCounts& results) {
   return text;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

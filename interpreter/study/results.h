@@ -9,7 +9,7 @@
 #include "runtime/observer.h"
 #include "study/intervals.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // The column 'result' of runs.csv. A fault of a leaf has no row: it ends the study.
 enum class StudyResult : std::uint8_t { Success, Failure, Limit };
@@ -38,4 +38,4 @@ std::string percent(std::uint64_t count, std::uint64_t of);
 // "success 79.1 %, failure 20.9 %": those that there are.
 std::string to_text(const ResultCounts& results);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <filesystem>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::size_t kLongestField = 32;  // of ticks, result and numbers, with the comma
@@ -97,4 +97,4 @@ std::string_view RowReader::next() {
   return line_;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -10,7 +10,7 @@
 #include "study/row_sequence.h"
 #include "study/row_text.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class RowReader {
  public:
@@ -52,4 +52,4 @@ class RowReader {
   std::uint64_t bytes_ = 0;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace lockstep {
+namespace lockstep::host {
 RowRules::RowRules(const StudyPlan& plan) : plan_(plan), there_(plan.columns.size()) {
   // A plan that was checked has no measures that cannot be read.
   for (const StudyColumn& column : plan.columns) {
@@ -43,4 +43,4 @@ bool RowRules::allow(const RowResult& row) const {
   return true;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -9,7 +9,7 @@
 #include "study/plan.h"
 #include "study/row_text.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class RowRules {
  public:
@@ -31,4 +31,4 @@ class RowRules {
   std::vector<bool> there_;  // each column
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,7 +4,7 @@
 
 #include "study/precision.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 RowSequence::RowSequence(const StudyPlan& plan)
     : plan_(&plan),
@@ -43,4 +43,4 @@ bool RowSequence::has_enough(std::uint64_t cell) const {
   return true;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

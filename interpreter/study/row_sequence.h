@@ -8,7 +8,7 @@
 #include "study/cell_values.h"
 #include "study/plan.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class RowSequence {
  public:
@@ -38,4 +38,4 @@ class RowSequence {
   std::uint64_t first_ = 0, last_ = 0, count_ = 0;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

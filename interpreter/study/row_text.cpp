@@ -11,7 +11,7 @@
 #include "core/wording.h"
 #include "study/column_names.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr double kEmpty = std::numeric_limits<double>::quiet_NaN();
@@ -86,4 +86,4 @@ bool read_row_end(std::string_view text, RowResult& row) {
   return text == again;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

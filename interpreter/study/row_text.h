@@ -8,7 +8,7 @@
 #include "study/plan.h"
 #include "study/results.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // The part of a row that is known only after its run.
 struct RowResult {
@@ -32,4 +32,4 @@ void append_row_end(const RowResult& row, std::string& out);
 // append_row_end() would have written it differently.
 bool read_row_end(std::string_view text, RowResult& row);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

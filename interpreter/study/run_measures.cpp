@@ -4,7 +4,7 @@
 
 #include "measure/measure_spec.h"
 
-namespace lockstep {
+namespace lockstep::host {
 RunMeasures::RunMeasures(const Tree& tree, std::span<const MeasureSpec> measures, double rate)
     : measuring_(measured_tree(tree), measures), ticks_(tree, measuring_), rate_(rate) {
   for (const auto& [spec, node] : measuring_.columns()) {
@@ -43,4 +43,4 @@ void RunMeasures::run_ended(Ticker&, const RunEnd& end) {
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -10,7 +10,7 @@
 #include "runtime/observer.h"
 #include "study/plan.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class RunMeasures final : public Observer {
  public:
@@ -37,4 +37,4 @@ class RunMeasures final : public Observer {
   std::vector<double> values_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <span>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 double mean_of(std::span<const double> values) {
@@ -31,7 +31,7 @@ SampleSummary summarize(std::vector<double> values) {
           .q3 = median_of(sorted.last(half)),
           .max = sorted.back(),
           .mean = mean_of(sorted),
-          .median_interval = lockstep::median_interval(sorted)};
+          .median_interval = lockstep::host::median_interval(sorted)};
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

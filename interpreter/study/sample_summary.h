@@ -7,7 +7,7 @@
 
 #include "study/intervals.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct SampleSummary {
   std::size_t count = 0;
@@ -19,4 +19,4 @@ struct SampleSummary {
 // when the count is odd. One value is its own quartiles; no values give zeros.
 SampleSummary summarize(std::vector<double> values);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 #include "study/nth_sum.h"
 #include "study/ranks.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using Values = std::vector<double>;
@@ -65,4 +65,4 @@ Shift shift_of(std::span<const double> differences) {
                      [&](std::uint64_t n) { return nth_own_sum(x, n) / 2; });
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -9,7 +9,7 @@
 
 #include "study/intervals.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct Shift {
   double estimate = 0;
@@ -24,4 +24,4 @@ Shift shift_between(std::span<const double> first, std::span<const double> secon
 // interval is of signed_rank(). At least one.
 Shift shift_of(std::span<const double> differences);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

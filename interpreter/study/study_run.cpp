@@ -1,6 +1,6 @@
 #include "study/study_run.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 StudyRun::StudyRun(const StudyCell& cell, std::span<const MeasureSpec> measures,
                    std::uint64_t max_ticks, int (*stop_signal)())
@@ -25,4 +25,4 @@ RunEnd StudyRun::run(std::uint64_t seed) {
   return run_loop(*run_, clock, options_, observers_);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 #include "runtime/run.h"
 #include "study/run_measures.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // One tree of the grid, shared by all threads.
 struct StudyCell {
@@ -40,4 +40,4 @@ class StudyRun {
   std::optional<Run> run_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

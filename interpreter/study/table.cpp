@@ -10,7 +10,7 @@
 #include "study/column_names.h"
 #include "study/row_reader.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 void append_rows(const StudyPlan& plan, std::uint64_t cell, const CellValues& values,
@@ -87,4 +87,4 @@ std::string summary_csv(const StudyPlan& plan, const std::vector<SummaryRow>& ro
   return text;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

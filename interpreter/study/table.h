@@ -12,7 +12,7 @@
 #include "study/results.h"
 #include "study/sample_summary.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // A row of summary.csv.
 struct SummaryRow {
@@ -39,4 +39,4 @@ Result<std::vector<SummaryRow>> summarize_runs(const std::string& path, const St
 // "<grid>,node,measure,…" (column_names.h), and a line for each row. What there is not is empty.
 std::string summary_csv(const StudyPlan& plan, const std::vector<SummaryRow>& rows);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -13,7 +13,7 @@
 #include "runtime/plugin_thread.h"
 #include "study/row_text.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::uint64_t kRowsPerChunk = 16;       // fewer if there are few rows for each thread
@@ -190,4 +190,4 @@ std::optional<StudyFault> do_work(const StudyWork& work) {
   return Workshop(work).run();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -13,7 +13,7 @@
 #include "study/row_text.h"
 #include "study/study_run.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // A leaf failed as a program, in this run.
 struct StudyFault {
@@ -51,4 +51,4 @@ struct StudyWork {
 // exception of a thread.
 std::optional<StudyFault> do_work(const StudyWork& work);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -9,7 +9,7 @@
 
 #include "summary/summary.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class CappedNotes {
  public:
@@ -36,4 +36,4 @@ class CappedNotes {
   std::vector<std::string> kept_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

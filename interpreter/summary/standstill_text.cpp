@@ -8,7 +8,7 @@
 #include "core/wording.h"
 #include "engine/resources.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // A member is called by its name, and if it has none, by its child.
@@ -165,4 +165,4 @@ std::string_view to_string(Obstacle obstacle) {
   return "running";
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

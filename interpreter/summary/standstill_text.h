@@ -6,7 +6,7 @@
 
 #include "measure/stall.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // "a circle stands still since 0.100 s: coarse -> fine -> coarse", then for each node
 // "'coarse' holds 'c2' at 0.5 until 'c1' comes, which is at 0.25 and has 'f1' in it"; or
@@ -16,4 +16,4 @@ std::vector<std::string> standstill_lines(const Tree& tree, const Standstill& st
 // "circle", "idle", "failed", "resources" or "running": why it stands.
 std::string_view to_string(Obstacle obstacle);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 #include "engine/resources.h"
 #include "summary/standstill_text.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 Standstills::Standstills(const Tree& tree, std::optional<Nanoseconds> limit, Tell tell)
     : tree_(tree), tell_(std::move(tell)) {
@@ -95,4 +95,4 @@ void Standstills::add_to(Summary& summary) const {
       std::ranges::any_of(failed_, [&](NodeIndex node) { return tree_.path(node) == last; });
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

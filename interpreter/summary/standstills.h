@@ -11,7 +11,7 @@
 #include "runtime/observer.h"
 #include "summary/summary.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Standstills final : public Observer {
  public:
@@ -47,4 +47,4 @@ class Standstills final : public Observer {
   std::vector<NodeIndex> failed_;  // in the last tick
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 #include "engine/synchronized.h"
 #include "runtime/progress_text.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 Statistics::Statistics(const Tree& tree) : tree_(tree) {
   for (const NodeIndex node : synchronized_nodes(tree)) {
@@ -156,4 +156,4 @@ std::vector<std::string> progress_notes(const Ticker& ticker) {
   return notes;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

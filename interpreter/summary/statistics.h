@@ -11,7 +11,7 @@
 #include "summary/capped_notes.h"
 #include "summary/summary.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Statistics final : public Observer {
  public:
@@ -59,4 +59,4 @@ std::string fault_text(const Tree& tree, const Fault& fault);
 // how many there are; "… went on while it was held …" in the same way.
 std::vector<std::string> progress_notes(const Ticker& ticker);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

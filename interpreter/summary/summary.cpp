@@ -14,7 +14,7 @@
 #include "summary/capped_notes.h"
 #include "terminal/text_table.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 std::string why(const Summary& summary) {
@@ -250,4 +250,4 @@ std::vector<std::vector<std::string>> standstill_notes(const Summary& summary) {
   return notes;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -14,7 +14,7 @@
 #include "runtime/observer.h"
 #include "terminal/style.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // "success", "failure", "stopped", "fault" or "skipped".
 std::string_view to_string(RunResult result);
@@ -136,4 +136,4 @@ std::vector<std::vector<std::string>> standstill_notes(const Summary& summary);
 // One line, no newline. docs/recording.md describes the keys.
 std::string to_json(const Summary& summary);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -2,7 +2,7 @@
 #include "json/json.h"
 #include "summary/summary.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 Json json_of(const SynchronizedSummary& node) {
@@ -143,4 +143,4 @@ std::string to_json(const Summary& summary) {
   return json.printable();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

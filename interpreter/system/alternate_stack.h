@@ -7,7 +7,7 @@
 
 #include <cstddef>
 
-namespace lockstep {
+namespace lockstep::host {
 
 class AlternateStack {
  public:
@@ -40,4 +40,4 @@ class AlternateStack {
   stack_t before_{};
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,7 +4,7 @@
 
 #include "system/futex.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Bell {
  public:
@@ -22,4 +22,4 @@ class Bell {
   static_assert(std::atomic<std::uint32_t>::is_always_lock_free);
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

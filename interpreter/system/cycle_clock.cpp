@@ -4,7 +4,7 @@
 #include <cpuid.h>
 #endif
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr Nanoseconds kFirstComparison{20'000};
@@ -42,4 +42,4 @@ void CycleClock::adjust() {
                                       static_cast<double>(std::uint64_t{1} << kShift));
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

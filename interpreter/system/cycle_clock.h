@@ -7,7 +7,7 @@
 
 #include "core/clock.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class CycleClock {
  public:
@@ -49,4 +49,4 @@ class CycleClock {
   std::uint64_t scale_ = 0;  // nanoseconds of a count, times 2^kShift; 0: the counter is not used
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <climits>
 
-namespace lockstep {
+namespace lockstep::host {
 
 void hold_standard_descriptors() noexcept {
   // The wrong way around for stdin and stdout: who needs them must see that they are missing.
@@ -69,4 +69,4 @@ void write_now(int file, std::string_view text) noexcept {
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

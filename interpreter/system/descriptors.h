@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-namespace lockstep {
+namespace lockstep::host {
 
 // The first statement of main. Opens /dev/null for a closed descriptor of 0 to 2. Otherwise the
 // next opened file would get its number, and output would go to that file. Reading such a stdin and
@@ -23,4 +23,4 @@ bool write_all(int file, std::string_view text, bool (*gives_up)()) noexcept;
 // Writes what the reader accepts at once and discards the rest. Async-signal-safe.
 void write_now(int file, std::string_view text) noexcept;
 
-}  // namespace lockstep
+}  // namespace lockstep::host

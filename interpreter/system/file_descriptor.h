@@ -5,7 +5,7 @@
 
 #include <utility>
 
-namespace lockstep {
+namespace lockstep::host {
 
 class FileDescriptor {
  public:
@@ -24,4 +24,4 @@ class FileDescriptor {
   int number_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-namespace lockstep {
+namespace lockstep::host {
 
 void ForkGuard::arm(void (*in_child)()) {
   constexpr std::size_t kSize = 4096;
@@ -17,4 +17,4 @@ void ForkGuard::arm(void (*in_child)()) {
   alive_ = alive;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

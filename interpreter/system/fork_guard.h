@@ -3,7 +3,7 @@
 // time.
 #pragma once
 
-namespace lockstep {
+namespace lockstep::host {
 
 class ForkGuard {
  public:
@@ -24,4 +24,4 @@ class ForkGuard {
   static constinit inline InChild in_child_ = nullptr;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace lockstep {
+namespace lockstep::host {
 
 namespace {
 
@@ -26,4 +26,4 @@ void return_freed_memory() {
   ::malloc_trim(0);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -3,11 +3,11 @@
 // pages and asks for them again all the time. docs/decisions/loading.md has the numbers.
 #pragma once
 
-namespace lockstep {
+namespace lockstep::host {
 
 // From now on freed memory stays in the process for later allocations.
 void keep_freed_memory();
 // Restores the default, and returns free memory to the system.
 void return_freed_memory();
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 #include <climits>
 #include <ctime>
 
-namespace lockstep {
+namespace lockstep::host {
 
 void futex_wait(std::atomic<std::uint32_t>& word, std::uint32_t expected, Nanoseconds longest) {
   constexpr std::int64_t kSecond = 1'000'000'000;
@@ -19,4 +19,4 @@ void futex_wake(std::atomic<std::uint32_t>& word) {
   syscall(SYS_futex, &word, FUTEX_WAKE, INT_MAX, nullptr, nullptr, 0);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

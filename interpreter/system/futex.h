@@ -7,7 +7,7 @@
 
 #include "core/clock.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Returns at once unless `word` is `expected`; else after futex_wake, after `longest`, or
 // spuriously.
@@ -16,4 +16,4 @@ void futex_wait(std::atomic<std::uint32_t>& word, std::uint32_t expected, Nanose
 // A system call. Async-signal-safe; never waits.
 void futex_wake(std::atomic<std::uint32_t>& word);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-namespace lockstep {
+namespace lockstep::host {
 
 LateLibrary::LateLibrary(const char* file) : file_(file), handle_(dlopen(file, RTLD_NOW)) {
   if (handle_ == nullptr) {
@@ -21,4 +21,4 @@ LateLibrary::Function LateLibrary::function(const char* name) const {
   return Function(address);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 //   };
 #pragma once
 
-namespace lockstep {
+namespace lockstep::host {
 
 class LateLibrary {
  public:
@@ -39,4 +39,4 @@ class LateLibrary {
   void* handle_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -1,6 +1,6 @@
 // A mutex whose rules clang checks (-Wthread-safety, in ./dev tidy): what is marked with
-// LOCKSTEP_GUARDED_BY(mutex_) is read and written under its lock only, and a function that is marked
-// with LOCKSTEP_REQUIRES(mutex_) is called under it. For other compilers it is a std::mutex.
+// LOCKSTEP_GUARDED_BY(mutex_) is read and written under its lock only, and a function that is
+// marked with LOCKSTEP_REQUIRES(mutex_) is called under it. For other compilers it is a std::mutex.
 #pragma once
 
 #include <condition_variable>
@@ -16,7 +16,7 @@
 #define LOCKSTEP_GUARDED_BY(mutex) LOCKSTEP_THREAD_SAFETY(guarded_by(mutex))
 #define LOCKSTEP_REQUIRES(mutex) LOCKSTEP_THREAD_SAFETY(requires_capability(mutex))
 
-namespace lockstep {
+namespace lockstep::host {
 
 class LOCKSTEP_THREAD_SAFETY(capability("mutex")) Mutex {
  private:
@@ -44,4 +44,4 @@ class LOCKSTEP_THREAD_SAFETY(scoped_lockable) Lock {
   std::unique_lock<std::mutex> it_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

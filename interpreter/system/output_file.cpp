@@ -9,7 +9,7 @@
 #include <system_error>
 #include <utility>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr int kFlags = O_WRONLY | O_APPEND | O_CLOEXEC | O_NOCTTY;
@@ -97,4 +97,4 @@ bool is_same_file(const std::string& a, const std::string& b) {
   return one.st_dev == other.st_dev && one.st_ino == other.st_ino;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace lockstep {
+namespace lockstep::host {
 
 class OutputFile {
  public:
@@ -43,4 +43,4 @@ class OutputFile {
 // exist.
 bool is_same_file(const std::string& a, const std::string& b);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

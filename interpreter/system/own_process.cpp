@@ -2,7 +2,7 @@
 
 #include <pthread.h>
 
-namespace lockstep {
+namespace lockstep::host {
 
 OwnProcess::OwnProcess() {
   static const int kIsRegistered = pthread_atfork(nullptr, nullptr, [] { ++s_forks; });
@@ -10,4 +10,4 @@ OwnProcess::OwnProcess() {
   forks_ = s_forks;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace lockstep {
+namespace lockstep::host {
 
 class OwnProcess {
  public:
@@ -18,4 +18,4 @@ class OwnProcess {
   std::uint32_t forks_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -14,7 +14,7 @@
 #include "system/mutex.h"
 #include "system/signal_mask.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constinit thread_local bool t_is_own = false;
@@ -97,4 +97,4 @@ void rethrow_thread_failure() {
   std::rethrow_exception(g_failure);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

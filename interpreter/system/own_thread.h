@@ -10,7 +10,7 @@
 
 #include "system/processors.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Marks the calling thread as one of lockstep's until it ends, and gives it a stack for reporting a
 // stack overflow, to its last destructor.
@@ -28,4 +28,4 @@ void keep_own_threads_on(const std::optional<Processors>& processors);
 // load.
 void rethrow_thread_failure();
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 
 #include "system/file_descriptor.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct Pipe {
   FileDescriptor reading, writing;
@@ -31,4 +31,4 @@ struct Pipe {
   }
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

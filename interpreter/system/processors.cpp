@@ -7,7 +7,7 @@
 #include <charconv>
 #include <cstring>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // Takes the number that the text begins with.
@@ -76,4 +76,4 @@ std::optional<Problem> Processors::bind_this_thread() const {
                  "allowed is " + allowed().text()};
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -9,7 +9,7 @@
 
 #include "core/problem.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Processors {
  public:
@@ -32,4 +32,4 @@ class Processors {
   cpu_set_t set_{};
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

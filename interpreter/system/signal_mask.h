@@ -5,7 +5,7 @@
 
 #include <initializer_list>
 
-namespace lockstep {
+namespace lockstep::host {
 
 template <class Numbers = std::initializer_list<int>>
 sigset_t signal_set(const Numbers& numbers) {
@@ -42,4 +42,4 @@ class SignalMask {
   sigset_t before_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,7 +4,7 @@
 
 #include "core/utf8.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::size_t kHanging = 4;  // columns
@@ -62,4 +62,4 @@ std::string fitted(std::string_view text, std::size_t width) {
   return out;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,10 +5,10 @@
 #include <string>
 #include <string_view>
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Each line that needs more than `width` columns goes on at a blank, below and further to the right
 // than it begins. A word that is longer stays whole. Colors need no columns.
 std::string fitted(std::string_view text, std::size_t width);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -3,7 +3,7 @@
 #include <string_view>
 #include <utility>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr char kEscape = '\x1b';
@@ -53,4 +53,4 @@ std::optional<Key> KeyDecoder::idle() {
   return std::nullopt;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace lockstep {
+namespace lockstep::host {
 
 enum class KeyKind : std::uint8_t {
   Character,
@@ -42,4 +42,4 @@ class KeyDecoder {
   std::string sequence_;  // what has come since an escape, with it
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -13,7 +13,7 @@
 #include "system/signal_mask.h"
 #include "terminal/screen.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // Of the one terminal that a process has; a signal handler cannot ask an object.
@@ -167,4 +167,4 @@ void RawTerminal::restore_for_good() {
   restore();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

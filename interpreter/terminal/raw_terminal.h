@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-namespace lockstep {
+namespace lockstep::host {
 
 class RawTerminal {
  public:
@@ -35,4 +35,4 @@ class RawTerminal {
   static void restore_for_good();
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 
 #include "system/descriptors.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::string_view kHideCursor = "\x1b[?25l";
@@ -47,4 +47,4 @@ void show_cursor(int terminal) {
   write_now(terminal, kShowCursor);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 
 #include "runtime/outlet.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Screen {
  public:
@@ -28,4 +28,4 @@ class Screen {
 void hide_cursor(int terminal);
 void show_cursor(int terminal);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 
 #include "core/style.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // The ANSI sequence that begins a style; Plain ends every style.
 constexpr std::string_view escape(Style style) {
@@ -20,4 +20,4 @@ inline std::string styled(std::string_view text, Style style, bool color) {
   return std::string(escape(style)).append(text).append(escape(Style::Plain));
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

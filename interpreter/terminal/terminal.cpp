@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace lockstep {
+namespace lockstep::host {
 
 TerminalSize terminal_size(int file) {
   winsize size{};
@@ -36,4 +36,4 @@ bool has_unicode() {
   return false;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

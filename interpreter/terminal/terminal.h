@@ -1,7 +1,7 @@
 // Queries the terminal: its size and its character set.
 #pragma once
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct TerminalSize {
   unsigned width = 80, height = 24;
@@ -16,4 +16,4 @@ bool can_draw();
 // LC_ALL, LC_CTYPE or LANG, the first that is set, names UTF-8.
 bool has_unicode();
 
-}  // namespace lockstep
+}  // namespace lockstep::host

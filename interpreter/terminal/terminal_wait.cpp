@@ -4,7 +4,7 @@
 
 #include <ctime>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 volatile sig_atomic_t g_resized = 0;
@@ -43,4 +43,4 @@ TerminalEvent TerminalWait::wait(double seconds) const {
   return ready > 0 ? TerminalEvent::Key : TerminalEvent::None;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 
 #include "system/signal_mask.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 enum class TerminalEvent : std::uint8_t { None, Key, Resize };
 
@@ -28,4 +28,4 @@ class TerminalWait {
   struct sigaction action_before_ {};
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

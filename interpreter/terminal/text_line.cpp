@@ -5,7 +5,7 @@
 #include "core/diagnostics.h"
 #include "core/utf8.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 void TextLine::add(std::string_view text, Style style) {
   const std::string shown = printable(text);
@@ -49,4 +49,4 @@ void TextLine::cut() {
   column_ = width_;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

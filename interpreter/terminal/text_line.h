@@ -7,7 +7,7 @@
 
 #include "terminal/style.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class TextLine {
  public:
@@ -43,4 +43,4 @@ class TextLine {
   bool is_cut_ = false;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

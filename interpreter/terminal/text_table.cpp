@@ -4,7 +4,7 @@
 
 #include "core/utf8.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::size_t kGap = 2;
@@ -57,4 +57,4 @@ std::string text_table(const std::vector<TableRow>& rows, std::size_t left, std:
   return text;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace lockstep {
+namespace lockstep::host {
 
 using TableRow = std::vector<std::string>;
 
@@ -16,4 +16,4 @@ using TableRow = std::vector<std::string>;
 std::string text_table(const std::vector<TableRow>& rows, std::size_t left,
                        std::size_t width = SIZE_MAX);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -10,7 +10,7 @@
 #include "core/diagnostics.h"
 #include "summary/statistics.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 ConsoleLive::ConsoleLive(const Tree& tree, const LiveOptions& options, Outlet& out)
     : tree_(tree),
@@ -140,4 +140,4 @@ std::string ConsoleLive::take_printed() {
   return text;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -17,7 +17,7 @@
 #include "view/tree_browser.h"
 #include "view/tree_view.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct LiveOptions {
   int keys = -1;  // file descriptor of a terminal, or none
@@ -79,4 +79,4 @@ class ConsoleLive final : public Observer {
   WatcherThread thread_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

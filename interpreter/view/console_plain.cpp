@@ -10,7 +10,7 @@
 #include "summary/summary.h"
 #include "view/waiting.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 ConsolePlain::ConsolePlain(const Tree& tree, Outlet& out, RealTime real_time)
     : tree_(tree), out_(out), real_time_(real_time) {
@@ -170,4 +170,4 @@ void ConsolePlain::tell(NodeIndex node, std::string_view what) {
   if (may_print()) print(fmt::format("{}: {}", tree_.path(node), what));
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

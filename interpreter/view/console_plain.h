@@ -14,7 +14,7 @@
 #include "runtime/outlet.h"
 #include "view/line_budget.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class ConsolePlain final : public Observer {
  public:
@@ -80,4 +80,4 @@ class ConsolePlain final : public Observer {
   std::atomic<Nanoseconds> time_{Nanoseconds(0)};
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

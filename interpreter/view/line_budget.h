@@ -8,7 +8,7 @@
 
 #include "core/clock.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class LineBudget {
  public:
@@ -38,4 +38,4 @@ class LineBudget {
   Nanoseconds refilled_{0};
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 
 #include "terminal/text_line.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // Those that have a value; the first `count` of them are those that changed last, in this order.
@@ -66,4 +66,4 @@ std::string log_line(const LeafLine& log, const DrawOptions& options) {
   return line.text() + "\n";
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 #include "view/tree_shape.h"
 #include "view/tree_view.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // At most `room` lines, and at most options.entries entries; the last line counts the others.
 std::string entry_lines(const TreeShape& tree, const Snapshot& snapshot, const DrawOptions& options,
@@ -19,4 +19,4 @@ std::string log_lines(const Snapshot& snapshot, const DrawOptions& options, std:
 
 std::string log_line(const LeafLine& log, const DrawOptions& options);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 struct Signs {
@@ -33,4 +33,4 @@ std::string to_text(const ProgressBar& bar, bool unicode) {
   return text + "]";
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct ProgressBar {
   double progress = 0;                  // in [0, 1], as all of them
@@ -16,4 +16,4 @@ struct ProgressBar {
 // "[#####=|...]": done, still within the band, a mark, the rest. A mark at 1 is the bracket.
 std::string to_text(const ProgressBar& bar, bool unicode);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

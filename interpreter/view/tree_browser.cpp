@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // Where browsing begins: at the first leaf that runs, else at the root.
@@ -69,4 +69,4 @@ bool TreeBrowser::fold(const Snapshot& now) {
   return true;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 #include "terminal/keys.h"
 #include "view/tree_layout.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class TreeBrowser {
  public:
@@ -25,4 +25,4 @@ class TreeBrowser {
   Browsing browsing_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

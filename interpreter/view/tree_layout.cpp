@@ -7,7 +7,7 @@
 #include <numeric>
 #include <tuple>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // One past the last node below `node`: in pre-order, the next one that is not deeper.
@@ -170,4 +170,4 @@ Layout lay_out(const TreeShape& tree, const Snapshot& snapshot, const Browsing& 
   return layout;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -12,7 +12,7 @@
 #include "live/snapshot.h"
 #include "view/tree_shape.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // What the user has chosen.
 struct Browsing {
@@ -51,4 +51,4 @@ std::vector<NodeIndex> unfolded(const TreeShape& tree, const std::set<NodeIndex>
 // The nodes below one.
 Tally tally_below(const TreeShape& tree, const Snapshot& snapshot, NodeIndex node);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

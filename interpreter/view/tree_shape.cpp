@@ -5,7 +5,7 @@
 #include "measure/measure_spec.h"
 #include "measure/synchronized_measure.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // A parent comes before its children.
@@ -81,4 +81,4 @@ TreeShape shape_of(const RecordingHeader& header) {
   return shape;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

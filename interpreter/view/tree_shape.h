@@ -9,7 +9,7 @@
 #include "engine/synchronized.h"
 #include "recording/recording.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct ShapeNode {
   std::string segment, kind;        // the last of its path; its tag
@@ -34,4 +34,4 @@ struct TreeShape {
 TreeShape shape_of(const Tree& tree);
 TreeShape shape_of(const RecordingHeader& header);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -14,7 +14,7 @@
 #include "view/progress_bar.h"
 #include "view/waiting.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 struct Look {
@@ -260,4 +260,4 @@ std::string draw(const TreeShape& tree, const Snapshot& snapshot, const DrawOpti
   return View(tree, snapshot, options).draw();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 #include "view/tree_layout.h"
 #include "view/tree_shape.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct DrawOptions {
   unsigned width = 80, height = 24;
@@ -27,4 +27,4 @@ std::size_t rows_for_nodes(const DrawOptions& options);
 // which nodes are shown when the tree has more. Entries and logs take the room that nodes leave.
 std::string draw(const TreeShape& tree, const Snapshot& snapshot, const DrawOptions& options);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

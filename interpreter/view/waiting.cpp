@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // The names of the children with the least progress: "a", "a and b", "a, b and 4 more".
@@ -52,4 +52,4 @@ std::string ownership_text(const OwnedFrom& pool, std::size_t child) {
   return text;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 
 #include "engine/resources.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // A synchronized node in one tick, of a tree that runs or of a recording.
 struct WaitedAt {
@@ -33,4 +33,4 @@ struct OwnedFrom {
 // "owns left;gripper", "waits for left (Plato/eat)", or "".
 std::string ownership_text(const OwnedFrom& pool, std::size_t child);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -9,7 +9,7 @@
 
 #include "live/stream.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct WebRequest {
   std::string method, path;
@@ -34,4 +34,4 @@ class Answering {
   virtual WebAnswer answer(const WebRequest& request) = 0;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -17,7 +17,7 @@
 #include "core/diagnostics.h"
 #include "web/server_socket.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using std::chrono::milliseconds;
@@ -147,4 +147,4 @@ Result<std::string> attach(const std::string& path, const std::string& address) 
   return problem(answer.substr(1, end - 1), end == std::string::npos ? "" : answer.substr(end + 1));
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -9,7 +9,7 @@
 #include "core/problem.h"
 #include "system/file_descriptor.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class AttachSocket {
  public:
@@ -36,4 +36,4 @@ class AttachSocket {
 // it.
 Result<std::string> attach(const std::string& path, const std::string& address);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

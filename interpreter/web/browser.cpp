@@ -7,7 +7,7 @@
 
 #include <cstdlib>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // It gets none of our signals, and prints nothing between our messages.
@@ -50,4 +50,4 @@ bool open_in_browser(const std::string& link) {
                       environ) == 0;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Opens a link in it, without waiting. False: there is no xdg-open, which knows the browser.
 bool open_in_browser(const std::string& link);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,7 +4,7 @@
 
 #include "web/token.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // "robot" of "robot:8080"; "" if there is more.
@@ -51,4 +51,4 @@ std::optional<WebAnswer> Gate::refuse(const WebRequest& request) const {
   return std::nullopt;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 
 #include "web/answer.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Gate {
  public:
@@ -24,4 +24,4 @@ class Gate {
   const std::string name_, token_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 #include <limits>
 #include <new>
 
-namespace lockstep {
+namespace lockstep::host {
 
 std::string gzip(std::string_view bytes) {
   constexpr int kWindow = 15, kGzip = 16, kMemory = 8;
@@ -33,4 +33,4 @@ std::string gzip(std::string_view bytes) {
   return result;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

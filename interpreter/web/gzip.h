@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
-namespace lockstep {
+namespace lockstep::host {
 
 // The same bytes give the same result.
 std::string gzip(std::string_view bytes);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -16,7 +16,7 @@
 #include "core/value.h"
 #include "system/late_library.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 struct Microhttpd : LateLibrary {
@@ -307,4 +307,4 @@ std::size_t HttpServer::streams() const {
   return it_->streams;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 #include "system/file_descriptor.h"
 #include "web/answer.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // False: lockstep was built without libmicrohttpd.
 bool has_http_server();
@@ -39,4 +39,4 @@ class HttpServer {
   std::unique_ptr<Implementation> it_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

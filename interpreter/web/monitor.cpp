@@ -14,7 +14,7 @@
 #include "web/server_sent.h"
 #include "web/token.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // How long a line may wait for the thread that sends it.
@@ -258,4 +258,4 @@ WebAnswer Monitor::obey(const std::string& text) {
   return {.status = 204};
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -18,7 +18,7 @@
 #include "web/http_server.h"
 #include "web/server_socket.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct MonitorOptions {
   RunDescription run;
@@ -101,4 +101,4 @@ class Monitor final : public Observer, private Answering {
   WatcherThread thread_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

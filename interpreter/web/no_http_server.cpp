@@ -1,7 +1,7 @@
 // In place of http_server.cpp, where libmicrohttpd is not there.
 #include "web/http_server.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct HttpServer::Implementation {};
 
@@ -26,4 +26,4 @@ std::size_t HttpServer::streams() const {
   return 0;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

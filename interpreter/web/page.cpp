@@ -3,7 +3,7 @@
 #include "web/gzip.h"
 #include "web/page_text.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::string_view kSourceBegin = R"(<script type="application/json" id="source">)";
@@ -60,4 +60,4 @@ std::string_view page_policy() {
   return kPage.substr(begin, kPage.find('"', begin) - begin);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace lockstep {
+namespace lockstep::host {
 
 // The page as it was built; `source` is an object of JSON that tells it where it finds the run.
 std::string page_with_source(std::string_view source);
@@ -15,4 +15,4 @@ std::string page_with_recording(std::string_view recording);
 // What the page may load and run, for the header Content-Security-Policy. It is also in the page.
 std::string_view page_policy();
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 
 #include "web/page.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 PageServer::PageServer(std::string page, ServerSocket socket)
     : page_(std::move(page)),
@@ -33,4 +33,4 @@ WebAnswer PageServer::answer(const WebRequest& request) {
   return {.type = "text/html; charset=utf-8", .body = page_, .policy = std::string(page_policy())};
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

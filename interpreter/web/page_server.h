@@ -10,7 +10,7 @@
 #include "web/http_server.h"
 #include "web/server_socket.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class PageServer final : private Answering {
  public:
@@ -31,4 +31,4 @@ class PageServer final : private Answering {
   HttpServer server_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

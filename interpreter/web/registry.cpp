@@ -13,7 +13,7 @@
 
 #include "core/value.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 namespace fs = std::filesystem;
@@ -87,4 +87,4 @@ Registration::~Registration() {
   if (file_.number() >= 0) unlink(path_.c_str());
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -9,7 +9,7 @@
 
 #include "system/file_descriptor.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct RegisteredRun {
   pid_t process = 0;
@@ -37,4 +37,4 @@ class Registration {
   FileDescriptor file_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

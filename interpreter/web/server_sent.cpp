@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // How often a listener gets something, so that it knows that the run is there, and the server
@@ -57,4 +57,4 @@ Stream::Piece ServerSent::bytes(std::size_t count) {
   return {Piece::What::Bytes, count};
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -10,7 +10,7 @@
 #include "live/live_format.h"
 #include "live/stream.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // A line, which ends in '\n'.
 LoggedEvent sent_line(const LiveFormat& format, std::string_view line);
@@ -37,4 +37,4 @@ class ServerSent final : public Stream {
   Nanoseconds heard_{0};
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

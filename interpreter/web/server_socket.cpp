@@ -15,7 +15,7 @@
 
 #include "core/diagnostics.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::string_view kHint = "ADDRESS:PORT, as 127.0.0.1:8080; port 0 is a free one";
@@ -151,4 +151,4 @@ Result<ServerSocket> listen_on_resolved(std::string_view resolved) {
   return listen_at(*found);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

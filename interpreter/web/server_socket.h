@@ -7,7 +7,7 @@
 #include "core/problem.h"
 #include "system/file_descriptor.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct ServerSocket {
   FileDescriptor socket;
@@ -31,4 +31,4 @@ Result<ServerSocket> listen_on(std::string_view address_and_port);
 Result<std::string> resolve(std::string_view address_and_port);
 Result<ServerSocket> listen_on_resolved(std::string_view resolved);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

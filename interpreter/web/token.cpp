@@ -6,7 +6,7 @@
 #include <array>
 #include <stdexcept>
 
-namespace lockstep {
+namespace lockstep::host {
 
 std::string make_token() {
   std::array<unsigned char, 16> bytes{};
@@ -27,4 +27,4 @@ bool is_token(std::string_view token, std::string_view text) {
   return difference == 0;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,10 +4,10 @@
 #include <string>
 #include <string_view>
 
-namespace lockstep {
+namespace lockstep::host {
 
 std::string make_token();
 // In a time that says nothing of where they differ.
 bool is_token(std::string_view token, std::string_view text);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 
 #include "support/paths.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -39,4 +39,4 @@ TEST_CASE("a shipped plugin exports one symbol") {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -6,7 +6,7 @@
 #include "abi/support/plugins.h"
 #include "runtime/run.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 using Strings = std::vector<std::string>;
@@ -117,4 +117,4 @@ TEST_CASE("an exception from destroy is a line in the log") {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

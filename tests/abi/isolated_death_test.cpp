@@ -17,7 +17,7 @@
 
 #include "abi/support/isolated_leaves.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 struct Death {
@@ -345,4 +345,4 @@ TEST_CASE("isolated: a plugin is loaded once, as the first one asked for it") {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

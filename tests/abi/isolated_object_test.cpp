@@ -6,7 +6,7 @@
 #include "abi/support/isolated_leaves.h"
 #include "loading/load.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 LoadOptions options() {
@@ -181,4 +181,4 @@ TEST_CASE("a type without bytes does not meet one of another process") {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -7,7 +7,7 @@
 
 #include "abi/support/isolated_leaves.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 TEST_CASE("isolated: the node types are those of the plugin in this process") {
@@ -248,4 +248,4 @@ TEST_CASE("isolated: a run ends in order when the process of its leaf dies") {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

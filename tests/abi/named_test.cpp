@@ -6,7 +6,7 @@
 
 #include "abi/support/plugins.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 using Strings = std::vector<std::string>;
@@ -98,4 +98,4 @@ TEST_CASE("a plugin that was asked for by name has that name") {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -6,7 +6,7 @@
 
 #include "support/paths.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 // Valgrind computes them with too few digits: the library of distributions takes that for an error
 // and ends the process.
@@ -25,4 +25,4 @@ TEST_CASE("the program computes no long doubles before main") {
   CHECK(symbols > 100);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

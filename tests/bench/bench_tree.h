@@ -10,7 +10,7 @@
 #include "engine/compile.h"
 #include "loading/plugin_set.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // A compiled tree of the built-in nodes and the leaves of bench_leaves.
 class BenchTree {
@@ -50,4 +50,4 @@ class BenchTree {
   Tree tree_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

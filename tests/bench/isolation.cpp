@@ -18,7 +18,7 @@
 
 namespace {
 
-using namespace lockstep;
+using namespace lockstep::host;
 
 // A Parallel of running leaves.
 class IsolatedTree {

@@ -23,7 +23,7 @@
 
 namespace {
 
-using namespace lockstep;
+using namespace lockstep::host;
 namespace fs = std::filesystem;
 
 // A main file and the files that it includes, in a directory of their own.

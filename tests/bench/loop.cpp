@@ -21,7 +21,7 @@
 
 namespace {
 
-using namespace lockstep;
+using namespace lockstep::host;
 using Json = nlohmann::ordered_json;
 
 struct Samples {

@@ -13,7 +13,7 @@
 
 namespace {
 
-using namespace lockstep;
+using namespace lockstep::host;
 using SteadyClock = std::chrono::steady_clock;
 using Duration = SteadyClock::duration;
 

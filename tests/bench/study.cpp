@@ -16,7 +16,7 @@
 
 namespace {
 
-using namespace lockstep;
+using namespace lockstep::host;
 
 constexpr const char* kTwoLeaves = R"(<root lockstep="1"><BehaviorTree ID="TwoLeaves">
   <ParallelAbsolute barrier_count="10">

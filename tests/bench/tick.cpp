@@ -18,7 +18,7 @@
 
 namespace {
 
-using namespace lockstep;
+using namespace lockstep::host;
 
 // As many calls into the same shared object, and nothing else.
 class FloorOfCalls {

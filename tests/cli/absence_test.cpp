@@ -7,7 +7,7 @@
 #include "cli/program.h"
 #include "support/paths.h"
 
-using namespace lockstep::test;
+using namespace lockstep::host::test;
 
 namespace {
 
@@ -79,7 +79,7 @@ TEST_CASE("what docs say is not there is refused, in words") {
     CHECK(contains(page(claim.page), claim.words));
     auto arguments = claim.command;
     arguments.push_back(directory.file("tree.xml", claim.tree));
-    const Outcome outcome = lockstep::test::lockstep(arguments);
+    const Outcome outcome = lockstep::host::test::lockstep(arguments);
     INFO(outcome.err);
     CHECK(outcome.code != 0);
     CHECK(contains(outcome.err, claim.told));

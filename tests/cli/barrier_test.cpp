@@ -4,12 +4,12 @@
 
 #include "cli/program.h"
 
-using namespace lockstep::test;
+using namespace lockstep::host::test;
 
 namespace {
 
 Outcome barrier_command(std::vector<std::string> arguments) {
-  return lockstep::test::lockstep(std::move(arguments));
+  return lockstep::host::test::lockstep(std::move(arguments));
 }
 
 std::string barrier_project(const std::string& content) {

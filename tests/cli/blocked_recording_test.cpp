@@ -10,7 +10,7 @@
 #include "cli/program.h"
 #include "support/paths.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // A named pipe of one page that somebody has opened and does not read.
@@ -100,4 +100,4 @@ TEST_CASE("a run whose recording has no room for its header is ended by a second
   CHECK(outcome.out.empty());
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

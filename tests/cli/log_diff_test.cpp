@@ -3,13 +3,13 @@
 
 #include "cli/program.h"
 
-using namespace lockstep::test;
+using namespace lockstep::host::test;
 using nlohmann::json;
 
 namespace {
 
 Outcome call(std::vector<std::string> arguments) {
-  return lockstep::test::lockstep(std::move(arguments));
+  return lockstep::host::test::lockstep(std::move(arguments));
 }
 
 std::string record(const TemporaryDirectory& directory, const std::string& name,

@@ -5,7 +5,7 @@
 
 #include "cli/program.h"
 
-using namespace lockstep::test;
+using namespace lockstep::host::test;
 
 namespace {
 
@@ -13,14 +13,14 @@ std::string record_ticks(const TemporaryDirectory& directory, const std::string&
   const std::string tree = directory.file("tree.xml", tree_text("<Advance step=\"0.001\"/>"));
   const std::string file = directory.path("run.jsonl");
   const Outcome outcome =
-      lockstep::test::lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--max-ticks",
-                                ticks, "--record", file});
+      lockstep::host::test::lockstep({"run", tree, "--clock", "virtual", "--view", "none",
+                                      "--max-ticks", ticks, "--record", file});
   REQUIRE(outcome.code == 124);
   return file;
 }
 
 Outcome log_page(const std::string& recording, const std::string& page) {
-  return lockstep::test::lockstep({"log", "page", recording, "--out", page});
+  return lockstep::host::test::lockstep({"log", "page", recording, "--out", page});
 }
 
 // As a browser finds it.

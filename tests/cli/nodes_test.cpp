@@ -4,7 +4,7 @@
 #include "cli/program.h"
 #include "support/paths.h"
 
-using namespace lockstep::test;
+using namespace lockstep::host::test;
 using nlohmann::json;
 
 namespace {
@@ -12,7 +12,7 @@ namespace {
 json listed(std::vector<std::string> more) {
   std::vector<std::string> arguments{"nodes", "--format", "json"};
   arguments.insert(arguments.end(), more.begin(), more.end());
-  const Outcome outcome = lockstep::test::lockstep(arguments);
+  const Outcome outcome = lockstep::host::test::lockstep(arguments);
   CHECK(outcome.code == 0);
   CHECK(outcome.err.empty());
   return json::parse(outcome.out);
@@ -26,7 +26,7 @@ std::size_t characters(const std::string& line) {
 }  // namespace
 
 TEST_CASE("nodes as text has all built-ins in groups, in at most 100 columns") {
-  const Outcome outcome = lockstep::test::lockstep({"nodes"});
+  const Outcome outcome = lockstep::host::test::lockstep({"nodes"});
   CHECK(outcome.code == 0);
   CHECK(outcome.err.empty());
   for (const json& node : listed({})) {
@@ -82,12 +82,12 @@ TEST_CASE("LOCKSTEP_PLUGIN_PATH is searched, after --plugin-path") {
 }
 
 TEST_CASE("one node in full, and did you mean") {
-  const Outcome one = lockstep::test::lockstep({"nodes", "ParallelRelative"});
+  const Outcome one = lockstep::host::test::lockstep({"nodes", "ParallelRelative"});
   CHECK(one.code == 0);
   CHECK(contains(one.out, "<ParallelRelative delta=\"…\"> … </ParallelRelative>"));
   CHECK(contains(one.out, "double, from 0 to 1, required"));
   CHECK(!contains(one.out, "Sequence"));
-  const Outcome unknown = lockstep::test::lockstep({"nodes", "Sequnce"});
+  const Outcome unknown = lockstep::host::test::lockstep({"nodes", "Sequnce"});
   CHECK(unknown.code == 2);
   CHECK(unknown.out.empty());
   CHECK(contains(unknown.err, "unknown node 'Sequnce'"));
@@ -96,16 +96,17 @@ TEST_CASE("one node in full, and did you mean") {
 
 TEST_CASE("a plugin that is refused ends nodes and schema with 4") {
   for (const std::string command : {"nodes", "schema"}) {
-    const Outcome missing = lockstep::test::lockstep({command, "--plugin", "/nonexistent.so"});
+    const Outcome missing =
+        lockstep::host::test::lockstep({command, "--plugin", "/nonexistent.so"});
     CHECK(missing.code == 4);
     CHECK(missing.out.empty());
     CHECK(contains(missing.err, "'/nonexistent.so' does not exist"));
-    CHECK(lockstep::test::lockstep({command, "--plugin", "nonexistent"}).code == 4);
+    CHECK(lockstep::host::test::lockstep({command, "--plugin", "nonexistent"}).code == 4);
   }
 }
 
 TEST_CASE("docs/nodes.md is what the program prints") {
-  const Outcome outcome = lockstep::test::lockstep({"nodes", "--format", "markdown"});
+  const Outcome outcome = lockstep::host::test::lockstep({"nodes", "--format", "markdown"});
   CHECK(outcome.code == 0);
   INFO("docs/nodes.md is stale: lockstep nodes --format markdown > docs/nodes.md");
   CHECK((outcome.out == read_file(LOCKSTEP_SOURCE_DIR "/docs/nodes.md")));

@@ -8,7 +8,7 @@
 #include "cli/program.h"
 #include "support/paths.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -142,4 +142,4 @@ TEST_CASE("a table replaces the file of its name when it is whole") {
         lockstep({"log", "csv", directory.path("run.jsonl")}).out);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -8,7 +8,7 @@
 #include "cli/program.h"
 #include "support/paths.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 using Strings = std::vector<std::string>;
@@ -119,4 +119,4 @@ TEST_CASE("a signal ends the waiting for the writer of a pipe") {
   }
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -4,14 +4,14 @@
 #include "cli/program.h"
 #include "support/paths.h"
 
-using namespace lockstep::test;
+using namespace lockstep::host::test;
 
 namespace {
 
 Outcome check_plugin(const std::string& file, std::vector<std::string> more = {}) {
   std::vector<std::string> arguments{"plugin", "check", file};
   arguments.insert(arguments.end(), more.begin(), more.end());
-  return lockstep::test::lockstep(arguments);
+  return lockstep::host::test::lockstep(arguments);
 }
 
 std::string abi_plugin(const std::string& name) {

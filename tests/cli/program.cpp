@@ -18,7 +18,7 @@
 
 extern char** environ;
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -262,4 +262,4 @@ std::vector<std::string> lines(const std::string& text) {
   return lines;
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -10,7 +10,7 @@
 
 #include "support/paths.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 struct Outcome {
   int code = -1;  // 128 + the signal when one killed it
@@ -111,4 +111,4 @@ inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -7,7 +7,7 @@
 #include "cli/program.h"
 #include "support/paths.h"
 
-using namespace lockstep::test;
+using namespace lockstep::host::test;
 
 namespace {
 
@@ -85,7 +85,7 @@ TEST_CASE("leaves in Python, bash, node, C and Rust give the recording of those 
       built.file("tree.xml",
                  "<root lockstep=\"1\"><plugin name=\"advance\"/><BehaviorTree ID=\"Main\">"
                  "<Advance step=\"0\"/></BehaviorTree></root>");
-  const Outcome panic = lockstep::test::lockstep(
+  const Outcome panic = lockstep::host::test::lockstep(
       {"run", tree, "--clock", "virtual", "--plugin-path", built.path("")});
   CHECK(panic.code == 5);
   CHECK(contains(panic.err,
@@ -93,7 +93,7 @@ TEST_CASE("leaves in Python, bash, node, C and Rust give the recording of those 
 }
 
 TEST_CASE("nodes has the leaves and ports of a program") {
-  const Outcome outcome = lockstep::test::lockstep(
+  const Outcome outcome = lockstep::host::test::lockstep(
       {"nodes", "Advance", "--run-programs", "--plugin", kProgramsFolder + "/advance.py"});
   INFO(outcome.err);
   CHECK(outcome.code == 0);

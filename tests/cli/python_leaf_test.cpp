@@ -8,7 +8,7 @@
 #include "cli/program.h"
 #include "support/paths.h"
 
-using namespace lockstep::test;
+using namespace lockstep::host::test;
 
 namespace {
 
@@ -31,8 +31,8 @@ struct PythonLeaves {
         "<root lockstep=\"1\"><plugin name=\"grip\" program=\"grip.py\"/><BehaviorTree "
         "ID=\"Main\"><Sequence memory=\"true\">" +
             nodes + "</Sequence></BehaviorTree></root>");
-    return lockstep::test::lockstep({"run", tree, "--plugin-path", directory.path(""), "--clock",
-                                     "virtual", "--max-ticks", "100"});
+    return lockstep::host::test::lockstep({"run", tree, "--plugin-path", directory.path(""),
+                                           "--clock", "virtual", "--max-ticks", "100"});
   }
 };
 
@@ -57,12 +57,13 @@ TEST_CASE("a leaf in Python sets ports that another reads, and its exception has
 TEST_CASE("plugin check finds what a program does against the protocol, and saves its leaves") {
   const PythonLeaves leaves;
   const auto nodes = [&] {
-    return lockstep::test::lockstep({"nodes", "Grip", "--plugin", leaves.program});
+    return lockstep::host::test::lockstep({"nodes", "Grip", "--plugin", leaves.program});
   };
   const Outcome unknown = nodes();
   CHECK(unknown.code == 4);
   CHECK(contains(unknown.err, "is a program, which this command does not run"));
-  const Outcome checked = lockstep::test::lockstep({"plugin", "check", leaves.program, "--save"});
+  const Outcome checked =
+      lockstep::host::test::lockstep({"plugin", "check", leaves.program, "--save"});
   INFO(checked.out << checked.err);
   CHECK(checked.code == 0);
   CHECK(contains(checked.out, "ok    'Grip 1' answers halt\n"));
@@ -72,7 +73,7 @@ TEST_CASE("plugin check finds what a program does against the protocol, and save
   CHECK(contains(known.out, "force  double in N, from 0 to 100, default 10"));
 
   chmod(leaves.directory.file("grip.py", "#!/bin/sh\necho hello\n").c_str(), 0755);
-  const Outcome wrong = lockstep::test::lockstep({"plugin", "check", leaves.program});
+  const Outcome wrong = lockstep::host::test::lockstep({"plugin", "check", leaves.program});
   CHECK(wrong.code == 4);
   CHECK(contains(wrong.out, "wrong it does not say what leaves it has: not JSON"));
   CHECK(nodes().code == 0);  // it was not run
@@ -154,7 +155,7 @@ TEST_CASE("a program is found by its name, or it is said what to type") {
   const std::string path = leaves.directory.path("");
   const auto ask = [&](std::vector<std::string> words) {
     words.insert(words.end(), {"--plugin-path", path});
-    return lockstep::test::lockstep(words);
+    return lockstep::host::test::lockstep(words);
   };
   for (const std::string name : {"grip", "grip.py"}) {
     const Outcome checked = ask({"plugin", "check", name});
@@ -182,7 +183,7 @@ TEST_CASE("a program is found by its name, or it is said what to type") {
 
 TEST_CASE("leaves that were saved before the program has changed are named") {
   const PythonLeaves leaves;
-  REQUIRE(lockstep::test::lockstep({"plugin", "check", leaves.program, "--save"}).code == 0);
+  REQUIRE(lockstep::host::test::lockstep({"plugin", "check", leaves.program, "--save"}).code == 0);
   const std::string nodes = R"(<Grip width="{w}"/>)";
   CHECK(!contains(leaves.run_tree(nodes).err, "grip.leaves.json"));
   std::string text = read_file(leaves.program);
@@ -197,7 +198,7 @@ TEST_CASE("leaves that were saved before the program has changed are named") {
     std::vector<std::string> words = {"check", leaves.directory.path("tree.xml"), "--plugin-path",
                                       leaves.directory.path("")};
     if (runs) words.push_back("--run-programs");
-    return lockstep::test::lockstep(words);
+    return lockstep::host::test::lockstep(words);
   };
   CHECK(contains(check(true).err, "has other leaves than"));
   // Without running it, the time of the file says that it may be so.

@@ -4,7 +4,7 @@
 #include "cli/program.h"
 #include "support/paths.h"
 
-using namespace lockstep::test;
+using namespace lockstep::host::test;
 
 namespace {
 
@@ -29,7 +29,7 @@ TEST_CASE("the README's action compiles and its tree runs as shown") {
   INFO(compiled.err);
   REQUIRE(compiled.code == 0);
 
-  const Outcome outcome = lockstep::test::lockstep(
+  const Outcome outcome = lockstep::host::test::lockstep(
       {"run", tree, "--plugin-path", directory.path(""), "--clock", "virtual"});
   CHECK(outcome.code == 0);
   std::string shown = block(readme, "console");

@@ -7,7 +7,7 @@
 #include "cli/program.h"
 #include "support/paths.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 TEST_CASE("a recording has the permissions that the umask leaves") {
   const TemporaryDirectory directory;
@@ -58,7 +58,7 @@ TEST_CASE("a recording has the entries that changed and what leaves logged, of e
   const auto recorded = [&](const std::string& key, std::vector<std::string> more) {
     more.insert(more.begin(), {"run", tree, "--clock", "virtual", "--rate", "10", "--set", "s=0.1",
                                "--record", file});
-    CHECK(lockstep::test::lockstep(more).code == 0);
+    CHECK(lockstep::host::test::lockstep(more).code == 0);
     std::vector<std::string> found;
     for (const std::string& line : lines(read_file(file))) {
       const auto json = nlohmann::json::parse(line);
@@ -79,13 +79,13 @@ TEST_CASE("a recording has the entries that changed and what leaves logged, of e
                                                        {"key":"s","type":"double"}])"));
   CHECK(recorded("logs", {"--log-level", "none"}) ==
         std::vector<std::string>{R"(0[["Main/Sequence/Say","info","says: a \"word\""]])"});
-  const Outcome replay = lockstep::test::lockstep({"replay", file, "--print", "--at", "0"});
+  const Outcome replay = lockstep::host::test::lockstep({"replay", file, "--print", "--at", "0"});
   CHECK(contains(replay.out, "\ns = 0.1\nMain/Sequence/Say: info: says: a \"word\"\n"));
   CHECK(recorded("entries", {"--record-entries", "s"}) ==
         std::vector<std::string>{R"(0[[0,"0.1"]])"});
   CHECK(recorded("entries", {"--record-entries", "none"}).empty());
   const Outcome typo =
-      lockstep::test::lockstep({"run", tree, "--record", file, "--record-entries", "plam"});
+      lockstep::host::test::lockstep({"run", tree, "--record", file, "--record-entries", "plam"});
   CHECK(typo.code == 2);
   CHECK(contains(typo.err, "the tree has no entry 'plam'\n  hint: did you mean 'plan'?"));
 }
@@ -96,8 +96,8 @@ TEST_CASE("a recording says which nodes may write an entry: by a port or a scrip
     const std::string tree = directory.file("tree.xml", text);
     const std::string file = directory.path("run.jsonl");
     const Outcome outcome =
-        lockstep::test::lockstep({"run", tree, "--clock", "virtual", "--view", "none",
-                                  "--max-ticks", "9", "--record", file});
+        lockstep::host::test::lockstep({"run", tree, "--clock", "virtual", "--view", "none",
+                                        "--max-ticks", "9", "--record", file});
     INFO(outcome.err);
     CHECK(outcome.code == 0);
     std::map<std::string, std::vector<int>> found;
@@ -122,4 +122,4 @@ TEST_CASE("a recording says which nodes may write an entry: by a port or a scrip
   CHECK(other == Writers{{"a", {1, 2}}});
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -2,12 +2,12 @@
 
 #include "cli/program.h"
 
-using namespace lockstep::test;
+using namespace lockstep::host::test;
 
 namespace {
 
 Outcome call(std::vector<std::string> arguments) {
-  return lockstep::test::lockstep(std::move(arguments));
+  return lockstep::host::test::lockstep(std::move(arguments));
 }
 
 const std::string kTree = tree_text(

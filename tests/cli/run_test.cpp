@@ -6,7 +6,7 @@
 #include "cli/program.h"
 #include "support/paths.h"
 
-using namespace lockstep::test;
+using namespace lockstep::host::test;
 using nlohmann::json;
 
 namespace {
@@ -28,7 +28,7 @@ struct Simulation {
   Outcome run(std::vector<std::string> more = {}) const {
     std::vector<std::string> arguments{"run", file, "--clock", "virtual"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return lockstep::test::lockstep(arguments);
+    return lockstep::host::test::lockstep(arguments);
   }
 
   TemporaryDirectory directory;
@@ -130,7 +130,7 @@ TEST_CASE("run --arg, --set and --tree choose what runs") {
   const auto ticks = [&](std::vector<std::string> more) {
     std::vector<std::string> arguments{"run", file, "--clock", "virtual", "--json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return json::parse(lockstep::test::lockstep(arguments).out)["ticks"].get<int>();
+    return json::parse(lockstep::host::test::lockstep(arguments).out)["ticks"].get<int>();
   };
   CHECK(ticks({}) == 1);
   CHECK(ticks({"--arg", "n=3"}) == 3);
@@ -274,7 +274,7 @@ TEST_CASE("wrong usage is 2 and runs nothing") {
     CHECK(outcome.out.empty());
     CHECK(!outcome.err.empty());
   }
-  CHECK(lockstep::test::lockstep({"run"}).code == 2);
+  CHECK(lockstep::host::test::lockstep({"run"}).code == 2);
 }
 
 TEST_CASE("an invalid tree is 3, a refused plugin 4") {
@@ -319,7 +319,7 @@ TEST_CASE("a port whose entry nobody has written has its default, or the fault n
       directory.file("unwritten.xml", head + "<Say text=\"{words}\"/>" + tail);
   const auto run_tree = [](const std::string& tree, std::vector<std::string> more) {
     more.insert(more.begin(), {"run", tree, "--clock", "virtual", "--json", "--view", "none"});
-    return lockstep::test::lockstep(more);
+    return lockstep::host::test::lockstep(more);
   };
   const auto ticks = nlohmann::json::parse(run_tree(plain, {}).out)["ticks"];
   for (const auto& more : {std::vector<std::string>{}, std::vector<std::string>{"--isolate"}}) {
@@ -385,7 +385,8 @@ TEST_CASE("the result of a run that a fault ended is fault, whatever its sibling
   const json end = json::parse(lines(read_file(recording)).back())["end"];
   CHECK(end["result"] == "fault");
   CHECK(end["reason"] == "fault");
-  CHECK(contains(lockstep::test::lockstep({"log", "info", recording}).out, "  fault after 1 tick"));
+  CHECK(contains(lockstep::host::test::lockstep({"log", "info", recording}).out,
+                 "  fault after 1 tick"));
 }
 
 TEST_CASE("a terminal gets the live view, in color unless NO_COLOR asks for none") {

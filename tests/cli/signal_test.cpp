@@ -4,7 +4,7 @@
 #include "cli/program.h"
 #include "support/paths.h"
 
-using namespace lockstep::test;
+using namespace lockstep::host::test;
 using nlohmann::json;
 
 namespace {
@@ -122,7 +122,7 @@ TEST_CASE("a file that may not grow is an error of the recording, not the end of
   CHECK(going_on.code == 0);
   CHECK(contains(going_on.err, "File too large"));
   CHECK(stopped.code == 8);
-  const Outcome info = lockstep::test::lockstep({"log", "info", directory.path("run.jsonl")});
+  const Outcome info = lockstep::host::test::lockstep({"log", "info", directory.path("run.jsonl")});
   CHECK(info.code == 0);
   CHECK(contains(info.err, "cut"));
 }

@@ -10,7 +10,7 @@
 #include "core/diagnostics.h"
 #include "support/paths.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 using Strings = std::vector<std::string>;
@@ -154,7 +154,7 @@ TEST_CASE("texts of what is told while a tree runs reach the terminal visible") 
         .arguments = {"run", stands, "--view", view, "--stall", "0.01", "--max-ticks", "9"}};
   };
   for (const std::string view : {"plain", "none", "live"}) {
-    const Outcome piped = lockstep::test::run(run(view));
+    const Outcome piped = lockstep::host::test::run(run(view));
     CHECK(contains(piped.err, "stands still"));
     check_clean(piped, view, view == "live");
     const Outcome shown = Process(run(view), Process::Output::Terminal).finish();
@@ -285,4 +285,4 @@ TEST_CASE("what programs read is exact: CSV in a pipe, and JSON as it parses") {
   CHECK(summary["synchronized_nodes"][0]["path"] == "A/" + kEvil);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

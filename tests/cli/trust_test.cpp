@@ -10,7 +10,7 @@
 #include "cli/program.h"
 #include "support/paths.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -55,7 +55,7 @@ TEST_CASE("a plugin that everyone may replace is warned of, and loaded") {
     Installed::permit(it.plugin, row.plugin);
     Installed::permit(it.plugins, row.directory);
     for (const auto& arguments : {by_name, by_file}) {
-      const Outcome outcome = lockstep::test::lockstep(arguments);
+      const Outcome outcome = lockstep::host::test::lockstep(arguments);
       INFO(outcome.err);
       CHECK(outcome.code == 0);
       CHECK(contains(outcome.err, kWarning) == !row.warning.empty());
@@ -79,9 +79,10 @@ TEST_CASE("the directories behind a plugin that is a symbolic link are looked at
   fs::rename(it.plugin, last + "/real.so");
   fs::create_symlink("../last/real.so", middle + "/link.so");
   fs::create_symlink(middle + "/link.so", first + "/motion.so");
-  const Outcome by_name = lockstep::test::lockstep({"check", it.tree, "--plugin-path", first});
+  const Outcome by_name =
+      lockstep::host::test::lockstep({"check", it.tree, "--plugin-path", first});
   const Outcome by_file =
-      lockstep::test::lockstep({"check", it.tree, "--plugin", first + "/motion.so"});
+      lockstep::host::test::lockstep({"check", it.tree, "--plugin", first + "/motion.so"});
   for (const Outcome& outcome : {by_name, by_file}) {
     INFO(outcome.err);
     CHECK(outcome.code == 0);
@@ -91,7 +92,7 @@ TEST_CASE("the directories behind a plugin that is a symbolic link are looked at
   }
   Installed::permit(middle, 0755);
   Installed::permit(last, 0755);
-  const Outcome quiet = lockstep::test::lockstep({"check", it.tree, "--plugin-path", first});
+  const Outcome quiet = lockstep::host::test::lockstep({"check", it.tree, "--plugin-path", first});
   CHECK(quiet.code == 0);
   CHECK_FALSE(contains(quiet.err, kWarning));
 }
@@ -101,7 +102,7 @@ TEST_CASE("a directory that everyone may write to is warned of when it is search
   const std::string open = it.directory.path("open");
   REQUIRE(mkdir(open.c_str(), 0755) == 0);
   Installed::permit(open, 0777);
-  const Outcome outcome = lockstep::test::lockstep(
+  const Outcome outcome = lockstep::host::test::lockstep(
       {"check", it.tree, "--plugin-path", open, "--plugin-path", it.plugins});
   CHECK(outcome.code == 0);
   CHECK(contains(outcome.err, kWarning + (" directory '" + open + "'")));
@@ -177,9 +178,8 @@ TEST_CASE("a program with more rights than its user takes gnuplot from where the
   const std::string tree = it.directory.file(
       "sync.xml", tree_text("<ParallelRelative delta=\"0\"><Advance/></ParallelRelative>"));
   const std::string recording = it.directory.path("run.jsonl");
-  REQUIRE(
-      lockstep::test::lockstep({"run", tree, "--clock", "virtual", "--record", recording}).code ==
-      0);
+  REQUIRE(lockstep::host::test::lockstep({"run", tree, "--clock", "virtual", "--record", recording})
+              .code == 0);
   Installed::permit(recording, 0644);
   const std::string mark = it.directory.path("mark");
   const auto fake = it.directory.file("d/gnuplot", "#!/bin/sh\n: > '" + mark + "'\n");
@@ -197,4 +197,4 @@ TEST_CASE("a program with more rights than its user takes gnuplot from where the
   CHECK(fs::exists(it.directory.path("x.svg")));
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -7,7 +7,7 @@
 #include "cli/program.h"
 #include "support/paths.h"
 
-using namespace lockstep::test;
+using namespace lockstep::host::test;
 
 namespace {
 
@@ -51,7 +51,7 @@ Outcome run_leaf(const Language& language, const std::string& attributes) {
                                      "--clock",  "virtual",
                                      "--view",   "none"};
   arguments.insert(arguments.end(), language.more.begin(), language.more.end());
-  return lockstep::test::lockstep(arguments);
+  return lockstep::host::test::lockstep(arguments);
 }
 
 // The same file as a module, in a program that ticks the tree.
@@ -62,13 +62,14 @@ Outcome run_module(const std::string& attributes) {
       "say = lambda path, level, text: print(f'{path}: {text}', file=sys.stderr)\n"
       "print(lockstep.Tree(text='" +
       tree_around(attributes) + "', leaves=unbound, log=say).run().result)\n";
-  return run({.arguments = {"-c", script},
-              .environment = {{"PYTHONPATH", LOCKSTEP_SOURCE_DIR "/plugins/sdk/python:" + kPrograms},
-                              {"PYTHONDONTWRITEBYTECODE", "1"},
-                              {"LOCKSTEP", LOCKSTEP_BINARY_DIR "/lockstep"},
-                              {"LD_PRELOAD", LOCKSTEP_PRELOAD},
-                              {"ASAN_OPTIONS", "detect_leaks=0"}},
-              .program = "/usr/bin/python3"});
+  return run(
+      {.arguments = {"-c", script},
+       .environment = {{"PYTHONPATH", LOCKSTEP_SOURCE_DIR "/plugins/sdk/python:" + kPrograms},
+                       {"PYTHONDONTWRITEBYTECODE", "1"},
+                       {"LOCKSTEP", LOCKSTEP_BINARY_DIR "/lockstep"},
+                       {"LD_PRELOAD", LOCKSTEP_PRELOAD},
+                       {"ASAN_OPTIONS", "detect_leaks=0"}},
+       .program = "/usr/bin/python3"});
 }
 
 using Strings = std::vector<std::string>;

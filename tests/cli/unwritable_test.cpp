@@ -9,7 +9,7 @@
 #include "cli/program.h"
 #include "support/paths.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 using nlohmann::json;
@@ -174,4 +174,4 @@ TEST_CASE("a signal ends the wait for a reader of stdout, also when it comes bef
   }
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -5,7 +5,7 @@
 
 #include "cli/program.h"
 
-using namespace lockstep::test;
+using namespace lockstep::host::test;
 
 namespace {
 
@@ -56,7 +56,9 @@ TEST_CASE("a wrong command line names the word that is wrong, and the help of it
       {{"run", "t.xml", "--seed"}, "'--seed' needs a value", "see `lockstep run --help`"},
       {{"run", "--rate", "nan", "t.xml"}, "--rate: 'nan' is not a number from 0.001", "see `"},
       {{"run", "--rate", "0.0009", "t.xml"}, "--rate: '0.0009' is not a number from", "see `"},
-      {{"run", "--cpu", "4096", "t.xml"}, "--cpu: '4096' is no list of processors, as 3 or 0-1,3", ""},
+      {{"run", "--cpu", "4096", "t.xml"},
+       "--cpu: '4096' is no list of processors, as 3 or 0-1,3",
+       ""},
       {{"run", "--timeout", "1e10", "t.xml"}, "--timeout: '1e10' is not a number from 0 to", ""},
       {{"run", "--clock", "virtaul", "t.xml"},
        "--clock: 'virtaul' is not one of wall, virtual; did you mean 'virtual'?",
@@ -85,7 +87,7 @@ TEST_CASE("a wrong command line names the word that is wrong, and the help of it
       {{"help", "log", "inf"}, "unknown command 'log inf'", "did you mean 'info'?"},
   };
   for (const Row& row : rows) {
-    const Outcome outcome = lockstep::test::lockstep(row.arguments);
+    const Outcome outcome = lockstep::host::test::lockstep(row.arguments);
     INFO(row.message << "\n" << outcome.err);
     CHECK(outcome.code == 2);
     CHECK(outcome.out.empty());
@@ -96,10 +98,10 @@ TEST_CASE("a wrong command line names the word that is wrong, and the help of it
 }
 
 TEST_CASE("a word of a command line reaches the terminal short and harmless") {
-  const Outcome control = lockstep::test::lockstep({"run", "--\x1b[2J", "t.xml"});
+  const Outcome control = lockstep::host::test::lockstep({"run", "--\x1b[2J", "t.xml"});
   CHECK(contains(control.err, "unknown option '--\\x1B[2J'"));
   const Outcome endless =
-      lockstep::test::lockstep({"run", "--" + std::string(100'000, 'x'), "t.xml"});
+      lockstep::host::test::lockstep({"run", "--" + std::string(100'000, 'x'), "t.xml"});
   CHECK(endless.err.size() < 1000);
 }
 
@@ -114,7 +116,7 @@ TEST_CASE("what is right is not blamed for a likeness") {
         {"help"},
         {"--help"},
         {"help", "help"}}) {
-    const Outcome outcome = lockstep::test::lockstep(arguments);
+    const Outcome outcome = lockstep::host::test::lockstep(arguments);
     INFO(outcome.err);
     CHECK(outcome.code == 0);
   }
@@ -144,7 +146,7 @@ TEST_CASE("help fits into 80 columns where there is no terminal") {
                                                   {"monitor"}}) {
     std::vector<std::string> words = {"help"};
     words.insert(words.end(), command.begin(), command.end());
-    std::istringstream lines(lockstep::test::lockstep(words).out);
+    std::istringstream lines(lockstep::host::test::lockstep(words).out);
     std::size_t longest = 0;
     for (std::string line; std::getline(lines, line);) longest = std::max(longest, line.size());
     INFO((command.empty() ? "lockstep" : command.back()));
@@ -160,11 +162,11 @@ TEST_CASE("help COMMAND is COMMAND --help") {
     std::vector<std::string> with_word = {"help"}, with_option = command;
     with_word.insert(with_word.end(), command.begin(), command.end());
     with_option.emplace_back("--help");
-    const Outcome outcome = lockstep::test::lockstep(with_word);
+    const Outcome outcome = lockstep::host::test::lockstep(with_word);
     CHECK(outcome.code == 0);
     CHECK(outcome.err.empty());
     CHECK(contains(outcome.out, "Usage: lockstep"));
-    CHECK(outcome.out == lockstep::test::lockstep(with_option).out);
+    CHECK(outcome.out == lockstep::host::test::lockstep(with_option).out);
   }
-  CHECK(contains(lockstep::test::lockstep({"help"}).out, "\n  help "));
+  CHECK(contains(lockstep::host::test::lockstep({"help"}).out, "\n  help "));
 }

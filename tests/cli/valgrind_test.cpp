@@ -4,7 +4,7 @@
 
 #include "cli/program.h"
 
-using namespace lockstep::test;
+using namespace lockstep::host::test;
 
 TEST_CASE("valgrind finds no error and no leak in a run: what it finds is the plugin's") {
   const std::string valgrind = "/usr/bin/valgrind";

@@ -9,7 +9,7 @@
 #include "document/document.h"
 #include "document/language_of.h"
 
-using namespace lockstep::test;
+using namespace lockstep::host::test;
 
 namespace {
 
@@ -169,9 +169,10 @@ enum class Verdict { Xml, NotXml, NotOurs };
 // NotOurs: refused because our language has no use for it, whether it is XML or not; or a text for
 // BehaviorTree.CPP, in which more is accepted than XML.
 Verdict verdict_of(const std::string& text) {
-  lockstep::Diagnostics diagnostics;
-  lockstep::Document::parse("f", text, diagnostics);
-  if (&lockstep::language_of(text) != &lockstep::kLockstepRules) return Verdict::NotOurs;
+  lockstep::host::Diagnostics diagnostics;
+  lockstep::host::Document::parse("f", text, diagnostics);
+  if (&lockstep::host::language_of(text) != &lockstep::host::kLockstepRules)
+    return Verdict::NotOurs;
   Verdict verdict = Verdict::Xml;
   for (const auto& it : diagnostics.all()) {
     const bool is_ours = it.message == "text is not part of the language" ||

@@ -66,7 +66,7 @@ extern "C" int pthread_mutex_lock(pthread_mutex_t* mutex) {
   return lock(mutex);
 }
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // Every kind of node, over leaves of a plugin in C++ that have ports and read them; it runs on.
@@ -497,6 +497,6 @@ TEST_CASE("a tick calls the system for nothing") {
   CHECK_FALSE(survives_without_system_calls([] { getppid(); }));
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test
 
 #endif

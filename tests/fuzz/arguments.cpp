@@ -11,7 +11,7 @@
 
 namespace {
 
-using namespace lockstep;
+using namespace lockstep::host;
 
 void require(bool holds) {
   if (!holds) std::abort();

@@ -15,7 +15,7 @@
 
 namespace {
 
-using namespace lockstep;
+using namespace lockstep::host;
 
 constexpr int kTicks = 40;
 // A tick may be repeated ten thousand times: for ever, as the tree says.

@@ -14,7 +14,7 @@
 
 namespace {
 
-using namespace lockstep;
+using namespace lockstep::host;
 
 void require(bool holds) {
   if (!holds) std::abort();

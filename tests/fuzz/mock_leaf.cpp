@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace lockstep::fuzz {
+namespace lockstep::host::fuzz {
 namespace {
 
 enum Port : std::uint32_t { kScript, kOut };
@@ -264,4 +264,4 @@ int living_leaves() {
   return g_living;
 }
 
-}  // namespace lockstep::fuzz
+}  // namespace lockstep::host::fuzz

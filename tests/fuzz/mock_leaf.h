@@ -8,7 +8,7 @@
 
 #include "lockstep/leaf.h"
 
-namespace lockstep::fuzz {
+namespace lockstep::host::fuzz {
 
 // Leaves 'Mock' (an action with every function), 'MockCondition', 'MockBare' (an action that has
 // only tick). Each tick plays one letter of the port 'script', over and over:
@@ -27,4 +27,4 @@ void begin_tick();
 // Leaves that were created and not destroyed.
 int living_leaves();
 
-}  // namespace lockstep::fuzz
+}  // namespace lockstep::host::fuzz

@@ -17,7 +17,7 @@
 
 namespace {
 
-using namespace lockstep;
+using namespace lockstep::host;
 
 void require(bool holds) {
   if (!holds) std::abort();

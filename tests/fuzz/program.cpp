@@ -20,7 +20,7 @@
 
 namespace {
 
-using namespace lockstep;
+using namespace lockstep::host;
 
 void require(bool holds, const char* law) {
   if (holds) return;

@@ -13,7 +13,7 @@
 
 namespace {
 
-using namespace lockstep;
+using namespace lockstep::host;
 
 void check(bool holds) {
   if (!holds) std::abort();

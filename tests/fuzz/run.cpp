@@ -15,7 +15,7 @@
 
 namespace {
 
-using namespace lockstep;
+using namespace lockstep::host;
 using fuzz::begin_tick;
 
 constexpr int kTicks = 100;

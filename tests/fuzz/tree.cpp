@@ -16,7 +16,7 @@
 
 namespace {
 
-using namespace lockstep;
+using namespace lockstep::host;
 
 void tick(const Tree& tree) {
   Run run(tree, {});

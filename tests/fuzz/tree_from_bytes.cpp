@@ -7,7 +7,7 @@
 #include "engine/node_kind.h"
 #include "mock_leaf.h"
 
-namespace lockstep::fuzz {
+namespace lockstep::host::fuzz {
 namespace {
 
 constexpr int kMaxDepth = 10;
@@ -133,4 +133,4 @@ std::string tree_from_bytes(std::span<const std::uint8_t> bytes) {
   return Generator(bytes).file();
 }
 
-}  // namespace lockstep::fuzz
+}  // namespace lockstep::host::fuzz

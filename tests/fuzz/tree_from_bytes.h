@@ -6,8 +6,8 @@
 #include <span>
 #include <string>
 
-namespace lockstep::fuzz {
+namespace lockstep::host::fuzz {
 
 std::string tree_from_bytes(std::span<const std::uint8_t> bytes);
 
-}  // namespace lockstep::fuzz
+}  // namespace lockstep::host::fuzz

@@ -4,7 +4,7 @@
 
 #include "web/client.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 std::vector<std::string> arguments(const std::string& tree, std::vector<std::string> more) {
@@ -72,4 +72,4 @@ Outcome GrootRun::resume() {
   return process_.finish();
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

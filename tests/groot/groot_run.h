@@ -8,7 +8,7 @@
 
 #include "cli/program.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 // What the client, tests/groot/client.py, prints of each answer.
 std::vector<nlohmann::json> ask_groot(unsigned port, std::vector<std::string> requests);
@@ -42,4 +42,4 @@ class GrootRun {
   std::string token_;
 };
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -4,7 +4,7 @@
 #include "groot/groot_run.h"
 #include "web/client.h"
 
-using namespace lockstep::test;
+using namespace lockstep::host::test;
 using nlohmann::json;
 
 namespace {

@@ -3,7 +3,7 @@
 
 #include "language/pipeline.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // A document with an argument 'a' (default 1), an argument 'b' (no default), and this tree.
@@ -85,4 +85,4 @@ TEST_CASE("declarations of arguments") {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

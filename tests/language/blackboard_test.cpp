@@ -3,7 +3,7 @@
 
 #include "language/pipeline.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 TEST_CASE("literals of each type") {
@@ -331,4 +331,4 @@ TEST_CASE("what is wrong with a SubTree") {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

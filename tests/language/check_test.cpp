@@ -7,7 +7,7 @@
 #include "language/pipeline.h"
 #include "unit/document/temporary_directory.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 TEST_CASE("all errors are told in one pass, sorted by their places") {
@@ -326,4 +326,4 @@ TEST_CASE("includes nest 32 levels deep") {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

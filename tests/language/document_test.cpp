@@ -6,7 +6,7 @@
 #include "language/pipeline.h"
 #include "unit/document/temporary_directory.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 constexpr std::string_view kTwoTrees =
@@ -223,4 +223,4 @@ TEST_CASE("names and paths") {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -10,7 +10,7 @@
 #include "language/pipeline.h"
 #include "runtime/run.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 constexpr int kMaxTicks = 4000;
@@ -111,4 +111,4 @@ TEST_CASE("held nodes: a random tree is warned of if it stands still, and only t
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -7,7 +7,7 @@
 
 #include "language/pipeline.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 struct Row {
@@ -283,4 +283,4 @@ TEST_CASE("held nodes: a tree that is warned of may end where steps are large") 
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

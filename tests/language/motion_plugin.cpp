@@ -8,10 +8,10 @@
 #include "../../plugins/motion/profile.cpp"
 #include "../../plugins/motion/recorded.cpp"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 const lockstep_plugin& motion_plugin() {
   return shipped_motion_plugin;
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -5,7 +5,7 @@
 #include "language/robot_plugin.h"
 #include "runtime/run.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 TEST_CASE("objects: written, read, checked") {
@@ -111,4 +111,4 @@ TEST_CASE("an entry with an object has the text of the object") {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

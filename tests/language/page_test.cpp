@@ -23,7 +23,7 @@
 #include "runtime/run.h"
 #include "support/paths.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 std::string read_page() {
@@ -327,4 +327,4 @@ TEST_CASE("links inside the page lead to its headings") {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

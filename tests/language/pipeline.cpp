@@ -12,7 +12,7 @@
 #include "loading/plugins.h"
 #include "runtime/run.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 constexpr int kMaxTicks = 100;
@@ -116,4 +116,4 @@ void check_paths(std::span<const ClaimRow> rows) {
   check(rows, [](const Pipeline& pipeline) { return pipeline.paths(); });
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -12,7 +12,7 @@
 #include "engine/tree.h"
 #include "loading/plugin_set.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 // A claim of docs/language.md. A text that is not a whole document stands in one, in line 2, as
 // the tree 'T'. `options`: "tree=Main arg.speed=1 set.key=x".
@@ -50,4 +50,4 @@ class Pipeline {
   std::optional<Tree> tree_;
 };
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

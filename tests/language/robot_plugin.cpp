@@ -8,7 +8,7 @@
 
 namespace {
 
-using lockstep::test::said;
+using lockstep::host::test::said;
 
 struct FindPorts : lockstep::Ports {
   Input<std::string> sees{this, "sees", "front door", "what there is to be found"};
@@ -170,10 +170,10 @@ class Hold : public lockstep::Action<HoldPorts> {
 
 // Counts itself.
 struct Alive {
-  Alive() { ++lockstep::test::objects_alive; }
-  Alive(const Alive&) { ++lockstep::test::objects_alive; }
+  Alive() { ++lockstep::host::test::objects_alive; }
+  Alive(const Alive&) { ++lockstep::host::test::objects_alive; }
   Alive& operator=(const Alive&) = default;
-  ~Alive() { --lockstep::test::objects_alive; }
+  ~Alive() { --lockstep::host::test::objects_alive; }
 };
 
 struct Pose {
@@ -280,10 +280,10 @@ LOCKSTEP_PLUGIN_TABLE(robot_table, "robot", "1.0", "A robot that only says what 
                       lockstep::leaf<Measure>("Measure", "Shows a number."),
                       lockstep::leaf<IsOpen>("IsOpen", "Whether a door is open."));
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 const lockstep_plugin& robot_plugin() {
   return robot_table;
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -8,7 +8,7 @@
 
 #include "lockstep/leaf.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 // What the leaves have said on this thread.
 inline thread_local std::vector<std::string> said;
@@ -21,4 +21,4 @@ const lockstep_plugin& robot_plugin();
 // The plugin that ships, compiled into the test.
 const lockstep_plugin& motion_plugin();
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

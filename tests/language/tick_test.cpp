@@ -4,7 +4,7 @@
 
 #include "language/pipeline.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 TEST_CASE("runs of trees with leaves of plugins") {
@@ -82,4 +82,4 @@ TEST_CASE("a fault ends the run, it is not a Failure") {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

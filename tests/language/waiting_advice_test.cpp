@@ -8,7 +8,7 @@
 
 #include "language/pipeline.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 struct Row {
@@ -246,4 +246,4 @@ TEST_CASE("members that may never run: the others wait for them for ever") {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -2,7 +2,7 @@
 
 #include "support/tick_table.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // clang-format off
@@ -21,4 +21,4 @@ TEST_CASE("AlwaysSuccess, AlwaysFailure, AlwaysRunning") {
   check_rows(kRows);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

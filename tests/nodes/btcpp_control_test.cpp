@@ -4,7 +4,7 @@
 #include "dialect/btcpp/rules.h"
 #include "support/tick_table.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // clang-format off
@@ -216,4 +216,4 @@ TEST_CASE("BehaviorTree.CPP: nodes that choose a child") {
   check_rows(kBranches, FaultPolicy::Stop, btcpp::kRules);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -4,7 +4,7 @@
 #include "dialect/btcpp/rules.h"
 #include "support/tick_table.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // clang-format off
@@ -243,4 +243,4 @@ TEST_CASE("BehaviorTree.CPP: scripts around a node") {
   check_rows(kTolerated, FaultPolicy::Fail, btcpp::kRules);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

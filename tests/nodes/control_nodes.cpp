@@ -3,7 +3,7 @@
 #include <lockstep/leaf.hpp>
 #include <thread>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 std::function<void(const char*)> watching_seen;
 
@@ -116,4 +116,4 @@ LOCKSTEP_PLUGIN_TABLE(kTable, "tests", "1.0", "Control nodes for tests",
 
 const lockstep_plugin& kControlNodes = kTable;
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -6,10 +6,10 @@
 
 #include "lockstep/leaf.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 extern const lockstep_plugin& kControlNodes;
 // Called by the node Watching with the name of its function.
 extern std::function<void(const char*)> watching_seen;
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

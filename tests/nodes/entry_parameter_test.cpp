@@ -5,7 +5,7 @@
 #include "engine/synchronized.h"
 #include "support/scripted_run.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 using List = std::vector<double>;
@@ -179,4 +179,4 @@ TEST_CASE("entry parameter: a run that begins again knows nothing of the last on
   CHECK(fault_of(run).starts_with("Test/Wait: 'seconds' has no value"));
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

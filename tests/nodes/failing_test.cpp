@@ -6,7 +6,7 @@
 #include "support/plugin_nodes.h"
 #include "support/scripted_run.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 const KnownPlugin kKnown(kControlNodes);
@@ -144,4 +144,4 @@ TEST_CASE("a barrier begins again with the node that all of its members are belo
   CHECK(told(run) == " start x, tick x, start y, tick y");
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

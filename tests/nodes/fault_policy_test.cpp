@@ -4,7 +4,7 @@
 #include "support/scripted_run.h"
 #include "support/tick_table.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // clang-format off
@@ -153,4 +153,4 @@ TEST_CASE("a run begun anew has forgotten the faults that it went on after") {
   CHECK(run.tick(Nanoseconds(0)) == Status::Running);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -2,7 +2,7 @@
 
 #include "support/tick_table.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // clang-format off
@@ -62,4 +62,4 @@ TEST_CASE("held subtrees, and synchronized nodes in each other") {
   check_rows(kRows);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

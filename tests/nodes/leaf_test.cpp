@@ -3,7 +3,7 @@
 #include "support/scripted_run.h"
 #include "support/tick_table.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // clang-format off
@@ -169,4 +169,4 @@ TEST_CASE("the first fault of a run is kept") {
   CHECK(run.ticker().fault()->message == "error of the script");
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -5,7 +5,7 @@
 #include "support/plugin_nodes.h"
 #include "support/tick_table.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 const KnownPlugin kNav(lockstep_plugin_entry);
@@ -123,4 +123,4 @@ TEST_CASE("RateController") {
   check_rows(kRateController);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -3,7 +3,7 @@
 #include "support/synchronized_trace.h"
 #include "support/tick_table.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // clang-format off
@@ -106,4 +106,4 @@ TEST_CASE("ParallelAbsolute") {
   check_rows(kRows);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

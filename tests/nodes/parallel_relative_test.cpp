@@ -4,7 +4,7 @@
 #include "support/synchronized_trace.h"
 #include "support/tick_table.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // clang-format off
@@ -92,4 +92,4 @@ TEST_CASE("ParallelRelative") {
   check_rows(kRows);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

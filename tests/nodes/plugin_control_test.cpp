@@ -7,7 +7,7 @@
 #include "support/scripted_run.h"
 #include "support/tick_table.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 const KnownPlugin kKnown(kControlNodes);
@@ -102,4 +102,4 @@ TEST_CASE("children are halted and paused before their control node, and resumed
   CHECK(seen == "halt after 1;");
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -2,7 +2,7 @@
 
 #include "support/tick_table.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // clang-format off
@@ -40,4 +40,4 @@ TEST_CASE("Rate") {
   check_rows(kRows);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

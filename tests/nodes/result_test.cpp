@@ -2,7 +2,7 @@
 
 #include "support/tick_table.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // clang-format off
@@ -31,4 +31,4 @@ TEST_CASE("Inverter, ForceSuccess, ForceFailure, SubTree") {
   check_rows(kRows);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -3,7 +3,7 @@
 
 #include "support/tree_text.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 struct RuleRow {
@@ -66,4 +66,4 @@ TEST_CASE("what node kinds refuse") {
   }
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

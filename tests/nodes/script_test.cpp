@@ -4,7 +4,7 @@
 #include "support/scripted_run.h"
 #include "support/tick_table.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // clang-format off
@@ -119,4 +119,4 @@ TEST_CASE("the entries of scripts have types, by ports, by ':=', and from each o
   }
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

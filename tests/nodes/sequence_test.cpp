@@ -2,7 +2,7 @@
 
 #include "support/tick_table.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // clang-format off
@@ -60,4 +60,4 @@ TEST_CASE("Sequence") {
   check_rows(kRows);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -3,7 +3,7 @@
 
 #include "support/tick_table.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // clang-format off
@@ -118,4 +118,4 @@ TEST_CASE("a skipped member of a barrier or a pool") {
   check_rows(kMembers);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -5,7 +5,7 @@
 #include "support/synchronized_trace.h"
 #include "support/tick_table.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // clang-format off
@@ -298,4 +298,4 @@ TEST_CASE("SyncProgress: a barrier runs with the common ancestor, and succeeds w
   CHECK_FALSE(run.ticker().ticked(barrier));
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

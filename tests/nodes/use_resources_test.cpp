@@ -5,7 +5,7 @@
 #include "support/scripted_run.h"
 #include "support/tick_table.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 struct ResourceTrace {
@@ -291,4 +291,4 @@ TEST_CASE("UseResources: a priority rises to twice what all members can wait") {
   CHECK(run.ticker().state<ResourceUse>(waits).priority == 2 * 2 * 5);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

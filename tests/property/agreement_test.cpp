@@ -5,7 +5,7 @@
 #include "property/comparison.h"
 #include "support/scripted_run.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 constexpr std::uint64_t kTrees = 10000, kGroupTrees = 5000, kRepeatedTrees = 500;
@@ -95,4 +95,4 @@ TEST_CASE("the same tree and seed give the same run") {
   }
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -9,7 +9,7 @@
 #include "property/btcpp_tree.h"
 #include "support/scripted_run.h"
 
-namespace lockstep::test::law {
+namespace lockstep::host::test::law {
 namespace {
 
 constexpr int kDocuments = 10'000;
@@ -32,7 +32,7 @@ std::string shown(const std::map<std::string, Entry>& entries) {
 std::map<std::string, Entry> entries(Ticker& ticker) {
   std::map<std::string, Entry> all;
   for (std::size_t slot = 0; slot < ticker.tree().slots.size(); ++slot) {
-    const lockstep::Entry& from = ticker.blackboard().entries[slot];
+    const Entry& from = ticker.blackboard().entries[slot];
     if (!from.is_present) continue;
     Entry& entry = all[ticker.tree().slots[slot].name];
     entry.writes = from.writes;
@@ -140,4 +140,4 @@ TEST_CASE("trees for BehaviorTree.CPP do what the law says, on random documents"
   CHECK(holds > kDocuments / 100);
 }
 
-}  // namespace lockstep::test::law
+}  // namespace lockstep::host::test::law

@@ -5,7 +5,7 @@
 #include <random>
 #include <span>
 
-namespace lockstep::test::law {
+namespace lockstep::host::test::law {
 
 // n and m are numbers, t and u are texts; they are not mixed.
 class Generator {
@@ -305,4 +305,4 @@ std::string leaves_text(const Document& document) {
   return text;
 }
 
-}  // namespace lockstep::test::law
+}  // namespace lockstep::host::test::law

@@ -6,7 +6,7 @@
 
 #include "property/btcpp_reference.h"
 
-namespace lockstep::test::law {
+namespace lockstep::host::test::law {
 
 Document random_document(std::uint64_t seed);
 
@@ -14,4 +14,4 @@ Document random_document(std::uint64_t seed);
 std::string to_xml(const Document& document);
 std::string leaves_text(const Document& document);
 
-}  // namespace lockstep::test::law
+}  // namespace lockstep::host::test::law

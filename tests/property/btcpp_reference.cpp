@@ -9,7 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace lockstep::test::law {
+namespace lockstep::host::test::law {
 
 // Ends the run.
 struct Failed : std::runtime_error {
@@ -804,4 +804,4 @@ std::map<std::string, Entry> Reference::entries() const {
   return all;
 }
 
-}  // namespace lockstep::test::law
+}  // namespace lockstep::host::test::law

@@ -12,7 +12,7 @@
 #include "core/status.h"
 #include "support/event_log.h"
 
-namespace lockstep::test::law {
+namespace lockstep::host::test::law {
 
 // "name op operand", or a constant without a name. `op`: == != < > for conditions, := = += else.
 struct Script {
@@ -62,4 +62,4 @@ class Reference {
   std::unique_ptr<Node> root_;
 };
 
-}  // namespace lockstep::test::law
+}  // namespace lockstep::host::test::law

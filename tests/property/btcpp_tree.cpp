@@ -7,7 +7,7 @@
 #include "engine/compile.h"
 #include "support/scripted_leaf.h"
 
-namespace lockstep::test::law {
+namespace lockstep::host::test::law {
 namespace {
 
 const NodeType kAct{.id = "Act",
@@ -39,4 +39,4 @@ Tree tree_of(const Document& document) {
   return compile(*definition);
 }
 
-}  // namespace lockstep::test::law
+}  // namespace lockstep::host::test::law

@@ -4,9 +4,9 @@
 #include "engine/tree.h"
 #include "property/btcpp_random.h"
 
-namespace lockstep::test::law {
+namespace lockstep::host::test::law {
 
 // Fails the test for a document that does not load.
 Tree tree_of(const Document& document);
 
-}  // namespace lockstep::test::law
+}  // namespace lockstep::host::test::law

@@ -15,7 +15,7 @@
 #include "support/tree_document.h"
 #include "support/tree_text.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 std::string to_text(const EventLog& events) {
@@ -65,7 +65,7 @@ class Comparison {
   }
 
   void write_entries() {
-    lockstep::test::write_entries(engine_, trial_, tick_);
+    lockstep::host::test::write_entries(engine_, trial_, tick_);
     for (const EntryWrite& it : trial_.writes) {
       if (it.tick == tick_) reference_.write(it.entry, it.value);
     }
@@ -212,4 +212,4 @@ std::string report(std::uint64_t seed, const Trial& failing) {
       writes_text(trial), difference(trial));
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -9,7 +9,7 @@
 #include "property/random_tree.h"
 #include "support/scripted_run.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 // Of a document that the checks refuse: nothing, and why.
 struct TrialTree {
@@ -28,4 +28,4 @@ std::string difference(const Trial& trial, Coverage* coverage = nullptr,
 // The smallest trial that still differs, with all that is needed to look at it.
 std::string report(std::uint64_t seed, const Trial& failing);
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -6,7 +6,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 constexpr long kOften = 1000;
@@ -80,4 +80,4 @@ void Coverage::check() const {
   for (const char* fault : kFaults) at_least(kRarely, fault);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -10,7 +10,7 @@
 
 #include "support/scripted_run.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 class Coverage {
  public:
@@ -43,4 +43,4 @@ class GroupCoverage {
   long trees_ = 0;
 };
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

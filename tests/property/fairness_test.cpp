@@ -5,7 +5,7 @@
 #include "property/random_tree.h"
 #include "support/scripted_run.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 constexpr int kTrees = 6000;
@@ -92,4 +92,4 @@ TEST_CASE("resources have one owner, and with an increment nobody waits for N ti
   CHECK(longest > 0);  // so the bound is tight
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -4,7 +4,7 @@
 #include "property/random_tree.h"
 #include "support/scripted_run.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 constexpr int kTrees = 6000;
@@ -61,4 +61,4 @@ TEST_CASE("after a fault every ancestor of the leaf runs until the halt") {
   CHECK(in_halt >= kFewestInHalt);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -7,7 +7,7 @@
 #include "property/btcpp_tree.h"
 #include "property/comparison.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 constexpr std::uint64_t kTrees = 1000;
@@ -139,4 +139,4 @@ TEST_CASE("a folded run of a tree for BehaviorTree.CPP goes on as the run that i
   }
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

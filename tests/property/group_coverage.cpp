@@ -6,7 +6,7 @@
 #include "property/coverage.h"
 #include "property/reference_barrier.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 constexpr long kOften = 200;
@@ -132,4 +132,4 @@ void GroupCoverage::check() const {
   CHECK(refused <= kMostRefused * static_cast<double>(trees_));
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -8,7 +8,7 @@
 
 #include "property/plan_repair.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 Trial GroupGenerator::trial() {
   Trial trial;
@@ -291,4 +291,4 @@ Trial random_group_trial(std::uint64_t seed) {
   return GroupGenerator(seed).trial();
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -3,7 +3,7 @@
 
 #include "property/tree_generator.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 class GroupGenerator : public TreeGenerator {
  public:
@@ -40,4 +40,4 @@ class GroupGenerator : public TreeGenerator {
   std::vector<std::string> keys_;  // of entries that groups and their members have
 };
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -6,7 +6,7 @@
 #include "property/tree_generator.h"
 #include "support/leaf_script.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 Plan TreeGenerator::leaf() {
   if (scripts_ && one_in(5)) {
@@ -85,4 +85,4 @@ std::string TreeGenerator::fault(const std::string& script) {
   return (script[0] == 'R' ? "R" : "S") + std::string(pick(kWrong)) + script;
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

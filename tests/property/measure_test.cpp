@@ -13,7 +13,7 @@
 #include "study/run_measures.h"
 #include "unit/recording/watched_run.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 constexpr int kTrees = 1500;
@@ -106,4 +106,4 @@ TEST_CASE("a recording of a random tree has the measures of its run") {
   }
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -3,7 +3,7 @@
 #include <cctype>
 #include <stdexcept>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // At each ';' that is not in a text.
@@ -70,4 +70,4 @@ double MiniScript::value(const std::string& text) const {
   return entry->second;
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

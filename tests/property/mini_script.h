@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 // Thrown where a node meets a fault: nothing else happens in that tick.
 struct ReferenceFault {
@@ -37,4 +37,4 @@ class MiniScript {
   std::size_t node_;
 };
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // Those of one node, as written in a document.
@@ -155,4 +155,4 @@ std::size_t count_nodes(const Plan& plan) {
   return count;
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

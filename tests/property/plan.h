@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 struct Plan {
   std::string kind;  // of the language, or "action", "condition", "bare" for scripted leaves
@@ -77,4 +77,4 @@ bool is_guard(const Plan& plan);
 
 std::size_t count_nodes(const Plan& plan);
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -4,7 +4,7 @@
 
 #include <map>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 std::string escaped(const std::string& text) {
@@ -76,4 +76,4 @@ std::string document_text(const Plan& plan) {
   return DocumentWriter(plan).text();
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

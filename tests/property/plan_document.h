@@ -5,9 +5,9 @@
 
 #include "property/plan.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 // As tree_from_document reads it.
 std::string document_text(const Plan& plan);
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // The nodes from the root to a member, both included.
@@ -60,4 +60,4 @@ bool has_lonely_members(const Plan& plan) {
   return tree_text(repaired) != tree_text(plan);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

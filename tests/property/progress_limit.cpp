@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 constexpr double kEpsilon = 1e-9;
@@ -99,4 +99,4 @@ bool ProgressLimit::holds(double progress, double least) const {
   return tick_at_barrier_ ? progress > *barrier + kEpsilon : progress >= *barrier - kEpsilon;
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

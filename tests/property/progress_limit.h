@@ -9,7 +9,7 @@
 #include "property/mini_script.h"
 #include "property/plan.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 inline constexpr double kLeftOut = std::numeric_limits<double>::quiet_NaN();
 inline bool is_left_out(double progress) {
@@ -38,4 +38,4 @@ class ProgressLimit {
   bool tick_at_barrier_ = false;
 };
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -5,7 +5,7 @@
 
 #include "core/random.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 class RandomSource {
  public:
@@ -24,4 +24,4 @@ class RandomSource {
   RandomStream random_;
 };
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -8,7 +8,7 @@
 
 #include "property/plan.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 // Before a tick, as a leaf would.
 struct EntryWrite {
@@ -38,4 +38,4 @@ Trial random_group_trial(std::uint64_t seed);
 // The trial with something taken away: candidates for a smaller one that fails alike.
 std::vector<Trial> smaller_trials(const Trial& trial);
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

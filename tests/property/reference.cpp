@@ -9,7 +9,7 @@
 #include "property/reference_pool.h"
 #include "support/scripted_leaf.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 class Leaf : public ReferenceNode {
@@ -555,4 +555,4 @@ double Reference::progress(std::size_t node) {
   }
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -14,7 +14,7 @@
 #include "property/plan.h"
 #include "support/event_log.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 class ReferenceNode;
 class ReferenceGroup;
@@ -61,4 +61,4 @@ class Reference {
   std::vector<std::unique_ptr<ReferenceGroup>> groups_;  // beside the tree
 };
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -4,7 +4,7 @@
 #include <array>
 #include <stdexcept>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 bool is_parallel_with_memory(const Plan& plan) {
@@ -249,4 +249,4 @@ ReferenceBarrier& SyncProgress::barrier() const {
   throw std::logic_error("a SyncProgress without a barrier");
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -4,7 +4,7 @@
 #include "property/progress_limit.h"
 #include "property/reference_group.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 // Among the cases, this one is an error of the law itself.
 inline constexpr auto kGoneComesBack = "a member that cannot come back does";
@@ -63,4 +63,4 @@ class SyncProgress : public ReferenceNode {
   ReferenceBarrier& barrier() const;
 };
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 ReferenceGroup::ReferenceGroup(Reference& tree, const Plan& its_plan, ReferenceNode& root)
     : ReferenceNode(tree, its_plan) {
   find_members(root, {}, {});
@@ -55,4 +55,4 @@ Status ReferenceGroup::on_tick(bool) {
   throw std::logic_error("a group is not in the tree");
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -4,7 +4,7 @@
 
 #include "property/reference_node.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 class ReferenceGroup : public ReferenceNode {
  public:
@@ -40,4 +40,4 @@ class ReferenceGroup : public ReferenceNode {
   std::vector<Way> ways_;  // to each member, in document order
 };
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -4,7 +4,7 @@
 
 #include "property/reference_group.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 ReferenceNode::ReferenceNode(Reference& tree, const Plan& its_plan)
     : plan(its_plan), world(*tree.world_), events(tree.events), number(tree.nodes_.size()) {
@@ -81,4 +81,4 @@ double ReferenceNode::progress() {
   return status == Status::Success ? 1 : 0;
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -10,7 +10,7 @@
 #include "property/mini_script.h"
 #include "property/reference.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 struct Reference::World {
   Nanoseconds now{0};
@@ -67,4 +67,4 @@ class ReferenceNode {
   Status ended(Status result);
 };
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

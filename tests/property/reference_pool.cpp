@@ -6,7 +6,7 @@
 
 #include "property/reference_barrier.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // "left;gripper"
@@ -184,4 +184,4 @@ Status UseResources::deny() {
   return Status::Running;
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

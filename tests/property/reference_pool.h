@@ -5,7 +5,7 @@
 
 #include "property/reference_group.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 using Resources = std::set<std::string>;
 
@@ -62,4 +62,4 @@ class UseResources : public ReferenceNode {
   int priority_ = 0;
 };
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

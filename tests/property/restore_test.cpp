@@ -8,7 +8,7 @@
 #include "property/comparison.h"
 #include "support/tree_text.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 constexpr std::uint64_t kTrees = 300;
@@ -143,4 +143,4 @@ TEST_CASE("a run of a tree for BehaviorTree.CPP that is taken back goes on as it
   }
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

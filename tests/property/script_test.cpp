@@ -6,7 +6,7 @@
 #include "core/random.h"
 #include "support/script_reference.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // Draws scripts from the grammar, most of which can run.
@@ -92,4 +92,4 @@ TEST_CASE("compiled scripts do what the grammar says, in random scripts") {
   }
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -3,7 +3,7 @@
 
 #include "property/random_tree.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // Its scripts need what its first child does.
@@ -81,4 +81,4 @@ std::vector<Trial> smaller_trials(const Trial& trial) {
   return trials;
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -6,7 +6,7 @@
 #include "property/random_tree.h"
 #include "support/scripted_run.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 constexpr int kTrees = 10000;
@@ -112,4 +112,4 @@ TEST_CASE("SyncProgress on all children of one Parallel is a synchronized parall
   CHECK(compared == kTrees);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

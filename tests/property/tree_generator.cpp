@@ -6,7 +6,7 @@
 
 #include "property/plan_repair.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 constexpr std::array kFractions{.1, .2, .25, .3, .4, .5, .6, .7, .75, .8, .9, 1.0};
@@ -230,4 +230,4 @@ Trial random_trial(std::uint64_t seed) {
   return TreeGenerator(seed).trial();
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

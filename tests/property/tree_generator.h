@@ -9,7 +9,7 @@
 #include "property/random_source.h"
 #include "property/random_tree.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 class TreeGenerator : protected RandomSource {
  public:
@@ -73,4 +73,4 @@ class TreeGenerator : protected RandomSource {
   std::string fault(const std::string& script);
 };
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

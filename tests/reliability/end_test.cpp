@@ -6,7 +6,7 @@
 
 #include "reliability/hostile_tree.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 using nlohmann::json;
@@ -211,4 +211,4 @@ TEST_CASE("a child that a plugin forks off while it is loaded or initialized goe
   }
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -7,7 +7,7 @@
 
 #include "reliability/hostile_tree.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 using nlohmann::json;
@@ -123,4 +123,4 @@ TEST_CASE("a plugin that crashes or hangs in init is named") {
   }
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

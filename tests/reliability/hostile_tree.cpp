@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -63,4 +63,4 @@ std::vector<pid_t> processes_with(const std::string& text) {
   return found;
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -6,7 +6,7 @@
 
 #include "cli/program.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 // What the leaf does wrong, and in which of its functions.
 struct Misdeed {
@@ -44,4 +44,4 @@ class OwnPlugin {
   TemporaryDirectory directory_;
 };
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

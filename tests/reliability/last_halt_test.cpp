@@ -7,7 +7,7 @@
 
 #include "reliability/hostile_tree.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 using nlohmann::json;
@@ -115,4 +115,4 @@ TEST_CASE("a study ends at a leaf that cannot be halted") {
                                   kTold + " at the end of the run, in run 0 of cell 0"));
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -5,7 +5,7 @@
 #include "cli/program.h"
 #include "support/paths.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 using Strings = std::vector<std::string>;
@@ -77,4 +77,4 @@ TEST_CASE("out of memory, every command says so and has a code for it") {
   }
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -7,7 +7,7 @@
 
 #include "reliability/hostile_tree.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 using nlohmann::json;
@@ -203,4 +203,4 @@ TEST_CASE("a tree can isolate one plugin by itself") {
   check(outcome, 0, {"killed by SIGSEGV"});
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -7,7 +7,7 @@
 
 #include "reliability/hostile_tree.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 using nlohmann::json;
@@ -245,4 +245,4 @@ TEST_CASE("after a crash in this process, the recording is whole up to the last 
   }
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

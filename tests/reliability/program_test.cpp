@@ -14,7 +14,7 @@
 
 #include "cli/program.h"
 
-using namespace lockstep::test;
+using namespace lockstep::host::test;
 
 namespace {
 

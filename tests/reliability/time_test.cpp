@@ -5,7 +5,7 @@
 
 #include "reliability/hostile_tree.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 using nlohmann::json;
@@ -78,4 +78,4 @@ TEST_CASE("a recording that cannot be written is told at once, the run stops or 
   CHECK(json::parse(stopped.out)["reason"] == "recording");
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

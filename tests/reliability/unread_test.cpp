@@ -8,7 +8,7 @@
 
 #include "reliability/hostile_tree.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 using nlohmann::json;
@@ -90,4 +90,4 @@ TEST_CASE("unread: a study makes its runs") {
   CHECK(lines(read_file(directory.path("s/runs.csv"))).size() == 501);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -7,7 +7,7 @@
 
 #include "study/study_case.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 Choice choice_of(const Words& words, const Summary& summary) {
@@ -100,4 +100,4 @@ std::vector<Choice> choices_of(const Words& words, const Summary& summary) {
   return choices;
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 using Words = std::vector<std::string>;
 
@@ -37,4 +37,4 @@ struct Choice {
 // Those that a column of a table stands for, as page.h has it.
 std::vector<Choice> choices_of(const Words& words, const Summary& summary);
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -5,7 +5,7 @@
 
 #include "study/study_case.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 using Strings = std::vector<std::string>;
@@ -210,4 +210,4 @@ TEST_CASE("a comparison that cannot be made is refused") {
   refused({"--cells", "0", "1"}, "is not a study");
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -7,7 +7,7 @@
 
 #include "cli/program.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 std::size_t Comparisons::cell_of(const Words& row) const {
   const auto axes = static_cast<std::ptrdiff_t>(summary_.at("node"));
@@ -43,4 +43,4 @@ std::string on_side(const std::string& text, Side side) {
   return std::regex_replace(text, both, side == Side::From ? "$1" : "$2");
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -8,7 +8,7 @@
 
 #include "study/choice.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 class Comparisons {
  public:
@@ -31,4 +31,4 @@ class Comparisons {
 enum class Side : std::uint8_t { From, To };
 std::string on_side(const std::string& text, Side side);
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

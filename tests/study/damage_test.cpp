@@ -8,7 +8,7 @@
 
 #include "study/study_case.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -213,4 +213,4 @@ TEST_CASE("a study writes through no symbolic link") {
   CHECK(read_file(victim) == "precious");
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -11,7 +11,7 @@
 #include "study/study_case.h"
 #include "support/paths.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -346,4 +346,4 @@ TEST_CASE("a study in parts works under GNU parallel") {
   CHECK(it.bytes("merged") == it.bytes("whole"));
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -8,7 +8,7 @@
 #include "study/study_case.h"
 #include "support/paths.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 using Strings = std::vector<std::string>;
@@ -303,4 +303,4 @@ TEST_CASE("studies: a leaf that fails stops the study at the same run, whatever 
   CHECK(again.code == 5);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -13,7 +13,7 @@
 #include "study/comparisons.h"
 #include "study/study_case.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // "−570" and "0.94", with the number of digits that it is rounded to.
@@ -180,4 +180,4 @@ void check_page(const std::string& file, int studies, int numbers) {
   CHECK(numbers == 0);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

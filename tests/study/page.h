@@ -21,9 +21,9 @@
 
 #include <string>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 // Makes the studies of the page and compares every number of the tables that follow them.
 void check_page(const std::string& file, int studies, int numbers);
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

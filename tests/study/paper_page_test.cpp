@@ -5,7 +5,7 @@
 #include "study/page.h"
 #include "support/paths.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 TEST_CASE("the numbers of docs/paper.md are those of its studies") {
   check_page(LOCKSTEP_SOURCE_DIR "/docs/paper.md", 13, 1570);
@@ -19,4 +19,4 @@ TEST_CASE("the numbers of docs/late_progress.md are those of its studies") {
   check_page(LOCKSTEP_SOURCE_DIR "/docs/late_progress.md", 3, 184);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -4,7 +4,7 @@
 
 #include "study/study_case.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 struct Refusal {
@@ -95,4 +95,4 @@ TEST_CASE("a tree without a parallel has no progress distance") {
   CHECK(contains(outcome.err, "the tree has no parallel"));
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

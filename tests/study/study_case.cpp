@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <sstream>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 Outcome StudyCase::study(std::vector<std::string> arguments, const std::string& out) const {
   arguments.insert(arguments.begin(), "study");
@@ -48,4 +48,4 @@ std::vector<double> column(const std::string& csv, const std::string& name) {
   return values;
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -4,7 +4,7 @@
 #include "cli/program.h"
 #include "support/paths.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 inline const std::string kPaper = LOCKSTEP_SOURCE_DIR "/trees/paper/";
 
@@ -36,4 +36,4 @@ std::vector<std::string> fields(const std::string& line);
 // A column of a CSV file, by its name.
 std::vector<double> column(const std::string& csv, const std::string& name);
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

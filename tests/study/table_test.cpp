@@ -10,7 +10,7 @@
 #include "study/row_text.h"
 #include "study/study_case.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 #define INTERVALS \
@@ -187,4 +187,4 @@ TEST_CASE("studies: names whose values belong together vary together") {
   CHECK(last_axes({}) == 0);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -6,7 +6,7 @@
 #include "study/study_case.h"
 #include "support/paths.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // mean by the values of two grid names
@@ -114,4 +114,4 @@ TEST_CASE("one study is as it was, to the last bit") {
         read_file(LOCKSTEP_SOURCE_DIR "/tests/study/golden/example5.csv"));
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

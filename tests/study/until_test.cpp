@@ -8,7 +8,7 @@
 
 #include "study/study_case.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -199,4 +199,4 @@ TEST_CASE("until a precision, cells of one study may have another number of pair
   CHECK(distance["n_b"] == 100);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

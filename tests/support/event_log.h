@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 enum class Call : std::uint8_t { Start, Tick, Halt, Pause, Resume };
 
@@ -23,4 +23,4 @@ struct Event {
 
 using EventLog = std::vector<Event>;
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -8,7 +8,7 @@
 
 #include "core/status.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // The first letter of each name that no name before it has taken.
@@ -102,4 +102,4 @@ LeafScript parse_leaf_script(std::string_view text) {
   return script;
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

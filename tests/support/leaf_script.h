@@ -19,7 +19,7 @@
 
 #include "support/event_log.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 struct LeafScript {
   struct Step {
@@ -44,4 +44,4 @@ std::string_view status_letters();
 // "1", ".5", "-.2" at the start of `text`, which is shortened by it.
 double take_number(std::string_view& text);
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

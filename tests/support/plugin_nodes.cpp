@@ -5,7 +5,7 @@
 
 #include "plugin/contract/descriptor.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 std::deque<Descriptors>& known() {
@@ -78,4 +78,4 @@ void PluginNodes::destroy_all() {
   }
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

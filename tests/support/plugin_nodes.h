@@ -8,7 +8,7 @@
 
 #include "plugin/contract/host.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 // A static object of a test file. The plugin must not have a run context.
 struct KnownPlugin {
@@ -42,4 +42,4 @@ class PluginNodes {
   std::vector<std::unique_ptr<lockstep_caller>> callers_;  // null for a scripted leaf
 };
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

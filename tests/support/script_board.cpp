@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 Entry& ScriptBoard::declare(const std::string& name, ValueType type, Value value, Typing typing) {
   Entry& entry = entries_[name];
@@ -43,4 +43,4 @@ std::string shown(const Value& value) {
   return to_text(value);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

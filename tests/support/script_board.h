@@ -10,7 +10,7 @@
 #include "blackboard/entry.h"
 #include "expression/evaluator.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 // What a script made of its entries.
 struct ScriptRun {
@@ -43,4 +43,4 @@ class ScriptBoard {
 // "5", "5.0", "'text'", "true", "none", "1;2".
 std::string shown(const Value& value);
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

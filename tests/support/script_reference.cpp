@@ -12,7 +12,7 @@
 
 #include "expression/evaluator.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 struct NoScript {};  // thrown where the text is not a script
@@ -544,4 +544,4 @@ std::string disagreement(const std::string& script) {
   return {};
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 ScriptedLeaf& leaf(void* self) {
@@ -104,4 +104,4 @@ double ScriptedLeaf::progress() const {
   return script_.live[std::min(tick, script_.live.size() - 1)];
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

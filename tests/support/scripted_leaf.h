@@ -8,7 +8,7 @@
 #include "lockstep/leaf.h"
 #include "support/leaf_script.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 class ScriptedLeaf {
  public:
@@ -58,4 +58,4 @@ extern const lockstep_leaf_type kScriptedCondition;
 // An action without any function but tick: nothing of it is logged but its ticks.
 extern const lockstep_leaf_type kBareAction;
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

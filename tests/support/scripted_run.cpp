@@ -6,7 +6,7 @@
 
 #include "support/tree_text.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 std::map<std::string, LeafScript> scripts(std::string_view text) {
@@ -98,4 +98,4 @@ void ScriptedRun::restart() {
   tree_tick_ = 0;
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

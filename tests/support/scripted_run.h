@@ -11,7 +11,7 @@
 #include "support/plugin_nodes.h"
 #include "support/scripted_leaf.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 class ScriptedRun {
  public:
@@ -55,4 +55,4 @@ class ScriptedRun {
   Ticker ticker_;
 };
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

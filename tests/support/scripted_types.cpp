@@ -2,7 +2,7 @@
 
 #include "support/scripted_leaf.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 const NodeType kScriptedActionType{.id = "Scripted",
                                    .category = NodeCategory::Action,
@@ -23,4 +23,4 @@ const NodeType kBareActionType{.id = "Bare",
                                .has_progress = false,
                                .leaf = &kBareAction};
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

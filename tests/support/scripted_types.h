@@ -3,10 +3,10 @@
 
 #include "core/node_type.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 extern const NodeType kScriptedActionType;
 extern const NodeType kScriptedConditionType;
 extern const NodeType kBareActionType;  // an action that has no function but tick
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -9,7 +9,7 @@
 #include "measure/synchronized_measure.h"
 #include "support/scripted_run.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 struct Outcome {
@@ -78,4 +78,4 @@ void check_traces(std::span<const SynchronizedTrace> traces) {
   }
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 struct SynchronizedTrace {
   std::string_view name;
@@ -20,4 +20,4 @@ struct SynchronizedTrace {
 // Fails the Catch test for each trace that comes out differently.
 void check_traces(std::span<const SynchronizedTrace> traces);
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -8,7 +8,7 @@
 
 #include "support/scripted_run.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // One tick as a row expects it: "R[a b] halt[b] =.5".
@@ -155,4 +155,4 @@ void check_rows(std::span<const TickRow> rows, FaultPolicy policy, const Languag
   for (const TickRow& row : rows) Row(row, policy, rules).check();
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

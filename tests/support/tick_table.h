@@ -17,7 +17,7 @@
 
 #include "engine/ticker.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 struct TickRow {
   std::string_view law;
@@ -31,4 +31,4 @@ struct TickRow {
 void check_rows(std::span<const TickRow> rows, FaultPolicy policy = FaultPolicy::Stop,
                 const LanguageRules& rules = kLockstepRules);
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

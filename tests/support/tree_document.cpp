@@ -7,7 +7,7 @@
 #include "engine/node_kind.h"
 #include "support/scripted_types.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 Catalog scripted_catalog() {
@@ -39,4 +39,4 @@ LoadedDocument tree_from_document(const std::string& xml) {
   return {compile(*definition), ""};
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -7,7 +7,7 @@
 
 #include "engine/tree.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 struct LoadedDocument {
   std::optional<Tree> tree;
@@ -16,4 +16,4 @@ struct LoadedDocument {
 
 LoadedDocument tree_from_document(const std::string& xml);
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -12,7 +12,7 @@
 #include "support/plugin_nodes.h"
 #include "support/scripted_types.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 struct Attribute {
@@ -288,4 +288,4 @@ Tree tree_from_text(std::string_view text, const LanguageRules& rules) {
   return compile(Builder(text, rules).build());
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

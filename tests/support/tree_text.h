@@ -10,10 +10,10 @@
 
 #include "engine/tree.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 // Throws std::invalid_argument for a text that is not a tree, and for parameters that break the
 // kind's rule or arity.
 Tree tree_from_text(std::string_view text, const LanguageRules& rules = kLockstepRules);
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -11,7 +11,7 @@
 
 #include "web/client.h"
 
-using namespace lockstep::test;
+using namespace lockstep::host::test;
 
 namespace {
 

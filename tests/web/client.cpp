@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 constexpr int kPatience = 60'000;  // milliseconds
@@ -121,4 +121,4 @@ MonitoredRun::MonitoredRun(std::vector<std::string> arguments)
   }
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

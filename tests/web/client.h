@@ -6,7 +6,7 @@
 
 #include "cli/program.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 class Client {
  public:
@@ -58,4 +58,4 @@ class MonitoredRun {
   std::string token_;  // in the fragment of the link; "": none
 };
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

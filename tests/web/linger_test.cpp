@@ -4,7 +4,7 @@
 
 #include "web/client.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 constexpr auto kWaits = "no browser has it open";
@@ -62,4 +62,4 @@ TEST_CASE("a run on a terminal waits for nobody when no browser is there") {
   CHECK_FALSE(contains(outcome.out, kWaits));
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -6,7 +6,7 @@
 
 #include "web/client.h"
 
-using namespace lockstep::test;
+using namespace lockstep::host::test;
 
 namespace {
 

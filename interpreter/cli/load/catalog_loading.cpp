@@ -5,7 +5,7 @@
 #include "core/clock.h"
 #include "runtime/plugin_thread.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 int load_catalog(const PluginOptions& options, PluginSet& plugins, Catalog& catalog) {
   keep_stdout_for_results();
@@ -18,4 +18,4 @@ int load_catalog(const PluginOptions& options, PluginSet& plugins, Catalog& cata
   return kExitSuccess;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

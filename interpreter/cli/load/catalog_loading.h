@@ -4,9 +4,9 @@
 
 #include "loading/plugins.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Prints errors. Returns the exit code. The catalog lives as long as `plugins`.
 int load_catalog(const PluginOptions& options, PluginSet& plugins, Catalog& catalog);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -13,7 +13,7 @@
 #include "runtime/plugin_thread.h"
 #include "system/freed_memory.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // "name=value" pairs; a later one replaces an earlier one.
@@ -155,4 +155,4 @@ int exit_code_of(LoadFailure failure) {
   return failure == LoadFailure::PluginRefused ? kExitPluginRefused : kExitInvalidTree;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -10,7 +10,7 @@ namespace CLI {
 class App;
 }
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct LoadCommandOptions {
   PluginOptions plugins;
@@ -41,4 +41,4 @@ void add_mock_options(CLI::App& app, LoadCommandOptions& options);
 
 int exit_code_of(LoadFailure failure);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace lockstep {
+namespace lockstep::host {
 
 bool warn_of_real_time_leaves(const Tree& tree, const std::string& file, const std::string& hint,
                               Diagnostics& diagnostics) {
@@ -25,4 +25,4 @@ bool warn_of_real_time_leaves(const Tree& tree, const std::string& file, const s
   return true;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

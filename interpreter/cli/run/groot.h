@@ -8,7 +8,7 @@
 
 #include "core/problem.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct Definition;
 class Observer;
@@ -33,4 +33,4 @@ class GrootListener {
 Result<std::unique_ptr<GrootListener>> listen_for_groot(const std::string& address,
                                                         const Definition& definition);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

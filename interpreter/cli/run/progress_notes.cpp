@@ -8,7 +8,7 @@
 #include "engine/synchronized.h"
 #include "measure/synchronized_measure.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // What gives a child its progress: the leaf below its decorators. Null: it is not a leaf.
@@ -45,4 +45,4 @@ void note_leaves_without_progress(const Tree& tree, const std::string& file,
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

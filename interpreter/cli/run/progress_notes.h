@@ -6,11 +6,11 @@
 #include "core/diagnostics.h"
 #include "engine/tree.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Notes each synchronized node whose leaves report no progress, and which these are. `lockstep
 // check` has a note at the place of each.
 void note_leaves_without_progress(const Tree& tree, const std::string& file,
                                   Diagnostics& diagnostics);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -27,7 +27,7 @@
 #include "terminal/fitted.h"
 #include "view/line_budget.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 int exit_code_of(const RunEnd& end) {
@@ -362,4 +362,4 @@ const Command kRunCommand{
     "  lockstep run trees/door_pulling.xml --realtime --cpu 1 --helper-cpu 0 --spin 50",
     define_run};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 #include "cli/checks.h"
 #include "runtime/stop_signals.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr lockstep_log_level kNoLogs = LOCKSTEP_LOG_WARNING + 1;
@@ -226,4 +226,4 @@ void define_run_options(CLI::App& app, RunCommandOptions& options) {
   add_mock_options(app, options.load);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

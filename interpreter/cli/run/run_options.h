@@ -10,7 +10,7 @@
 #include "runtime/loop.h"
 #include "runtime/realtime.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct RunCommandOptions {
   LoadCommandOptions load;
@@ -58,4 +58,4 @@ struct RunCommandOptions {
 
 void define_run_options(CLI::App& app, RunCommandOptions& options);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

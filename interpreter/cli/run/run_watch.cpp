@@ -11,7 +11,7 @@
 #include "runtime/progress_text.h"
 #include "summary/statistics.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::size_t kMuchMemory = 64u << 20;  // bytes; a run needs far less
@@ -128,4 +128,4 @@ void RunWatch::add_to(Summary& summary) const {
   summary.notes.insert(summary.notes.end(), notes_.begin(), notes_.end());
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

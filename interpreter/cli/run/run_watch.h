@@ -13,7 +13,7 @@
 #include "runtime/watchdog.h"
 #include "summary/summary.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class RunWatch final : public Observer {
  public:
@@ -44,4 +44,4 @@ class RunWatch final : public Observer {
   std::vector<std::string> notes_;              // for the summary
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -9,7 +9,7 @@
 #include "summary/summary.h"
 #include "terminal/terminal.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 std::string_view name_of(lockstep_log_level level) {
   if (level == LOCKSTEP_LOG_WARNING) return "warning";
@@ -75,4 +75,4 @@ void View::last_words() {
   RawTerminal::restore_for_good();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

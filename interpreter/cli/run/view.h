@@ -10,7 +10,7 @@
 #include "view/console_plain.h"
 #include "view/line_budget.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // "debug", "info" or "warning".
 std::string_view name_of(lockstep_log_level level);
@@ -47,4 +47,4 @@ class View {
   std::optional<ConsolePlain> plain_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

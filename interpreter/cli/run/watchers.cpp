@@ -8,7 +8,7 @@
 #include "runtime/outlet.h"
 #include "runtime/stop_signals.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 std::optional<Problem> misuse(const RunCommandOptions& options) {
@@ -112,4 +112,4 @@ void Watchers::add_to(std::vector<Observer*>& observers) {
   if (monitor_) observers.push_back(&*monitor_);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

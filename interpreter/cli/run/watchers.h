@@ -15,7 +15,7 @@
 #include "definition/definition.h"
 #include "web/monitor.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Where they come in. Made first, since a port may be taken.
 struct WatcherSockets {
@@ -51,4 +51,4 @@ class Watchers {
   std::unique_ptr<Observer> groot_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

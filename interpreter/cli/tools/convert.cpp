@@ -9,7 +9,7 @@
 #include "document/file.h"
 #include "loading/plugins.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 struct ConvertOptions {
@@ -74,4 +74,4 @@ const Command kConvertCommand{
     "  lockstep convert --to btcpp4 trees/door_pulling.xml > door_pulling.xml",
     define_convert};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

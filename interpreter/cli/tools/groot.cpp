@@ -11,7 +11,7 @@
 #include "runtime/outlet.h"
 #include "web/server_socket.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::int64_t kLargestPort = 65535;
@@ -99,4 +99,4 @@ Result<std::unique_ptr<GrootListener>> listen_for_groot(const std::string& addre
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

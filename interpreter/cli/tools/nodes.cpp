@@ -11,7 +11,7 @@
 #include "core/suggest.h"
 #include "describe/node_reference.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 struct NodesOptions {
@@ -82,4 +82,4 @@ const Command kNodesCommand{"nodes",
                             "  lockstep nodes --plugin motion --format json",
                             define_nodes};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -19,7 +19,7 @@
 #include "system/descriptors.h"
 #include "system/output_file.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 struct PluginCheckOptions {
@@ -141,4 +141,4 @@ const Command kPluginCommand{"plugin", "Check a plugin, a shared object or a pro
                              "  lockstep plugin check ./grip.py --save",
                              define_plugin};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -15,7 +15,7 @@
 #include "terminal/terminal.h"
 #include "web/page_server.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 struct ReplayOptions {
@@ -183,4 +183,4 @@ const Command kReplayCommand{
     "  lockstep replay run.jsonl --monitor",
     define_replay};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -19,7 +19,7 @@
 #include "terminal/terminal_wait.h"
 #include "view/tree_browser.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr double kFrame = 0.03;  // seconds; an eye needs no more
@@ -136,4 +136,4 @@ int play_on_terminal(const RecordingHeader& header, RecordingTimeline& timeline,
   return kExitInvalidTree;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

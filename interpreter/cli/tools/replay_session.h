@@ -3,10 +3,10 @@
 
 #include "view/replay/replay_view.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // stdin has the keys, stdout is the screen; both are a terminal. Until it is quit. Returns the exit
 // code.
 int play_on_terminal(const RecordingHeader& header, RecordingTimeline& timeline, double speed);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 #include "cli/load/load_options.h"
 #include "describe/xsd.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 struct SchemaOptions {
@@ -47,4 +47,4 @@ const Command kSchemaCommand{
     "  xmllint --noout --schema lockstep.xsd trees/door_pulling.xml",
     define_schema};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

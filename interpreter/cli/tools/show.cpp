@@ -7,7 +7,7 @@
 #include "describe/tree_drawing.h"
 #include "terminal/terminal.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 struct ShowOptions {
@@ -58,4 +58,4 @@ const Command kShowCommand{
     "  lockstep show --format dot trees/door_pulling.xml | dot -Tsvg > door.svg",
     define_show};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

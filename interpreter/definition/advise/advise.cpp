@@ -7,7 +7,7 @@
 #include "core/suggest.h"
 #include "core/wording.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr int kMostTold = 10;  // of a node; the first few show what is meant
@@ -303,4 +303,4 @@ void advise(const Definition& definition, const Reporter& report) {
   Adviser(definition, report).advise();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

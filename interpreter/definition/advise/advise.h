@@ -4,8 +4,8 @@
 #include "definition/definition.h"
 #include "document/reporter.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 void advise(const Definition& definition, const Reporter& report);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

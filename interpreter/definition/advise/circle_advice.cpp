@@ -9,7 +9,7 @@
 #include "core/wording.h"
 #include "definition/advise/holding_circle.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // Says in words, with places, why nobody moves.
@@ -79,4 +79,4 @@ void warn_of_circle(const Definition& definition, const Reporter& report) {
   if (!circle.empty()) CircleReport(definition, report).add(circle);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 
 #include "core/pre_order.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using Kind = DryNode::Kind;
@@ -257,4 +257,4 @@ void DryRun::advance(std::uint32_t leaf, bool overtakes) {
   ready_.push_back(leaf);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

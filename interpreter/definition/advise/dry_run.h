@@ -9,7 +9,7 @@
 
 #include "definition/advise/dry_tree.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class DryRun {
  public:
@@ -83,4 +83,4 @@ class DryRun {
   std::uint64_t work_ = 0;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 
 #include "core/pre_order.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using Kind = DryNode::Kind;
@@ -247,4 +247,4 @@ DryTree dry_tree(const Definition& definition) {
   return DryTreeBuilder(definition).build();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

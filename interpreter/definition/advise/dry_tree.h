@@ -8,7 +8,7 @@
 
 #include "definition/definition.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct DryNode {
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
@@ -54,4 +54,4 @@ struct DryTree {
 // limits from an entry keeps nobody.
 DryTree dry_tree(const Definition& definition);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -9,7 +9,7 @@
 #include "definition/advise/resource_users.h"
 #include "definition/advise/withholding.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // A pool is fair to members that are reached in every tick. One that is held may find that its turn
@@ -87,4 +87,4 @@ void note_unfairness(const Definition& definition, const Reporter& report) {
   FairnessAdviser(definition, report).advise();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

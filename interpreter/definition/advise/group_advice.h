@@ -5,7 +5,7 @@
 #include "definition/definition.h"
 #include "document/reporter.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Warns of nodes that hold each other in a circle: definition/advise/holding_circle.h.
 void warn_of_circle(const Definition& definition, const Reporter& report);
@@ -19,4 +19,4 @@ void note_unfairness(const Definition& definition, const Reporter& report);
 // Notes members of barriers that a decorator, a branch or a script may keep from running for ever.
 void note_idle_members(const Definition& definition, const Reporter& report);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 #include "core/pre_order.h"
 #include "definition/advise/dry_run.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using Kind = DryNode::Kind;
@@ -90,4 +90,4 @@ std::vector<HoldingLink> holding_circle(const Definition& definition) {
   return Follower(definition, tree, run).circle();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 
 #include "definition/definition.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Nodes of the definition.
 struct HoldingLink {
@@ -24,4 +24,4 @@ struct HoldingLink {
 // The first circle that is found, or nothing. Of trees with barriers that are not refused.
 std::vector<HoldingLink> holding_circle(const Definition& definition);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

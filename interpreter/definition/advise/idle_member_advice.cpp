@@ -6,7 +6,7 @@
 #include "core/wording.h"
 #include "definition/advise/group_advice.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // Where idle members are waited for, the others wait for ever for one that a node never runs.
@@ -114,4 +114,4 @@ void note_idle_members(const Definition& definition, const Reporter& report) {
   IdleMemberAdviser(definition, report).advise();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -15,7 +15,7 @@
 #include "definition/advise/resource_users.h"
 #include "definition/advise/withholding.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // A member with keep="true" owns its resources also while it is held. If it is held until another
@@ -188,4 +188,4 @@ void warn_of_keepers(const Definition& definition, const Reporter& report) {
   if (has_keeper(definition)) KeepAdviser(definition, report).advise();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

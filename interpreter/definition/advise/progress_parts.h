@@ -7,7 +7,7 @@
 #include "core/pre_order.h"
 #include "definition/definition.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct ProgressPart {
   double begin = 0, end = 1;
@@ -51,4 +51,4 @@ class ProgressParts {
   std::vector<std::uint32_t> places_;  // of each node, among its siblings
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 #include "core/wording.h"
 #include "definition/expand/resources.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 class ResourceAdviser {
@@ -86,4 +86,4 @@ void advise_resources(const Definition& definition, const Reporter& report) {
   ResourceAdviser(definition, report).advise();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -10,7 +10,7 @@
 #include "core/resource_set.h"
 #include "definition/definition.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class ResourceUsers {
  public:
@@ -65,4 +65,4 @@ class ResourceUsers {
   std::vector<std::vector<std::uint32_t>> users_;  // of each resource
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,7 +4,7 @@
 #include <optional>
 #include <unordered_map>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // A depth-first search, with an explicit stack. What must be before what is a graph of four kinds
@@ -150,4 +150,4 @@ std::vector<WaitingLink> waiting_circle(const Definition& definition) {
   return definition.groups.size() < 2 ? std::vector<WaitingLink>() : Search(definition).run();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

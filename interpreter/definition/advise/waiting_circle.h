@@ -7,7 +7,7 @@
 
 #include "definition/definition.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // A member of `group` is in an earlier child of `sequence` than one of `next`. Nodes of the
 // definition.
@@ -18,4 +18,4 @@ struct WaitingLink {
 // The first circle that is found, or nothing. Only of barriers that wait for idle members.
 std::vector<WaitingLink> waiting_circle(const Definition& definition);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -9,7 +9,7 @@
 
 #include "definition/definition.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Withholding {
  public:
@@ -58,4 +58,4 @@ class Withholding {
   std::unordered_map<std::uint32_t, std::uint32_t> barriers_;  // of each SyncProgress
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

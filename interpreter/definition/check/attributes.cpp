@@ -12,7 +12,7 @@
 #include "definition/check/foreign_hints.h"
 #include "definition/check/scripts.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 std::string join_hints(const std::string& first, const std::string& second) {
@@ -337,4 +337,4 @@ void keep_written(const NodeElement& element, CheckedNode& node, CheckedTrees& t
   node.written = first;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 #include "document/element.h"
 #include "document/reporter.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // The parts of an element that the check of a node reads.
 struct NodeElement {
@@ -43,4 +43,4 @@ void keep_written(const NodeElement& element, CheckedNode& node, CheckedTrees& t
 // "parameters of 'X': 'a', 'b', 'c'" for a hint.
 std::string parameters_hint(const NodeType& type);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

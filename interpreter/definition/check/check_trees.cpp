@@ -12,7 +12,7 @@
 #include "definition/check/foreign_hints.h"
 #include "definition/check/node_check.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // How an editor finds the schema; they say nothing about the trees.
@@ -333,4 +333,4 @@ CheckedTrees check_trees(const Project& project, const Catalog& catalog, Diagnos
   return TreeChecker(project, catalog, diagnostics).check();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,9 +6,9 @@
 #include "definition/checked_tree.h"
 #include "document/project.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Checks every BehaviorTree of the project, used or not.
 CheckedTrees check_trees(const Project& project, const Catalog& catalog, Diagnostics& diagnostics);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

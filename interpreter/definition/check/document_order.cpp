@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // From the last to the first: then the first visit of a document is the one that counts.
@@ -27,4 +27,4 @@ std::vector<std::uint32_t> document_order(const Project& project) {
   return order;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,9 +7,9 @@
 
 #include "document/project.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // A document that is included more than once counts at the last of these places.
 std::vector<std::uint32_t> document_order(const Project& project);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

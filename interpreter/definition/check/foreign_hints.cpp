@@ -5,7 +5,7 @@
 #include "core/language.h"
 #include "definition/language_reader.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // The first answer that is not empty.
@@ -32,4 +32,4 @@ std::string_view foreign_attribute_name(std::string_view tag, std::string_view a
   return ask_languages([&](const ForeignHints& it) { return it.our_name(tag, attribute); });
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

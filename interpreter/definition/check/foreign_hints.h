@@ -7,7 +7,7 @@
 
 #include "document/element.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // What a language hands in. `tag` is "" if the node only shares its name with one of that language.
 struct ForeignHints {
@@ -24,4 +24,4 @@ std::string foreign_attribute_hint(std::string_view tag, const Attribute& attrib
 // The parameter of ours that it stands for; "" if there is none.
 std::string_view foreign_attribute_name(std::string_view tag, std::string_view attribute);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

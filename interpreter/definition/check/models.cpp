@@ -9,7 +9,7 @@
 #include "core/wording.h"
 #include "definition/check/document_order.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 struct CppType {
@@ -152,4 +152,4 @@ std::string_view cpp_type_of(ValueType type) {
   return found == std::end(kCppTypes) ? std::string_view("BT::AnyTypeAllowed") : found->name;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -12,7 +12,7 @@
 #include "document/project.h"
 #include "document/reporter.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct ModelPort {
   std::string_view name;
@@ -39,4 +39,4 @@ std::optional<ValueType> type_of_cpp(std::string_view name);
 // The other way round; the first one of type_of_cpp.
 std::string_view cpp_type_of(ValueType type);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

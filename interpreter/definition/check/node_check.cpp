@@ -6,7 +6,7 @@
 
 #include "core/wording.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr NodeCategory kExplicit[] = {NodeCategory::Action, NodeCategory::Condition,
@@ -64,4 +64,4 @@ void check_arity(ElementOf element, const CheckedNode& node, const Reporter& rep
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -10,7 +10,7 @@
 #include "document/element.h"
 #include "document/reporter.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // "Action", "Condition", "Control" or "Decorator"; "" of another category.
 std::string_view explicit_tag(NodeCategory category);
@@ -24,4 +24,4 @@ struct ElementOf {
 
 void check_arity(ElementOf element, const CheckedNode& node, const Reporter& report);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

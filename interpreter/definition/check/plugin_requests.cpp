@@ -11,7 +11,7 @@
 #include "core/wording.h"
 #include "document/reporter.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::string_view kHolds[] = {"signal", "message", "none"};
@@ -131,4 +131,4 @@ std::vector<PluginRequest> requested_plugins(const Project& project, Diagnostics
   return requests;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 #include "core/diagnostics.h"
 #include "document/project.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 inline constexpr std::size_t kMaxPlugins = 256;  // each may be a process
 
@@ -23,4 +23,4 @@ struct PluginRequest {
 // Each name once, in the order of the documents; isolated if one of its elements requests it.
 std::vector<PluginRequest> requested_plugins(const Project& project, Diagnostics& diagnostics);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 #include "core/suggest.h"
 #include "core/wording.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // Depth-first over the graph of trees, with an explicit stack: a chain of subtrees may be long.
@@ -136,4 +136,4 @@ bool check_references(const CheckedTrees& trees, const Reporter& report) {
   return ReferenceChecker(trees, report).check();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,11 +4,11 @@
 #include "definition/checked_tree.h"
 #include "document/reporter.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Reports references to unknown trees, trees that contain themselves (with the chain), and trees
 // that are larger or deeper than kMaxNodes or kMaxDepth once expanded, or whose paths are too long.
 // False when a tree contains itself or exceeds a limit: it cannot be expanded then.
 bool check_references(const CheckedTrees& trees, const Reporter& report);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // Null after an error, which is reported. A text that was there before is not compiled again.
@@ -75,4 +75,4 @@ void check_hooks(const NodeElement& element, const Reporter& report, CheckedNode
   node.scripts = first;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

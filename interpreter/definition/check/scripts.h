@@ -5,7 +5,7 @@
 #include "definition/checked_tree.h"
 #include "document/reporter.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 enum class EmptyScript : bool { IsRefused, DoesNothing };
 
@@ -17,4 +17,4 @@ bool read_script(const Attribute& attribute, const Reporter& report, EmptyScript
 void check_hooks(const NodeElement& element, const Reporter& report, CheckedNode& node,
                  CheckedTrees& trees);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -14,7 +14,7 @@
 #include "definition/check/node_check.h"
 #include "definition/language_reader.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class StandIns {
  public:
@@ -264,4 +264,4 @@ std::shared_ptr<const StandIns> add_stand_ins(const Project& project, const Mode
   return Builder(project, models, catalog, report).build(unknown, mocks);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 #include "document/project.h"
 #include "document/reporter.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 enum class MissingNodes : unsigned char {
   AreErrors,
@@ -31,4 +31,4 @@ std::shared_ptr<const StandIns> add_stand_ins(const Project& project, const Mode
                                               MissingNodes unknown, const Mocks& mocks,
                                               Catalog& catalog, const Reporter& report);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

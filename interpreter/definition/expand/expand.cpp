@@ -18,7 +18,7 @@
 #include "definition/types/script_entries.h"
 #include "definition/types/type_words.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 class Expander {
@@ -405,4 +405,4 @@ Definition expand(CheckedTrees& trees, std::string_view main, const StartValues&
   return Expander(trees, values, report).expand(main);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

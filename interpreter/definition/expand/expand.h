@@ -8,7 +8,7 @@
 #include "definition/definition.h"
 #include "document/reporter.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // `--set key=value`.
 using StartValues = std::map<std::string, std::string, std::less<>>;
@@ -18,4 +18,4 @@ using StartValues = std::map<std::string, std::string, std::less<>>;
 Definition expand(CheckedTrees& trees, std::string_view main, const StartValues& values,
                   const Reporter& report);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

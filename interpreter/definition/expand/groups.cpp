@@ -7,7 +7,7 @@
 #include "core/wording.h"
 #include "definition/advise/waiting_circle.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 class GroupChecker {
@@ -95,4 +95,4 @@ void check_groups(const Definition& definition, const Reporter& report) {
   GroupChecker(definition, report).check();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

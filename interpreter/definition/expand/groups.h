@@ -5,11 +5,11 @@
 #include "definition/definition.h"
 #include "document/reporter.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Reports barriers whose members never meet: only one member, a member inside another, two in
 // different children of a node that runs one child after the other, and barriers that wait for each
 // other in a circle.
 void check_groups(const Definition& definition, const Reporter& report);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -10,7 +10,7 @@
 #include "core/suggest.h"
 #include "core/wording.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 class PoolResolver {
@@ -158,4 +158,4 @@ void resolve_resources(Definition& definition, const Reporter& report) {
   PoolResolver(definition, report).resolve();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,7 +4,7 @@
 #include "definition/definition.h"
 #include "document/reporter.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Numbers the names of each pool (DefinitionGroup::resources). Reports names that a pool does not
 // have, pools without a name or with too many, and members that would wait for each other for ever.
@@ -13,4 +13,4 @@ void resolve_resources(Definition& definition, const Reporter& report);
 // Warns of members that may wait for ever, and of names that look misspelled.
 void advise_resources(const Definition& definition, const Reporter& report);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -1,6 +1,6 @@
 #include "definition/expand/scope.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 bool Scope::passes_on(std::string_view key) const {
   return autoremap_ && (!rules_.marked_keys || !key.starts_with('_'));
@@ -57,4 +57,4 @@ std::vector<std::string_view> Scope::open_keys() const {
   return keys;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -12,7 +12,7 @@
 #include "core/language.h"
 #include "definition/definition.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Scope {
  public:
@@ -71,4 +71,4 @@ class Scope {
   std::set<std::string_view> groups_;  // names of groups that were looked up
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 
 #include "definition/expand/expand.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 std::span<const CheckedSubTree> subtrees_of(const CheckedTrees& trees, std::string_view id) {
@@ -34,4 +34,4 @@ void check_unused(CheckedTrees& trees, std::string_view main, const Reporter& re
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,9 +6,9 @@
 #include "definition/checked_tree.h"
 #include "document/reporter.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Checks the entries of each of them as if it were the main tree. After expand().
 void check_unused(CheckedTrees& trees, std::string_view main, const Reporter& report);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

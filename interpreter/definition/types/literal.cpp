@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 template <class Number>
@@ -19,4 +19,4 @@ ValueType literal_type(std::string_view text) {
   return is_all<double>(text) ? ValueType::Double : ValueType::String;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

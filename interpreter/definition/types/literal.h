@@ -5,9 +5,9 @@
 
 #include "core/value.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // As which type the value of an attribute of a SubTree begins: Int, Double or String.
 ValueType literal_type(std::string_view text);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

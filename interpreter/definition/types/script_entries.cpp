@@ -14,7 +14,7 @@
 #include "definition/types/script_types.h"
 #include "definition/types/type_words.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 class Declarer {
@@ -207,4 +207,4 @@ void declare_entries(Definition& definition, const StartTexts& starts, const Rep
   Declarer(definition, starts, guessed, report).declare();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 #include "definition/definition.h"
 #include "document/reporter.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Of entries that no port uses: the start value as written.
 using StartTexts = std::map<std::uint32_t, std::string_view>;
@@ -21,4 +21,4 @@ using StartTexts = std::map<std::uint32_t, std::string_view>;
 void declare_entries(Definition& definition, const StartTexts& starts, const Reporter& report,
                      std::span<const std::uint32_t> guessed = {});
 
-}  // namespace lockstep
+}  // namespace lockstep::host

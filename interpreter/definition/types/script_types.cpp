@@ -8,7 +8,7 @@
 #include "definition/types/type_words.h"
 #include "expression/operator_words.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 enum class TypeKind : std::uint8_t { Unknown, Number, Text, Other };
@@ -229,4 +229,4 @@ bool may_be_yes_or_no(const StaticType& type) {
   return may_be_a_number(type);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

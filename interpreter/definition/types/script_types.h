@@ -11,7 +11,7 @@
 #include "core/value.h"
 #include "expression/expression.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct StaticType {
   std::optional<ValueType> type = {};  // none: not known
@@ -35,4 +35,4 @@ StaticType infer_types(const Expression& script, std::span<const StaticType> ent
 // Whether such a value may be a yes or a no.
 bool may_be_yes_or_no(const StaticType& type);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

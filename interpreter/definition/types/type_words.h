@@ -5,7 +5,7 @@
 
 #include "core/parameter_value.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // "an int", "a list of double".
 inline std::string with_article(ValueType type, const ObjectType* object) {
@@ -13,4 +13,4 @@ inline std::string with_article(ValueType type, const ObjectType* object) {
   return std::string(name.starts_with('i') ? "an " : "a ").append(name);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

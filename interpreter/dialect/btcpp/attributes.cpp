@@ -14,7 +14,7 @@
 #include "dialect/btcpp/rules.h"
 #include "dialect/btcpp/words.h"
 
-namespace lockstep::btcpp {
+namespace lockstep::host::btcpp {
 namespace {
 
 // Those that are not ports.
@@ -276,4 +276,4 @@ void read_subtree_attributes(const NodeElement& element, const Models& models,
   check_hooks(element, report, node, trees);
 }
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep::host::btcpp

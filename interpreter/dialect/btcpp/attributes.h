@@ -6,7 +6,7 @@
 #include "definition/checked_tree.h"
 #include "document/reporter.h"
 
-namespace lockstep::btcpp {
+namespace lockstep::host::btcpp {
 
 // Checks the attributes of `node`, whose type and children are known, and appends what they say to
 // `trees`.
@@ -18,4 +18,4 @@ void read_subtree_attributes(const NodeElement& element, const Models& models,
                              const Reporter& report, CheckedNode& node, CheckedSubTree& subtree,
                              CheckedTrees& trees);
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep::host::btcpp

@@ -13,7 +13,7 @@
 #include "dialect/btcpp/version_3.h"
 #include "dialect/btcpp/words.h"
 
-namespace lockstep::btcpp {
+namespace lockstep::host::btcpp {
 namespace {
 
 const NodePair* pair_of(std::string_view tag) {
@@ -132,4 +132,4 @@ std::string instead_of(const NodePair& pair) {
                  : std::string(pair.ours);
 }
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep::host::btcpp

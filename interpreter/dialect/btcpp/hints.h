@@ -7,7 +7,7 @@
 #include "definition/check/foreign_hints.h"
 #include "dialect/btcpp/pairs.h"
 
-namespace lockstep::btcpp {
+namespace lockstep::host::btcpp {
 
 extern const ForeignHints kHints;
 
@@ -16,4 +16,4 @@ bool needs_hint(const NodePair& pair, std::string_view tag);
 // What to write instead, as a start tag without its brackets: `Sequence memory="true"`.
 std::string instead_of(const NodePair& pair);
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep::host::btcpp

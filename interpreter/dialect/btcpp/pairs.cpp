@@ -5,7 +5,7 @@
 
 #include "core/value.h"
 
-namespace lockstep::btcpp {
+namespace lockstep::host::btcpp {
 namespace {
 
 constexpr FixedAttribute kRemembers{.name = "memory", .value = "true"};
@@ -217,4 +217,4 @@ std::string_view hint_of(Conversions conversion) {
   }
 }
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep::host::btcpp

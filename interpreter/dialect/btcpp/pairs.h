@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace lockstep::btcpp {
+namespace lockstep::host::btcpp {
 
 // An attribute that must have this value; "" = none.
 struct FixedAttribute {
@@ -68,4 +68,4 @@ std::optional<std::string> value_here(Conversions conversion, std::string_view t
 // Which values can be said.
 std::string_view hint_of(Conversions conversion);
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep::host::btcpp

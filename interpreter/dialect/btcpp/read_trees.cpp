@@ -14,7 +14,7 @@
 #include "dialect/btcpp/rules.h"
 #include "dialect/btcpp/version_3.h"
 
-namespace lockstep::btcpp {
+namespace lockstep::host::btcpp {
 namespace {
 
 // Of the only tree of a file, which needs none.
@@ -326,4 +326,4 @@ CheckedTrees read_trees(const Project& project, const Catalog& catalog, const Mo
   return TreeReader(project, catalog, models, diagnostics).read();
 }
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep::host::btcpp

@@ -7,10 +7,10 @@
 #include "definition/checked_tree.h"
 #include "document/project.h"
 
-namespace lockstep::btcpp {
+namespace lockstep::host::btcpp {
 
 // Checks every BehaviorTree of the project, used or not.
 CheckedTrees read_trees(const Project& project, const Catalog& catalog, const Models& models,
                         Diagnostics& diagnostics);
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep::host::btcpp

@@ -6,7 +6,7 @@
 #include "dialect/btcpp/read_trees.h"
 #include "dialect/btcpp/version_3.h"
 
-namespace lockstep::btcpp {
+namespace lockstep::host::btcpp {
 namespace {
 
 constexpr LanguageReader kReader{.read = read_trees, .is_old_name = is_old_name, .hints = &kHints};
@@ -32,4 +32,4 @@ constinit const LanguageRules kRules{.name = "btcpp4",
                                      .conditions_may_run = true,
                                      .may_tick_again = true};
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep::host::btcpp

@@ -3,8 +3,8 @@
 
 #include "core/language.h"
 
-namespace lockstep::btcpp {
+namespace lockstep::host::btcpp {
 
 extern const LanguageRules kRules;
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep::host::btcpp

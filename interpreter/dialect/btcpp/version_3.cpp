@@ -8,7 +8,7 @@
 #include "core/wording.h"
 #include "dialect/btcpp/words.h"
 
-namespace lockstep::btcpp {
+namespace lockstep::host::btcpp {
 namespace {
 
 constexpr Renamed kNodes[] = {{"SequenceStar", "SequenceWithMemory"},
@@ -97,4 +97,4 @@ bool is_old_name(std::string_view id) {
   return !node_since_4(id).empty() || !hint_for_gone(id).empty();
 }
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep::host::btcpp

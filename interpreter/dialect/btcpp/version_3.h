@@ -9,7 +9,7 @@
 #include "document/element.h"
 #include "document/reporter.h"
 
-namespace lockstep::btcpp {
+namespace lockstep::host::btcpp {
 
 struct Renamed {
   std::string_view before;
@@ -31,4 +31,4 @@ std::string_view hint_for_gone(std::string_view id);
 // Whether it is one of both.
 bool is_old_name(std::string_view id);
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep::host::btcpp

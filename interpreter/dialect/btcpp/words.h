@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-namespace lockstep::btcpp {
+namespace lockstep::host::btcpp {
 
 // What editors write. It has no meaning here.
 inline constexpr std::string_view kMarks[] = {"_uid",       "_fullpath", "_collapsed",  "_favorite",
@@ -24,4 +24,4 @@ constexpr std::string_view key_of(std::string_view value, std::string_view port)
   return braced ? text.substr(1, text.size() - 2) : std::string_view();
 }
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep::host::btcpp

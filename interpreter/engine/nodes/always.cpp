@@ -2,7 +2,7 @@
 #include "engine/nodes/at_once.h"
 #include "engine/nodes/kinds.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 template <Status kStatus>
@@ -38,4 +38,4 @@ const NodeKind kAlwaysRunning{.type = {.id = "AlwaysRunning",
                               .tick = tick_always<Status::Running>,
                               .progress = no_progress};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

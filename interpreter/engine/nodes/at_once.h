@@ -3,10 +3,10 @@
 
 #include "engine/node_context.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 inline double no_progress(NodeContext&, NodeIndex) {
   return 0.0;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

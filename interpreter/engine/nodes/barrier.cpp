@@ -10,7 +10,7 @@
 #include "engine/nodes/decorator.h"
 #include "engine/nodes/fold.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr unsigned kBarrierDelta = 3;
@@ -277,4 +277,4 @@ const NodeKind kSyncProgress{
     .progress = decorator::child_progress,
     .decided = member_decided};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -14,7 +14,7 @@
 #include "core/node_type.h"
 #include "engine/synchronized.h"
 
-namespace lockstep::absolute {
+namespace lockstep::host::absolute {
 
 // Their parameters begin with these three.
 inline constexpr unsigned kBarriers = 0;
@@ -101,4 +101,4 @@ struct Held {
   }
 };
 
-}  // namespace lockstep::absolute
+}  // namespace lockstep::host::absolute

@@ -2,9 +2,9 @@
 
 #include "engine/nodes/kinds.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 const NodeKind kIfThenElse = branches::kIf<branches::Rule::Plain>;
 const NodeKind kWhileDoElse = branches::kWhile<branches::Rule::Plain>;
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 #include "engine/node_context.h"
 #include "engine/nodes/fold.h"
 
-namespace lockstep::branches {
+namespace lockstep::host::branches {
 
 // Strict: a skipped condition is a fault, and one that has completed is asked again as it is.
 enum class Rule : bool { Plain, Strict };
@@ -115,4 +115,4 @@ constexpr NodeKind kWhile{
     .state_size = sizeof(BranchState),
     .fold = fold::dead_when_idle};
 
-}  // namespace lockstep::branches
+}  // namespace lockstep::host::branches

@@ -5,7 +5,7 @@
 #include "engine/node_scripts.h"
 #include "engine/nodes/at_once.h"
 
-namespace lockstep::check {
+namespace lockstep::host::check {
 
 inline constexpr unsigned kCode = 0;
 
@@ -30,4 +30,4 @@ constexpr NodeKind kind(std::string_view id) {
           .progress = no_progress};
 }
 
-}  // namespace lockstep::check
+}  // namespace lockstep::host::check

@@ -2,7 +2,7 @@
 #include "engine/nodes/fold.h"
 #include "engine/nodes/timed.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr Parameter kCooldownParameters[] = {
@@ -49,4 +49,4 @@ const NodeKind kCooldown{
     .state_size = sizeof(CooldownState),
     .fold = fold_cooldown};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

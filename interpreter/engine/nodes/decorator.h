@@ -4,10 +4,10 @@
 #include "engine/node_context.h"
 #include "engine/nodes/kinds.h"
 
-namespace lockstep::decorator {
+namespace lockstep::host::decorator {
 
 inline double child_progress(NodeContext& context, NodeIndex self) {
   return context.progress(self + 1);
 }
 
-}  // namespace lockstep::decorator
+}  // namespace lockstep::host::decorator

@@ -1,7 +1,7 @@
 #include "engine/nodes/decorator.h"
 #include "engine/nodes/timed.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr Parameter kDelayParameters[] = {
@@ -29,4 +29,4 @@ const NodeKind kDelay{
     .pause = timed::pause,
     .fold = timed::fold_by_clock};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

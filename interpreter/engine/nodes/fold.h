@@ -7,7 +7,7 @@
 
 #include "engine/node_context.h"
 
-namespace lockstep::fold {
+namespace lockstep::host::fold {
 
 // Each tick writes it before it reads it.
 inline void dead(NodeContext& context, NodeIndex self) {
@@ -22,4 +22,4 @@ inline void dead_when_idle(NodeContext& context, NodeIndex self) {
 // It says something as it is, at any time.
 inline void live(NodeContext& /*context*/, NodeIndex /*self*/) {}
 
-}  // namespace lockstep::fold
+}  // namespace lockstep::host::fold

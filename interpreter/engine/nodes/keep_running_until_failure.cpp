@@ -1,6 +1,6 @@
 #include "engine/nodes/decorator.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 Status tick_keep_running(NodeContext& context, NodeIndex self) {
@@ -18,4 +18,4 @@ const NodeKind kKeepRunningUntilFailure{
     .tick = tick_keep_running,
     .progress = decorator::child_progress};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -3,7 +3,7 @@
 
 #include "engine/node_kind.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 extern const NodeKind kSequence, kFallback, kParallel, kParallelAbsolute, kParallelRelative,
     kIfThenElse, kWhileDoElse, kSwitch;
@@ -25,4 +25,4 @@ inline constexpr const NodeKind* kBuiltInKinds[] = {
     // Beside the trees
     &kBarrier, &kResources};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 #include "engine/node_kind.h"
 #include "lockstep/leaf.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 enum class Kind { Action, Condition, Control };
@@ -269,4 +269,4 @@ const NodeKind kPluginControl{
     .pause = pause_control,
     .unreset = unreset_leaf};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 #include "engine/nodes/fold.h"
 #include "engine/nodes/timed.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 const Mock& mock_of(const NodeContext& context, NodeIndex self) {
@@ -89,4 +89,4 @@ const NodeKind kMockDecorator{.type = {.id = "", .category = NodeCategory::Decor
                               .tick = tick_mock_decorator,
                               .progress = decorator::child_progress};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -3,7 +3,7 @@
 
 #include "engine/nodes/kinds.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 const NodeKind kSequence = ordered::kind<Status::Success, ordered::Memory::ByParameter>(
     "Sequence",
@@ -15,4 +15,4 @@ const NodeKind kFallback = ordered::kind<Status::Failure, ordered::Memory::ByPar
     "Ticks its children from the left, every tick from the first; stops at the "
     "first that is Running or Success and returns that. Failure when all fail.");
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 #include "engine/node_context.h"
 #include "engine/nodes/fold.h"
 
-namespace lockstep::ordered {
+namespace lockstep::host::ordered {
 
 struct State {
   NodeIndex current;      // the child at which the last tick stopped
@@ -86,4 +86,4 @@ constexpr NodeKind kind(std::string_view id, std::string_view doc) {
   return kind;
 }
 
-}  // namespace lockstep::ordered
+}  // namespace lockstep::host::ordered

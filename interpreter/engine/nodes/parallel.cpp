@@ -2,7 +2,7 @@
 #include "engine/nodes/kinds.h"
 #include "engine/nodes/parallel_rule.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr parallel::Places kParallelPlaces{.success_count = 0, .failure_count = 1};
@@ -47,4 +47,4 @@ const NodeKind kParallel{
     .state_per_child = sizeof(double),
     .fold = fold::dead};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

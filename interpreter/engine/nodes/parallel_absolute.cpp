@@ -3,7 +3,7 @@
 #include "engine/nodes/kinds.h"
 #include "engine/nodes/synchronized_tick.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr parallel::Places kAbsolutePlaces{.success_count = 3, .failure_count = 4};
@@ -55,4 +55,4 @@ const NodeKind kParallelAbsolute{
     .fold = fold::dead,
     .decided = synchronized::decided};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

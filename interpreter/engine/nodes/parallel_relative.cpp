@@ -2,7 +2,7 @@
 #include "engine/nodes/kinds.h"
 #include "engine/nodes/synchronized_tick.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr unsigned kDelta = 0;
@@ -53,4 +53,4 @@ const NodeKind kParallelRelative{
     .fold = fold::dead,
     .decided = synchronized::decided};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

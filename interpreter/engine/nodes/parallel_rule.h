@@ -8,7 +8,7 @@
 
 #include "engine/node_context.h"
 
-namespace lockstep::parallel {
+namespace lockstep::host::parallel {
 
 inline constexpr Parameter kSuccessCount{
     .name = "success_count",
@@ -104,4 +104,4 @@ inline Status judge(NodeContext& context, NodeIndex self, const Places& places,
   return success ? Status::Success : Status::Failure;
 }
 
-}  // namespace lockstep::parallel
+}  // namespace lockstep::host::parallel

@@ -2,7 +2,7 @@
 #include "engine/nodes/fold.h"
 #include "engine/nodes/timed.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr Parameter kRateParameters[] = {
@@ -51,4 +51,4 @@ const NodeKind kRate{
     .pause = timed::pause,
     .fold = fold_rate};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -2,7 +2,7 @@
 #include "engine/nodes/decorator.h"
 #include "engine/nodes/fold.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr unsigned kTimes = 0;        // or attempts
@@ -87,4 +87,4 @@ const NodeKind kRetry{
     .fold = fold::dead_when_idle,
     .round = round_of_repeat};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 
 #include "engine/nodes/kinds.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr Parameter kResourcesParameters[] = {
@@ -88,4 +88,4 @@ const NodeKind kResources{
     .state_per_child = sizeof(std::uint32_t),
     .fold = fold::dead};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

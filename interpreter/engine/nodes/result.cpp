@@ -1,7 +1,7 @@
 // Inverter, ForceSuccess, ForceFailure: change the result of their child, nothing else.
 #include "engine/nodes/decorator.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 template <Status kSuccessBecomes, Status kFailureBecomes>
@@ -42,4 +42,4 @@ const NodeKind kForceFailure{
     .tick = tick_result<Status::Failure, Status::Failure>,
     .progress = decorator::child_progress};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -1,6 +1,6 @@
 #include "engine/nodes/run_once.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 const NodeKind kRunOnce{
     .type = {.id = "RunOnce",
@@ -15,4 +15,4 @@ const NodeKind kRunOnce{
     .state_size = sizeof(run_once::State),
     .fold = fold::live};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

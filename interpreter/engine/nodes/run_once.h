@@ -4,7 +4,7 @@
 #include "engine/nodes/decorator.h"
 #include "engine/nodes/fold.h"
 
-namespace lockstep::run_once {
+namespace lockstep::host::run_once {
 
 // Not cleared by a new activation: once means once in a run.
 struct State {
@@ -19,4 +19,4 @@ inline Status tick(NodeContext& context, NodeIndex self) {
   return status;
 }
 
-}  // namespace lockstep::run_once
+}  // namespace lockstep::host::run_once

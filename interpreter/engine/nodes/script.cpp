@@ -5,7 +5,7 @@
 #include "engine/nodes/check.h"
 #include "engine/nodes/kinds.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr unsigned kCode = 0;
@@ -33,4 +33,4 @@ const NodeKind kScript{.type = {.id = "Script",
 
 const NodeKind kCheck = check::kind("Check");
 
-}  // namespace lockstep
+}  // namespace lockstep::host

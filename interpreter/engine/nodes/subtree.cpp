@@ -1,6 +1,6 @@
 #include "engine/nodes/decorator.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 Status tick_subtree(NodeContext& context, NodeIndex self) {
@@ -17,4 +17,4 @@ const NodeKind kSubTree{.type = {.id = "SubTree",
                         .tick = tick_subtree,
                         .progress = decorator::child_progress};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

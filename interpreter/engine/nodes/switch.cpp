@@ -7,7 +7,7 @@
 #include "engine/nodes/kinds.h"
 #include "expression/equal.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr unsigned kOn = 0, kCases = 1;
@@ -88,4 +88,4 @@ const NodeKind kSwitch{
     .state_size = sizeof(SwitchState),
     .fold = fold::dead_when_idle};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 #include "engine/nodes/parallel_rule.h"
 #include "engine/synchronized.h"
 
-namespace lockstep::synchronized {
+namespace lockstep::host::synchronized {
 
 // One snapshot before any child is ticked; returns its minimum.
 inline double take_snapshot(NodeContext& context, NodeIndex self) {
@@ -66,4 +66,4 @@ inline double least_progress(NodeContext& context, NodeIndex self) {
   return least;
 }
 
-}  // namespace lockstep::synchronized
+}  // namespace lockstep::host::synchronized

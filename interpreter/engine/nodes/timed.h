@@ -6,7 +6,7 @@
 
 #include "engine/nodes/fold.h"
 
-namespace lockstep::timed {
+namespace lockstep::host::timed {
 
 inline constexpr unsigned kSeconds = 0;
 inline constexpr unsigned kClock = 1;  // not of Wait
@@ -89,4 +89,4 @@ inline bool is_over_by_clock(NodeContext& context, NodeIndex self) {
   return is_over(context, self);
 }
 
-}  // namespace lockstep::timed
+}  // namespace lockstep::host::timed

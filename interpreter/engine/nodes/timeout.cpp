@@ -1,7 +1,7 @@
 #include "engine/nodes/decorator.h"
 #include "engine/nodes/timed.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr Parameter kTimeoutParameters[] = {
@@ -35,4 +35,4 @@ const NodeKind kTimeout{
     .pause = timed::pause,
     .fold = timed::fold_by_clock};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 #include "engine/nodes/decorator.h"
 #include "engine/resources.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr Parameter kUseResourcesParameters[] = {
@@ -93,4 +93,4 @@ const NodeKind kUseResources{
     .fold = fold_use_resources,
     .chooses_to_read = true};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

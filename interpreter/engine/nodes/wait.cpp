@@ -3,7 +3,7 @@
 #include "engine/nodes/kinds.h"
 #include "engine/nodes/timed.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr Parameter kWaitParameters[] = {
@@ -40,4 +40,4 @@ const NodeKind kWait{.type = {.id = "Wait",
                      .pause = timed::pause,
                      .fold = timed::fold};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

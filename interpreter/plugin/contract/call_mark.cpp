@@ -7,7 +7,7 @@
 
 #include "core/diagnostics.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // A signal handler may read it.
@@ -83,4 +83,4 @@ CallMark::Look CallMark::look() const {
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -12,7 +12,7 @@
 
 #include "system/fork_guard.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 enum class PluginFunction : std::uint8_t {
   None,  // in the host's own code
@@ -171,4 +171,4 @@ class MarkedCall {
   const CallMark::Look around_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

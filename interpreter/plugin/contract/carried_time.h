@@ -4,7 +4,7 @@
 
 #include "core/clock.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // A message that is smaller is not worth two looks at the clock.
 constexpr std::size_t kMuchToCarry = std::size_t{64} << 10;
@@ -12,4 +12,4 @@ constexpr std::size_t kMuchToCarry = std::size_t{64} << 10;
 // Of the call that this thread is in.
 inline constinit thread_local Nanoseconds t_carried{0};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 #include "engine/ticker.h"
 #include "plugin/contract/host.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 void breach(const lockstep_caller* caller, std::string_view what) {
@@ -124,4 +124,4 @@ const lockstep_children& children_table() {
   return kTable;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -9,7 +9,7 @@
 #include "plugin/contract/descriptor_leaf.h"
 #include "plugin/contract/descriptor_port.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::size_t kHandshakeSize =
@@ -147,4 +147,4 @@ std::optional<Problem> read_descriptors(const lockstep_plugin& entry, std::size_
   return std::nullopt;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

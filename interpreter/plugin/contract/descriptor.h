@@ -14,7 +14,7 @@
 #include "core/problem.h"
 #include "lockstep/leaf.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class RemotePlugin;
 
@@ -52,4 +52,4 @@ Struct covered_copy(const Struct* from, std::size_t size) {
   return copy;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 #include "engine/node_kind.h"
 #include "plugin/contract/descriptor_port.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::size_t kLeafSizeIn10 =
@@ -104,4 +104,4 @@ std::optional<Problem> read_leaf(const lockstep_leaf_type* from, std::string_vie
   return read_ports(leaf.type, plugin, leaf);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -10,7 +10,7 @@
 #include "plugin/contract/descriptor.h"
 #include "plugin/contract/object_type.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::size_t kSizeIn10 = offsetof(lockstep_port, doc) + sizeof(lockstep_port::doc);
@@ -214,4 +214,4 @@ std::optional<Problem> read_port(const lockstep_port* from, std::string_view plu
   return check_default(copy, port);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -9,7 +9,7 @@
 #include "core/problem.h"
 #include "lockstep/leaf.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 inline constexpr std::uint32_t kMaxDescriptorCount = 4096;  // of leaves, and of ports of a leaf
 
@@ -22,4 +22,4 @@ std::optional<Problem> read_port(const lockstep_port* from, std::string_view plu
                                  std::span<const Parameter> others,
                                  std::vector<std::string_view>& choices, Parameter& port);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 #include <cfenv>
 #endif
 
-namespace lockstep {
+namespace lockstep::host {
 
 class FloatMode {
  public:
@@ -48,4 +48,4 @@ class FloatMode {
   std::uint16_t x87_ = 0;  // long double computes with the old unit, which has a separate mode
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

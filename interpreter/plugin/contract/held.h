@@ -5,7 +5,7 @@
 
 #include "core/value.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // The T that `value` holds, made when it holds another: what has capacity keeps it.
 template <class T>
@@ -14,4 +14,4 @@ T& held(Value& value) {
   return found != nullptr ? *found : value.emplace<T>();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

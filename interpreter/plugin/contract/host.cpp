@@ -17,7 +17,7 @@
 #include "plugin/contract/workers.h"
 #include "system/fork_guard.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // False: the entry has a value that the port does not take, which is an error of the caller.
@@ -454,4 +454,4 @@ const lockstep_host& host_table() {
   return kTable;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -19,7 +19,7 @@
 #include "plugin/contract/call_mark.h"
 #include "plugin/contract/leaf_set.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 constexpr std::size_t kLongestLogLine = std::size_t{32} << 10;  // bytes; the rest is cut off
 
@@ -50,39 +50,40 @@ struct ChildLabel {
   std::string id, name;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host
 
 // A leaf of a run, or (without ports) a run itself.
 struct lockstep_caller {
   std::string_view who;  // its path, or the plugin's name, which ends with a NUL
-  std::vector<lockstep::BoundPort> ports;
-  lockstep::RandomStream random;
-  const lockstep::LeafTime* time;
-  const lockstep::LeafLog* log;
-  lockstep::LeafSlot* slot;                            // set_error sets its `error`
-  lockstep::Ticker* ticker = nullptr;                  // null while leaves are made
-  std::span<const lockstep::NodeIndex> children = {};  // of a control node or decorator, in order
-  const lockstep_plugin* plugin = nullptr;             // of a run: whose run context it is
-  const lockstep::CallSite* site = nullptr;
+  std::vector<lockstep::host::BoundPort> ports;
+  lockstep::host::RandomStream random;
+  const lockstep::host::LeafTime* time;
+  const lockstep::host::LeafLog* log;
+  lockstep::host::LeafSlot* slot;            // set_error sets its `error`
+  lockstep::host::Ticker* ticker = nullptr;  // null while leaves are made
+  std::span<const lockstep::host::NodeIndex> children =
+      {};                                   // of a control node or decorator, in order
+  const lockstep_plugin* plugin = nullptr;  // of a run: whose run context it is
+  const lockstep::host::CallSite* site = nullptr;
   // Collects the entries that are set, for a process that only mirrors them; null: not collected.
-  std::vector<lockstep::Entry*>* written = nullptr;
-  std::unique_ptr<lockstep::Shortened> error = {};  // the last; null: none yet
-  lockstep::NodeIndex node = 0;                     // in the tree of its ticker
-  std::string name = {};                            // of the node
-  std::string_view id = {};                         // of its type, which ends with a NUL
-  std::string_view plugin_name = {};                // of its type
-  bool opens_entries = false;                       // lockstep_place::open
+  std::vector<lockstep::host::Entry*>* written = nullptr;
+  std::unique_ptr<lockstep::host::Shortened> error = {};  // the last; null: none yet
+  lockstep::host::NodeIndex node = 0;                     // in the tree of its ticker
+  std::string name = {};                                  // of the node
+  std::string_view id = {};                               // of its type, which ends with a NUL
+  std::string_view plugin_name = {};                      // of its type
+  bool opens_entries = false;                             // lockstep_place::open
   std::list<std::string> opened = {};  // the keys of the ports behind those of its type
-  std::vector<lockstep::ChildLabel> labels = {};
+  std::vector<lockstep::host::ChildLabel> labels = {};
 
   // The calling thread is not the run's: it may only call log, so that it finds nothing to read or
   // to change while a tick goes on.
   bool is_foreign() const {
-    return time->thread != nullptr && time->thread != lockstep::this_thread_id();
+    return time->thread != nullptr && time->thread != lockstep::host::this_thread_id();
   }
 };
 
-namespace lockstep {
+namespace lockstep::host {
 
 // The contract hands out constant callers, so that plugins keep their hands off.
 inline lockstep_caller& mine(const lockstep_caller* caller) {
@@ -109,4 +110,4 @@ const lockstep_children& children_table();
 // For all nodes of plugins.
 const lockstep_place& place_table();
 
-}  // namespace lockstep
+}  // namespace lockstep::host

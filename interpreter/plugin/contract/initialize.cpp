@@ -10,7 +10,7 @@
 #include "plugin/contract/host.h"
 #include "system/mutex.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 namespace {
 
@@ -63,4 +63,4 @@ void deinitialize_plugin(const lockstep_plugin& plugin) {
   thrown_by(plugin.deinit);  // the work is done; there is no one to report to
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

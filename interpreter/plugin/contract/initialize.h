@@ -6,7 +6,7 @@
 
 #include "lockstep/leaf.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Calls init, unless another user of the plugin has done so. Returns "" or the reason of a failure:
 // "refuses to work: …". A plugin without init succeeds.
@@ -15,4 +15,4 @@ std::string initialize_plugin(const lockstep_plugin& plugin);
 // For each success of initialize_plugin. The last one calls deinit.
 void deinitialize_plugin(const lockstep_plugin& plugin);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

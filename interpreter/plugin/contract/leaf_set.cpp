@@ -13,7 +13,7 @@
 #include "plugin/contract/host.h"
 #include "plugin/contract/leaf_watch.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // Run contexts draw from streams that no leaf of any tree can have.
@@ -318,4 +318,4 @@ const std::optional<Fault>& LeafSet::fault() const {
   return it_->fault_;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

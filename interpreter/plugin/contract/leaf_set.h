@@ -11,7 +11,7 @@
 #include "engine/ticker.h"
 #include "lockstep/leaf.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Identifies a thread, without a system call.
 inline const void* this_thread_id() {
@@ -71,4 +71,4 @@ class LeafSet {
 // The table that this host gives to plugins.
 const lockstep_host& host_table();
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 #include "plugin/contract/carried_time.h"
 #include "plugin/contract/float_mode.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // What all leaves of a watch share.
@@ -241,4 +241,4 @@ std::vector<LeafWatch::Timing> LeafWatch::over_budget() const {
   return list;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

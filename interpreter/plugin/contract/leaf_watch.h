@@ -15,7 +15,7 @@
 #include "engine/tree.h"
 #include "plugin/contract/call_mark.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct LeafWatchOptions {
   // A longer call is reported to on_slow, at most once a second for all leaves. None: calls are not
@@ -72,4 +72,4 @@ class LeafWatch {
   std::unique_ptr<Implementation> it_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

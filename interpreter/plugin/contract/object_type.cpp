@@ -13,7 +13,7 @@
 #include "plugin/contract/call_mark.h"
 #include "plugin/contract/descriptor.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::size_t kSizeIn11 =
@@ -195,4 +195,4 @@ Result<const ObjectType*> read_object_type(const lockstep_object_type* declared,
   return type.get();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 #include "core/problem.h"
 #include "lockstep/leaf.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // A declaration that stands for a type of another process: its retain is `mark`.
 struct HostedObjectType : lockstep_object_type {
@@ -19,4 +19,4 @@ struct HostedObjectType : lockstep_object_type {
 Result<const ObjectType*> read_object_type(const lockstep_object_type* declared,
                                            std::string_view plugin);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 #include <memory>
 #include <mutex>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 struct Counted : PackedObject {
@@ -68,4 +68,4 @@ Result<Object> pack(const Object& object, WithText with_text) {
   return PackedType::of(object.type()->name()).make(std::move(packed));
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

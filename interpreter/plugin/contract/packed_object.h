@@ -7,7 +7,7 @@
 
 #include "core/object.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct PackedObject {
   std::string bytes;
@@ -38,4 +38,4 @@ class PackedType : public ObjectType {
 enum class WithText : bool { No, Yes };
 Result<Object> pack(const Object& object, WithText with_text);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

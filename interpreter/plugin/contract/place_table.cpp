@@ -5,7 +5,7 @@
 #include "plugin/contract/host.h"
 #include "plugin/contract/object_type.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 const char* name(const lockstep_caller* caller) {
@@ -160,4 +160,4 @@ const lockstep_place& place_table() {
   return kTable;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace lockstep {
+namespace lockstep::host {
 
 void ProcessLeaves::remove(const ProcessLeaf& leaf) {
   std::erase_if(all_, [&](const Entry& it) { return it.leaf == &leaf; });
@@ -15,4 +15,4 @@ void ProcessLeaves::look(Ticker& ticker) {
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 
 #include "engine/ticker.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class ProcessLeaf {
  public:
@@ -33,4 +33,4 @@ class ProcessLeaves {
   std::vector<Entry> all_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

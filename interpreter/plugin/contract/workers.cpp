@@ -6,8 +6,8 @@
 
 // All members are guarded by the mutex of the set.
 struct lockstep_worker {
-  lockstep::Workers& set;
-  const lockstep::CallSite& site;
+  lockstep::host::Workers& set;
+  const lockstep::host::CallSite& site;
   std::condition_variable turn = {};
   double until = 0;  // it waits for this time
   bool has_turn = false;
@@ -20,7 +20,7 @@ struct lockstep_worker {
   }
 };
 
-namespace lockstep {
+namespace lockstep::host {
 
 Workers::Workers() = default;
 Workers::~Workers() = default;
@@ -132,4 +132,4 @@ const lockstep_workers& workers_table() {
   return kTable;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

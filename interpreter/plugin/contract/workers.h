@@ -12,7 +12,7 @@
 #include "plugin/contract/call_mark.h"
 #include "system/mutex.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Workers {
  public:
@@ -55,4 +55,4 @@ class Workers {
 // The table that plugins get.
 const lockstep_workers& workers_table();
 
-}  // namespace lockstep
+}  // namespace lockstep::host

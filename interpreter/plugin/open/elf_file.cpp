@@ -10,7 +10,7 @@
 #include <fstream>
 #include <vector>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using Header = ElfW(Ehdr);
@@ -92,4 +92,4 @@ std::optional<Problem> inspect_elf_file(const std::string& path) {
   return inspect_header(file, std::filesystem::file_size(path, error));
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,9 +6,9 @@
 
 #include "core/problem.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Returns nothing if the file is a complete shared object for this machine.
 std::optional<Problem> inspect_elf_file(const std::string& path);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

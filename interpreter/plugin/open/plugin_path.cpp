@@ -11,7 +11,7 @@
 #include "core/suggest.h"
 #include "core/wording.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 namespace fs = std::filesystem;
@@ -117,4 +117,4 @@ Result<std::string> find_program_file(std::string_view file,
                  add_directory());
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 
 #include "core/problem.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // The path of <name>.so in the first of `directories` that has it, or why there is none.
 [[nodiscard]] Result<std::string> find_plugin_file(std::string_view name,
@@ -22,4 +22,4 @@ namespace lockstep {
                                         std::span<const std::string> directories);
 bool is_executable(const std::string& path);  // a regular file that this user may execute
 
-}  // namespace lockstep
+}  // namespace lockstep::host

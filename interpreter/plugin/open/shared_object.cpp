@@ -14,7 +14,7 @@
 #include "plugin/contract/float_mode.h"
 #include "plugin/open/elf_file.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // The linker's last words, without the path that the message names already.
@@ -91,4 +91,4 @@ Result<ExportedConstant> find_constant(const SharedObject& object, const char* s
   return found;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

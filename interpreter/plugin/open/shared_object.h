@@ -8,7 +8,7 @@
 #include "core/problem.h"
 #include "plugin/contract/call_mark.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct SharedObject {
   void* handle = nullptr;
@@ -30,4 +30,4 @@ struct ExportedConstant {
 [[nodiscard]] Result<ExportedConstant> find_constant(const SharedObject& object,
                                                      const char* symbol);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // The sticky bit of a directory keeps others from replacing what is there, not from adding to it.
@@ -64,4 +64,4 @@ void warn_of_writable_directories(std::span<const std::string> directories,
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 
 #include "core/diagnostics.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Of the file and the directory it lies in; of a symbolic link, of all that it leads to as well.
 void warn_of_writable_plugin(const std::string& path, const SourceLocation& where,
@@ -17,4 +17,4 @@ void warn_of_writable_plugin(const std::string& path, const SourceLocation& wher
 void warn_of_writable_directories(std::span<const std::string> directories,
                                   const SourceLocation& where, Diagnostics& diagnostics);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

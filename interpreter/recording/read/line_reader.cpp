@@ -1,6 +1,6 @@
 #include "recording/read/line_reader.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 bool LineReader::next() {
   text_.clear();
@@ -27,4 +27,4 @@ bool LineReader::go_to(const Place& place) {
   return static_cast<bool>(in_.seekg(static_cast<std::streamoff>(place.bytes)));
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

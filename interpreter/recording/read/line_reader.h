@@ -5,7 +5,7 @@
 #include <istream>
 #include <string>
 
-namespace lockstep {
+namespace lockstep::host {
 
 class LineReader {
  public:
@@ -38,4 +38,4 @@ class LineReader {
   Place place_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

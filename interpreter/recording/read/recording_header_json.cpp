@@ -11,7 +11,7 @@
 #include "recording/lines.h"
 #include "recording/read/recording_json.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // 0 is that of no clock. The rest is more than any can do, and its period fits into nanoseconds.
@@ -228,4 +228,4 @@ RecordingHeader RecordingJson::header(std::string& line) {
   return header;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -12,7 +12,7 @@
 #include "core/wording.h"
 #include "recording/lines.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 auto into_seconds(double& time) {
@@ -333,4 +333,4 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
                       .logs = logs_};
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

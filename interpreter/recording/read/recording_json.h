@@ -9,7 +9,7 @@
 #include "json/reader.h"
 #include "recording/recording.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class RecordingJson {
  public:
@@ -30,4 +30,4 @@ class RecordingJson {
   std::vector<bool> users_;  // by index: does the node use resources?
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

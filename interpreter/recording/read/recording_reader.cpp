@@ -6,7 +6,7 @@
 
 #include "recording/read/recording_json.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 RecordingReader::RecordingReader(std::istream& in, std::string name, Limits limits)
     : lines_(in, limits.line), format_(std::make_unique<RecordingJson>()), name_(std::move(name)) {
@@ -119,4 +119,4 @@ void RecordingReader::fail(const std::string& message) {
   error_ = fmt::format("{}:{}: {}", name_, lines_.place().lines, message);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

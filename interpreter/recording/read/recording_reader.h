@@ -12,7 +12,7 @@
 #include "recording/read/line_reader.h"
 #include "recording/recording.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class RecordingJson;
 
@@ -87,4 +87,4 @@ class RecordingReader {
   std::uint64_t lost_ = 0;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

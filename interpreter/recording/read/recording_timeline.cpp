@@ -4,7 +4,7 @@
 #include <iterator>
 #include <utility>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 std::size_t memory_of(const std::vector<LeafLine>& lines) {
@@ -126,4 +126,4 @@ void RecordingTimeline::go_to_tick(std::uint64_t tick) {
   while (!at_end() && !failed_ && next_->tick <= tick) step_forward();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -14,7 +14,7 @@
 #include "measure/entry_changes.h"
 #include "recording/read/recording_reader.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // What the ticks up to one leave behind.
 struct Past {
@@ -105,4 +105,4 @@ class RecordingTimeline {
   bool failed_ = false;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 #include "engine/resources.h"
 #include "measure/measure_spec.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 std::vector<NodeIndex> synchronized_nodes(const RecordingHeader& header) {
   std::vector<NodeIndex> nodes;
@@ -130,4 +130,4 @@ std::vector<RecordedMeasure> measures_of(const RecordingHeader& header) {
   return measures;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

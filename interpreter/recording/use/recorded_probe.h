@@ -9,7 +9,7 @@
 #include "measure/synchronized_measure.h"
 #include "recording/recording.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 std::vector<NodeIndex> synchronized_nodes(const RecordingHeader& header);
 // Of each node, by index.
@@ -63,4 +63,4 @@ struct RecordedMeasure {
 // One for each synchronized node.
 std::vector<RecordedMeasure> measures_of(const RecordingHeader& header);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

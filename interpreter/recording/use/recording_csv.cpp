@@ -7,7 +7,7 @@
 #include "core/csv_field.h"
 #include "core/diagnostics.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 bool is_active(const RecordedState& node) {
@@ -38,4 +38,4 @@ bool write_csv(RecordingReader& reader, const CsvSink& write, CsvNames names) {
   return write(rows);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

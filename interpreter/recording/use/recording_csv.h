@@ -7,7 +7,7 @@
 
 #include "recording/read/recording_reader.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Names unchanged, or, for a terminal, as printable() makes them.
 enum class CsvNames : bool { Exact, Printable };
@@ -19,4 +19,4 @@ using CsvSink = std::function<bool(std::string_view rows)>;
 // stopped it.
 bool write_csv(RecordingReader& reader, const CsvSink& write, CsvNames names = CsvNames::Exact);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -10,7 +10,7 @@
 #include "core/wording.h"
 #include "summary/summary.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using Values = std::vector<ValueDifference>;
@@ -201,4 +201,4 @@ RecordingDiff compare(RecordingReader& a, RecordingReader& b, const DiffOptions&
   return Comparison(a, b, options).run();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

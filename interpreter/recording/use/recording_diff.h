@@ -10,7 +10,7 @@
 
 #include "recording/read/recording_reader.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct DiffOptions {
   double tolerance = 0;      // of progress
@@ -60,4 +60,4 @@ std::string to_text(const RecordingDiff& diff, const std::string& a, const std::
                     bool color);
 std::string to_json(const RecordingDiff& diff);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 #include "summary/summary.h"
 #include "terminal/style.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 class Text {
@@ -140,4 +140,4 @@ std::string to_json(const RecordingDiff& diff) {
   return json.printable();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

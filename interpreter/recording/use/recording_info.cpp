@@ -10,7 +10,7 @@
 #include "summary/summary.h"
 #include "terminal/style.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 void write_header(const RecordingHeader& header, std::string& out, bool color) {
@@ -127,4 +127,4 @@ std::string info_text(RecordingReader& reader, bool color) {
   return out;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

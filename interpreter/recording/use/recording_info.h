@@ -6,9 +6,9 @@
 
 #include "recording/read/recording_reader.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Reads to the end; then check reader.error(). The text reports a cut recording.
 std::string info_text(RecordingReader& reader, bool color = false);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

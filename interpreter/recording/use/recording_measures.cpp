@@ -13,7 +13,7 @@
 #include "summary/summary.h"
 #include "terminal/text_table.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // '-' for what was not reached.
@@ -142,4 +142,4 @@ std::string to_table(std::span<const MeasuredValue> values, std::size_t width) {
   return text_table(rows, rows.front().size(), width);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

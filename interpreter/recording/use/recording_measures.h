@@ -11,7 +11,7 @@
 #include "measure/measure_spec.h"
 #include "recording/read/recording_reader.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct MeasuredValue {
   std::string node;  // its path; the tree's id for what is of the run
@@ -31,4 +31,4 @@ Result<std::vector<MeasuredValue>> measure_recording(RecordingReader& reader,
 std::string to_json(std::span<const MeasuredValue> values);
 std::string to_table(std::span<const MeasuredValue> values, std::size_t width = SIZE_MAX);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -17,7 +17,7 @@
 #include "live/packet_printer.h"
 #include "system/own_thread.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // For emergency_flush(). A process has one recording, rarely more; those that find no place here
@@ -259,4 +259,4 @@ void AppendFile::release() {
   claim_.store(0, std::memory_order_release);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

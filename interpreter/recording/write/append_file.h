@@ -19,7 +19,7 @@
 #include "system/bell.h"
 #include "system/output_file.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class AppendFile {
  public:
@@ -104,4 +104,4 @@ class AppendFile {
   std::thread thread_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -15,7 +15,7 @@
 #include "recording/lines.h"
 #include "recording/write/live_json.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // --- header and closing line
@@ -292,4 +292,4 @@ const LiveFormat& json_lines() {
   return kJsonLines;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -3,8 +3,8 @@
 
 #include "live/live_format.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 const LiveFormat& json_lines();
 
-}  // namespace lockstep
+}  // namespace lockstep::host

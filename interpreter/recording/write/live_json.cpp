@@ -7,7 +7,7 @@
 #include "json/reader.h"
 #include "recording/lines.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // The end of a line: ],"faults":[[3,"threw"]],"entries":[[0,"1"]]}
@@ -98,4 +98,4 @@ std::unique_ptr<TickEndReader> json_tick_end_reader() {
   return std::make_unique<TickEndJson>();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

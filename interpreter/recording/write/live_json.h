@@ -10,7 +10,7 @@
 #include "live/event_counts.h"
 #include "recording/lines.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // How a line ends that has the whole state. No text in a line has a line end.
 constexpr std::string_view kFullEnd = ",\"full\":true}\n";
@@ -21,4 +21,4 @@ bool is_end_json(std::string_view line);
 std::string counts_json(const EventCounts& counts, std::uint64_t tick);
 std::unique_ptr<TickEndReader> json_tick_end_reader();
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // A packet that is longer than the queue could never be written, so the queue has room for several.
@@ -90,4 +90,4 @@ void Recorder::tell_error() {
   if (options_.on_error) options_.on_error(error());
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 #include "recording/write/append_file.h"
 #include "runtime/observer.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct RecorderOptions {
   std::string path;  // of the recording
@@ -57,4 +57,4 @@ class Recorder final : public Observer {
   bool error_told_ = false;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -12,7 +12,7 @@
 #include "remote/json_lines/hello.h"
 #include "remote/json_lines/program_leaf.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr int kTicks = 20;
@@ -211,4 +211,4 @@ Conformance check_conformance(const std::string& path, const IsolationOptions& o
   return Examiner(path, options).examine();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

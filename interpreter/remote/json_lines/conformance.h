@@ -7,7 +7,7 @@
 
 #include "remote/isolation_options.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct ConformanceStep {
   bool is_good = false;
@@ -22,4 +22,4 @@ struct Conformance {
 
 Conformance check_conformance(const std::string& path, const IsolationOptions& options);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

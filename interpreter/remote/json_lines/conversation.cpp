@@ -9,7 +9,7 @@
 #include "core/wording.h"
 #include "plugin/contract/host.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // After the end of its output, or of its input. Others wait for the thread that listens.
@@ -457,4 +457,4 @@ std::string Conversation::end() {
                      std::min(tenths.count() / 10.0, to_seconds(limit.value_or(waited))));
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

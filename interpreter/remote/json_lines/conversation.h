@@ -20,7 +20,7 @@
 #include "remote/json_lines/reply.h"
 #include "system/mutex.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Conversation {
  public:
@@ -150,4 +150,4 @@ class Conversation {
 // "tick", "halt".
 const char* name_of(Conversation::Asked asked);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -19,7 +19,7 @@
 #include "remote/json_lines/orphans.h"
 #include "system/pipe.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using Given = GuardianDescriptors;
@@ -165,4 +165,4 @@ int guard_program(const std::string& path) {
   return 0;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

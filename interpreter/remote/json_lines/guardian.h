@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-namespace lockstep {
+namespace lockstep::host {
 
 // What the guardian finds under these numbers. 0 and 1 it gives to the program.
 struct GuardianDescriptors {
@@ -35,4 +35,4 @@ struct GuardianOrder {
 bool is_guardian();
 int guard_program(const std::string& path);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

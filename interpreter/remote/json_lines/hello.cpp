@@ -10,7 +10,7 @@
 #include "core/wording.h"
 #include "json/reader.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr const char* kHint = "docs/programs.md has what the first line of a program must be";
@@ -161,4 +161,4 @@ Hold Hello::hold_of(std::string_view id) const {
   return Hold::None;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 #include "remote/json_lines/hold.h"
 #include "remote/owned_descriptors.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 constexpr std::uint64_t kProgramProtocol = 1;
 
@@ -38,4 +38,4 @@ class Hello {
   std::vector<Hold> holds_;  // of each leaf
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

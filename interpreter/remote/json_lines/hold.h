@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace lockstep {
+namespace lockstep::host {
 
 // What happens to a leaf of a program while a synchronized node withholds its ticks.
 enum class Hold : std::uint8_t {
@@ -13,4 +13,4 @@ enum class Hold : std::uint8_t {
   None,
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 
 #include "remote/json_lines/line_input.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 std::string leaves_file_of(const std::string& program) {
   return std::filesystem::path(program).replace_extension(".leaves.json").string();
@@ -32,4 +32,4 @@ bool is_older_than_program(const std::string& program) {
   return !error && written + std::chrono::seconds(2) < changed;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace lockstep {
+namespace lockstep::host {
 
 std::string leaves_file_of(const std::string& program);
 
@@ -15,4 +15,4 @@ std::optional<std::string> read_leaves_file(const std::string& program);
 // The program was changed after its file was written.
 bool is_older_than_program(const std::string& program);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,7 +4,7 @@
 
 #include <cerrno>
 
-namespace lockstep {
+namespace lockstep::host {
 
 LineInput::Filled LineInput::fill(int descriptor) {
   constexpr std::size_t kPart = std::size_t{1} << 14;
@@ -40,4 +40,4 @@ bool LineInput::next(std::string& line) {
   return true;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace lockstep {
+namespace lockstep::host {
 
 class LineInput {
  public:
@@ -29,4 +29,4 @@ class LineInput {
   std::size_t scanned_ = 0;  // no line ends before it
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 
 #include "system/own_thread.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // What comes within this time is written, and read, at once. A tick asks many leaves, and each
@@ -96,4 +96,4 @@ void Listener::listen() {
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

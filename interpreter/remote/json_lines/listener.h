@@ -10,7 +10,7 @@
 #include "system/file_descriptor.h"
 #include "system/mutex.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Listener {
  public:
@@ -37,4 +37,4 @@ class Listener {
   std::thread thread_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

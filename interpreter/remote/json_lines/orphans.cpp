@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr const char* kMark = "LOCKSTEP_GUARDIAN";
@@ -69,4 +69,4 @@ void end_orphans_of(pid_t guardian, pid_t group) {
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

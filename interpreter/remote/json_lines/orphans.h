@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace lockstep {
+namespace lockstep::host {
 
 // From now on, what outlives a guardian becomes a child of this process.
 void take_over_orphans();
@@ -22,4 +22,4 @@ std::vector<pid_t> own_children();
 // In the guardian: its number, for the environment of all that the program starts.
 void mark_own_orphans();
 
-}  // namespace lockstep
+}  // namespace lockstep::host

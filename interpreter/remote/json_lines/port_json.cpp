@@ -8,7 +8,7 @@
 #include "json/json.h"
 #include "plugin/contract/host.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 void append_item(std::string& to, bool item) {
@@ -108,4 +108,4 @@ std::string set_port(const lockstep_caller& caller, std::uint32_t port, JsonValu
   return fmt::format("set '{}', which is not bound to an entry that takes it", it.name);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

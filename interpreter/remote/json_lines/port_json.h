@@ -8,7 +8,7 @@
 #include "json/reader.h"
 #include "lockstep/leaf.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // What the port has now; NoValue when it has none. After a refusal the caller has an error.
 Value port_value(const lockstep_caller& caller, std::uint32_t port);
@@ -19,4 +19,4 @@ void append_json_value(std::string& to, const Value& value);
 // Sets the port to what the program has said. "" or what is wrong with it.
 std::string set_port(const lockstep_caller& caller, std::uint32_t port, JsonValue value);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

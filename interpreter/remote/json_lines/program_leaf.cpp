@@ -7,7 +7,7 @@
 #include "plugin/contract/call_mark.h"
 #include "remote/json_lines/port_json.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using Asked = Conversation::Asked;
@@ -228,4 +228,4 @@ double ProgramLeaf::progress() {
   return conversation_.progress(number_);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

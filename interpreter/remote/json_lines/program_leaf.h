@@ -12,7 +12,7 @@
 #include "remote/json_lines/request.h"
 #include "remote/remote_plugin.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class ProgramLeaf : public RemoteLeaf {
  public:
@@ -56,4 +56,4 @@ class ProgramLeaf : public RemoteLeaf {
   JsonReader reader_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

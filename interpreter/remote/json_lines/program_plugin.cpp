@@ -7,7 +7,7 @@
 #include "remote/json_lines/leaves_file.h"
 #include "remote/json_lines/program_run.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 ProgramPlugin::ProgramPlugin(std::string path, IsolationOptions options)
     : path_(std::move(path)), options_(std::move(options)) {}
@@ -62,4 +62,4 @@ std::unique_ptr<Conversation> ProgramPlugin::acquire(std::string& failure) {
   return nullptr;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

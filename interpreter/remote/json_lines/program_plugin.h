@@ -11,7 +11,7 @@
 #include "remote/remote_plugin.h"
 #include "system/mutex.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class ProgramPlugin final : public RemotePlugin {
  public:
@@ -48,4 +48,4 @@ class ProgramPlugin final : public RemotePlugin {
   std::unique_ptr<Conversation> first_ LOCKSTEP_GUARDED_BY(mutex_);  // until a run takes it
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -15,7 +15,7 @@
 #include "remote/json_lines/orphans.h"
 #include "system/pipe.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr Nanoseconds kPatience = std::chrono::seconds(2);  // for a process that was killed
@@ -145,4 +145,4 @@ std::optional<std::string> ProgramProcess::await_end(std::optional<Nanoseconds> 
   return end_;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -15,7 +15,7 @@
 #include "system/file_descriptor.h"
 #include "system/mutex.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class ProgramProcess {
  public:
@@ -70,4 +70,4 @@ class ProgramProcess {
   bool is_buried_ = false;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 #include "remote/json_lines/listener.h"
 #include "remote/json_lines/program_leaf.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 class ProgramRun final : public RemoteRun {
@@ -115,4 +115,4 @@ std::unique_ptr<RemoteRun> begin_program_run(ProgramPlugin& plugin, const lockst
   return std::make_unique<ProgramRun>(plugin, caller);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,8 +5,8 @@
 
 #include "remote/json_lines/program_plugin.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 std::unique_ptr<RemoteRun> begin_program_run(ProgramPlugin& plugin, const lockstep_caller& caller);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,7 +4,7 @@
 
 #include "core/wording.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 lockstep_status status_of(std::string_view word) {
@@ -86,4 +86,4 @@ std::string read_reply(JsonReader& reader, std::string& line, Reply& reply) {
   return {};
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 #include "json/reader.h"
 #include "lockstep/leaf.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct Reply {
   enum class What : std::uint8_t {
@@ -30,4 +30,4 @@ struct Reply {
 // "" or what is wrong with the line. `reply` may be used again.
 std::string read_reply(JsonReader& reader, std::string& line, Reply& reply);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

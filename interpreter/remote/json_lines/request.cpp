@@ -6,7 +6,7 @@
 #include "plugin/contract/host.h"
 #include "remote/json_lines/port_json.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 Request& Request::begin(std::string_view what, std::uint32_t leaf) {
   ((text_ += R"({"do":")") += what) += R"(","leaf":)";
@@ -72,4 +72,4 @@ Request& Request::unbound(const lockstep_caller& caller) {
   return *this;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -9,7 +9,7 @@
 #include "core/value.h"
 #include "lockstep/leaf.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Request {
  public:
@@ -33,4 +33,4 @@ class Request {
   std::string text_;  // keeps its capacity
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

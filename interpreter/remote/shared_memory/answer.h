@@ -8,7 +8,7 @@
 #include "core/clock.h"
 #include "remote/shared_memory/message.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 enum class Outcome : std::uint8_t { Returned, Threw, TooLarge };
 
@@ -38,4 +38,4 @@ inline bool read_answer(MessageReader& message, Answer& answer) {
   return message.good() && answer.outcome <= Outcome::TooLarge;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -13,7 +13,7 @@
 #include "core/running_time.h"
 #include "system/futex.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x31306b6c6b636f6cu;
@@ -160,4 +160,4 @@ std::optional<std::span<const std::byte>> Channel::received() {
   return copy_;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

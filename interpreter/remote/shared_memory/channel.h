@@ -14,7 +14,7 @@
 #include "core/clock.h"
 #include "remote/shared_memory/log_ring.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Channel {
  public:
@@ -74,4 +74,4 @@ class Channel {
   std::vector<std::byte> copy_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

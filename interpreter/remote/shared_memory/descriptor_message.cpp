@@ -1,6 +1,6 @@
 #include "remote/shared_memory/descriptor_message.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // Both are checked again, against the same limit, by read_descriptors.
@@ -121,4 +121,4 @@ bool ReadDescriptors::read(MessageReader& message, RemoteObjectType::FromText fr
   return message.good();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

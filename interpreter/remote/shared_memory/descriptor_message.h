@@ -13,7 +13,7 @@
 #include "remote/owned_descriptors.h"
 #include "remote/shared_memory/message.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 void write_descriptors(const Descriptors& descriptors, MessageWriter& message);
 
@@ -54,4 +54,4 @@ class ReadDescriptors {
   std::deque<HostedObjectType> hosted_types_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -2,7 +2,7 @@
 
 #include <sys/eventfd.h>
 
-namespace lockstep {
+namespace lockstep::host {
 
 void HostLog::write(std::uint32_t caller, lockstep_log_level level, std::string_view text) {
   if (std::this_thread::get_id() == server_) {
@@ -14,4 +14,4 @@ void HostLog::write(std::uint32_t caller, lockstep_log_level level, std::string_
   eventfd_write(bell_, 1);  // which the host may have missed already
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 
 #include "remote/shared_memory/channel.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class HostLog {
  public:
@@ -24,4 +24,4 @@ class HostLog {
   std::thread::id server_ = std::this_thread::get_id();
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 
 #include "remote/shared_memory/isolated_run.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 std::string words(const Session& session) {
@@ -154,4 +154,4 @@ void IsolatedPlugin::release(std::unique_ptr<Session> session) {
   idle_.push_back(std::move(session));
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

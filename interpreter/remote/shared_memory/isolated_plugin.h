@@ -13,7 +13,7 @@
 #include "remote/shared_memory/session.h"
 #include "system/mutex.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class IsolatedPlugin final : public RemotePlugin {
  public:
@@ -56,4 +56,4 @@ class IsolatedPlugin final : public RemotePlugin {
   std::vector<std::unique_ptr<Session>> idle_ LOCKSTEP_GUARDED_BY(mutex_);
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

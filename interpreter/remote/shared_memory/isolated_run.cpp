@@ -10,7 +10,7 @@
 #include "remote/shared_memory/answer.h"
 #include "remote/shared_memory/remote_entries.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 void fail(const lockstep_caller& caller, const std::string& reason) {
@@ -212,4 +212,4 @@ std::unique_ptr<RemoteRun> begin_isolated_run(IsolatedPlugin& plugin,
   return run->begin() ? std::move(run) : nullptr;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,11 +7,11 @@
 #include "remote/remote_plugin.h"
 #include "remote/shared_memory/isolated_plugin.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Calls create_run in the process. Null after a failure, which is the caller's error.
 std::unique_ptr<RemoteRun> begin_isolated_run(IsolatedPlugin& plugin,
                                               std::unique_ptr<Session> session,
                                               const lockstep_caller& caller);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

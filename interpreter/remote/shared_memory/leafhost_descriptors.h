@@ -2,7 +2,7 @@
 // 2 (our standard error).
 #pragma once
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct LeafhostDescriptors {
   static constexpr int kMemory = 3;
@@ -10,4 +10,4 @@ struct LeafhostDescriptors {
   static constexpr int kParent = 5;  // a pidfd of the host: readable when it has ended
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

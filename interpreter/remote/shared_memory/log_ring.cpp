@@ -6,7 +6,7 @@
 #include "core/utf8.h"
 #include "plugin/contract/host.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 struct Head {
@@ -67,4 +67,4 @@ void LogRingReader::drain(const Line& line, std::size_t most) {
   ring_.read.store(read_, std::memory_order_release);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -13,7 +13,7 @@
 #include "lockstep/leaf.h"
 #include "system/mutex.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // As it lies in shared memory; all zero is empty.
 struct LogRing {
@@ -52,4 +52,4 @@ class LogRingReader {
   std::string text_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 
 #include "plugin/contract/held.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 void MessageWriter::append(const void* data, std::size_t size) {
   const auto* first = static_cast<const std::byte*>(data);
@@ -158,4 +158,4 @@ bool MessageReader::value_into(Value& value, const PackedType* objects) {
   return read_alternative(ValueReader(*this, objects), index, value, kAll) || fail();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -13,7 +13,7 @@
 #include "core/value.h"
 #include "plugin/contract/packed_object.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class MessageWriter {
  public:
@@ -62,4 +62,4 @@ class MessageReader {
   bool good_ = true;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

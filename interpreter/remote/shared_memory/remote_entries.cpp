@@ -4,7 +4,7 @@
 
 #include "blackboard/conversion.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // Objects of this process are sent as bytes. Returns "" or why that failed; no value is sent then.
@@ -114,4 +114,4 @@ void RemoteEntries::forget() {
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

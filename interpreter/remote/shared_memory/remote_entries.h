@@ -13,7 +13,7 @@
 #include "plugin/contract/host.h"
 #include "remote/shared_memory/message.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class RemoteEntries {
  public:
@@ -33,7 +33,7 @@ class RemoteEntries {
  private:
   struct Entry {
     const Value* read;
-    lockstep::Entry* write;  // null: the other side may not set it
+    lockstep::host::Entry* write;  // null: the other side may not set it
     ValueType type;
     const PackedType* objects;  // null: its values are none
     const ObjectType* object;
@@ -47,4 +47,4 @@ class RemoteEntries {
   std::map<std::pair<const Value*, ValueType>, std::uint32_t> numbers_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -18,7 +18,7 @@
 #include "remote/shared_memory/served_run.h"
 #include "system/own_thread.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // A number that the plugin will not reuse for a file after it has closed all unknown descriptors.
@@ -179,4 +179,4 @@ int ServedPlugin::serve(const std::string& path) {
   return 0;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Serves the plugin in `path` over the LeafhostDescriptors until the host ends it; the
 // process's exit code. Nothing when this process was not started by a host.
@@ -13,4 +13,4 @@ struct ServedPlugin {
   static int serve(const std::string& path);
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

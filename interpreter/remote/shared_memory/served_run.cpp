@@ -10,7 +10,7 @@
 #include "remote/shared_memory/channel.h"
 #include "remote/shared_memory/remote_entries.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::uint32_t kMostEntries = std::uint32_t{1} << 24;
@@ -233,4 +233,4 @@ bool ServedRun::answer(PluginFunction function, MessageReader& request, MessageW
   return true;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -17,7 +17,7 @@
 #include "remote/shared_memory/host_log.h"
 #include "remote/shared_memory/message.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class ServedRun {
  public:
@@ -67,4 +67,4 @@ class ServedRun {
   std::vector<Entry*> written_;  // in this call
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 #include "remote/shared_memory/leafhost_descriptors.h"
 #include "system/own_thread.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr Nanoseconds kPatience = std::chrono::seconds(2);  // for a killed process to be gone
@@ -195,4 +195,4 @@ void Session::end() {
   await_end(limit());  // after that the destructor sees to it
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -20,7 +20,7 @@
 #include "system/file_descriptor.h"
 #include "system/mutex.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class Session {
  public:
@@ -97,4 +97,4 @@ class Session {
   std::vector<const lockstep_caller*> listeners_ LOCKSTEP_GUARDED_BY(listeners_mutex_);
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

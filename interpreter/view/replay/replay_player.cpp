@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 bool is_digit(Key key) {
@@ -125,4 +125,4 @@ std::optional<double> ReplayPlayer::wait() const {
   return std::max(0.0, (timeline_.next_time() - position_) / speed_);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 #include "recording/read/recording_timeline.h"
 #include "terminal/keys.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class ReplayPlayer {
  public:
@@ -50,4 +50,4 @@ class ReplayPlayer {
   std::string notice_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

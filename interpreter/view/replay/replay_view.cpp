@@ -8,7 +8,7 @@
 #include "terminal/text_line.h"
 #include "view/lines_below.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr unsigned kStatusLines = 2;
@@ -135,4 +135,4 @@ std::string draw_replay(const TreeShape& shape, const Snapshot& snapshot,
   return draw(shape, snapshot, above) + status.text() + "\n" + keys.text() + "\n";
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

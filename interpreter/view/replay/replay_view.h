@@ -5,7 +5,7 @@
 #include "view/replay/replay_player.h"
 #include "view/tree_view.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // `end`: of the run, when it ended with this tick; else null.
 Snapshot snapshot_of(const RecordingHeader& header, const TreeShape& shape, const Moment& moment,
@@ -20,4 +20,4 @@ std::string draw_moment(const RecordingHeader& header, const TreeShape& shape,
 std::string draw_replay(const TreeShape& shape, const Snapshot& snapshot,
                         const ReplayPlayer& player, const DrawOptions& options);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -16,7 +16,7 @@
 #include "abi/support/plugins.h"
 #include "runtime/run.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 namespace fs = std::filesystem;
 using Strings = std::vector<std::string>;
@@ -175,4 +175,4 @@ enum EchoPort : std::size_t {
   kNumberOut
 };
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -9,7 +9,7 @@
 #include "loading/plugin_set.h"
 #include "support/paths.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 inline std::string plugin_path(const std::string& name) {
   return std::string(LOCKSTEP_ABI_PLUGINS) + "/" + name + ".so";
@@ -62,4 +62,4 @@ inline Tree tree_of(const NodeType& leaf, std::int64_t ticks) {
   return tree;
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-using namespace lockstep;
+using namespace lockstep::host;
 
 namespace {
 

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-using namespace lockstep;
+using namespace lockstep::host;
 
 TEST_CASE("virtual time passes only by sleeping, and goes straight to the deadline") {
   VirtualClock clock;

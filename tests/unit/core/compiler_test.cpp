@@ -4,7 +4,7 @@
 #include <optional>
 #include <stdexcept>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 struct Large {
@@ -55,4 +55,4 @@ TEST_CASE("compiler: what a call that throws would have assigned keeps its value
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-using namespace lockstep;
+using namespace lockstep::host;
 
 namespace {
 

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 using namespace std::chrono_literals;
 
@@ -42,4 +42,4 @@ TEST_CASE("when the time is over everybody has a moment, and who used it up is n
         "program 'grip'");
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -7,7 +7,7 @@
 
 #include "core/random.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 Nanoseconds exact_quantile(std::vector<Nanoseconds> values, double fraction) {
@@ -68,4 +68,4 @@ TEST_CASE("the histogram counts durations by their binary digits") {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

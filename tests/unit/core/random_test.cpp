@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-using namespace lockstep;
+using namespace lockstep::host;
 
 TEST_CASE("a seed and a stream give the same numbers on every machine") {
   RandomStream stream(7, 3);

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -27,4 +27,4 @@ TEST_CASE("a limit is looked at eight times, every 0.1 s at least and every 0.01
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

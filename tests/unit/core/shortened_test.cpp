@@ -5,7 +5,7 @@
 
 #include "core/plugin_exception.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 std::string shortened(const std::string& text) {
@@ -58,4 +58,4 @@ TEST_CASE("an exception that was put into words says the same wherever it is cau
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-using namespace lockstep;
+using namespace lockstep::host;
 
 TEST_CASE("the nearest word is one that a typing error could have come from") {
   constexpr std::array<std::string_view, 6> kWords = {"Sequence",         "Fallback", "Parallel",

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <string>
 
-using namespace lockstep;
+using namespace lockstep::host;
 
 namespace {
 

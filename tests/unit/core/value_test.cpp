@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-using namespace lockstep;
+using namespace lockstep::host;
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-using namespace lockstep;
+using namespace lockstep::host;
 
 TEST_CASE("a name has at most 256 letters in a message") {
   CHECK(brief("arm") == "arm");

@@ -12,7 +12,7 @@
 #include "engine/node_kind.h"
 #include "unit/document/told.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 using Strings = std::vector<std::string>;
@@ -197,4 +197,4 @@ TEST_CASE("every parameter of a built-in node takes the ends of its range and no
   CHECK(ends >= 15);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 std::string schema_of(const Parameter& parameter) {
@@ -61,4 +61,4 @@ TEST_CASE("ranges and choices") {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

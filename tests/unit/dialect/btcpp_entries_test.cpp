@@ -8,7 +8,7 @@
 #include "engine/node_kind.h"
 #include "unit/document/told.h"
 
-using namespace lockstep;
+using namespace lockstep::host;
 
 namespace {
 

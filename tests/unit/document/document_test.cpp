@@ -4,7 +4,7 @@
 
 #include "unit/document/told.h"
 
-using namespace lockstep;
+using namespace lockstep::host;
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include "unit/document/temporary_directory.h"
 #include "unit/document/told.h"
 
-using namespace lockstep;
+using namespace lockstep::host;
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include "unit/document/temporary_directory.h"
 #include "unit/document/told.h"
 
-using namespace lockstep;
+using namespace lockstep::host;
 
 namespace {
 
@@ -25,8 +25,8 @@ class Files {
     project_ = load_project(directory_ / name, arguments, diagnostics_);
   }
 
-  Lines told() const { return shorten(lockstep::told(diagnostics_)); }
-  Lines hints() const { return shorten(lockstep::hints(diagnostics_)); }
+  Lines told() const { return shorten(lockstep::host::told(diagnostics_)); }
+  Lines hints() const { return shorten(lockstep::host::hints(diagnostics_)); }
   Lines paths() const {
     Lines lines;
     for (const auto& source : project_->sources.all()) lines.push_back(source->path());

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace lockstep {
+namespace lockstep::host {
 
 class TemporaryDirectory {
  public:
@@ -37,4 +37,4 @@ class TemporaryDirectory {
   std::filesystem::path path_;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 
 #include "core/diagnostics.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // "file:line:column: message", as in a rendered diagnostic, sorted.
 inline std::vector<std::string> told(Diagnostics diagnostics) {
@@ -33,4 +33,4 @@ inline std::vector<std::string> hints(Diagnostics diagnostics) {
   return list;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

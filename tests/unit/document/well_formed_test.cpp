@@ -5,7 +5,7 @@
 #include "document/document.h"
 #include "unit/document/told.h"
 
-using namespace lockstep;
+using namespace lockstep::host;
 using namespace std::string_literals;
 
 namespace {

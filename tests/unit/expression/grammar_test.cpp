@@ -5,8 +5,8 @@
 #include "expression/expression.h"
 #include "support/script_board.h"
 
-using namespace lockstep;
-using namespace lockstep::test;
+using namespace lockstep::host;
+using namespace lockstep::host::test;
 
 namespace {
 

@@ -7,8 +7,8 @@
 #include "support/paths.h"
 #include "support/script_board.h"
 
-using namespace lockstep;
-using namespace lockstep::test;
+using namespace lockstep::host;
+using namespace lockstep::host::test;
 
 namespace {
 

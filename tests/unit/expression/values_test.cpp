@@ -6,8 +6,8 @@
 #include "blackboard/conversion.h"
 #include "support/script_board.h"
 
-using namespace lockstep;
-using namespace lockstep::test;
+using namespace lockstep::host;
+using namespace lockstep::host::test;
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include "runtime/run.h"
 #include "support/tree_text.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr auto kPeriod = std::chrono::milliseconds(100);
@@ -167,4 +167,4 @@ TEST_CASE("a request that makes no sense changes nothing") {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 
 #include "groot/statuses.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using namespace std::string_literals;
@@ -85,4 +85,4 @@ TEST_CASE("a recording has the last changes, each with its time since it was sta
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 
 #include "core/diagnostics.h"
 
-using namespace lockstep;
+using namespace lockstep::host;
 using Other = nlohmann::ordered_json;
 
 namespace {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // "" or why the object is refused when these fields are read from it.
@@ -173,4 +173,4 @@ TEST_CASE("values that nest deeper than any that is written are refused, however
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -14,7 +14,7 @@
 #include "recording/write/recorder.h"
 #include "unit/recording/watched_run.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 bool contains(const std::string& text, const std::string& part) {
@@ -253,4 +253,4 @@ TEST_CASE("on a virtual clock a tick waits for the one who takes lines, and none
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 #include "recording/write/json_lines.h"
 #include "web/server_sent.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 bool contains(const std::string& text, const std::string& part) {
@@ -126,4 +126,4 @@ TEST_CASE("the log has bounded size and begins with a line that has the whole st
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 
 #include "recording/write/json_lines.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // A packet, what it points to, and what it says.
@@ -174,4 +174,4 @@ TEST_CASE("what was written over by others ends the printing") {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

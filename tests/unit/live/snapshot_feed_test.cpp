@@ -13,7 +13,7 @@
 #include "view/console_live.h"
 #include "view/replay/replay_view.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using test::TemporaryPath;
@@ -265,4 +265,4 @@ TEST_CASE("the live view shows entries below the tree") {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

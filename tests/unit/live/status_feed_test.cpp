@@ -5,7 +5,7 @@
 
 #include "unit/recording/watched_run.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using test::WatchedRun;
@@ -48,4 +48,4 @@ TEST_CASE("the statuses that were passed on are those of the run") {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

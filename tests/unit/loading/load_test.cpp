@@ -8,7 +8,7 @@
 #include "unit/document/temporary_directory.h"
 #include "unit/document/told.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 constexpr auto kGood = R"(<root lockstep="1">
@@ -164,4 +164,4 @@ TEST_CASE("load: trees share the plugins that they are given") {
   CHECK(first.plugins->list().size() == 1);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -4,7 +4,7 @@
 
 #include "support/scripted_run.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // Ticks until the root completes, at 10 Hz. "Fallback: failure 2/2 > b: failure"
@@ -59,4 +59,4 @@ TEST_CASE("what decided: decorators pass a result on, turn it around, or decide 
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

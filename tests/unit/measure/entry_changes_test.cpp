@@ -6,7 +6,7 @@
 
 #include "support/tree_text.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // Two entries that are read by nodes: 0 is 'pause', 1 is 'plan'.
@@ -75,4 +75,4 @@ TEST_CASE("entries: a value of more than 256 bytes is only named, each time it i
   CHECK(text_of(changes.changes(it.board)) == "1=(too long)");
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

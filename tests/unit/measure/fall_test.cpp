@@ -5,7 +5,7 @@
 #include "measure/synchronized_measure.h"
 #include "support/scripted_run.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 std::string text(const std::optional<FallWatch::Fall>& fall) {
@@ -50,4 +50,4 @@ TEST_CASE("a rise while it is held is noted, one while it is ticked is none") {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -10,7 +10,7 @@
 #include "support/paths.h"
 #include "support/scripted_run.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // One measure of a run at 10 Hz, until the root completes or for so many ticks; of the first node
@@ -326,4 +326,4 @@ TEST_CASE("docs/studies.md has the table of the measures") {
   CHECK(docs.find("\n" + table + "\n") != std::string::npos);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

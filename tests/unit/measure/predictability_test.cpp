@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 double nearest(double target, const std::vector<double>& progress) {
@@ -69,4 +69,4 @@ TEST_CASE("the predictability of a run, tick by tick") {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

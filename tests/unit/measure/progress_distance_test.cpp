@@ -10,7 +10,7 @@
 #include "measure/spread.h"
 #include "measure/step_length.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 double distance(std::vector<double> progress) {
@@ -177,4 +177,4 @@ TEST_CASE("a fall of progress is a step") {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 
 #include "support/scripted_run.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // Ticks at 10 Hz and writes down who was reported, at which tick and since when.
@@ -145,4 +145,4 @@ TEST_CASE("a long task of an owner that keeps is no standstill") {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 #include "engine/synchronized.h"
 #include "support/scripted_run.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using test::ScriptedRun;
@@ -147,4 +147,4 @@ TEST_CASE("a new activation is measured on, without a step back to zero") {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -4,7 +4,7 @@
 
 #include "support/scripted_run.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // "r: b waits for a; pool: c waits for b; circle". A member is called by its child.
@@ -143,4 +143,4 @@ TEST_CASE("who is not held waits for nobody") {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -12,7 +12,7 @@
 #include "plots/plot_style.h"
 #include "plots/progress_plot.h"
 
-using namespace lockstep;
+using namespace lockstep::host;
 namespace fs = std::filesystem;
 
 namespace {

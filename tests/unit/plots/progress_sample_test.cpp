@@ -5,7 +5,7 @@
 
 #include "plots/progress_sample.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 ProgressSample sample(double time, double progress, bool held = false) {
@@ -126,4 +126,4 @@ TEST_CASE("times that go back or stand still are thinned too") {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

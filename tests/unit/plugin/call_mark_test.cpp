@@ -8,7 +8,7 @@
 #include "plugin/contract/leaf_set.h"
 #include "unit/plugin/probe_plugin.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 TEST_CASE("functions are called as the contract spells them") {
@@ -101,4 +101,4 @@ TEST_CASE("creating and destroying are marked, with a watch and without") {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

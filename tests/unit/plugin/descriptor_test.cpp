@@ -10,7 +10,7 @@
 
 #include "unit/plugin/lab_plugin.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 using Strings = std::vector<std::string>;
@@ -146,4 +146,4 @@ TEST_CASE("of a struct that is shorter than ours only what is there is read") {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

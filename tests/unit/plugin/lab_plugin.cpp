@@ -1,6 +1,6 @@
 #include "unit/plugin/lab_plugin.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 void* create(const lockstep_host* host, const lockstep_caller* caller, void* context) {
@@ -133,4 +133,4 @@ Tree lab_tree(const NodeType& type, std::uint32_t leaves) {
   return tree;
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

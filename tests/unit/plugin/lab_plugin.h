@@ -9,7 +9,7 @@
 #include "loading/plugin_set.h"
 #include "lockstep/leaf.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 // What the plugin has seen on this thread.
 struct Lab {
@@ -32,4 +32,4 @@ const lockstep_plugin& lab_plugin();
 // 'flag' to a constant true, 'limit' to the constant 0.5, 'result' to nothing.
 Tree lab_tree(const NodeType& type, std::uint32_t leaves);
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

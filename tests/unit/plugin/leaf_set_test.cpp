@@ -8,7 +8,7 @@
 #include "core/random.h"
 #include "unit/plugin/lab_plugin.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 using Strings = std::vector<std::string>;
@@ -273,4 +273,4 @@ TEST_CASE("runs of one plugin live on several threads") {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

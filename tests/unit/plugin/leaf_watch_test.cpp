@@ -12,7 +12,7 @@
 #include "runtime/run.h"
 #include "unit/plugin/probe_plugin.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -342,4 +342,4 @@ TEST_CASE("calls are not timed when there is no budget") {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -6,7 +6,7 @@
 #include "plugin/contract/leaf_set.h"
 #include "unit/plugin/lab_plugin.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 const lockstep_host& host = host_table();
@@ -126,4 +126,4 @@ TEST_CASE("a leaf writes entries as their type says, and gives them one") {
   CHECK(open.entry(3).writes == 1);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -10,7 +10,7 @@
 #include "core/object.h"
 #include "plugin/contract/call_mark.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 std::string g_seen;  // the function that the thread was marked to be in
@@ -110,4 +110,4 @@ TEST_CASE("object type: a declaration from before to_bytes has none") {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -4,7 +4,7 @@
 
 #include "engine/nodes/kinds.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 template <PluginFunction kFunction>
@@ -98,4 +98,4 @@ void ProbeTree::add_leaf(const NodeType& type) {
   tree_.labels.push_back({name, &type, 0});
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -10,7 +10,7 @@
 #include "lockstep/leaf.h"
 #include "plugin/contract/call_mark.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 // Called in every function of the plugin, with its leaf (or run context). On this thread.
 inline thread_local std::function<void(PluginFunction function, void* self)> on_probe_call;
@@ -30,4 +30,4 @@ class ProbeTree {
   Tree tree_;
 };
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

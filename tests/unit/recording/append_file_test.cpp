@@ -10,7 +10,7 @@
 
 #include "unit/recording/blocked_disk.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using test::BlockedDisk;
@@ -207,4 +207,4 @@ TEST_CASE("a crash handler does not interfere with a thread that is stuck in a w
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 
 #include "unit/recording/watched_run.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 class BlockedDisk {
  public:
@@ -65,4 +65,4 @@ class BlockedDisk {
   std::string text_;
 };
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -18,7 +18,7 @@
 #include "recording/write/json_lines.h"
 #include "support/paths.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using lines::Field;
@@ -337,4 +337,4 @@ TEST_CASE("recording/lines.h: the reader checks each key of the table") {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

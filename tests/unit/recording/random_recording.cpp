@@ -6,7 +6,7 @@
 
 #include "recording/write/json_lines.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 std::size_t below(std::mt19937& random, std::size_t limit) {
@@ -139,4 +139,4 @@ RecordedState other_state(std::mt19937& random, const RecordedState& state) {
   return other;
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -7,7 +7,7 @@
 
 #include "recording/read/recording_timeline.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 struct RandomRecording {
   RecordingHeader header;
@@ -28,4 +28,4 @@ RandomRecording random_recording(std::mt19937& random, const RandomRecordingOpti
 // The same but for one of its members.
 RecordedState other_state(std::mt19937& random, const RecordedState& state);
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

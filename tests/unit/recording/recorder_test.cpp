@@ -7,7 +7,7 @@
 #include "recording/read/recording_reader.h"
 #include "unit/recording/blocked_disk.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using test::BlockedDisk;
@@ -180,4 +180,4 @@ TEST_CASE("a message that is longer than the queue loses its tick, not the recor
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

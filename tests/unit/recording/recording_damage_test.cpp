@@ -8,7 +8,7 @@
 
 #include "recording/read/recording_timeline.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using Json = nlohmann::json;
@@ -249,4 +249,4 @@ TEST_CASE("what remains of a recording that is cut anywhere is read exactly") {
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

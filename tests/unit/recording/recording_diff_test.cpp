@@ -5,7 +5,7 @@
 #include "recording/use/recording_diff.h"
 #include "unit/recording/random_recording.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using test::random_recording;
@@ -173,4 +173,4 @@ TEST_CASE("a recording that ends before another differs from it there") {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

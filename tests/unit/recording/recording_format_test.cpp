@@ -11,7 +11,7 @@
 #include "recording/write/recorder.h"
 #include "unit/recording/watched_run.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using test::TemporaryPath;
@@ -91,4 +91,4 @@ TEST_CASE("a format writes the nodes of a tick in as many parts as its room need
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -12,7 +12,7 @@
 #include "study/run_measures.h"
 #include "unit/recording/watched_run.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using test::TemporaryPath;
@@ -211,4 +211,4 @@ TEST_CASE("a recording tells of a node that has succeeded and was ended in the s
   CHECK(file.text().find("],\"succeeded\":[2]}\n{\"end\"") != std::string::npos);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 
 #include "recording/read/recording_reader.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 const std::string kNodes =
@@ -223,4 +223,4 @@ TEST_CASE("a line that is too long is refused before it is kept") {
       error_of_line(std::string(10 * kHeader.size(), 'x')).starts_with("r:2: the line is longer"));
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 #include "recording/write/recorder.h"
 #include "unit/recording/watched_run.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using test::TemporaryPath;
@@ -380,4 +380,4 @@ TEST_CASE("a recording has its last ticks when it is looked at after the run") {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

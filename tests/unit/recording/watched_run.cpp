@@ -6,7 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 RunEnd WatchedRun::watch(std::initializer_list<Observer*> observers, std::uint64_t max_ticks) {
   Ticker& ticker = run.ticker();
@@ -59,4 +59,4 @@ std::string TemporaryPath::text() const {
   return text.str();
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -10,7 +10,7 @@
 #include "runtime/outlet.h"
 #include "support/scripted_run.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 struct WatchedRun {
   WatchedRun(std::string_view tree, std::string_view leaves) : run(tree, leaves) {}
@@ -56,4 +56,4 @@ class TemporaryPath {
   std::string folder_, path_;
 };
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -6,7 +6,7 @@
 
 #include "support/scripted_run.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 using When = Breakpoint::When;
@@ -57,4 +57,4 @@ TEST_CASE("a breakpoint that was removed is not reached") {
   CHECK_FALSE(breakpoints.reached(run.ticker()));
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

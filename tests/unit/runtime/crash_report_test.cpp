@@ -19,7 +19,7 @@
 #include "system/own_thread.h"
 #include "unit/runtime/forked_child.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 constexpr int kCrashed = 42;
@@ -317,4 +317,4 @@ TEST_CASE("a fatal signal from another process is told as such") {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

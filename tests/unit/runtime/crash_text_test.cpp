@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 #include <string>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 const CallSite& kLeaf = CallSite::of({.path = "Main/arm", .id = "Advance", .plugin = "motion"});
@@ -138,4 +138,4 @@ TEST_CASE("a text that is too long is cut") {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -6,7 +6,7 @@
 #include <array>
 #include <stdexcept>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 Ended in_child(const std::function<void()>& body) {
   std::array<int, 2> ends{};
@@ -35,4 +35,4 @@ Ended in_child(const std::function<void()>& body) {
   return ended;
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

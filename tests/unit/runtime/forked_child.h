@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 struct Ended {
   int exit_code = -1;  // -1: not by exit
@@ -16,4 +16,4 @@ struct Ended {
 // ends with the exit code 0.
 Ended in_child(const std::function<void()>& body);
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

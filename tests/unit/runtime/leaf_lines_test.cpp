@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 TEST_CASE("logs: lines wait until a line of the file has them, what has no room is counted") {
   LeafLines lines;
@@ -24,4 +24,4 @@ TEST_CASE("logs: lines wait until a line of the file has them, what has no room 
   CHECK(lines.lines().size() == 1);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

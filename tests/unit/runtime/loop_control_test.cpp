@@ -7,7 +7,7 @@
 #include "support/tree_text.h"
 #include "unit/runtime/timed_leaf.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 using Order = RunControl::Order;
@@ -178,4 +178,4 @@ TEST_CASE("steps that are ordered together add up") {
   CHECK(ticks == std::vector<std::size_t>{0, 3, 3});
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -14,7 +14,7 @@
 #include "unit/runtime/forked_child.h"
 #include "unit/runtime/timed_leaf.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 using std::chrono::microseconds;
@@ -353,4 +353,4 @@ TEST_CASE("an exception in another thread of ours ends the run at its next tick"
   CHECK(ended.exit_code == 42);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

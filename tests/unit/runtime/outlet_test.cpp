@@ -14,7 +14,7 @@
 
 #include "system/descriptors.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr int kPage = 4096;
@@ -205,4 +205,4 @@ TEST_CASE("write_now never waits") {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

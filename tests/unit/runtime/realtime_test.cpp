@@ -12,7 +12,7 @@
 #include <fstream>
 #include <functional>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // Their mlockall does nothing: the shadow memory would be locked too.
@@ -183,4 +183,4 @@ TEST_CASE("a cpu that is not there or not allowed is refused with those that are
           "cpu " + std::to_string(cpu - 1) + " is not allowed for this process\n" + hint);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -5,7 +5,7 @@
 
 #include "unit/plugin/lab_plugin.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 const lockstep_host& host = host_table();
@@ -38,4 +38,4 @@ TEST_CASE("a run begun anew is as a new one, whatever the one before it left") {
   CHECK(run.fault() == nullptr);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

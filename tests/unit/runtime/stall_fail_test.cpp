@@ -4,7 +4,7 @@
 
 #include "support/scripted_run.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // Ticks at 10 Hz and writes down which node fails in which tick, and the status of the root at the
@@ -116,4 +116,4 @@ TEST_CASE("a node that is held itself has time until it gets ticks again") {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

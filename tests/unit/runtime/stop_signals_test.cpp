@@ -9,7 +9,7 @@
 #include "system/fork_guard.h"
 #include "unit/runtime/forked_child.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 void last_words() {
@@ -81,4 +81,4 @@ TEST_CASE("stop signals: they end a child that a plugin forks off") {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

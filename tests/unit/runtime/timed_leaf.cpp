@@ -4,7 +4,7 @@
 
 #include "engine/compile.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 thread_local std::uint32_t created = 0;
@@ -99,4 +99,4 @@ TimedLeaves::TimedLeaves(std::uint32_t leaves) {
   tree = compile(definition);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

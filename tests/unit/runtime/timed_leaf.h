@@ -8,7 +8,7 @@
 #include "engine/tree.h"
 #include "loading/plugin_set.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 struct TimedLeaves {
   // `leaves` of them under a Parallel.
@@ -25,4 +25,4 @@ struct TimedLeaves {
   Tree tree;
 };
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -12,7 +12,7 @@
 #include "runtime/stop_signals.h"
 #include "unit/runtime/forked_child.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -113,4 +113,4 @@ TEST_CASE("the thread that starts a watchdog keeps its signal mask") {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

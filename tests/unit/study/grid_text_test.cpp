@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using Texts = std::vector<std::string>;
@@ -82,4 +82,4 @@ TEST_CASE("a grid that is none is refused") {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 #include "core/random.h"
 #include "study/distributions.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr int kRepeats = 1000;
@@ -164,4 +164,4 @@ TEST_CASE("intervals: not as many of Wilson's do") {
   CHECK(coverages(of_count, 0.001, 0.999).low == Approx(0.86).margin(5e-3));
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

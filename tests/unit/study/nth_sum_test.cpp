@@ -8,7 +8,7 @@
 
 #include "core/random.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using Values = std::vector<double>;
@@ -68,4 +68,4 @@ TEST_CASE("nth sum: of 10^10 sums without a list of them") {
   CHECK(nth_own_sum(x, 5'000'050'000 - 1) == 199'998);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

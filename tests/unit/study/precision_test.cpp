@@ -8,7 +8,7 @@
 #include "core/random.h"
 #include "study/row_sequence.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr Precision kTenPercent{10, true};
@@ -130,4 +130,4 @@ TEST_CASE("precision: looking more than once costs little of the intervals' 95 %
   CHECK(contained < 0.97 * kRepeats);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

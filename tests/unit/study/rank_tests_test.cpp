@@ -8,7 +8,7 @@
 
 #include "core/random.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using Values = std::vector<double>;
@@ -130,4 +130,4 @@ TEST_CASE("rank tests: Holm multiplies by how many are left, and keeps the order
   CHECK(holm(Values{0.6, 0.7})[0] == 1);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 TEST_CASE("quartiles are the medians of the halves") {
@@ -33,4 +33,4 @@ TEST_CASE("quartiles of few values") {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 #include "core/random.h"
 #include "study/rank_tests.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using Values = std::vector<double>;
@@ -229,4 +229,4 @@ TEST_CASE("shifts: of 20,000 runs with 20,000, without a list of their differenc
   CHECK(shift.interval->high == Approx(50 + width).epsilon(0.02));
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 #include "engine/synchronized.h"
 #include "unit/recording/watched_run.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using test::WatchedRun;
@@ -307,4 +307,4 @@ TEST_CASE("the summary as JSON") {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

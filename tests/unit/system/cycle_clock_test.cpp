@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 // The thread may lose the processor between two readings, so one try of many must agree.
 TEST_CASE("the clock for short durations agrees with the system's to a hundredth") {
@@ -31,4 +31,4 @@ TEST_CASE("the clock for short durations never goes back") {
   }
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

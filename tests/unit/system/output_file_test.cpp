@@ -13,7 +13,7 @@
 
 #include "system/descriptors.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 namespace fs = std::filesystem;
@@ -161,4 +161,4 @@ TEST_CASE("the same file under many names") {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 TEST_CASE("a list of processors is read, and shown in its shortest form") {
   const auto shown = [](std::string_view text) {
@@ -20,4 +20,4 @@ TEST_CASE("a list of processors is read, and shown in its shortest form") {
   }
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

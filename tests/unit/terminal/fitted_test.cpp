@@ -4,7 +4,7 @@
 
 #include "terminal/text_table.h"
 
-using namespace lockstep;
+using namespace lockstep::host;
 
 TEST_CASE("a line that is too long goes on below, further to the right") {
   CHECK(fitted("one two three\n", 13) == "one two three\n");

@@ -11,7 +11,7 @@
 
 #include "system/own_thread.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 void end_with_last_words(int) {
@@ -101,4 +101,4 @@ TEST_CASE("raw terminal: a program that is continued and ends leaves the termina
   close(master);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -5,7 +5,7 @@
 #include "view/console_live.h"
 #include "view/console_plain.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using test::TextFile;
@@ -213,4 +213,4 @@ TEST_CASE("a live view that is given up restores the cursor") {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 #include "unit/recording/watched_run.h"
 #include "view/replay/replay_view.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 std::ostream& operator<<(std::ostream& out, const Moment& moment) {
   return out << "tick " << moment.tick << " (number " << moment.number << ")";
@@ -341,4 +341,4 @@ TEST_CASE("below the tree: where the replay is, what is missing, which keys ther
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,7 +7,7 @@
 #include "view/tree_browser.h"
 #include "view/tree_view.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using test::tree_from_text;
@@ -209,4 +209,4 @@ TEST_CASE("while there is a cursor a view says where it is, and which keys there
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

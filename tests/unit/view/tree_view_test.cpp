@@ -8,13 +8,13 @@
 #include "support/tree_text.h"
 #include "terminal/text_line.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 using test::tree_from_text;
 
 std::string draw(const Tree& tree, const Snapshot& now, const DrawOptions& options) {
-  return lockstep::draw(shape_of(tree), now, options);
+  return lockstep::host::draw(shape_of(tree), now, options);
 }
 
 Snapshot snapshot(std::vector<NodeView> nodes) {
@@ -222,4 +222,4 @@ TEST_CASE("a line is not much longer than its columns, whatever marks a name has
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::host

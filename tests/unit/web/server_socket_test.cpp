@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lockstep {
+namespace lockstep::host {
 
 TEST_CASE("an address that was looked up has numbers, and keeps its name") {
   CHECK(resolve("127.0.0.1:8080").value() == "127.0.0.1:8080 127.0.0.1");
@@ -22,4 +22,4 @@ TEST_CASE("who must not wait for a name server takes no name") {
   CHECK_FALSE(listen_on_resolved("localhost:0 localhost"));
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -14,7 +14,7 @@
 #include "system/output_file.h"
 #include "terminal/fitted.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 struct LogOptions {
@@ -103,4 +103,4 @@ const Command kLogCommand{"log", "Read recordings of `lockstep run --record`",
                           "  lockstep log diff run.jsonl again.jsonl",
                           define_log};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -13,7 +13,7 @@ namespace CLI {
 class App;
 }
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Adds the argument that names the recording.
 void add_recording_file(CLI::App& app, std::string& file);
@@ -46,4 +46,4 @@ LogSubcommand define_log_plot(CLI::App& log);
 LogSubcommand define_log_diff(CLI::App& log);
 LogSubcommand define_log_page(CLI::App& log);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -10,7 +10,7 @@
 #include "cli/tools/log/log.h"
 #include "recording/use/recording_diff.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 struct LogDiffOptions {
@@ -86,4 +86,4 @@ LogSubcommand define_log_diff(CLI::App& log) {
   return {app, [options] { return diff(*options); }};
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

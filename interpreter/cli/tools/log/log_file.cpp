@@ -12,7 +12,7 @@
 #include "cli/exit_code.h"
 #include "cli/tools/log/log.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 void add_recording_file(CLI::App& app, std::string& file) {
   app.add_option("file", file, "The recording; - is stdin")->type_name("FILE.jsonl")->required();
@@ -66,4 +66,4 @@ int write_results_of(const RecordingReader& reader, std::string_view text) {
   return first_failure(report_end(reader), written);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

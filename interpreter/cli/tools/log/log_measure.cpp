@@ -10,7 +10,7 @@
 #include "measure/measure_spec.h"
 #include "recording/use/recording_measures.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 struct LogMeasureOptions {
@@ -59,4 +59,4 @@ LogSubcommand define_log_measure(CLI::App& log) {
   return {app, [options] { return measure(*options); }};
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -13,7 +13,7 @@
 #include "system/output_file.h"
 #include "web/page.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 struct LogPageOptions {
@@ -63,4 +63,4 @@ LogSubcommand define_log_page(CLI::App& log) {
   return {app, [options] { return page(*options); }};
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

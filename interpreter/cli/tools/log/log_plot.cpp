@@ -18,7 +18,7 @@
 #include "recording/use/recorded_probe.h"
 #include "runtime/stop_signals.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 struct LogPlotOptions {
@@ -133,4 +133,4 @@ LogSubcommand define_log_plot(CLI::App& log) {
   return {app, [options] { return plot(*options); }};
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

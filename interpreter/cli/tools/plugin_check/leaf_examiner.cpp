@@ -18,7 +18,7 @@
 #include "runtime/progress_text.h"
 #include "runtime/run.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr int kTicks = 20;
@@ -305,4 +305,4 @@ void examine_leaf(const NodeType& type, const std::shared_ptr<PluginSet>& plugin
   Examiner(type, plugins, report).examine();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

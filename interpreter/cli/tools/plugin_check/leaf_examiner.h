@@ -9,7 +9,7 @@
 #include "core/node_type.h"
 #include "loading/plugin_set.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct LeafReport {
   // What was found: whether it is as lockstep/leaf.h says, and in words.
@@ -21,4 +21,4 @@ struct LeafReport {
 void examine_leaf(const NodeType& type, const std::shared_ptr<PluginSet>& plugins,
                   const LeafReport& report);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

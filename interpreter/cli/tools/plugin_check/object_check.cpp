@@ -16,7 +16,7 @@
 #include "system/descriptors.h"
 #include "system/pipe.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr std::string_view kDeinit = "deinit";
@@ -151,4 +151,4 @@ int examine_object(const std::string& file, const PluginOptions& options, std::s
   return kExitSuccess;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -8,7 +8,7 @@
 #include "loading/plugins.h"
 #include "remote/json_lines/conformance.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // The end of a pipe to the command in its child: lines for it.
 constexpr int kFindings = 3;
@@ -18,4 +18,4 @@ Conformance check_object(const std::string& file, const PluginOptions& options);
 // In its child: from this leaf on. Returns the exit code.
 int examine_object(const std::string& file, const PluginOptions& options, std::size_t first);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -24,7 +24,7 @@
 #include "study/plan_check.h"
 #include "study/workers.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 struct StudyCommandOptions {
@@ -285,4 +285,4 @@ const Command kStudyCommand{
     "  lockstep study compare study-example5 --cells 0 1",
     define_study};
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -15,7 +15,7 @@
 #include "study/folder.h"
 #include "terminal/text_table.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 struct CompareOptions {
@@ -158,4 +158,4 @@ std::function<int()> define_compare(CLI::App& app) {
   return [options] { return compare(*options); };
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -7,9 +7,9 @@ namespace CLI {
 class App;
 }
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Returns what the command does, and its exit code.
 std::function<int()> define_compare(CLI::App& app);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

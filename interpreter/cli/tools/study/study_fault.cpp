@@ -4,7 +4,7 @@
 
 #include "summary/statistics.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // In single quotes, for a shell.
@@ -51,4 +51,4 @@ std::string fault_text(const StudyFault& fault, const LoadedStudy& study) {
                      cell.empty() ? "" : ")", fault.seed, fault.fault.message);
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -6,7 +6,7 @@
 #include "cli/tools/study/study_loading.h"
 #include "study/workers.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Which leaf, and in which run.
 std::string fault_text(const StudyFault& fault, const LoadedStudy& study);
@@ -14,4 +14,4 @@ std::string fault_text(const StudyFault& fault, const LoadedStudy& study);
 std::string run_command(const StudyOptions& options, const StudyPlan& plan,
                         const StudyFault& fault);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

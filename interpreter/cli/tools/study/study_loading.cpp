@@ -17,7 +17,7 @@
 #include "study/precision.h"
 #include "system/freed_memory.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 // Of what is "name=value".
@@ -280,4 +280,4 @@ int load_study(const StudyOptions& options, LoadedStudy& study, Diagnostics& dia
   return StudyLoader(options, study, diagnostics).load();
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

@@ -11,7 +11,7 @@
 #include "runtime/loop.h"
 #include "study/study_run.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 struct StudyOptions {
   LoadCommandOptions load;
@@ -37,4 +37,4 @@ struct LoadedStudy {
 // Does all that can be done. Returns the exit code; 0 when the study can be made.
 int load_study(const StudyOptions& options, LoadedStudy& study, Diagnostics& diagnostics);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

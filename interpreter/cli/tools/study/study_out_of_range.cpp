@@ -5,7 +5,7 @@
 #include "runtime/progress_text.h"
 #include "summary/statistics.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 void StudyOutOfRangeCount::add(const StudyOutOfRange& found) {
   const Tree& tree = study_.cells[found.row.cell].tree;
@@ -27,4 +27,4 @@ void StudyOutOfRangeCount::add_to(Diagnostics& diagnostics) const {
   }
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

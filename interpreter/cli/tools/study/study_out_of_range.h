@@ -8,7 +8,7 @@
 #include "cli/tools/study/study_loading.h"
 #include "study/workers.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class StudyOutOfRangeCount {
  public:
@@ -27,4 +27,4 @@ class StudyOutOfRangeCount {
   std::map<std::string, Leaf> leaves_;  // by path
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

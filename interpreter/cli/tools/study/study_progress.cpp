@@ -10,7 +10,7 @@
 #include "terminal/terminal.h"
 #include "view/progress_bar.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr Nanoseconds kBarInterval = std::chrono::milliseconds(200);  // the first comes at once
@@ -55,4 +55,4 @@ void StudyProgress::show() {
   is_visible_ |= messages().show(fmt::format("\r{} {}\x1b[K", bar, text));
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

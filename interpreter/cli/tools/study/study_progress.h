@@ -6,7 +6,7 @@
 #include "core/clock.h"
 #include "study/row_sequence.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 class StudyProgress {
  public:
@@ -28,4 +28,4 @@ class StudyProgress {
   bool is_visible_ = false;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::host

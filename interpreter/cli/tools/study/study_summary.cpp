@@ -12,7 +12,7 @@
 #include "study/precision.h"
 #include "terminal/text_table.h"
 
-namespace lockstep {
+namespace lockstep::host {
 namespace {
 
 constexpr char kNone[] = "-";
@@ -155,4 +155,4 @@ std::vector<std::string> summary_warnings(const StudyPlan& plan,
   return warnings;
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::host

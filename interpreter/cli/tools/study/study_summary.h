@@ -6,7 +6,7 @@
 
 #include "study/table.h"
 
-namespace lockstep {
+namespace lockstep::host {
 
 // Aligned, with a line of names above. A gap that is far has a '!'.
 // A table for each measure, and one of how the runs ended, no wider than `width`.
@@ -19,4 +19,4 @@ std::string summary_json(const StudyPlan& plan, const std::vector<SummaryRow>& r
 std::vector<std::string> summary_warnings(const StudyPlan& plan,
                                           const std::vector<SummaryRow>& rows);
 
-}  // namespace lockstep
+}  // namespace lockstep::host

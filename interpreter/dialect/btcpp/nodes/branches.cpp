@@ -2,9 +2,9 @@
 
 #include "dialect/btcpp/nodes/kinds.h"
 
-namespace lockstep::btcpp {
+namespace lockstep::host::btcpp {
 
 const NodeKind kIfThenElse = branches::kIf<branches::Rule::Strict>;
 const NodeKind kWhileDoElse = branches::kWhile<branches::Rule::Strict>;
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep::host::btcpp

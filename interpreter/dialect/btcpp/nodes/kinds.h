@@ -3,7 +3,7 @@
 
 #include "engine/nodes/kinds.h"
 
-namespace lockstep::btcpp {
+namespace lockstep::host::btcpp {
 
 extern const NodeKind kSequence, kFallback, kReactiveSequence, kReactiveFallback, kAsyncSequence,
     kAsyncFallback, kSequenceWithMemory, kParallel, kParallelAll, kIfThenElse, kWhileDoElse,
@@ -17,15 +17,16 @@ inline constexpr const NodeKind* kKinds[] = {
     // Control nodes
     &kSequence, &kFallback, &kReactiveSequence, &kReactiveFallback, &kAsyncSequence,
     &kAsyncFallback, &kSequenceWithMemory, &kParallel, &kParallelAll, &kIfThenElse, &kWhileDoElse,
-    &kSwitch2, &kSwitch3, &kSwitch4, &kSwitch5, &kSwitch6, &kTryCatch, &lockstep::kParallelAbsolute,
-    &lockstep::kParallelRelative,
+    &kSwitch2, &kSwitch3, &kSwitch4, &kSwitch5, &kSwitch6, &kTryCatch,
+    &lockstep::host::kParallelAbsolute, &lockstep::host::kParallelRelative,
     // Decorators
-    &lockstep::kInverter, &lockstep::kForceSuccess, &lockstep::kForceFailure, &kRepeat,
-    &kRetryUntilSuccessful, &lockstep::kKeepRunningUntilFailure, &kRunOnce, &kDelay, &kTimeout,
-    &kPrecondition, &kSkipUnlessUpdated, &kWaitValueUpdate, &kLoopInt, &kLoopBool, &kLoopDouble,
-    &kLoopString, &lockstep::kSubTree,
+    &lockstep::host::kInverter, &lockstep::host::kForceSuccess, &lockstep::host::kForceFailure,
+    &kRepeat, &kRetryUntilSuccessful, &lockstep::host::kKeepRunningUntilFailure, &kRunOnce, &kDelay,
+    &kTimeout, &kPrecondition, &kSkipUnlessUpdated, &kWaitValueUpdate, &kLoopInt, &kLoopBool,
+    &kLoopDouble, &kLoopString, &lockstep::host::kSubTree,
     // Leaves
-    &lockstep::kAlwaysSuccess, &lockstep::kAlwaysFailure, &kSleep, &lockstep::kScript,
-    &kScriptCondition, &kSetBlackboard, &kUnsetBlackboard, &kWasEntryUpdated};
+    &lockstep::host::kAlwaysSuccess, &lockstep::host::kAlwaysFailure, &kSleep,
+    &lockstep::host::kScript, &kScriptCondition, &kSetBlackboard, &kUnsetBlackboard,
+    &kWasEntryUpdated};
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep::host::btcpp

@@ -10,7 +10,7 @@
 #include "engine/nodes/decorator.h"
 #include "engine/nodes/fold.h"
 
-namespace lockstep::btcpp {
+namespace lockstep::host::btcpp {
 namespace {
 
 constexpr unsigned kQueue = 0, kValue = 1, kIfEmpty = 2;
@@ -139,4 +139,4 @@ const NodeKind kLoopDouble =
 const NodeKind kLoopString =
     kind_of_loop<std::string, ValueType::StringList, ValueType::String>("LoopString");
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep::host::btcpp

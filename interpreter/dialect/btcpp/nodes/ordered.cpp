@@ -4,7 +4,7 @@
 
 #include "dialect/btcpp/nodes/kinds.h"
 
-namespace lockstep::btcpp {
+namespace lockstep::host::btcpp {
 
 using ordered::Memory;
 
@@ -30,4 +30,4 @@ const NodeKind kReactiveFallback = ordered::kind<Status::Failure, Memory::Never>
     "Success of a child is its result; Failure when all fail. A child that still "
     "runs behind the one that stopped it is halted.");
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep::host::btcpp

@@ -8,7 +8,7 @@
 #include "engine/nodes/fold.h"
 #include "engine/nodes/parallel_rule.h"
 
-namespace lockstep::btcpp {
+namespace lockstep::host::btcpp {
 namespace {
 
 constexpr unsigned kSuccessCount = 0, kFailureCount = 1;
@@ -153,4 +153,4 @@ const NodeKind kParallelAll{
     .state_size = sizeof(Tally),
     .fold = fold_parallel};
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep::host::btcpp

@@ -4,7 +4,7 @@
 #include "engine/nodes/decorator.h"
 #include "engine/nodes/fold.h"
 
-namespace lockstep::btcpp {
+namespace lockstep::host::btcpp {
 namespace {
 
 constexpr unsigned kIf = 0, kElse = 1;
@@ -64,4 +64,4 @@ const NodeKind kPrecondition{
     .forget = forget_precondition,
     .fold = fold::live};
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep::host::btcpp

@@ -6,7 +6,7 @@
 #include "engine/nodes/decorator.h"
 #include "engine/nodes/fold.h"
 
-namespace lockstep::btcpp {
+namespace lockstep::host::btcpp {
 namespace {
 
 constexpr std::int64_t kEndless = -1;
@@ -113,4 +113,4 @@ const NodeKind kRetryUntilSuccessful{
     .fold = fold_repeat,
     .round = round_of_repeat};
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep::host::btcpp

@@ -3,9 +3,9 @@
 
 #include <string_view>
 
-namespace lockstep::btcpp {
+namespace lockstep::host::btcpp {
 
 // In the order of Status, from Running.
 inline constexpr std::string_view kResults[] = {"RUNNING", "SUCCESS", "FAILURE", "SKIPPED"};
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep::host::btcpp

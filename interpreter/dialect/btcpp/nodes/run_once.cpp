@@ -2,7 +2,7 @@
 
 #include "dialect/btcpp/nodes/kinds.h"
 
-namespace lockstep::btcpp {
+namespace lockstep::host::btcpp {
 namespace {
 
 constexpr unsigned kThenSkip = 0;
@@ -34,4 +34,4 @@ const NodeKind kRunOnce{
     .state_size = sizeof(run_once::State),
     .fold = fold::live};
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep::host::btcpp

@@ -1,8 +1,8 @@
 #include "dialect/btcpp/nodes/kinds.h"
 #include "engine/nodes/check.h"
 
-namespace lockstep::btcpp {
+namespace lockstep::host::btcpp {
 
 const NodeKind kScriptCondition = check::kind("ScriptCondition");
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep::host::btcpp

@@ -6,7 +6,7 @@
 #include "engine/node_ports.h"
 #include "engine/nodes/at_once.h"
 
-namespace lockstep::btcpp {
+namespace lockstep::host::btcpp {
 namespace {
 
 constexpr unsigned kNewValue = 0, kOutputKey = 1;
@@ -100,4 +100,4 @@ const NodeKind kUnsetBlackboard{.type = {.id = "UnsetBlackboard",
                                 .tick = tick_unset,
                                 .progress = no_progress};
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep::host::btcpp

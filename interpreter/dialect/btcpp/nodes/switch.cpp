@@ -9,7 +9,7 @@
 #include "engine/node_ports.h"
 #include "engine/nodes/fold.h"
 
-namespace lockstep::btcpp {
+namespace lockstep::host::btcpp {
 namespace {
 
 constexpr unsigned kVariable = 0;  // case N is parameter N
@@ -128,4 +128,4 @@ const NodeKind kSwitch4 = kind_of_switch<4>("Switch4");
 const NodeKind kSwitch5 = kind_of_switch<5>("Switch5");
 const NodeKind kSwitch6 = kind_of_switch<6>("Switch6");
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep::host::btcpp

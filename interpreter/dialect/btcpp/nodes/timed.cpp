@@ -6,7 +6,7 @@
 #include "engine/nodes/decorator.h"
 #include "engine/nodes/fold.h"
 
-namespace lockstep::btcpp {
+namespace lockstep::host::btcpp {
 namespace {
 
 constexpr unsigned kTime = 0;  // in each of the kinds
@@ -143,4 +143,4 @@ const NodeKind kTimeout{.type = {.id = "Timeout",
                         .forget = forget_timed,
                         .fold = fold_timed};
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep::host::btcpp

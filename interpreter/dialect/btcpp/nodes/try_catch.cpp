@@ -2,7 +2,7 @@
 #include "dialect/btcpp/nodes/kinds.h"
 #include "engine/nodes/fold.h"
 
-namespace lockstep::btcpp {
+namespace lockstep::host::btcpp {
 namespace {
 
 constexpr unsigned kCatchOnHalt = 0;
@@ -82,4 +82,4 @@ const NodeKind kTryCatch{
     .halt = halt_try_catch,
     .fold = fold::dead_when_idle};
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep::host::btcpp

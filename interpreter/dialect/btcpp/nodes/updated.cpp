@@ -6,7 +6,7 @@
 #include "engine/nodes/decorator.h"
 #include "engine/nodes/fold.h"
 
-namespace lockstep::btcpp {
+namespace lockstep::host::btcpp {
 namespace {
 
 constexpr unsigned kEntry = 0;
@@ -93,4 +93,4 @@ const NodeKind kWasEntryUpdated{
     .fold = fold::live,
     .counts_writes = true};
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep::host::btcpp

@@ -3,7 +3,7 @@
 #include "dialect/btcpp/nodes/kinds.h"
 #include "engine/nodes/ordered.h"
 
-namespace lockstep::btcpp {
+namespace lockstep::host::btcpp {
 namespace {
 
 using ordered::State;  // its place is 0 before the first child
@@ -70,4 +70,4 @@ const NodeKind kSequenceWithMemory = kind_of_yielding<Status::Success, Place::Ke
     "An AsyncSequence that goes on with the child that failed, or was halted, when "
     "it is ticked again.");
 
-}  // namespace lockstep::btcpp
+}  // namespace lockstep::host::btcpp

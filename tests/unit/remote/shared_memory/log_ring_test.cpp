@@ -9,7 +9,7 @@
 
 #include "core/random.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 struct Fixture {
@@ -105,4 +105,4 @@ TEST_CASE("log ring: nonsense is skipped") {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -6,7 +6,7 @@
 
 #include "core/random.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 const std::vector<Value> kValues{Value(),
@@ -114,4 +114,4 @@ TEST_CASE("message: damaged bytes give values or nothing, never harm") {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test
