@@ -52,7 +52,7 @@ std::string github_line(const Diagnostic& message) {
                      escaped(whole_text(message), kData));
 }
 
-// Of a path, which may hold any byte: RFC 3986.
+// Escapes a path, which may hold any byte: RFC 3986.
 std::string uri_of(const std::string& path) {
   std::string uri = std::filesystem::path(path).is_absolute() ? "file://" : "";
   constexpr std::string_view kPlain = "/-._~";
@@ -81,7 +81,7 @@ struct Rule {
   std::string_view id, level, description;
 };
 
-// Of each severity.
+// A rule for each severity.
 constexpr Rule kRules[] = {{"error", "error", "The tree does not run."},
                            {"warning", "warning", "The tree runs, but probably not as intended."},
                            {"note", "note", "The tree runs; this is good to know."}};

@@ -167,7 +167,7 @@ class Converter {
                Severity::Warning);
   }
 
-  // Of names that this file does not declare, once each.
+  // Warns once of each name that this file does not declare.
   void warn_of_arguments(const Attribute& attribute) {
     const std::string_view text = attribute.value;
     for (auto at = text.find("${"); at != std::string_view::npos; at = text.find("${", at + 2)) {
@@ -317,7 +317,7 @@ class Converter {
     }
   }
 
-  // Of an element of root.
+  // Handles an attribute of an element of root.
   void tree_attribute(const XmlToken& token, const Attribute& attribute) {
     const bool is_tree = open_.back().tag == "BehaviorTree";
     if (to_ours() && open_.back().tag == "include" && attribute.name == "ros_pkg") {

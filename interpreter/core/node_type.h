@@ -118,7 +118,7 @@ struct NodeType {
   bool reads_ports = false;             // a built-in kind that reads its values as leaves do
   std::string_view plugin = {};         // the plugin it comes from; "" = built in
   const Mock* mock = nullptr;           // not null: a stand-in
-  // Of a leaf of a plugin; both are null for built-ins.
+  // A leaf of a plugin has both; they are null for built-ins.
   const lockstep_plugin* origin = nullptr;
   const lockstep_leaf_type* leaf = nullptr;
 };

@@ -27,8 +27,8 @@ std::optional<RuleBreak> refuse_value(const Parameter& parameter, const Value& v
 // A value that the parameter takes, for one that is to be tried out; NoValue if none is known.
 Value sample_value(const Parameter& parameter);
 
-// Of a list that is wrong, all that is: items that are no numbers, those outside of the range, and
-// what the rule of the node says of the others. `parameter` is one of `type`.
+// All that is wrong in a list: items that are no numbers, those outside of the range, and what the
+// rule of the node says of the others. `parameter` is one of `type`.
 struct ListErrors {
   std::vector<std::string_view> no_numbers;
   std::vector<RuleBreak> refused;

@@ -11,7 +11,8 @@
 namespace lockstep::host {
 
 using ResourceSet = std::uint64_t;
-// Of a pool: a set fits into the whole numbers of a double, as which recordings have it.
+// The most resources of a pool: a set fits into the whole numbers of a double, as which recordings
+// have it.
 inline constexpr std::size_t kMaxResources = 50;
 
 // Takes the next name off a list as it is written in a tree, "left;gripper": separated by ; or , or

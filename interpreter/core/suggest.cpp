@@ -13,8 +13,8 @@ namespace {
 constexpr std::size_t kLongestWord = 256;
 constexpr std::size_t kMostEdits = 8;
 constexpr std::size_t kMostCandidates = 10'000;
-// Of the table of distances, for one word: some tenths of a millisecond. All names of a large robot
-// take a tenth of it.
+// The largest table of distances for one word: some tenths of a millisecond. All names of a large
+// robot take a tenth of it.
 constexpr std::size_t kMostCells = 200'000;
 
 constexpr char lower(char c) {

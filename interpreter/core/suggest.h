@@ -8,10 +8,11 @@
 
 namespace lockstep::host {
 
-// Of a word of two letters or more: the candidate with the smallest edit distance (insert, delete,
-// replace, swap of neighbors; case does not count) if that is at most a third of the word's length,
-// rounded up, and at most eight; else "". Of several, the first. A word of more than 256 bytes has
-// no nearest word. If there are very many candidates, only the first ones are compared.
+// The nearest word to one of two letters or more: the candidate with the smallest edit distance
+// (insert, delete, replace, swap of neighbors; case does not count) if that is at most a third of
+// the word's length, rounded up, and at most eight; else "". The first of several. A word of more
+// than 256 bytes has no nearest word. If there are very many candidates, only the first ones are
+// compared.
 std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates);
 
 // "did you mean 'x'?" or, when nothing is near, "".

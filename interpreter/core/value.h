@@ -57,7 +57,7 @@ std::string_view to_string(ValueType type);
 // The whole text as a value of `type`, or nothing. Blanks around it are ignored, except in a
 // string. bool: true, false, 1, 0. double: decimal, finite. list: separated by ; or , or blanks; of
 // strings by ; only, and a backslash takes the character after it as it is.
-// Of an object nothing; see ObjectType::from_text.
+// Nothing for an object; see ObjectType::from_text.
 std::optional<Value> parse_value(ValueType type, std::string_view text);
 
 // What parse_value accepts for `type`, for a message: "a number", "true or false", …

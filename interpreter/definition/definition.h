@@ -52,7 +52,7 @@ struct Port {
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   std::uint32_t entry = kNone;  // in `entries`
   std::uint32_t value = kNone;  // in `values`; with an entry: its value until somebody writes it
-  // Of a parameter that is a script: in Definition::scripts, beside the text in `values`.
+  // A parameter that is a script has it in Definition::scripts, beside the text in `values`.
   std::uint32_t script = kNone;
 };
 
@@ -156,7 +156,7 @@ struct Definition {
     return false;
   }
 
-  // Of each script: whether its value is a yes or a no.
+  // Says for each script whether its value is a yes or a no.
   std::vector<bool> conditions() const {
     std::vector<bool> are(scripts.size());
     const auto add = [&](std::uint32_t script) {

@@ -42,7 +42,7 @@ struct CommonAttribute {
   std::string_view doc;
 };
 std::span<const CommonAttribute> common_attributes();
-// Of every node too: the scripts around its ticks, in the order of Hook.
+// The attributes that every node has too: the scripts around its ticks, in the order of Hook.
 std::span<const CommonAttribute> script_attributes();
 std::span<const CommonAttribute> subtree_attributes();
 

@@ -14,7 +14,7 @@
 
 namespace lockstep::host {
 
-// Of one attribute value after substitution, and of all of them together.
+// The largest attribute value after substitution, and all of them together.
 constexpr std::size_t kMaxValueMiB = 1;
 constexpr std::size_t kMaxExpandedMiB = 64;
 

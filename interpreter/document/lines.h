@@ -24,7 +24,7 @@ class LineIndex {
   std::string_view line(std::uint32_t number) const;
 
  private:
-  // Of the line with that number, counted from 1, which there is.
+  // Where the line with that number begins, counted from 1. It must be there.
   std::size_t start_of(std::uint32_t number) const;
 
   std::string_view text_;

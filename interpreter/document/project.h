@@ -29,7 +29,7 @@ struct Project {
   // ones stay relative.
   Sources sources;
   std::vector<std::unique_ptr<Document>> documents;  // of the sources
-  // Of each document, those that it includes, in that order.
+  // The documents that each document includes, in that order.
   std::vector<std::vector<std::uint32_t>> includes;
   std::vector<DeclaredArgument> arguments;
 };

@@ -17,7 +17,7 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-// Of ASCII letters. `lower` has no others.
+// Compares ASCII letters. `lower` has no others.
 bool is_same_word(std::string_view text, std::string_view lower) {
   return std::equal(text.begin(), text.end(), lower.begin(), lower.end(), [](char a, char b) {
     return a == b || (is_letter(b) && a == static_cast<char>(b - 'a' + 'A'));

@@ -34,7 +34,8 @@ struct XmlToken {
   TokenKind kind = TokenKind::End;
   std::size_t begin = 0;       // its first byte
   std::string_view name = {};  // of a tag or an attribute
-  // Of an attribute, between the quotes; of Text, what counts; of an Instruction or a Doctype, all.
+  // The text of an attribute between the quotes, what counts of a Text, or all of an Instruction or
+  // a Doctype.
   std::string_view value = {};
   bool is_coded = false;  // a value with a reference or a line end: it is read as another
 };

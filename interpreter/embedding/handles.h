@@ -20,7 +20,7 @@
 
 namespace lockstep::host {
 
-// Of the nodes of a tree, and the types of its entries, as strings that end in a NUL.
+// The texts of the nodes of a tree, and the types of its entries, as strings that end in a NUL.
 struct TreeTexts {
   explicit TreeTexts(const Tree& tree);
   std::vector<std::string> paths, names, ids, types;
@@ -83,7 +83,7 @@ auto shielded(Work&& work) noexcept -> decltype(work()) {
   return decltype(work())();
 }
 
-// Of a call that may fail: the error of an earlier one is over.
+// Makes a call that may fail; the error of an earlier one is over.
 template <class Work>
 auto guarded(Work&& work) noexcept -> decltype(work()) {
   forget_error();

@@ -55,7 +55,7 @@ bool set(lockstep_project* project, const void* argument, Change change) {
   });
 }
 
-// Of a call that sets something.
+// True if all texts of a call that sets something can be set.
 bool are_texts(std::initializer_list<std::pair<const char*, const char*>> texts) {
   return guarded([&] {
     return std::ranges::all_of(texts, [](const auto& it) { return is_text(it.first, it.second); });

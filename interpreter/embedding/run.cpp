@@ -154,7 +154,7 @@ bool get_number(lockstep_run* run, Where where, double* value) {
   });
 }
 
-// Of the items of T and of the interface, which look the same in memory.
+// The items of T and those of the interface look the same in memory.
 template <class T, class Item, class Where>
 bool get_list(lockstep_run* run, Where where, const Item** items, std::size_t* count) {
   static_assert(sizeof(T) == sizeof(Item));

@@ -50,7 +50,7 @@ class BoundParameters {
     std::vector<Values> values;  // of each Tree::bound
   };
   const State& state() const { return own_; }
-  // Of this tree.
+  // `from` is of this tree.
   void restore(const State& from);
 
  private:

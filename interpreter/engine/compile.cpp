@@ -182,7 +182,7 @@ class Compiler {
     }
   }
 
-  // Of a group: its members.
+  // A group counts its members.
   std::uint32_t children_of(const DefinitionNode& from) const {
     if (from.type->category != NodeCategory::Group) return from.children;
     const std::size_t group = tree_.nodes.size() - definition_.nodes[0].end;
@@ -220,7 +220,7 @@ class Compiler {
     });
   }
 
-  // Of a member of a pool: the members of groups above it, and of a barrier just below.
+  // Finds, for each member of a pool, the members of groups above it, and of a barrier just below.
   void find_gates() {
     for (Member& member : tree_.members) {
       if (!is_pool(tree_, member.group)) continue;
@@ -477,7 +477,7 @@ class Compiler {
   Tree tree_;
   std::vector<std::uint32_t> constants_;  // of each value of the definition: its constant
   std::vector<std::uint32_t> cells_;      // of each first port of a node: its first cell
-  // Of each member of a group: its place in Tree::members.
+  // The place of each member of a group in Tree::members.
   std::unordered_map<NodeIndex, std::uint32_t> numbers_;
   const NodeType* last_type_ = nullptr;
   const NodeKind* last_kind_ = nullptr;

@@ -22,7 +22,7 @@ bool Ticker::take_failed(NodeIndex node) {
   return was_reached;
 }
 
-// Of a tick in which something is wrong. Nothing: the node is ticked as always.
+// Called in a tick in which something is wrong. Nothing: the node is ticked as always.
 [[gnu::cold, gnu::noinline]] std::optional<Status> NodeContext::tick_interrupted(NodeIndex node) {
   if (state_.faulted) return Status::Running;
   const auto it = std::ranges::find(state_.failing, node);

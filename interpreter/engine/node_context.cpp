@@ -12,7 +12,7 @@
 namespace lockstep::host {
 namespace {
 
-// Of the next eight nodes: no byte is 0 (S. E. Anderson, "Bit Twiddling Hacks").
+// True if none of the next eight bytes is 0 (S. E. Anderson, "Bit Twiddling Hacks").
 bool has_no_idle(const Activity* first) {
   std::uint64_t block = 0;
   std::memcpy(&block, first, sizeof block);

@@ -65,7 +65,7 @@ class NodeContext : public RunView {
   // it does nothing.
   void halt(NodeIndex node) { halt_range(node, nodes_[node].end); }
   void halt_range(NodeIndex first, NodeIndex last);
-  // Of a node's children, those that run; the others keep their status.
+  // Halts the children that run; the others keep their status.
   void halt_running_children(NodeIndex node);
 
   // True in halt_all: every running leaf is halted, whatever has failed.

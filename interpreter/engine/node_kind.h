@@ -61,7 +61,7 @@ struct NodeKind {
   Round (*round)(NodeContext& context, NodeIndex self) = nullptr;
 };
 
-// Of a kind that does not say it.
+// For a kind that does not say it.
 constexpr Unreset unreset_by(const NodeType& type) {
   const bool takes_time = type.category == NodeCategory::Action && type.can_run;
   return takes_time ? Unreset::KeepsResult : Unreset::Begins;
@@ -77,7 +77,7 @@ inline std::span<const NodeKind* const> built_in_kinds(
 extern const NodeKind kPluginAction;
 extern const NodeKind kPluginCondition;
 extern const NodeKind kPluginControl;  // also decorators
-// Of stand-ins for them.
+// The kinds of stand-ins for them.
 extern const NodeKind kMockAction, kMockCondition, kMockControl, kMockDecorator;
 
 }  // namespace lockstep::host

@@ -46,7 +46,7 @@ class RunView {
     return {reinterpret_cast<const T*>(first), it.children};
   }
 
-  // Of the last tick; the first is 1.
+  // The number of the last tick; the first is 1.
   std::uint32_t tick_number() const { return state_.tick_number; }
   Nanoseconds now() const { return state_.now; }  // of this tick, since the run began
   bool faulted() const { return state_.faulted; }

@@ -75,7 +75,7 @@ inline double snapshot_of(NodeContext& context, NodeIndex child) {
   return context.progress(child);
 }
 
-// Of the children that were not left out; 1 if all were.
+// The least progress of the children that were not left out; 1 if all were.
 inline double least_progress(std::span<const double> progress) {
   double least = 1.0;
   for (const double one : progress) {
@@ -90,8 +90,8 @@ inline bool is_left_out(double progress) {
 // Whether a member of a barrier beside the tree is held in this tick.
 bool is_held_at_barrier(NodeContext& context, NodeIndex member);
 
-// Of a ParallelAbsolute, rising, and the delta of a ParallelRelative. Nothing for other nodes, and
-// where an entry gives any parameter.
+// The barriers of a ParallelAbsolute, rising, and the delta of a ParallelRelative. Nothing for
+// other nodes, and where an entry gives any parameter.
 std::optional<std::span<const double>> barriers(const Tree& tree, NodeIndex node);
 std::optional<double> delta(const Tree& tree, NodeIndex node);
 // A group that leaves out the members that are idle.

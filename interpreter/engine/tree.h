@@ -162,11 +162,11 @@ struct Tree {
     const Group& it = group(group_node);
     return std::span(members).subspan(it.first, it.count);
   }
-  // Of a node whose kind has a parameter that names a group.
+  // Only a node whose kind has a parameter that names a group has one.
   const Member& membership(NodeIndex node) const {
     return members[place_in_front(node, FrontCell::Member)];
   }
-  // Of a node of `bound`.
+  // Only a node of `bound` has it.
   const BoundNode& bound_of(NodeIndex node) const {
     return bound[place_in_front(node, FrontCell::Bound)];
   }
@@ -178,7 +178,7 @@ struct Tree {
     return std::span(gates).subspan(member.first_gate, member.gates);
   }
 
-  // Of the innermost SubTree that a node is in; 0: the main tree.
+  // The board of the innermost SubTree that a node is in; 0: the main tree.
   std::uint32_t board_of(NodeIndex node) const;
 
   // A node's part of the path: its name, or "name#2" for the second sibling of that name.
@@ -191,7 +191,7 @@ struct Tree {
 
 // The cell of a value that is no list; of an absent one: 0.
 Cell scalar_cell(const Parameter& parameter, const Value& value);
-// Of a value that names resources: their set.
+// The set of the resources that a value names.
 Cell resource_cell(std::span<const std::string> names, const Value& value);
 
 }  // namespace lockstep::host

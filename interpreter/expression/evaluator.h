@@ -14,7 +14,7 @@
 
 namespace lockstep::host {
 
-// Of a condition.
+// For a condition.
 enum class Truth : std::uint8_t { No, Yes, Error };
 
 class Evaluator {

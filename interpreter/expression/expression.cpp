@@ -15,7 +15,7 @@ namespace {
 
 constexpr unsigned kDeepest = 256;  // levels of brackets, signs, assignments and conditions
 
-// Of an operator between two values: how strongly it binds, from 1, and what it does.
+// How strongly an operator between two values binds, from 1, and what it does.
 struct Binary {
   unsigned strength = 0;  // 0: it is none
   Operation operation = {};
@@ -353,7 +353,7 @@ class ExpressionParser {
       const auto word = enums->find(token.text);
       if (word != enums->end()) return push(Instruction::of(Operation::Real, word->second));
     }
-    // Of a left side this will be taken back.
+    // This is taken back for a left side.
     const Symbol next = token_.symbol;
     const std::uint32_t entry = use(token.text);
     if (!assignment(next)) result_.uses_[entry].is_read = true;

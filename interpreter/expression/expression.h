@@ -40,20 +40,20 @@ class Expression {
 
   // The entries that it reads or assigns, each once, as they are written; "@k" with its '@'.
   std::span<const std::string> names() const { return names_; }
-  // Of each of them.
+  // The uses of each of them.
   std::span<const Use> uses() const { return uses_; }
   // What fails when it is reached: an assignment to what is not a name.
   std::span<const Error> remarks() const { return remarks_; }
 
   const ScriptProgram& program() const { return program_; }
-  // Of one that only compares a name, its first, with a number: the instruction that does it. Most
+  // The instruction of an expression that only compares a name, its first, with a number. Most
   // conditions do no more.
   const Instruction* comparison() const {
     const std::vector<Instruction>& code = program_.code;
     const bool is_one = code.size() == 4 && code[0].operation == Operation::LoadToCompare;
     return is_one ? code.data() : nullptr;
   }
-  // Of each instruction: where in the text it comes from.
+  // Where in the text each instruction comes from.
   std::span<const std::uint32_t> offsets() const { return offsets_; }
   const ScriptEnums* enums() const { return enums_.get(); }
 

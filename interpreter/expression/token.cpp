@@ -151,7 +151,7 @@ class Lexer {
                 "numbers go up to about 1.8e308");
   }
 
-  // Of a number that no double is near to: whether it is close to 0.
+  // For a number that no double is near to: whether it is close to 0.
   static bool is_small(std::string_view number) {
     const auto mark = std::min(number.find_first_of("eE"), number.size());
     const std::string_view digits = number.substr(0, mark);

@@ -11,7 +11,7 @@
 
 namespace lockstep::host {
 
-// Of one subtree.
+// The keys of one subtree.
 struct GrootBoardKeys {
   std::string name;        // of the subtree
   std::uint32_t node = 0;  // its SubTree node; none: the first one is the main tree's

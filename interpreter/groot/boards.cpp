@@ -12,7 +12,7 @@
 namespace lockstep::host {
 namespace {
 
-// Of the main tree's board, where it is not asked for by its own.
+// The name of the main tree's board, where it is not asked for by its own.
 constexpr std::string_view kMain = "ROOT";
 
 struct ToJson {

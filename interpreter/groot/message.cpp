@@ -33,7 +33,7 @@ std::string to_bytes(GrootHeader header) {
   return bytes;
 }
 
-// Of version 4, as RFC 9562 has it.
+// Makes an identifier of version 4 (RFC 9562).
 GrootTreeId make_groot_tree_id() {
   GrootTreeId id{};
   if (getrandom(id.data(), id.size(), 0) != static_cast<ssize_t>(id.size())) {

@@ -113,7 +113,7 @@ std::uint16_t port_of(const FileDescriptor& listener) {
   sockaddr_storage name{};
   socklen_t size = sizeof name;
   getsockname(listener.number(), reinterpret_cast<sockaddr*>(&name), &size);
-  // Of IPv4 and of IPv6 it is at the same place.
+  // The port is at the same place for IPv4 and for IPv6.
   return reinterpret_cast<const sockaddr_in*>(&name)->sin_port;
 }
 

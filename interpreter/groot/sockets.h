@@ -13,7 +13,7 @@ namespace lockstep::host {
 
 class GrootSockets {
  public:
-  // Of what listens already. Starts the threads of ZeroMQ.
+  // Takes sockets that listen already. Starts the threads of ZeroMQ.
   GrootSockets(FileDescriptor requests, FileDescriptor events);
   // What was sent has a moment to go out.
   ~GrootSockets();

@@ -24,12 +24,12 @@ class GrootStatuses {
  public:
   static constexpr std::size_t kMostTransitions = 1000;
 
-  // Of these nodes, in this order.
+  // Keeps the statuses of these nodes, in this order.
   explicit GrootStatuses(std::span<const NodeIndex> order);
 
   // At this time of the run.
   void change(NodeIndex node, Status status, Nanoseconds time);
-  // Of each node uid and status, 3 bytes.
+  // The uid and the status of each node, in 3 bytes.
   const std::string& bytes() const { return bytes_; }
 
   // Forgets the changes so far; their times count from `now`.

@@ -92,7 +92,7 @@ class LineFeed final : public Observer {
   std::atomic<bool> has_taker_{false}, is_full_{false};
   Bell room_made_;
 
-  // Of the taking thread.
+  // The taking thread alone uses what follows.
   std::vector<char> room_;
   EventCounts counts_;
 };

@@ -50,7 +50,8 @@ class LineFormat {
   // call gives the same bytes.
 
   virtual char* put_lost(char* to, std::uint64_t ticks, std::uint64_t from) const = 0;
-  // Of each tick: its beginning, its nodes in any number of calls, then what set_tick_end made.
+  // Each tick is written as its beginning, its nodes in any number of calls, then what set_tick_end
+  // made.
   virtual char* put_tick(char* to, std::uint64_t tick, Nanoseconds time) const = 0;
   struct Put {
     char* end;

@@ -61,7 +61,7 @@ class LineLog {
   // The number of the event behind the last.
   std::uint64_t end() const { return first_ + events_.size(); }
   std::uint64_t first() const { return first_; }
-  // Of the last line with the whole state.
+  // The last line with the whole state.
   std::optional<std::uint64_t> last_full() const { return last_full_; }
   std::optional<std::uint64_t> tick(std::uint64_t event) const { return at(event).it->tick; }
   // "" if it is no line.

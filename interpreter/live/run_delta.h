@@ -20,13 +20,13 @@ class RunDelta {
   void before_tick(Ticker& ticker);
   // After the tick: the nodes that differ from the last accepted line. Valid until the next call.
   std::span<const NodeChange> changes(Ticker& ticker);
-  // Of the tick: the synchronized nodes that have succeeded in it and are idle again, because an
-  // ancestor has ended them. Valid until the next call.
+  // The synchronized nodes that have succeeded in the tick and are idle again, because an ancestor
+  // has ended them. Valid until the next call.
   std::span<const NodeIndex> succeeded(Ticker& ticker);
   // The synchronized nodes that the tick reached whose limit is not what was kept. Valid until the
   // next call.
   std::span<const LimitChange> limits(Ticker& ticker);
-  // Of the last result of changes(): a node has another status than what was kept, or is held or
+  // About the last result of changes(): a node has another status than what was kept, or is held or
   // was ticked where it was not, or the other way round; and a node has begun.
   bool has_turns() const { return has_turns_; }
   bool has_begun() const { return has_begun_; }

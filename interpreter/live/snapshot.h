@@ -22,7 +22,8 @@ struct NodeView {
   double limit = 0;     // synchronized nodes only: that counted, see engine/synchronized.h
 };
 
-// Of a child of a synchronized node, given its progress as the node used it in its last tick.
+// The progress to show of a child of a synchronized node, given what the node used in its last
+// tick.
 inline double shown_progress(Activity activity, double used) {
   if (activity == Activity::Idle) return 0;
   return activity == Activity::Success ? 1.0 : used;

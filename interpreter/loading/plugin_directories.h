@@ -10,7 +10,7 @@
 
 namespace lockstep::host {
 
-// Of the options, else of this program; "" when the system does not tell.
+// The directory that the options name, else that of this program; "" when the system does not tell.
 std::filesystem::path program_directory(const PluginOptions& options);
 
 // --plugin-path, then LOCKSTEP_PLUGIN_PATH, then where plugins are installed beside this program.

@@ -9,8 +9,8 @@
 namespace lockstep::host {
 namespace {
 
-// Of several children that agree with their parent, the last one: of a Fallback, the one after
-// which there was no other to try.
+// The last of several children that agree with their parent: for a Fallback, the one after which
+// there was no other to try.
 std::optional<NodeIndex> deciding_child(const TickedTree& tree, Status status,
                                         const std::vector<NodeIndex>& children) {
   const auto decides = [&](NodeIndex child) {

@@ -5,7 +5,7 @@
 namespace lockstep::host {
 namespace {
 
-// Of a value as text, so that one that is far too long is not written.
+// The least size of a value as text, so that one that is far too long is not written.
 template <class T>
 std::size_t least_bytes(const T& /*scalar*/) {
   return 1;

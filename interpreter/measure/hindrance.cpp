@@ -35,7 +35,7 @@ Hindrance::Hindrance(Ticker& ticker, NodeIndex node) : ticker_(ticker), tree_(ti
   }
 }
 
-// Of a node that runs.
+// Looks at a node that runs.
 void Hindrance::look_at(NodeIndex node) {
   ticker_.held(node) ? look_around(node) : look_inside(node);
 }

@@ -57,7 +57,7 @@ class Hindrance {
   Obstacle obstacle_ = Obstacle::Running;
 };
 
-// Of the resources that a member of a pool is denied, the owners that have them as long as they
+// The owners of the resources that a member of a pool is denied, which have them as long as they
 // run: one with `keep`, and without an increment one before it in the tree. From all others it gets
 // them in one of the next ticks.
 std::vector<NodeIndex> lasting_owners(Ticker& ticker, const Member& denied);

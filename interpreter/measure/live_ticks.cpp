@@ -9,7 +9,7 @@ namespace lockstep::host {
 
 namespace {
 
-// Of a bool 1 or 0.
+// A bool is 1 or 0.
 double number_of(const Value& value) {
   if (const auto* number = std::get_if<double>(&value)) return *number;
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);

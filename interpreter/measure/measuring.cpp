@@ -89,7 +89,7 @@ std::vector<NodeIndex> users_of(const MeasuredTree& tree, NodeIndex pool) {
   return users;
 }
 
-// Of all pools. One also goes by its child, which often has the better name.
+// The users of all pools. One also goes by its child, which often has the better name.
 Choice all_users(const MeasuredTree& tree) {
   Choice choice(tree);
   const Choice all = all_pools(tree);

@@ -52,7 +52,7 @@ double Predictability::gap() const {
 
 namespace {
 
-// Of the numbers of a spec: P, and T where it is given.
+// The numbers of a spec are P, and T where it is given.
 double expected_of(const MeasureSpec& spec) {
   return spec.numbers.size() > 1 ? spec.numbers[1] : 0;
 }

@@ -31,7 +31,7 @@ class NearestInstant {
   double most_ = -std::numeric_limits<double>::infinity();
 };
 
-// Of one node, in ticks, which count from 0.
+// The predictability of one node, in ticks, which count from 0.
 class Predictability final : public Accumulator {
  public:
   Predictability(std::size_t place, double target, double expected)

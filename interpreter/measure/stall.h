@@ -73,7 +73,7 @@ class StandingNodes {
   Nanoseconds limit() const { return limit_; }
   std::span<Standing> all() { return nodes_; }
   Standing* find(NodeIndex node);  // null: a pool
-  // Of a node that stands.
+  // Describes a node that stands.
   Standstill standstill(Ticker& ticker, const Standing& at, Nanoseconds now);
 
  private:

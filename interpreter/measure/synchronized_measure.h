@@ -43,7 +43,7 @@ class HeldChildren {
     flags_[child] = held || (status == Status::Idle && running && !reached);
     running = status == Status::Running;
   }
-  // Of a pool: the answer of the pool decides alone, also about a child that has not begun.
+  // The answer of a pool decides alone, also about a child that has not begun.
   void set(std::size_t child, bool waits) { flags_[child] = waits; }
   // `all`: an ancestor has ended the node after its success.
   void set_succeeded(std::size_t child, Status status, bool all) {

@@ -12,30 +12,30 @@
 
 namespace lockstep::host {
 
-// Of one parallel, after a tick of the run.
+// The state of one parallel after a tick of the run.
 struct SynchronizedTick {
   Nanoseconds time{0};           // when the tick of the run began, since the run began
   bool ticked = false;           // did the tick reach the node? If not, only the time counts.
   Status status = Status::Idle;  // Success also when an ancestor has ended the node since
   double limit = 0;              // that counted: engine/synchronized.h
-  // Of each child, as the node used it in this tick; not a number: it was left out.
+  // The progress of each child as the node used it in this tick; not a number: it was left out.
   std::span<const double> progress = {};
-  // Of each child: it was running and did not get this tick. It may have been halted since. Empty
-  // if no measure asks for it.
+  // True for a child that was running and did not get this tick. It may have been halted since.
+  // Empty if no measure asks for it.
   std::span<const bool> held = {};
-  // Of each child: it has succeeded. All have where nobody knows, since an ancestor has ended the
-  // node after its success.
+  // True for a child that has succeeded. All have where nobody knows, since an ancestor has ended
+  // the node after its success.
   std::span<const bool> succeeded = {};
 };
 
-// Of any node, after a tick of the run.
+// The state of any node after a tick of the run.
 struct NodeTick {
   bool ticked = false;  // did the tick reach it?
   Status status = Status::Idle;
   double progress = 0;  // before the tick, as its parent used it
 };
 
-// Of a node that uses resources, after a tick of the run.
+// The state of a node that uses resources, after a tick of the run.
 struct ResourceTick {
   bool ticked = false;  // did the tick reach it?
   double limit = 0;     // what it owns or waits for: engine/resources.h

@@ -82,7 +82,7 @@ std::string success_of(const BoxGroup& group) {
   return percent(group.results.of[success], group.results.runs);
 }
 
-// Of many groups the letters are smaller, so that they stay apart: in pixels.
+// A plot of many groups has smaller letters, in pixels, so that they stay apart.
 int row_letters(const BoxPlot& plot, PlotSize size) {
   std::size_t longest = 1;
   for (const BoxGroup& group : plot.groups) {

@@ -18,7 +18,8 @@ namespace lockstep::host {
 // The state of one node in one tick. Before the first tick all nodes are as constructed here.
 struct RecordedState {
   double progress = 0;  // at the start of the tick, as its parent used it
-  // Of a synchronized node: engine/synchronized.h; of a UseResources: engine/resources.h.
+  // The limit of a synchronized node (engine/synchronized.h) or of a UseResources
+  // (engine/resources.h).
   double limit = 0;
   Round round = {};              // of a node that repeats its child; number 0: not running
   Status status = Status::Idle;  // after the tick
@@ -28,7 +29,7 @@ struct RecordedState {
   friend bool operator==(const RecordedState&, const RecordedState&) = default;
 };
 
-// Of a leaf; the run went on after it.
+// A fault of a leaf after which the run went on.
 struct RecordedFault {
   NodeIndex node = 0;
   std::string message;

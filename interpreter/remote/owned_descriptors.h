@@ -20,7 +20,7 @@ class OwnedDescriptors {
   const char* keep(std::string_view text) { return texts_.emplace_back(text).c_str(); }
   // With all proxies as its functions. Neither this nor a port moves when another one is added.
   lockstep_leaf_type& add_leaf();
-  // Of the last leaf.
+  // Adds a port to the last leaf.
   lockstep_port& add_port();
 
   lockstep_plugin plugin = proxy_plugin();

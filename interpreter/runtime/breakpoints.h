@@ -23,7 +23,7 @@ struct Breakpoint {
 
 class Breakpoints {
  public:
-  // Of a node of the tree; Barrier only of a synchronized one.
+  // The node is one of the tree; Barrier needs a synchronized one.
   void set(Ticker& ticker, Breakpoint breakpoint);
   void remove(Breakpoint breakpoint);
 

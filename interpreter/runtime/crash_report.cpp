@@ -162,8 +162,8 @@ void at_exit(int status, void* /*nothing*/) {
   static_cast<void>(detector);
 }
 
-// Of the threads of a study several may call exit() at once. A thread that finds no handler left
-// ends the process, also in the middle of the report of another: so there is one for each.
+// Several threads of a study may call exit() at once. A thread that finds no handler left ends the
+// process, also in the middle of the report of another: so there is one for each.
 bool register_exit_handlers() {
   constexpr int kMostThreads = 1100;
   bool good = true;

@@ -104,7 +104,7 @@ class Loop {
     return goes_on;
   }
 
-  // Of a virtual clock that is not to run as fast as it can.
+  // Waits where the virtual clock is not to run as fast as it can.
   bool keep_pace() {
     pace_.set(run_.period(), options_.control->speed());
     while (pace_.is_early()) {
@@ -136,7 +136,7 @@ class Loop {
     end_.status = run_.tick(now);
     if (options_.stall_fail != nullptr) options_.stall_fail->after_tick(ticker, now);
     if (is_real_) note_worst(clock_.now() - start_ - now);
-    // Of the loop's own: an observer that asks for progress may add to the ticker's.
+    // The loop keeps its own copy: an observer that asks for progress may add to the ticker's.
     std::vector<Fault> faults;
     if (!ticker.tolerated().empty()) [[unlikely]]
       faults = ticker.take_tolerated();

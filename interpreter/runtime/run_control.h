@@ -48,7 +48,7 @@ class RunControl {
 
   // Without new orders, one atomic load.
   void take_orders(Ticker& ticker, Blackboard& blackboard);
-  // Of the next tick: it must not come yet.
+  // True while the next tick must not come yet.
   bool is_paused() const { return is_paused_; }
   // Not after the last of some ticks that were ordered: those end with their periods.
   bool pauses_at_once() const { return is_paused_ && !is_stepping_; }

@@ -17,7 +17,7 @@ class CellValues {
   void add(const RowResult& row);
   void clear();  // for the next cell
 
-  // Of the runs with a value.
+  // A summary of the runs with a value.
   SampleSummary summary(std::size_t column) const { return summarize(values_[column]); }
   const ResultCounts& results() const { return results_; }
 

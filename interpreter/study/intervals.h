@@ -13,13 +13,13 @@ struct Interval {
 
 constexpr double kConfidence = 0.95;
 
-// Of the median, between two values of the sample, whatever the distribution: a value is below the
-// median as often as a coin shows heads, so how many are is binomial. With at least 95 %; five
-// values and fewer have none.
+// The interval of the median, between two values of the sample, whatever the distribution: a value
+// is below the median as often as a coin shows heads, so how many are is binomial. With at least 95
+// %; five values and fewer have none.
 std::optional<Interval> median_interval(std::span<const double> sorted);
 
-// Of the probability of what `count` of `all` runs were: Clopper and Pearson (1934). With at least
-// 95 % too, for every probability and number of runs. `all` is at least 1.
+// The interval of the probability of what `count` of `all` runs were: Clopper and Pearson (1934).
+// With at least 95 % too, for every probability and number of runs. `all` is at least 1.
 Interval share_interval(std::uint64_t count, std::uint64_t all);
 
 }  // namespace lockstep::host

@@ -42,7 +42,7 @@ struct StudyShard {
   friend bool operator==(const StudyShard&, const StudyShard&) = default;
 };
 
-// Of a cell with --until-ci: how far the ends of an interval may be from the value in it.
+// How far the ends of an interval may be from the value in it, in a cell with --until-ci.
 struct Precision {
   double width = 0;
   bool is_percent = false;  // of the value; else in the unit of the measure

@@ -15,8 +15,8 @@ constexpr double kLeastRate = 0.001, kMostRate = 100000;
 std::optional<std::uint64_t> count_from(std::string_view text);
 std::optional<double> rate_from(std::string_view text);
 
-// Of axes with as many values each, which vary together: what is twice among them, with ':' between
-// the values, or "".
+// What is twice among axes that vary together and have as many values each, with ':' between the
+// values, or "".
 std::string value_twice(std::span<const GridAxis> together);
 
 // The error in the plan, or "".

@@ -8,7 +8,7 @@
 namespace lockstep::host {
 
 struct RankTest {
-  // Of all pairs of a value of either: the share in which the second is larger, less the share in
+  // The share of all pairs of a value of either in which the second is larger, less the share in
   // which it is smaller. From -1 to 1; Cliff's delta.
   double effect = 0;
   double p = 1;

@@ -15,10 +15,12 @@ struct Ranks {
 
 Ranks ranks_of(std::span<const double> values);
 
-// Of the ranks that one of two samples of these sizes has among both (Hollander, Wolfe 1999, 4.1).
+// The variance of the sum of the ranks that one of two samples of these sizes has among both
+// (Hollander, Wolfe 1999, 4.1).
 double rank_sum_variance(double first, double second, double ties);
-// Of half of the ranks of |differences|, each with the sign of its difference. Zeros have ranks,
-// but no sign (Pratt 1959); `ties` are those of the others (Hollander, Wolfe 1999, 3.1).
+// The variance of half of the sum of the ranks of |differences|, each with the sign of its
+// difference. Zeros have ranks, but no sign (Pratt 1959); `ties` are those of the others
+// (Hollander, Wolfe 1999, 3.1).
 double signed_rank_variance(double count, double zeros, double ties);
 
 // How likely a sum is so far from its mean, two-sided: from the normal distribution, with a

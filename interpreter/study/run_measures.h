@@ -20,7 +20,7 @@ class RunMeasures final : public Observer {
 
   const std::string& error() const { return measuring_.error(); }
   const std::vector<StudyColumn>& columns() const { return columns_; }
-  // Of the last run, in the order of columns(); NaN where it has no such number.
+  // The values of the last run, in the order of columns(); NaN where it has no such number.
   std::span<const double> values() const { return values_; }
 
   void run_started(Ticker& ticker, const RunStart& start) override;

@@ -33,8 +33,8 @@ std::uint64_t least_accepted(std::uint64_t count, double variance) {
   return low;
 }
 
-// Of `count` numbers, `nth` of which is the n-th smallest. Shifts that are not among them have the
-// ties of the samples only, so the variance is the same for all.
+// The shift among `count` numbers, of which `nth` gives the n-th smallest. Shifts that are not
+// among them have the ties of the samples only, so the variance is the same for all.
 template <class Nth>
 Shift shift_among(std::uint64_t count, double variance, Nth nth) {
   const double low = nth((count - 1) / 2), high = nth(count / 2);

@@ -26,7 +26,7 @@ class StudyRun {
 
   RunEnd run(std::uint64_t seed);
 
-  // Of the last run.
+  // The values of the last run.
   std::span<const double> values() const { return measures_.values(); }
   const Fault* fault() const { return run_ ? run_->fault() : nullptr; }
   std::span<const OutOfRange> out_of_range() { return run_->ticker().out_of_range(); }

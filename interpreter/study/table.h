@@ -21,7 +21,7 @@ struct SummaryRow {
   std::string measure;            // as to_text(MeasureSpec) writes it
   SampleSummary summary;  // of the runs that have a value; without any only count, 0, counts
   ResultCounts results;   // of all runs of the cell
-  // Of a measure that has one, as a predictability: the median over the runs.
+  // The median over the runs, of a measure that has one, as a predictability.
   std::optional<double> gap;
 
   // In the order of kIntervalColumns: the ends of the 95 % confidence intervals, of the median and

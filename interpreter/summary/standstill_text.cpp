@@ -107,7 +107,8 @@ class StandstillText {
                        it.waiting_at, what, state(place));
   }
 
-  // Of what a link waits for: how far it is, and where the next link holds something.
+  // What is known of that which a link waits for: how far it is, and where the next link holds
+  // something.
   std::string state(std::size_t place) const {
     const WaitLink& it = links_[place];
     const std::string at = it.awaited_status == Status::Running

@@ -210,7 +210,7 @@ void write_text(std::span<const SynchronizedSummary> nodes, std::size_t never_re
                      never_reached == 1 ? "was" : "were");
 }
 
-// Of a deep tree the first and the last nodes: in between a result is mostly passed on.
+// A deep tree shows its first and its last nodes: in between a result is mostly passed on.
 void write_text(std::span<const DecidingSummary> why_failed, std::string& out, bool color) {
   constexpr std::size_t kFirst = 5, kLast = 15;
   if (why_failed.empty()) return;

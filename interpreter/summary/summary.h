@@ -69,7 +69,7 @@ struct LatenessSummary {
   std::vector<std::uint64_t> ticks;  // by the binary digits of their lateness in ns
 };
 
-// Of a leaf whose ticks were over the budget.
+// The ticks of a leaf that was over the budget.
 struct LeafTimingSummary {
   std::string path;
   std::uint64_t calls = 0, over_budget = 0;  // ticks of the leaf, and those that were over it
@@ -84,7 +84,7 @@ struct WorstTickSummary {
   double leaf_took = 0;
 };
 
-// Who waits for whom: measure/wait_chain.h.
+// A link of a standstill: measure/wait_chain.h.
 struct StandstillLinkSummary {
   std::string node, kind, waiting, awaited;  // of nodes: their paths
   double waiting_at = 0, awaited_at = 0;

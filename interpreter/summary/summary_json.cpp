@@ -107,7 +107,7 @@ Json json_of(const std::vector<StandstillSummary>& standstills) {
   return list;
 }
 
-// Of the run, and what stood still.
+// The notes of the run, and what stood still.
 std::vector<std::string> all_notes(const Summary& summary) {
   std::vector<std::string> notes = summary.notes;
   for (const auto& lines : standstill_notes(summary)) notes.push_back(joined(lines, "; "));

@@ -16,7 +16,7 @@
 namespace lockstep::host {
 namespace {
 
-// Of the one terminal that a process has; a signal handler cannot ask an object.
+// A process has one terminal, and a signal handler cannot ask an object.
 termios g_before{};
 int g_keys = -1, g_screen = -1;
 int g_typed = -1;                        // reads g_keys, and never waits

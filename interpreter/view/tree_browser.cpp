@@ -49,7 +49,7 @@ bool TreeBrowser::press_character(char character, const Snapshot& now) {
 bool TreeBrowser::move(std::ptrdiff_t rows, const Snapshot& now) {
   const std::vector<NodeIndex> shown = unfolded(tree_, browsing_.folded);
   const NodeIndex from = browsing_.cursor.value_or(first_active(tree_, now));
-  // Of a node that is folded away, what it is folded into.
+  // A node that is folded away stands for what it is folded into.
   const auto at = std::upper_bound(shown.begin(), shown.end(), from) - 1 - shown.begin();
   const auto last = static_cast<std::ptrdiff_t>(shown.size()) - 1;
   const std::ptrdiff_t step = browsing_.cursor ? rows : 0;

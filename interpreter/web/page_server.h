@@ -14,7 +14,7 @@ namespace lockstep::host {
 
 class PageServer final : private Answering {
  public:
-  // Of a socket that only this machine can reach: nobody is asked for a token.
+  // Only this machine can reach the socket, so nobody is asked for a token.
   PageServer(std::string page, ServerSocket socket);
 
   std::string link() const { return "http://" + address_ + "/"; }

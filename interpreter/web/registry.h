@@ -20,7 +20,8 @@ struct RegisteredRun {
 // In the order of their numbers.
 std::vector<RegisteredRun> registered_runs();
 
-// Of this process, as long as it exists. Where there is no place for it, the run is not listed.
+// Lists the run of this process as long as the object exists. Where there is no place for it, the
+// run is not listed.
 class Registration {
  public:
   // `socket`: the path of an AttachSocket, or "".

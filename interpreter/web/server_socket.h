@@ -16,7 +16,7 @@ struct ServerSocket {
   bool is_loopback = true;  // no other machine can reach it
 };
 
-// Of this machine only, and a free port.
+// An address that only this machine reaches, with a free port.
 constexpr std::string_view kAnyLoopback = "127.0.0.1:0";
 
 // True if it looks like what listen_on accepts, rather than like a file.

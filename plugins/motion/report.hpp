@@ -45,14 +45,14 @@ class Report {
     samples_.push_back({now, progress});
   }
 
-  // Of an action that moves in ticks and has this progress now.
+  // The report of an action that moves in ticks and has this progress now.
   double of_ticks(double now, double progress) const {
     if (latency_ == 0) return in_steps(progress);
     const auto after = first_after(now - latency_);
     return after == samples_.begin() ? 0 : in_steps((after - 1)->progress);
   }
 
-  // Of an action whose progress is known for each time of its pace.
+  // The report of an action whose progress is known for each time of its pace.
   template <class ProgressAt>
   double of(const Pace& pace, double now, ProgressAt progress_at) const {
     const double elapsed = pace.elapsed(now);

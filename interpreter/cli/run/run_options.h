@@ -51,7 +51,7 @@ struct RunCommandOptions {
   bool is_wall() const { return clock == "wall"; }
   // None on the virtual clock and with --tick-budget 0.
   std::optional<Nanoseconds> tick_budget() const;
-  // Of all that waits after the last halt; nothing: none.
+  // The limit of all that waits after the last halt; nothing: none.
   std::optional<Nanoseconds> end_limit() const;
   LoopOptions loop() const;
 };

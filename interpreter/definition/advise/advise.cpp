@@ -245,7 +245,7 @@ class Adviser {
     });
   }
 
-  // Of each script whose text is in the tree.
+  // Visits the names in each script whose text is in the tree.
   template <class Visit>
   void for_each_name(Visit visit) const {
     for (const BoundScript& script : definition_.scripts) {

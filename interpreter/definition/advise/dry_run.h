@@ -75,7 +75,7 @@ class DryRun {
   std::vector<Least> least_;             // of the children of an All
   std::vector<Least> least_kept_;        // of each keeper
   std::vector<std::uint32_t> waits_at_;  // of each leaf: the keeper for whose limit it waits
-  // Of each keeper: the leaves that wait at it, and some that no longer do.
+  // The leaves that wait at each keeper, and some that no longer do.
   std::vector<std::vector<std::uint32_t>> waiting_;
   std::vector<std::uint32_t> beginning_;  // nodes
   std::vector<std::uint32_t> ready_;      // leaves that may be able to move

@@ -172,7 +172,7 @@ class DryTreeBuilder {
     return node + 1;
   }
 
-  // Of children without members that run at a time, one stands for all.
+  // Children without members that run at the same time are all alike, so one stands for all.
   bool is_left_out(std::uint32_t node) {
     const Conduct& conduct = conducts_[node];
     if (open_.empty() || conduct.has_member) return false;
@@ -210,7 +210,7 @@ class DryTreeBuilder {
     }
   }
 
-  // Who holds the children of that node.
+  // The keeper that holds the children of that node.
   std::uint32_t keeper_in(std::uint32_t node) {
     if (!compares_progress(at(node).type->synchronization)) return conducts_[node].keeper;
     return add_keeper(node, true);

@@ -28,7 +28,7 @@ struct DryNode {
   std::uint32_t keeper = kNone;  // who may hold it, in DryTree::keepers
   // What it adds to the progress of its parent: (place + progress) / parts.
   double place = 0, parts = 1;
-  // Of a leaf:
+  // The rest is for leaves.
   double last = 1;       // the progress from which it jumps to 1
   bool at_once = false;  // it succeeds when it begins: nothing in it runs, or it is a guard
 };

@@ -70,8 +70,8 @@ class IdleMemberAdviser {
            hooks[static_cast<std::size_t>(Hook::SuccessIf)] != Port::kNone;
   }
 
-  // Of a control node that chooses among its children. The first one is a condition, but for a
-  // Switch, which has cases.
+  // True if the control node around it chooses among its children. The first one is a condition,
+  // except in a Switch, which has cases.
   bool is_branch(std::uint32_t node) const {
     const DefinitionNode& around = at(at(node).parent);
     if (around.type->category != NodeCategory::Control) return false;

@@ -111,7 +111,7 @@ class KeepAdviser {
     return std::nullopt;
   }
 
-  // Of its part of the progress of that node's child.
+  // The progress of that node's child at which its part begins.
   double begin_of(std::uint32_t user, std::uint32_t top) const {
     std::uint32_t child = user;
     while (at(child).parent != top) child = at(child).parent;

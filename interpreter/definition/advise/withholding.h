@@ -22,7 +22,7 @@ class Withholding {
     }
   }
 
-  // Who may hold the children of a node: itself, the barrier of a SyncProgress, or nobody.
+  // The one that may hold the children of a node: itself, the barrier of a SyncProgress, or nobody.
   std::uint32_t of_children(std::uint32_t node) const {
     const DefinitionNode& it = definition_.nodes[node];
     if (it.type->category == NodeCategory::Control) {

@@ -157,7 +157,7 @@ std::string_view checked_key(const Reporter& report, const NodeType& type,
   return {};
 }
 
-// Of a stand-in for a node that no plugin has: how it uses the port is not known.
+// A stand-in for a node that no plugin has: how that uses the port is not known.
 bool is_guessed(const NodeType& type, const Parameter& parameter) {
   return type.mock != nullptr && parameter.is_generic;
 }

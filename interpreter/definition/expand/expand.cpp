@@ -252,7 +252,7 @@ class Expander {
     return found.entry;
   }
 
-  // Of a stand-in for a node that no plugin has: its entry has the type that others give it.
+  // The entry of a stand-in for a node that no plugin has gets the type that others give it.
   bool is_guessed(const NodeType& type, const Parameter& parameter) const {
     return is_strict() && type.mock != nullptr && parameter.is_generic;
   }

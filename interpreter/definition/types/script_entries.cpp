@@ -154,7 +154,7 @@ class Declarer {
                          with_article(*value.type, value.object)));
   }
 
-  // Of a Switch: each case must be a value that its script can have.
+  // Each case of a Switch must be a value that its script can have.
   void check_cases(const DefinitionNode& node) const {
     const auto parameters = node.type->parameters;
     const auto cases = std::ranges::find(parameters, "cases", &Parameter::name);

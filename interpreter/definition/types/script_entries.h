@@ -13,7 +13,7 @@
 
 namespace lockstep::host {
 
-// Of entries that no port uses: the start value as written.
+// The start values, as written, of entries that no port uses.
 using StartTexts = std::map<std::uint32_t, std::string_view>;
 
 // Gives the entries that only scripts use their types. One that nothing declares is an error, but

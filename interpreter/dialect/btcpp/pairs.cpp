@@ -139,7 +139,7 @@ constexpr NodePair kSimilar[] = {
     {.theirs = "UnsetBlackboard", .remark = kWriter},
     {.theirs = "WasEntryUpdated", .remark = kWriter},
     {.theirs = "TreeNodeModel", .remark = kModel},
-    // Of Nav2.
+    // The nodes of Nav2.
     {.theirs = "RecoveryNode", .remark = kNav},
     {.theirs = "PipelineSequence", .remark = kNav},
     {.theirs = "RoundRobin", .remark = kNav},

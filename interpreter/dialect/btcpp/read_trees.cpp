@@ -17,7 +17,7 @@
 namespace lockstep::host::btcpp {
 namespace {
 
-// Of the only tree of a file, which needs none.
+// The only tree of a file needs no ID.
 constexpr std::string_view kNoId = "BehaviorTree";
 
 constexpr std::uint32_t kMaxLevels = 255;  // of elements below BehaviorTree

@@ -47,14 +47,15 @@ std::optional<RuleBreak> rule_of_barrier(const ParameterValues& given) {
   return RuleBreak{-1, "'barriers', 'barrier_count' or 'delta' is missing", kOne};
 }
 
-// Of the barrier; behind it the progress of each member (child_states), and its Place.
+// The state of the barrier. Behind it is the progress of each member (child_numbers), and what else
+// is known of it.
 struct BarrierState {
   SynchronizedState synchronized;
   std::uint64_t succeeded;  // how many members
 };
 static_assert(sizeof(BarrierState) % sizeof(double) == 0);
 
-// Of a member, since the common ancestor began its activation.
+// What a member has done since the common ancestor began its activation.
 struct Place {
   bool succeeded;
   bool begun;
@@ -190,7 +191,7 @@ Status tick_barrier(NodeContext& context, NodeIndex self) {
   return state.synchronized.succeeded ? Status::Success : Status::Running;
 }
 
-// Who has succeeded or begun counts as long as the common ancestor runs.
+// What has succeeded or begun counts as long as the common ancestor runs.
 void fold_barrier(NodeContext& context, NodeIndex self) {
   if (context.status(context.tree().group(self).ancestor) != Status::Running) {
     return fold::dead(context, self);

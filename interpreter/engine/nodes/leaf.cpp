@@ -123,7 +123,7 @@ bool is_result(lockstep_status status) {
   return status > LOCKSTEP_IDLE && status <= static_cast<int>(kLastStatus);
 }
 
-// Of a condition.
+// For a condition.
 bool may_run(const LeafSlot& leaf, lockstep_status result) {
   return result == LOCKSTEP_RUNNING && (leaf.type->flags & LOCKSTEP_MAY_RUN) != 0;
 }

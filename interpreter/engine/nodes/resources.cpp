@@ -30,8 +30,8 @@ std::optional<RuleBreak> rule_of_resources(const ParameterValues& given) {
   return resources::check_list(given, kNames);
 }
 
-// Of a node that runs: a synchronized parallel has withheld its last tick, and may do so again.
-// Such a member asks when a tick reaches it.
+// True if a synchronized parallel has withheld the last tick of the running node, and may do so
+// again. Such a member asks when a tick reaches it.
 bool is_held_by_parallel(const NodeContext& context, NodeIndex node) {
   const auto& labels = context.tree().labels;
   while (context.held(node)) node = labels[node].parent;

@@ -46,7 +46,7 @@ struct SwitchState {
   NodeIndex current;  // the child that was chosen last; 0: none
 };
 
-// Of the first case that is equal, else what comes after the cases; 0: nothing does.
+// The child of the first case that is equal, else the one after the cases; 0: there is none.
 NodeIndex choose(NodeContext& context, NodeIndex self, const Value& value) {
   NodeIndex child = self + 1;
   for (const std::string& text : context.parameters().texts(self, kCases)) {

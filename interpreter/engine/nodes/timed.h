@@ -52,7 +52,7 @@ inline bool is_over(NodeContext& context, NodeIndex self) {
   return counted >= from_seconds(context.parameter(self, kSeconds).number);
 }
 
-// Of a node that runs: the times relative to now. If no entry changes what is counted, it is at
+// Makes the times of a running node relative to now. If no entry changes what is counted, it is at
 // most `limit`.
 inline void count_from_now(NodeContext& context, NodeIndex self, bool stands_while_held,
                            Nanoseconds limit) {
@@ -67,14 +67,14 @@ inline void count_from_now(NodeContext& context, NodeIndex self, bool stands_whi
   state = {.start = -std::min(until - state.start, limit), .paused_at = Nanoseconds(0)};
 }
 
-// Of Wait.
+// For Wait.
 inline void fold(NodeContext& context, NodeIndex self) {
   fold::dead_when_idle(context, self);
   if (context.status(self) != Status::Running) return;
   count_from_now(context, self, true, from_seconds(context.parameter(self, kSeconds).number));
 }
 
-// Of Timeout, Delay and a Rate that runs.
+// For Timeout, Delay and a Rate that runs.
 inline void fold_by_clock(NodeContext& context, NodeIndex self) {
   fold::dead_when_idle(context, self);
   if (context.status(self) != Status::Running) return;
@@ -82,7 +82,7 @@ inline void fold_by_clock(NodeContext& context, NodeIndex self) {
                  from_seconds(context.parameter(self, kSeconds).number));
 }
 
-// Of Timeout and Delay.
+// For Timeout and Delay.
 inline bool is_over_by_clock(NodeContext& context, NodeIndex self) {
   const bool goes_on = context.parameter(self, kClock).integer == kWall;
   if (!goes_on || context.first_tick(self)) count(context, self);

@@ -44,8 +44,8 @@ enum class PluginFunction : std::uint8_t {
 // "tick", "create_run", as lockstep/leaf.h spells them.
 const char* name_of(PluginFunction function);
 
-// Who is called, in words for a message. One that `of` gave lives until the process ends, because a
-// watchdog may look at it whenever it likes; the same words give the same one.
+// The one that is called, in words for a message. One that `of` gave lives until the process ends,
+// because a watchdog may look at it whenever it likes; the same words give the same one.
 struct CallSite {
   static constexpr const char* kLeaf = "leaf";
   static constexpr const char* kControlNode = "control node";

@@ -9,7 +9,7 @@ namespace lockstep::host {
 // A message that is smaller is not worth two looks at the clock.
 constexpr std::size_t kMuchToCarry = std::size_t{64} << 10;
 
-// Of the call that this thread is in.
+// The time of the call that this thread is in.
 inline constinit thread_local Nanoseconds t_carried{0};
 
 }  // namespace lockstep::host

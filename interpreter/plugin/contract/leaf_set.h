@@ -59,7 +59,7 @@ class LeafSet {
   LeafSet& operator=(const LeafSet&) = delete;
 
   std::span<LeafSlot> slots();
-  // Who ticks them, and the children of control nodes among them. Call before the first tick.
+  // Sets what ticks them, and the children of control nodes among them. Call before the first tick.
   void set_ticker(Ticker& ticker);
   const std::optional<Fault>& fault() const;
 

@@ -64,7 +64,7 @@ class LeafWatch {
     Nanoseconds p50{0}, p99{0};     // of tick, at most a sixteenth too large
     Nanoseconds max{0};             // of any function, exact
   };
-  // Of the leaves that were over their budget, the one with the longest call first.
+  // The leaves that were over their budget, the one with the longest call first.
   std::vector<Timing> over_budget() const;
 
  private:

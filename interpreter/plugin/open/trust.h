@@ -9,7 +9,8 @@
 
 namespace lockstep::host {
 
-// Of the file and the directory it lies in; of a symbolic link, of all that it leads to as well.
+// Warns of the file and the directory it lies in; for a symbolic link, of all that it leads to as
+// well.
 void warn_of_writable_plugin(const std::string& path, const SourceLocation& where,
                              Diagnostics& diagnostics);
 // For directories that are searched: anyone who may add a file to an earlier one decides what is

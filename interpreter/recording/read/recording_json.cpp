@@ -113,7 +113,7 @@ void apply_round(JsonValue change, std::vector<RecordedState>& states) {
   states[node].round = {static_cast<std::int64_t>(fields[1]), static_cast<std::int64_t>(fields[2])};
 }
 
-// Of a UseResources a set of resources, negative when it waits for them.
+// The limit of a UseResources is a set of resources, negative when it waits for them.
 bool is_limit(double limit, bool is_set) {
   if (!is_set) return limit >= 0 && limit <= 1;
   constexpr auto kEnd = static_cast<double>(ResourceSet{1} << kMaxResources);

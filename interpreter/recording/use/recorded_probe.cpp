@@ -108,8 +108,8 @@ double RecordedProbe::in_plain_parallel(std::size_t child, const RecordedState& 
   return last_[child] == Status::Failure && !state.ticked ? 1 : state.progress;
 }
 
-// Who was skipped in the last tick, or is in what was; of some groups also a member that did not
-// run, and had not succeeded, when the tick began.
+// True for a child that was skipped in the last tick, or is in what was; in some groups also for a
+// member that did not run, and had not succeeded, when the tick began.
 bool RecordedProbe::is_left_out(std::size_t child) const {
   if (runs_ && last_[child] == Status::Skipped) return true;
   if (members_.empty() || progress_[child] != 0) return false;

@@ -12,7 +12,7 @@
 namespace lockstep::host {
 
 std::vector<NodeIndex> synchronized_nodes(const RecordingHeader& header);
-// Of each node, by index.
+// The children of each node, by index.
 std::vector<std::vector<NodeIndex>> children_of(const RecordingHeader& header);
 
 class RecordedProbe {
@@ -32,8 +32,8 @@ class RecordedProbe {
   bool is_left_out(std::size_t child) const;
   bool is_in_skipped(std::size_t child, const RecordedTick& tick) const;
 
-  // Of a group: what is around each member, below the node that has all members, and whether some
-  // of it was skipped in the last tick.
+  // What is around each member of a group, below the node that has all members, and whether some of
+  // it was skipped in the last tick.
   struct Skips {
     std::vector<std::vector<NodeIndex>> around;
     std::vector<bool> found;

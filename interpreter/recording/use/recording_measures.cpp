@@ -39,7 +39,7 @@ MeasuredTree measured_tree(const RecordingHeader& header) {
   return tree;
 }
 
-// Of a bool 1 or 0.
+// A bool is 1 or 0.
 double number_of(const RecordedEntry& entry) {
   const std::string text = entry.value.value_or("");
   if (text == "true" || text == "false") return text == "true" ? 1 : 0;

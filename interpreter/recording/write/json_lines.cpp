@@ -123,8 +123,8 @@ char* put_seconds(char* to, Nanoseconds time) {
   return std::copy<const char*>(digits, end, to);
 }
 
-// Of nodes that change, most have not begun, have ended, or stand where their parent does: writing
-// a number takes longer than all the rest.
+// Most nodes that change have not begun, have ended, or stand where their parent does: writing a
+// number takes longer than all the rest.
 char* put_progress(char* to, double progress) {
   if (progress == 1.0) return put(to, "1");
   if (progress == 0.0 && !std::signbit(progress)) return put(to, "0");

@@ -56,7 +56,7 @@ class TickEndJson final : public TickEndReader {
 
 }  // namespace
 
-// Of {"tick":7,…
+// The line begins as {"tick":7,…
 std::optional<std::uint64_t> tick_of_json(std::string_view line) {
   constexpr std::string_view kTick = "{\"tick\":";
   static_assert(kTick.substr(2, kTick.size() - 4) == lines::kTick["tick"]);

@@ -111,8 +111,9 @@ void Conversation::judge(ProgramProcess::Written written) {
   }
 }
 
-// Who does not read any more has mostly ended. Then its last words and its end are still to be read
-// by who waits for an answer: so what is said of it does not depend on who was faster.
+// A program that does not read any more has mostly ended. Its last words and its end are still to
+// be read by the one that waits for an answer: so what is said of it does not depend on who was
+// faster.
 void Conversation::note_deaf() {
   if (process_.await_end(time_to_die())) return;
   give_up("closed its input; it was killed" + blamed());
@@ -321,7 +322,7 @@ void Conversation::note_end() {
                       has_rest ? " in the middle of a line" : "", blamed()));
 }
 
-// Who is to blame for what the program does: who it is to answer.
+// The leaf that is to blame for what the program does: the one that it is to answer.
 std::string Conversation::blamed() {
   const Lock lock(mutex_);
   for (const Leaf& leaf : leaves_) {

@@ -53,7 +53,7 @@ class Conversation {
     Nanoseconds since{0};   // when it was asked
   };
   News take(std::uint32_t leaf);
-  // Of that only the error; the rest stays for the next tick.
+  // Takes only the error of the news; the rest stays for the next tick.
   News take_error(std::uint32_t leaf);
   double progress(std::uint32_t leaf);
   // A new activation: what it has said before does not count.
@@ -76,7 +76,7 @@ class Conversation {
   std::optional<Nanoseconds> deadline();
   void check_deadline(Nanoseconds now);
 
-  // Of a gone program: waits for the end of its process, when nobody else does.
+  // Waits for the end of the process of a program that is gone, when nobody else does.
   void bury();
 
   ProgramProcess& process() { return process_; }

@@ -26,7 +26,7 @@ class Hello {
 
   const lockstep_plugin& plugin() const { return tables_.plugin; }
   const std::string& line() const { return line_; }
-  // Of a leaf type of the table, by its id.
+  // How a leaf type of the table is held, by its id.
   Hold hold_of(std::string_view id) const;
 
  private:

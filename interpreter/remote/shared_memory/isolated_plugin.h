@@ -34,7 +34,7 @@ class IsolatedPlugin final : public RemotePlugin {
   // entry() has.
   std::optional<std::uint32_t> index_of(const lockstep_leaf_type& type) const;
 
-  // Of a run that is over. May be called from any thread.
+  // Takes back the session of a run that is over. May be called from any thread.
   void release(std::unique_ptr<Session> session);
 
  private:

@@ -23,8 +23,8 @@ void fail_too_large(const lockstep_caller& caller) {
                            Channel::kLargest >> 20));
 }
 
-// Of a call with much to carry: all of its time that the plugin did not take. What it took is not
-// known of the first one, for which it is not blamed.
+// Notes, for a call with much to carry, all of its time that the plugin did not take. What it took
+// is not known of the first one, for which it is not blamed.
 void note_carried(std::size_t carried, Nanoseconds began, Nanoseconds took) {
   if (carried < kMuchToCarry && took == Nanoseconds(0)) return;
   t_carried += std::max(monotonic_now() - began - took, Nanoseconds(0));

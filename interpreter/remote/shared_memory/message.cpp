@@ -25,7 +25,7 @@ void MessageWriter::put_text_or_null(const char* text) {
 
 namespace {
 
-// Of a list these are the items that are copied together. A bool is not: not every byte is one.
+// The items of a list that are copied together. A bool is not: not every byte is one.
 template <class T>
 constexpr bool kIsNumber = std::is_same_v<T, double> || std::is_same_v<T, std::int64_t>;
 

@@ -38,7 +38,7 @@ bool write_generic(Entry& entry, const Value& value) {
   return true;
 }
 
-// Of a port that takes a value of any type.
+// The type of a port that takes a value of any type.
 constexpr auto kAnyType = static_cast<ValueType>(0xff);
 
 }  // namespace

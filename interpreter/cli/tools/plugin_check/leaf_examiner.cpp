@@ -87,7 +87,7 @@ std::vector<Value> edges(const Parameter& port) {
   return all;
 }
 
-// Of the entry of a port, by its number.
+// The entry of a port, by its number.
 std::string key_of(std::size_t port) {
   return fmt::format("port_{}", port);
 }

@@ -20,7 +20,7 @@
 namespace lockstep::host {
 namespace {
 
-// Of what is "name=value".
+// Splits texts of the form "name=value".
 std::map<std::string, std::string> pairs(const std::vector<std::string>& texts) {
   std::map<std::string, std::string> pairs;
   for (const std::string& text : texts) {

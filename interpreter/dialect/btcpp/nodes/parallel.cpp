@@ -109,7 +109,7 @@ void fold_parallel(NodeContext& context, NodeIndex self) {
   context.state<Tally>(self).skipped = 0;
 }
 
-// Of the children that are there.
+// The least progress of the children that are there.
 double least_progress(NodeContext& context, NodeIndex self) {
   double least = 1.0;
   for (NodeIndex child = self + 1; child != context.end_of(self); child = context.end_of(child)) {

@@ -75,7 +75,7 @@ class Control : public ControlFunctions, public PortsOfNode {
   void halt_child(std::uint32_t child) { children_.halt(child); }
   // Holds the child, if it runs, until it is ticked again.
   void pause_child(std::uint32_t child) { children_.pause(child); }
-  // Of its last tick; nothing before its first one, and after a halt.
+  // The result of its last tick; nothing before its first one, and after a halt.
   std::optional<Status> child_status(std::uint32_t child) const { return children_.status(child); }
   // In [0, 1]: 1 after Success, 0 after Failure.
   double child_progress(std::uint32_t child) const { return children_.progress(child); }

@@ -95,7 +95,7 @@ class Token {
   bool stop_ = false;
   bool pause_ = false;
   std::atomic<double> progress_{0};
-  // Of the activation, on the virtual clock; else null.
+  // The activation's, on the virtual clock; else null.
   const lockstep_workers* workers_ = nullptr;
   lockstep_worker* worker_ = nullptr;
 };

@@ -129,7 +129,7 @@ class Blackboard {
     entry->value = *value;
     return entry;
   }
-  // Of the value that it has; null: it has none.
+  // The type of the value that it has; null: it has none.
   template <class Key = std::string>
   [[nodiscard]] const TypeInfo* entryInfo(const Key& key) {
     const auto entry = getEntry(key);
@@ -148,7 +148,7 @@ class Blackboard {
   }
   Ptr parent() const { return lockstep_parent_; }
 
-  // Of a Blackboard that a program has made.
+  // The entries of a Blackboard that a program has made.
   std::vector<StringView> getKeys() const {
     std::vector<StringView> keys;
     for (const auto& [key, value] : lockstep_values_) keys.push_back(key);

@@ -59,7 +59,7 @@ struct NodeConfig {
   std::uint16_t uid = 0;
   std::string path;
 
-  // Of a node that a program makes: lockstep keeps those of a tree for itself.
+  // For a node that a program makes: lockstep keeps those of a tree for itself.
   std::map<PreCond, std::string> pre_conditions;
   std::map<PostCond, std::string> post_conditions;
 };
@@ -117,13 +117,13 @@ class TreeNode {
   std::uint16_t UID() const { return lockstep_config_.uid; }
   const NodeConfig& config() const { return lockstep_config_; }
 
-  // Of an input: the value, or why there is none.
+  // The value of an input, or why there is none.
   template <class T>
   [[nodiscard]] Expected<T> getInput(StringView port) const;
   // The same; `value` stays as it is if there is none.
   template <class T>
   Result getInput(StringView port, T& value) const;
-  // Of an output; an error when the tree gives it no entry, or the entry does not take the value.
+  // Sets an output; an error when the tree gives it no entry, or the entry does not take the value.
   template <class T>
   Result setOutput(StringView port, const T& value);
   // The same as getInput; how often the entry was written is not known here.

@@ -45,7 +45,7 @@ struct Leaf {
       return leaf.fail();
     }
   }
-  // Of a node that is mostly done in one tick, and so is not told of the first one.
+  // For a node that is mostly done in one tick, and so is not told of the first one.
   static lockstep_status tick_at_once(void* self) {
     Leaf& leaf = *static_cast<Leaf*>(self);
     const lockstep_status status = tick(self);

@@ -62,7 +62,7 @@ class OpenedEntry {
     return nonstd::make_unexpected(
         StrCat("the entry '", key_, "' has no value of type ", readable(typeid(T))));
   }
-  // Of any type but an object's.
+  // For any type but an object's.
   bool get(Any& value) const {
     const lockstep_type type = place_.node->value_type(place_.caller, port_);
     std::string text;

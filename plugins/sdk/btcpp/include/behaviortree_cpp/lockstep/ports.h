@@ -23,7 +23,7 @@ class TypeInfo {
     return info;
   }
   TypeInfo() = default;
-  // Of a value that is there.
+  // For a value that is there.
   static TypeInfo lockstep_of(const Any& value) {
     TypeInfo info;
     info.type_ = value.type();

@@ -93,7 +93,7 @@ class ProgramNode final : public TreeNode {
     return config;
   }
   NodeStatus tick() override { return executeTick(); }
-  // Of the root: the whole tree.
+  // For the root this is the whole tree.
   void halt() override {
     if (index_ == 0) lockstep_run_halt(run_);
   }
@@ -112,7 +112,7 @@ class ProgramNode final : public TreeNode {
   NodeType type_;
 };
 
-// Of a node of the language.
+// The type of a node of the language, by its ID.
 inline NodeType type_of_id(const std::string& id) {
   static const std::map<std::string, NodeType> types = [] {
     std::map<std::string, NodeType> all{{"SubTree", NodeType::SUBTREE}};

@@ -59,7 +59,7 @@ class ShortName {
     return text.substr(first, text.find_last_not_of(' ') - first + 1);
   }
 
-  // Of a template without those that the standard library adds to the first.
+  // Adds the arguments of a template without those that the standard library adds to the first.
   void add_list(std::string& name, const char* end) {
     std::string all, first;
     do {
