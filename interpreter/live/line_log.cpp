@@ -48,7 +48,7 @@ bool LineLog::wants_full() const {
   return end() - *last_full_ > kEvents && since_full_ > kTimes * at(*last_full_).it->text.size();
 }
 
-LineLog::Place LineLog::begin(std::optional<std::uint64_t> seen) const {
+LineLog::Cursor LineLog::begin(std::optional<std::uint64_t> seen) const {
   if (seen) {
     for (std::uint64_t event = end(); event-- > first_;) {
       if (at(event).it->tick == seen) return {.event = event + 1};
@@ -57,37 +57,37 @@ LineLog::Place LineLog::begin(std::optional<std::uint64_t> seen) const {
   return {.event = last_full_.value_or(first_)};
 }
 
-std::size_t LineLog::read(Place& place, std::span<char> to) {
+std::size_t LineLog::read(Cursor& cursor, std::span<char> to) {
   std::size_t count = 0;
   while (count < to.size()) {
-    if (!place.begun) {
-      catch_up(place);
-      if (place.event == end()) break;
-      place.begun = at(place.event).it;
+    if (!cursor.begun) {
+      catch_up(cursor);
+      if (cursor.event == end()) break;
+      cursor.begun = at(cursor.event).it;
     }
-    const std::string& text = place.begun->text;
-    const std::size_t fit = std::min(text.size() - place.offset, to.size() - count);
-    std::copy_n(text.data() + place.offset, fit, to.data() + count);
+    const std::string& text = cursor.begun->text;
+    const std::size_t fit = std::min(text.size() - cursor.offset, to.size() - count);
+    std::copy_n(text.data() + cursor.offset, fit, to.data() + count);
     count += fit;
-    place.offset += fit;
-    if (place.offset == text.size()) place = {.event = place.event + 1};
+    cursor.offset += fit;
+    if (cursor.offset == text.size()) cursor = {.event = cursor.event + 1};
   }
   return count;
 }
 
-bool LineLog::is_behind(const Place& place) const {
+bool LineLog::is_behind(const Cursor& cursor) const {
   constexpr std::size_t kFullLines = 4;
-  if (place.event < first_) return true;
-  if (place.event == end()) return false;
+  if (cursor.event < first_) return true;
+  if (cursor.event == end()) return false;
   const std::size_t most =
       is_over_ ? kMostAtEnd : std::max(kMostBehind, kFullLines * at(*last_full_).it->text.size());
-  return total_ - at(place.event).begin > most;
+  return total_ - at(cursor.event).begin > most;
 }
 
-void LineLog::catch_up(Place& place) {
-  if (!last_full_ || !is_behind(place)) return;
-  if (place.event < *last_full_) {
-    place.event = *last_full_;
+void LineLog::catch_up(Cursor& cursor) {
+  if (!last_full_ || !is_behind(cursor)) return;
+  if (cursor.event < *last_full_) {
+    cursor.event = *last_full_;
   } else {
     is_somebody_behind_ = true;
   }

@@ -1,4 +1,4 @@
-// The last lines of a run, for any number of listeners: each reads on from its place, at its pace,
+// The last lines of a run, for any number of listeners: each reads on from its cursor, at its pace,
 // and keeps nothing else. A listener that falls behind goes on at a line that has the whole state,
 // and what was counted until then.
 // The log has bounded size and begins with such a line.
@@ -30,7 +30,7 @@ class LineLog {
   static constexpr std::size_t kMostAtEnd = 64u << 10;  // bytes, when there is little time left
 
   // Where a listener is.
-  struct Place {
+  struct Cursor {
     std::uint64_t event = 0;  // its number, counted from the first of all
     // It, once it was begun: it is read to its end, also when the log has dropped it.
     std::shared_ptr<const LoggedEvent> begun = {};
@@ -52,9 +52,9 @@ class LineLog {
 
   std::string_view header() const { return header_.text; }
   // Where a listener begins that has seen the ticks up to this one, or none.
-  Place begin(std::optional<std::uint64_t> seen) const;
+  Cursor begin(std::optional<std::uint64_t> seen) const;
   // Copies what comes next and moves on. 0: nothing yet.
-  std::size_t read(Place& place, std::span<char> to);
+  std::size_t read(Cursor& cursor, std::span<char> to);
 
   // As lines: the header and the rest of the log.
   std::string_view header_line() const { return line_of(header_); }
@@ -79,8 +79,8 @@ class LineLog {
   void push(std::shared_ptr<const LoggedEvent> event);
   void drop_old();
   const Event& at(std::uint64_t event) const { return events_[event - first_]; }
-  bool is_behind(const Place& place) const;
-  void catch_up(Place& place);
+  bool is_behind(const Cursor& cursor) const;
+  void catch_up(Cursor& cursor);
 
   LoggedEvent header_;
   std::shared_ptr<const LoggedEvent> state_;  // the last

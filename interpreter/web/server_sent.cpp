@@ -33,11 +33,11 @@ LoggedEvent sent_event(std::string_view name, std::string_view json) {
 }
 
 ServerSent::ServerSent(LineLog& log, std::optional<std::uint64_t> seen)
-    : log_(log), place_(log.begin(seen)), is_at_header_(!seen) {}
+    : log_(log), cursor_(log.begin(seen)), is_at_header_(!seen) {}
 
 Stream::Piece ServerSent::read(std::span<char> to) {
   if (is_at_header_) return read_header(to);
-  const std::size_t count = log_.read(place_, to);
+  const std::size_t count = log_.read(cursor_, to);
   if (count > 0) return bytes(count);
   if (log_.is_over()) return {Piece::What::End};
   if (monotonic_now() - heard_ < kBeat) return {Piece::What::Wait};

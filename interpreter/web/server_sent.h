@@ -31,7 +31,7 @@ class ServerSent final : public Stream {
   Piece bytes(std::size_t count);
 
   LineLog& log_;
-  LineLog::Place place_;
+  LineLog::Cursor cursor_;
   bool is_at_header_;
   std::size_t in_header_ = 0;
   Nanoseconds heard_{0};

@@ -27,9 +27,9 @@ constexpr double kFrame = 0.03;  // seconds; an eye needs no more
 constexpr std::chrono::duration<double> kPatience{0.2};
 constexpr std::chrono::milliseconds kLastFrame{300};  // for the terminal to take it
 
-class Session {
+class ReplaySession {
  public:
-  Session(const RecordingHeader& header, RecordingTimeline& timeline, double speed)
+  ReplaySession(const RecordingHeader& header, RecordingTimeline& timeline, double speed)
       : header_(header), shape_(shape_of(header)), player_(timeline, speed) {}
 
   int play() {
@@ -130,7 +130,7 @@ class Session {
 int play_on_terminal(const RecordingHeader& header, RecordingTimeline& timeline, double speed) {
   StopSignals::install(&RawTerminal::restore_for_good);
   CrashReport::set_last_words(&RawTerminal::restore_for_good);
-  const int code = Session(header, timeline, speed).play();
+  const int code = ReplaySession(header, timeline, speed).play();
   if (!timeline.failed()) return code;
   print_error("the recording was changed while it was read");
   return kExitInvalidTree;

@@ -56,15 +56,15 @@ struct BarrierState {
 static_assert(sizeof(BarrierState) % sizeof(double) == 0);
 
 // What a member has done since the common ancestor began its activation.
-struct Place {
+struct MemberState {
   bool succeeded;
   bool begun;
   bool held;  // in this tick
 };
 
-Place& place_of(NodeContext& context, NodeIndex barrier, std::uint32_t number) {
+MemberState& member_state(NodeContext& context, NodeIndex barrier, std::uint32_t number) {
   const auto numbers = context.child_states<double>(barrier);
-  return reinterpret_cast<Place*>(numbers.data() + numbers.size())[number];
+  return reinterpret_cast<MemberState*>(numbers.data() + numbers.size())[number];
 }
 
 NodeIndex parent_of(const NodeContext& context, NodeIndex node) {
@@ -97,21 +97,21 @@ bool is_skipped(const NodeContext& context, NodeIndex member, NodeIndex ancestor
 }
 
 // What a member counts in the snapshot.
-double reached(NodeContext& context, NodeIndex member, const Place& place, NodeIndex ancestor,
+double reached(NodeContext& context, NodeIndex member, const MemberState& own, NodeIndex ancestor,
                double of_idle) {
-  if (place.succeeded && !context.is_guard(member)) return 1.0;
+  if (own.succeeded && !context.is_guard(member)) return 1.0;
   const Status status = context.status(member);
   if (status == Status::Running || status == Status::Success) return context.progress(member);
   if (is_skipped(context, member, ancestor)) return kLeftOut;
-  if (place.begun && cannot_come_back(context, member, ancestor)) return 1.0;
+  if (own.begun && cannot_come_back(context, member, ancestor)) return 1.0;
   return status == Status::Idle ? of_idle : 0.0;
 }
 
 // The barrier succeeds with all of its members. Of a guard only the last result counts.
-void note_result(NodeContext& context, const Member& member, Place& place, Status result) {
+void note_result(NodeContext& context, const Member& member, MemberState& own, Status result) {
   const bool succeeded =
-      result == Status::Success || (place.succeeded && !context.is_guard(member.node));
-  if (std::exchange(place.succeeded, succeeded) == succeeded) return;
+      result == Status::Success || (own.succeeded && !context.is_guard(member.node));
+  if (std::exchange(own.succeeded, succeeded) == succeeded) return;
   BarrierState& state = context.state<BarrierState>(member.group);
   succeeded ? ++state.succeeded : --state.succeeded;
   state.synchronized.succeeded = state.succeeded == context.node(member.group).children;
@@ -132,12 +132,12 @@ Snapshot take_snapshot(NodeContext& context, NodeIndex self) {
   const auto progress = context.child_states<double>(self);
   Snapshot snapshot{};
   for (const Member& it : tree.members_of(self)) {
-    Place& place = place_of(context, self, it.number);
-    if (begins) place = {};
+    MemberState& own = member_state(context, self, it.number);
+    if (begins) own = {};
     if (!begins && context.is_guard(it.node))
-      note_result(context, it, place, context.status(it.node));
+      note_result(context, it, own, context.status(it.node));
     progress[it.number] =
-        begins ? of_idle : reached(context, it.node, place, tree.group(self).ancestor, of_idle);
+        begins ? of_idle : reached(context, it.node, own, tree.group(self).ancestor, of_idle);
     snapshot.runs |= context.status(it.node) == Status::Running;
   }
   snapshot.least = least_progress(progress);
@@ -148,8 +148,8 @@ template <class Held>
 void hold(NodeContext& context, NodeIndex self, Held held) {
   const auto progress = context.child_states<double>(self);
   for (const Member& it : context.tree().members_of(self)) {
-    Place& place = place_of(context, self, it.number);
-    place.held = !place.succeeded && !context.is_guard(it.node) && held(progress[it.number]);
+    MemberState& own = member_state(context, self, it.number);
+    own.held = !own.succeeded && !context.is_guard(it.node) && held(progress[it.number]);
   }
 }
 
@@ -199,7 +199,7 @@ void fold_barrier(NodeContext& context, NodeIndex self) {
   context.state<BarrierState>(self).synchronized.limit = 0;
   std::ranges::fill(context.child_states<double>(self), 0.0);
   for (const Member& it : context.tree().members_of(self)) {
-    place_of(context, self, it.number).held = false;
+    member_state(context, self, it.number).held = false;
   }
 }
 
@@ -218,15 +218,15 @@ Status tick_member(NodeContext& context, NodeIndex self) {
   const Member& member = context.tree().membership(self);
   const NodeIndex child = self + 1;
   context.groups().reach(member.group);
-  Place& place = place_of(context, member.group, member.number);
-  place.begun = true;
+  MemberState& own = member_state(context, member.group, member.number);
+  own.begun = true;
   if (context.status(member.group) == Status::Failure) {  // an entry has no value that it accepts
     context.halt_running_children(self);
     return Status::Failure;
   }
-  if (place.held && context.hold(child)) return Status::Running;
+  if (own.held && context.hold(child)) return Status::Running;
   const Status status = context.tick(child);
-  note_result(context, member, place, status);
+  note_result(context, member, own, status);
   return status;
 }
 
@@ -234,16 +234,16 @@ Status tick_member(NodeContext& context, NodeIndex self) {
 void member_decided(NodeContext& context, NodeIndex self, Status result) {
   if (!is_complete(result)) return;
   const Member& member = context.tree().membership(self);
-  Place& place = place_of(context, member.group, member.number);
-  place.begun = true;
-  note_result(context, member, place, result);
+  MemberState& own = member_state(context, member.group, member.number);
+  own.begun = true;
+  note_result(context, member, own, result);
 }
 
 }  // namespace
 
 bool is_held_at_barrier(NodeContext& context, NodeIndex node) {
   const Member& member = context.tree().membership(node);
-  return place_of(context, member.group, member.number).held;
+  return member_state(context, member.group, member.number).held;
 }
 
 const NodeKind kBarrier{
@@ -261,7 +261,7 @@ const NodeKind kBarrier{
     .progress = [](NodeContext& context,
                    NodeIndex self) { return least_progress(context.child_states<double>(self)); },
     .state_size = sizeof(BarrierState),
-    .state_per_child = sizeof(double) + sizeof(Place),
+    .state_per_child = sizeof(double) + sizeof(MemberState),
     .fold = fold_barrier,
     .chooses_to_read = true};
 

@@ -5,13 +5,13 @@
 namespace lockstep::host {
 namespace {
 
-constexpr parallel::Places kParallelPlaces{.success_count = 0, .failure_count = 1};
+constexpr parallel::Counts kParallelCounts{.success_count = 0, .failure_count = 1};
 
 constexpr Parameter kParallelParameters[] = {parallel::kSuccessCount, parallel::kFailureCount,
                                              parallel::kMemory};
 
 std::optional<RuleBreak> rule_of_parallel(const ParameterValues& given) {
-  return parallel::check_counts(given, kParallelPlaces);
+  return parallel::check_counts(given, kParallelCounts);
 }
 
 Status tick_parallel(NodeContext& context, NodeIndex self) {
@@ -20,12 +20,12 @@ Status tick_parallel(NodeContext& context, NodeIndex self) {
   for (NodeIndex child = self + 1; child != end; child = context.end_of(child)) {
     tally.add(parallel::is_over(context, child) ? context.status(child) : context.tick(child));
   }
-  return parallel::judge(context, self, kParallelPlaces, tally);
+  return parallel::judge(context, self, kParallelCounts, tally);
 }
 
 double progress_of_parallel(NodeContext& context, NodeIndex self) {
   return parallel::progress_of_mth(context, self,
-                                   context.parameter(self, kParallelPlaces.success_count).integer);
+                                   context.parameter(self, kParallelCounts.success_count).integer);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 namespace lockstep::host {
 namespace {
 
-constexpr parallel::Places kAbsolutePlaces{.success_count = 3, .failure_count = 4};
+constexpr parallel::Counts kAbsoluteCounts{.success_count = 3, .failure_count = 4};
 
 constexpr Parameter kAbsoluteParameters[] = {
     absolute::kBarriersParameter, absolute::kBarrierCountParameter, absolute::kAtBarrierParameter,
@@ -14,7 +14,7 @@ constexpr Parameter kAbsoluteParameters[] = {
 };
 
 std::optional<RuleBreak> rule_of_absolute(const ParameterValues& given) {
-  if (auto broken = parallel::check_counts(given, kAbsolutePlaces)) return broken;
+  if (auto broken = parallel::check_counts(given, kAbsoluteCounts)) return broken;
   if (!given.is_given(absolute::kBarriers) && !given.is_given(absolute::kBarrierCount)) {
     return RuleBreak{-1, "'barriers' or 'barrier_count' is missing",
                      "give exactly one of the two, such as barriers=\"0.25;0.5;0.75\""};
@@ -29,7 +29,7 @@ Status tick_absolute(NodeContext& context, NodeIndex self) {
   context.state<SynchronizedState>(self).limit = barrier;
   const bool ticks =
       context.parameter(self, absolute::kAtBarrier).integer == absolute::kTickAtBarrier;
-  return synchronized::tick_children(context, self, kAbsolutePlaces,
+  return synchronized::tick_children(context, self, kAbsoluteCounts,
                                      absolute::Held{barrier, ticks});
 }
 

@@ -6,7 +6,7 @@ namespace lockstep::host {
 namespace {
 
 constexpr unsigned kDelta = 0;
-constexpr parallel::Places kRelativePlaces{.success_count = 1, .failure_count = 2};
+constexpr parallel::Counts kRelativeCounts{.success_count = 1, .failure_count = 2};
 
 constexpr Parameter kRelativeParameters[] = {
     {.name = "delta",
@@ -21,7 +21,7 @@ constexpr Parameter kRelativeParameters[] = {
 };
 
 std::optional<RuleBreak> rule_of_relative(const ParameterValues& given) {
-  return parallel::check_counts(given, kRelativePlaces);
+  return parallel::check_counts(given, kRelativeCounts);
 }
 
 Status tick_relative(NodeContext& context, NodeIndex self) {
@@ -29,7 +29,7 @@ Status tick_relative(NodeContext& context, NodeIndex self) {
   const double delta = context.parameter(self, kDelta).number;
   context.state<SynchronizedState>(self).limit = delta;
   const double most = farthest(Synchronization::Relative, delta, least) + kProgressEpsilon;
-  return synchronized::tick_children(context, self, kRelativePlaces,
+  return synchronized::tick_children(context, self, kRelativeCounts,
                                      [most](double reached) { return reached > most; });
 }
 

@@ -30,7 +30,7 @@ inline constexpr Parameter kMemory{
     .constant = true};
 
 // The positions of the two counts in the parameters of a kind.
-struct Places {
+struct Counts {
   unsigned success_count, failure_count;
 };
 
@@ -46,12 +46,12 @@ inline std::optional<RuleBreak> check_count(const ParameterValues& given, unsign
       "give at most " + most};
 }
 
-inline std::optional<RuleBreak> check_counts(const ParameterValues& given, const Places& places) {
+inline std::optional<RuleBreak> check_counts(const ParameterValues& given, const Counts& counts) {
   if (given.children == 0) return std::nullopt;  // that alone is wrong
-  Value& success = given.values[places.success_count];
-  if (!given.is_given(places.success_count)) success = std::int64_t{given.children};
-  if (auto broken = check_count(given, places.success_count, kSuccessCount.name)) return broken;
-  return check_count(given, places.failure_count, kFailureCount.name);
+  Value& success = given.values[counts.success_count];
+  if (!given.is_given(counts.success_count)) success = std::int64_t{given.children};
+  if (auto broken = check_count(given, counts.success_count, kSuccessCount.name)) return broken;
+  return check_count(given, counts.failure_count, kFailureCount.name);
 }
 
 // The progress of the child that is the M-th when the farthest is the first: where M children will
@@ -90,14 +90,14 @@ struct Tally {
 
 // Success is checked first. Children that still run are halted when the node ends. A child that was
 // skipped in this tick counts as not there.
-inline Status judge(NodeContext& context, NodeIndex self, const Places& places,
+inline Status judge(NodeContext& context, NodeIndex self, const Counts& counts,
                     const Tally& tally) {
   const std::int64_t there = context.node(self).children - tally.skipped;
   if (there == 0) return Status::Skipped;
   const std::int64_t wanted =
-      std::min(context.parameter(self, places.success_count).integer, there);
+      std::min(context.parameter(self, counts.success_count).integer, there);
   const bool success = tally.succeeded >= wanted;
-  const bool failure = tally.failed >= context.parameter(self, places.failure_count).integer ||
+  const bool failure = tally.failed >= context.parameter(self, counts.failure_count).integer ||
                        there - tally.failed < wanted;
   if (!success && !failure) return Status::Running;
   context.halt_running_children(self);

@@ -24,7 +24,7 @@ inline double take_snapshot(NodeContext& context, NodeIndex self) {
 
 // `held(progress)` returns whether a child with that progress is held. A guard is never held.
 template <class Held>
-Status tick_each(NodeContext& context, NodeIndex self, const parallel::Places& places, Held held) {
+Status tick_each(NodeContext& context, NodeIndex self, const parallel::Counts& counts, Held held) {
   parallel::Tally tally;
   NodeIndex child = self + 1;
   for (const double reached : context.child_states<double>(self)) {
@@ -38,13 +38,13 @@ Status tick_each(NodeContext& context, NodeIndex self, const parallel::Places& p
     tally.add(status);
     child = context.end_of(child);
   }
-  return context.faulted() ? Status::Running : parallel::judge(context, self, places, tally);
+  return context.faulted() ? Status::Running : parallel::judge(context, self, counts, tally);
 }
 
 template <class Held>
-Status tick_children(NodeContext& context, NodeIndex self, const parallel::Places& places,
+Status tick_children(NodeContext& context, NodeIndex self, const parallel::Counts& counts,
                      Held held) {
-  const Status status = tick_each(context, self, places, held);
+  const Status status = tick_each(context, self, counts, held);
   context.state<SynchronizedState>(self).succeeded = status == Status::Success;
   return status;
 }

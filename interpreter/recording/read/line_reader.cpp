@@ -16,15 +16,15 @@ bool LineReader::next() {
     in_.clear();
     if (is_too_long()) break;
   }
-  ++place_.lines;
-  place_.bytes += text_.size() + 1;
+  ++position_.lines;
+  position_.bytes += text_.size() + 1;
   return !is_too_long();
 }
 
-bool LineReader::go_to(const Place& place) {
+bool LineReader::go_to(const Position& position) {
   in_.clear();
-  place_ = place;
-  return static_cast<bool>(in_.seekg(static_cast<std::streamoff>(place.bytes)));
+  position_ = position;
+  return static_cast<bool>(in_.seekg(static_cast<std::streamoff>(position.bytes)));
 }
 
 }  // namespace lockstep::host

@@ -23,19 +23,19 @@ class LineReader {
   std::size_t longest() const { return longest_; }
 
   // How much has been read.
-  struct Place {
+  struct Position {
     std::uint64_t lines = 0, bytes = 0;
   };
-  const Place& place() const { return place_; }
+  const Position& position() const { return position_; }
   // Continues at an earlier position of this reader. Returns false if the stream cannot seek.
-  bool go_to(const Place& place);
+  bool go_to(const Position& position);
 
  private:
   std::istream& in_;
   const std::size_t longest_;
   std::string text_;
   bool has_end_ = true;
-  Place place_;
+  Position position_;
 };
 
 }  // namespace lockstep::host

@@ -31,11 +31,11 @@ std::optional<RecordedTick> RecordingReader::next() {
   return std::nullopt;
 }
 
-bool RecordingReader::go_to(const Place& place, std::span<const RecordedState> states) {
-  if (!lines_.go_to(place.lines)) return false;
+bool RecordingReader::go_to(const Position& position, std::span<const RecordedState> states) {
+  if (!lines_.go_to(position.lines)) return false;
   states_.assign(states.begin(), states.end());
-  next_tick_ = place.next_tick;
-  last_time_ = place.time;
+  next_tick_ = position.next_tick;
+  last_time_ = position.time;
   // A tick is neither behind the closing line nor behind an error.
   end_.reset();
   error_.clear();
@@ -91,7 +91,7 @@ std::string RecordingReader::gaps() const {
 
 std::string RecordingReader::cut() const {
   if (end_ || !error_.empty()) return {};
-  const std::uint64_t line = lines_.place().lines;
+  const std::uint64_t line = lines_.position().lines;
   if (is_cut_) return fmt::format("line {} is cut, the run did not end there", line);
   return fmt::format("it ends after line {} without a closing line", line);
 }
@@ -116,7 +116,7 @@ void RecordingReader::read_line(Read read) {
 }
 
 void RecordingReader::fail(const std::string& message) {
-  error_ = fmt::format("{}:{}: {}", name_, lines_.place().lines, message);
+  error_ = fmt::format("{}:{}: {}", name_, lines_.position().lines, message);
 }
 
 }  // namespace lockstep::host

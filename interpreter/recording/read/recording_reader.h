@@ -39,16 +39,16 @@ class RecordingReader {
   std::optional<RecordedTick> next();
 
   // Where the reader stands after a tick.
-  struct Place {
-    LineReader::Place lines;
+  struct Position {
+    LineReader::Position lines;
     std::uint64_t next_tick = 0;
     double time = 0;
   };
-  Place place() const { return {lines_.place(), next_tick_, last_time_}; }
+  Position position() const { return {lines_.position(), next_tick_, last_time_}; }
   // Goes back to an earlier position of this reader; `states` are those of that position. The next
   // tick is the one after it. The file must be seekable and unchanged before that position. Returns
   // false otherwise.
-  bool go_to(const Place& place, std::span<const RecordedState> states);
+  bool go_to(const Position& position, std::span<const RecordedState> states);
 
   // "" if there is no error, else "run.jsonl:12: no node 99, expected 0 to 4".
   const std::string& error() const { return error_; }

@@ -65,11 +65,13 @@ std::size_t RecordingTimeline::Keyframe::memory() const {
 
 // A keyframe of the tick that was just read, when it is time for one.
 void RecordingTimeline::keep(const RecordedTick& tick, std::uint64_t lost, const Past& before) {
-  const RecordingReader::Place place = reader_.place();
-  const auto distance = [&] { return place.lines.bytes - keyframes_.back().place.lines.bytes; };
+  const RecordingReader::Position position = reader_.position();
+  const auto distance = [&] {
+    return position.lines.bytes - keyframes_.back().position.lines.bytes;
+  };
   if (!keyframes_.empty() && distance() < options_.distance) return;
   Keyframe& keyframe = keyframes_.emplace_back();
-  keyframe.place = place;
+  keyframe.position = position;
   keyframe.moment.number = size_;
   keyframe.moment.past = before;
   take(tick, lost, keyframe.moment);
@@ -92,7 +94,7 @@ void RecordingTimeline::thin_out() {
 
 void RecordingTimeline::restore(const Keyframe& keyframe) {
   now_ = keyframe.moment;
-  failed_ = !reader_.go_to(keyframe.place, now_.nodes);
+  failed_ = !reader_.go_to(keyframe.position, now_.nodes);
   read_next();
 }
 

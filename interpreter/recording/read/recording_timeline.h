@@ -1,6 +1,6 @@
 // The ticks of a recording in any order: forward, back, at a number. Used by replays.
 //
-// A line of a recording contains only changes, so going back means reading from an earlier place
+// A line of a recording contains only changes, so going back means reading from an earlier position
 // whose whole state is known: a keyframe. The distance between keyframes is a number of bytes in
 // the file, because the cost of reading depends on bytes; a step back takes about a millisecond.
 // When keyframes need more than most_memory, every second one is dropped and the distance doubles.
@@ -83,7 +83,7 @@ class RecordingTimeline {
  private:
   struct Keyframe {
     Moment moment;
-    RecordingReader::Place place;
+    RecordingReader::Position position;
     std::size_t memory() const;
   };
   void keep(const RecordedTick& tick, std::uint64_t lost, const Past& before);

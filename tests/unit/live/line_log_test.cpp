@@ -24,7 +24,7 @@ std::string event(int tick, bool is_full = false, std::size_t length = 0) {
   return fmt::format("id: {}\ndata: {}\n", tick, line(tick, is_full, length));
 }
 
-std::string read_all(LineLog& log, LineLog::Place& place, std::size_t piece = 7) {
+std::string read_all(LineLog& log, LineLog::Cursor& place, std::size_t piece = 7) {
   std::string all, room(piece, '\0');
   for (;;) {
     const std::size_t count = log.read(place, room);
