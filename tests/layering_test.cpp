@@ -351,57 +351,63 @@ TEST_CASE("layers: nobody asks in which language a tree is written") {
     for (const char* asks : {"btcpp::", "== &kLockstepRules", "!= &kLockstepRules"}) {
       INFO(file << ": " << asks);
       CHECK(text.find(asks) == std::string::npos);
-      // A node kind has its run as a NodeContext. The ticker is for the owner of the run.
-      TEST_CASE("layers: a node kind does not see the ticker") {
-        for (const std::string& file : sources_under("interpreter/engine/nodes")) {
-          for (const Include& include : includes_of(file)) {
-            if (include.path == "engine/ticker.h")
-              FAIL_CHECK(at(include) + "of the owner of a run");
-            // A node kind knows no definition, only parameters.
-            TEST_CASE("layers: of the engine, only the compiler sees definitions") {
-              for (const std::string& file : sources_under("interpreter/engine")) {
-                for (const Include& include : includes_of(file)) {
-                  if (include.path.starts_with("definition/") &&
-                      !file.starts_with("interpreter/engine/compile."))
-                    FAIL_CHECK(at(include) + "only engine/compile may");
-                }
-              }
-            }
+    }
+  }
+}
 
-            // Where files are compiled as one, another one's #include hides that it is missing.
-            TEST_CASE("layers: a file that formats includes fmt") {
-              int seen = 0;
-              for (const std::string& file : sources_under("interpreter")) {
-                std::ifstream stream(fs::path(LOCKSTEP_SOURCE_DIR) / file);
-                const std::string text{std::istreambuf_iterator<char>(stream), {}};
-                if (text.find("fmt::") == std::string::npos) continue;
-                ++seen;
-                INFO(file);
-                CHECK(std::ranges::any_of(includes_of(file), [](const Include& include) {
-                  return include.path.starts_with("fmt/");
-                }));
-              }
-              CHECK(seen > 100);
-            }
+// A node kind has its run as a NodeContext. The ticker is for the owner of the run.
+TEST_CASE("layers: a node kind does not see the ticker") {
+  for (const std::string& file : sources_under("interpreter/engine/nodes")) {
+    for (const Include& include : includes_of(file)) {
+      if (include.path == "engine/ticker.h") FAIL_CHECK(at(include) + "of the owner of a run");
+    }
+  }
+}
 
-            // fmt::format is compiled in the library of fmt. Each unit that uses another one
-            // compiles all of formatting again, which takes seconds.
-            TEST_CASE("layers: only the recorder formats without fmt::format") {
-              int seen = 0;
-              for (const char* folder : {"interpreter", "plugins"}) {
-                for (const std::string& file : sources_under(folder)) {
-                  std::ifstream stream(fs::path(LOCKSTEP_SOURCE_DIR) / file);
-                  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-                  for (const char* other :
-                       {"fmt::format_to", "fmt::to_string(", "fmt::join(", "fmt::print("}) {
-                    if (text.find(other) == std::string::npos) continue;
-                    ++seen;
-                    INFO(file << ": " << other);
-                    CHECK(file == "interpreter/recording/write/json_lines.cpp");
-                  }
-                }
-              }
-              CHECK(seen > 0);
-            }
+// A node kind knows no definition, only parameters.
+TEST_CASE("layers: of the engine, only the compiler sees definitions") {
+  for (const std::string& file : sources_under("interpreter/engine")) {
+    for (const Include& include : includes_of(file)) {
+      if (include.path.starts_with("definition/") &&
+          !file.starts_with("interpreter/engine/compile."))
+        FAIL_CHECK(at(include) + "only engine/compile may");
+    }
+  }
+}
 
-          }  // namespace lockstep::host::test
+// Where files are compiled as one, another one's #include hides that it is missing.
+TEST_CASE("layers: a file that formats includes fmt") {
+  int seen = 0;
+  for (const std::string& file : sources_under("interpreter")) {
+    std::ifstream stream(fs::path(LOCKSTEP_SOURCE_DIR) / file);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    if (text.find("fmt::") == std::string::npos) continue;
+    ++seen;
+    INFO(file);
+    CHECK(std::ranges::any_of(includes_of(file), [](const Include& include) {
+      return include.path.starts_with("fmt/");
+    }));
+  }
+  CHECK(seen > 100);
+}
+
+// fmt::format is compiled in the library of fmt. Each unit that uses another one
+// compiles all of formatting again, which takes seconds.
+TEST_CASE("layers: only the recorder formats without fmt::format") {
+  int seen = 0;
+  for (const char* folder : {"interpreter", "plugins"}) {
+    for (const std::string& file : sources_under(folder)) {
+      std::ifstream stream(fs::path(LOCKSTEP_SOURCE_DIR) / file);
+      const std::string text{std::istreambuf_iterator<char>(stream), {}};
+      for (const char* other : {"fmt::format_to", "fmt::to_string(", "fmt::join(", "fmt::print("}) {
+        if (text.find(other) == std::string::npos) continue;
+        ++seen;
+        INFO(file << ": " << other);
+        CHECK(file == "interpreter/recording/write/json_lines.cpp");
+      }
+    }
+  }
+  CHECK(seen > 0);
+}
+
+}  // namespace lockstep::host::test
