@@ -16,7 +16,7 @@
 namespace {
 
 namespace runtime = lockstep::runtime;
-using lockstep::host::Status;
+using lockstep::Status;
 using Strings = std::vector<std::string>;
 
 Strings calls;  // of all Step leaves

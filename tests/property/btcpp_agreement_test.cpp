@@ -32,7 +32,7 @@ std::string shown(const std::map<std::string, Entry>& entries) {
 std::map<std::string, Entry> entries(Ticker& ticker) {
   std::map<std::string, Entry> all;
   for (std::size_t slot = 0; slot < ticker.tree().slots.size(); ++slot) {
-    const Entry& from = ticker.blackboard().entries[slot];
+    const lockstep::host::Entry& from = ticker.blackboard().entries[slot];
     if (!from.is_present) continue;
     Entry& entry = all[ticker.tree().slots[slot].name];
     entry.writes = from.writes;

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "dialect/btcpp/rules.h"
+#include "engine/node_ports.h"
 #include "property/btcpp_tree.h"
 #include "property/comparison.h"
 #include "support/tree_text.h"

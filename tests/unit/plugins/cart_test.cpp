@@ -4,7 +4,7 @@
 
 #include "unit/plugins/tree_run.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 std::string push_cart(const std::string& delta, const std::string& cart, const std::string& base) {
@@ -136,4 +136,4 @@ TEST_CASE("the same seed gives the same run", "[plugins][cart]") {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -3,7 +3,7 @@
 
 #include "unit/plugins/tree_run.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 const std::string kDoorLeaves = "<PullDoor name=\"arm\"/><BackAway name=\"base\"/>";
@@ -100,4 +100,4 @@ TEST_CASE("a way must be one", "[plugins][r1sim]") {
         "port 'way' must be greater than 0");
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -6,7 +6,7 @@
 
 #include "unit/plugins/tree_run.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 struct Law {
@@ -130,4 +130,4 @@ TEST_CASE("a name that does not exist is a fault that tells those that do", "[pl
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -4,7 +4,7 @@
 
 #include "unit/plugins/tree_run.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 std::string seek(const std::string& parallel, const std::string& hallway = "",
@@ -150,4 +150,4 @@ TEST_CASE("the same seed gives the same hallway, synchronized or not", "[plugins
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -9,7 +9,7 @@
 #include "engine/synchronized.h"
 #include "unit/plugins/tree_run.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 // What 'a' reports after each tick at 100 Hz, in tenths.
@@ -181,4 +181,4 @@ TEST_CASE("late actions are never further apart than the bound", "[plugins][moti
   }
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -5,7 +5,7 @@
 
 #include "unit/plugins/tree_run.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 TEST_CASE("a task of even pace takes one over it, at any rate", "[plugins][r1sim]") {
@@ -81,4 +81,4 @@ TEST_CASE("the seed decides the pace of a task", "[plugins][r1sim]") {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

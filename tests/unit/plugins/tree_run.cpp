@@ -7,7 +7,7 @@
 #include "engine/node_kind.h"
 #include "support/paths.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 namespace {
 
 void require_none(const Diagnostics& diagnostics) {
@@ -60,4 +60,4 @@ NodeIndex TreeRunner::node(const std::string& name) const {
   throw std::invalid_argument("no node '" + name + "'");
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -14,7 +14,7 @@
 #include "loading/plugin_set.h"
 #include "runtime/run.h"
 
-namespace lockstep::test {
+namespace lockstep::host::test {
 
 struct TreeRunOptions {
   std::uint64_t seed = 0;
@@ -46,4 +46,4 @@ class TreeRunner {
   Tree tree_;
 };
 
-}  // namespace lockstep::test
+}  // namespace lockstep::host::test

@@ -158,7 +158,8 @@ TEST_CASE("the plugin is one constant with all its leaves", "[sdk]") {
 }
 
 TEST_CASE("the compiler accepts the defaults that the tree language accepts", "[sdk]") {
-  using lockstep::ValueType;
+  using lockstep::host::parse_value;
+  using lockstep::host::ValueType;
   const std::string text = GENERATE(
       as<std::string>(), "", " ", "0", "1", "-7", "+7", "+-7", "--7", "1.", ".5", ".", "1.5", " 2 ",
       "1e3", "1e", "1e+3", "1E-3", "e3", "0x10", "inf", "nan", "true", "false", "True", " true ",

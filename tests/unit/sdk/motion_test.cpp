@@ -180,7 +180,7 @@ class RecordedFile {
   }
 
  private:
-  lockstep::TemporaryDirectory directory_;
+  lockstep::host::TemporaryDirectory directory_;
   std::string path_;
 };
 
