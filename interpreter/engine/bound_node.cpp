@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/node_context.h"
+#include "engine/tree.h"
 
 namespace lockstep::host {
 

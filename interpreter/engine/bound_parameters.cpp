@@ -7,11 +7,17 @@
 #include "core/resource_set.h"
 #include "core/suggest.h"
 #include "core/wording.h"
+#include "engine/blackboard.h"
+#include "engine/tree.h"
 
 namespace lockstep::host {
 
 BoundParameters::BoundParameters(const Tree& tree, const Blackboard& board)
-    : tree_(tree), board_(board), cells_(tree.cells.data()), numbers_(tree.numbers.data()) {
+    : tree_(tree),
+      nodes_(tree.nodes.data()),
+      board_(board),
+      cells_(tree.cells.data()),
+      numbers_(tree.numbers.data()) {
   if (tree.bound.empty()) return;
   own_.values.resize(tree.bound.size());
   for (std::size_t i = 0; i < own_.values.size(); ++i) {
@@ -41,6 +47,10 @@ std::span<const std::string> BoundParameters::texts(NodeIndex node, unsigned ind
   const Cell& cell = cells_[tree_.nodes[node].params + index];
   const Value& constant = tree_.constants[static_cast<std::size_t>(cell.integer)];
   return std::get<std::vector<std::string>>(constant);
+}
+
+std::span<const std::string> BoundParameters::pool_of(const BoundNode& node) const {
+  return tree_.group(tree_.membership(node.node).group).resources;
 }
 
 std::string BoundParameters::read_bound(NodeIndex index) {

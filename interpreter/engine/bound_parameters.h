@@ -7,10 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "engine/blackboard.h"
-#include "engine/tree.h"
+#include "core/value.h"
+#include "engine/node.h"
 
 namespace lockstep::host {
+
+struct Blackboard;
+struct BoundNode;
+struct Tree;
 
 class BoundParameters {
  public:
@@ -22,13 +26,13 @@ class BoundParameters {
   const Blackboard& board() const { return board_; }
   const Cell* cells() const { return cells_; }
   std::span<const double> numbers(NodeIndex node, unsigned index) const {
-    const Cell& cell = cells_[tree_.nodes[node].params + index];
+    const Cell& cell = cells_[nodes_[node].params + index];
     return {numbers_ + cell.list.first, cell.list.count};
   }
   // A list of texts that is a constant.
   std::span<const std::string> texts(NodeIndex node, unsigned index) const;
   // No entry gives a parameter of the node.
-  bool are_constant(NodeIndex node) const { return !tree_.nodes[node].kind->reads_entries; }
+  bool are_constant(NodeIndex node) const { return !nodes_[node].kind->reads_entries; }
 
   // Stores the entries of a node's parameters that were written. Returns "" or the error in a
   // value; after an error the node's cells are unchanged. Allocates only for longer texts and
@@ -60,9 +64,7 @@ class BoundParameters {
   static bool take_value(const Parameter& parameter, const Value& from, Value& value);
   std::string missing(const BoundNode& node, unsigned parameter) const;
   std::string unreadable(const BoundNode& node, unsigned parameter) const;
-  std::span<const std::string> pool_of(const BoundNode& node) const {
-    return tree_.group(tree_.membership(node.node).group).resources;
-  }
+  std::span<const std::string> pool_of(const BoundNode& node) const;
   std::optional<RuleBreak> refuse_resources(const BoundNode& node, const Parameter& parameter,
                                             const Value& value) const;
   std::string refusal(const BoundNode& node, unsigned parameter, const RuleBreak& why) const;
@@ -70,6 +72,7 @@ class BoundParameters {
   void set_list(Cell& cell, std::uint32_t& space, const std::vector<double>& list);
 
   const Tree& tree_;
+  const Node* const nodes_;  // of the tree
   const Blackboard& board_;
   const Cell* cells_;
   const double* numbers_;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "engine/blackboard.h"
 #include "engine/groups.h"
 #include "engine/ticker.h"
 

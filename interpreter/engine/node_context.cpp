@@ -8,6 +8,7 @@
 #include "engine/held_leaves.h"
 #include "engine/node_ports.h"
 #include "engine/node_scripts.h"
+#include "engine/tree.h"
 
 namespace lockstep::host {
 namespace {
@@ -74,7 +75,7 @@ Status NodeContext::tick_unreset(NodeIndex node) {
 // parent has completed, not when that was skipped too.
 void NodeContext::forget_descendants(NodeIndex node) {
   if (tree_.keeps_over_skips && state_.activity[node] != Activity::Skipped) {
-    forget_skipped(node + 1, nodes_[node].end);
+    forget_range(node + 1, nodes_[node].end);
   }
   constexpr NodeIndex kBlock = sizeof(std::uint64_t);
   Activity* const all = state_.activity.data();
@@ -91,7 +92,8 @@ void NodeContext::forget_descendants(NodeIndex node) {
   }
 }
 
-void NodeContext::forget_skipped(NodeIndex first, NodeIndex last) {
+void NodeContext::forget_range(NodeIndex first, NodeIndex last) {
+  if (!tree_.keeps_over_skips) return;
   for (NodeIndex node = first; node < last; ++node) {
     const auto forget = nodes_[node].kind->forget;
     if (state_.activity[node] == Activity::Skipped && forget != nullptr) forget(*this, node);

@@ -57,9 +57,7 @@ class NodeContext : public RunView {
   void ask_for_another_tick(NodeIndex node) { state_.asked_by = node + 1; }
 
   // The nodes of a range that were skipped begin again in their next tick.
-  void forget_range(NodeIndex first, NodeIndex last) {
-    if (tree_.keeps_over_skips) forget_skipped(first, last);
-  }
+  void forget_range(NodeIndex first, NodeIndex last);
 
   // Ends the activation of every running node in the subtree; all of it is idle then. After a fault
   // it does nothing.
@@ -142,7 +140,6 @@ class NodeContext : public RunView {
 
   std::optional<Status> tick_interrupted(NodeIndex node);
   Status fail(NodeIndex node);
-  void forget_skipped(NodeIndex first, NodeIndex last);
   void forget_descendants(NodeIndex node);
   NodeIndex end_activation(NodeIndex node);
   void keep_ancestors_running(NodeIndex node);

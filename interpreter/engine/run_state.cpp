@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/tree.h"
+
 namespace lockstep::host {
 
 RunState::RunState(const Tree& tree)

@@ -9,9 +9,12 @@
 
 #include "core/clock.h"
 #include "core/status.h"
-#include "engine/tree.h"
+#include "core/value.h"
+#include "engine/node_kind.h"
 
 namespace lockstep::host {
+
+struct Tree;
 
 inline constexpr std::uint8_t kWithheld = 8;  // above the bits of a Status
 static_assert(index_of(kLastStatus) < kWithheld);
@@ -50,6 +53,7 @@ struct OutOfRange {
 struct RunState {
   RunState() = default;
   explicit RunState(const Tree& tree);
+
   // Resets everything, without allocating.
   void reset();
 

@@ -1,5 +1,7 @@
 #include "engine/run_view.h"
 
+#include "engine/tree.h"
+
 namespace lockstep::host {
 
 RunView::RunView(const Tree& tree, Blackboard& board)

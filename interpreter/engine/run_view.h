@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <span>
 
-#include "engine/blackboard.h"
+#include "engine/node.h"
 #include "engine/run_state.h"
-#include "engine/tree.h"
 
 namespace lockstep::host {
+
+struct Blackboard;
+struct Tree;
 
 class RunView {
  public:

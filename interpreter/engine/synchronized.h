@@ -8,6 +8,7 @@
 #include <span>
 
 #include "engine/node_context.h"
+#include "engine/tree.h"
 
 namespace lockstep::host {
 

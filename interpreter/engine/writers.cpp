@@ -1,5 +1,7 @@
 #include "engine/writers.h"
 
+#include "expression/expression.h"
+
 #include <algorithm>
 #include <utility>
 

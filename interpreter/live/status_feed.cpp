@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/differences.h"
+#include "engine/tree.h"
 
 namespace lockstep::host {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/blackboard.h"
 #include "engine/synchronized.h"
 #include "engine/ticker.h"
 

@@ -1,5 +1,7 @@
 #include "runtime/run_control.h"
 
+#include "engine/blackboard.h"
+
 #include <utility>
 
 namespace lockstep::host {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "blackboard/entry.h"
 #include "core/value.h"
 #include "engine/ticker.h"
 #include "runtime/breakpoints.h"

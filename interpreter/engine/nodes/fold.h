@@ -3,7 +3,7 @@
 // tick beside runs that are not.
 #pragma once
 
-#include <algorithm>
+#include <cstring>
 
 #include "engine/node_context.h"
 
@@ -11,7 +11,8 @@ namespace lockstep::host::fold {
 
 // Each tick writes it before it reads it.
 inline void dead(NodeContext& context, NodeIndex self) {
-  std::ranges::fill(context.kept_bytes(self), std::byte{});
+  const std::span<std::byte> bytes = context.kept_bytes(self);
+  std::memset(bytes.data(), 0, bytes.size());
 }
 
 // The first tick of an activation writes it.

@@ -9,6 +9,7 @@
 #include "core/plugin_exception.h"
 #include "engine/node_context.h"
 #include "engine/node_kind.h"
+#include "engine/tree.h"
 #include "lockstep/leaf.h"
 
 namespace lockstep::host {

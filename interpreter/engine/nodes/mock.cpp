@@ -5,6 +5,7 @@
 #include "engine/nodes/decorator.h"
 #include "engine/nodes/fold.h"
 #include "engine/nodes/timed.h"
+#include "engine/tree.h"
 
 namespace lockstep::host {
 namespace {
