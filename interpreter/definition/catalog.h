@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/node_type.h"
-#include "expression/expression.h"
+#include "expression/script_enums.h"
 
 namespace lockstep::host {
 

@@ -1,12 +1,13 @@
 // What an assignment in a script does to an entry.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "blackboard/entry.h"
-#include "expression/expression.h"
 #include "expression/operand.h"
+#include "expression/script_enums.h"
 
 namespace lockstep::host {
 

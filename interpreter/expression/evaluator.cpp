@@ -10,7 +10,6 @@
 #include "core/wording.h"
 #include "expression/assign.h"
 #include "expression/change.h"
-#include "expression/equal.h"
 #include "expression/operator_words.h"
 #include "expression/relation.h"
 

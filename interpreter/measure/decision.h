@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/status.h"
-#include "engine/tree.h"
+#include "engine/node_kind.h"
 
 namespace lockstep::host {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/tree.h"
+#include "engine/node_kind.h"
 #include "measure/measure.h"
 
 namespace lockstep::host {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/node_type.h"
-#include "core/place.h"
 #include "document/project.h"
 #include "document/reporter.h"
 

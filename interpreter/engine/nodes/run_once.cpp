@@ -1,5 +1,8 @@
 #include "engine/nodes/run_once.h"
 
+#include "engine/nodes/decorator.h"
+#include "engine/nodes/fold.h"
+
 namespace lockstep::host {
 
 const NodeKind kRunOnce{

@@ -1,8 +1,7 @@
 // A decorator whose child completes once in a run.
 #pragma once
 
-#include "engine/nodes/decorator.h"
-#include "engine/nodes/fold.h"
+#include "engine/node_context.h"
 
 namespace lockstep::host::run_once {
 

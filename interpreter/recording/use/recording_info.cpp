@@ -6,6 +6,7 @@
 
 #include "core/diagnostics.h"
 #include "measure/decision.h"
+#include "measure/measure_spec.h"
 #include "recording/use/recorded_probe.h"
 #include "summary/summary.h"
 #include "terminal/style.h"

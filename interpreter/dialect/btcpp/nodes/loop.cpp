@@ -7,7 +7,6 @@
 #include "dialect/btcpp/nodes/kinds.h"
 #include "dialect/btcpp/nodes/results.h"
 #include "engine/node_ports.h"
-#include "engine/nodes/decorator.h"
 #include "engine/nodes/fold.h"
 
 namespace lockstep::host::btcpp {

@@ -1,6 +1,8 @@
 #include "engine/nodes/run_once.h"
 
 #include "dialect/btcpp/nodes/kinds.h"
+#include "engine/nodes/decorator.h"
+#include "engine/nodes/fold.h"
 
 namespace lockstep::host::btcpp {
 namespace {
