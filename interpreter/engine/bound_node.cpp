@@ -8,16 +8,26 @@
 
 namespace lockstep::host {
 
+namespace {
+
+// False after a fault.
+bool accept(NodeContext& context, NodeIndex self, std::string wrong) {
+  if (wrong.empty()) [[likely]]
+    return true;
+  context.set_fault(self, std::move(wrong));
+  return false;
+}
+
+}  // namespace
+
 Status tick_bound(NodeContext& context, NodeIndex self) {
-  if (!reread(context, self)) return give_up(context, self);
-  return context.tree().bound_of(self).kind->tick(context, self);
+  const std::uint32_t place = context.tree().place_in_front(self, FrontCell::Bound);
+  if (!accept(context, self, context.parameters().read_bound(place))) return give_up(context, self);
+  return context.tree().bound[place].kind->tick(context, self);
 }
 
 bool reread(NodeContext& context, NodeIndex self) {
-  std::string wrong = context.parameters().read(self);
-  if (wrong.empty()) return true;
-  context.set_fault(self, std::move(wrong));
-  return false;
+  return accept(context, self, context.parameters().read(self));
 }
 
 Status give_up(NodeContext& context, NodeIndex self) {

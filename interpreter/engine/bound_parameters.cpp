@@ -53,10 +53,14 @@ std::span<const std::string> BoundParameters::pool_of(const BoundNode& node) con
   return tree_.group(tree_.membership(node.node).group).resources;
 }
 
-std::string BoundParameters::read_bound(NodeIndex index) {
-  const std::uint32_t bound = tree_.place_in_front(index, FrontCell::Bound);
-  const BoundNode& node = tree_.bound[bound];
-  Values& values = own_.values[bound];
+std::string BoundParameters::read(NodeIndex node) {
+  if (are_constant(node)) return {};
+  return read_bound(tree_.place_in_front(node, FrontCell::Bound));
+}
+
+std::string BoundParameters::read_bound(std::uint32_t place) {
+  const BoundNode& node = tree_.bound[place];
+  Values& values = own_.values[place];
   if (is_current(node, values)) return {};
   std::string wrong = take_values(node, values);
   values.known = wrong.empty();

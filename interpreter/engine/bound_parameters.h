@@ -37,7 +37,9 @@ class BoundParameters {
   // Stores the entries of a node's parameters that were written. Returns "" or the error in a
   // value; after an error the node's cells are unchanged. Allocates only for longer texts and
   // lists, or if the kind's rule does.
-  std::string read(NodeIndex node) { return are_constant(node) ? std::string() : read_bound(node); }
+  std::string read(NodeIndex node);
+  // The same for a node of Tree::bound, by its place there.
+  std::string read_bound(std::uint32_t place);
   // As new, for the next run.
   void reset();
 
@@ -58,7 +60,6 @@ class BoundParameters {
   void restore(const State& from);
 
  private:
-  std::string read_bound(NodeIndex node);
   bool is_current(const BoundNode& node, const Values& values) const;
   std::string take_values(const BoundNode& node, Values& values) const;
   static bool take_value(const Parameter& parameter, const Value& from, Value& value);

@@ -23,16 +23,14 @@ BoundScripts::BoundScripts(const Tree& tree, Blackboard& board, NamedEntries& na
     bound.comparison = script.code->comparison();
     bound.change = only_change(script.code->program().code);
     for (const std::uint32_t slot : script.slots) entries_.push_back(&board.entries[slot]);
+    if (bound.comparison != nullptr) bound.compared = &bound.entries.front()->value;
   }
 }
 
-bool BoundScripts::evaluate(NodeIndex node, std::uint32_t script) {
+bool BoundScripts::evaluate_entry(NodeIndex node, std::uint32_t script) {
+  if (!compile(node, script)) return false;
   const Bound& it = scripts_[script];
-  if (it.source != nullptr) {
-    if (!compile(node, script)) return false;
-    if (it.code == nullptr) return true;
-  }
-  return evaluator_.evaluate(*it.code, it.entries, value_);
+  return it.code == nullptr || evaluator_.evaluate(*it.code, it.entries, value_);
 }
 
 bool BoundScripts::run_all(NodeIndex node, std::uint32_t script) {

@@ -29,14 +29,19 @@ class BoundScripts {
     return (it.change && apply(*it.change, *it.entries.front())) || run_all(node, script);
   }
   // The same, with its value.
-  bool evaluate(NodeIndex node, std::uint32_t script);
+  bool evaluate(NodeIndex node, std::uint32_t script) {
+    const Bound& it = scripts_[script];
+    if (it.source != nullptr) [[unlikely]]
+      return evaluate_entry(node, script);
+    return evaluator_.evaluate(*it.code, it.entries, value_);
+  }
   // What the last one of these gave.
   const Value& value() const { return value_; }
   // The same, of one that is a condition.
   Truth test(NodeIndex node, std::uint32_t script) {
     const Bound& it = scripts_[script];
     double number = 0;
-    if (it.comparison == nullptr || !take(it.entries.front()->value, number)) {
+    if (it.comparison == nullptr || !take(*it.compared, number)) {
       return test_all(node, script);
     }
     return are_related(number, it.comparison->relation, it.comparison->real) ? Truth::Yes
@@ -59,9 +64,11 @@ class BoundScripts {
     const Expression* code;  // null: there is none now
     std::span<Entry* const> entries = {};
     const Instruction* comparison = nullptr;  // set while nothing else is needed
-    std::optional<Change> change = {};        // the same
+    const Value* compared = nullptr;          // with a number; of the first entry
+    std::optional<Change> change = {};        // set while nothing else is needed
     std::unique_ptr<FromEntry> source = {};
   };
+  bool evaluate_entry(NodeIndex node, std::uint32_t script);
   bool compile(NodeIndex node, std::uint32_t script);
   bool run_all(NodeIndex node, std::uint32_t script);
   Truth test_all(NodeIndex node, std::uint32_t script);

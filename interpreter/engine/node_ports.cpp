@@ -7,7 +7,7 @@ namespace lockstep::host {
 const Value* NodePorts::value(NodeIndex node, unsigned index) const {
   const PortBinding& it = binding(node, index);
   if (it.slot != PortBinding::kUnbound) {
-    const Entry& entry = board_.entries[it.slot];
+    const Entry& entry = entries_[it.slot];
     if (entry.is_present && entry.has_value()) return &entry.value;
   }
   return it.constant != PortBinding::kUnbound ? &tree_.constants[it.constant] : nullptr;
@@ -16,7 +16,7 @@ const Value* NodePorts::value(NodeIndex node, unsigned index) const {
 std::optional<Entry*> NodePorts::named(NodeIndex node, unsigned index) {
   const PortBinding& it = binding(node, index);
   if (it.slot == PortBinding::kUnbound) return nullptr;
-  Entry& entry = board_.entries[it.slot];
+  Entry& entry = entries_[it.slot];
   if (it.constant != PortBinding::kUnbound) return &entry;  // its name is in the tree
   const auto name =
       entry.is_present ? convert_value(entry.value, ValueType::String, nullptr) : std::nullopt;

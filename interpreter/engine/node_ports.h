@@ -17,12 +17,16 @@ class NodePorts {
  public:
   // Both must outlive this, and the entries of `board` stay where they are.
   NodePorts(const Tree& tree, Blackboard& board)
-      : tree_(tree), board_(board), names_(tree.boards, board.entries) {}
+      : tree_(tree),
+        nodes_(tree.nodes.data()),
+        ports_(tree.ports.data()),
+        entries_(board.entries.data()),
+        names_(tree.boards, board.entries) {}
 
   // Null: no {key}.
   Entry* entry(NodeIndex node, unsigned index) {
     const std::uint32_t slot = binding(node, index).slot;
-    return slot == PortBinding::kUnbound ? nullptr : &board_.entries[slot];
+    return slot == PortBinding::kUnbound ? nullptr : &entries_[slot];
   }
   // Null: it has no value.
   const Value* value(NodeIndex node, unsigned index) const;
@@ -42,11 +46,13 @@ class NodePorts {
 
  private:
   const PortBinding& binding(NodeIndex node, unsigned index) const {
-    return tree_.ports[tree_.nodes[node].params + index];
+    return ports_[nodes_[node].params + index];
   }
 
   const Tree& tree_;
-  Blackboard& board_;
+  const Node* const nodes_;  // of the tree
+  const PortBinding* const ports_;
+  Entry* const entries_;
   NamedEntries names_;
 };
 

@@ -7,7 +7,11 @@ namespace lockstep::host {
 
 NodeScripts::NodeScripts(NodeContext& context, const Tree& tree, Blackboard& board,
                          NamedEntries& names)
-    : context_(context), tree_(tree), scripts_(tree, board, names) {
+    : context_(context),
+      tree_(tree),
+      hooks_(tree.hooks.empty() ? nullptr : tree.hooks.data()),
+      hooked_(tree.hooked.data()),
+      scripts_(tree, board, names) {
   if (tree.has_halt_hooks) halted_.reserve(tree.hooked.size());
 }
 
@@ -41,7 +45,7 @@ const Value* NodeScripts::value_of(NodeIndex node, unsigned parameter) {
 }
 
 Status NodeScripts::tick(NodeIndex node) {
-  const HookedNode& hooked = tree_.hooked[tree_.hooks[node]];
+  const HookedNode& hooked = hooked_[hooks_[node]];
   const bool begins = context_.first_tick(node);
   auto decided = begins && hooked.begins ? ask_first(node, hooked) : std::nullopt;
   if (!decided && hooked.script(Hook::While) != HookedNode::kNoScript) {

@@ -31,8 +31,8 @@ class NodeScripts {
 
   // Null for a node that has none.
   const HookedNode* around(NodeIndex node) const {
-    const bool has_any = !tree_.hooks.empty() && tree_.hooks[node] != HookedNode::kNoScript;
-    return has_any ? &tree_.hooked[tree_.hooks[node]] : nullptr;
+    const bool has_any = hooks_ != nullptr && hooks_[node] != HookedNode::kNoScript;
+    return has_any ? &hooked_[hooks_[node]] : nullptr;
   }
   // Ticks a node with its scripts.
   Status tick(NodeIndex node);
@@ -59,6 +59,8 @@ class NodeScripts {
 
   NodeContext& context_;
   const Tree& tree_;
+  const std::uint32_t* const hooks_;  // of the tree; null when no node has scripts
+  const HookedNode* const hooked_;
   BoundScripts scripts_;
   std::vector<NodeIndex> halted_ = {};  // that have a script for it
 };

@@ -143,10 +143,6 @@ struct Tree {
   const Member& membership(NodeIndex node) const {
     return members[place_in_front(node, FrontCell::Member)];
   }
-  // Only a node of `bound` has it.
-  const BoundNode& bound_of(NodeIndex node) const {
-    return bound[place_in_front(node, FrontCell::Bound)];
-  }
   std::uint32_t place_in_front(NodeIndex node, FrontCell which) const {
     const Cell& cell = cells[nodes[node].params - static_cast<std::uint32_t>(which)];
     return static_cast<std::uint32_t>(cell.integer);
