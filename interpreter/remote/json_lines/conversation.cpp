@@ -12,9 +12,8 @@
 namespace lockstep::host {
 namespace {
 
-// After the end of its output, or of its input. Others wait for the thread that listens.
+// After the end of its output, or of its input.
 constexpr Nanoseconds kToDie = std::chrono::seconds(1);
-constexpr Nanoseconds kToDieListened = std::chrono::milliseconds(100);
 constexpr const char* kGoodEnd = "ended with exit code 0";
 constexpr Nanoseconds kToFlush = std::chrono::milliseconds(1);
 
@@ -115,12 +114,18 @@ void Conversation::judge(ProgramProcess::Written written) {
 // be read by the one that waits for an answer: so what is said of it does not depend on who was
 // faster.
 void Conversation::note_deaf() {
-  if (process_.await_end(time_to_die())) return;
+  is_deaf_ = true;
+  if (await_death() || !is_overdue()) return;
   give_up("closed its input; it was killed" + blamed());
 }
 
-Nanoseconds Conversation::time_to_die() const {
-  return is_listened_ ? kToDieListened : kToDie;
+// Its guardian tells of its end a moment after that of its output or input. Others wait for the
+// thread that listens, which therefore comes back for it.
+std::optional<std::string> Conversation::await_death() {
+  const Nanoseconds now = monotonic_now();
+  if (!dies_until_) dies_until_ = now + kToDie;
+  const bool waits = !is_listened_ && now < *dies_until_;
+  return process_.await_end(waits ? *dies_until_ - now : Nanoseconds(0));
 }
 
 // Only what takes no time is done under the lock, for which the tick thread would wait.
@@ -266,6 +271,7 @@ void Conversation::bury() {
 bool Conversation::listen() {
   read_more(Nanoseconds(0));
   while (!is_gone() && process_.lines.next(line_)) take_line();
+  if (!is_gone() && is_deaf_) note_deaf();
   return !is_gone();
 }
 
@@ -274,6 +280,7 @@ std::optional<Nanoseconds> Conversation::deadline() {
   const auto add = [&](Nanoseconds it) { first = first ? std::min(*first, it) : it; };
   const Lock lock(mutex_);
   if (process_.has_unwritten()) add(monotonic_now() + kToFlush);
+  if (dies_until_) add(*dies_until_);
   if (!options_.halt_limit) return first;
   for (const Leaf& leaf : leaves_) {
     if (leaf.asked == Asked::Halt) add(leaf.since + *options_.halt_limit);
@@ -316,8 +323,10 @@ void Conversation::end_late(std::string_view leaf) {
 
 // The end of its output, which is mostly its own.
 void Conversation::note_end() {
+  has_said_all_ = true;
   const bool has_rest = process_.lines.has_rest();
-  const auto death = process_.await_end(time_to_die());
+  const auto death = await_death();
+  if (!death && !is_overdue()) return;
   give_up(fmt::format("{}{}{}", death ? *death : "closed its output; it was killed",
                       has_rest ? " in the middle of a line" : "", blamed()));
 }

@@ -71,7 +71,10 @@ class Conversation {
   bool listen();
   // The same. Writes what was sent.
   void flush();
-  int output() const { return process_.output(); }
+  // What it says; -1: there will be no more.
+  int output() const { return has_said_all_ ? -1 : process_.output(); }
+  // It has closed its output or input, and not ended in the time for that.
+  bool is_overdue() const { return dies_until_ && monotonic_now() >= *dies_until_; }
   // When the listener is to look at it again, whatever it says, and what it does then.
   std::optional<Nanoseconds> deadline();
   void check_deadline(Nanoseconds now);
@@ -120,7 +123,7 @@ class Conversation {
   void note_end();
   void judge(ProgramProcess::Written written);
   void note_deaf();
-  Nanoseconds time_to_die() const;
+  std::optional<std::string> await_death();
   void end_late(std::string_view leaf);
   bool ends_softly();
   bool is_late(const Leaf& leaf, Nanoseconds now) const;
@@ -133,6 +136,8 @@ class Conversation {
   std::string line_;
   Reply reply_;
   std::string written_;  // keeps its capacity
+  bool has_said_all_ = false, is_deaf_ = false;
+  std::optional<Nanoseconds> dies_until_;
 
   bool was_gone_ = false, is_hurried_ = false;  // these: at the end
   Nanoseconds closed_{0};                       // when its input was

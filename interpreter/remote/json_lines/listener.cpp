@@ -90,7 +90,7 @@ void Listener::listen() {
     for (std::size_t i = 0; i < known.size(); ++i) {
       const bool speaks =
           descriptors[2 * i + 1].revents != 0 || descriptors[2 * i + 2].revents != 0;
-      if (speaks) known[i]->listen();
+      if (speaks || known[i]->is_overdue()) known[i]->listen();
       known[i]->check_deadline(monotonic_now());
     }
   }
