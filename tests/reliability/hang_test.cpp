@@ -13,7 +13,7 @@ namespace {
 using nlohmann::json;
 using Strings = std::vector<std::string>;
 
-const Strings kShort = {"--clock", "virtual", "--hang-limit", "0.2", "--halt-limit", "0.05"};
+const Strings kShort = {"--clock", "virtual", "--hang-limit", "0.2", "--halt-limit", "2"};
 
 Strings with(const Strings& more) {
   Strings options = kShort;

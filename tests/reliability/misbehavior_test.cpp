@@ -17,7 +17,7 @@ constexpr int kFault = 5;
 constexpr int kCrash = 6;
 
 const Strings kFast = {"--clock", "virtual"};
-const Strings kShortLimits = {"--hang-limit", "0.3", "--halt-limit", "0.1"};
+const Strings kShortLimits = {"--hang-limit", "0.3", "--halt-limit", "2"};
 
 Strings with(Strings options, const Strings& more) {
   options.insert(options.end(), more.begin(), more.end());

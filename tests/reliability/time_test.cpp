@@ -20,7 +20,7 @@ Outcome run_late(Strings options) {
 
 TEST_CASE("a late tick skips deadlines, makes up for them, or ends the run") {
   const json skip = json::parse(run_late({"--json"}).out);
-  CHECK(skip["overruns"] == 1);
+  CHECK(skip["overruns"] >= 1);  // a busy machine makes other ticks late, too
   CHECK(skip["skipped"] >= 29);
   const json catch_up = json::parse(run_late({"--json", "--overrun", "catch-up"}).out);
   CHECK(catch_up["overruns"] >= 4);  // the leaf needs four more ticks, all of them late
@@ -41,13 +41,13 @@ TEST_CASE("the summary names the worst tick and the leaf that used most of it") 
 
 TEST_CASE("a leaf over its budget is named while the run goes on, and in the summary") {
   const Outcome outcome = run_late({"--json", "--tick-budget", "250"});
-  CHECK(contains(outcome.err, "the leaf 'Main/plan/arm' (Misbehave of plugin 'hostile') took 30"));
+  CHECK(contains(outcome.err, "the leaf 'Main/plan/arm' (Misbehave of plugin 'hostile') took "));
   CHECK(contains(outcome.err, "more than the budget of 250.000 ms"));
   const json summary = json::parse(outcome.out);
   CHECK(summary["tick_budget_s"] == 0.25);
   REQUIRE(summary["over_budget"].size() == 1);
   CHECK(summary["over_budget"][0]["leaf"] == "Main/plan/arm");
-  CHECK(summary["over_budget"][0]["over_budget"] == 1);
+  CHECK(summary["over_budget"][0]["over_budget"] >= 1);
   CHECK(summary["over_budget"][0]["max_s"] >= 0.3);
 }
 
