@@ -37,6 +37,10 @@ constinit const LanguageRules kLockstepRules{
     .conditions_may_run = false,
     .may_tick_again = false};
 
+// The name by which the linker takes this file: interpreter/CMakeLists.txt.
+extern "C" const char lockstep_languages;
+extern "C" const char lockstep_languages = 0;
+
 std::span<const LanguageRules* const> languages() {
   static constexpr const LanguageRules* kLanguages[] = {
       &kLockstepRules,
