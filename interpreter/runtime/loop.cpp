@@ -183,7 +183,8 @@ class Loop {
     const Nanoseconds deadline = start_ + deadlines_.at(deadline_);
     if (!is_real_) return clock_.sleep_until(deadline);
     const Nanoseconds awake = deadline - options_.spin;
-    for (auto now = clock_.now(); now < awake && !is_wait_over(); now = clock_.now()) {
+    for (auto now = clock_.now(); now < awake; now = clock_.now()) {
+      if (is_wait_over()) return;
       clock_.sleep_until(std::min(awake, now + kLongestSleep));
     }
     while (clock_.now() < deadline && !stop_requested()) {

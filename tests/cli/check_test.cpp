@@ -73,7 +73,7 @@ TEST_CASE("check --format github is a workflow command for each message") {
   const auto slash = name.rfind('/');
   const std::string file = name.substr(0, slash) + "/a%2Cb%3Ac%25.xml";
   CHECK(told[0] == "::error file=" + file +
-                       ",line=3,col=1,title=lockstep::host::unknown node "
+                       ",line=3,col=1,title=lockstep::unknown node "
                        "'Advnce'%0Ahint: did you mean 'Advance'?");
   CHECK(told[1].starts_with("::error file=" + file + ",line=4,col=16,title=lockstep::'5%25"));
   CHECK(contains(told[1], "'5%25\\x0A::error::6' is not a number"));

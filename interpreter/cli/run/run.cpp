@@ -359,7 +359,7 @@ const Command kRunCommand{
     "  lockstep run trees/door_pulling.xml --arg barriers=0.5 --record run.jsonl\n"
     "  lockstep run trees/door_pulling.xml --clock virtual --seed 7 --json\n"
     "  lockstep run trees/door_pulling.xml --monitor 8080 --groot2 1667\n"
-    "  lockstep run trees/door_pulling.xml --realtime --cpu 1 --helper-cpu 0 --spin 50",
+    "  lockstep run trees/door_pulling.xml --realtime --cpu 1 --spin 50",
     define_run};
 
 }  // namespace lockstep::host

@@ -294,7 +294,7 @@ TEST_CASE("the summary as JSON") {
   WatchedRun run("ParallelRelative[delta=.5](a b)", "a+.25 b+.5");
   CHECK(
       to_json(summary_of(run)) ==
-      R"({"result":"success","reason":"completed","why_failed":[],"ticks":4,"time_s":0.3,"period":null,)"
+      R"({"result":"success","reason":"completed","why_failed":[],"ticks":4,"time_s":0.3,"period":null,"lateness":null,)"
       R"("overruns":0,"skipped":0,"worst_tick":null,"faults":0,"went_on_while_held":0,)"
       R"("tick_budget_s":null,)"
       R"("over_budget":[],"synchronized_nodes":[{"path":"Test/ParallelRelative",)"
