@@ -30,7 +30,9 @@ class Attachable {
   }
   void begin() {
     process.emplace(Call{.arguments = arguments, .environment = environment()});
-    while (!fs::exists(socket)) lockstep({"monitor"});
+    // It has the socket first, and is listed a moment later.
+    while (!contains(lockstep({"monitor"}).out, std::to_string(process->id()))) {
+    }
   }
   Outcome lockstep(std::vector<std::string> words) const {
     return run({.arguments = std::move(words), .environment = environment()});
