@@ -54,10 +54,10 @@ TEST_CASE("a command that is halted ends with all that it has started, and no ot
            "tree.xml",
            R"(<root lockstep="1"><plugin name="exec" program="exec.py"/><BehaviorTree ID="Main">
 <Parallel><Fallback><Timeout seconds="0.3"><Exec name="long" shell="true"
-command="(trap '' TERM; sleep 0.8; touch ')" +
+command="(trap '' TERM; sleep 2.5; touch ')" +
                survivor +
                R"(') &amp; env -i sleep 98 &amp; wait"/></Timeout><AlwaysSuccess/></Fallback>
-<Exec name="other" shell="true" command="sleep 1.5; touch ')" +
+<Exec name="other" shell="true" command="sleep 3.2; touch ')" +
                other + R"('"/>
 <Wait seconds="1"/></Parallel></BehaviorTree></root>)"),
        "--timeout", "8"});
