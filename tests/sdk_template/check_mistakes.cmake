@@ -1,9 +1,15 @@
 # check_mistakes(last flag…) compiles SOURCE without a mistake and then with each one, up to `last`: the
-# compiler must say all that is in the lists said_1, said_2, …
+# compiler must say all that is in the lists said_1, said_2, … What it includes at its beginning is compiled once.
 macro(check_mistakes last)
+  file(READ ${SOURCE} text)
+  string(REGEX MATCH "(#include [^\n]*\n+)+" includes "${text}")
+  get_filename_component(prelude ${SOURCE} NAME_WE)
+  set(prelude ${CMAKE_CURRENT_BINARY_DIR}/${prelude}_prelude.hpp)
+  file(WRITE ${prelude} "${includes}")
+  execute_process(COMMAND ${CXX_COMPILER} -std=c++17 ${ARGN} -x c++-header ${prelude} -o ${prelude}.gch)
   foreach(mistake RANGE ${last})
     execute_process(
-      COMMAND ${CXX_COMPILER} -std=c++17 -fsyntax-only ${ARGN} -DMISTAKE=${mistake} ${SOURCE}
+      COMMAND ${CXX_COMPILER} -std=c++17 -fsyntax-only ${ARGN} -include ${prelude} -DMISTAKE=${mistake} ${SOURCE}
       RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
     if(mistake EQUAL 0 AND NOT result EQUAL 0)
       message(FATAL_ERROR "the source without a mistake is refused:\n${output}")
