@@ -10,6 +10,7 @@
 #include "lockstep/leaf.h"
 #include "plugin/contract/carried_time.h"
 #include "plugin/contract/float_mode.h"
+#include "system/cycle_clock.h"
 
 namespace lockstep::host {
 namespace {
@@ -17,15 +18,17 @@ namespace {
 // What all leaves of a watch share.
 struct Watch {
   LeafWatchOptions options;
-  WallClock wall_clock;
-  Clock& clock;
+  CycleClock cycles;
   FloatMode mode;
   LeafWatch::Slowest slowest;
   std::optional<Nanoseconds> told;  // when on_slow was
   Nanoseconds inner{0};             // calls within the current one, of a control node's children
 
-  explicit Watch(LeafWatchOptions given)
-      : options(std::move(given)), clock(options.clock ? *options.clock : wall_clock) {}
+  explicit Watch(LeafWatchOptions given) : options(std::move(given)) {}
+
+  Nanoseconds now() const {
+    return options.clock == nullptr ? cycles.now() : options.clock->now();
+  }
 };
 
 // What stands in a slot in the place of a leaf.
@@ -81,8 +84,8 @@ class TimedCall {
         function_(function),
         outer_(std::exchange(leaf.watch->inner, Nanoseconds(0))),
         outer_carried_(std::exchange(t_carried, Nanoseconds(0))),
-        start_(leaf.watch->clock.now()) {}
-  ~TimedCall() { note_time(*leaf_.watch, leaf_.watch->clock.now()); }
+        start_(leaf.watch->now()) {}
+  ~TimedCall() { note_time(*leaf_.watch, leaf_.watch->now()); }
 
   TimedCall(const TimedCall&) = delete;
   TimedCall& operator=(const TimedCall&) = delete;
@@ -224,6 +227,7 @@ void LeafWatch::remove(std::span<LeafSlot> slots) {
 void LeafWatch::begin_tick(std::uint64_t tick) {
   CallMark::this_thread().set_tick(tick);
   it_->watch.slowest = {};
+  if (it_->watch.options.budget) it_->watch.cycles.adjust();
 }
 
 LeafWatch::Slowest LeafWatch::slowest() const {

@@ -21,7 +21,7 @@ struct LeafWatchOptions {
   // A longer call is reported to on_slow, at most once a second for all leaves. None: calls are not
   // timed.
   std::optional<Nanoseconds> budget;
-  Clock* clock = nullptr;  // that times the calls; null: the wall clock
+  Clock* clock = nullptr;  // that times the calls; null: a CycleClock
   // All on the tick thread, after the call.
   std::function<void(NodeIndex leaf, PluginFunction function, Nanoseconds took)> on_slow = {};
   // The values of the leaf's ports took that long on their way between processes: longer than the
