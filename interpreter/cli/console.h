@@ -2,6 +2,7 @@
 // Nothing here throws when output cannot be written.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <string>
 #include <string_view>
