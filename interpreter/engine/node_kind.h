@@ -23,7 +23,7 @@ struct Round {
 
 // What a node does that has completed and is ticked again though its parent did not reset it.
 enum class Unreset : std::uint8_t {
-  Begins,       // anew
+  Begins,       // from its beginning
   GoesOn,       // as if it ran
   KeepsResult,  // it is not ticked
 };

@@ -72,7 +72,7 @@ constexpr Tuple kTuples[] = {
     {"EntryCount", {{{"index", "Index"}, {"values", "Whole"}}}},
 };
 
-// Where a header or an end keeps the value; none: the value has a reader and a writer of its own.
+// Where a header or an end keeps the value; none: the value has a separate reader and writer.
 using Member = std::variant<
     std::monostate, std::string RecordingHeader::*, std::uint64_t RecordingHeader::*,
     double RecordingHeader::*, std::map<std::string, std::string, std::less<>> RecordingHeader::*,

@@ -64,7 +64,7 @@ struct RunEnd {
   std::uint64_t overruns = 0;  // ticks that ended after the next deadline
   std::uint64_t skipped = 0;   // deadlines skipped because of them
   WorstTick worst;
-  EndBudget* budget = nullptr;  // what those may take who are told of the end; null: no limit
+  EndBudget* budget = nullptr;  // the time that observers of the end may take; null: no limit
 
   RunResult result() const {
     if (reason == StopReason::Fault) return RunResult::Fault;

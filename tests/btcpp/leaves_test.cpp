@@ -150,7 +150,8 @@ TEST_CASE("leaves for BehaviorTree.CPP: a plugin that registers an ID twice is r
 TEST_CASE("leaves for BehaviorTree.CPP: a literal that its type does not read is found by check") {
   const TemporaryDirectory directory;
   const auto tree = directory.file("tree.xml", tree_of("<Move goal=\"here\"/>"));
-  const Outcome outcome = lockstep::host::test::lockstep({"check", tree, "--plugin", plugin("first")});
+  const Outcome outcome =
+      lockstep::host::test::lockstep({"check", tree, "--plugin", plugin("first")});
   CHECK(outcome.code == 3);
   CHECK(contains(outcome.err, "error: 'here' is not the text of a Position, which 'goal' must be"));
 }
@@ -161,7 +162,8 @@ TEST_CASE("leaves for BehaviorTree.CPP: a type without a conversion says so, by 
   const std::string lacks =
       "there is no conversion from a text to " + type + "; specialize BT::convertFromString for it";
   const auto literal = directory.file("literal.xml", tree_of("<Look places=\"a\"/>"));
-  const Outcome check = lockstep::host::test::lockstep({"check", literal, "--plugin", plugin("first")});
+  const Outcome check =
+      lockstep::host::test::lockstep({"check", literal, "--plugin", plugin("first")});
   CHECK(
       contains(check.err, "error: 'a' is not the text of a " + type + ", which 'places' must be"));
   CHECK(contains(check.err, "hint: its plugin says: " + lacks));

@@ -26,9 +26,7 @@ struct Watch {
 
   explicit Watch(LeafWatchOptions given) : options(std::move(given)) {}
 
-  Nanoseconds now() const {
-    return options.clock == nullptr ? cycles.now() : options.clock->now();
-  }
+  Nanoseconds now() const { return options.clock == nullptr ? cycles.now() : options.clock->now(); }
 };
 
 // What stands in a slot in the place of a leaf.

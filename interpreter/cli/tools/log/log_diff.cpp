@@ -25,7 +25,7 @@ int report_ends(const RecordingReader& a, const RecordingReader& b) {
   return std::max(code_a, code_b);
 }
 
-// Whether times are all that is to be expected of two runs of one tree on the wall clock.
+// True if the runs differ in their times, as two runs on the wall clock always do.
 bool differs_in_real_time(const RecordingDiff& diff, const RecordingReader& a,
                           const RecordingReader& b) {
   if (a.header().clock == "virtual" && b.header().clock == "virtual") return false;
