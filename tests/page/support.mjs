@@ -115,8 +115,23 @@ export async function cable(link) {
 let browser = null;
 const complaints = [];
 
+// A browser that draws: a new Chromium without a graphics card may come up on a busy machine and never draw a frame.
+async function launch(tries = 3) {
+  const launched = await chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu"] });
+  const page = await launched.newPage();
+  const drawn = page.evaluate(() => new Promise((done) => requestAnimationFrame(() => done(true))));
+  const late = new Promise((done) => setTimeout(done, 15_000, false).unref());
+  if (await Promise.race([drawn.catch(() => false), late])) {
+    await page.close();
+    return launched;
+  }
+  await launched.close();
+  assert.ok(tries > 1, "Chromium draws nothing");
+  return launch(tries - 1);
+}
+
 export async function open(address, options = {}) {
-  browser ??= await chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox"] });
+  browser ??= await launch();
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
   const page = await context.newPage();
   page.on("console", (message) => message.type() === "error" && complaints.push(message.text()));
