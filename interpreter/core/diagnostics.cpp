@@ -94,6 +94,14 @@ void Diagnostics::count_one(Severity severity) {
   ++lost_[index(severity)];
 }
 
+void Diagnostics::warning(SourceLocation location, std::string message, std::string hint) {
+  add({Severity::Warning, std::move(location), std::move(message), std::move(hint)});
+}
+
+void Diagnostics::note(SourceLocation location, std::string message, std::string hint) {
+  add({Severity::Note, std::move(location), std::move(message), std::move(hint)});
+}
+
 void Diagnostics::error(SourceLocation location, std::string message, std::string hint,
                         Excerpt excerpt) {
   add({Severity::Error, std::move(location), std::move(message), std::move(hint),

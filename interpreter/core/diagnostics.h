@@ -31,10 +31,10 @@ struct Excerpt {
 
 struct Diagnostic {
   Severity severity = Severity::Error;
-  SourceLocation location;
-  std::string message;  // lower case, no full stop, names in single quotes
-  std::string hint;     // what to do, or ""
-  Excerpt excerpt;      // no text: there is none
+  SourceLocation location = {};
+  std::string message;    // lower case, no full stop, names in single quotes
+  std::string hint = {};  // what to do, or ""
+  Excerpt excerpt = {};   // no text: there is none
 };
 
 class Diagnostics {
@@ -45,6 +45,8 @@ class Diagnostics {
   void add(Diagnostic diagnostic);
   void error(SourceLocation location, std::string message, std::string hint = {},
              Excerpt excerpt = {});
+  void warning(SourceLocation location, std::string message, std::string hint = {});
+  void note(SourceLocation location, std::string message, std::string hint = {});
 
   bool has_errors() const;
   // True if no more of this severity are kept. Then a message is not needed: count_one() is enough.

@@ -99,6 +99,8 @@ class Compiler {
     tree_.boards = definition_.boards;
     tree_.words = definition_.words;
     tree_.nodes.reserve(definition_.nodes.size());
+    tree_.ports.reserve(definition_.ports.size());
+    tree_.constants.reserve(definition_.values.size());
     number_members();
     for (const DefinitionNode& node : definition_.nodes) add(node);
     add_scripts();
@@ -342,11 +344,12 @@ class Compiler {
 
   std::uint32_t add_ports(const DefinitionNode& from) {
     const auto first = static_cast<std::uint32_t>(tree_.ports.size());
-    for (std::size_t i = 0; i < from.type->parameters.size(); ++i) {
-      const Port& port = definition_.ports[from.first + i];
-      PortBinding binding{.slot = port.entry, .constant = PortBinding::kUnbound};
-      if (port.value != Port::kNone) binding.constant = add_constant(port.value);
-      tree_.ports.push_back(binding);
+    tree_.ports.resize(first + from.type->parameters.size());
+    const Port* port = definition_.ports.data() + from.first;
+    for (PortBinding& binding : std::span(tree_.ports).subspan(first)) {
+      binding.slot = port->entry;
+      if (port->value != Port::kNone) binding.constant = add_constant(port->value);
+      ++port;
     }
     return first;
   }

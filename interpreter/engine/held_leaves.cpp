@@ -15,9 +15,10 @@ constexpr std::uint32_t kRises = 2;
 
 }  // namespace
 
-void HeldLeaves::add(NodeIndex node, LeafSlot& leaf) {
+void HeldLeaves::add(NodeContext& context, NodeIndex node) {
+  const LeafSlot& leaf = context.leaf(node);
   if (leaf.went_on || leaf.failed) return;
-  if (const auto now = look_at_progress(leaf)) held_.push_back({node, 0, *now, *now});
+  if (const auto now = look_at_progress(context, node)) held_.push_back({node, 0, *now, *now});
 }
 
 void HeldLeaves::look(NodeContext& context) {
@@ -28,7 +29,7 @@ void HeldLeaves::look(NodeContext& context) {
 bool HeldLeaves::is_done(NodeContext& context, Held& held) {
   LeafSlot& leaf = context.leaf(held.node);
   if (!context.held(held.node) || leaf.went_on || leaf.failed) return true;
-  const auto now = look_at_progress(leaf);
+  const auto now = look_at_progress(context, held.node);
   if (!now) return true;
   if (*now <= held.most + kProgressEpsilon) return false;
   held.most = *now;

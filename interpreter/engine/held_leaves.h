@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "engine/leaf_slot.h"
 #include "engine/node_kind.h"
 
 namespace lockstep::host {
@@ -25,7 +24,7 @@ class HeldLeaves {
 
   bool empty() const { return held_.empty(); }
   // From its pause on. Not of a leaf that was found already.
-  void add(NodeIndex node, LeafSlot& leaf);
+  void add(NodeContext& context, NodeIndex node);
   // Before a tick.
   void look(NodeContext& context);
   // In this run, one of each leaf.
@@ -46,6 +45,6 @@ class HeldLeaves {
 
 // What a leaf reports, if it reports a share. To look changes nothing: what is wrong with it is for
 // those to find who need it. In nodes/leaf.cpp.
-std::optional<double> look_at_progress(LeafSlot& leaf);
+std::optional<double> look_at_progress(NodeContext& context, NodeIndex node);
 
 }  // namespace lockstep::host

@@ -8,21 +8,32 @@ struct lockstep_leaf_type;
 
 namespace lockstep::host {
 
+struct CallSite;
+
 // What a control node of a plugin may do with its children at this moment.
 enum class ChildAccess : std::uint8_t { None, Look, Tick };
 
-// Read in every tick, so it is small: two of them are in one line of the cache.
+// Read in every tick, so it is small.
 struct LeafSlot {
   const lockstep_leaf_type* type = nullptr;
   void* self = nullptr;
+  const CallSite* site = nullptr;         // names it when a call crashes or hangs
+  const double* kept_progress = nullptr;  // where it keeps its progress; null: it is called
   const char* error = nullptr;  // set by the host's set_error: the reason, valid until taken
-  bool started = false;         // the activation began, so it has to be halted
   bool failed = false;          // a tolerated fault in this activation, which ends in a Failure
   bool unreset = false;         // it begins from its last result, which its parent has not ended
+  bool started = false;         // the activation began, so it has to be halted
   bool out_of_range = false;    // it has reported a progress outside [0, 1] in this run
   bool went_on = false;         // its progress has risen in this run while it was held
   ChildAccess access = ChildAccess::None;  // of a control node or decorator
+
+  // A thread of the leaf may store it at this moment.
+  double read_progress() const {
+    double progress = 0;
+    __atomic_load(kept_progress, &progress, __ATOMIC_RELAXED);
+    return progress;
+  }
 };
-static_assert(sizeof(LeafSlot) <= 32);
+static_assert(sizeof(LeafSlot) <= 48);
 
 }  // namespace lockstep::host

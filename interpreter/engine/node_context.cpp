@@ -37,7 +37,7 @@ struct NodeContext::Beside {
 };
 
 NodeContext::NodeContext(const Tree& tree, std::span<LeafSlot> leaves, Blackboard& board,
-                         FaultPolicy policy)
+                         FaultPolicy policy, LeafWatch* watch)
     : RunView(tree, board),
       leaves_(leaves),
       parameters_(tree, board),
@@ -46,9 +46,17 @@ NodeContext::NodeContext(const Tree& tree, std::span<LeafSlot> leaves, Blackboar
       scripts_(beside_->scripts),
       groups_(beside_->groups),
       held_leaves_(beside_->held_leaves),
-      policy_(policy) {}
+      policy_(policy),
+      watch_(watch),
+      timer_(watch != nullptr && watch->is_timed() ? watch : nullptr) {
+  if (watch_ != nullptr) watch_->begin_run(tree);
+}
 
 NodeContext::~NodeContext() = default;
+
+[[gnu::noinline]] Status NodeContext::tick_apart(NodeIndex node) {
+  return tick(node);
+}
 
 Status NodeContext::tick_unreset(NodeIndex node) {
   if (state_.faulted) return Status::Running;
@@ -155,6 +163,7 @@ void NodeContext::set_fault(NodeIndex node, std::string message) {
   }
   if (state_.faulted) return;  // the first is the cause
   state_.faulted = state_.interrupted = true;
+  in_line_ = nullptr;
   state_.fault = std::move(fault);
 }
 
@@ -171,7 +180,7 @@ void NodeContext::note_out_of_range(NodeIndex node, double reported) {
 }
 
 void NodeContext::watch_held(NodeIndex node) {
-  held_leaves_.add(node, leaf(node));
+  held_leaves_.add(*this, node);
 }
 
 }  // namespace lockstep::host

@@ -12,6 +12,7 @@
 
 #include "engine/bound_parameters.h"
 #include "engine/leaf_slot.h"
+#include "engine/leaf_watch.h"
 #include "engine/run_view.h"
 
 namespace lockstep::host {
@@ -28,6 +29,8 @@ enum class FaultPolicy : std::uint8_t {
 };
 
 class NodeContext : public RunView {
+  friend class LeafCall;  // what is around a call of a leaf: engine/leaf_call.h
+
  public:
   // --- the life cycle of nodes -------------------------------------------------------------------
 
@@ -48,6 +51,9 @@ class NodeContext : public RunView {
     state_.last_tick[node] = state_.tick_number;
     return status;
   }
+
+  // The same out of line: for a call that is not the usual one.
+  Status tick_apart(NodeIndex node);
 
   // Ticks a child that has completed in this activation of its parent and was not reset: its
   // pre-conditions are not asked, and NodeKind::unreset says what it does.
@@ -134,8 +140,9 @@ class NodeContext : public RunView {
   Groups& groups() { return groups_; }         // barriers and pools
 
  protected:
-  // All must outlive this; `leaves` has one for each Tree::leaves, in order.
-  NodeContext(const Tree& tree, std::span<LeafSlot> leaves, Blackboard& board, FaultPolicy policy);
+  // All must outlive this; `leaves` has one for each Tree::leaves, in order. `watch` may be null.
+  NodeContext(const Tree& tree, std::span<LeafSlot> leaves, Blackboard& board, FaultPolicy policy,
+              LeafWatch* watch);
   ~NodeContext();
 
   std::optional<Status> tick_interrupted(NodeIndex node);
@@ -158,6 +165,11 @@ class NodeContext : public RunView {
   Groups& groups_;
   HeldLeaves& held_leaves_;
   const FaultPolicy policy_;
+  LeafWatch* const watch_;
+  LeafWatch* const timer_;  // the same if it times calls, else null
+  // Of the thread that ticks, while a leaf is called with nothing around it but this mark and
+  // `timer_`; else null.
+  CallMark* in_line_ = nullptr;
 };
 
 }  // namespace lockstep::host

@@ -2,18 +2,24 @@
 // and recordings. No other code computes which child waits for what.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <span>
 
-#include "engine/node_context.h"
+#include "engine/leaf_call.h"
 #include "engine/tree.h"
 
 namespace lockstep::host {
 
 // Tolerance for comparing progress: 0.8 <= 0.7 + 0.1 is false in doubles.
 inline constexpr double kProgressEpsilon = 1e-9;
+
+// The least number that is more than this progress.
+inline double least_above(double progress) {
+  return std::nextafter(progress + kProgressEpsilon, std::numeric_limits<double>::infinity());
+}
 
 // The state of a synchronized node, with the progress of each child behind it (child_states).
 struct SynchronizedState {
@@ -69,20 +75,33 @@ inline constexpr double kLeftOut = std::numeric_limits<double>::quiet_NaN();
 
 // The progress of a child as its parallel counts it. One that was skipped in the last tick is left
 // out. Nobody waits for one that has failed and is not ticked again: it counts as 1.
-inline double snapshot_of(NodeContext& context, NodeIndex child) {
-  const Activity activity = context.activity(child);
+// `child` is the sibling after it then.
+inline double snapshot_and_pass(NodeContext& context, NodeIndex& child) {
+  const NodeIndex node = child;
+  const Node& it = context.node(node);
+  child = it.kind == &kPluginAction ? node + 1 : it.end;
+  const Activity activity = context.activity(node);
   if (activity == Activity::Skipped) return kLeftOut;
-  if (activity == Activity::Failure && context.is_latched(child)) return 1.0;
-  return context.progress(child);
+  if (activity == Activity::Failure && it.is_latched != 0) return 1.0;
+  return LeafCall::progress(context, node);
+}
+inline double snapshot_of(NodeContext& context, NodeIndex child) {
+  return snapshot_and_pass(context, child);
 }
 
-// The least progress of the children that were not left out; 1 if all were.
+// The least progress of the children that were not left out; 1 if all were. Four at a time: a
+// comparison waits for the one before it.
 inline double least_progress(std::span<const double> progress) {
-  double least = 1.0;
-  for (const double one : progress) {
-    if (one < least) least = one;
+  constexpr std::size_t kAtOnce = 4;
+  double least[kAtOnce] = {1.0, 1.0, 1.0, 1.0};
+  std::size_t i = 0;
+  for (; i + kAtOnce <= progress.size(); i += kAtOnce) {
+    for (std::size_t j = 0; j < kAtOnce; ++j) {
+      least[j] = progress[i + j] < least[j] ? progress[i + j] : least[j];
+    }
   }
-  return least;
+  for (; i < progress.size(); ++i) least[0] = progress[i] < least[0] ? progress[i] : least[0];
+  return std::min(std::min(least[0], least[1]), std::min(least[2], least[3]));
 }
 inline bool is_left_out(double progress) {
   return std::isnan(progress);

@@ -11,16 +11,34 @@ Status Ticker::tick_root(Nanoseconds now) {
   ++state_.tick_number;
   if (!held_leaves_.empty()) [[unlikely]]
     held_leaves_.look(*this);
+  if (watch_ != nullptr) watch_->begin_tick();
+  begin_calls();
   if (groups_.empty()) [[likely]]
-    return tick(0);
+    return end_calls(tick(0));
   groups_.tick(*this);
+  begin_calls();  // what groups compute is no leaf's time
   const Status result = tick(0);
   groups_.end_tick();
-  return result;
+  return end_calls(result);
 }
 
 Status Ticker::tick_root_again() {
-  return tick(0);
+  begin_calls();
+  return end_calls(tick(0));
+}
+
+void Ticker::begin_calls() {
+  CallMark& mark = CallMark::this_thread();
+  mark.set_tick(state_.tick_number - 1);
+  const bool is_careful = watch_ != nullptr && watch_->looks_after_each_call();
+  in_line_ = state_.interrupted || is_careful ? nullptr : &mark;
+  if (watch_ != nullptr) watch_->begin_calls();
+}
+
+Status Ticker::end_calls(Status result) {
+  in_line_ = nullptr;
+  if (watch_ != nullptr) watch_->end_tick();
+  return result;
 }
 
 void Ticker::halt_all() {
@@ -35,6 +53,7 @@ void Ticker::reset() {
   ports_.names().reset();
   scripts_.reset();
   held_leaves_.reset();
+  if (watch_ != nullptr) watch_->begin_run(tree_);
   for (LeafSlot& leaf : leaves_) leaf.out_of_range = leaf.went_on = false;
 }
 

@@ -16,10 +16,11 @@ struct SavedRun;
 
 class Ticker : public NodeContext {
  public:
-  // `tree`, `leaves` (one for each Tree::leaves, in order) and `board` must outlive the ticker.
+  // All must outlive the ticker: `leaves` (one for each Tree::leaves, in order), and the watch of
+  // their calls, if there is one.
   Ticker(const Tree& tree, std::span<LeafSlot> leaves, Blackboard& board,
-         FaultPolicy policy = FaultPolicy::Stop)
-      : NodeContext(tree, leaves, board, policy) {}
+         FaultPolicy policy = FaultPolicy::Stop, LeafWatch* watch = nullptr)
+      : NodeContext(tree, leaves, board, policy, watch) {}
 
   // The time of the next tick, which must not decrease. From now on, progress is computed for that
   // time.
@@ -73,6 +74,8 @@ class Ticker : public NodeContext {
   void fold();
 
  private:
+  void begin_calls();
+  Status end_calls(Status result);
   void fold_entries();
   void forget_below_ended();
 };

@@ -17,21 +17,7 @@ namespace lockstep::host {
 namespace {
 
 bool are_related(const std::string& left, Relation relation, const std::string& right) {
-  switch (relation) {
-    case Relation::Equal:
-      return left == right;
-    case Relation::NotEqual:
-      return left != right;
-    case Relation::Less:
-      return left < right;
-    case Relation::LessEqual:
-      return left <= right;
-    case Relation::Greater:
-      return left > right;
-    case Relation::GreaterEqual:
-      break;
-  }
-  return left >= right;
+  return are_related(static_cast<double>(left.compare(right)), relation, 0);
 }
 
 // The number that an operand has, if it is one and has it exactly.
@@ -62,10 +48,6 @@ bool take(const Operand& operand, bool& holds) {
   return operand.kind == Operand::Kind::Whole && (operand.whole == 0 || operand.whole == 1);
 }
 
-inline bool combined(bool left, Operation operation, bool right) {
-  return operation == Operation::And ? left && right : left || right;
-}
-
 // How far a program has run.
 struct Reached {
   const Instruction* at;
@@ -73,7 +55,7 @@ struct Reached {
 };
 
 // Runs what scripts do most, numbers, without a call. Stops before the first instruction that needs
-// more; Machine does the same with all operands. It is separate so that it needs few registers.
+// more: Machine does that one. They are separate so that this needs few registers.
 [[gnu::noinline]] Reached run_quickly(const Instruction* at, Entry* const* entries, Operand* top) {
   double left = 0;
   double right = 0;
@@ -98,6 +80,7 @@ struct Reached {
         at += 2;
         continue;
       case Operation::Real:
+      case Operation::Truth:
         *top++ = Operand::of(at->real);
         continue;
       case Operation::Whole:
@@ -122,7 +105,8 @@ struct Reached {
         bool second = false;
         if (!take(top[-2], first) || !take(top[-1], second)) break;
         --top;
-        top[-1] = Operand::of(combined(first, at->operation, second) ? 1.0 : 0.0);
+        const bool holds = at->operation == Operation::And ? first && second : first || second;
+        top[-1] = Operand::of(holds ? 1.0 : 0.0);
         continue;
       }
       case Operation::Need:
@@ -142,7 +126,7 @@ struct Reached {
   return {at, top};
 }
 
-// One run of one expression.
+// One run of one expression: the instructions at which run_quickly stops, and no others.
 class Machine {
  public:
   Machine(const Expression& expression, std::span<Entry* const> entries, Operand* stack,
@@ -169,11 +153,6 @@ class Machine {
  private:
   bool step() {
     switch (it_->operation) {
-      case Operation::Real:
-      case Operation::Truth:
-        return push(Operand::of(it_->real));
-      case Operation::Whole:
-        return push(Operand::of(it_->whole));
       case Operation::Text:
         return push(Operand::of(&program_.texts[it_->argument]));
       case Operation::Load:
@@ -194,7 +173,7 @@ class Machine {
         return combine_bits();
       case Operation::And:
       case Operation::Or:
-        return combine_conditions();
+        return wrong_operands();
       case Operation::Compare:
       case Operation::CompareNext:
         return compare();
@@ -220,7 +199,7 @@ class Machine {
         if (!entry().is_present) make_entry(entry(), Typing::Any);
         return true;
       case Operation::Need:
-        return entry().is_present || no_entry();
+        return no_entry();
       case Operation::NoTarget:
         return fail("the left side of an assignment is not a name");
       case Operation::Store:
@@ -286,15 +265,9 @@ class Machine {
   }
 
   bool calculate() {
-    double left = 0;
-    double right = 0;
-    if (take(before_last(), left) && take(last(), right)) {
-      return replace_two(Operand::of(calculated(left, it_->operation, right)));
-    }
     const bool are_texts =
         before_last().kind == Operand::Kind::Text && last().kind == Operand::Kind::Text;
-    if (it_->operation == Operation::Add && are_texts) return join_here();
-    return wrong_operands();
+    return it_->operation == Operation::Add && are_texts ? join_here() : wrong_operands();
   }
 
   bool join() {
@@ -339,13 +312,6 @@ class Machine {
     if (it_->operation == Operation::BitAnd) bits = left & right;
     if (it_->operation == Operation::BitOr) bits = left | right;
     return replace_two(Operand::of(static_cast<double>(bits)));
-  }
-
-  bool combine_conditions() {
-    bool left = false;
-    bool right = false;
-    if (!take(before_last(), left) || !take(last(), right)) return wrong_operands();
-    return replace_two(Operand::of(combined(left, it_->operation, right) ? 1.0 : 0.0));
   }
 
   bool take_comparable(const Operand& operand, double& number) const {

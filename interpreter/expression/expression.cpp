@@ -17,67 +17,52 @@ constexpr unsigned kDeepest = 256;  // levels of brackets, signs, assignments an
 
 // How strongly an operator between two values binds, from 1, and what it does.
 struct Binary {
+  Symbol symbol = {};
   unsigned strength = 0;  // 0: it is none
   Operation operation = {};
   Relation relation = {};
 };
 constexpr unsigned kCompareStrength = 3;
+constexpr Binary kBinaries[] = {
+    {Symbol::Or, 1, Operation::Or},
+    {Symbol::And, 2, Operation::And},
+    {Symbol::Equal, kCompareStrength, Operation::Compare, Relation::Equal},
+    {Symbol::NotEqual, kCompareStrength, Operation::Compare, Relation::NotEqual},
+    {Symbol::Less, kCompareStrength, Operation::Compare, Relation::Less},
+    {Symbol::LessEqual, kCompareStrength, Operation::Compare, Relation::LessEqual},
+    {Symbol::Greater, kCompareStrength, Operation::Compare, Relation::Greater},
+    {Symbol::GreaterEqual, kCompareStrength, Operation::Compare, Relation::GreaterEqual},
+    {Symbol::BitOr, 4, Operation::BitOr},
+    {Symbol::BitXor, 4, Operation::BitXor},
+    {Symbol::BitAnd, 5, Operation::BitAnd},
+    {Symbol::Plus, 6, Operation::Add},
+    {Symbol::Minus, 6, Operation::Subtract},
+    {Symbol::Join, 6, Operation::Join},
+    {Symbol::Times, 7, Operation::Multiply},
+    {Symbol::Divided, 7, Operation::Divide},
+};
 
 Binary binary(Symbol symbol) {
-  switch (symbol) {
-    case Symbol::Or:
-      return {1, Operation::Or};
-    case Symbol::And:
-      return {2, Operation::And};
-    case Symbol::Equal:
-      return {kCompareStrength, Operation::Compare, Relation::Equal};
-    case Symbol::NotEqual:
-      return {kCompareStrength, Operation::Compare, Relation::NotEqual};
-    case Symbol::Less:
-      return {kCompareStrength, Operation::Compare, Relation::Less};
-    case Symbol::LessEqual:
-      return {kCompareStrength, Operation::Compare, Relation::LessEqual};
-    case Symbol::Greater:
-      return {kCompareStrength, Operation::Compare, Relation::Greater};
-    case Symbol::GreaterEqual:
-      return {kCompareStrength, Operation::Compare, Relation::GreaterEqual};
-    case Symbol::BitOr:
-      return {4, Operation::BitOr};
-    case Symbol::BitXor:
-      return {4, Operation::BitXor};
-    case Symbol::BitAnd:
-      return {5, Operation::BitAnd};
-    case Symbol::Plus:
-      return {6, Operation::Add};
-    case Symbol::Minus:
-      return {6, Operation::Subtract};
-    case Symbol::Join:
-      return {6, Operation::Join};
-    case Symbol::Times:
-      return {7, Operation::Multiply};
-    case Symbol::Divided:
-      return {7, Operation::Divide};
-    default:
-      return {};
-  }
+  const auto* const found = std::ranges::find(kBinaries, symbol, &Binary::symbol);
+  return found == std::end(kBinaries) ? Binary{} : *found;
 }
 
+struct Assignment {
+  Symbol symbol;
+  Operation operation;
+};
+constexpr Assignment kAssignments[] = {
+    {Symbol::Make, Operation::Store},
+    {Symbol::Assign, Operation::Store},
+    {Symbol::AddTo, Operation::AddTo},
+    {Symbol::SubtractFrom, Operation::SubtractFrom},
+    {Symbol::MultiplyBy, Operation::MultiplyBy},
+    {Symbol::DivideBy, Operation::DivideBy},
+};
+
 std::optional<Operation> assignment(Symbol symbol) {
-  switch (symbol) {
-    case Symbol::Make:
-    case Symbol::Assign:
-      return Operation::Store;
-    case Symbol::AddTo:
-      return Operation::AddTo;
-    case Symbol::SubtractFrom:
-      return Operation::SubtractFrom;
-    case Symbol::MultiplyBy:
-      return Operation::MultiplyBy;
-    case Symbol::DivideBy:
-      return Operation::DivideBy;
-    default:
-      return std::nullopt;
-  }
+  const auto* const found = std::ranges::find(kAssignments, symbol, &Assignment::symbol);
+  return found == std::end(kAssignments) ? std::nullopt : std::optional(found->operation);
 }
 
 std::string column(std::size_t offset) {

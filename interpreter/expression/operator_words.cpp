@@ -1,48 +1,31 @@
 #include "expression/operator_words.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace lockstep::host {
 
+namespace {
+
+struct Sign {
+  Operation operation;
+  std::string_view sign;
+};
+constexpr Sign kSigns[] = {
+    {Operation::Add, "+"},         {Operation::Subtract, "-"},  {Operation::Negate, "-"},
+    {Operation::Multiply, "*"},    {Operation::Divide, "/"},    {Operation::Join, ".."},
+    {Operation::BitAnd, "&"},      {Operation::BitOr, "|"},     {Operation::BitXor, "^"},
+    {Operation::And, "&&"},        {Operation::Or, "||"},       {Operation::Complement, "~"},
+    {Operation::Not, "!"},         {Operation::AddTo, "+="},    {Operation::SubtractFrom, "-="},
+    {Operation::MultiplyBy, "*="}, {Operation::DivideBy, "/="}, {Operation::JumpIfZero, "?"},
+};
+constexpr std::string_view kRelations[] = {"==", "!=", "<", "<=", ">", ">="};
+
+}  // namespace
+
 std::string_view sign_of(Operation operation, Relation relation) {
-  constexpr std::string_view kRelations[] = {"==", "!=", "<", "<=", ">", ">="};
-  switch (operation) {
-    case Operation::Add:
-      return "+";
-    case Operation::Subtract:
-    case Operation::Negate:
-      return "-";
-    case Operation::Multiply:
-      return "*";
-    case Operation::Divide:
-      return "/";
-    case Operation::Join:
-      return "..";
-    case Operation::BitAnd:
-      return "&";
-    case Operation::BitOr:
-      return "|";
-    case Operation::BitXor:
-      return "^";
-    case Operation::And:
-      return "&&";
-    case Operation::Or:
-      return "||";
-    case Operation::Complement:
-      return "~";
-    case Operation::Not:
-      return "!";
-    case Operation::AddTo:
-      return "+=";
-    case Operation::SubtractFrom:
-      return "-=";
-    case Operation::MultiplyBy:
-      return "*=";
-    case Operation::DivideBy:
-      return "/=";
-    case Operation::JumpIfZero:
-      return "?";
-    default:
-      return kRelations[static_cast<unsigned>(relation)];
-  }
+  const auto* const found = std::ranges::find(kSigns, operation, &Sign::operation);
+  return found == std::end(kSigns) ? kRelations[static_cast<unsigned>(relation)] : found->sign;
 }
 
 std::string_view operands_of(Operation operation) {

@@ -1,12 +1,15 @@
 #include "remote/remote_plugin.h"
 
 #include "plugin/contract/descriptor.h"
+#include "plugin/contract/host.h"
 
 namespace lockstep::host {
 namespace {
 
 void* create_run(const lockstep_host* /*host*/, const lockstep_caller* caller) {
-  return static_cast<const HostedPlugin*>(caller->plugin)->remote->begin_run(*caller).release();
+  return static_cast<const HostedPlugin*>(caller->run->plugin)
+      ->remote->begin_run(*caller)
+      .release();
 }
 
 void destroy_run(void* context) {

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "lockstep/leaf.h"
-#include "plugin/contract/host.h"
 #include "plugin/contract/process_leaves.h"
 
 namespace lockstep::host {

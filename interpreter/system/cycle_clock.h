@@ -14,14 +14,25 @@ class CycleClock {
   // Compares the counter with the system's clock for some microseconds.
   CycleClock();
 
-  // Since some moment. From one reading to the next it does not decrease, but `adjust` may come
-  // between them.
-  Nanoseconds now() const {
+  // A count since some moment, for time_of. It does not decrease while a thread stays on its
+  // processor; on another one it may be a little less.
+  std::int64_t count() const {
 #if defined(__x86_64__) || defined(__aarch64__)
     if (scale_ != 0) [[likely]]
-      return scaled(counter() - counter_);
+      return static_cast<std::int64_t>(counter());
 #endif
-    return monotonic_now();
+    return monotonic_now().count();
+  }
+  // The difference of two counts as a time, and a time as a difference. Not of a negative one.
+  Nanoseconds time_of(std::int64_t count) const {
+    __extension__ using Wide = unsigned __int128;
+    if (scale_ == 0) return Nanoseconds(count);
+    return Nanoseconds(static_cast<std::int64_t>((static_cast<Wide>(count) * scale_) >> kShift));
+  }
+  std::int64_t count_of(Nanoseconds time) const {
+    __extension__ using Wide = unsigned __int128;
+    if (scale_ == 0) return time.count();
+    return static_cast<std::int64_t>((static_cast<Wide>(time.count()) << kShift) / scale_);
   }
   // Compares the two again over all the time since the clock was made: the longer, the more exact.
   void adjust();
@@ -37,10 +48,6 @@ class CycleClock {
 #else
     return 0;
 #endif
-  }
-  Nanoseconds scaled(std::uint64_t count) const {
-    __extension__ using Wide = unsigned __int128;
-    return Nanoseconds(static_cast<std::int64_t>((Wide{count} * scale_) >> kShift));
   }
 
   static constexpr unsigned kShift = 32;

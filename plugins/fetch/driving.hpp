@@ -31,14 +31,9 @@ struct OpenDoorPorts : DoorPorts {
   Input<double> failure{this, "failure", "0.2", "probability that the handle slips"};
 };
 
-class OpenDoor : public lockstep::Action<OpenDoorPorts> {
+class OpenDoor : public TimedAction<OpenDoorPorts> {
  public:
-  void start() override { timer_.start(seconds.get()); }
   Status tick() override;
-  double progress() const override { return timer_.progress(); }
-
- private:
-  Timer timer_;
 };
 
 struct DriveToPorts : PlacePorts {

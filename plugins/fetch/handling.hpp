@@ -29,14 +29,9 @@ struct LookForPorts : ObjectPorts {
   Input<double> seconds{this, "seconds", "2", "how long it takes", "s"};
 };
 
-class LookFor : public lockstep::Action<LookForPorts> {
+class LookFor : public TimedAction<LookForPorts> {
  public:
-  void start() override { timer_.start(seconds.get()); }
   Status tick() override;
-  double progress() const override { return timer_.progress(); }
-
- private:
-  Timer timer_;
 };
 
 struct GraspPorts : ObjectPorts {
@@ -44,28 +39,18 @@ struct GraspPorts : ObjectPorts {
   Input<double> failure{this, "failure", "0.3", "probability that the gripper misses"};
 };
 
-class Grasp : public lockstep::Action<GraspPorts> {
+class Grasp : public TimedAction<GraspPorts> {
  public:
-  void start() override { timer_.start(seconds.get()); }
   Status tick() override;
-  double progress() const override { return timer_.progress(); }
-
- private:
-  Timer timer_;
 };
 
 struct PutDownPorts : lockstep::Ports {
   Input<double> seconds{this, "seconds", "1.5", "how long it takes", "s"};
 };
 
-class PutDown : public lockstep::Action<PutDownPorts> {
+class PutDown : public TimedAction<PutDownPorts> {
  public:
-  void start() override { timer_.start(seconds.get()); }
   Status tick() override;
-  double progress() const override { return timer_.progress(); }
-
- private:
-  Timer timer_;
 };
 
 struct MoveArmPorts : lockstep::Ports {

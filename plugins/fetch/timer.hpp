@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <lockstep/leaf.hpp>
 #include <stdexcept>
 
 namespace fetch {
@@ -25,6 +26,17 @@ class Timer {
   static constexpr double kRounding = 1e-9;  // s
   double elapsed_ = 0;
   double duration_ = 0;
+};
+
+// An action that takes the time of its port.
+template <class Ports>
+class TimedAction : public lockstep::Action<Ports> {
+ public:
+  void start() override { timer_.start(this->seconds.get()); }
+  double progress() const override { return timer_.progress(); }
+
+ protected:
+  Timer timer_;
 };
 
 }  // namespace fetch

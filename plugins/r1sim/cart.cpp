@@ -82,18 +82,6 @@ HoldCart::Status HoldCart::tick() {
   return Status::Running;
 }
 
-void HoldCart::halt() {
-  scene().arms_align = false;
-}
-
-void HoldCart::pause() {
-  scene().arms_align = false;
-}
-
-void HoldCart::resume() {
-  scene().arms_align = true;
-}
-
 double HoldCart::progress() const {
   return is_off() ? 0 : 1;
 }
@@ -116,24 +104,8 @@ FollowPath::Status FollowPath::tick() {
   CartScene& now = scene();
   traveled.set(now.traveled);
   if (now.traveled < path.get()) return Status::Running;
-  stop();
+  now.base_moves = false;
   return Status::Success;
-}
-
-void FollowPath::stop() {
-  scene().base_moves = false;
-}
-
-void FollowPath::halt() {
-  stop();
-}
-
-void FollowPath::pause() {
-  stop();
-}
-
-void FollowPath::resume() {
-  scene().base_moves = true;
 }
 
 double FollowPath::progress() const {

@@ -5,6 +5,8 @@
 
 #include <lockstep/leaf.hpp>
 
+#include "part_action.hpp"
+
 namespace r1sim {
 
 // A sideways error that grows as something rolls: its wheels point off course by a slope that
@@ -51,16 +53,14 @@ struct HoldCartPorts : lockstep::Ports {
   Output<double> error{this, "error", "how far the cart is off, to the left", "m"};
 };
 
-class HoldCart : public lockstep::Action<HoldCartPorts> {
+class HoldCart : public PartAction<HoldCartPorts> {
  public:
   void start() override;
   Status tick() override;
-  void halt() override;
-  void pause() override;
-  void resume() override;
   double progress() const override;
 
  private:
+  bool& moves() const override { return scene().arms_align; }
   CartScene& scene() const;
   bool is_off() const;
 
@@ -77,18 +77,15 @@ struct FollowPathPorts : lockstep::Ports {
   Output<double> traveled{this, "traveled", "how far the base has come", "m"};
 };
 
-class FollowPath : public lockstep::Action<FollowPathPorts> {
+class FollowPath : public PartAction<FollowPathPorts> {
  public:
   void start() override;
   Status tick() override;
-  void halt() override;
-  void pause() override;
-  void resume() override;
   double progress() const override;
 
  private:
+  bool& moves() const override { return scene().base_moves; }
   CartScene& scene() const;
-  void stop();
 };
 
 }  // namespace r1sim

@@ -6,6 +6,8 @@
 #include <limits>
 #include <lockstep/leaf.hpp>
 
+#include "part_action.hpp"
+
 namespace r1sim {
 
 // What hand and base do, each on its way.
@@ -61,21 +63,19 @@ struct BackAwayPorts : DoorPorts {
 
 // The hand or the base.
 template <class Ports, DoorMotion DoorScene::*kPart>
-class DoorAction : public lockstep::Action<Ports> {
+class DoorAction : public PartAction<Ports> {
  public:
   using Status = typename lockstep::Action<Ports>::Status;
 
   void start() override;
   Status tick() override;
-  void halt() override { motion().moves = false; }
-  void pause() override { motion().moves = false; }
-  void resume() override { motion().moves = true; }
   double progress() const override { return motion().moved / motion().way; }
 
  protected:
   DoorScene& scene() const;
 
  private:
+  bool& moves() const override { return motion().moves; }
   DoorMotion& motion() const { return scene().*kPart; }
 };
 

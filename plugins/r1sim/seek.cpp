@@ -67,18 +67,6 @@ void Swipe::tell(const HallwayScene& now) {
   log(lockstep::LogLevel::Warning, std::to_string(told_missed_) + " missed so far: out of view");
 }
 
-void Swipe::halt() {
-  scene().head.moves = false;
-}
-
-void Swipe::pause() {
-  scene().head.moves = false;
-}
-
-void Swipe::resume() {
-  scene().head.moves = true;
-}
-
 double Swipe::progress() const {
   const HallwayScene& now = scene();
   return now.head.swept / now.length();
@@ -100,18 +88,6 @@ Navigate::Status Navigate::tick() {
   if (now.base.traveled < now.length()) return Status::Running;
   now.base.moves = false;
   return Status::Success;
-}
-
-void Navigate::halt() {
-  scene().base.moves = false;
-}
-
-void Navigate::pause() {
-  scene().base.moves = false;
-}
-
-void Navigate::resume() {
-  scene().base.moves = true;
 }
 
 double Navigate::progress() const {

@@ -6,6 +6,7 @@
 #include <lockstep/leaf.hpp>
 
 #include "hallway.hpp"
+#include "part_action.hpp"
 
 namespace r1sim {
 
@@ -30,16 +31,14 @@ struct SwipePorts : lockstep::Ports {
   Output<std::int64_t> missed{this, "missed", "objects missed so far"};
 };
 
-class Swipe : public lockstep::Action<SwipePorts> {
+class Swipe : public PartAction<SwipePorts> {
  public:
   void start() override;
   Status tick() override;
-  void halt() override;
-  void pause() override;
-  void resume() override;
   double progress() const override;
 
  private:
+  bool& moves() const override { return scene().head.moves; }
   HallwayScene& scene() const;
   void tell(const HallwayScene& now);
 
@@ -50,16 +49,14 @@ struct NavigatePorts : lockstep::Ports {
   Input<double> speed{this, "speed", "0.25", "of the base", "m/s"};
 };
 
-class Navigate : public lockstep::Action<NavigatePorts> {
+class Navigate : public PartAction<NavigatePorts> {
  public:
   void start() override;
   Status tick() override;
-  void halt() override;
-  void pause() override;
-  void resume() override;
   double progress() const override;
 
  private:
+  bool& moves() const override { return scene().base.moves; }
   HallwayScene& scene() const;
 };
 

@@ -22,7 +22,7 @@ Outcome run_tree(const std::string& tree, const std::string& leaves,
   std::vector<std::string> arguments{"run",     tree,      "--plugin", plugin(leaves),
                                      "--clock", "virtual", "--view",   "none"};
   arguments.insert(arguments.end(), more.begin(), more.end());
-  return lockstep::host::test::lockstep(arguments);
+  return run_lockstep(arguments);
 }
 
 // What leaves print goes to stderr; the result is the first word on stdout.
@@ -142,7 +142,7 @@ TEST_CASE("leaves for BehaviorTree.CPP: IDs of lockstep's own nodes, '-' and UTF
 }
 
 TEST_CASE("leaves for BehaviorTree.CPP: a plugin that registers an ID twice is refused") {
-  const Outcome outcome = lockstep::host::test::lockstep({"nodes", "--plugin", plugin("twice")});
+  const Outcome outcome = run_lockstep({"nodes", "--plugin", plugin("twice")});
   CHECK(outcome.code != 0);
   CHECK(contains(outcome.err, "cannot be used: ID [Same] is registered already"));
 }
@@ -150,8 +150,7 @@ TEST_CASE("leaves for BehaviorTree.CPP: a plugin that registers an ID twice is r
 TEST_CASE("leaves for BehaviorTree.CPP: a literal that its type does not read is found by check") {
   const TemporaryDirectory directory;
   const auto tree = directory.file("tree.xml", tree_of("<Move goal=\"here\"/>"));
-  const Outcome outcome =
-      lockstep::host::test::lockstep({"check", tree, "--plugin", plugin("first")});
+  const Outcome outcome = run_lockstep({"check", tree, "--plugin", plugin("first")});
   CHECK(outcome.code == 3);
   CHECK(contains(outcome.err, "error: 'here' is not the text of a Position, which 'goal' must be"));
 }
@@ -162,8 +161,7 @@ TEST_CASE("leaves for BehaviorTree.CPP: a type without a conversion says so, by 
   const std::string lacks =
       "there is no conversion from a text to " + type + "; specialize BT::convertFromString for it";
   const auto literal = directory.file("literal.xml", tree_of("<Look places=\"a\"/>"));
-  const Outcome check =
-      lockstep::host::test::lockstep({"check", literal, "--plugin", plugin("first")});
+  const Outcome check = run_lockstep({"check", literal, "--plugin", plugin("first")});
   CHECK(
       contains(check.err, "error: 'a' is not the text of a " + type + ", which 'places' must be"));
   CHECK(contains(check.err, "hint: its plugin says: " + lacks));
@@ -174,7 +172,7 @@ TEST_CASE("leaves for BehaviorTree.CPP: a type without a conversion says so, by 
   CHECK(contains(run_tree(text, "first").out, "Main/Sequence/Look: " + lacks));
   // One that refuses a text says why.
   const auto wrong = directory.file("wrong.xml", tree_of("<Move goal=\"1\"/>"));
-  CHECK(contains(lockstep::host::test::lockstep({"check", wrong, "--plugin", plugin("first")}).err,
+  CHECK(contains(run_lockstep({"check", wrong, "--plugin", plugin("first")}).err,
                  "hint: its plugin says: a position is two numbers"));
 }
 
@@ -195,7 +193,7 @@ TEST_CASE(
   for (const std::string& it : kTrees) {
     INFO(it);
     const auto tree = directory.file("tree.xml", it);
-    CHECK(lockstep::host::test::lockstep({"check", tree, "--plugin", plugin("first")}).code == 0);
+    CHECK(run_lockstep({"check", tree, "--plugin", plugin("first")}).code == 0);
     CHECK(printed(run_tree(tree, "first")) == std::vector<std::string>{"move to 1 2", "success"});
   }
   const auto set = directory.file("set.xml", tree_of(move));

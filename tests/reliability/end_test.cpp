@@ -141,7 +141,7 @@ TEST_CASE("a leaf that brings down a study is named, with its run") {
                                "--no-plots",
                                "--out",
                                directory.path(how)};
-    const Outcome outcome = lockstep(arguments);
+    const Outcome outcome = run_lockstep(arguments);
     INFO(outcome.err);
     CHECK(outcome.code == 6);
     CHECK(contains(outcome.err, "the leaf 'Main/plan/arm' (Misbehave of plugin 'hostile')"));

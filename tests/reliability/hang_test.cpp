@@ -86,9 +86,9 @@ TEST_CASE("time in which the program is stopped counts as nobody's hang") {
     Process process({.arguments = arguments});
     process.wait_for_stop();
     const std::string wait = directory.file("wait.xml", tree_text("<Wait seconds=\"1\"/>"));
-    CHECK(lockstep({"run", wait}).code == 0);  // which takes twice the limit
+    CHECK(run_lockstep({"run", wait}).code == 0);  // which takes twice the limit
     process.signal(SIGCONT);
-    lockstep({"--version"});  // the other process goes on a moment later
+    run_lockstep({"--version"});  // the other process goes on a moment later
     for (const pid_t leafhost : plugin.processes()) kill(leafhost, SIGCONT);
     const Outcome outcome = process.finish();
     INFO(outcome.err);

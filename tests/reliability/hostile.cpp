@@ -23,6 +23,7 @@
 #include <unwind.h>
 
 #include "lockstep/leaf.h"
+#include "support/plugin_tables.h"
 
 namespace {
 
@@ -295,64 +296,40 @@ void deinit() {
   if (g_never_deinit) for_ever();
 }
 
-constexpr lockstep_port port(lockstep_type type, lockstep_direction direction, const char* name,
-                             const char* value) {
-  return {sizeof(lockstep_port),
-          type,
-          direction,
-          name,
-          value,
-          nullptr,
-          nullptr,
-          nullptr,
-          0,
-          0,
-          nullptr,
-          0};
-}
-constexpr lockstep_port kHowPort = port(LOCKSTEP_STRING, LOCKSTEP_INPUT, "how", "");
-constexpr lockstep_port kWherePort = port(LOCKSTEP_STRING, LOCKSTEP_INPUT, "where", "tick");
-constexpr lockstep_port kAtPort = port(LOCKSTEP_INT, LOCKSTEP_INPUT, "at", "1");
-constexpr lockstep_port kTicksPort = port(LOCKSTEP_INT, LOCKSTEP_INPUT, "ticks", "5");
-constexpr lockstep_port kNumberPort = port(LOCKSTEP_DOUBLE, LOCKSTEP_INOUT, "number", "1");
-constexpr lockstep_port kChancePort = port(LOCKSTEP_DOUBLE, LOCKSTEP_INPUT, "chance", "0");
-constexpr const lockstep_port* kPorts[] = {&kHowPort,   &kWherePort,  &kAtPort,
-                                           &kTicksPort, &kNumberPort, &kChancePort};
+using lockstep::tables::port;
 
-constexpr lockstep_leaf_type kMisbehave = {sizeof(lockstep_leaf_type),
-                                           LOCKSTEP_ACTION,
-                                           "Misbehave",
-                                           "Does what no leaf should",
-                                           6,
-                                           kPorts,
-                                           create,
-                                           destroy,
-                                           start,
-                                           tick,
-                                           halt,
-                                           pause,
-                                           resume,
-                                           progress,
-                                           nullptr,
-                                           0,
-                                           0,
-                                           0,
-                                           nullptr};
-constexpr const lockstep_leaf_type* kLeaves[] = {&kMisbehave};
+constexpr lockstep_port kPorts[] = {
+    port(LOCKSTEP_STRING, LOCKSTEP_INPUT, "how", ""),
+    port(LOCKSTEP_STRING, LOCKSTEP_INPUT, "where", "tick"),
+    port(LOCKSTEP_INT, LOCKSTEP_INPUT, "at", "1"),
+    port(LOCKSTEP_INT, LOCKSTEP_INPUT, "ticks", "5"),
+    port(LOCKSTEP_DOUBLE, LOCKSTEP_INOUT, "number", "1"),
+    port(LOCKSTEP_DOUBLE, LOCKSTEP_INPUT, "chance", "0"),
+};
+constexpr auto kPortList = lockstep::tables::list_of(kPorts);
+
+constexpr lockstep_leaf_type kMisbehave[] = {[] {
+  lockstep_leaf_type type = lockstep::tables::leaf_type("Misbehave", create, destroy, tick);
+  type.doc = "Does what no leaf should";
+  type.start = start;
+  type.halt = halt;
+  type.pause = pause;
+  type.resume = resume;
+  type.progress = progress;
+  lockstep::tables::set_ports(type, kPortList);
+  return type;
+}()};
+constexpr auto kLeaves = lockstep::tables::list_of(kMisbehave);
+
+constexpr lockstep_plugin kPlugin = [] {
+  lockstep_plugin plugin = lockstep::tables::plugin("hostile", kLeaves);
+  plugin.version = "1.0";
+  plugin.doc = "For tests";
+  plugin.init = init;
+  plugin.deinit = deinit;
+  return plugin;
+}();
 
 }  // namespace
 
-extern "C" LOCKSTEP_EXPORT const lockstep_plugin lockstep_plugin_entry = {LOCKSTEP_ABI_MAJOR,
-                                                                          LOCKSTEP_ABI_MINOR,
-                                                                          sizeof(lockstep_plugin),
-                                                                          "hostile",
-                                                                          "1.0",
-                                                                          "For tests",
-                                                                          1,
-                                                                          kLeaves,
-                                                                          init,
-                                                                          deinit,
-                                                                          nullptr,
-                                                                          nullptr,
-                                                                          nullptr,
-                                                                          nullptr};
+extern "C" LOCKSTEP_EXPORT constinit const lockstep_plugin lockstep_plugin_entry = kPlugin;

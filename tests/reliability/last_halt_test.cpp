@@ -61,7 +61,7 @@ TEST_CASE("a leaf that cannot be halted at a limit is a fault, with any policy, 
         Strings options{"--clock", "virtual", "--json", "--record", file, "--on-fault", policy};
         options.insert(options.end(), limit.begin(), limit.end());
         if (!where.empty()) options.push_back(where);
-        const Outcome outcome = lockstep(it.arguments(options));
+        const Outcome outcome = run_lockstep(it.arguments(options));
         check(outcome);
         const json summary = json::parse(outcome.out);
         CHECK(summary["result"] == "fault");
@@ -94,8 +94,8 @@ TEST_CASE("a leaf that cannot be halted after a fault is told beside the leaf at
   text.replace(text.find(base), base.size(),
                "<Misbehave name=\"culprit\" how=\"nonsense\" at=\"2\"/>");
   const Outcome outcome =
-      lockstep({"run", directory.file("tree.xml", text), "--plugin-path",
-                LOCKSTEP_HOSTILE_DIRECTORY, "--clock", "virtual", "--view", "none", "--json"});
+      run_lockstep({"run", directory.file("tree.xml", text), "--plugin-path",
+                    LOCKSTEP_HOSTILE_DIRECTORY, "--clock", "virtual", "--view", "none", "--json"});
   INFO(outcome.err);
   CHECK(outcome.code == kFault);
   CHECK(contains(json::parse(outcome.out)["fault"], "culprit: returned status 7"));
@@ -106,9 +106,9 @@ TEST_CASE("a leaf that cannot be halted after a fault is told beside the leaf at
 
 TEST_CASE("a study ends at a leaf that cannot be halted") {
   const Endless it;
-  const Outcome outcome =
-      lockstep({"study", it.tree, "--runs", "3", "--measure", "duration", "--max-ticks", "4",
-                "--plugin-path", LOCKSTEP_HOSTILE_DIRECTORY, "--out", it.directory.path("out")});
+  const Outcome outcome = run_lockstep(
+      {"study", it.tree, "--runs", "3", "--measure", "duration", "--max-ticks", "4",
+       "--plugin-path", LOCKSTEP_HOSTILE_DIRECTORY, "--out", it.directory.path("out")});
   INFO(outcome.err);
   CHECK(outcome.code == kFault);
   CHECK(contains(outcome.err, "the leaf 'Main/Parallel/arm' (Misbehave of plugin 'hostile') " +

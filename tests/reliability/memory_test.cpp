@@ -36,7 +36,8 @@ TEST_CASE("out of memory, every command says so and has a code for it") {
                             "<Wait seconds=\"1\"/></ParallelAbsolute>"));
   const std::string file = directory.path("run.jsonl");
   const std::string plan = "plan=0.5;1";
-  REQUIRE(lockstep({"run", tree, "--clock", "virtual", "--record", file, "--set", plan}).code == 0);
+  REQUIRE(run_lockstep({"run", tree, "--clock", "virtual", "--record", file, "--set", plan}).code ==
+          0);
   const std::vector<Strings> commands = {
       {"check", tree},
       {"check", tree, "--format", "sarif"},

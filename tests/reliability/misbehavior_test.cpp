@@ -131,8 +131,8 @@ TEST_CASE("a progress that is not a number is a fault, one out of range is clamp
       const json notes = json::parse(outcome.out)["notes"];
       REQUIRE(notes.size() == 1);
       CHECK(contains(notes[0], leaf + told));
-      CHECK(contains(lockstep({"log", "info", file}).out, "  note: " + leaf + told));
-      const Outcome csv = lockstep({"log", "csv", file});
+      CHECK(contains(run_lockstep({"log", "info", file}).out, "  note: " + leaf + told));
+      const Outcome csv = run_lockstep({"log", "csv", file});
       const std::string progress = how == "-3" ? "0" : "1";
       CHECK(contains(csv.out, "/arm,running," + progress + ","));
     }
@@ -143,8 +143,8 @@ TEST_CASE("a study warns of a progress out of range, once for each leaf, and cou
   const TemporaryDirectory directory;
   const std::string tree = directory.file("tree.xml", hostile_tree({"7", "progress"}));
   const Outcome outcome =
-      lockstep({"study", tree, "--runs", "40", "--jobs", "2", "--no-plots", "--plugin-path",
-                LOCKSTEP_HOSTILE_DIRECTORY, "--out", directory.path("out")});
+      run_lockstep({"study", tree, "--runs", "40", "--jobs", "2", "--no-plots", "--plugin-path",
+                    LOCKSTEP_HOSTILE_DIRECTORY, "--out", directory.path("out")});
   const std::string told =
       tree +
       ": warning: the leaf 'Main/plan/ParallelRelative/arm' (Misbehave of plugin 'hostile') "
@@ -169,7 +169,7 @@ TEST_CASE("a leaf that cannot be created ends the run before its first tick") {
                end = json::parse(lines(read_file(file)).back())["end"];
     CHECK(contains(summary["fault"], "/arm: could not be created: threw an exception"));
     CHECK(end["fault"] == summary["fault"]);
-    CHECK(contains(lockstep({"log", "info", file}).out,
+    CHECK(contains(run_lockstep({"log", "info", file}).out,
                    "fault: " + summary["fault"].get<std::string>()));
   }
 }
@@ -198,8 +198,8 @@ TEST_CASE("a tree can isolate one plugin by itself") {
   text.replace(text.find(plain), plain.size(),
                "<plugin name=\"hostile\" isolate=\"true\"/><plugin name=\"motion\"/>");
   const Outcome outcome =
-      lockstep({"run", directory.file("tree.xml", text), "--plugin-path",
-                LOCKSTEP_HOSTILE_DIRECTORY, "--clock", "virtual", "--on-fault", "fail"});
+      run_lockstep({"run", directory.file("tree.xml", text), "--plugin-path",
+                    LOCKSTEP_HOSTILE_DIRECTORY, "--clock", "virtual", "--on-fault", "fail"});
   check(outcome, 0, {"killed by SIGSEGV"});
 }
 

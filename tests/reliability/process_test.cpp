@@ -56,8 +56,8 @@ TEST_CASE("what a large tree and its recording take is not called a leak") {
   const std::string tree =
       directory.file("tree.xml", "<root lockstep=\"1\"><BehaviorTree ID=\"Main\"><Parallel>" +
                                      leaves + "</Parallel></BehaviorTree></root>");
-  const Outcome outcome = lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--record",
-                                    directory.path("run.jsonl")});
+  const Outcome outcome = run_lockstep({"run", tree, "--clock", "virtual", "--view", "none",
+                                        "--record", directory.path("run.jsonl")});
   INFO(outcome.err);
   CHECK(outcome.code == 0);
   CHECK_FALSE(contains(outcome.out, "memory grew by"));
@@ -151,9 +151,9 @@ TEST_CASE("a thread of an isolated plugin that logs without end keeps nobody") {
   // How many lines were taken, shown or not. On the virtual clock 3000 ticks may be over before the
   // thread has begun.
   const auto lines_taken = [&](const std::string& clock, int ticks) {
-    const Outcome outcome =
-        lockstep({"run", tree, "--plugin-path", LOCKSTEP_HOSTILE_DIRECTORY, "--isolate", "--clock",
-                  clock, "--rate", "3000", "--max-ticks", std::to_string(ticks), "--json"});
+    const Outcome outcome = run_lockstep({"run", tree, "--plugin-path", LOCKSTEP_HOSTILE_DIRECTORY,
+                                          "--isolate", "--clock", clock, "--rate", "3000",
+                                          "--max-ticks", std::to_string(ticks), "--json"});
     CHECK(outcome.code == 124);
     CHECK(json::parse(outcome.out)["ticks"] == ticks);
     CHECK(contains(outcome.err, "still here"));
@@ -217,7 +217,7 @@ TEST_CASE("killed with SIGKILL, a run leaves no process and a recording that can
   CHECK(process.finish().code == 128 + SIGKILL);
   while (plugin.has_processes()) {
   }
-  const Outcome info = lockstep({"log", "info", file});
+  const Outcome info = run_lockstep({"log", "info", file});
   CHECK(info.code == 0);
   CHECK(contains(info.err, "cut"));
 }
@@ -234,8 +234,8 @@ TEST_CASE("after a crash in this process, the recording is whole up to the last 
                        "how=\"" +
                            how + "\" ticks=\"100\"/></BehaviorTree></root>");
     const Outcome outcome =
-        lockstep({"run", tree, "--plugin-path", LOCKSTEP_HOSTILE_DIRECTORY, "--record", file,
-                  "--clock", "virtual", "--hang-limit", hang_limit(how)});
+        run_lockstep({"run", tree, "--plugin-path", LOCKSTEP_HOSTILE_DIRECTORY, "--record", file,
+                      "--clock", "virtual", "--hang-limit", hang_limit(how)});
     INFO(outcome.err);
     CHECK(outcome.code == 6);
     CHECK(contains(outcome.err, "tick 7"));

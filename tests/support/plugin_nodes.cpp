@@ -34,22 +34,23 @@ PluginNodes::PluginNodes(const Tree& tree, Blackboard& board, std::vector<LeafSl
                          Ticker& ticker)
     : time{.period = std::chrono::milliseconds(100), .thread = this_thread_id()},
       tree_(tree),
-      slots_(slots) {
+      slots_(slots),
+      run_{.log = &log_, .tree = &tree, .ticker = &ticker} {
   for (const LeafNode& node : tree.leaves) paths_.push_back(tree.path(node.node));
   for (std::size_t index = 0; index < slots_.size(); ++index) {
     const LeafNode& node = tree.leaves[index];
     callers_.emplace_back();
     if (node.type->origin == nullptr) continue;
     slots_[index].type = node.type->leaf;
-    callers_.back() =
-        std::make_unique<lockstep_caller>(lockstep_caller{.who = paths_[index],
-                                                          .ports = bind_ports(tree, node, board),
-                                                          .random = RandomStream(0, index + 1),
-                                                          .time = &time,
-                                                          .log = &log_,
-                                                          .slot = &slots_[index],
-                                                          .ticker = &ticker,
-                                                          .children = children_of(tree, node)});
+    callers_.back() = std::make_unique<lockstep_caller>(time, slots_[index], run_);
+    lockstep_caller& caller = *callers_.back();
+    caller.who = paths_[index].c_str();
+    caller.type = node.type;
+    caller.random = RandomStream(0, index + 1);
+    caller.first_child = node.first_child;
+    caller.children = node.children;
+    bind_ports(tree, node, board, ports_.emplace_back());
+    ports_.back().give_to(caller);
   }
   create_all();
 }

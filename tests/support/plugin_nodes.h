@@ -2,6 +2,7 @@
 // known, and ScriptedRun creates them beside its scripted leaves.
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -38,7 +39,9 @@ class PluginNodes {
   const Tree& tree_;
   std::vector<LeafSlot>& slots_;
   LeafLog log_;
+  CallerRun run_;
   std::vector<std::string> paths_;
+  std::deque<PortTable> ports_;
   std::vector<std::unique_ptr<lockstep_caller>> callers_;  // null for a scripted leaf
 };
 

@@ -144,12 +144,11 @@ Snapshot take_snapshot(NodeContext& context, NodeIndex self) {
   return snapshot;
 }
 
-template <class Held>
-void hold(NodeContext& context, NodeIndex self, Held held) {
+void hold(NodeContext& context, NodeIndex self, double held_from) {
   const auto progress = context.child_states<double>(self);
   for (const Member& it : context.tree().members_of(self)) {
     MemberState& own = member_state(context, self, it.number);
-    own.held = !own.succeeded && !context.is_guard(it.node) && held(progress[it.number]);
+    own.held = !own.succeeded && !context.is_guard(it.node) && progress[it.number] >= held_from;
   }
 }
 
@@ -158,21 +157,21 @@ void set_limit(NodeContext& context, NodeIndex self, double least) {
   double& limit = context.state<BarrierState>(self).synchronized.limit;
   if (synchronization(context.node(self)) == Synchronization::Relative) {
     limit = context.parameter(self, kBarrierDelta).number;
-    const double most = least + limit + kProgressEpsilon;
-    hold(context, self, [most](double reached) { return reached > most; });
+    hold(context, self, least_above(least + limit));
   } else {
     const auto barriers = context.parameters().numbers(self, absolute::kBarriers);
     limit = absolute::current_barrier(barriers, least);
     const bool ticks =
         context.parameter(self, absolute::kAtBarrier).integer == absolute::kTickAtBarrier;
-    hold(context, self, absolute::Held{limit, ticks});
+    hold(context, self, absolute::held_from(limit, ticks));
   }
 }
 
 // While the limits are unknown.
 void hold_nobody(NodeContext& context, NodeIndex self) {
-  context.state<BarrierState>(self).synchronized.limit = std::numeric_limits<double>::infinity();
-  hold(context, self, [](double) { return false; });
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  context.state<BarrierState>(self).synchronized.limit = kNever;
+  hold(context, self, kNever);
 }
 
 // An entry that has the limits is needed while a member runs. Before that the tree may write it.

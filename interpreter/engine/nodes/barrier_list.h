@@ -90,15 +90,9 @@ inline double current_barrier(std::span<const double> barriers, double least) {
   return next == barriers.end() ? std::numeric_limits<double>::infinity() : *next;
 }
 
-// Whether that progress is held at the current barrier.
-struct Held {
-  double barrier;
-  bool ticks_at_barrier;
-
-  bool operator()(double reached) const {
-    return ticks_at_barrier ? reached > barrier + kProgressEpsilon
-                            : reached >= barrier - kProgressEpsilon;
-  }
-};
+// The least progress that is held at the current barrier.
+inline double held_from(double barrier, bool ticks_at_barrier) {
+  return ticks_at_barrier ? least_above(barrier) : barrier - kProgressEpsilon;
+}
 
 }  // namespace lockstep::host::absolute

@@ -7,10 +7,9 @@
 #include <utility>
 
 #include "core/plugin_exception.h"
-#include "engine/node_context.h"
+#include "engine/leaf_call.h"
 #include "engine/node_kind.h"
 #include "engine/tree.h"
-#include "lockstep/leaf.h"
 
 namespace lockstep::host {
 namespace {
@@ -31,9 +30,11 @@ class Reach {
 
 // The contract forbids exceptions, but a leaf that throws must not take the robot with it.
 template <class Call>
-void guarded(NodeContext& context, NodeIndex self, Call call) {
+void guarded(NodeContext& context, NodeIndex self, PluginFunction function, Call call) {
+  LeafSlot& leaf = context.leaf(self);
+  const LeafCall around(context, self, leaf, function);
   try {
-    call();
+    call(leaf);
   } catch (...) {
     context.set_fault(self, describe_exception());
   }
@@ -47,10 +48,13 @@ bool take_error(NodeContext& context, NodeIndex self, LeafSlot& leaf) {
   return true;
 }
 
+template <PluginFunction kName>
 void call(NodeContext& context, NodeIndex self, void (*function)(void*)) {
   LeafSlot& leaf = context.leaf(self);
   const Reach reach(leaf, ChildAccess::Look);
-  if (function != nullptr) guarded(context, self, [&] { function(leaf.self); });
+  if (function != nullptr) {
+    guarded(context, self, kName, [function](const LeafSlot& it) { function(it.self); });
+  }
   take_error(context, self, leaf);
 }
 
@@ -58,7 +62,8 @@ void call(NodeContext& context, NodeIndex self, void (*function)(void*)) {
 void halt_before_children(NodeContext& context, NodeIndex self, LeafSlot& leaf) {
   if (leaf.started && leaf.type->halt != nullptr) {
     const Reach reach(leaf, ChildAccess::Tick);
-    guarded(context, self, [&] { leaf.type->halt(leaf.self); });
+    guarded(context, self, PluginFunction::Halt,
+            [](const LeafSlot& it) { it.type->halt(it.self); });
     take_error(context, self, leaf);
   }
   context.halt_range(self + 1, context.end_of(self));
@@ -76,7 +81,7 @@ void halt_leaf(NodeContext& context, NodeIndex self) {
     context.halt_range(self + 1, context.end_of(self));
     if (context.faulted() && !context.in_last_halt()) return;  // halted at the end of the run
   }
-  if (leaf.started) call(context, self, leaf.type->halt);
+  if (leaf.started) call<PluginFunction::Halt>(context, self, leaf.type->halt);
   leaf.failed = false;
 }
 
@@ -95,13 +100,16 @@ Status out(NodeContext& context, NodeIndex self) {
 
 [[gnu::noinline]] void start(NodeContext& context, NodeIndex self, LeafSlot& leaf) {
   leaf.started = false;
-  const bool goes_on = std::exchange(leaf.unreset, false);
-  call(context, self, goes_on ? leaf.type->start_unreset : leaf.type->start);
+  if (std::exchange(leaf.unreset, false)) {
+    call<PluginFunction::StartUnreset>(context, self, leaf.type->start_unreset);
+  } else {
+    call<PluginFunction::Start>(context, self, leaf.type->start);
+  }
   leaf.started = !is_out(context, leaf);
 }
 
 [[gnu::noinline]] void resume(NodeContext& context, NodeIndex self, LeafSlot& leaf) {
-  if (!leaf.failed) call(context, self, leaf.type->resume);
+  if (!leaf.failed) call<PluginFunction::Resume>(context, self, leaf.type->resume);
 }
 
 // The first tick of an activation, or the first after a pause. False: the leaf is out.
@@ -142,19 +150,28 @@ template <Kind kKind>
   return leaf.failed ? out<kKind>(context, self) : Status::Running;
 }
 
+lockstep_status call_tick(NodeContext& context, NodeIndex self) {
+  lockstep_status result = LOCKSTEP_IDLE;  // no result, as after an exception
+  guarded(context, self, PluginFunction::Tick,
+          [&result](const LeafSlot& leaf) { result = leaf.type->tick(leaf.self); });
+  return result;
+}
+
 template <Kind kKind>
 Status tick_leaf(NodeContext& context, NodeIndex self) {
   LeafSlot& leaf = context.leaf(self);
   if (!prepare(context, self, leaf)) [[unlikely]]
     return out<kKind>(context, self);
-  lockstep_status result = LOCKSTEP_IDLE;  // no result, as after an exception
-  bool is_out_now = false;                 // what a node without children reports is its error
+  lockstep_status result = LOCKSTEP_IDLE;
+  bool is_out_now = false;  // what a node without children reports is its error
   if constexpr (kKind == Kind::Control) {
     const Reach reach(leaf, ChildAccess::Tick);
-    guarded(context, self, [&] { result = leaf.type->tick(leaf.self); });
+    result = call_tick(context, self);
     is_out_now = is_out(context, leaf);
+  } else if (LeafCall::can_be_in_line(context)) {
+    result = LeafCall::in_line<PluginFunction::Tick>(context, self, leaf, leaf.type->tick);
   } else {
-    guarded(context, self, [&] { result = leaf.type->tick(leaf.self); });
+    result = call_tick(context, self);
   }
   if (leaf.error == nullptr && !is_out_now && is_result<kKind>(result)) [[likely]]
     return static_cast<Status>(result);
@@ -175,7 +192,7 @@ Unreset unreset_leaf(NodeContext& context, NodeIndex self) {
 
 void pause(NodeContext& context, NodeIndex self) {
   LeafSlot& leaf = context.leaf(self);
-  if (!leaf.failed) call(context, self, leaf.type->pause);
+  if (!leaf.failed) call<PluginFunction::Pause>(context, self, leaf.type->pause);
 }
 
 void pause_leaf(NodeContext& context, NodeIndex self) {
@@ -203,9 +220,14 @@ double corrected(NodeContext& context, NodeIndex self, LeafSlot& leaf, double re
 
 double progress_of_leaf(NodeContext& context, NodeIndex self) {
   LeafSlot& leaf = context.leaf(self);
-  if (leaf.type->progress == nullptr || leaf.failed) return 0.0;
+  if (leaf.failed) return 0.0;
   double reported = 0.0;
-  guarded(context, self, [&] { reported = leaf.type->progress(leaf.self); });
+  if (leaf.kept_progress != nullptr) {
+    reported = leaf.read_progress();
+  } else if (leaf.type->progress != nullptr) {
+    guarded(context, self, PluginFunction::Progress,
+            [&reported](const LeafSlot& it) { reported = it.type->progress(it.self); });
+  }
   if (leaf.error == nullptr && reported >= 0.0 && reported <= 1.0) [[likely]]
     return reported;
   return corrected(context, self, leaf, reported);
@@ -232,15 +254,39 @@ double progress_of_control(NodeContext& context, NodeIndex self) {
 
 }  // namespace
 
-std::optional<double> look_at_progress(LeafSlot& leaf) {
-  if (leaf.type->progress == nullptr) return std::nullopt;
+Status LeafCall::spoiled_tick(NodeContext& context, NodeIndex node, lockstep_status result) {
+  Status status = spoiled<Kind::Action>(context, node, context.leaf(node), result);
+  if (context.faulted()) status = Status::Running;
+  context.state_.activity[node] = static_cast<Activity>(status);
+  context.state_.last_tick[node] = context.state_.tick_number;
+  return status;
+}
+
+double LeafCall::spoiled_progress(NodeContext& context, NodeIndex node, double reported) {
+  LeafSlot& leaf = context.leaf(node);
+  if (leaf.failed || context.faulted()) reported = 0.0;  // as after an exception
+  return corrected(context, node, leaf, reported);
+}
+
+[[gnu::cold]] void LeafCall::note_exception(NodeContext& context, NodeIndex node) {
+  context.set_fault(node, describe_exception());
+}
+
+std::optional<double> look_at_progress(NodeContext& context, NodeIndex node) {
+  LeafSlot& leaf = context.leaf(node);
+  if (leaf.kept_progress == nullptr && leaf.type->progress == nullptr) return std::nullopt;
   const char* const error = leaf.error;
   double reported = -1.0;
-  try {
-    reported = leaf.type->progress(leaf.self);
-    if (leaf.error != error) reported = -1.0;
-  } catch (...) {
-    reported = -1.0;
+  if (leaf.kept_progress != nullptr) {
+    reported = leaf.read_progress();
+  } else {
+    const LeafCall around(context, node, leaf, PluginFunction::Progress);
+    try {
+      reported = leaf.type->progress(leaf.self);
+      if (leaf.error != error) reported = -1.0;
+    } catch (...) {
+      reported = -1.0;
+    }
   }
   leaf.error = error;
   return reported >= 0.0 && reported <= 1.0 ? std::optional(reported) : std::nullopt;

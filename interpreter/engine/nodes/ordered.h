@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "engine/node_context.h"
+#include "engine/leaf_call.h"
 #include "engine/nodes/fold.h"
 
 namespace lockstep::host::ordered {
@@ -32,26 +32,36 @@ bool has_memory(const NodeContext& context, NodeIndex self) {
   return kMemory == Memory::Always;
 }
 
+// How many children there are from one child up to another.
+inline std::uint32_t count(const NodeContext& context, NodeIndex self, NodeIndex from,
+                           NodeIndex to) {
+  const Node& it = context.node(self);
+  if (it.end - self - 1 == it.children) return to - from;  // all of them are leaves
+  std::uint32_t children = 0;
+  for (; from != to; from = context.end_of(from)) ++children;
+  return children;
+}
+
 template <Status kGoOn, Memory kMemory>
 Status tick(NodeContext& context, NodeIndex self) {
   State& state = context.state<State>(self);
   const NodeIndex end = context.end_of(self);
-  const bool first = context.first_tick(self);
-  const NodeIndex previous = first ? self : state.current;
-  const bool resume = !first && has_memory<kMemory>(context, self);
-  NodeIndex child = resume ? state.current : self + 1;
-  std::uint32_t done = resume ? state.done : 0;
+  const bool resume = !context.first_tick(self) && has_memory<kMemory>(context, self);
+  const NodeIndex begin = resume ? state.current : self + 1;
   std::uint32_t skipped = resume ? state.skipped : 0;
-  for (; child != end; child = context.end_of(child), ++done) {
-    const Status status = context.tick(child);
+  for (NodeIndex next = begin; next != end;) {
+    const NodeIndex child = next;
+    const Status status = LeafCall::tick_and_pass(context, next);
     if (status == kGoOn) continue;
     if (status == Status::Skipped) {
-      if (!has_memory<kMemory>(context, self)) context.forget_range(child, context.end_of(child));
+      if (!has_memory<kMemory>(context, self)) context.forget_range(child, next);
       ++skipped;
       continue;
     }
-    if (child < previous) context.halt_range(context.end_of(child), context.end_of(previous));
-    state = {child, done, skipped};
+    const NodeIndex previous = context.first_tick(self) ? self : state.current;
+    if (child < previous) context.halt_range(next, context.end_of(previous));
+    const std::uint32_t done = resume ? state.done : 0;
+    state = {child, done + count(context, self, begin, child), skipped};
     return status;
   }
   if (skipped != context.node(self).children) return kGoOn;

@@ -1,3 +1,4 @@
+#include "engine/leaf_call.h"
 #include "engine/nodes/fold.h"
 #include "engine/nodes/kinds.h"
 #include "engine/nodes/parallel_rule.h"
@@ -17,8 +18,13 @@ std::optional<RuleBreak> rule_of_parallel(const ParameterValues& given) {
 Status tick_parallel(NodeContext& context, NodeIndex self) {
   const NodeIndex end = context.end_of(self);
   parallel::Tally tally;
-  for (NodeIndex child = self + 1; child != end; child = context.end_of(child)) {
-    tally.add(parallel::is_over(context, child) ? context.status(child) : context.tick(child));
+  for (NodeIndex child = self + 1; child != end;) {
+    if (parallel::is_over(context, child)) {
+      tally.add(context.status(child));
+      child = context.end_of(child);
+    } else {
+      tally.add(LeafCall::tick_and_pass(context, child));
+    }
   }
   return parallel::judge(context, self, kParallelCounts, tally);
 }

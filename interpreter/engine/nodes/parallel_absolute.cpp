@@ -30,7 +30,7 @@ Status tick_absolute(NodeContext& context, NodeIndex self) {
   const bool ticks =
       context.parameter(self, absolute::kAtBarrier).integer == absolute::kTickAtBarrier;
   return synchronized::tick_children(context, self, kAbsoluteCounts,
-                                     absolute::Held{barrier, ticks});
+                                     absolute::held_from(barrier, ticks));
 }
 
 }  // namespace

@@ -28,9 +28,8 @@ Status tick_relative(NodeContext& context, NodeIndex self) {
   const double least = synchronized::take_snapshot(context, self);
   const double delta = context.parameter(self, kDelta).number;
   context.state<SynchronizedState>(self).limit = delta;
-  const double most = farthest(Synchronization::Relative, delta, least) + kProgressEpsilon;
-  return synchronized::tick_children(context, self, kRelativeCounts,
-                                     [most](double reached) { return reached > most; });
+  const double most = farthest(Synchronization::Relative, delta, least);
+  return synchronized::tick_children(context, self, kRelativeCounts, least_above(most));
 }
 
 }  // namespace

@@ -77,28 +77,32 @@ inline bool is_over(const NodeContext& context, NodeIndex child) {
   return is_complete(context.status(child)) && context.is_latched(child);
 }
 
-// How many children have succeeded, failed, …
-struct Tally {
-  std::int64_t succeeded = 0, failed = 0, skipped = 0;
-
+// How many children have succeeded, failed and were skipped.
+class Tally {
+ public:
+  // Those that have completed count from tick to tick, if it is kept so long.
+  void begin_tick() { counts_[index_of(Status::Running)] = counts_[index_of(Status::Skipped)] = 0; }
   void add(Status status) {
-    succeeded += status == Status::Success;
-    failed += status == Status::Failure;
-    skipped += status == Status::Skipped;
+    if (status != Status::Running) ++counts_[index_of(status)];
   }
+  std::int64_t of(Status status) const { return counts_[index_of(status)]; }
+
+ private:
+  std::uint32_t counts_[index_of(kLastStatus) + 1] = {};
 };
 
 // Success is checked first. Children that still run are halted when the node ends. A child that was
 // skipped in this tick counts as not there.
 inline Status judge(NodeContext& context, NodeIndex self, const Counts& counts,
                     const Tally& tally) {
-  const std::int64_t there = context.node(self).children - tally.skipped;
+  const std::int64_t there = context.node(self).children - tally.of(Status::Skipped);
   if (there == 0) return Status::Skipped;
   const std::int64_t wanted =
       std::min(context.parameter(self, counts.success_count).integer, there);
-  const bool success = tally.succeeded >= wanted;
-  const bool failure = tally.failed >= context.parameter(self, counts.failure_count).integer ||
-                       there - tally.failed < wanted;
+  const bool success = tally.of(Status::Success) >= wanted;
+  const bool failure =
+      tally.of(Status::Failure) >= context.parameter(self, counts.failure_count).integer ||
+      there - tally.of(Status::Failure) < wanted;
   if (!success && !failure) return Status::Running;
   context.halt_running_children(self);
   return success ? Status::Success : Status::Failure;

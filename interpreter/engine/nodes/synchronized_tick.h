@@ -5,46 +5,42 @@
 
 #include <algorithm>
 
+#include "engine/leaf_call.h"
 #include "engine/nodes/parallel_rule.h"
 #include "engine/synchronized.h"
 
 namespace lockstep::host::synchronized {
 
-// One snapshot before any child is ticked; returns its minimum.
+// One snapshot before any child is ticked; returns its minimum. In two steps, since the least
+// number so far would have to survive each call.
 inline double take_snapshot(NodeContext& context, NodeIndex self) {
-  double least = 1.0;
   NodeIndex child = self + 1;
-  for (double& number : context.child_states<double>(self)) {
-    number = snapshot_of(context, child);
-    if (number < least) least = number;
-    child = context.end_of(child);
-  }
-  return least;
+  const std::span<double> numbers = context.child_states<double>(self);
+  for (double& number : numbers) number = snapshot_and_pass(context, child);
+  return least_progress(numbers);
 }
 
-// `held(progress)` returns whether a child with that progress is held. A guard is never held.
-template <class Held>
-Status tick_each(NodeContext& context, NodeIndex self, const parallel::Counts& counts, Held held) {
+// A child is held whose progress is not less than `held_from`, but never a guard.
+inline Status tick_each(NodeContext& context, NodeIndex self, const parallel::Counts& counts,
+                        double held_from) {
   parallel::Tally tally;
   NodeIndex child = self + 1;
   for (const double reached : context.child_states<double>(self)) {
     if (context.faulted()) return Status::Running;
-    Status status = context.status(child);
-    if (!parallel::is_over(context, child)) {
-      if (!held(reached) || context.is_guard(child) || !context.hold(child)) {
-        status = context.tick(child);
-      }
+    const bool is_over = parallel::is_over(context, child);
+    if (is_over || (reached >= held_from && !context.is_guard(child) && context.hold(child))) {
+      tally.add(context.status(child));
+      child = context.end_of(child);
+    } else {
+      tally.add(LeafCall::tick_and_pass(context, child));
     }
-    tally.add(status);
-    child = context.end_of(child);
   }
   return context.faulted() ? Status::Running : parallel::judge(context, self, counts, tally);
 }
 
-template <class Held>
-Status tick_children(NodeContext& context, NodeIndex self, const parallel::Counts& counts,
-                     Held held) {
-  const Status status = tick_each(context, self, counts, held);
+inline Status tick_children(NodeContext& context, NodeIndex self, const parallel::Counts& counts,
+                            double held_from) {
+  const Status status = tick_each(context, self, counts, held_from);
   context.state<SynchronizedState>(self).succeeded = status == Status::Success;
   return status;
 }
@@ -60,8 +56,8 @@ inline void decided(NodeContext& context, NodeIndex self, Status result) {
 // The progress of the least progressed child, so that synchronized nodes can be nested.
 inline double least_progress(NodeContext& context, NodeIndex self) {
   double least = 1.0;
-  for (NodeIndex child = self + 1; child != context.end_of(self); child = context.end_of(child)) {
-    if (const double number = snapshot_of(context, child); number < least) least = number;
+  for (NodeIndex child = self + 1; child != context.end_of(self);) {
+    if (const double number = snapshot_and_pass(context, child); number < least) least = number;
   }
   return least;
 }

@@ -17,8 +17,8 @@ bool may(const lockstep_caller* caller, ChildAccess access, std::string_view wha
   if (caller->is_foreign()) return false;
   const LeafSlot& slot = *caller->slot;
   if (slot.access >= access) [[likely]]
-    return slot.error == nullptr && !slot.failed && !caller->ticker->faulted();
-  if (caller->children.empty()) {
+    return slot.error == nullptr && !slot.failed && !caller->run->ticker->faulted();
+  if (caller->children == 0) {
     breach(caller, fmt::format("{} a child, but has none", what));
   } else if (access == ChildAccess::Tick) {
     breach(caller, fmt::format("{} a child outside of its tick", what));
@@ -32,7 +32,7 @@ bool may(const lockstep_caller* caller, ChildAccess access, std::string_view wha
 bool may(const lockstep_caller* caller, ChildAccess access, std::string_view what,
          std::uint32_t child) {
   if (!may(caller, access, what)) return false;
-  const std::size_t count = caller->children.size();
+  const std::uint32_t count = caller->children;
   if (child < count) [[likely]]
     return true;
   breach(caller, fmt::format("{} child {}, but has {} {}, counted from 0", what, child, count,
@@ -41,7 +41,7 @@ bool may(const lockstep_caller* caller, ChildAccess access, std::string_view wha
 }
 
 std::uint32_t count(const lockstep_caller* caller) {
-  return caller->is_foreign() ? 0 : static_cast<std::uint32_t>(caller->children.size());
+  return caller->is_foreign() ? 0 : caller->children;
 }
 
 // Ticks a child in the way that `function` does.
@@ -49,15 +49,15 @@ template <class Function>
 lockstep_status tick_by(const lockstep_caller* caller, std::uint32_t child, Function function) {
   if (!may(caller, ChildAccess::Tick, "ticks", child)) return LOCKSTEP_RUNNING;
   LeafSlot& slot = *caller->slot;
-  const NodeIndex node = caller->children[child];
-  const bool at_most_once = !caller->ticker->tree().rules->may_tick_again;
-  if (at_most_once && caller->ticker->ticked(node)) {
+  const NodeIndex node = caller->child(child);
+  const bool at_most_once = !caller->run->ticker->tree().rules->may_tick_again;
+  if (at_most_once && caller->run->ticker->ticked(node)) {
     breach(caller, fmt::format("ticks child {} twice in one tick", child));
     return LOCKSTEP_RUNNING;
   }
   // Code of the child that knows this caller must not use it.
   slot.access = ChildAccess::None;
-  const Status status = function(*caller->ticker, node);
+  const Status status = function(*caller->run->ticker, node);
   slot.access = ChildAccess::Tick;
   return static_cast<lockstep_status>(status);
 }
@@ -78,7 +78,7 @@ void halt(const lockstep_caller* caller, std::uint32_t child) {
   if (!may(caller, ChildAccess::Tick, "halts", child)) return;
   LeafSlot& slot = *caller->slot;
   slot.access = ChildAccess::None;
-  caller->ticker->halt(caller->children[child]);
+  caller->run->ticker->halt(caller->child(child));
   slot.access = ChildAccess::Tick;
 }
 
@@ -86,20 +86,20 @@ void pause(const lockstep_caller* caller, std::uint32_t child) {
   if (!may(caller, ChildAccess::Tick, "pauses", child)) return;
   LeafSlot& slot = *caller->slot;
   slot.access = ChildAccess::None;
-  caller->ticker->pause(caller->children[child]);
+  caller->run->ticker->pause(caller->child(child));
   slot.access = ChildAccess::Tick;
 }
 
 lockstep_status status(const lockstep_caller* caller, std::uint32_t child) {
   if (!may(caller, ChildAccess::Look, "asks for", child)) return LOCKSTEP_RUNNING;
-  return static_cast<lockstep_status>(caller->ticker->status(caller->children[child]));
+  return static_cast<lockstep_status>(caller->run->ticker->status(caller->child(child)));
 }
 
 double progress(const lockstep_caller* caller, std::uint32_t child) {
   if (!may(caller, ChildAccess::Look, "asks for", child)) return 0;
   LeafSlot& slot = *caller->slot;
   const ChildAccess access = std::exchange(slot.access, ChildAccess::None);
-  const double value = caller->ticker->progress(caller->children[child]);
+  const double value = caller->run->ticker->progress(caller->child(child));
   slot.access = access;
   return value;
 }

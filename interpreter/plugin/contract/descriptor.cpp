@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/plugin_exception.h"
-#include "plugin/contract/call_mark.h"
+#include "engine/call_mark.h"
 #include "plugin/contract/descriptor_leaf.h"
 #include "plugin/contract/descriptor_port.h"
 

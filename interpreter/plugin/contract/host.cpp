@@ -22,17 +22,19 @@ namespace {
 
 // False: the entry has a value that the port does not take, which is an error of the caller.
 bool may_be_read(const lockstep_caller& caller, const BoundPort& port, const Value& value) {
-  const auto why = refuse_value(*port.limits, value);
-  if (why) take_error(caller, Shortened(refusal_text(*why, port.name, value, port.entry)));
+  const auto why = refuse_value(*port.parameter, value);
+  if (why) take_error(caller, Shortened(refusal_text(*why, port.name(), value, port.entry)));
   return !why;
 }
 
+void refuse_to_set(const lockstep_caller& caller, const BoundPort& port, std::string_view why) {
+  take_error(caller, Shortened(fmt::format("cannot set '{}': {}", port.name(), why)));
+}
+
 // The same of a value that the caller sets.
-bool may_be_set(const lockstep_caller& caller, std::uint32_t port, const Value& value) {
-  const auto why = refuse_value(*caller.ports[port].limits, value);
-  if (why)
-    take_error(caller, Shortened(fmt::format("cannot set '{}': {}; {}", caller.ports[port].name,
-                                             why->message, why->hint)));
+bool may_be_set(const lockstep_caller& caller, const BoundPort& port, const Value& value) {
+  const auto why = refuse_value(*port.parameter, value);
+  if (why) refuse_to_set(caller, port, why->message + "; " + why->hint);
   return !why;
 }
 
@@ -48,38 +50,56 @@ constexpr ValueType type_of() {
 
 // The value of an entry that has another type than the port, as one of the port's; or null. Another
 // type than the port's is no conversion, but an error of the caller.
-const Value* converted(const lockstep_caller* caller, std::uint32_t port, ValueType type) {
-  BoundPort& it = mine(caller).ports[port];
-  if (it.is_generic) return nullptr;
+const Value* converted(BoundPort& port, ValueType type) {
+  if (port.is_generic) return nullptr;
   const bool is_number = type == ValueType::Int || type == ValueType::Double;
-  if (it.type != type && !(it.type == ValueType::Number && is_number)) return nullptr;
-  if (holds(*it.read, it.type)) return nullptr;  // the other kind of number
-  auto value = convert_value(*it.read, it.type, it.object);
+  if (port.type != type && !(port.type == ValueType::Number && is_number)) return nullptr;
+  if (holds(*port.read, port.type)) return nullptr;  // the other kind of number
+  auto value = convert_value(*port.read, port.type, port.object());
   if (!value) return nullptr;
-  if (it.converted == nullptr) it.converted = std::make_unique<Value>();
-  *it.converted = std::move(*value);
-  return it.converted.get();
+  Value& kept = port.remembered().converted;
+  kept = *std::move(value);
+  return &kept;
 }
 
 bool is_of(const Value& value, ValueType type) {
   return value.index() == static_cast<std::size_t>(type);
 }
 
-// The port's value when it has one of this type; else null.
-inline const Value* readable(const lockstep_caller* caller, std::uint32_t port, ValueType type) {
-  if (caller->is_foreign() || port >= caller->ports.size()) return nullptr;
-  const BoundPort& it = caller->ports[port];
-  if (it.read == nullptr) return nullptr;
-  const Value* value = it.read;
+// As `readable`, for what is not ordinary.
+[[gnu::noinline]] const Value* otherwise_readable(const lockstep_caller& caller, BoundPort& port,
+                                                  ValueType type) {
+  if (port.read == nullptr) return nullptr;
+  const Value* value = port.read;
   if (!is_of(*value, type)) {
     const bool is_empty = std::holds_alternative<NoValue>(*value);
     if (is_empty)
-      return it.fallback != nullptr && is_of(*it.fallback, type) ? it.fallback : nullptr;
-    value = converted(caller, port, type);
+      return port.fallback != nullptr && is_of(*port.fallback, type) ? port.fallback : nullptr;
+    value = converted(port, type);
     if (value == nullptr) return nullptr;
   }
-  if (it.limits != nullptr && !may_be_read(*caller, it, *value)) return nullptr;
+  if (port.must_be_checked() && !may_be_read(caller, port, *value)) return nullptr;
   return value;
+}
+
+// What the port has in the ordinary case, if it is a T; else null. The getters of numbers try this
+// first and do the rest in another function, so that they need no stack.
+template <class T>
+inline const T* ordinary(const lockstep_caller* caller, std::uint32_t port) {
+  if (caller->is_foreign() || port >= caller->ports.size()) [[unlikely]]
+    return nullptr;
+  const Value& value = *caller->ordinary[port];
+  return std::get_if<T>(&value);
+}
+
+// The port's value when it has one of this type; else null.
+inline const Value* readable(const lockstep_caller* caller, std::uint32_t port, ValueType type) {
+  if (caller->is_foreign() || port >= caller->ports.size()) [[unlikely]]
+    return nullptr;
+  const Value* const value = caller->ordinary[port];
+  if (is_of(*value, type)) [[likely]]
+    return value;
+  return otherwise_readable(*caller, caller->ports[port], type);
 }
 
 template <class T>
@@ -88,10 +108,19 @@ const T* readable(const lockstep_caller* caller, std::uint32_t port) {
 }
 
 template <class T>
-bool get(const lockstep_caller* caller, std::uint32_t port, T* value) {
+[[gnu::noinline]] bool get_otherwise(const lockstep_caller* caller, std::uint32_t port, T* value) {
   const T* found = readable<T>(caller, port);
   if (found != nullptr) *value = *found;
   return found != nullptr;
+}
+
+template <class T>
+bool get(const lockstep_caller* caller, std::uint32_t port, T* value) {
+  const T* const found = ordinary<T>(caller, port);
+  if (found == nullptr) [[unlikely]]
+    return get_otherwise(caller, port, value);
+  *value = *found;
+  return true;
 }
 
 bool get_string(const lockstep_caller* caller, std::uint32_t port, const char** text,
@@ -104,11 +133,20 @@ bool get_string(const lockstep_caller* caller, std::uint32_t port, const char** 
 }
 
 // A number is an int when the port is bound to an entry that is one, or has such a constant.
-bool get_double(const lockstep_caller* caller, std::uint32_t port, double* value) {
-  if (get(caller, port, value)) return true;
+[[gnu::noinline]] bool get_double_otherwise(const lockstep_caller* caller, std::uint32_t port,
+                                            double* value) {
+  if (get_otherwise(caller, port, value)) return true;
   const auto* whole = readable<std::int64_t>(caller, port);
   if (whole == nullptr || caller->ports[port].type != ValueType::Number) return false;
   *value = static_cast<double>(*whole);
+  return true;
+}
+
+bool get_double(const lockstep_caller* caller, std::uint32_t port, double* value) {
+  const double* const found = ordinary<double>(caller, port);
+  if (found == nullptr) [[unlikely]]
+    return get_double_otherwise(caller, port, value);
+  *value = *found;
   return true;
 }
 
@@ -128,15 +166,15 @@ bool get_string_list(const lockstep_caller* caller, std::uint32_t port, const lo
                      std::size_t* count) {
   const auto* found = readable<std::vector<std::string>>(caller, port);
   if (found == nullptr) return false;
-  auto& texts = mine(caller).ports[port].texts;
   try {
+    auto& texts = caller->ports[port].remembered().texts;
     texts.clear();
     for (const std::string& text : *found) texts.push_back({text.c_str(), text.size()});
+    *items = texts.data();
+    *count = texts.size();
   } catch (const std::exception&) {
     return false;
   }
-  *items = texts.data();
-  *count = texts.size();
   return true;
 }
 
@@ -145,69 +183,83 @@ void note_written(std::vector<Entry*>& written, Entry* entry) {
 }
 
 // What the caller is about to write; counted as written.
-Value* writable(const lockstep_caller* caller, std::uint32_t port, ValueType type) {
-  if (caller->is_foreign() || port >= caller->ports.size()) return nullptr;
-  const BoundPort& it = caller->ports[port];
-  Entry* const entry = it.write;
-  if (entry == nullptr || (it.is_generic ? entry->type : it.type) != type) return nullptr;
+Value* writable(const lockstep_caller& caller, const BoundPort& port, ValueType type) {
+  Entry* const entry = port.write;
+  if (entry == nullptr || (port.is_generic ? entry->type : port.type) != type) return nullptr;
   ++entry->writes;
-  if (caller->written != nullptr) note_written(*caller->written, entry);
+  if (caller.run->written != nullptr) note_written(*caller.run->written, entry);
   return &entry->value;
 }
 
-// What the caller sets there is to be checked first.
-bool has_limits(const lockstep_caller* caller, std::uint32_t port) {
-  if (caller->is_foreign() || port >= caller->ports.size()) return false;
-  const Parameter* const limits = caller->ports[port].limits;
-  return limits != nullptr && limits->direction != Direction::Input;
-}
-
 // The port is bound to an entry whose type may be another, or none.
-bool is_loose(const lockstep_caller* caller, std::uint32_t port, ValueType type) {
-  if (caller->is_foreign() || port >= caller->ports.size()) return false;
-  const BoundPort& it = caller->ports[port];
-  if (it.write == nullptr || it.write->typing == Typing::Strict) return false;
-  return it.is_generic ? type != ValueType::Object : it.type == type;
+bool is_loose(const BoundPort& port, ValueType type) {
+  if (port.write == nullptr || port.write->typing == Typing::Strict) return false;
+  return port.is_generic ? type != ValueType::Object : port.type == type;
 }
 
 // Sets such an entry to a value of this type.
-bool set_loose(const lockstep_caller* caller, std::uint32_t port, ValueType type, Value value) {
-  const BoundPort& it = caller->ports[port];
-  if (!write_entry(*it.write, type, it.object, std::move(value))) return false;
-  if (caller->written != nullptr) note_written(*caller->written, it.write);
+bool set_loose(const lockstep_caller& caller, const BoundPort& port, ValueType type, Value value) {
+  if (!write_entry(*port.write, type, port.object(), std::move(value))) return false;
+  if (caller.run->written != nullptr) note_written(*caller.run->written, port.write);
   return true;
 }
 
 // Sets the port to the value of this type that `make` gives. `assign` puts it into an entry of the
 // type, without memory where it can.
 template <class Make, class Assign>
-bool store(const lockstep_caller* caller, std::uint32_t port, ValueType type, Make make,
+bool store(const lockstep_caller& caller, const BoundPort& port, ValueType type, Make make,
            Assign assign) {
-  if (has_limits(caller, port) && !may_be_set(*caller, port, make())) return false;
-  if (is_loose(caller, port, type)) return set_loose(caller, port, type, make());
+  const bool has_limits = port.has_limits && port.parameter->direction != Direction::Input;
+  if (has_limits && !may_be_set(caller, port, make())) return false;
+  if (is_loose(port, type)) return set_loose(caller, port, type, make());
   Value* const target = writable(caller, port, type);
   if (target != nullptr) assign(*target);
   return target != nullptr;
 }
 
 // The same where memory may be needed, of which there may be none.
-template <class... Arguments>
-bool try_to_store(Arguments... arguments) {
+template <class Make, class Assign>
+bool try_to_store(const lockstep_caller* caller, std::uint32_t port, ValueType type, Make make,
+                  Assign assign) {
+  const BoundPort* const it = port_of(*caller, port);
   try {
-    return store(arguments...);
+    return it != nullptr && store(*caller, *it, type, make, assign);
   } catch (const std::exception&) {
     return false;  // out of memory, or a length that is none
   }
 }
 
 template <class T>
-bool set(const lockstep_caller* caller, std::uint32_t port, T value) {
+[[gnu::noinline]] bool set_otherwise(const lockstep_caller& caller, const BoundPort& port,
+                                     T value) {
   if constexpr (std::is_same_v<T, double>) {
-    if (!std::isfinite(value) && !is_loose(caller, port, ValueType::Double)) return false;
+    if (!std::isfinite(value) && !is_loose(port, ValueType::Double)) return false;
   }
   return store(
-      caller, port, type_of<T>(), [&] { return Value(value); },
-      [&](Value& target) { target.emplace<T>(value); });
+      caller, port, type_of<T>(), [=] { return Value(value); },
+      [=](Value& target) { held<T>(target) = value; });
+}
+
+template <class T>
+bool is_finite(T value) {
+  if constexpr (std::is_same_v<T, double>) return std::isfinite(value);
+  return true;
+}
+
+template <class T>
+bool set(const lockstep_caller* caller, std::uint32_t port, T value) {
+  const BoundPort* const it = port_of(*caller, port);
+  if (it == nullptr) return false;
+  Entry* const entry = it->write;
+  if (it->has_limits) return set_otherwise(*caller, *it, value);
+  if (entry == nullptr) return false;
+  T* const target = std::get_if<T>(&entry->value);
+  const bool is_ordinary = target != nullptr && it->type == type_of<T>() && !it->is_generic &&
+                           entry->typing == Typing::Strict && caller->run->written == nullptr;
+  if (!is_ordinary || !is_finite(value)) return set_otherwise(*caller, *it, value);
+  ++entry->writes;
+  *target = value;
+  return true;
 }
 
 bool set_string(const lockstep_caller* caller, std::uint32_t port, const char* text,
@@ -269,26 +321,25 @@ bool is_of_type(const Object& object, const ObjectType* type) {
 }
 
 // An object of another process as one of the port's own type; null after an error.
-const Object* unpacked(lockstep_caller& caller, BoundPort& port, const Object& packed) {
-  if (port.packed == packed) return &port.unpacked;
-  auto made = port.object->from_bytes(PackedType::get(packed).bytes);
+const Object* unpacked(const lockstep_caller& caller, BoundPort& port, const Object& packed) {
+  PortMemory& memory = port.remembered();
+  if (memory.packed == packed) return &memory.unpacked;
+  auto made = port.object()->from_bytes(PackedType::get(packed).bytes);
   if (!made) {
     take_error(caller,
-               Shortened(fmt::format("cannot read '{}': {}", port.name, made.error().message)));
+               Shortened(fmt::format("cannot read '{}': {}", port.name(), made.error().message)));
     return nullptr;
   }
-  port.unpacked = *std::move(made);
-  port.packed = packed;
-  return &port.unpacked;
+  memory.unpacked = *std::move(made);
+  memory.packed = packed;
+  return &memory.unpacked;
 }
 
 bool get_object(const lockstep_caller* caller, std::uint32_t port, void** object) {
   const auto* found = readable<Object>(caller, port);
-  if (found == nullptr || !is_of_type(*found, caller->ports[port].object)) return false;
+  if (found == nullptr || !is_of_type(*found, caller->ports[port].object())) return false;
   try {
-    if (found->type()->is_packed()) {
-      found = unpacked(mine(caller), mine(caller).ports[port], *found);
-    }
+    if (found->type()->is_packed()) found = unpacked(*caller, caller->ports[port], *found);
   } catch (const std::exception&) {
     return false;
   }
@@ -297,28 +348,27 @@ bool get_object(const lockstep_caller* caller, std::uint32_t port, void** object
 }
 
 // In a process that only mirrors the entries, an object is set as bytes. Nothing after an error.
-std::optional<Object> settable(const lockstep_caller& caller, std::uint32_t port, Object object) {
-  if (caller.written == nullptr) return object;
+std::optional<Object> settable(const lockstep_caller& caller, const BoundPort& port,
+                               Object object) {
+  if (caller.run->written == nullptr) return object;
   auto packed = pack(object, WithText::Yes);
   if (packed) return *std::move(packed);
-  take_error(caller, Shortened(fmt::format("cannot set '{}': {}", caller.ports[port].name,
-                                           packed.error().message)));
+  refuse_to_set(caller, port, packed.error().message);
   return std::nullopt;
 }
 
 bool set_object(const lockstep_caller* caller, std::uint32_t port, void* object) {
-  if (object == nullptr || port >= caller->ports.size() || caller->ports[port].object == nullptr) {
-    return false;
-  }
-  const bool loose = is_loose(caller, port, ValueType::Object);
-  Value* const target = loose ? nullptr : writable(caller, port, ValueType::Object);
+  const BoundPort* const it = port_of(*caller, port);
+  if (object == nullptr || it == nullptr || it->object() == nullptr) return false;
+  const bool loose = is_loose(*it, ValueType::Object);
+  Value* const target = loose ? nullptr : writable(*caller, *it, ValueType::Object);
   if (!loose && target == nullptr) return false;
-  const ObjectType& type = *caller->ports[port].object;
+  const ObjectType& type = *it->object();
   type.retain(object);
   try {
-    auto held = settable(*caller, port, Object(type, object));
+    auto held = settable(*caller, *it, Object(type, object));
     if (!held) return false;
-    if (loose) return set_loose(caller, port, ValueType::Object, *std::move(held));
+    if (loose) return set_loose(*caller, *it, ValueType::Object, *std::move(held));
     // What the entry had is released at the end: its release finds the entry as it will be.
     const Value before = std::exchange(*target, *std::move(held));
   } catch (const std::exception&) {
@@ -349,11 +399,11 @@ double random_double(const lockstep_caller* caller) {
 
 void log(const lockstep_caller* caller, lockstep_log_level level, const char* message) {
   // A child that was forked off has neither the locks nor the threads that lines go through.
-  if (!*caller->log || ForkGuard::is_child()) return;
+  if (!*caller->run->log || ForkGuard::is_child()) return;
   level = std::clamp<lockstep_log_level>(level, LOCKSTEP_LOG_DEBUG, LOCKSTEP_LOG_WARNING);
   try {
     const std::string_view text = message == nullptr ? "" : message;
-    (*caller->log)(caller->who, level, utf8_front(text, kLongestLogLine));
+    (*caller->run->log)(caller->who, level, utf8_front(text, kLongestLogLine));
   } catch (...) {  // NOLINT(bugprone-empty-catch): a lost line must not unwind through a plugin
   }
 }
@@ -370,17 +420,18 @@ const void* get_extension(const char* id) {
 // made complete.
 Shortened with_entry(const lockstep_caller& caller, const Shortened& message) {
   for (const BoundPort& port : caller.ports) {
-    if (port.entry.empty() || message.text() != fmt::format("port '{}' has no value", port.name)) {
+    if (port.entry.empty() ||
+        message.text() != fmt::format("port '{}' has no value", port.name())) {
       continue;
     }
     if (std::holds_alternative<NoValue>(*port.read)) {
       return Shortened(fmt::format("{}: nothing has written the entry '{{{}}}'", message.text(),
                                    brief(port.entry)));
     }
-    if (!convert_value(*port.read, port.type, port.object)) {
+    if (!convert_value(*port.read, port.type, port.object())) {
       return Shortened(fmt::format("{}: the entry '{{{}}}' has '{}', which is not {}",
                                    message.text(), brief(port.entry), brief(to_text(*port.read)),
-                                   expected_text(port.type, port.object)));
+                                   expected_text(port.type, port.object())));
     }
   }
   return message;
@@ -388,21 +439,16 @@ Shortened with_entry(const lockstep_caller& caller, const Shortened& message) {
 
 }  // namespace
 
-const Parameter* limits_of(const Parameter& port) {
-  const bool has_range = std::isfinite(port.range.min) || std::isfinite(port.range.max);
-  return has_range || !port.choices.empty() ? &port : nullptr;
-}
-
 void take_error(const lockstep_caller& caller, const Shortened& message) {
   lockstep_caller& it = mine(&caller);
   if (it.slot->error != nullptr) return;
-  if (it.error == nullptr) it.error.reset(new (std::nothrow) Shortened);
-  if (it.error == nullptr) {
+  if (it.rest == nullptr) it.rest.reset(new (std::nothrow) CallerRest);
+  if (it.rest == nullptr) {
     it.slot->error = "an error, and no memory is left for its text";
     return;
   }
-  *it.error = with_entry(caller, message);
-  it.slot->error = it.error->c_str();
+  it.rest->error = with_entry(caller, message);
+  it.slot->error = it.rest->error.c_str();
 }
 
 const Value* read_port(const lockstep_caller& caller, std::uint32_t port) {
@@ -413,9 +459,10 @@ const Value* read_port(const lockstep_caller& caller, std::uint32_t port) {
 }
 
 bool write_port(const lockstep_caller& caller, std::uint32_t port, const Value& value) {
-  return store(
-      &caller, port, static_cast<ValueType>(value.index()), [&] { return value; },
-      [&](Value& target) { target = value; });
+  const BoundPort* const it = port_of(caller, port);
+  return it != nullptr && store(
+                              caller, *it, static_cast<ValueType>(value.index()),
+                              [&] { return value; }, [&](Value& target) { target = value; });
 }
 
 const lockstep_host& host_table() {

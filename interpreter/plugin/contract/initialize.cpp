@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/plugin_exception.h"
-#include "plugin/contract/call_mark.h"
+#include "engine/call_mark.h"
 #include "plugin/contract/host.h"
 #include "system/mutex.h"
 
@@ -35,7 +35,9 @@ std::string call_init(const lockstep_plugin& plugin) {
   static const LeafTime no_time;
   static const LeafLog no_log;
   LeafSlot slot;
-  lockstep_caller caller{plugin.name, {}, RandomStream(0, 0), &no_time, &no_log, &slot};
+  const CallerRun run{.log = &no_log};
+  lockstep_caller caller(no_time, slot, run);
+  caller.who = plugin.name;
   const MarkedCall mark(CallSite::of_plugin(plugin.name), PluginFunction::Init);
   bool works = false;
   const std::string thrown = thrown_by([&] { works = plugin.init(&host_table(), &caller); });

@@ -2,16 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
-#include "core/diagnostics.h"
 #include "core/plugin_exception.h"
-#include "plugin/contract/call_mark.h"
+#include "engine/call_mark.h"
+#include "plugin/contract/call_sites.h"
 #include "plugin/contract/descriptor.h"
-#include "plugin/contract/float_mode.h"
 #include "plugin/contract/host.h"
-#include "plugin/contract/leaf_watch.h"
+#include "system/float_mode.h"
 
 namespace lockstep::host {
 namespace {
@@ -35,61 +35,27 @@ bool is_local(const NodeType& type) {
   return static_cast<const HostedPlugin*>(type.origin)->is_local;
 }
 
-const CallSite& site_of(const LeafNode& leaf, std::string_view path) {
-  return CallSite::of({.path = path,
-                       .id = leaf.type->id,
-                       .plugin = leaf.type->plugin,
-                       .kind = kind_of(leaf.type->category),
-                       .is_local = is_local(*leaf.type)});
+const double* kept_progress_of(const LeafSlot& slot) {
+  const lockstep_leaf_type& type = *slot.type;
+  if (type.get_extension == nullptr || type.progress == nullptr) return nullptr;
+  if (type.kind != LOCKSTEP_ACTION) return nullptr;
+  return static_cast<const double*>(type.get_extension(slot.self, LOCKSTEP_KEPT_PROGRESS));
 }
 
-}  // namespace
+const CallSite::Origin& origin_of(const NodeType& type) {
+  return CallSite::origin_of({.id = type.id,
+                              .plugin = type.plugin,
+                              .kind = kind_of(type.category),
+                              .is_local = is_local(type)});
+}
 
-std::vector<BoundPort> bind_ports(const Tree& tree, const LeafNode& leaf, Blackboard& blackboard) {
-  std::vector<BoundPort> ports;
-  ports.reserve(leaf.type->parameters.size());
-  for (std::size_t index = 0; index < leaf.type->parameters.size(); ++index) {
-    const PortBinding& binding = tree.ports[leaf.first_port + index];
-    const Parameter& parameter = leaf.type->parameters[index];
-    BoundPort port{.type = parameter.type,
-                   .limits = limits_of(parameter),
-                   .object = parameter.object,
-                   .is_generic = parameter.is_generic,
-                   .direction = parameter.direction,
-                   .name = parameter.name};
-    const Value* const constant =
-        binding.constant != PortBinding::kUnbound ? &tree.constants[binding.constant] : nullptr;
-    if (binding.slot != PortBinding::kUnbound) {
-      Entry& entry = blackboard.entries[binding.slot];
-      port.read = &entry.value;
-      port.is_strict = tree.slots[binding.slot].typing == Typing::Strict;
-      if (parameter.direction != Direction::Input) port.write = &entry;
-      port.fallback = constant;
-      port.entry = tree.slots[binding.slot].name;
-    } else {
-      port.read = constant;
-    }
-    ports.push_back(std::move(port));
-  }
+std::size_t ports_of(const Tree& tree) {
+  std::size_t ports = 0;
+  for (const LeafNode& leaf : tree.leaves) ports += leaf.type->parameters.size();
   return ports;
 }
 
-// What lockstep_place knows of it.
-void name_place(const Tree& tree, const LeafNode& leaf, lockstep_caller& caller) {
-  caller.node = leaf.node;
-  caller.name = tree.labels[leaf.node].name;
-  caller.id = leaf.type->leaf->id;
-  caller.plugin_name = leaf.type->plugin;
-  caller.opens_entries = leaf.type->opens_entries && !tree.boards.empty();
-  for (const NodeIndex child : children_of(tree, leaf)) {
-    const NodeLabel& label = tree.labels[child];
-    caller.labels.push_back({std::string(label.type->id), std::string(label.name)});
-  }
-}
-
-std::span<const NodeIndex> children_of(const Tree& tree, const LeafNode& node) {
-  return std::span(tree.children).subspan(node.first_child, node.children);
-}
+}  // namespace
 
 struct LeafSet::Implementation {
   // What a run shares per plugin; seen by the plugin as its run context.
@@ -97,25 +63,31 @@ struct LeafSet::Implementation {
     const lockstep_plugin* plugin;
     NodeIndex node;  // the first leaf of the plugin
     const CallSite* site;
+    CallerRun run;
     LeafSlot slot = {};  // `self` is the context
-    std::unique_ptr<lockstep_caller> caller = {};
+    std::optional<lockstep_caller> caller = {};
     bool created = false;
   };
 
-  Implementation(const Tree& tree, Blackboard& blackboard, const LeafTime& time, LeafLog log,
-                 LeafWatch* watch);
+  Implementation(const Tree& tree, Blackboard& blackboard, const LeafTime& time, LeafLog log);
   ~Implementation() { destroy_all(); }
   Implementation(const Implementation&) = delete;
   Implementation& operator=(const Implementation&) = delete;
 
+  // What all leaves of a type share.
+  struct Type {
+    std::size_t context;  // in contexts_
+    const CallSite::Origin* origin;
+  };
+  const Type& know_type(const LeafNode& leaf);
+  std::size_t know_context(const NodeType& type, NodeIndex node);
+  void add_caller(const LeafNode& leaf, LeafSlot& slot, const CallSite& site);
   void create_all(std::uint64_t seed);
   void destroy_all();
   bool create_context(Context& context);
   bool create_leaf(std::uint32_t index);
   void destroy_leaf(std::size_t index);
   void destroy_context(const Context& context);
-  Context* find_context(const void* plugin);
-  lockstep_caller make_caller(std::string_view who, LeafSlot& slot);
   bool fail(NodeIndex node, std::string message);
   void warn(const lockstep_caller& caller, const std::string& message);
   // Calls a function that is not called while ticking. Returns why it failed, or "".
@@ -127,59 +99,83 @@ struct LeafSet::Implementation {
   Blackboard& blackboard_;
   const LeafTime& time_;
   LeafLog log_;
-  LeafWatch* const watch_;
   // Plugins keep pointers to callers, and callers to slots: once made, none of them moves.
   std::vector<std::unique_ptr<Context>> contexts_;
   std::vector<LeafSlot> slots_;
+  CallerRun run_;
+  PortTable ports_;                       // of the leaves
   std::vector<lockstep_caller> callers_;  // of the leaves
-  std::vector<const CallSite*> sites_;    // of the leaves
+  CallSites site_memory_;
+  std::vector<const CallSite*> sites_;  // of the leaves
+  std::unordered_map<const NodeType*, Type> types_;
   std::optional<Fault> fault_;
   bool is_destroyed_ = false;
 };
 
 LeafSet::Implementation::Implementation(const Tree& tree, Blackboard& blackboard,
-                                        const LeafTime& time, LeafLog log, LeafWatch* watch)
+                                        const LeafTime& time, LeafLog log)
     : tree_(tree),
       blackboard_(blackboard),
       time_(time),
       log_(std::move(log)),
-      watch_(watch),
-      slots_(tree.leaves.size()) {
+      slots_(tree.leaves.size()),
+      run_{.log = &log_, .tree = &tree} {
   callers_.reserve(tree.leaves.size());
   sites_.reserve(tree.leaves.size());
+  ports_.reserve(ports_of(tree));
   std::string path;
   for (const LeafNode& leaf : tree.leaves) {
-    if (find_context(leaf.type->origin) == nullptr) {
-      const lockstep_plugin* const plugin = leaf.type->origin;
-      contexts_.push_back(std::make_unique<Context>(Context{
-          .plugin = plugin,
-          .node = leaf.node,
-          .site = &CallSite::of({.plugin = plugin->name, .is_local = is_local(*leaf.type)})}));
-      Context& context = *contexts_.back();
-      context.caller = std::make_unique<lockstep_caller>(make_caller(plugin->name, context.slot));
-      context.caller->plugin = plugin;
-    }
     LeafSlot& slot = slots_[callers_.size()];
     slot.type = leaf.type->leaf;
     tree.path(leaf.node, path);
-    const CallSite& site = site_of(leaf, path);
-    sites_.push_back(&site);
-    lockstep_caller& caller = callers_.emplace_back(make_caller(site.path, slot));
-    caller.site = &site;
-    caller.children = children_of(tree, leaf);
-    caller.ports = bind_ports(tree, leaf, blackboard);
-    name_place(tree, leaf, caller);
+    slot.site = &site_memory_.add(path, *know_type(leaf).origin);
+    sites_.push_back(slot.site);
+    add_caller(leaf, slot, *sites_.back());
   }
+}
+
+const LeafSet::Implementation::Type& LeafSet::Implementation::know_type(const LeafNode& leaf) {
+  const auto [it, is_new] = types_.try_emplace(leaf.type);
+  if (is_new) it->second = {know_context(*leaf.type, leaf.node), &origin_of(*leaf.type)};
+  return it->second;
+}
+
+std::size_t LeafSet::Implementation::know_context(const NodeType& type, NodeIndex node) {
+  const lockstep_plugin* const plugin = type.origin;
+  for (std::size_t index = 0; index < contexts_.size(); ++index) {
+    if (contexts_[index]->plugin == plugin) return index;
+  }
+  contexts_.push_back(std::make_unique<Context>(
+      Context{.plugin = plugin,
+              .node = node,
+              .site = &CallSite::of({.plugin = plugin->name, .is_local = is_local(type)}),
+              .run = {.log = &log_, .plugin = plugin}}));
+  Context& context = *contexts_.back();
+  context.caller.emplace(time_, context.slot, context.run).who = plugin->name;
+  return contexts_.size() - 1;
+}
+
+void LeafSet::Implementation::add_caller(const LeafNode& leaf, LeafSlot& slot,
+                                         const CallSite& site) {
+  lockstep_caller& caller = callers_.emplace_back(time_, slot, run_);
+  caller.who = site.path;
+  caller.type = leaf.type;
+  caller.site = &site;
+  caller.node = leaf.node;
+  caller.first_child = leaf.first_child;
+  caller.children = leaf.children;
+  const std::size_t first = ports_.size();
+  bind_ports(tree_, leaf, blackboard_, ports_);
+  ports_.give_to(caller, first);
 }
 
 // In reverse order; what was not created is passed over.
 void LeafSet::Implementation::destroy_all() {
   if (std::exchange(is_destroyed_, true)) return;
-  if (watch_ != nullptr) watch_->remove(slots_);
   for (std::size_t index = slots_.size(); index-- > 0;) {
     LeafSlot& slot = slots_[index];
     if (slot.self != nullptr) destroy_leaf(index);
-    slot = LeafSlot{.type = slot.type};
+    slot = LeafSlot{.type = slot.type, .site = slot.site};
   }
   // While what the leaves of a run share is still there.
   for (Entry& entry : blackboard_.entries) {
@@ -187,7 +183,7 @@ void LeafSet::Implementation::destroy_all() {
   }
   for (lockstep_caller& caller : callers_) {
     for (BoundPort& port : caller.ports) {
-      port.packed = port.unpacked = Object();
+      if (port.memory != nullptr) port.memory->packed = port.memory->unpacked = Object();
       const bool is_opened = port.is_generic && port.write != nullptr;
       if (is_opened && std::holds_alternative<Object>(port.write->value)) {
         port.write->value = NoValue();
@@ -238,27 +234,11 @@ bool LeafSet::Implementation::fail(NodeIndex node, std::string message) {
   return false;
 }
 
-LeafSet::Implementation::Context* LeafSet::Implementation::find_context(const void* plugin) {
-  for (const auto& context : contexts_) {
-    if (context->plugin == plugin) return context.get();
-  }
-  return nullptr;
-}
-
-lockstep_caller LeafSet::Implementation::make_caller(std::string_view who, LeafSlot& slot) {
-  return {.who = who,
-          .ports = {},
-          .random = RandomStream(0, 0),
-          .time = &time_,
-          .log = &log_,
-          .slot = &slot};
-}
-
 bool LeafSet::Implementation::create_context(Context& context) {
   const lockstep_plugin* const plugin = context.plugin;
   if (plugin->create_run == nullptr) return true;
   std::string reason = call(*context.caller, *context.site, PluginFunction::CreateRun, [&] {
-    context.slot.self = plugin->create_run(&host_table(), context.caller.get());
+    context.slot.self = plugin->create_run(&host_table(), &*context.caller);
     // What came with an error is a context that must go; NULL is one only without an error.
     context.created = context.slot.self != nullptr || context.slot.error == nullptr;
   });
@@ -271,9 +251,10 @@ bool LeafSet::Implementation::create_context(Context& context) {
 bool LeafSet::Implementation::create_leaf(std::uint32_t index) {
   const LeafNode& leaf = tree_.leaves[index];
   LeafSlot& slot = slots_[index];
-  void* const context = find_context(leaf.type->origin)->slot.self;
+  void* const context = contexts_[types_.at(leaf.type).context]->slot.self;
   std::string reason = call(callers_[index], *sites_[index], PluginFunction::Create, [&] {
     slot.self = slot.type->create(&host_table(), &callers_[index], context);
+    if (slot.self != nullptr) slot.kept_progress = kept_progress_of(slot);
   });
   if (reason.empty() && slot.error != nullptr) reason = slot.error;
   if (reason.empty() && slot.self == nullptr) reason = "its create returned NULL without an error";
@@ -283,6 +264,7 @@ bool LeafSet::Implementation::create_leaf(std::uint32_t index) {
 void LeafSet::Implementation::create_all(std::uint64_t seed) {
   fault_.reset();
   is_destroyed_ = false;
+  CallMark::this_thread().set_tick(CallMark::kNoTick);
   for (std::size_t index = 0; index < contexts_.size(); ++index) {
     contexts_[index]->caller->random = RandomStream(seed, kFirstRunStream + index + 1);
     if (!create_context(*contexts_[index])) return;
@@ -291,12 +273,11 @@ void LeafSet::Implementation::create_all(std::uint64_t seed) {
     callers_[index].random = RandomStream(seed, index + std::uint64_t{1});
     if (!create_leaf(index)) return;
   }
-  if (watch_ != nullptr) watch_->insert(tree_, slots_, sites_);
 }
 
 LeafSet::LeafSet(const Tree& tree, Blackboard& blackboard, const LeafTime& time, std::uint64_t seed,
-                 LeafLog log, LeafWatch* watch)
-    : it_(std::make_unique<Implementation>(tree, blackboard, time, std::move(log), watch)) {
+                 LeafLog log)
+    : it_(std::make_unique<Implementation>(tree, blackboard, time, std::move(log))) {
   create_all(seed);
 }
 
@@ -312,7 +293,7 @@ std::span<LeafSlot> LeafSet::slots() {
   return it_->slots_;
 }
 void LeafSet::set_ticker(Ticker& ticker) {
-  for (lockstep_caller& caller : it_->callers_) caller.ticker = &ticker;
+  it_->run_.ticker = &ticker;
 }
 const std::optional<Fault>& LeafSet::fault() const {
   return it_->fault_;

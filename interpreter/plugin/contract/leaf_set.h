@@ -38,16 +38,14 @@ struct LeafTime {
 using LeafLog =
     std::function<void(std::string_view who, lockstep_log_level level, std::string_view message)>;
 
-class LeafWatch;
-
 class LeafSet {
  public:
   // Creates the run context of every plugin in the tree, then every leaf in pre-order. All
   // references must outlive the set. If a leaf cannot be created, fault() has the reason and the
   // set must not be ticked. `seed` and a leaf's place in the tree determine its stream of random
-  // numbers. With a `watch`, the slots hold watched leaves.
+  // numbers.
   LeafSet(const Tree& tree, Blackboard& blackboard, const LeafTime& time, std::uint64_t seed,
-          LeafLog log = {}, LeafWatch* watch = nullptr);
+          LeafLog log = {});
   // Destroys the leaves in reverse order, then the run contexts. No leaf may be running.
   ~LeafSet();
   // The two halves of a restart, as if the set were made again. In between, the owner resets what

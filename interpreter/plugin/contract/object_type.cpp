@@ -10,7 +10,7 @@
 #include <mutex>
 
 #include "core/plugin_exception.h"
-#include "plugin/contract/call_mark.h"
+#include "engine/call_mark.h"
 #include "plugin/contract/descriptor.h"
 
 namespace lockstep::host {

@@ -1,57 +1,71 @@
 // What a node of a plugin may ask about its place in the tree and its ports: lockstep_place.
-#include "blackboard/conversion.h"
 #include "engine/node_ports.h"
 #include "engine/ticker.h"
 #include "plugin/contract/host.h"
 #include "plugin/contract/object_type.h"
 
 namespace lockstep::host {
+
+const NodeTexts& TextsOnDemand::set(NodeTexts texts) {
+  auto made = std::make_unique<const NodeTexts>(std::move(texts));
+  const NodeTexts* first = nullptr;
+  const bool is_first = texts_.compare_exchange_strong(first, made.get());
+  return is_first ? *made.release() : *first;
+}
+
+const NodeTexts& texts_of(const lockstep_caller& caller) {
+  if (const NodeTexts* const made = caller.texts.get()) return *made;
+  const Tree& tree = *caller.run->tree;
+  NodeTexts texts{.name = std::string(tree.labels[caller.node].name)};
+  for (std::uint32_t child = 0; child < caller.children; ++child) {
+    const NodeLabel& label = tree.labels[caller.child(child)];
+    texts.children.push_back({std::string(label.type->id), std::string(label.name)});
+  }
+  return mine(&caller).texts.set(std::move(texts));
+}
+
 namespace {
 
 const char* name(const lockstep_caller* caller) {
-  return caller->name.c_str();
+  return caller->type == nullptr ? "" : texts_of(*caller).name.c_str();
 }
 
 const char* id(const lockstep_caller* caller) {
-  return caller->id.data();
+  return caller->type == nullptr ? nullptr : caller->type->leaf->id;
 }
 
 const char* path(const lockstep_caller* caller) {
-  return caller->who.data();
+  return caller->who;
 }
 
-const ChildLabel* child_of(const lockstep_caller* caller, std::uint32_t child) {
-  return child < caller->labels.size() ? &caller->labels[child] : nullptr;
+const NodeTexts::Child* child_of(const lockstep_caller* caller, std::uint32_t child) {
+  return child < caller->children ? &texts_of(*caller).children[child] : nullptr;
 }
 
 const char* child_id(const lockstep_caller* caller, std::uint32_t child) {
-  const ChildLabel* const label = child_of(caller, child);
-  return label == nullptr ? nullptr : label->id.c_str();
+  const NodeTexts::Child* const it = child_of(caller, child);
+  return it == nullptr ? nullptr : it->id.c_str();
 }
 
 const char* child_name(const lockstep_caller* caller, std::uint32_t child) {
-  const ChildLabel* const label = child_of(caller, child);
-  return label == nullptr ? nullptr : label->name.c_str();
-}
-
-BoundPort* port_of(const lockstep_caller* caller, std::uint32_t port) {
-  if (caller->is_foreign() || port >= caller->ports.size()) return nullptr;
-  return &mine(caller).ports[port];
+  const NodeTexts::Child* const it = child_of(caller, child);
+  return it == nullptr ? nullptr : it->name.c_str();
 }
 
 const char* given(const lockstep_caller* caller, std::uint32_t port) {
-  BoundPort* const it = port_of(caller, port);
+  BoundPort* const it = port_of(*caller, port);
   if (it == nullptr || (it->read == nullptr && it->entry.empty())) return nullptr;
   try {
+    std::string& given = it->remembered().given;
     if (it->entry.empty()) {
-      it->given = to_text(*it->read);
+      given = to_text(*it->read);
     } else {
-      it->given = "{" + std::string(it->entry.substr(it->entry.rfind('/') + 1)) + "}";
+      given = "{" + std::string(it->entry.substr(it->entry.rfind('/') + 1)) + "}";
     }
+    return given.c_str();
   } catch (const std::exception&) {
     return nullptr;
   }
-  return it->given.c_str();
 }
 
 // The value that the port has now; null: none.
@@ -63,20 +77,20 @@ const Value* value_of(const BoundPort* port) {
 
 // The types of the contract have the numbers of the alternatives.
 lockstep_type value_type(const lockstep_caller* caller, std::uint32_t port) {
-  const Value* const value = value_of(port_of(caller, port));
+  const Value* const value = value_of(port_of(*caller, port));
   return value == nullptr ? 0 : static_cast<lockstep_type>(value->index());
 }
 
 // Null: it is none.
 const ObjectType* object_type_of(const lockstep_caller* caller,
                                  const lockstep_object_type* declared) {
-  const auto type = read_object_type(declared, caller->plugin_name);
+  const auto type = read_object_type(declared, caller->type->plugin);
   return type ? *type : nullptr;
 }
 
 bool get_object(const lockstep_caller* caller, std::uint32_t port,
                 const lockstep_object_type* declared, void** object) {
-  const Value* const value = value_of(port_of(caller, port));
+  const Value* const value = value_of(port_of(*caller, port));
   const auto* const found = value == nullptr ? nullptr : std::get_if<Object>(value);
   if (found == nullptr || declared == nullptr || found->type()->is_packed()) return false;
   if (found->type()->name() != declared->name) return false;
@@ -86,9 +100,9 @@ bool get_object(const lockstep_caller* caller, std::uint32_t port,
 
 bool set_object(const lockstep_caller* caller, std::uint32_t port,
                 const lockstep_object_type* declared, void* object) {
-  const BoundPort* const it = port_of(caller, port);
+  const BoundPort* const it = port_of(*caller, port);
   if (it == nullptr || it->write == nullptr || !it->is_generic || object == nullptr) return false;
-  if (caller->written != nullptr) return false;  // it cannot leave this process
+  if (caller->run->written != nullptr) return false;  // it cannot leave this process
   try {
     const ObjectType* const type = object_type_of(caller, declared);
     if (type == nullptr) return false;
@@ -101,44 +115,59 @@ bool set_object(const lockstep_caller* caller, std::uint32_t port,
 
 // As a port that is bound to it.
 BoundPort opened_port(Entry& entry, std::string_view key) {
-  BoundPort port{.type = ValueType::String};
-  port.read = &entry.value;
-  port.write = &entry;
-  port.is_strict = false;
-  port.is_generic = true;
-  port.name = port.entry = key;
-  return port;
+  return {
+      .read = &entry.value, .write = &entry, .entry = key, .is_strict = false, .is_generic = true};
+}
+
+// How many ports the tree gives to the node.
+std::size_t first_opened(const lockstep_caller& caller) {
+  return caller.type == nullptr ? 0 : caller.type->parameters.size();
+}
+
+bool may_open(const lockstep_caller& caller) {
+  if (caller.is_foreign() || caller.run->ticker == nullptr || caller.type == nullptr) return false;
+  return caller.type->opens_entries && !caller.run->tree->boards.empty();
+}
+
+// The ports of the caller become its own, with another one.
+void open_port(lockstep_caller& caller, std::string_view key) {
+  if (caller.rest == nullptr) caller.rest = std::make_unique<CallerRest>();
+  CallerRest& rest = *caller.rest;
+  if (rest.ports.size() == 0) {
+    rest.ports.reserve(caller.ports.size() + 1);
+    for (BoundPort& port : caller.ports) rest.ports.add(std::move(port));
+    rest.ports.give_to(caller);
+  }
+  const std::string& kept = rest.opened.emplace_back(key);
+  rest.ports.add(opened_port(caller.run->ticker->ports().at(caller.node, kept), kept));
+  rest.ports.give_to(caller);
 }
 
 std::uint32_t open(const lockstep_caller* caller, const char* text, std::size_t length) {
-  if (caller->is_foreign() || !caller->opens_entries || caller->ticker == nullptr)
-    return UINT32_MAX;
+  if (!may_open(*caller)) return UINT32_MAX;
   const std::string_view key(text, length);
-  std::vector<BoundPort>& ports = mine(caller).ports;
-  const std::size_t first = ports.size() - caller->opened.size();
-  for (std::size_t port = first; port < ports.size(); ++port) {
-    if (ports[port].name == key) return static_cast<std::uint32_t>(port);
+  for (std::size_t port = first_opened(*caller); port < caller->ports.size(); ++port) {
+    if (caller->ports[port].entry == key) return static_cast<std::uint32_t>(port);
   }
   try {
-    const std::string& kept = mine(caller).opened.emplace_back(key);
-    ports.push_back(opened_port(caller->ticker->ports().at(caller->node, kept), kept));
+    open_port(mine(caller), key);
   } catch (const std::exception&) {
     return UINT32_MAX;
   }
-  return static_cast<std::uint32_t>(ports.size() - 1);
+  return static_cast<std::uint32_t>(caller->ports.size() - 1);
 }
 
 void unset(const lockstep_caller* caller, std::uint32_t port) {
-  const BoundPort* const it = port_of(caller, port);
-  if (it == nullptr || port < caller->ports.size() - caller->opened.size()) return;
-  Entry* const own = caller->ticker->ports().own_at(caller->node, it->name);
+  const BoundPort* const it = port_of(*caller, port);
+  if (it == nullptr || port < first_opened(*caller)) return;
+  Entry* const own = caller->run->ticker->ports().own_at(caller->node, it->entry);
   if (own != nullptr) unset_entry(*own);
 }
 
 void ask_for_tick(const lockstep_caller* caller) {
-  if (caller->is_foreign() || caller->ticker == nullptr) return;
-  const bool may_ask = caller->ticker->tree().rules->may_tick_again;
-  if (may_ask) caller->ticker->ask_for_another_tick(caller->node);
+  if (caller->is_foreign() || caller->run->ticker == nullptr) return;
+  const bool may_ask = caller->run->ticker->tree().rules->may_tick_again;
+  if (may_ask) caller->run->ticker->ask_for_another_tick(caller->node);
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/clock.h"
+#include "engine/call_mark.h"
 #include "lockstep/leaf.h"
-#include "plugin/contract/call_mark.h"
 #include "system/mutex.h"
 
 namespace lockstep::host {

@@ -10,9 +10,9 @@
 #include <string_view>
 
 #include "core/wording.h"
-#include "plugin/contract/call_mark.h"
-#include "plugin/contract/float_mode.h"
+#include "engine/call_mark.h"
 #include "plugin/open/elf_file.h"
+#include "system/float_mode.h"
 
 namespace lockstep::host {
 namespace {

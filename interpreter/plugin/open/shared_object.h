@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/problem.h"
-#include "plugin/contract/call_mark.h"
+#include "engine/call_mark.h"
 
 namespace lockstep::host {
 

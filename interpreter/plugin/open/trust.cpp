@@ -19,12 +19,10 @@ bool is_world_writable(const std::string& path) {
 void warn_of(const std::string& path, std::string_view what, const SourceLocation& where,
              Diagnostics& diagnostics) {
   if (!is_world_writable(path)) return;
-  diagnostics.add({.severity = Severity::Warning,
-                   .location = where,
-                   .message = fmt::format(
-                       "everyone may write to the {} '{}' and so control this program", what, path),
-                   .hint = fmt::format("chmod o-w '{}'", path),
-                   .excerpt = {}});
+  diagnostics.warning(
+      where,
+      fmt::format("everyone may write to the {} '{}' and so control this program", what, path),
+      fmt::format("chmod o-w '{}'", path));
 }
 
 // The directory that the file lies in and, if it is a symbolic link, those of all that it leads to:

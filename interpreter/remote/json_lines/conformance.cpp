@@ -9,6 +9,8 @@
 #include "core/parameter_value.h"
 #include "core/wording.h"
 #include "plugin/contract/descriptor.h"
+#include "plugin/contract/host.h"
+#include "plugin/contract/leaf_set.h"
 #include "remote/json_lines/hello.h"
 #include "remote/json_lines/program_leaf.h"
 
@@ -23,9 +25,12 @@ class Trial {
   Trial(const Descriptors::Leaf& type, std::uint32_t number, Conversation& conversation, Hold hold)
       : name_(fmt::format("{} {}", type.type.id, number)) {
     slot_.type = &type.type;
-    caller_.id = caller_.name = type.type.id;
-    caller_.who = name_;
+    caller_.type = &type.node_type;
+    caller_.texts.set({.name = type.type.id});
+    caller_.who = name_.c_str();
+    caller_.random = RandomStream(1, 1);
     for (const Parameter& port : type.parameters) bind(port);
+    ports_.give_to(caller_);
     leaf_ = std::make_unique<ProgramLeaf>(caller_, conversation, hold, nullptr);
   }
 
@@ -46,12 +51,11 @@ class Trial {
   void bind(const Parameter& port) {
     Entry& entry = entries_.emplace_back();
     entry.type = port.type;
-    BoundPort bound{
-        .type = port.type, .direction = port.direction, .name = port.name, .entry = port.name};
+    BoundPort bound{.parameter = &port, .entry = port.name, .type = port.type};
     if (port.direction != Direction::Output) entry.value = sample_value(port);
     bound.read = &entry.value;
     if (port.direction != Direction::Input) bound.write = &entry;
-    caller_.ports.push_back(std::move(bound));
+    ports_.add(std::move(bound));
   }
 
   const std::string name_;
@@ -59,7 +63,9 @@ class Trial {
   LeafTime time_{.period = std::chrono::milliseconds(10)};
   LeafLog log_;
   std::deque<Entry> entries_;
-  lockstep_caller caller_{"", {}, RandomStream(1, 1), &time_, &log_, &slot_};
+  PortTable ports_;
+  CallerRun run_{.log = &log_};
+  lockstep_caller caller_{time_, slot_, run_};
   std::unique_ptr<ProgramLeaf> leaf_;
 };
 
@@ -200,7 +206,8 @@ class Examiner {
   LeafSlot slot_;
   LeafTime time_;
   LeafLog log_;
-  lockstep_caller run_{"", {}, RandomStream(0, 0), &time_, &log_, &slot_};
+  CallerRun shared_{.log = &log_};
+  lockstep_caller run_{time_, slot_, shared_};
   Conversation conversation_{options_};
   std::vector<std::unique_ptr<Trial>> trials_;
 };

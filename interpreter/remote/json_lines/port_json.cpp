@@ -103,9 +103,10 @@ std::string set_port(const lockstep_caller& caller, std::uint32_t port, JsonValu
   const bool fits = !std::holds_alternative<NoValue>(taken);
   if ((fits && write_port(caller, port, taken)) || caller.slot->error != nullptr) return {};
   if (!fits)
-    return fmt::format("set '{}', a port of type {}, to another type", it.name, to_string(it.type));
+    return fmt::format("set '{}', a port of type {}, to another type", it.name(),
+                       to_string(it.type));
   if (it.is_unbound()) return {};
-  return fmt::format("set '{}', which is not bound to an entry that takes it", it.name);
+  return fmt::format("set '{}', which is not bound to an entry that takes it", it.name());
 }
 
 }  // namespace lockstep::host

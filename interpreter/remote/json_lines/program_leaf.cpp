@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
-#include "plugin/contract/call_mark.h"
+#include "engine/call_mark.h"
+#include "plugin/contract/host.h"
+#include "plugin/contract/leaf_set.h"
 #include "remote/json_lines/port_json.h"
 
 namespace lockstep::host {
@@ -70,8 +72,8 @@ bool ProgramLeaf::create() {
   if (fail_if_gone()) return false;
   request_.clear();
   request_.begin("create", number_)
-      .field("type", std::string_view(caller_.id))
-      .field("name", std::string_view(caller_.name))
+      .field("type", std::string_view(caller_.type->leaf->id))
+      .field("name", std::string_view(texts_of(caller_).name))
       .field("path", std::string_view(caller_.who))
       .field("period", host_table().tick_period(&caller_))
       .field("clock", std::string_view(is_waiting() ? "virtual" : "wall"))
@@ -136,7 +138,7 @@ lockstep_status ProgramLeaf::take(Conversation::News news) {
 void ProgramLeaf::set_ports(std::string line) {
   std::string wrong;
   const auto set = [&](std::string_view name, JsonValue value) {
-    const auto port = std::ranges::find(caller_.ports, name, &BoundPort::name);
+    const auto port = std::ranges::find(caller_.ports, name, [](auto& it) { return it.name(); });
     if (port == caller_.ports.end()) {
       if (wrong.empty()) wrong = fmt::format("set '{}', which is no port of it", name);
       return value.skip();
@@ -179,7 +181,7 @@ void ProgramLeaf::halt() {
   send(Asked::Halt);
   if (std::exchange(is_held_, false)) conversation_.process().go_on();
   // At the end of a run there is no tick to lose, and whether the leaf stands still counts.
-  if (listener_ != nullptr && !caller_.ticker->in_last_halt()) return;
+  if (listener_ != nullptr && !caller_.run->ticker->in_last_halt()) return;
   const auto limit = conversation_.options().halt_limit;
   if (!conversation_.await(number_, Asked::Halt, limit)) {
     conversation_.check_deadline(monotonic_now());

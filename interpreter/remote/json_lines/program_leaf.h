@@ -4,10 +4,12 @@
 
 #include <vector>
 
+#include "core/clock.h"
+#include "core/value.h"
+#include "json/reader.h"
 #include "lockstep/leaf.h"
-#include "plugin/contract/host.h"
 #include "remote/json_lines/conversation.h"
-#include "remote/json_lines/hello.h"
+#include "remote/json_lines/hold.h"
 #include "remote/json_lines/listener.h"
 #include "remote/json_lines/request.h"
 #include "remote/remote_plugin.h"

@@ -38,7 +38,7 @@ class ProgramRun final : public RemoteRun {
   }
 
   std::unique_ptr<RemoteLeaf> create(const lockstep_caller& caller) override {
-    const Hold hold = plugin_.hello().hold_of(caller.id);
+    const Hold hold = plugin_.hello().hold_of(caller.type->leaf->id);
     Conversation* const conversation =
         hold == Hold::Signal ? begin_another(caller) : shared(caller);
     if (conversation == nullptr) return nullptr;

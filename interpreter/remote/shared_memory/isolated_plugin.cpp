@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "plugin/contract/leaf_set.h"
 #include "remote/shared_memory/isolated_run.h"
 
 namespace lockstep::host {

@@ -6,7 +6,7 @@
 #include <bit>
 
 #include "core/plugin_exception.h"
-#include "plugin/contract/carried_time.h"
+#include "engine/call_mark.h"
 #include "remote/shared_memory/answer.h"
 #include "remote/shared_memory/remote_entries.h"
 
@@ -27,7 +27,7 @@ void fail_too_large(const lockstep_caller& caller) {
 // is not known of the first one, for which it is not blamed.
 void note_carried(std::size_t carried, Nanoseconds began, Nanoseconds took) {
   if (carried < kMuchToCarry && took == Nanoseconds(0)) return;
-  t_carried += std::max(monotonic_now() - began - took, Nanoseconds(0));
+  CallMark::this_thread().carried += std::max(monotonic_now() - began - took, Nanoseconds(0));
 }
 
 class IsolatedRun final : public RemoteRun {
@@ -82,7 +82,7 @@ class IsolatedRun::Leaf final : public RemoteLeaf {
       ports_.push_back(port.read == nullptr ? RemoteEntries::kNone : entries.number_of(port));
       ports_.push_back(port.fallback == nullptr
                            ? RemoteEntries::kNone
-                           : entries.number_of({.type = port.type, .read = port.fallback}));
+                           : entries.number_of({.read = port.fallback, .type = port.type}));
     }
     ++run.leaves_;
     run.session_->add_listener(number_, caller);
@@ -130,7 +130,7 @@ bool IsolatedRun::Leaf::create() {
   request.put(caller_.random);
   request.put(run_.plugin_.index_of(*caller_.slot->type).value());
   request.put_text(caller_.who);
-  request.put_text(caller_.name);
+  request.put_text(texts_of(caller_).name);
   request.put(static_cast<std::uint32_t>(caller_.ports.size()));
   for (std::size_t index = 0; index < caller_.ports.size(); ++index) {
     const BoundPort& port = caller_.ports[index];

@@ -15,6 +15,9 @@
 
 namespace lockstep::host {
 
+// A message that is smaller is not worth two looks at the clock: bytes.
+inline constexpr std::size_t kMuchToCarry = std::size_t{64} << 10;
+
 class MessageWriter {
  public:
   void clear() { bytes_.clear(); }

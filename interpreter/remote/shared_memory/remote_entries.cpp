@@ -50,12 +50,12 @@ std::uint32_t RemoteEntries::number_of(const BoundPort& port) {
   const auto [found, is_new] = numbers_.emplace(key, static_cast<std::uint32_t>(entries_.size()));
   if (is_new) {
     const PackedType* const objects =
-        port.object == nullptr ? nullptr : &PackedType::of(port.object->name());
+        port.object() == nullptr ? nullptr : &PackedType::of(port.object()->name());
     entries_.push_back({.read = port.read,
                         .write = nullptr,
                         .type = port.type,
                         .objects = objects,
-                        .object = port.object,
+                        .object = port.object(),
                         .is_strict = port.is_strict,
                         .is_generic = port.is_generic});
   }

@@ -4,9 +4,8 @@
 
 #include <bit>
 
-#include "core/diagnostics.h"
 #include "core/plugin_exception.h"
-#include "plugin/contract/carried_time.h"
+#include "remote/shared_memory/answer.h"
 #include "remote/shared_memory/channel.h"
 #include "remote/shared_memory/remote_entries.h"
 
@@ -25,27 +24,24 @@ bool is_destroy(PluginFunction function) {
 
 }  // namespace
 
-std::unique_ptr<ServedRun::Object> ServedRun::make_object(std::uint32_t number,
-                                                          std::string_view who,
+std::unique_ptr<ServedRun::Object> ServedRun::make_object(std::uint32_t number, const char* who,
                                                           RandomStream random) {
   auto object = std::make_unique<Object>();
   object->number = number;
   object->log = [this, number](std::string_view, lockstep_log_level level, std::string_view text) {
     log_.write(number, level, text);
   };
-  object->caller = std::make_unique<lockstep_caller>(lockstep_caller{.who = who,
-                                                                     .ports = {},
-                                                                     .random = random,
-                                                                     .time = &time_,
-                                                                     .log = &object->log,
-                                                                     .slot = &object->slot,
-                                                                     .written = &written_});
+  object->run.written = &written_;
+  lockstep_caller& caller = object->caller.emplace(time_, object->slot, object->run);
+  caller.who = who;
+  caller.random = random;
   return object;
 }
 
 // Whatever was left of a run before it, which the host has given up, is forgotten.
 ServedRun::Object* ServedRun::create_run(MessageReader& request) {
   objects_.clear();
+  sites_.emplace();
   entries_.clear();
   numbers_.clear();
   const auto random = request.get<std::uint64_t>();
@@ -62,18 +58,25 @@ ServedRun::Mirror* ServedRun::entry(std::uint32_t number) {
   return &entries_[number];
 }
 
+bool ServedRun::bind(BoundPort& port, std::uint32_t number, bool is_writable) {
+  Mirror* const bound = entry(number);
+  if (bound == nullptr) return false;
+  if (port.object() != nullptr) bound->objects = &PackedType::of(port.object()->name());
+  port.read = &bound->value;
+  if (is_writable) port.write = bound;
+  if (port.is_generic) bound->typing = Typing::Any;
+  return true;
+}
+
 bool ServedRun::read_ports(MessageReader& request, Object& leaf,
                            std::span<const Parameter> declared) {
-  std::vector<BoundPort>& ports = leaf.caller->ports;
   const auto count = request.get<std::uint32_t>();
   if (count != declared.size()) return false;
   for (std::uint32_t index = 0; index < count && request.good(); ++index) {
-    BoundPort& port = ports.emplace_back();
-    port.type = request.get<ValueType>();
-    port.name = declared[index].name;
-    port.limits = limits_of(declared[index]);
-    port.object = declared[index].object;
-    port.is_generic = declared[index].is_generic;
+    BoundPort port{.parameter = &declared[index],
+                   .type = request.get<ValueType>(),
+                   .is_generic = declared[index].is_generic,
+                   .has_limits = has_limits(declared[index])};
     const bool is_writable = request.get<std::uint8_t>() != 0;
     const auto number = request.get<std::uint32_t>();
     const auto fallback = request.get<std::uint32_t>();
@@ -83,14 +86,10 @@ bool ServedRun::read_ports(MessageReader& request, Object& leaf,
       if (held == nullptr) return false;
       port.fallback = &held->value;
     }
-    if (number == RemoteEntries::kNone) continue;
-    Mirror* const bound = entry(number);
-    if (bound == nullptr) return false;
-    if (port.object != nullptr) bound->objects = &PackedType::of(port.object->name());
-    port.read = &bound->value;
-    if (is_writable) port.write = bound;
-    if (port.is_generic) bound->typing = Typing::Any;
+    if (number != RemoteEntries::kNone && !bind(port, number, is_writable)) return false;
+    leaf.ports.add(std::move(port));
   }
+  leaf.ports.give_to(*leaf.caller);
   return request.good();
 }
 
@@ -99,14 +98,14 @@ ServedRun::Object* ServedRun::create_leaf(std::uint32_t number, MessageReader& r
   const auto type = request.get<std::uint32_t>();
   const std::string_view who = request.text();
   std::string name(request.text());
-  if (type >= descriptors_.leaves.size() || number == 0) return nullptr;
+  if (type >= descriptors_.leaves.size() || number == 0 || !sites_) return nullptr;
   const lockstep_leaf_type& declared = descriptors_.leaves[type]->type;
-  const CallSite& site =
-      CallSite::of({.path = who, .id = declared.id, .plugin = descriptors_.plugin.name});
+  const CallSite& site = sites_->add(
+      who, CallSite::origin_of({.id = declared.id, .plugin = descriptors_.plugin.name}));
   auto leaf = make_object(number, site.path, std::bit_cast<RandomStream>(random));
-  leaf->caller->name = std::move(name);
+  leaf->caller->texts.set({.name = std::move(name)});
   leaf->type = &declared;
-  leaf->caller->id = declared.id;
+  leaf->caller->type = &descriptors_.leaves[type]->node_type;
   leaf->site = leaf->caller->site = &site;
   if (!read_ports(request, *leaf, descriptors_.leaves[type]->parameters)) return nullptr;
   return (objects_[number] = std::move(leaf)).get();
@@ -130,7 +129,7 @@ std::uint64_t ServedRun::call_run(Object& object, PluginFunction function) {
   const lockstep_plugin& plugin = descriptors_.plugin;
   if (plugin.create_run == nullptr) return 1;
   if (function == PluginFunction::CreateRun) {
-    object.slot.self = plugin.create_run(&host_table(), object.caller.get());
+    object.slot.self = plugin.create_run(&host_table(), &*object.caller);
     return object.slot.self != nullptr || object.slot.error == nullptr ? 1 : 0;
   }
   plugin.destroy_run(object.slot.self);
@@ -170,8 +169,7 @@ std::uint64_t ServedRun::call_leaf(Object& object, PluginFunction function) {
 }
 
 std::uint64_t ServedRun::create(Object& object) {
-  object.slot.self =
-      object.type->create(&host_table(), object.caller.get(), objects_.at(0)->slot.self);
+  object.slot.self = object.type->create(&host_table(), &*object.caller, objects_.at(0)->slot.self);
   return object.slot.self != nullptr ? 1 : 0;
 }
 

@@ -4,16 +4,16 @@
 
 #include <deque>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
-#include "plugin/contract/call_mark.h"
+#include "plugin/contract/call_sites.h"
 #include "plugin/contract/descriptor.h"
 #include "plugin/contract/host.h"
 #include "plugin/contract/workers.h"
-#include "remote/shared_memory/answer.h"
 #include "remote/shared_memory/host_log.h"
 #include "remote/shared_memory/message.h"
 
@@ -33,15 +33,17 @@ class ServedRun {
     LeafSlot slot;
     LeafLog log;
     const CallSite* site;
-    std::unique_ptr<lockstep_caller> caller;
+    CallerRun run{.log = &log};
+    std::optional<lockstep_caller> caller;
+    PortTable ports;
     std::deque<std::string> entry_names;  // of its ports; none of them moves
   };
-  std::unique_ptr<Object> make_object(std::uint32_t number, std::string_view who,
-                                      RandomStream random);
+  std::unique_ptr<Object> make_object(std::uint32_t number, const char* who, RandomStream random);
   Object* create_run(MessageReader& request);
   Object* create_leaf(std::uint32_t number, MessageReader& request);
   Object* find(std::uint32_t number);
   bool read_ports(MessageReader& request, Object& leaf, std::span<const Parameter> declared);
+  bool bind(BoundPort& port, std::uint32_t number, bool is_writable);
   bool read_entries(MessageReader& request);
   // An entry of the host.
   struct Mirror : Entry {
@@ -61,6 +63,7 @@ class ServedRun {
   HostLog& log_;
   Workers workers_;
   LeafTime time_;
+  std::optional<CallSites> sites_;  // of the leaves of the run
   std::unordered_map<std::uint32_t, std::unique_ptr<Object>> objects_;
   std::deque<Mirror> entries_;  // none of them moves
   std::unordered_map<const Entry*, std::uint32_t> numbers_;

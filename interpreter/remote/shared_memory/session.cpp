@@ -7,7 +7,7 @@
 #include <cerrno>
 
 #include "core/running_time.h"
-#include "plugin/contract/host.h"
+#include "plugin/contract/leaf_set.h"
 #include "remote/shared_memory/leafhost_descriptors.h"
 #include "system/own_thread.h"
 

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "plugin/contract/call_mark.h"
+#include "engine/call_mark.h"
 #include "remote/child_process.h"
 #include "remote/isolation_options.h"
 #include "remote/shared_memory/channel.h"

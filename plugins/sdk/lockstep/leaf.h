@@ -37,7 +37,7 @@ extern "C" {
 #endif
 
 #define LOCKSTEP_ABI_MAJOR 1u
-#define LOCKSTEP_ABI_MINOR 1u
+#define LOCKSTEP_ABI_MINOR 2u
 
 #if defined(_WIN32)
 #define LOCKSTEP_EXPORT __declspec(dllexport)
@@ -398,7 +398,8 @@ typedef struct lockstep_leaf_type {
    * also while paused. Outside [0, 1] is clamped, with a warning; NaN is a fault. It may fall. Of a
    * control node or decorator without this function: the least of its children that run. */
   double (*progress)(void* leaf);
-  /* [run] (optional) */
+  /* [run] (optional) Called after create: LOCKSTEP_KEPT_PROGRESS. NULL: the leaf does not have it.
+   */
   const void* (*get_extension)(void* leaf, const char* id);
 
   /* Since 1.1. */
@@ -409,6 +410,12 @@ typedef struct lockstep_leaf_type {
    * by tick_unreset: it goes on from its last result. */
   void (*start_unreset)(void* leaf);
 } lockstep_leaf_type;
+
+/* Since 1.2: where a leaf keeps its progress, for one that has it as a number: a const double *,
+ * from lockstep_leaf_type::get_extension, valid until destroy. The host may read the number
+ * wherever it would call progress, which the leaf has too. Another thread of the leaf may store it,
+ * atomically. For an action of this process; a host with 1.1 calls progress. */
+#define LOCKSTEP_KEPT_PROGRESS "lockstep.kept_progress"
 
 /* Since 1.1: words of a plugin that scripts know as numbers, in trees for BehaviorTree.CPP. Found
  * with lockstep_plugin::get_extension(LOCKSTEP_WORDS), which `lockstep check` calls too; not of a

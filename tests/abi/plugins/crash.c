@@ -86,54 +86,32 @@ static double progress(void* leaf) {
   return 0.25;
 }
 
-#define PORT(variable, name)                                    \
-  static const lockstep_port variable = {sizeof(lockstep_port), \
-                                         LOCKSTEP_STRING,       \
-                                         LOCKSTEP_INPUT,        \
-                                         name,                  \
-                                         "",                    \
-                                         NULL,                  \
-                                         NULL,                  \
-                                         NULL,                  \
-                                         0,                     \
-                                         0,                     \
-                                         NULL,                  \
-                                         0}
+#define PORT(variable, port_name)                                              \
+  static const lockstep_port variable = {.struct_size = sizeof(lockstep_port), \
+                                         .type = LOCKSTEP_STRING,              \
+                                         .direction = LOCKSTEP_INPUT,          \
+                                         .name = port_name,                    \
+                                         .default_value = ""}
 PORT(where_port, "where");
 PORT(how_port, "how");
 static const lockstep_port* const ports[] = {&where_port, &how_port};
-static const lockstep_leaf_type leaf_type = {sizeof(lockstep_leaf_type),
-                                             LOCKSTEP_ACTION,
-                                             "Crash",
-                                             NULL,
-                                             2,
-                                             ports,
-                                             create,
-                                             destroy,
-                                             start,
-                                             tick,
-                                             halt,
-                                             NULL,
-                                             NULL,
-                                             progress,
-                                             NULL,
-                                             0,
-                                             0,
-                                             0,
-                                             NULL};
+static const lockstep_leaf_type leaf_type = {.struct_size = sizeof(lockstep_leaf_type),
+                                             .kind = LOCKSTEP_ACTION,
+                                             .id = "Crash",
+                                             .port_count = 2,
+                                             .ports = ports,
+                                             .create = create,
+                                             .destroy = destroy,
+                                             .start = start,
+                                             .tick = tick,
+                                             .halt = halt,
+                                             .progress = progress};
 static const lockstep_leaf_type* const leaf_types[] = {&leaf_type};
 
-const lockstep_plugin lockstep_plugin_entry = {LOCKSTEP_ABI_MAJOR,
-                                               LOCKSTEP_ABI_MINOR,
-                                               sizeof(lockstep_plugin),
-                                               "crash",
-                                               "1.0.0",
-                                               NULL,
-                                               1,
-                                               leaf_types,
-                                               NULL,
-                                               NULL,
-                                               NULL,
-                                               NULL,
-                                               NULL,
-                                               NULL};
+const lockstep_plugin lockstep_plugin_entry = {.abi_major = LOCKSTEP_ABI_MAJOR,
+                                               .abi_minor = LOCKSTEP_ABI_MINOR,
+                                               .struct_size = sizeof(lockstep_plugin),
+                                               .name = "crash",
+                                               .version = "1.0.0",
+                                               .leaf_type_count = 1,
+                                               .leaf_types = leaf_types};

@@ -6,35 +6,11 @@
 #include <string>
 #include <thread>
 
+#include "echo_ports.h"
 #include "lockstep/leaf.h"
+#include "support/plugin_tables.h"
 
 namespace {
-
-enum Port : std::uint32_t {
-  kBoolIn,
-  kIntIn,
-  kDoubleIn,
-  kStringIn,
-  kListIn,
-  kBoolOut,
-  kIntOut,
-  kDoubleOut,
-  kStringOut,
-  kListOut,
-  kRandom,
-  kProcess,
-  kSeen,
-  kSpeak,
-  kGrow,
-  kIntListIn,
-  kBoolListIn,
-  kStringListIn,
-  kNumberIn,
-  kIntListOut,
-  kBoolListOut,
-  kStringListOut,
-  kNumberOut
-};
 
 struct Echo {
   const lockstep_host* host;
@@ -122,21 +98,7 @@ lockstep_status tick(void* leaf) {
   return LOCKSTEP_RUNNING;
 }
 
-constexpr lockstep_port port(lockstep_type type, lockstep_direction direction, const char* name,
-                             const char* default_value) {
-  return {sizeof(lockstep_port),
-          type,
-          direction,
-          name,
-          default_value,
-          nullptr,
-          nullptr,
-          nullptr,
-          0,
-          0,
-          nullptr,
-          0};
-}
+using lockstep::tables::port;
 
 constexpr lockstep_port limited(lockstep_port port, double min, double max) {
   port.min = min;
@@ -150,65 +112,35 @@ constexpr lockstep_port kPorts[] = {
     port(LOCKSTEP_DOUBLE, LOCKSTEP_INPUT, "double_in", "0"),
     port(LOCKSTEP_STRING, LOCKSTEP_INPUT, "string_in", ""),
     port(LOCKSTEP_DOUBLE_LIST, LOCKSTEP_INPUT, "list_in", "0"),
-    port(LOCKSTEP_BOOL, LOCKSTEP_OUTPUT, "bool_out", nullptr),
-    port(LOCKSTEP_INT, LOCKSTEP_OUTPUT, "int_out", nullptr),
-    port(LOCKSTEP_DOUBLE, LOCKSTEP_OUTPUT, "double_out", nullptr),
-    port(LOCKSTEP_STRING, LOCKSTEP_OUTPUT, "string_out", nullptr),
-    port(LOCKSTEP_DOUBLE_LIST, LOCKSTEP_OUTPUT, "list_out", nullptr),
-    port(LOCKSTEP_DOUBLE, LOCKSTEP_OUTPUT, "random", nullptr),
-    port(LOCKSTEP_INT, LOCKSTEP_OUTPUT, "process", nullptr),
-    port(LOCKSTEP_INT, LOCKSTEP_OUTPUT, "seen", nullptr),
+    port(LOCKSTEP_BOOL, LOCKSTEP_OUTPUT, "bool_out"),
+    port(LOCKSTEP_INT, LOCKSTEP_OUTPUT, "int_out"),
+    port(LOCKSTEP_DOUBLE, LOCKSTEP_OUTPUT, "double_out"),
+    port(LOCKSTEP_STRING, LOCKSTEP_OUTPUT, "string_out"),
+    port(LOCKSTEP_DOUBLE_LIST, LOCKSTEP_OUTPUT, "list_out"),
+    port(LOCKSTEP_DOUBLE, LOCKSTEP_OUTPUT, "random"),
+    port(LOCKSTEP_INT, LOCKSTEP_OUTPUT, "process"),
+    port(LOCKSTEP_INT, LOCKSTEP_OUTPUT, "seen"),
     port(LOCKSTEP_BOOL, LOCKSTEP_INPUT, "speak", "false"),
     port(LOCKSTEP_INT, LOCKSTEP_INPUT, "grow", "0"),
     port(LOCKSTEP_INT_LIST, LOCKSTEP_INPUT, "int_list_in", "0"),
     port(LOCKSTEP_BOOL_LIST, LOCKSTEP_INPUT, "bool_list_in", "0"),
     port(LOCKSTEP_STRING_LIST, LOCKSTEP_INPUT, "string_list_in", "a"),
     limited(port(LOCKSTEP_NUMBER, LOCKSTEP_INPUT, "number_in", "0"), -1, 1000),
-    port(LOCKSTEP_INT_LIST, LOCKSTEP_OUTPUT, "int_list_out", nullptr),
-    port(LOCKSTEP_BOOL_LIST, LOCKSTEP_OUTPUT, "bool_list_out", nullptr),
-    port(LOCKSTEP_STRING_LIST, LOCKSTEP_OUTPUT, "string_list_out", nullptr),
-    port(LOCKSTEP_DOUBLE, LOCKSTEP_OUTPUT, "number_out", nullptr),
+    port(LOCKSTEP_INT_LIST, LOCKSTEP_OUTPUT, "int_list_out"),
+    port(LOCKSTEP_BOOL_LIST, LOCKSTEP_OUTPUT, "bool_list_out"),
+    port(LOCKSTEP_STRING_LIST, LOCKSTEP_OUTPUT, "string_list_out"),
+    port(LOCKSTEP_DOUBLE, LOCKSTEP_OUTPUT, "number_out"),
 };
-constexpr const lockstep_port* kPortList[] = {
-    &kPorts[0],  &kPorts[1],  &kPorts[2],  &kPorts[3],  &kPorts[4],  &kPorts[5],
-    &kPorts[6],  &kPorts[7],  &kPorts[8],  &kPorts[9],  &kPorts[10], &kPorts[11],
-    &kPorts[12], &kPorts[13], &kPorts[14], &kPorts[15], &kPorts[16], &kPorts[17],
-    &kPorts[18], &kPorts[19], &kPorts[20], &kPorts[21], &kPorts[22]};
+constexpr auto kPortList = lockstep::tables::list_of(kPorts);
 
-constexpr lockstep_leaf_type kType = {sizeof(lockstep_leaf_type),
-                                      LOCKSTEP_ACTION,
-                                      "Echo",
-                                      nullptr,
-                                      23,
-                                      kPortList,
-                                      create,
-                                      destroy,
-                                      nullptr,
-                                      tick,
-                                      nullptr,
-                                      nullptr,
-                                      nullptr,
-                                      nullptr,
-                                      nullptr,
-                                      0,
-                                      0,
-                                      0,
-                                      nullptr};
-constexpr const lockstep_leaf_type* kTypes[] = {&kType};
+constexpr lockstep_leaf_type kTypes[] = {[] {
+  lockstep_leaf_type type = lockstep::tables::leaf_type("Echo", create, destroy, tick);
+  lockstep::tables::set_ports(type, kPortList);
+  return type;
+}()};
+constexpr auto kList = lockstep::tables::list_of(kTypes);
 
 }  // namespace
 
-extern "C" const lockstep_plugin lockstep_plugin_entry = {LOCKSTEP_ABI_MAJOR,
-                                                          LOCKSTEP_ABI_MINOR,
-                                                          sizeof(lockstep_plugin),
-                                                          "echo",
-                                                          "1.0.0",
-                                                          nullptr,
-                                                          1,
-                                                          kTypes,
-                                                          nullptr,
-                                                          nullptr,
-                                                          nullptr,
-                                                          nullptr,
-                                                          nullptr,
-                                                          nullptr};
+extern "C" constinit const lockstep_plugin lockstep_plugin_entry =
+    lockstep::tables::plugin("echo", kList);

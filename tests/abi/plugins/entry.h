@@ -62,6 +62,9 @@
 #ifndef LEAF_PROGRESS
 #define LEAF_PROGRESS NULL
 #endif
+#ifndef LEAF_GET_EXTENSION
+#define LEAF_GET_EXTENSION NULL
+#endif
 #ifndef LEAF_FLAGS
 #define LEAF_FLAGS 0
 #endif
@@ -126,11 +129,13 @@ static const lockstep_port the_port = {PORT_SIZE,
                                        PORT_FLAGS};
 MAYBE_UNUSED static const lockstep_port* const the_ports[] = {&the_port, &the_port};
 
-static const lockstep_leaf_type the_leaf_type = {
-    LEAF_SIZE,   LEAF_KIND,     LEAF_ID,    LEAF_DOC,   PORT_COUNT,        PORT_LIST,
-    LEAF_CREATE, LEAF_DESTROY,  LEAF_START, LEAF_TICK,  LEAF_HALT,         NULL,
-    NULL,        LEAF_PROGRESS, NULL,       LEAF_FLAGS, LEAF_MIN_CHILDREN, LEAF_MAX_CHILDREN,
-    NULL};
+static const lockstep_leaf_type the_leaf_type = {LEAF_SIZE,   LEAF_KIND,         LEAF_ID,
+                                                 LEAF_DOC,    PORT_COUNT,        PORT_LIST,
+                                                 LEAF_CREATE, LEAF_DESTROY,      LEAF_START,
+                                                 LEAF_TICK,   LEAF_HALT,         NULL,
+                                                 NULL,        LEAF_PROGRESS,     LEAF_GET_EXTENSION,
+                                                 LEAF_FLAGS,  LEAF_MIN_CHILDREN, LEAF_MAX_CHILDREN,
+                                                 NULL};
 MAYBE_UNUSED static const lockstep_leaf_type* const the_leaf_types[] = {&the_leaf_type,
                                                                         &the_leaf_type};
 

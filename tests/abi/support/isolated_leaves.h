@@ -13,6 +13,7 @@
 #include <mutex>
 #include <thread>
 
+#include "abi/plugins/echo_ports.h"  // which are its slots too
 #include "abi/support/plugins.h"
 #include "runtime/run.h"
 
@@ -73,13 +74,7 @@ inline Tree leaves_of(const NodeType& type, const std::vector<std::vector<Value>
   }
   for (const auto& row : rows) {
     const auto node = static_cast<NodeIndex>(tree.nodes.size());
-    tree.nodes.push_back({.kind = &kPluginAction,
-                          .end = node + 1,
-                          .children = 0,
-                          .is_guard = 0,
-                          .is_latched = 0,
-                          .params = node,
-                          .state = 0});
+    tree.nodes.push_back(leaf_node(kPluginAction, node));
     static constexpr std::string_view kNames[] = {"leaf0", "leaf1"};
     NodeLabel& label = tree.labels.emplace_back();
     label.name = kNames[node];
@@ -146,33 +141,6 @@ struct Leaves {
   std::condition_variable logged;
   Strings log;
   std::optional<LeafSet> set;
-};
-
-// The ports of 'echo', which are its slots too.
-enum EchoPort : std::size_t {
-  kBoolIn,
-  kIntIn,
-  kDoubleIn,
-  kStringIn,
-  kListIn,
-  kBoolOut,
-  kIntOut,
-  kDoubleOut,
-  kStringOut,
-  kListOut,
-  kRandom,
-  kProcess,
-  kSeen,
-  kSpeak,
-  kGrow,
-  kIntListIn,
-  kBoolListIn,
-  kStringListIn,
-  kNumberIn,
-  kIntListOut,
-  kBoolListOut,
-  kStringListOut,
-  kNumberOut
 };
 
 }  // namespace lockstep::host::test

@@ -7,6 +7,7 @@
 
 #include "engine/tree.h"
 #include "loading/plugin_set.h"
+#include "support/leaf_node.h"
 #include "support/paths.h"
 
 namespace lockstep::host::test {
@@ -47,13 +48,7 @@ inline std::vector<std::string> refusal(const std::string& path,
 inline Tree tree_of(const NodeType& leaf, std::int64_t ticks) {
   Tree tree;
   const bool is_action = leaf.category == NodeCategory::Action;
-  tree.nodes.push_back({.kind = is_action ? &kPluginAction : &kPluginCondition,
-                        .end = 1,
-                        .children = 0,
-                        .is_guard = 0,
-                        .is_latched = 0,
-                        .params = 0,
-                        .state = 0});
+  tree.nodes.push_back(leaf_node(is_action ? kPluginAction : kPluginCondition));
   tree.leaves = {LeafNode{0, &leaf, 0}};
   tree.ports = {PortBinding{PortBinding::kUnbound, 0}};
   tree.constants = {Value(ticks)};

@@ -1,9 +1,5 @@
 // Children that a control node ticks again without resetting them: each has the status that it had.
-#include <iostream>
-
-#include "behaviortree_cpp/bt_factory.h"
-
-using namespace BT;
+#include "own_status.h"
 
 // Ticks all children in each tick, whatever they return, until the last one has completed.
 class Pipeline : public ControlNode {
@@ -53,29 +49,6 @@ class Look : public SyncActionNode {
   }
 };
 
-// Fails when it begins.
-class Ask : public ConditionNode {
- public:
-  Ask(const std::string& name, const NodeConfig& config) : ConditionNode(name, config) {}
-  static PortsList providedPorts() { return {}; }
-  NodeStatus tick() override {
-    std::cout << name() << " " << status() << std::endl;
-    return isStatusActive(status()) ? NodeStatus::SUCCESS : NodeStatus::FAILURE;
-  }
-};
-
-// Runs for one tick.
-class Raw : public ActionNodeBase {
- public:
-  Raw(const std::string& name, const NodeConfig& config) : ActionNodeBase(name, config) {}
-  static PortsList providedPorts() { return {}; }
-  NodeStatus tick() override {
-    std::cout << name() << " " << status() << std::endl;
-    return isStatusActive(status()) ? NodeStatus::SUCCESS : NodeStatus::RUNNING;
-  }
-  void halt() override { resetStatus(); }
-};
-
 class Coroutine : public CoroActionNode {
  public:
   Coroutine(const std::string& name, const NodeConfig& config) : CoroActionNode(name, config) {}
@@ -85,25 +58,6 @@ class Coroutine : public CoroActionNode {
     setStatusRunningAndYield();
     return NodeStatus::SUCCESS;
   }
-};
-
-class Steps : public StatefulActionNode {
- public:
-  Steps(const std::string& name, const NodeConfig& config) : StatefulActionNode(name, config) {}
-  static PortsList providedPorts() { return {InputPort<int>("n")}; }
-  NodeStatus onStart() override {
-    std::cout << name() << " starts" << std::endl;
-    left_ = getInput<int>("n").value();
-    return NodeStatus::RUNNING;
-  }
-  NodeStatus onRunning() override {
-    std::cout << name() << " " << left_ << std::endl;
-    return --left_ > 0 ? NodeStatus::RUNNING : NodeStatus::SUCCESS;
-  }
-  void onHalted() override {}
-
- private:
-  int left_ = 0;
 };
 
 BT_REGISTER_NODES(factory) {

@@ -1,5 +1,5 @@
 // Marks of calls, as the thread itself and as another one sees them.
-#include "plugin/contract/call_mark.h"
+#include "engine/call_mark.h"
 
 #include <catch2/catch.hpp>
 #include <stdexcept>
@@ -29,20 +29,20 @@ TEST_CASE("the same words are the same site, for ever") {
 TEST_CASE("a call is marked for as long as it lasts, also when it throws") {
   const CallMark& here = CallMark::this_thread();
   const CallSite& site = CallSite::of({.path = "leaf", .plugin = "plugin"});
-  CHECK(here.look().function() == PluginFunction::None);
+  CHECK(here.look().function == PluginFunction::None);
   CallMark::Look first, second;
   try {
     const MarkedCall call(site, PluginFunction::Pause);
     first = here.look();
     throw std::runtime_error("out");
   } catch (const std::runtime_error&) {
-    CHECK(here.look().function() == PluginFunction::None);
+    CHECK(here.look().function == PluginFunction::None);
   }
   {
     const MarkedCall call(site, PluginFunction::Pause);
     second = here.look();
   }
-  CHECK(first.function() == PluginFunction::Pause);
+  CHECK(first.function == PluginFunction::Pause);
   CHECK(first.site == &site);
   CHECK_FALSE(first == second);  // two calls, though all that is known of them is equal
 }
@@ -50,7 +50,7 @@ TEST_CASE("a call is marked for as long as it lasts, also when it throws") {
 TEST_CASE("each thread has a mark of its own") {
   const MarkedCall call(CallSite::of({.path = "leaf", .plugin = "plugin"}), PluginFunction::Tick);
   PluginFunction of_other = PluginFunction::Load;
-  std::thread([&] { of_other = CallMark::this_thread().look().function(); }).join();
+  std::thread([&] { of_other = CallMark::this_thread().look().function; }).join();
   CHECK(of_other == PluginFunction::None);
 }
 
@@ -70,8 +70,8 @@ TEST_CASE("a look from another thread never mixes two calls") {
   int mixed = 0, ticks = 0, halts = 0;
   for (int look = 0; look < 5'000'000 || ticks == 0 || halts == 0; ++look) {
     const CallMark::Look seen = watched.load()->look();
-    if (seen.function() == PluginFunction::None) continue;
-    const bool is_tick = seen.function() == PluginFunction::Tick;
+    if (seen.function == PluginFunction::None) continue;
+    const bool is_tick = seen.function == PluginFunction::Tick;
     ++(is_tick ? ticks : halts);
     if (seen.site != (is_tick ? &ticked : &halted)) ++mixed;
   }
@@ -87,9 +87,9 @@ TEST_CASE("creating and destroying are marked, with a watch and without") {
   std::vector<std::string> seen;
   on_probe_call = [&](PluginFunction function, void*) {
     const CallMark::Look look = CallMark::this_thread().look();
-    REQUIRE(look.function() == function);
-    seen.push_back(std::string(name_of(function)) + " of " + look.site->plugin + ": " +
-                   look.site->text);
+    REQUIRE(look.function == function);
+    seen.push_back(std::string(name_of(function)) + " of " + look.site->origin->plugin + ": " +
+                   look.site->text());
   };
   { const LeafSet set(probe.tree(), blackboard, time, 1); }
   on_probe_call = nullptr;
@@ -97,7 +97,7 @@ TEST_CASE("creating and destroying are marked, with a watch and without") {
         std::vector<std::string>{
             "create_run of probe: ", "create of probe: 'Main/leaf0' (Full of plugin 'probe')",
             "destroy of probe: 'Main/leaf0' (Full of plugin 'probe')", "destroy_run of probe: "});
-  CHECK(CallMark::this_thread().look().function() == PluginFunction::None);
+  CHECK(CallMark::this_thread().look().function == PluginFunction::None);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "unit/plugin/lab_plugin.h"
 
+#include "support/plugin_tables.h"
+
 namespace lockstep::host::test {
 namespace {
 
@@ -43,67 +45,36 @@ void destroy_run(void* context) {
   lab.events.emplace_back(context == &lab ? "destroy run" : "destroy something else");
 }
 
-constexpr lockstep_port port(const char* name, lockstep_type type, lockstep_direction direction,
-                             const char* default_value = nullptr) {
-  return {sizeof(lockstep_port),
-          type,
-          direction,
-          name,
-          default_value,
-          "m/s",
-          nullptr,
-          nullptr,
-          0,
-          0,
-          nullptr,
-          0};
+constexpr lockstep_port with_unit(lockstep_port port) {
+  port.unit = "m/s";
+  return port;
 }
 
 const lockstep_port kPorts[] = {
-    port("flag", LOCKSTEP_BOOL, LOCKSTEP_INPUT),
-    port("count", LOCKSTEP_INT, LOCKSTEP_INOUT),
-    port("speed", LOCKSTEP_DOUBLE, LOCKSTEP_INOUT),
-    port("text", LOCKSTEP_STRING, LOCKSTEP_INOUT),
-    port("list", LOCKSTEP_DOUBLE_LIST, LOCKSTEP_INOUT),
-    port("limit", LOCKSTEP_DOUBLE, LOCKSTEP_INPUT, "0.5"),
-    port("result", LOCKSTEP_DOUBLE, LOCKSTEP_OUTPUT),
+    with_unit(tables::port(LOCKSTEP_BOOL, LOCKSTEP_INPUT, "flag")),
+    tables::port(LOCKSTEP_INT, LOCKSTEP_INOUT, "count"),
+    tables::port(LOCKSTEP_DOUBLE, LOCKSTEP_INOUT, "speed"),
+    tables::port(LOCKSTEP_STRING, LOCKSTEP_INOUT, "text"),
+    tables::port(LOCKSTEP_DOUBLE_LIST, LOCKSTEP_INOUT, "list"),
+    tables::port(LOCKSTEP_DOUBLE, LOCKSTEP_INPUT, "limit", "0.5"),
+    tables::port(LOCKSTEP_DOUBLE, LOCKSTEP_OUTPUT, "result"),
 };
-const lockstep_port* const kPortList[] = {&kPorts[0], &kPorts[1], &kPorts[2], &kPorts[3],
-                                          &kPorts[4], &kPorts[5], &kPorts[6]};
-const lockstep_leaf_type kLeaf = {sizeof(lockstep_leaf_type),
-                                  LOCKSTEP_ACTION,
-                                  "Lab",
-                                  "shows itself",
-                                  std::size(kPortList),
-                                  kPortList,
-                                  create,
-                                  destroy,
-                                  nullptr,
-                                  tick,
-                                  nullptr,
-                                  nullptr,
-                                  nullptr,
-                                  nullptr,
-                                  nullptr,
-                                  0,
-                                  0,
-                                  0,
-                                  nullptr};
-const lockstep_leaf_type* const kLeaves[] = {&kLeaf};
-const lockstep_plugin kPlugin = {LOCKSTEP_ABI_MAJOR,
-                                 LOCKSTEP_ABI_MINOR,
-                                 sizeof(lockstep_plugin),
-                                 "lab",
-                                 nullptr,
-                                 nullptr,
-                                 1,
-                                 kLeaves,
-                                 init,
-                                 deinit,
-                                 create_run,
-                                 destroy_run,
-                                 nullptr,
-                                 nullptr};
+const auto kPortList = tables::list_of(kPorts);
+const lockstep_leaf_type kLeaf[] = {[] {
+  lockstep_leaf_type type = tables::leaf_type("Lab", create, destroy, tick);
+  type.doc = "shows itself";
+  tables::set_ports(type, kPortList);
+  return type;
+}()};
+const auto kLeaves = tables::list_of(kLeaf);
+const lockstep_plugin kPlugin = [] {
+  lockstep_plugin plugin = tables::plugin("lab", kLeaves);
+  plugin.init = init;
+  plugin.deinit = deinit;
+  plugin.create_run = create_run;
+  plugin.destroy_run = destroy_run;
+  return plugin;
+}();
 
 }  // namespace
 

@@ -66,6 +66,22 @@ TEST_CASE("a set that begins anew is as if it was made again, with the seed that
   CHECK(host.random_bits(fixture.leaf(1)) != number);
 }
 
+TEST_CASE("a leaf has one name for all threads, whichever asks first") {
+  lab = {};
+  const Fixture fixture;
+  const auto& place = *static_cast<const lockstep_place*>(host.get_extension(LOCKSTEP_PLACE));
+  std::vector<const char*> names(4);
+  std::vector<std::thread> threads;
+  for (const char*& name : names) {
+    threads.emplace_back([&, leaf = fixture.leaf()] { name = place.name(leaf); });
+  }
+  for (std::thread& thread : threads) thread.join();
+  CHECK(names == std::vector(4, names[0]));
+  CHECK(names[0] == std::string(fixture.tree.labels[fixture.tree.leaves[0].node].name));
+  CHECK(place.child_name(fixture.leaf(), 0) == nullptr);
+  CHECK(place.path(fixture.leaf()) == fixture.tree.path(fixture.tree.leaves[0].node));
+}
+
 TEST_CASE("a set that could not be made may be made again") {
   lab = {};
   lab.leaf_that_fails = 1;

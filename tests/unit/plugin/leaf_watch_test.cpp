@@ -1,15 +1,15 @@
-// What stands between the engine and a leaf when a run is watched, and that nothing does when not.
-#include "plugin/contract/leaf_watch.h"
+// What is around a call of a leaf: its mark, its time, and the floating-point mode.
+#include "engine/leaf_watch.h"
 
 #include <catch2/catch.hpp>
 #include <cfenv>
 #include <optional>
 #include <stdexcept>
 
-#include "lockstep/leaf.h"
-#include "plugin/contract/carried_time.h"
-#include "plugin/contract/float_mode.h"
+#include "engine/leaf_call.h"
+#include "engine/ticker.h"
 #include "runtime/run.h"
+#include "system/float_mode.h"
 #include "unit/plugin/probe_plugin.h"
 
 namespace lockstep::host::test {
@@ -35,12 +35,12 @@ class CallClock final : public Clock {
 struct Fixture {
   explicit Fixture(std::uint32_t full, std::uint32_t bare = 0, LeafWatchOptions options = {})
       : probe(full, bare), watch(completed(std::move(options))), blackboard(probe.tree()) {
-    set.emplace(
-        probe.tree(), blackboard, time, 1,
-        [this](std::string_view who, lockstep_log_level, std::string_view text) {
-          log.push_back(std::string(who) + ": " + std::string(text));
-        },
-        &watch);
+    set.emplace(probe.tree(), blackboard, time, 1,
+                [this](std::string_view who, lockstep_log_level, std::string_view text) {
+                  log.push_back(std::string(who) + ": " + std::string(text));
+                });
+    ticker.emplace(probe.tree(), set->slots(), blackboard, FaultPolicy::Stop, &watch);
+    watch.begin_tick();
   }
   ~Fixture() { on_probe_call = nullptr; }
   Fixture(const Fixture&) = delete;
@@ -52,17 +52,37 @@ struct Fixture {
       slow.push_back(std::to_string(leaf) + " " + name_of(function) + " " +
                      std::to_string(took / 1ms));
     };
-    options.on_float_mode = [this](NodeIndex leaf, PluginFunction function) {
-      changed.push_back(std::to_string(leaf) + " " + name_of(function));
+    options.on_float_mode = [this](std::optional<NodeIndex> leaf, PluginFunction function) {
+      changed.push_back(leaf ? std::to_string(*leaf) + " " + name_of(function) : "somebody");
     };
     return options;
   }
 
   LeafSlot& slot(std::size_t leaf = 0) { return set->slots()[leaf]; }
+  // A call of the leaf, as the engine makes it outside of the loop of a parent.
+  void call(std::size_t leaf, PluginFunction function) {
+    const LeafSlot& it = slot(leaf);
+    const LeafCall around(*ticker, probe.tree().leaves[leaf].node, it, function);
+    switch (function) {
+      case PluginFunction::Start:
+        return it.type->start(it.self);
+      case PluginFunction::Halt:
+        return it.type->halt(it.self);
+      case PluginFunction::Pause:
+        return it.type->pause(it.self);
+      case PluginFunction::Resume:
+        return it.type->resume(it.self);
+      case PluginFunction::Progress:
+        return static_cast<void>(it.type->progress(it.self));
+      default:
+        return static_cast<void>(it.type->tick(it.self));
+    }
+  }
+  void tick(std::size_t leaf) { call(leaf, PluginFunction::Tick); }
   // A call of tick that takes this long.
   void tick(std::size_t leaf, Nanoseconds took) {
     on_probe_call = [this, took](PluginFunction, void*) { clock.time += took; };
-    slot(leaf).type->tick(slot(leaf).self);
+    tick(leaf);
     on_probe_call = nullptr;
   }
 
@@ -73,38 +93,8 @@ struct Fixture {
   Blackboard blackboard;
   LeafTime time;
   std::optional<LeafSet> set;
+  std::optional<Ticker> ticker;
 };
-
-const lockstep_leaf_type* own_type(const Tree& tree, std::size_t leaf) {
-  return tree.leaves[leaf].type->leaf;
-}
-
-TEST_CASE("without a watch the slots hold the plugin's own leaves") {
-  const ProbeTree probe(1, 1);
-  Blackboard blackboard(probe.tree());
-  const LeafTime time;
-  std::vector<void*> created;
-  on_probe_call = [&](PluginFunction function, void* self) {
-    if (function == PluginFunction::Create) created.push_back(self);
-  };
-  LeafSet set(probe.tree(), blackboard, time, 1);
-  on_probe_call = nullptr;
-  for (std::size_t leaf = 0; leaf < 2; ++leaf) {
-    CHECK(set.slots()[leaf].type == own_type(probe.tree(), leaf));
-    CHECK(set.slots()[leaf].self == created[leaf]);
-  }
-}
-
-TEST_CASE("a watched leaf has the functions that the leaf has") {
-  Fixture fixture(1, 1);
-  const lockstep_leaf_type& full = *fixture.slot(0).type;
-  const lockstep_leaf_type& bare = *fixture.slot(1).type;
-  CHECK(&full != own_type(fixture.probe.tree(), 0));
-  CHECK((full.start && full.tick && full.halt && full.pause && full.resume && full.progress));
-  CHECK(bare.tick != nullptr);
-  CHECK_FALSE((bare.start || bare.halt || bare.pause || bare.resume || bare.progress));
-  CHECK_FALSE((bare.get_extension || full.get_extension));
-}
 
 TEST_CASE("a leaf is not blamed for what lockstep carries between processes") {
   Strings carried;
@@ -116,9 +106,9 @@ TEST_CASE("a leaf is not blamed for what lockstep carries between processes") {
   const auto call = [&](Nanoseconds own, Nanoseconds on_the_way) {
     on_probe_call = [&, own, on_the_way](PluginFunction, void*) {
       fixture.clock.time += own + on_the_way;
-      t_carried += on_the_way;
+      CallMark::this_thread().carried += on_the_way;
     };
-    fixture.slot().type->tick(fixture.slot().self);
+    fixture.tick(0);
     on_probe_call = nullptr;
     fixture.clock.time += 2s;  // something is told once a second
   };
@@ -132,7 +122,7 @@ TEST_CASE("a leaf is not blamed for what lockstep carries between processes") {
   CHECK(carried.size() == 1);
   REQUIRE(fixture.watch.over_budget().size() == 1);
   CHECK(fixture.watch.over_budget()[0].over_budget == 1);
-  CHECK(t_carried == 0ms);
+  CHECK(CallMark::this_thread().carried == 0ms);
 }
 
 TEST_CASE("every call reaches its leaf, marked with its function, site and tick") {
@@ -143,24 +133,22 @@ TEST_CASE("every call reaches its leaf, marked with its function, site and tick"
     if (function == PluginFunction::Create) return leaves.push_back(self);
     if (function == PluginFunction::Destroy || leaves.size() < 2) return;
     const CallMark& mark = CallMark::this_thread();
-    REQUIRE(mark.look().function() == function);
+    REQUIRE(mark.look().function == function);
     seen.push_back(std::string(name_of(function)) + (self == leaves[1] ? " 1 " : " 0 ") +
-                   mark.look().site->text + " " + std::to_string(mark.tick()));
+                   mark.look().site->text() + " " + std::to_string(mark.tick()));
   };
   fixture.set->destroy_all();
   fixture.set->create_all(1);
-  fixture.watch.begin_tick(12);
-  const auto [type, self] = std::pair(fixture.slot(1).type, fixture.slot(1).self);
-  type->start(self);
-  CHECK(type->tick(self) == LOCKSTEP_RUNNING);
-  type->pause(self);
-  CHECK(type->progress(self) == 0.25);
-  type->resume(self);
-  type->halt(self);
+  CallMark::this_thread().set_tick(12);
+  for (const auto function :
+       {PluginFunction::Start, PluginFunction::Tick, PluginFunction::Pause,
+        PluginFunction::Progress, PluginFunction::Resume, PluginFunction::Halt}) {
+    fixture.call(1, function);
+  }
   const std::string rest = " 1 'Main/leaf0/leaf1' (Full of plugin 'probe') 12";
   CHECK(seen == Strings{"start" + rest, "tick" + rest, "pause" + rest, "progress" + rest,
                         "resume" + rest, "halt" + rest});
-  CHECK(CallMark::this_thread().look().function() == PluginFunction::None);
+  CHECK(CallMark::this_thread().look().function == PluginFunction::None);
 }
 
 TEST_CASE("a call within a call of a control node is marked and timed by itself") {
@@ -172,36 +160,19 @@ TEST_CASE("a call within a call of a control node is marked and timed by itself"
       return;
     }
     fixture.clock.time += 15ms;
-    fixture.slot(1).type->tick(fixture.slot(1).self);
+    fixture.tick(1);
     const CallMark::Look look = CallMark::this_thread().look();
-    CHECK(look.function() == PluginFunction::Tick);
-    CHECK(look.site->text == "'Main/leaf0' (Full of plugin 'probe')");
+    CHECK(look.function == PluginFunction::Tick);
+    CHECK(look.site->text() == "'Main/leaf0' (Full of plugin 'probe')");
     fixture.clock.time += 10ms;
   };
-  fixture.slot(0).type->tick(fixture.slot(0).self);
+  fixture.tick(0);
   on_probe_call = nullptr;
   CHECK(depth == 2);
-  CHECK(CallMark::this_thread().look().function() == PluginFunction::None);
+  CHECK(CallMark::this_thread().look().function == PluginFunction::None);
   CHECK(fixture.watch.slowest().took == 25ms);
   CHECK(fixture.watch.slowest().leaf == 0);
   CHECK(fixture.slow.empty());  // 45 ms with its child
-}
-
-TEST_CASE("the watch is gone before leaves are destroyed, and back when they are made again") {
-  Fixture fixture(2);
-  const lockstep_leaf_type* const watched = fixture.slot().type;
-  std::vector<void*> created, destroyed;
-  on_probe_call = [&](PluginFunction function, void* self) {
-    if (function == PluginFunction::Create) created.push_back(self);
-    if (function == PluginFunction::Destroy) destroyed.insert(destroyed.begin(), self);
-  };
-  fixture.set->destroy_all();
-  CHECK(fixture.slot().type == own_type(fixture.probe.tree(), 0));
-  fixture.set->create_all(1);
-  CHECK(fixture.slot().type == watched);
-  destroyed.clear();
-  fixture.set.reset();
-  CHECK(destroyed == created);
 }
 
 TEST_CASE("an exception of a watched leaf is a fault of the run") {
@@ -222,7 +193,7 @@ TEST_CASE("an exception of a watched leaf is a fault of the run") {
   CHECK(tick == 2);
   REQUIRE(run.fault() != nullptr);
   CHECK(run.fault()->message == "threw an exception: no arm");
-  CHECK(CallMark::this_thread().look().function() == PluginFunction::None);
+  CHECK(CallMark::this_thread().look().function == PluginFunction::None);
   CHECK(watch.slowest().function != PluginFunction::None);  // it was timed, too
 }
 
@@ -231,7 +202,7 @@ TEST_CASE("a leaf that changes the rounding mode has it set back, and is told of
   const FloatMode before = FloatMode::current();
   on_probe_call = [](PluginFunction, void*) { std::fesetround(FE_UPWARD); };
   for (const std::size_t leaf : {0, 1, 1, 0}) {
-    fixture.slot(leaf).type->tick(fixture.slot(leaf).self);
+    fixture.tick(leaf);
     CHECK(std::fegetround() == FE_TONEAREST);
     CHECK(FloatMode::current() == before);
   }
@@ -244,7 +215,7 @@ TEST_CASE("long double is set back, too") {
   volatile long double one = 1, three = 3;
   const long double third = one / three;
   on_probe_call = [](PluginFunction, void*) { std::fesetround(FE_UPWARD); };
-  fixture.slot().type->halt(fixture.slot().self);
+  fixture.call(0, PluginFunction::Halt);
   on_probe_call = nullptr;
   CHECK(one / three == third);
 }
@@ -252,7 +223,7 @@ TEST_CASE("long double is set back, too") {
 TEST_CASE("what a computation raises is no change of the mode") {
   Fixture fixture(1);
   on_probe_call = [](PluginFunction, void*) { std::feraiseexcept(FE_ALL_EXCEPT); };
-  fixture.slot().type->tick(fixture.slot().self);
+  fixture.tick(0);
   on_probe_call = nullptr;
   CHECK(fixture.changed.empty());
   CHECK(std::fetestexcept(FE_OVERFLOW) != 0);
@@ -308,7 +279,7 @@ TEST_CASE("a slow halt counts, though it is no tick, and the longest call comes 
   Fixture fixture(2, 0, {.budget = 5ms});
   fixture.tick(0, 6ms);
   on_probe_call = [&](PluginFunction, void*) { fixture.clock.time += 1500ms; };
-  fixture.slot(1).type->halt(fixture.slot(1).self);
+  fixture.call(1, PluginFunction::Halt);
   on_probe_call = nullptr;
   CHECK(fixture.slow == Strings{"0 tick 6", "1 halt 1500"});
   const auto over = fixture.watch.over_budget();
@@ -320,7 +291,7 @@ TEST_CASE("a slow halt counts, though it is no tick, and the longest call comes 
 
 TEST_CASE("the slowest call is that of the tick that goes on") {
   Fixture fixture(3, 0, {.budget = 1s});
-  fixture.watch.begin_tick(0);
+  fixture.watch.begin_tick();
   CHECK(fixture.watch.slowest().function == PluginFunction::None);
   fixture.tick(0, 2ms);
   fixture.tick(1, 3ms);
@@ -328,7 +299,7 @@ TEST_CASE("the slowest call is that of the tick that goes on") {
   CHECK(fixture.watch.slowest().leaf == 1);
   CHECK(fixture.watch.slowest().function == PluginFunction::Tick);
   CHECK(fixture.watch.slowest().took == 3ms);
-  fixture.watch.begin_tick(1);
+  fixture.watch.begin_tick();
   fixture.tick(2, 1ms);
   CHECK(fixture.watch.slowest().leaf == 2);
 }
@@ -339,6 +310,112 @@ TEST_CASE("calls are not timed when there is no budget") {
   CHECK(fixture.clock.reads == 0);
   CHECK(fixture.watch.slowest().function == PluginFunction::None);
   CHECK(fixture.watch.over_budget().empty());
+}
+
+// --- in a tick of the tree, where a leaf is called in the loop of its parent ---------------------
+
+// Two leaves in a tree that runs on.
+struct Ticking {
+  explicit Ticking(LeafWatchOptions options)
+      : watch([&] {
+          options.clock = &clock;
+          options.on_float_mode = [this](std::optional<NodeIndex> leaf, PluginFunction function) {
+            changed.push_back(leaf ? std::to_string(*leaf) + " " + name_of(function) : "somebody");
+          };
+          return options;
+        }()),
+        run(probe.tree(), {.log = {}, .watch = &watch}) {}
+  ~Ticking() { on_probe_call = nullptr; }
+  Ticking(const Ticking&) = delete;
+  Ticking& operator=(const Ticking&) = delete;
+
+  void tick(int ticks = 1) {
+    for (int i = 0; i < ticks; ++i) run.tick(count++ * 10ms);
+  }
+
+  ProbeTree probe{"<Parallel><Full name=\"leaf0\"/><Full name=\"leaf1\"/></Parallel>"};
+  CallClock clock;
+  Strings changed;
+  LeafWatch watch;
+  Run run;
+  int count = 0;
+};
+
+TEST_CASE(
+    "in a tick every call is marked, and one reading of the time ends one and begins the next") {
+  Ticking it({.budget = 1s});
+  it.tick();  // looks after each call
+  Strings seen;
+  on_probe_call = [&](PluginFunction function, void*) {
+    const CallMark::Look look = CallMark::this_thread().look();
+    seen.push_back(std::string(name_of(function)) + " " + look.site->path + " " +
+                   std::to_string(look.tick));
+    it.clock.time += seen.size() * 10ms;
+  };
+  it.clock.reads = 0;
+  it.tick();
+  CHECK(seen == Strings{"tick Main/Parallel/leaf0 1", "tick Main/Parallel/leaf1 1"});
+  CHECK(it.clock.reads == 3);
+  CHECK(it.watch.slowest().took == 20ms);
+  CHECK(it.watch.slowest().leaf == 2);
+  CHECK(CallMark::this_thread().look().function == PluginFunction::None);
+}
+
+TEST_CASE("a leaf that is ticked again in the same tick is in another call, which is no hang") {
+  Ticking it({});
+  it.tick();
+  std::vector<CallMark::Look> looks;
+  on_probe_call = [&](PluginFunction, void*) { looks.push_back(CallMark::this_thread().look()); };
+  it.tick();
+  it.run.ticker().tick_root_again();
+  REQUIRE(looks.size() == 4);
+  CHECK(looks[0].site == looks[2].site);
+  CHECK(looks[0].tick == looks[2].tick);
+  CHECK_FALSE(looks[0] == looks[2]);
+}
+
+TEST_CASE("a mode that is changed in the first tick is set back at once, and the leaf is named") {
+  Ticking it({});
+  int calls = 0;
+  on_probe_call = [&](PluginFunction, void*) {
+    CHECK(std::fegetround() == FE_TONEAREST);
+    if (++calls == 1) std::fesetround(FE_UPWARD);
+  };
+  it.tick(3);
+  CHECK(it.changed == Strings{"1 start"});
+}
+
+TEST_CASE(
+    "a mode that is changed later is set back after the tick, and who does so again is named") {
+  Ticking it({});
+  it.tick(5);
+  int calls = 0;
+  bool changes = true;
+  on_probe_call = [&](PluginFunction function, void*) {
+    if (function == PluginFunction::Tick && ++calls % 2 == 0 && changes) std::fesetround(FE_UPWARD);
+  };
+  it.tick();
+  CHECK(std::fegetround() == FE_TONEAREST);
+  CHECK(it.changed == Strings{"somebody"});
+  it.tick();
+  CHECK(std::fegetround() == FE_TONEAREST);
+  CHECK(it.changed == Strings{"somebody", "2 tick"});
+  changes = false;
+  it.tick(3);
+  CHECK(it.changed.size() == 2);
+}
+
+TEST_CASE("who changes the mode now and then is found, for the search takes longer each time") {
+  Ticking it({});
+  it.tick(5);
+  int calls = 0;
+  on_probe_call = [&](PluginFunction function, void*) {
+    if (function == PluginFunction::Tick && ++calls % 10 == 0) std::fesetround(FE_UPWARD);
+  };
+  it.tick(30);
+  on_probe_call = nullptr;
+  CHECK(it.changed == Strings{"somebody", "2 tick"});
+  CHECK(std::fegetround() == FE_TONEAREST);
 }
 
 }  // namespace

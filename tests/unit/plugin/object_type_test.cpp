@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/object.h"
-#include "plugin/contract/call_mark.h"
+#include "engine/call_mark.h"
 
 namespace lockstep::host::test {
 namespace {
@@ -17,7 +17,8 @@ std::string g_seen;  // the function that the thread was marked to be in
 
 void note() {
   const CallMark::Look look = CallMark::this_thread().look();
-  g_seen = std::string(look.site->kind) + " " + look.site->text + " " + name_of(look.function());
+  g_seen =
+      std::string(look.site->origin->kind) + " " + look.site->text() + " " + name_of(look.function);
 }
 
 void ignore(void* /*object*/) {}
@@ -100,7 +101,7 @@ TEST_CASE("object type: its functions are marked calls") {
   CHECK(g_seen == "object type 'test.Map' (of plugin 'maps') to_text");
   CHECK_FALSE(type.from_bytes("abc"));
   CHECK(g_seen == "object type 'test.Map' (of plugin 'maps') from_bytes");
-  CHECK(CallMark::this_thread().look().function() == PluginFunction::None);
+  CHECK(CallMark::this_thread().look().function == PluginFunction::None);
 }
 
 TEST_CASE("object type: a declaration from before to_bytes has none") {

@@ -2,7 +2,11 @@
 
 #include <stdexcept>
 
+#include "definition/resolve.h"
+#include "engine/compile.h"
 #include "engine/nodes/kinds.h"
+#include "support/leaf_node.h"
+#include "support/plugin_tables.h"
 
 namespace lockstep::host::test {
 namespace {
@@ -36,37 +40,21 @@ void* create_run(const lockstep_host*, const lockstep_caller*) {
   return nullptr;
 }
 
-constexpr lockstep_leaf_type leaf_type(const char* id) {
-  lockstep_leaf_type type{};
-  type.struct_size = sizeof type;
-  type.kind = LOCKSTEP_ACTION;
-  type.id = id;
-  type.create = create;
-  type.destroy = destroy;
-  type.tick = tick;
-  return type;
-}
-
-constexpr lockstep_leaf_type kBare = leaf_type("Bare");
-constexpr lockstep_leaf_type kFull = [] {
-  lockstep_leaf_type type = leaf_type("Full");
-  type.start = call<PluginFunction::Start>;
-  type.halt = call<PluginFunction::Halt>;
-  type.pause = call<PluginFunction::Pause>;
-  type.resume = call<PluginFunction::Resume>;
-  type.progress = progress;
-  return type;
-}();
-const lockstep_leaf_type* const kLeaves[] = {&kFull, &kBare};
+constexpr lockstep_leaf_type kTypes[] = {[] {
+                                           lockstep_leaf_type type =
+                                               tables::leaf_type("Full", create, destroy, tick);
+                                           type.start = call<PluginFunction::Start>;
+                                           type.halt = call<PluginFunction::Halt>;
+                                           type.pause = call<PluginFunction::Pause>;
+                                           type.resume = call<PluginFunction::Resume>;
+                                           type.progress = progress;
+                                           return type;
+                                         }(),
+                                         tables::leaf_type("Bare", create, destroy, tick)};
+constexpr auto kLeaves = tables::list_of(kTypes);
 
 constexpr lockstep_plugin kPlugin = [] {
-  lockstep_plugin plugin{};
-  plugin.abi_major = LOCKSTEP_ABI_MAJOR;
-  plugin.abi_minor = LOCKSTEP_ABI_MINOR;
-  plugin.struct_size = sizeof plugin;
-  plugin.name = "probe";
-  plugin.leaf_type_count = 2;
-  plugin.leaf_types = kLeaves;
+  lockstep_plugin plugin = tables::plugin("probe", kLeaves);
   plugin.create_run = create_run;
   plugin.destroy_run = call<PluginFunction::DestroyRun>;
   return plugin;
@@ -81,14 +69,21 @@ ProbeTree::ProbeTree(std::uint32_t full_leaves, std::uint32_t bare_leaves) {
   const std::vector<const NodeType*> types = plugins_.types();
   for (std::uint32_t leaf = 0; leaf < full_leaves; ++leaf) add_leaf(*types[0]);
   for (std::uint32_t leaf = 0; leaf < bare_leaves; ++leaf) add_leaf(*types[1]);
-  if (tree_.leaves.size() == 1)
-    tree_.nodes.push_back({.kind = &kPluginAction,
-                           .end = 1,
-                           .children = 0,
-                           .is_guard = 0,
-                           .is_latched = 0,
-                           .params = 0,
-                           .state = 0});
+}
+
+ProbeTree::ProbeTree(const std::string& root) {
+  Diagnostics diagnostics;
+  if (!plugins_.add(kPlugin, "probe", diagnostics)) throw std::logic_error("probe was refused");
+  const auto project = load_project_text(
+      "probe.xml",
+      "<root lockstep=\"1\"><BehaviorTree ID=\"Main\">" + root + "</BehaviorTree></root>", {},
+      diagnostics);
+  Catalog catalog;
+  for (const NodeKind* kind : built_in_kinds()) catalog.add(&kind->type);
+  for (const NodeType* type : plugins_.types()) catalog.add(type);
+  const auto definition = resolve(*project, catalog, {}, diagnostics);
+  if (!definition) throw std::logic_error("the tree of the probe is wrong");
+  tree_ = compile(*definition);
 }
 
 void ProbeTree::add_leaf(const NodeType& type) {
@@ -96,6 +91,7 @@ void ProbeTree::add_leaf(const NodeType& type) {
   const std::string& name = names_.emplace_back("leaf" + std::to_string(node));
   tree_.leaves.push_back({node, &type, 0});
   tree_.labels.push_back({name, &type, 0});
+  tree_.nodes.push_back(leaf_node(kPluginAction, node));
 }
 
 }  // namespace lockstep::host::test

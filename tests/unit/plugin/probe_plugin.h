@@ -4,11 +4,12 @@
 
 #include <deque>
 #include <functional>
+#include <string>
 
+#include "engine/call_mark.h"
 #include "engine/tree.h"
 #include "loading/plugin_set.h"
 #include "lockstep/leaf.h"
-#include "plugin/contract/call_mark.h"
 
 namespace lockstep::host::test {
 
@@ -17,8 +18,11 @@ inline thread_local std::function<void(PluginFunction function, void* self)> on_
 
 class ProbeTree {
  public:
-  // Without nodes when there is more than one leaf: such a tree cannot be ticked.
+  // The first leaf is the root, so the others are not ticked.
   explicit ProbeTree(std::uint32_t full_leaves, std::uint32_t bare_leaves = 0);
+
+  // The root node as XML, over leaves Full and Bare.
+  explicit ProbeTree(const std::string& root);
 
   const Tree& tree() const { return tree_; }
 

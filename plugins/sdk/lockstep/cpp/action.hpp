@@ -64,8 +64,14 @@ class ActionFunctions : public Leaf {
   // may fall.
   virtual double progress() const { return 0; }
 
+ protected:
+  static constexpr bool kKeepsProgress = false;  // see kept_progress
+
  private:
   friend struct detail::LeafAccess;
+  virtual void before_start() {}
+  // Where the host reads the progress without a call.
+  virtual const double* kept_progress() const { return nullptr; }
   // What must end before any part of a derived leaf is destroyed.
   virtual void before_destroy() {}
 };
@@ -77,6 +83,26 @@ class Action : public ActionFunctions, public PortsOfLeaf {
 
  protected:
   Action() { detail::PortsAccess::bind(*this, this->caller_); }
+};
+
+// An action that sets its progress where it changes, in place of a function that computes it:
+// lockstep reads the number without a call. Each activation begins with 0.
+template <class PortsOfLeaf = NoPorts>
+class ProgressAction : public Action<PortsOfLeaf> {
+ public:
+  double progress() const final { return progress_; }
+
+ protected:
+  static constexpr bool kKeepsProgress = true;
+  // In [0, 1], as progress() of an Action. In the thread that ticks the tree.
+  void set_progress(double progress) { progress_ = progress; }
+
+ private:
+  friend struct detail::LeafAccess;
+  void before_start() final { progress_ = 0; }
+  const double* kept_progress() const final { return &progress_; }
+
+  double progress_ = 0;
 };
 
 // A question with an answer in the same tick.

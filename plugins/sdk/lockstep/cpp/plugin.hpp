@@ -16,6 +16,14 @@ struct LeafAccess {
   static const Caller& caller(const Leaf& leaf) { return leaf.caller_; }
   static void before_destroy(ActionFunctions& action) { action.before_destroy(); }
   static void before_destroy(ConditionFunctions&) {}
+  template <class T>
+  static constexpr bool keeps_progress() {
+    return T::kKeepsProgress;
+  }
+  static void before_start(ActionFunctions& action) { action.before_start(); }
+  static const double* kept_progress(const ActionFunctions& action) {
+    return action.kept_progress();
+  }
 };
 
 // The functions of the C table for leaf class T, which must be public in T.
@@ -48,13 +56,20 @@ struct LeafFunctions {
       }
     });
   }
-  static void start(void* leaf) { call(leaf, &T::start); }
+  static void start(void* leaf) {
+    LeafAccess::before_start(*static_cast<T*>(leaf));
+    call(leaf, &T::start);
+  }
   static void halt(void* leaf) { call(leaf, &T::halt); }
   static void pause(void* leaf) { call(leaf, &T::pause); }
   static void resume(void* leaf) { call(leaf, &T::resume); }
   static double progress(void* leaf) {
     const T& object = *static_cast<T*>(leaf);
     return guarded(LeafAccess::caller(object), 0.0, [&] { return object.progress(); });
+  }
+  static const void* get_extension(void* leaf, const char* id) {
+    const bool is_known = std::string_view(id) == LOCKSTEP_KEPT_PROGRESS;
+    return is_known ? LeafAccess::kept_progress(*static_cast<T*>(leaf)) : nullptr;
   }
 
  private:
@@ -83,13 +98,17 @@ constexpr void add_optional_functions(lockstep_leaf_type& type) {
   using Functions = LeafFunctions<T>;
   using Nothing = void (ActionFunctions::*)();
   using NoProgress = double (ActionFunctions::*)() const;
-  if constexpr (is_overridden<decltype(&T::start), Nothing>) type.start = &Functions::start;
+  constexpr bool kKeepsProgress = LeafAccess::keeps_progress<T>();
+  if constexpr (kKeepsProgress || is_overridden<decltype(&T::start), Nothing>) {
+    type.start = &Functions::start;
+  }
   if constexpr (is_overridden<decltype(&T::halt), Nothing>) type.halt = &Functions::halt;
   if constexpr (is_overridden<decltype(&T::pause), Nothing>) type.pause = &Functions::pause;
   if constexpr (is_overridden<decltype(&T::resume), Nothing>) type.resume = &Functions::resume;
   if constexpr (is_overridden<decltype(&T::progress), NoProgress>) {
     type.progress = &Functions::progress;
   }
+  if constexpr (kKeepsProgress) type.get_extension = &Functions::get_extension;
 }
 
 struct RunContextPart {

@@ -63,6 +63,12 @@ class Ports {
 
 namespace detail {
 
+// A mistake in a port is found in the constant for the descriptors. The structs of the leaves say
+// the same, and there is one for each leaf.
+constexpr bool is_for_descriptors() {
+  return __builtin_is_constant_evaluated();
+}
+
 class Port {
  public:
   Port(const Port&) = delete;
@@ -72,7 +78,7 @@ class Port {
  protected:
   constexpr Port(Ports* owner, const lockstep_port& description)
       : description_(description), owner_(owner), index_(owner->port_count_) {
-    check_name(owner);
+    if (is_for_descriptors()) check_name(owner);
     (owner->port_count_ == 0 ? owner->first_port_ : owner->last_port_->next_) = this;
     owner->last_port_ = this;
     ++owner->port_count_;
@@ -108,6 +114,7 @@ class Port {
 template <class T>
 constexpr Limits all_limits(Limits limits) {
   if constexpr (std::is_enum_v<T>) limits.choices = PortTraits<T>::kWords;
+  if (!is_for_descriptors()) return limits;
   constexpr auto kType = PortTraits<T>::kType;
   constexpr bool kIsNumber = kType == LOCKSTEP_NUMBER || kType == LOCKSTEP_INT ||
                              kType == LOCKSTEP_DOUBLE || kType == LOCKSTEP_INT_LIST ||
@@ -145,9 +152,10 @@ template <class T>
 constexpr lockstep_port describe(lockstep_direction direction, const char* name,
                                  const char* default_value, const char* doc, const char* unit,
                                  Limits limits) {
-  if (!PortTraits<T>::accepts(default_value)) error_default_is_not_a_value_of_the_port_type();
   lockstep_port port = describe<T>(direction, name, doc, unit, limits);
   port.default_value = default_value;
+  if (!is_for_descriptors()) return port;
+  if (!PortTraits<T>::accepts(default_value)) error_default_is_not_a_value_of_the_port_type();
   if (port.choices && index_of(default_value, port.choices) >= count_words(port.choices)) {
     error_default_is_not_one_of_the_choices();
   }
@@ -164,7 +172,9 @@ constexpr lockstep_port describe_output(const char* name, const char* doc, const
                                         Limits limits) {
   constexpr auto kType = PortTraits<T>::kType;
   constexpr bool kIsText = kType == LOCKSTEP_STRING || kType == LOCKSTEP_STRING_LIST;
-  const bool is_value = is_double(doc) || (!kIsText && *doc != '\0' && PortTraits<T>::accepts(doc));
+  const bool is_value =
+      is_for_descriptors() &&
+      (is_double(doc) || (!kIsText && *doc != '\0' && PortTraits<T>::accepts(doc)));
   if (is_value) error_an_output_has_no_default();
   return describe<T>(LOCKSTEP_OUTPUT, name, doc, unit, limits);
 }

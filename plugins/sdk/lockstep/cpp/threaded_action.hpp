@@ -139,6 +139,8 @@ class Worker {
   }
   void pause(bool value) { token_.request(&Token::pause_, value); }
   double progress() const { return token_.progress_.load(std::memory_order_relaxed); }
+  // An atomic double that needs no lock is one.
+  const double* kept_progress() const { return reinterpret_cast<const double*>(&token_.progress_); }
 
  private:
   // The whole life of the thread.
@@ -219,11 +221,15 @@ class ThreadedAction : public Action<PortsOfLeaf> {
   double progress() const final { return worker_.progress(); }
 
  protected:
+  static constexpr bool kKeepsProgress =
+      std::atomic<double>::is_always_lock_free && sizeof(std::atomic<double>) == sizeof(double);
   ThreadedAction() { this->caller_.has_worker = true; }
   ~ThreadedAction() override { worker_.stop_silently(); }
 
  private:
+  friend struct detail::LeafAccess;
   void before_destroy() final { worker_.stop_silently(); }
+  const double* kept_progress() const final { return worker_.kept_progress(); }
 
   detail::Worker worker_;
 };

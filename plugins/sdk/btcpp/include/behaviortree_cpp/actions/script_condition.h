@@ -1,14 +1,4 @@
 // ScriptCondition in trees: a tag, not a class.
 #pragma once
 
-#include "behaviortree_cpp/action_node.h"
-#include "behaviortree_cpp/lockstep/absent_node.h"
-
-namespace BT {
-
-class ScriptCondition : public lockstep_detail::LockstepAbsentNode<ActionNodeBase> {
- public:
-  using LockstepAbsentNode::LockstepAbsentNode;
-};
-
-}  // namespace BT
+#include "behaviortree_cpp/lockstep/absent_node.h"  // IWYU pragma: export

@@ -6,7 +6,6 @@
 #include <functional>
 #include <string>
 
-#include "behaviortree_cpp/action_node.h"
 #include "behaviortree_cpp/lockstep/absent_node.h"
 
 namespace BT {

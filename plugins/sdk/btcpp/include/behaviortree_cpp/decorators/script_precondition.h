@@ -1,14 +1,4 @@
 // PreconditionNode in trees: a tag, not a class.
 #pragma once
 
-#include "behaviortree_cpp/decorator_node.h"
-#include "behaviortree_cpp/lockstep/absent_node.h"
-
-namespace BT {
-
-class PreconditionNode : public lockstep_detail::LockstepAbsentNode<DecoratorNode> {
- public:
-  using LockstepAbsentNode::LockstepAbsentNode;
-};
-
-}  // namespace BT
+#include "behaviortree_cpp/lockstep/absent_node.h"  // IWYU pragma: export

@@ -1,11 +1,14 @@
-// A node of the language that is no class here: the compiler says so where one is made.
+// The nodes of the language that are no classes here: the compiler says so where one is made.
 #pragma once
 
 #include <string>
 
-#include "behaviortree_cpp/tree_node.h"
+#include "behaviortree_cpp/action_node.h"
+#include "behaviortree_cpp/control_node.h"
+#include "behaviortree_cpp/decorator_node.h"
 
-namespace BT::lockstep_detail {
+namespace BT {
+namespace lockstep_detail {
 
 template <class Base>
 class LockstepAbsentNode : public Base {
@@ -22,4 +25,80 @@ class LockstepAbsentNode : public Base {
   void halt() override {}
 };
 
-}  // namespace BT::lockstep_detail
+}  // namespace lockstep_detail
+
+class EntryUpdatedAction : public lockstep_detail::LockstepAbsentNode<ActionNodeBase> {
+ public:
+  using LockstepAbsentNode::LockstepAbsentNode;
+};
+class ScriptCondition : public lockstep_detail::LockstepAbsentNode<ActionNodeBase> {
+ public:
+  using LockstepAbsentNode::LockstepAbsentNode;
+};
+class ScriptNode : public lockstep_detail::LockstepAbsentNode<ActionNodeBase> {
+ public:
+  using LockstepAbsentNode::LockstepAbsentNode;
+};
+class SetBlackboardNode : public lockstep_detail::LockstepAbsentNode<ActionNodeBase> {
+ public:
+  using LockstepAbsentNode::LockstepAbsentNode;
+};
+class SleepNode : public lockstep_detail::LockstepAbsentNode<ActionNodeBase> {
+ public:
+  using LockstepAbsentNode::LockstepAbsentNode;
+};
+class UnsetBlackboardNode : public lockstep_detail::LockstepAbsentNode<ActionNodeBase> {
+ public:
+  using LockstepAbsentNode::LockstepAbsentNode;
+};
+class IfThenElseNode : public lockstep_detail::LockstepAbsentNode<ControlNode> {
+ public:
+  using LockstepAbsentNode::LockstepAbsentNode;
+};
+class ManualSelectorNode : public lockstep_detail::LockstepAbsentNode<ControlNode> {
+ public:
+  using LockstepAbsentNode::LockstepAbsentNode;
+};
+class ParallelAllNode : public lockstep_detail::LockstepAbsentNode<ControlNode> {
+ public:
+  using LockstepAbsentNode::LockstepAbsentNode;
+};
+class ParallelNode : public lockstep_detail::LockstepAbsentNode<ControlNode> {
+ public:
+  using LockstepAbsentNode::LockstepAbsentNode;
+};
+class TryCatchNode : public lockstep_detail::LockstepAbsentNode<ControlNode> {
+ public:
+  using LockstepAbsentNode::LockstepAbsentNode;
+};
+class WhileDoElseNode : public lockstep_detail::LockstepAbsentNode<ControlNode> {
+ public:
+  using LockstepAbsentNode::LockstepAbsentNode;
+};
+class DelayNode : public lockstep_detail::LockstepAbsentNode<DecoratorNode> {
+ public:
+  using LockstepAbsentNode::LockstepAbsentNode;
+};
+class EntryUpdatedDecorator : public lockstep_detail::LockstepAbsentNode<DecoratorNode> {
+ public:
+  using LockstepAbsentNode::LockstepAbsentNode;
+};
+class PreconditionNode : public lockstep_detail::LockstepAbsentNode<DecoratorNode> {
+ public:
+  using LockstepAbsentNode::LockstepAbsentNode;
+};
+class SubTreeNode : public lockstep_detail::LockstepAbsentNode<DecoratorNode> {
+ public:
+  using LockstepAbsentNode::LockstepAbsentNode;
+};
+class TimeoutNode : public lockstep_detail::LockstepAbsentNode<DecoratorNode> {
+ public:
+  using LockstepAbsentNode::LockstepAbsentNode;
+};
+template <std::size_t kCases>
+class SwitchNode : public lockstep_detail::LockstepAbsentNode<ControlNode> {
+ public:
+  using LockstepAbsentNode::LockstepAbsentNode;
+};
+
+}  // namespace BT

@@ -1,4 +1,4 @@
-// The nodes that every tree has.
+// The nodes that every tree has. Generated from the rows of the language: ./dev generate.
 #pragma once
 
 #include <set>

@@ -1,5 +1,5 @@
 // Records which function of which plugin a thread is in, to name the cause of a crash or a hang.
-// Costs two plain stores per call. The calling thread writes it; its signal handlers and the
+// Costs four plain stores per call. The calling thread writes it; its signal handlers and the
 // watchdog read it. Knows nothing about time.
 #pragma once
 
@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/clock.h"
 #include "system/fork_guard.h"
 
 namespace lockstep::host {
@@ -44,8 +45,9 @@ enum class PluginFunction : std::uint8_t {
 // "tick", "create_run", as lockstep/leaf.h spells them.
 const char* name_of(PluginFunction function);
 
-// The one that is called, in words for a message. One that `of` gave lives until the process ends,
-// because a watchdog may look at it whenever it likes; the same words give the same one.
+// The one that is called, for a message. A watchdog may look at it whenever it likes: one that `of`
+// gave lives until the process ends, and the same words give the same one; those of leaves are in
+// memory of which only other sites are made (call_sites.h).
 struct CallSite {
   static constexpr const char* kLeaf = "leaf";
   static constexpr const char* kControlNode = "control node";
@@ -59,57 +61,69 @@ struct CallSite {
     std::string_view plugin = {};
     const char* kind = kLeaf;  // what `path` is
     bool is_local = false;     // the plugin cannot be isolated
-
-    bool operator==(const Words& other) const;
   };
 
-  std::string path, id, plugin;
-  const char* kind = kLeaf;
-  bool is_local = false;
-  std::string text = {};  // "'Main/arm' (Advance of plugin 'motion')"; "": a function of the plugin
+  // All but the path: the same for all leaves of a type.
+  struct Origin {
+    std::string id, plugin;
+    const char* kind;
+    bool is_local;
+  };
+
+  const char* path = "";           // "": it is a function of the plugin
+  const char* shown = "";          // the path, as a terminal may get it
+  const Origin* origin = nullptr;  // lives until the process ends
+
+  bool is_plugin() const { return *path == '\0'; }
+  // "'Main/arm' (Advance of plugin 'motion')"; "": a function of the plugin.
+  std::string text() const;
 
   static const CallSite& of(const Words& words);
   static const CallSite& of_plugin(std::string_view name) { return of({.plugin = name}); }
-  Words words() const { return {path, id, plugin, kind, is_local}; }
+  static const Origin& origin_of(const Words& words);
 };
 
 // One for each thread; see this_thread().
 class CallMark {
  public:
   // Async-signal-safe.
-  static constexpr std::uint32_t kBounded = 0x80;
-
   static CallMark& this_thread();
 
   // A call as another thread sees it: equal looks have seen the same call.
   struct Look {
     const CallSite* site = nullptr;  // outside of a call: of the last one
-    std::uint32_t call = 0;          // a number of the call; the low byte is its function
+    PluginFunction function = PluginFunction::None;
+    bool is_bounded = false;  // other code ensures that it returns in time
+    std::uint64_t serial = 0, tick = 0;
 
-    PluginFunction function() const { return static_cast<PluginFunction>(call & 0x7f); }
-    bool is_bounded() const { return (call & kBounded) != 0; }
     friend bool operator==(const Look&, const Look&) = default;
   };
 
-  void enter(const CallSite& site, PluginFunction function) {
-    site_.store(&site, std::memory_order_release);
-    serial_ += 1u << 8;
-    call_.store(serial_ | static_cast<std::uint32_t>(function), std::memory_order_release);
+  // Marks a call. Returns the one around it, for `leave`: calls may be within others.
+  Look enter(const CallSite& site, PluginFunction function) {
+    const Look around = as_read(function_.load(std::memory_order_relaxed));
+    enter_alone(site, function);
+    return around;
+  }
+  void leave(const Look& around) {
+    leave();
+    if (around.function == PluginFunction::None) return;
+    set(*around.site, around.function);
+    if (around.is_bounded) set_bounded();
+  }
+  // The same for a call that is within no other.
+  void enter_alone(const CallSite& site, PluginFunction function) {
+    serial_.store(serial_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+    set(site, function);
   }
   void leave() {
     ForkGuard::check();
-    call_.store(serial_, std::memory_order_release);
-  }
-  // The end of a call that may be within another one: a control node's child. `around` is what
-  // `current` gave before.
-  void leave(const Look& around) {
-    leave();
-    if (around.function() != PluginFunction::None) [[unlikely]]
-      enter(*around.site, around.function());
+    function_.store(static_cast<std::uint8_t>(PluginFunction::None), std::memory_order_release);
   }
   // Other code ensures that this call returns in time.
   void set_bounded() {
-    call_.store(call_.load(std::memory_order_relaxed) | kBounded, std::memory_order_release);
+    function_.store(function_.load(std::memory_order_relaxed) | kBounded,
+                    std::memory_order_release);
   }
 
   // The thread whose work this call waits for; 0: it does its work itself.
@@ -132,19 +146,33 @@ class CallMark {
   RunOfStudy run() const { return {cell_.load(), run_number_.load(), seed_.load()}; }
 
   Look look() const;
-  // The same for the thread itself.
-  Look current() const {
-    return {site_.load(std::memory_order_relaxed), call_.load(std::memory_order_relaxed)};
-  }
   std::uint64_t tick() const { return tick_.load(std::memory_order_relaxed); }
   static constexpr std::uint64_t kNoTick = ~std::uint64_t{0};  // before the first
 
+  // For the thread itself: the time of this call that went into the carrying of large values
+  // between processes. It is lockstep's own, so the leaf that is called is not blamed for it.
+  Nanoseconds carried{0};
+
  private:
+  static constexpr std::uint8_t kBounded = 0x80;
+
+  void set(const CallSite& site, PluginFunction function) {
+    site_.store(&site, std::memory_order_release);
+    function_.store(static_cast<std::uint8_t>(function), std::memory_order_release);
+  }
+  // What there is, with a function that was read before.
+  Look as_read(std::uint8_t function) const {
+    return {.site = site_.load(std::memory_order_acquire),
+            .function = static_cast<PluginFunction>(function & ~kBounded),
+            .is_bounded = (function & kBounded) != 0,
+            .serial = serial_.load(std::memory_order_acquire),
+            .tick = tick_.load(std::memory_order_acquire)};
+  }
+
   std::atomic<const CallSite*> site_{nullptr};
-  std::atomic<std::uint32_t> call_{0};
-  std::uint32_t serial_ = 0;
+  std::atomic<std::uint8_t> function_{0};  // of the call; and kBounded
+  std::atomic<std::uint64_t> serial_{0}, tick_{kNoTick};
   std::atomic<pthread_t> worker_{0};
-  std::atomic<std::uint64_t> tick_{kNoTick};
   std::atomic<std::uint64_t> cell_{0}, run_number_{kNoRun}, seed_{0};
 };
 
@@ -160,9 +188,7 @@ inline CallMark& CallMark::this_thread() {
 class MarkedCall {
  public:
   MarkedCall(const CallSite& site, PluginFunction function)
-      : around_(CallMark::this_thread().look()) {
-    CallMark::this_thread().enter(site, function);
-  }
+      : around_(CallMark::this_thread().enter(site, function)) {}
   ~MarkedCall() { CallMark::this_thread().leave(around_); }
   MarkedCall(const MarkedCall&) = delete;
   MarkedCall& operator=(const MarkedCall&) = delete;

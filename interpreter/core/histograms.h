@@ -1,0 +1,54 @@
+// Histograms of many at once, as Histogram::kCoarse: of counts of any unit up to 2^40. They are
+// stored by the size of what is counted, so memory is touched for the sizes that occur only.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+
+namespace lockstep::host {
+
+class Histograms {
+ public:
+  explicit Histograms(std::size_t many);
+
+  // Allocates nothing.
+  void record(std::size_t which, std::uint64_t value) {
+    std::uint32_t& count = at(which, value);
+    if (++count == 0) [[unlikely]]
+      halve(which, count);
+  }
+
+  // How many values were recorded. From 2^32 in one bucket on it is rounded.
+  std::uint64_t count(std::size_t which) const;
+  // The smallest value that at least `fraction` (in [0, 1]) of all do not exceed, never too small
+  // and at most a sixteenth too large; 0 when nothing was recorded.
+  std::uint64_t quantile(std::size_t which, double fraction) const;
+
+ private:
+  // A row has the values of one number of binary digits, the first all that have up to four.
+  static constexpr unsigned kBits = 4, kInRow = 1u << kBits, kRows = 37;
+
+  std::uint32_t& at(std::size_t which, std::uint64_t value) {
+    constexpr std::uint64_t kLargest = (std::uint64_t{1} << (kRows - 1 + kBits)) - 1;
+    value = std::min(value, kLargest);
+    const auto row = static_cast<unsigned>(std::bit_width(value | (kInRow - 1))) - kBits;
+    const unsigned shift = row - (row != 0 ? 1u : 0u);
+    return of(which, row)[(value >> shift) & (kInRow - 1)];
+  }
+  std::uint32_t* of(std::size_t which, unsigned row) const {
+    return &counts_[(row * many_ + which) * kInRow];
+  }
+  void halve(std::size_t which, std::uint32_t& full);
+
+  struct Free {
+    void operator()(std::uint32_t* counts) const { std::free(counts); }
+  };
+  std::size_t many_;
+  std::unique_ptr<std::uint32_t[], Free> counts_;  // of calloc, which does not touch it
+};
+
+}  // namespace lockstep::host

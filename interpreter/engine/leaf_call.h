@@ -1,0 +1,132 @@
+// What is around each call of a leaf: its mark, its time, the floating-point mode. And the leaf of
+// a plugin in the loop of its parent, which is the ordinary call with as little as possible around
+// it.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/node_context.h"
+#include "lockstep/leaf.h"
+
+namespace lockstep::host {
+
+// Any call, also one that an exception ends and one within another.
+class LeafCall {
+ public:
+  LeafCall(NodeContext& context, NodeIndex node, const LeafSlot& leaf, PluginFunction function)
+      : context_(context),
+        mark_(CallMark::this_thread()),
+        node_(node),
+        function_(function),
+        around_(mark_.enter(*leaf.site, function)),
+        in_line_(std::exchange(context.in_line_, nullptr)) {
+    if (context.watch_ != nullptr) begun_ = context.watch_->begin(mark_);
+  }
+  ~LeafCall() {
+    mark_.leave(around_);
+    if (context_.watch_ != nullptr) {
+      const std::uint32_t place = context_.node(node_).params;
+      context_.watch_->end(begun_, place, node_, function_, mark_);
+    }
+    context_.in_line_ = context_.state_.interrupted ? nullptr : in_line_;
+  }
+  LeafCall(const LeafCall&) = delete;
+  LeafCall& operator=(const LeafCall&) = delete;
+
+  // NodeContext::tick and progress of a child, with an action of a plugin in line. For the loops of
+  // control nodes over their children.
+  [[gnu::always_inline]] static Status tick(NodeContext& context, NodeIndex node) {
+    return tick_and_pass(context, node);
+  }
+  // The same, and `child` is the sibling after it then: of a leaf that is known at once.
+  [[gnu::always_inline]] static Status tick_and_pass(NodeContext& context, NodeIndex& child);
+  [[gnu::always_inline]] static double progress(NodeContext& context, NodeIndex node);
+
+  // A call with nothing around it but a mark and its time, for a leaf while can_be_in_line. After
+  // an exception, which is a fault then, it returns -1.
+  template <PluginFunction kFunction, class Result>
+  [[gnu::always_inline]] static Result in_line(NodeContext& context, NodeIndex node,
+                                               const LeafSlot& leaf, Result (*function)(void*));
+  static bool can_be_in_line(const NodeContext& context) { return context.in_line_ != nullptr; }
+
+ private:
+  // In nodes/leaf.cpp: what did not go well.
+  static Status spoiled_tick(NodeContext& context, NodeIndex node, lockstep_status result);
+  static double spoiled_progress(NodeContext& context, NodeIndex node, double reported);
+  static void note_exception(NodeContext& context, NodeIndex node);
+
+  NodeContext& context_;
+  CallMark& mark_;
+  const NodeIndex node_;
+  const PluginFunction function_;
+  const CallMark::Look around_;
+  CallMark* const in_line_;
+  LeafWatch::Begun begun_;
+};
+
+template <PluginFunction kFunction, class Result>
+inline Result LeafCall::in_line(NodeContext& context, NodeIndex node, const LeafSlot& leaf,
+                                Result (*function)(void*)) {
+  CallMark& mark = *context.in_line_;
+  mark.enter_alone(*leaf.site, kFunction);
+  Result result = -1;
+  try {
+    result = function(leaf.self);
+  } catch (...) {
+    note_exception(context, node);
+  }
+  mark.leave();
+  if (context.timer_ != nullptr) {
+    context.timer_->note(context.node(node).params, node, kFunction, mark);
+  }
+  return result;
+}
+
+inline Status LeafCall::tick_and_pass(NodeContext& context, NodeIndex& child) {
+  const NodeIndex node = child;
+  const Node& it = context.nodes_[node];
+  if (it.kind != &kPluginAction || context.in_line_ == nullptr) {
+    child = it.end;
+    return context.tick(node);
+  }
+  ++child;
+  LeafSlot& leaf = context.leaves_.data()[it.params];
+  const Activity before = context.state_.activity[node];
+  const bool is_simple =
+      before == Activity::Running || (before != Activity::Paused && leaf.type->start == nullptr);
+  if (!is_simple || leaf.failed || leaf.unreset) return context.tick_apart(node);
+  leaf.started = true;
+  const lockstep_status result =
+      in_line<PluginFunction::Tick>(context, node, leaf, leaf.type->tick);
+  constexpr auto kResults = static_cast<unsigned>(kLastStatus);
+  const bool is_result = static_cast<unsigned>(result - LOCKSTEP_RUNNING) < kResults;
+  if (leaf.error != nullptr || !is_result) [[unlikely]]
+    return spoiled_tick(context, node, result);
+  context.state_.activity[node] = static_cast<Activity>(result);
+  context.state_.last_tick[node] = context.state_.tick_number;
+  return static_cast<Status>(result);
+}
+
+inline double LeafCall::progress(NodeContext& context, NodeIndex node) {
+  const Activity activity = context.activity(node);
+  if (status_of(activity) != Status::Running) return activity == Activity::Success ? 1.0 : 0.0;
+  const Node& it = context.nodes_[node];
+  if (it.kind != &kPluginAction) return it.kind->progress(context, node);
+  const LeafSlot& leaf = context.leaves_.data()[it.params];
+  if (leaf.failed) return 0.0;
+  double reported = 0.0;
+  if (leaf.kept_progress != nullptr) {
+    reported = leaf.read_progress();
+  } else if (leaf.type->progress == nullptr) {
+    return 0.0;
+  } else if (context.in_line_ != nullptr) {
+    reported = in_line<PluginFunction::Progress>(context, node, leaf, leaf.type->progress);
+  } else {
+    return it.kind->progress(context, node);
+  }
+  if (leaf.error == nullptr && reported >= 0.0 && reported <= 1.0) [[likely]]
+    return reported;
+  return spoiled_progress(context, node, reported);
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,73 @@
+// Where the ports of a leaf read and write. A getter that finds a value of its type needs only the
+// port's pointer in a table; all the rest of a port lies elsewhere.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/node_type.h"
+#include "engine/blackboard.h"
+#include "lockstep/leaf.h"
+
+struct lockstep_caller;
+
+namespace lockstep::host {
+
+// What a port has handed out or made of a value, until it does so again. Few ports need it.
+struct PortMemory {
+  std::vector<lockstep_text> texts = {};
+  Object packed = {}, unpacked = {};  // an object of another process, and what it was made into
+  // What the entry has, as a value of the port's type: it may have another in trees that say so.
+  Value converted = {};
+  std::string given = {};  // for lockstep_place's `given`
+};
+
+struct BoundPort {
+  const Parameter* parameter = nullptr;  // null: it was opened by a key
+  const Value* read = nullptr;           // null: no value
+  Entry* write = nullptr;                // null: an input, or not bound to an entry
+  const Value* fallback = nullptr;       // the default, while the entry has no value
+  std::string_view entry = {};
+  std::unique_ptr<PortMemory> memory = {};
+  ValueType type = ValueType::String;
+  bool is_strict = true;    // the entry holds values of its type only
+  bool is_generic = false;  // takes values of any type; `type` is String
+  bool has_limits = false;  // `parameter` does not take every value of its type
+  bool is_checked = false;  // `read` is a constant within the limits
+
+  std::string_view name() const { return parameter != nullptr ? parameter->name : entry; }
+  const ObjectType* object() const { return parameter != nullptr ? parameter->object : nullptr; }
+  // The tree binds it to no entry: what the leaf sets is discarded.
+  bool is_unbound() const {
+    return parameter != nullptr && parameter->direction != Direction::Input && write == nullptr;
+  }
+  // Each value that is read has to be compared with the limits.
+  bool must_be_checked() const { return has_limits && !is_checked; }
+  // What a getter may hand out without a further look if it has the getter's type. Never null.
+  const Value* ordinary() const;
+  PortMemory& remembered();
+};
+
+bool has_limits(const Parameter& port);
+
+// The ports of some callers. The callers point into it.
+class PortTable {
+ public:
+  void reserve(std::size_t ports);
+  void add(BoundPort&& port);
+  std::size_t size() const { return ports_.size(); }
+  // The ports from `first` on.
+  void give_to(lockstep_caller& caller, std::size_t first = 0);
+  BoundPort& operator[](std::size_t port) { return ports_[port]; }
+
+ private:
+  std::vector<BoundPort> ports_;
+  std::vector<const Value*> ordinary_;  // of each
+};
+
+// Adds those of a node.
+void bind_ports(const Tree& tree, const LeafNode& node, Blackboard& blackboard, PortTable& ports);
+
+}  // namespace lockstep::host
