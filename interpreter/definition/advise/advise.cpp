@@ -15,12 +15,13 @@ constexpr int kMostTold = 10;  // of a node; the first few show what is meant
 class Adviser {
  public:
   Adviser(const Definition& definition, const Reporter& report)
-      : definition_(definition), report_(report), conduct_(conducts()) {}
+      : definition_(definition), report_(report) {}
 
-  void advise() const {
+  void advise() {
     for (std::uint32_t node = 0; node < definition_.nodes.size(); ++node) {
       const NodeType& type = *at(node).type;
       if (definition_.forgets(at(node))) {
+        if (conduct_.empty()) conduct_ = conducts();
         type.goes_on_after != Status::Idle ? restarts(node) : restarts_completed(node);
       }
       if (!compares_progress(type.synchronization)) continue;
@@ -283,6 +284,7 @@ class Adviser {
 
   template <class Visit>
   void for_each_port(Visit visit) const {
+    if (definition_.entries.empty()) return;
     for (std::uint32_t node = 0; node < definition_.nodes.size(); ++node) {
       const NodeType& type = *at(node).type;
       for (std::uint32_t i = 0; i < type.parameters.size(); ++i) {
@@ -294,7 +296,7 @@ class Adviser {
 
   const Definition& definition_;
   const Reporter& report_;
-  const std::vector<Conduct> conduct_;
+  std::vector<Conduct> conduct_;  // of each node; empty: no node was asked for it yet
 };
 
 }  // namespace

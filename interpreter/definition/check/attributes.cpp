@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "core/identifier.h"
@@ -24,23 +25,61 @@ constexpr auto kOwnAttributes =
     "attributes that begin with '_' are reserved (_autoremap, _description), so such a key "
     "cannot be remapped";
 
-// What every node may have.
-bool is_common_attribute(std::string_view name) {
-  return name == "name" || name == "_description";
-}
-
 // "key" when `text` is "{key}", else "".
 std::string_view key_of(std::string_view text) {
   const bool braced = text.size() > 2 && text.front() == '{' && text.back() == '}';
   return braced ? text.substr(1, text.size() - 2) : std::string_view();
 }
 
+void check_name(const Attribute& name, const Reporter& report) {
+  if (name.value.empty()) report.at_value(name.place, "the name is empty");
+  if (name.value.find('/') != std::string_view::npos) {
+    report.at_value(name.place, fmt::format("the name '{}' contains '/'", brief(name.value)),
+                    "'/' separates the names in a node's path");
+  }
+}
+
+// The key of {key}; "" when that is an error, which is reported.
+std::string_view checked_key(const Reporter& report, const NodeType& type,
+                             const Parameter& parameter, Place place, std::string_view key) {
+  if (parameter.constant) {
+    report.at_value(
+        place, fmt::format("'{}' of '{}' cannot be a blackboard entry", parameter.name, type.id),
+        "it is fixed when the tree is loaded: write a value, or ${name} with an <arg>");
+    return {};
+  }
+  if (is_identifier(key)) return key;
+  report.at_value(place, fmt::format("'{}' is not a key", brief(key)),
+                  fmt::format("a key is {}", kIdentifierRule));
+  return {};
+}
+
+// A stand-in for a node that no plugin has: how that uses the port is not known.
+bool is_guessed(const NodeType& type, const Parameter& parameter) {
+  return type.mock != nullptr && parameter.is_generic;
+}
+
 class AttributeChecker {
  public:
-  AttributeChecker(const NodeElement& element, const Reporter& report, const CheckedNode& node,
-                   const LanguageRules& rules)
-      : element_(element), report_(report), node_(node), rules_(rules) {}
+  AttributeChecker(const NodeElement& element, const Reporter& report,
+                   const AttributeLayout& layout, CheckedNode& node, CheckedTrees& trees)
+      : element_(element),
+        report_(report),
+        layout_(layout),
+        node_(node),
+        trees_(trees),
+        rules_(*trees.rules) {}
 
+  void check() {
+    if (layout_.name != AttributeLayout::kNone) {
+      check_name(element_.attributes[layout_.name], report_);
+    }
+    if (layout_.has_unknown) find_unknown();
+    check_parameters();
+    if (layout_.has_hooks) check_hooks(element_, report_, node_, trees_);
+  }
+
+ private:
   void find_unknown() const {
     for (const Attribute& attribute : element_.attributes) {
       const std::string_view name = attribute.name;
@@ -53,27 +92,102 @@ class AttributeChecker {
     }
   }
 
-  // The value of a parameter as written in `attribute` or by default; monostate when absent or
-  // wrong.
-  Value constant(const Parameter& parameter, const Attribute* attribute) const {
-    if (attribute == nullptr) return absent(parameter);
-    auto value = parse_value(parameter.type, parameter.object, attribute->value);
-    // A wrong or missing argument was already reported; $${ is a literal, and wrong here.
-    const bool unknown = attribute->value.find("${") != std::string_view::npos;
-    if (!value && unknown && report_.has_errors()) return {};
-    if (!value) {
-      report_no_value(*attribute, report_, *node_.type, parameter);
-      return {};
-    }
-    if (const auto refused = refuse_value(parameter, *value)) {
-      report_refusal(*attribute, report_, *node_.type, parameter, *refused);
-      return {};
-    }
-    // Moved: g++ 12 destroys the result when it cannot be copied, though there is none.
-    return *std::move(value);
+  void check_parameters() {
+    node_.first = static_cast<std::uint32_t>(trees_.ports.size());
+    trees_.ports.insert(trees_.ports.end(), layout_.ports.begin(), layout_.ports.end());
+    bool good = true;
+    for (const AttributeLayout::Given given : layout_.given) good &= check_parameter(given);
+    if (good && node_.type->rule != nullptr) apply_rule();
   }
 
- private:
+  // What one parameter is: a value, a key with its default, a script. False after an error.
+  bool check_parameter(AttributeLayout::Given given) {
+    const Parameter& parameter = node_.type->parameters[given.parameter];
+    CheckedPort& port = trees_.ports[node_.first + given.parameter];
+    if (given.attribute == AttributeLayout::kNone) return check_absent(parameter, port);
+    const Attribute& attribute = element_.attributes[given.attribute];
+    if (parameter.is_script) {
+      return read_script(attribute, report_, EmptyScript::IsRefused, port, trees_);
+    }
+    const auto key = key_of(attribute.value);
+    if (key.empty()) return check_value(attribute, parameter, port);
+    port.place = attribute.place;
+    port.key = checked_key(report_, *node_.type, parameter, attribute.place, key);
+    port.value = layout_.defaults[given.parameter];
+    return !port.key.empty();
+  }
+
+  // It is left out, and has no default.
+  bool check_absent(const Parameter& parameter, CheckedPort& port) const {
+    if (parameter.default_key.empty()) {
+      missing(parameter);
+      return false;
+    }
+    port.place = element_.place;
+    port.key = parameter.default_key;
+    return true;
+  }
+
+  bool check_value(const Attribute& attribute, const Parameter& parameter, CheckedPort& port) {
+    if (!parameter.group.empty()) port.place = attribute.place;
+    if (parameter.direction != Direction::Input && !is_guessed(*node_.type, parameter)) {
+      report_.at_value(attribute.place,
+                       fmt::format("the {} '{}' needs a blackboard entry",
+                                   parameter.direction == Direction::Output ? "output" : "inout",
+                                   parameter.name),
+                       fmt::format("write {}=\"{{key}}\"", parameter.name));
+      return false;
+    }
+    auto value = constant(parameter, attribute);
+    if (!value) return false;
+    port.value = static_cast<std::uint32_t>(trees_.values.size());
+    trees_.values.push_back(*std::move(value));
+    return true;
+  }
+
+  // The rule may fill in values, so the node gets its own ones, side by side.
+  void apply_rule() {
+    const auto& parameters = node_.type->parameters;
+    const std::size_t first = trees_.values.size();
+    trees_.values.resize(first + parameters.size());
+    const auto ports = std::span(trees_.ports).subspan(node_.first, parameters.size());
+    const auto values = std::span(trees_.values).subspan(first);
+    for (std::size_t i = 0; i < ports.size(); ++i) {
+      if (parameters[i].is_script || ports[i].value == Port::kNone) continue;
+      values[i] = trees_.values[ports[i].value];
+    }
+    check_rule(element_, report_, node_, ports, values);
+    for (std::size_t i = 0; i < ports.size(); ++i) {
+      if (std::holds_alternative<NoValue>(values[i])) continue;
+      ports[i].value = static_cast<std::uint32_t>(first + i);
+    }
+  }
+
+  // The value that is written in `attribute`; nothing when it is wrong.
+  std::optional<Value> constant(const Parameter& parameter, const Attribute& attribute) const {
+    auto value = parse_value(parameter.type, parameter.object, attribute.value);
+    if (!value) {
+      // A wrong or missing argument was already reported; $${ is a literal, and wrong here.
+      const bool unknown = attribute.value.find("${") != std::string_view::npos;
+      if (!unknown || !report_.has_errors()) {
+        report_no_value(attribute, report_, *node_.type, parameter);
+      }
+      return value;
+    }
+    if (const auto refused = refuse_value(parameter, *value)) {
+      report_refusal(attribute, report_, *node_.type, parameter, *refused);
+      value.reset();
+    }
+    return value;
+  }
+
+  void missing(const Parameter& parameter) const {
+    if (is_misspelled(parameter)) return;
+    report_.at(element_.place,
+               fmt::format("'{}' needs the parameter '{}'", node_.type->id, parameter.name),
+               parameters_hint(*node_.type));
+  }
+
   // A leaf of a plugin only shares its name with a node of another library.
   std::string_view foreign_tag() const { return node_.type->leaf == nullptr ? node_.type->id : ""; }
 
@@ -81,16 +195,6 @@ class AttributeChecker {
     std::string hint = foreign_attribute_hint(foreign_tag(), attribute);
     if (!hint.empty()) return hint;
     return join_hints(did_you_mean(attribute.name, names()), parameters_hint(*node_.type));
-  }
-
-  Value absent(const Parameter& parameter) const {
-    if (parameter.default_text) return *parse_value(parameter.type, *parameter.default_text);
-    if (parameter.required && !is_misspelled(parameter)) {
-      report_.at(element_.place,
-                 fmt::format("'{}' needs the parameter '{}'", node_.type->id, parameter.name),
-                 parameters_hint(*node_.type));
-    }
-    return {};
   }
 
   // An unknown attribute means this parameter: one error is enough.
@@ -128,96 +232,11 @@ class AttributeChecker {
 
   const NodeElement& element_;
   const Reporter& report_;
-  const CheckedNode& node_;
+  const AttributeLayout& layout_;
+  CheckedNode& node_;
+  CheckedTrees& trees_;
   const LanguageRules& rules_;
 };
-
-void check_name(const NodeElement& element, const Reporter& report) {
-  const Attribute* name = find_attribute(element.attributes, "name");
-  if (name == nullptr) return;
-  if (name->value.empty()) report.at_value(name->place, "the name is empty");
-  if (name->value.find('/') != std::string_view::npos) {
-    report.at_value(name->place, fmt::format("the name '{}' contains '/'", brief(name->value)),
-                    "'/' separates the names in a node's path");
-  }
-}
-
-// The key of {key}; "" when that is an error, which is reported.
-std::string_view checked_key(const Reporter& report, const NodeType& type,
-                             const Parameter& parameter, Place place, std::string_view key) {
-  if (parameter.constant) {
-    report.at_value(
-        place, fmt::format("'{}' of '{}' cannot be a blackboard entry", parameter.name, type.id),
-        "it is fixed when the tree is loaded: write a value, or ${name} with an <arg>");
-    return {};
-  }
-  if (is_identifier(key)) return key;
-  report.at_value(place, fmt::format("'{}' is not a key", brief(key)),
-                  fmt::format("a key is {}", kIdentifierRule));
-  return {};
-}
-
-// A stand-in for a node that no plugin has: how that uses the port is not known.
-bool is_guessed(const NodeType& type, const Parameter& parameter) {
-  return type.mock != nullptr && parameter.is_generic;
-}
-
-// What one parameter is: a value, a key with its default, or nothing. False after an error.
-bool check_parameter(const NodeElement& element, const Reporter& report,
-                     const AttributeChecker& checker, const NodeType& type,
-                     const Parameter& parameter, CheckedPort& port, Value& value) {
-  const Attribute* attribute = find_attribute(element.attributes, parameter.name);
-  const auto key = attribute == nullptr ? std::string_view() : key_of(attribute->value);
-  if (!key.empty()) {
-    port.place = attribute->place;
-    port.key = checked_key(report, type, parameter, attribute->place, key);
-    if (parameter.default_text) value = *parse_value(parameter.type, *parameter.default_text);
-    return !port.key.empty();
-  }
-  if (attribute == nullptr && !parameter.default_key.empty()) {
-    port.place = element.place;
-    port.key = parameter.default_key;
-    return true;
-  }
-  if (attribute != nullptr && !parameter.group.empty()) port.place = attribute->place;
-  if (attribute != nullptr && parameter.direction != Direction::Input &&
-      !is_guessed(type, parameter)) {
-    report.at_value(
-        attribute->place,
-        fmt::format("the {} '{}' needs a blackboard entry",
-                    parameter.direction == Direction::Output ? "output" : "inout", parameter.name),
-        fmt::format("write {}=\"{{key}}\"", parameter.name));
-    return false;
-  }
-  value = checker.constant(parameter, attribute);
-  const bool absent = std::holds_alternative<NoValue>(value);
-  return !absent || (attribute == nullptr && !parameter.required);
-}
-
-void check_parameters(const NodeElement& element, const Reporter& report,
-                      const AttributeChecker& checker, CheckedNode& node, CheckedTrees& trees) {
-  const auto& parameters = node.type->parameters;
-  const std::size_t first_value = trees.values.size();
-  node.first = static_cast<std::uint32_t>(trees.ports.size());
-  trees.ports.resize(node.first + parameters.size());
-  trees.values.resize(first_value + parameters.size());
-  const auto ports = std::span(trees.ports).subspan(node.first);
-  const auto values = std::span(trees.values).subspan(first_value);
-  bool good = true;
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const Attribute* script =
-        parameters[i].is_script ? find_attribute(element.attributes, parameters[i].name) : nullptr;
-    good &= script != nullptr
-                ? read_script(*script, report, EmptyScript::IsRefused, ports[i], trees)
-                : check_parameter(element, report, checker, *node.type, parameters[i], ports[i],
-                                  values[i]);
-  }
-  if (good) check_rule(element, report, node, ports, values);
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    if (std::holds_alternative<NoValue>(values[i])) continue;
-    ports[i].value = static_cast<std::uint32_t>(first_value + i);
-  }
-}
 
 }  // namespace
 
@@ -279,17 +298,16 @@ std::string parameters_hint(const NodeType& type) {
 }
 
 void check_attributes(const NodeElement& element, const Reporter& report, CheckedNode& node,
-                      CheckedTrees& trees) {
-  const AttributeChecker checker(element, report, node, *trees.rules);
-  check_name(element, report);
-  checker.find_unknown();
-  check_parameters(element, report, checker, node, trees);
-  if (node.type->category != NodeCategory::Group) check_hooks(element, report, node, trees);
+                      AttributeLayouts& layouts, CheckedTrees& trees) {
+  const AttributeLayout& layout = layouts.of(element, *node.type, trees);
+  AttributeChecker(element, report, layout, node, trees).check();
 }
 
 void check_subtree_attributes(const NodeElement& element, const Reporter& report, CheckedNode& node,
                               CheckedSubTree& subtree, CheckedTrees& trees) {
-  check_name(element, report);
+  if (const Attribute* named = find_attribute(element.attributes, "name")) {
+    check_name(*named, report);
+  }
   check_hooks(element, report, node, trees);
   subtree.first = static_cast<std::uint32_t>(trees.remappings.size());
   for (const auto& [name, value, place] : element.attributes) {

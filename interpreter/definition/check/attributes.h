@@ -3,23 +3,17 @@
 
 #include <span>
 
+#include "definition/check/attribute_layout.h"
 #include "definition/checked_tree.h"
 #include "document/element.h"
 #include "document/reporter.h"
 
 namespace lockstep::host {
 
-// The parts of an element that the check of a node reads.
-struct NodeElement {
-  Place place;
-  std::span<const Attribute> attributes;
-  bool is_explicit;  // its ID attribute names the type
-};
-
 // Checks the attributes of `node` (whose type and children are known) against its type and appends
 // its values or ports to `trees`.
 void check_attributes(const NodeElement& element, const Reporter& report, CheckedNode& node,
-                      CheckedTrees& trees);
+                      AttributeLayouts& layouts, CheckedTrees& trees);
 
 // The rule of its type about the parameters of `node`, as a part of check_attributes. What follows
 // from values that entries give follows during the run, so it is not filled in here.

@@ -45,9 +45,14 @@ class TreeChecker {
       : project_(project), catalog_(catalog), report_(project.sources, diagnostics) {}
 
   CheckedTrees check() {
-    std::size_t elements = 0;
-    for (const auto& document : project_.documents) elements += document->elements().size();
+    std::size_t elements = 0, attributes = 0;
+    for (const auto& document : project_.documents) {
+      elements += document->elements().size();
+      const Element& last = document->elements().back();
+      attributes += last.first_attribute + last.attribute_count;
+    }
     trees_.nodes.reserve(elements);
+    trees_.values.reserve(attributes);
     for (const auto& document : project_.documents) {
       document_ = document.get();
       elements_ = document->elements();
@@ -124,7 +129,7 @@ class TreeChecker {
     CheckedNode group;
     group.type = &type;
     group.place = element(index).place;
-    check_attributes({group.place, attributes(index), false}, report_, group, trees_);
+    check_attributes({group.place, attributes(index), false}, report_, group, layouts_, trees_);
     keep_written({group.place, attributes(index), false}, group, trees_);
     const Attribute* name = find_attribute(attributes(index), "name");
     if (name == nullptr) {
@@ -253,7 +258,7 @@ class TreeChecker {
       node.first = count(trees_.subtrees);
       trees_.subtrees.push_back(subtree);
     } else if (!bare || !node.type->parameters.empty()) {
-      check_attributes(element, report_, node, trees_);
+      check_attributes(element, report_, node, layouts_, trees_);
     }
     if (!bare) keep_written(element, node, trees_);
   }
@@ -319,6 +324,7 @@ class TreeChecker {
   const Catalog& catalog_;
   const Reporter report_;
   CheckedTrees trees_;
+  AttributeLayouts layouts_;
   CheckedTree tree_;                          // that is being checked
   std::map<std::string_view, Place> places_;  // of the trees, by ID
   std::map<std::string_view, Place> group_places_;

@@ -37,6 +37,7 @@ class Expander {
     members_.resize(trees_.groups.size());
     for (std::size_t i = 0; i < members_.size(); ++i) groups_.emplace(trees_.groups[i].name, i);
     definition_.nodes.reserve(trees_.nodes.size());  // without subtrees, all that will be needed
+    definition_.ports.reserve(trees_.ports.size());
     Scope scope(definition_.entries, *trees_.rules);
     for (const auto& [key, text] : values_) scope.set_text(key, text);
     if (trees_.names_at_run_time) definition_.boards.emplace_back();
@@ -187,29 +188,39 @@ class Expander {
   std::uint32_t bind_ports(const CheckedNode& checked, Scope& scope) {
     if (shared_[checked.first] != Port::kNone) return shared_[checked.first];
     const auto first = static_cast<std::uint32_t>(definition_.ports.size());
+    const auto& parameters = checked.type->parameters;
+    definition_.ports.resize(first + parameters.size());
+    Port* bound = definition_.ports.data() + first;
+    const CheckedPort* port = trees_.ports.data() + checked.first;
     bool constant = true;
-    for (std::uint32_t i = 0; i < checked.type->parameters.size(); ++i) {
-      const CheckedPort& port = trees_.ports[checked.first + i];
-      const Parameter& parameter = checked.type->parameters[i];
-      Port bound{.value = port.value};
-      if (!port.key.empty()) {
+    for (const Parameter& parameter : parameters) {
+      const bool is_script = port->value != Port::kNone && parameter.is_script;
+      if (port->key.empty() && !is_script) {
+        bound->value = port->value;
+      } else {
         constant = false;
-        const bool is_none =
-            parameter.own_only && port.is_name(parameter) && !scope.is_own(port.key);
-        if (parameter.is_script) {
-          bound = {.script = add_script({.entries = {use(port, parameter, scope)}})};
-        } else if (!is_none) {
-          bound.entry = is_guessed(*checked.type, parameter) ? use_guessed(port, scope)
-                                                             : use(port, parameter, scope);
-        }
-      } else if (parameter.is_script && port.value != Port::kNone) {
-        constant = false;
-        bound = {.script = bind_script(trees_.scripts[port.value], scope)};
+        *bound = bind(*port, parameter, *checked.type, scope);
       }
-      definition_.ports.push_back(bound);
+      ++bound, ++port;
     }
     if (constant) shared_[checked.first] = first;
     return first;
+  }
+
+  // What is not a constant.
+  Port bind(const CheckedPort& port, const Parameter& parameter, const NodeType& type,
+            Scope& scope) {
+    if (port.key.empty()) return {.script = bind_script(trees_.scripts[port.value], scope)};
+    if (parameter.is_script) {
+      return {.script = add_script({.entries = {use(port, parameter, scope)}})};
+    }
+    const bool is_none = parameter.own_only && port.is_name(parameter) && !scope.is_own(port.key);
+    Port bound{.value = port.value};
+    if (!is_none) {
+      bound.entry =
+          is_guessed(type, parameter) ? use_guessed(port, scope) : use(port, parameter, scope);
+    }
+    return bound;
   }
 
   // Those of one node; `script` is its first.

@@ -28,6 +28,7 @@ class Declarer {
     for (const auto& [entry, text] : starts_) declare_started(definition_.entries[entry], text);
     declare_made();
     for (const std::uint32_t entry : guessed_) declare_guessed(definition_.entries[entry]);
+    if (definition_.scripts.empty()) return;
     const std::vector<bool> conditions = definition_.conditions();
     types_.resize(definition_.scripts.size());
     for (std::size_t i = 0; i < definition_.scripts.size(); ++i) {

@@ -1,0 +1,62 @@
+// What the attributes of a node are to its type. Nodes of one type mostly have the same attributes,
+// so their names are only compared with those of the node before; what they are is looked up, and
+// the defaults of the others are read, when that differs.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "definition/checked_tree.h"
+#include "document/element.h"
+
+namespace lockstep::host {
+
+// The parts of an element that the check of a node reads.
+struct NodeElement {
+  Place place;
+  std::span<const Attribute> attributes;
+  bool is_explicit;  // its ID attribute names the type
+};
+
+// What every node may have.
+constexpr bool is_common_attribute(std::string_view name) {
+  return name == "name" || name == "_description";
+}
+
+struct AttributeLayout {
+  static constexpr std::uint32_t kNone = 0xffffffff;
+
+  // A parameter that is to be looked at in each node, and its attribute; kNone: it is left out.
+  struct Given {
+    std::uint32_t parameter, attribute;
+  };
+
+  std::vector<std::string_view> names;  // of the attributes
+  bool is_explicit = false;
+  std::uint32_t name = kNone;  // the attribute that names the node
+  bool has_unknown = false;    // an attribute that the type does not have
+  bool has_hooks = false;      // an attribute with a script around ticks
+  std::vector<Given> given;    // in the order of the parameters
+  // Of all parameters; complete where it is not in `given`.
+  std::vector<CheckedPort> ports;
+  // Of each parameter: its default in CheckedTrees::values, or kNone.
+  std::vector<std::uint32_t> defaults;
+
+  bool fits(const NodeElement& element) const;
+};
+
+class AttributeLayouts {
+ public:
+  // Of a node of this type. Valid until the next call. Appends defaults to trees.values.
+  const AttributeLayout& of(const NodeElement& element, const NodeType& type, CheckedTrees& trees);
+
+ private:
+  std::unordered_map<const NodeType*, AttributeLayout> last_;  // of each type
+  const NodeType* last_type_ = nullptr;
+  AttributeLayout* last_of_type_ = nullptr;
+};
+
+}  // namespace lockstep::host
