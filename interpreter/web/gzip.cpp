@@ -6,31 +6,49 @@
 #include <array>
 #include <limits>
 #include <new>
+#include <utility>
 
 namespace lockstep::host {
 
-std::string gzip(std::string_view bytes) {
-  constexpr int kWindow = 15, kGzip = 16, kMemory = 8;
+struct Gzip::State {
   z_stream stream{};
-  if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, kWindow + kGzip, kMemory,
+  std::array<char, 1u << 16u> part;
+};
+
+Gzip::Gzip(Sink sink) : sink_(std::move(sink)), state_(std::make_unique<State>()) {
+  constexpr int kWindow = 15, kGzip = 16, kMemory = 8;
+  if (deflateInit2(&state_->stream, Z_BEST_COMPRESSION, Z_DEFLATED, kWindow + kGzip, kMemory,
                    Z_DEFAULT_STRATEGY) != Z_OK) {
     throw std::bad_alloc();
   }
-  std::string result;
-  std::array<char, 1u << 16u> part;
-  int state = Z_OK;
-  while (state != Z_STREAM_END) {
+}
+
+Gzip::~Gzip() {
+  deflateEnd(&state_->stream);
+}
+
+void Gzip::add(std::string_view bytes) {
+  while (!bytes.empty()) {
     const auto length = std::min<std::size_t>(bytes.size(), std::numeric_limits<uInt>::max() / 2);
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-    stream.avail_in = static_cast<uInt>(length);
+    compress(bytes.substr(0, length), false);
+    bytes.remove_prefix(length);
+  }
+}
+
+void Gzip::finish() {
+  compress({}, true);
+}
+
+void Gzip::compress(std::string_view bytes, bool is_end) {
+  auto& [stream, part] = *state_;
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  do {
     stream.next_out = reinterpret_cast<Bytef*>(part.data());
     stream.avail_out = static_cast<uInt>(part.size());
-    state = deflate(&stream, length == bytes.size() ? Z_FINISH : Z_NO_FLUSH);
-    bytes.remove_prefix(length - stream.avail_in);
-    result.append(part.data(), part.size() - stream.avail_out);
-  }
-  deflateEnd(&stream);
-  return result;
+    deflate(&stream, is_end ? Z_FINISH : Z_NO_FLUSH);
+    sink_({part.data(), part.size() - stream.avail_out});
+  } while (stream.avail_out == 0);  // else it has taken all bytes
 }
 
 }  // namespace lockstep::host

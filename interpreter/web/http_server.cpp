@@ -13,6 +13,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "core/clock.h"
 #include "core/value.h"
 #include "system/late_library.h"
 

@@ -4,7 +4,6 @@
 
 #include <memory>
 
-#include "core/clock.h"
 #include "system/file_descriptor.h"
 #include "web/answer.h"
 

@@ -1,6 +1,7 @@
 #include "web/page.h"
 
-#include "web/gzip.h"
+#include <utility>
+
 #include "web/page_text.h"
 
 namespace lockstep::host {
@@ -22,36 +23,34 @@ std::string without_tags(std::string_view json) {
   return text;
 }
 
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view kLetters =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned group = 0;
-    for (std::size_t byte = i; byte < i + 3; ++byte) {
-      group = group << 8u | (byte < bytes.size() ? static_cast<unsigned char>(bytes[byte]) : 0u);
-    }
-    for (unsigned letter = 0; letter < 4; ++letter) {
-      const bool pads = i + letter > bytes.size();
-      text += pads ? '=' : kLetters[group >> (18 - 6 * letter) & 63u];
-    }
-  }
-  return text;
+// The page in front of the source, and behind it.
+std::pair<std::string_view, std::string_view> parts_around_source() {
+  const std::size_t begin = kPage.find(kSourceBegin) + kSourceBegin.size();
+  return {kPage.substr(0, begin), kPage.substr(kPage.find('<', begin))};
 }
+
+constexpr std::string_view kRecordingBegin = R"({"recording":")", kRecordingEnd = R"("})";
 
 }  // namespace
 
 std::string page_with_source(std::string_view source) {
-  const std::size_t begin = kPage.find(kSourceBegin) + kSourceBegin.size();
-  const std::size_t end = kPage.find('<', begin);
-  std::string page(kPage.substr(0, begin));
-  page += without_tags(source);
-  return page += kPage.substr(end);
+  const auto [before, behind] = parts_around_source();
+  return std::string(before) + without_tags(source) + std::string(behind);
 }
 
-std::string page_with_recording(std::string_view recording) {
-  return page_with_source("{\"recording\":\"" + base64(gzip(recording)) + "\"}");
+RecordingPage::RecordingPage(Gzip::Sink sink)
+    : sink_(std::move(sink)),
+      base64_(sink_),
+      gzip_([this](std::string_view bytes) { base64_.add(bytes); }) {
+  sink_(parts_around_source().first);
+  sink_(kRecordingBegin);
+}
+
+void RecordingPage::finish() {
+  gzip_.finish();
+  base64_.finish();
+  sink_(kRecordingEnd);
+  sink_(parts_around_source().second);
 }
 
 std::string_view page_policy() {

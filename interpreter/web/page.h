@@ -5,12 +5,30 @@
 #include <string>
 #include <string_view>
 
+#include "web/base64.h"
+#include "web/gzip.h"
+
 namespace lockstep::host {
 
 // The page as it was built; `source` is an object of JSON that tells it where it finds the run.
 std::string page_with_source(std::string_view source);
-// The page with this recording in it, which needs nothing else.
-std::string page_with_recording(std::string_view recording);
+
+// Makes the page with a recording in it, which needs nothing else, while the recording is read:
+// `sink` gets the pieces of the page in order.
+class RecordingPage {
+ public:
+  explicit RecordingPage(Gzip::Sink sink);
+
+  // The next bytes of the recording.
+  void add(std::string_view bytes) { gzip_.add(bytes); }
+  // The recording ends here, and then the page does.
+  void finish();
+
+ private:
+  const Gzip::Sink sink_;
+  Base64 base64_;
+  Gzip gzip_;
+};
 
 // What the page may load and run, for the header Content-Security-Policy. It is also in the page.
 std::string_view page_policy();

@@ -63,7 +63,7 @@ std::function<int()> define_convert(CLI::App& app) {
 
 }  // namespace
 
-const Command kConvertCommand{
+extern const Command kConvertCommand{
     "convert", "Print a tree file in the other language: lockstep's, or that of BehaviorTree.CPP",
     "Comments, blanks and order stay. What cannot be said in the other language is an error.\n"
     "Files that it includes are converted one by one. Nodes of plugins are copied.\n"

@@ -71,15 +71,15 @@ std::function<int()> define_nodes(CLI::App& app) {
 
 }  // namespace
 
-const Command kNodesCommand{"nodes",
-                            "List the nodes that trees are made of, with their parameters or ports",
-                            "Exit code: 0 listed, 2 unknown node or usage, 4 plugin refused,\n"
-                            "6 a plugin crashed or hung.\n"
-                            "\n"
-                            "Examples:\n"
-                            "  lockstep nodes\n"
-                            "  lockstep nodes ParallelAbsolute\n"
-                            "  lockstep nodes --plugin motion --format json",
-                            define_nodes};
+extern const Command kNodesCommand{
+    "nodes", "List the nodes that trees are made of, with their parameters or ports",
+    "Exit code: 0 listed, 2 unknown node or usage, 4 plugin refused,\n"
+    "6 a plugin crashed or hung.\n"
+    "\n"
+    "Examples:\n"
+    "  lockstep nodes\n"
+    "  lockstep nodes ParallelAbsolute\n"
+    "  lockstep nodes --plugin motion --format json",
+    define_nodes};
 
 }  // namespace lockstep::host

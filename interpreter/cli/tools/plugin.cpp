@@ -8,10 +8,8 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
-#include "cli/load/load_options.h"
 #include "cli/tools/plugin_check/object_check.h"
 #include "core/diagnostics.h"
-#include "core/wording.h"
 #include "loading/plugin_directories.h"
 #include "plugin/open/plugin_path.h"
 #include "remote/json_lines/conformance.h"
@@ -131,14 +129,14 @@ std::function<int()> define_plugin(CLI::App& app) {
 
 }  // namespace
 
-const Command kPluginCommand{"plugin", "Check a plugin, a shared object or a program",
-                             "Exit code: 0 it keeps the contract, 4 it does not, 2 usage.\n"
-                             "\n"
-                             "Examples:\n"
-                             "  lockstep plugin check build/grip.so\n"
-                             "  lockstep plugin check ./grip.py\n"
-                             "  lockstep plugin check grip --plugin-path leaves\n"
-                             "  lockstep plugin check ./grip.py --save",
-                             define_plugin};
+extern const Command kPluginCommand{"plugin", "Check a plugin, a shared object or a program",
+                                    "Exit code: 0 it keeps the contract, 4 it does not, 2 usage.\n"
+                                    "\n"
+                                    "Examples:\n"
+                                    "  lockstep plugin check build/grip.so\n"
+                                    "  lockstep plugin check ./grip.py\n"
+                                    "  lockstep plugin check grip --plugin-path leaves\n"
+                                    "  lockstep plugin check ./grip.py --save",
+                                    define_plugin};
 
 }  // namespace lockstep::host

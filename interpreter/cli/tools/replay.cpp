@@ -13,6 +13,7 @@
 #include "cli/tools/replay_session.h"
 #include "runtime/stop_signals.h"
 #include "terminal/terminal.h"
+#include "view/replay/replay_view.h"
 #include "web/page_server.h"
 
 namespace lockstep::host {
@@ -114,7 +115,10 @@ int serve(const ReplayOptions& options) {
                 "lockstep log page FILE --out PAGE.html makes a page that can be sent there");
     return kExitUsage;
   }
-  return with_page(options.file, [&](std::string page) {
+  return with_file(options.file, [&](std::istream& in) {
+    std::string page;
+    const auto keep = [&page](std::string_view part) { return !page.append(part).empty(); };
+    if (const int code = make_page(in, options.file, keep); code != kExitSuccess) return code;
     PageServer server(std::move(page), std::move(*socket));
     StopSignals::install();
     MonitorLink link(options.file);
@@ -156,7 +160,7 @@ std::function<int()> define_replay(CLI::App& app) {
 
 }  // namespace
 
-const Command kReplayCommand{
+extern const Command kReplayCommand{
     "replay", "Watch a run again, from its recording",
     "On a terminal the recording plays as the live view of the run did. Keys:\n"
     "  space           pause, continue\n"

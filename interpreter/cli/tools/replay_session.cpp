@@ -17,6 +17,7 @@
 #include "terminal/screen.h"
 #include "terminal/terminal.h"
 #include "terminal/terminal_wait.h"
+#include "view/replay/replay_view.h"
 #include "view/tree_browser.h"
 
 namespace lockstep::host {

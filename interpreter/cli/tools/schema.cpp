@@ -35,7 +35,7 @@ std::function<int()> define_schema(CLI::App& app) {
 
 }  // namespace
 
-const Command kSchemaCommand{
+extern const Command kSchemaCommand{
     "schema", "Print the XML schema (XSD 1.0) of the tree language, for editors and xmllint",
     "Leaves of plugins that are not loaded may have any attributes, so a mistyped tag is\n"
     "accepted as one of them, except with --strict.\n"

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/wording.h"
-#include "summary/summary.h"
 
 namespace lockstep::host {
 namespace {

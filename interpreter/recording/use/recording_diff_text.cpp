@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "core/diagnostics.h"
+#include "core/wording.h"
 #include "json/json.h"
 #include "recording/use/recording_diff.h"
-#include "summary/summary.h"
 #include "terminal/style.h"
 
 namespace lockstep::host {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/diagnostics.h"
+#include "core/wording.h"
 #include "measure/decision.h"
 #include "measure/measure_spec.h"
 #include "recording/use/recorded_probe.h"

@@ -8,6 +8,7 @@
 #include "core/diagnostics.h"
 #include "core/value.h"
 #include "json/json.h"
+#include "measure/measure_spec.h"
 #include "measure/measuring.h"
 #include "recording/use/recorded_probe.h"
 #include "summary/summary.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/problem.h"
-#include "measure/measure_spec.h"
+#include "measure/measure.h"
 #include "recording/read/recording_reader.h"
 
 namespace lockstep::host {

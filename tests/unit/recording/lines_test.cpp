@@ -1,6 +1,5 @@
 // One table says what the lines of a recording have: what is made from it is not stale, and writer
-// and reader know each of its keys. With LOCKSTEP_GENERATE in the environment, what is stale is
-// written again.
+// and reader know each of its keys.
 #include "recording/lines.h"
 
 #include <fmt/format.h>
@@ -16,7 +15,7 @@
 #include "live/event_counts.h"
 #include "recording/read/recording_reader.h"
 #include "recording/write/json_lines.h"
-#include "support/paths.h"
+#include "support/generated_file.h"
 
 namespace lockstep::host {
 namespace {
@@ -175,18 +174,6 @@ std::string with_tables(std::string text) {
   return text;
 }
 
-std::string read_file(const std::string& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-void check_file(const std::string& name, const std::string& text) {
-  const std::string path = std::string(LOCKSTEP_SOURCE_DIR) + "/" + name;
-  if (std::getenv("LOCKSTEP_GENERATE") != nullptr) std::ofstream(path) << text;
-  INFO(name << " is stale: ./dev generate");
-  CHECK((read_file(path) == text));
-}
-
 // --- a recording that has everything -----------------------------------------------------------
 
 std::string sample_header() {
@@ -291,10 +278,10 @@ void each_object(std::vector<ordered_json>& all, Visit visit) {
 }
 
 TEST_CASE("recording/lines.h: what is made from the table is not stale") {
-  check_file("interpreter/web/page/src/model/recording.ts", page_types());
-  check_file("schema/recording.schema.json", whole_schema());
+  test::check_generated("interpreter/web/page/src/model/recording.ts", page_types());
+  test::check_generated("schema/recording.schema.json", whole_schema());
   const std::string docs = "docs/recording.md";
-  check_file(docs, with_tables(read_file(std::string(LOCKSTEP_SOURCE_DIR) + "/" + docs)));
+  test::check_generated(docs, with_tables(test::project_file(docs)));
 }
 
 TEST_CASE("recording/lines.h: the writer writes each key of the table") {

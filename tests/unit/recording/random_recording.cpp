@@ -71,26 +71,14 @@ std::string RandomRecording::text() const {
 
 RandomRecording random_recording(std::mt19937& random, const RandomRecordingOptions& options) {
   RandomRecording recording;
-  recording.header = {.tree = "Main",
-                      .file = "a.xml",
-                      .version = "0.1.0",
-                      .rate_hz = 10,
-                      .clock = "virtual",
-                      .arguments = {},
-                      .nodes = {}};
-  recording.header.nodes.push_back({.path = "Main/root",
-                                    .kind = "Parallel",
-                                    .name = "root",
-                                    .parent = {},
-                                    .barriers = {},
-                                    .delta = {}});
+  recording.header = {
+      .tree = "Main", .file = "a.xml", .version = "0.1.0", .rate_hz = 10, .clock = "virtual"};
+  recording.header.nodes.push_back({.path = "Main/root", .kind = "Parallel", .name = "root"});
   for (std::size_t node = 1; node < options.nodes; ++node) {
     recording.header.nodes.push_back({.path = fmt::format("Main/root/{}", node),
                                       .kind = "Advance",
                                       .name = fmt::to_string(node),
-                                      .parent = 0,
-                                      .barriers = {},
-                                      .delta = {}});
+                                      .parent = 0});
   }
   std::uint64_t tick = 0;
   std::vector<RecordedState> nodes(options.nodes);

@@ -85,22 +85,23 @@ std::function<int()> define_log(CLI::App& app) {
 
 }  // namespace
 
-const Command kLogCommand{"log", "Read recordings of `lockstep run --record`",
-                          "A recording that ends early, as after a kill, is read up to its last "
-                          "whole line; a message on\n"
-                          "stderr says so.\n"
-                          "Exit code: 0 read, 1 two recordings differ, 2 usage, a file that "
-                          "cannot be read, or a plot\n"
-                          "without gnuplot, 3 not a recording or a damaged one.\n"
-                          "\n"
-                          "Examples:\n"
-                          "  lockstep run trees/door_pulling.xml --record run.jsonl\n"
-                          "  lockstep log info run.jsonl\n"
-                          "  lockstep log csv run.jsonl > run.csv\n"
-                          "  lockstep log measure run.jsonl --measure predictability:arm@0.5\n"
-                          "  lockstep log plot run.jsonl --out progress.svg\n"
-                          "  lockstep log page run.jsonl --out run.html\n"
-                          "  lockstep log diff run.jsonl again.jsonl",
-                          define_log};
+extern const Command kLogCommand{
+    "log", "Read recordings of `lockstep run --record`",
+    "A recording that ends early, as after a kill, is read up to its last "
+    "whole line; a message on\n"
+    "stderr says so.\n"
+    "Exit code: 0 read, 1 two recordings differ, 2 usage, a file that "
+    "cannot be read, or a plot\n"
+    "without gnuplot, 3 not a recording or a damaged one.\n"
+    "\n"
+    "Examples:\n"
+    "  lockstep run trees/door_pulling.xml --record run.jsonl\n"
+    "  lockstep log info run.jsonl\n"
+    "  lockstep log csv run.jsonl > run.csv\n"
+    "  lockstep log measure run.jsonl --measure predictability:arm@0.5\n"
+    "  lockstep log plot run.jsonl --out progress.svg\n"
+    "  lockstep log page run.jsonl --out run.html\n"
+    "  lockstep log diff run.jsonl again.jsonl",
+    define_log};
 
 }  // namespace lockstep::host

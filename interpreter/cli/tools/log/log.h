@@ -25,8 +25,10 @@ int with_recording(const std::string& path, const std::function<int(RecordingRea
 int with_file(const std::string& path, const std::function<int(std::istream&)>& use);
 int read_recording(std::istream& in, const std::string& path,
                    const std::function<int(RecordingReader&)>& use);
-// Reads the recording and gives `use` the web page that shows it, unless the recording is damaged.
-int with_page(const std::string& path, const std::function<int(std::string page)>& use);
+// Reads the recording, and meanwhile gives `write` the parts of the web page that shows it. There
+// is no whole page if the recording is damaged, or if `write` returns false. Returns the exit code.
+int make_page(std::istream& in, const std::string& path,
+              const std::function<bool(std::string_view part)>& write);
 // Reports an error in the recording, or that it is cut. Returns the exit code.
 int report_end(const RecordingOutcome& outcome);
 int report_end(const RecordingReader& reader);

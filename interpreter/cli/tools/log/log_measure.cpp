@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "cli/console.h"
-#include "cli/exit_code.h"
 #include "cli/tools/log/log.h"
 #include "measure/measure_spec.h"
 #include "recording/use/recording_measures.h"

@@ -12,9 +12,10 @@
 #include "core/parameter_value.h"
 #include "core/random.h"
 #include "core/wording.h"
+#include "engine/leaf_watch.h"
 #include "loading/load.h"
 #include "loading/plugins.h"
-#include "plugin/contract/leaf_watch.h"
+#include "lockstep/leaf.h"
 #include "runtime/progress_text.h"
 #include "runtime/run.h"
 
@@ -93,6 +94,11 @@ std::string key_of(std::size_t port) {
 }
 
 // How a fault begins that is against the contract; others are errors that the leaf has told.
+// A host may read either.
+bool keeps_another(const LeafSlot& leaf) {
+  return leaf.kept_progress != nullptr && leaf.read_progress() != leaf.type->progress(leaf.self);
+}
+
 bool is_breach(const std::string& fault) {
   constexpr std::array<std::string_view, 5> kBreaches{
       "returned status ", "is a condition and returned running", "reported a progress that is not ",
@@ -180,10 +186,12 @@ class Examiner {
 
   Finding play(const Runnable& it, std::span<const Do> steps, std::span<const Value> values) const {
     Finding found;
-    LeafWatch watch(
-        {.budget = std::nullopt, .on_float_mode = [&](NodeIndex, PluginFunction function) {
-           found.breach = fmt::format("changes the rounding mode in {}", name_of(function));
-         }});
+    LeafWatch watch({.budget = std::nullopt,
+                     .looks_after_each_call = true,
+                     .on_float_mode = [&](std::optional<NodeIndex>, PluginFunction function) {
+                       found.breach =
+                           fmt::format("changes the rounding mode in {}", name_of(function));
+                     }});
     Run run(it.tree, {.seed = 1, .exactly_once = true, .virtual_time = true, .watch = &watch});
     fill(run, it.tree, values);
     Nanoseconds now{0};
@@ -195,11 +203,15 @@ class Examiner {
       if (step == Do::Restart) run.restart(2);
       if (step == Do::Restart) fill(run, it.tree, values);
       if (step != Do::Tick) continue;
-      watch.begin_tick(found.ticks++);
+      ++found.ticks;
       found.status = run.tick(now);
       now += run.period();
       const bool goes_on = found.status == Status::Running && run.fault() == nullptr;
-      if (goes_on) found.progress = run.ticker().progress(1);
+      if (!goes_on) continue;
+      found.progress = run.ticker().progress(1);
+      if (keeps_another(run.ticker().leaf(1))) {
+        found.breach = "keeps another progress (LOCKSTEP_KEPT_PROGRESS) than its function returns";
+      }
     }
     if (run.fault() == nullptr) run.halt();
     if (run.fault() != nullptr) found.fault = run.fault()->message;

@@ -16,6 +16,7 @@
 #include "cli/tools/study/study_out_of_range.h"
 #include "cli/tools/study/study_progress.h"
 #include "cli/tools/study/study_summary.h"
+#include "measure/measure_spec.h"
 #include "plots/box_plot.h"
 #include "runtime/outlet.h"
 #include "runtime/stop_signals.h"
@@ -48,11 +49,7 @@ int print_summary(const StudyCommandOptions& options, const StudyPlan& plan,
                                                  : summary_table(plan, rows, results_width()));
   Diagnostics notes;
   for (std::string& warning : summary_warnings(plan, rows)) {
-    notes.add({.severity = Severity::Warning,
-               .location = {},
-               .message = std::move(warning),
-               .hint = {},
-               .excerpt = {}});
+    notes.warning({}, std::move(warning));
   }
   print_diagnostics(notes, Severity::Warning);
   return written;
@@ -261,7 +258,7 @@ std::function<int()> define_study(CLI::App& app) {
 
 }  // namespace
 
-const Command kStudyCommand{
+extern const Command kStudyCommand{
     "study", "Run a tree many times, over a grid of arguments, and measure it",
     "Writes runs.csv (a row per run), summary.csv (box-plot numbers), study.json (how it was "
     "made)\n"

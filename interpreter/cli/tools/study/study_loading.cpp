@@ -11,6 +11,7 @@
 #include "cli/load/real_time_leaves.h"
 #include "core/suggest.h"
 #include "core/wording.h"
+#include "measure/measure_spec.h"
 #include "study/column_names.h"
 #include "study/grid_text.h"
 #include "study/plan_check.h"

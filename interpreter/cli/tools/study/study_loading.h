@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "cli/load/load_options.h"
-#include "measure/measure_spec.h"
 #include "runtime/loop.h"
 #include "study/study_run.h"
 

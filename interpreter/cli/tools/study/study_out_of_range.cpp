@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/wording.h"
 #include "runtime/progress_text.h"
-#include "summary/statistics.h"
 
 namespace lockstep::host {
 
@@ -17,13 +17,11 @@ void StudyOutOfRangeCount::add_to(Diagnostics& diagnostics) const {
   for (const auto& [path, leaf] : leaves_) {
     const auto& [row, progress] = leaf.first;
     const NodeType& type = *study_.cells[row.cell].tree.labels[progress.node].type;
-    diagnostics.add({.severity = Severity::Warning,
-                     .location = {study_.plan.tree_file},
-                     .message = fmt::format("the leaf '{}' ({} of plugin '{}') {}", path, type.id,
-                                            type.plugin, out_of_range_text(progress.reported)),
-                     .hint = fmt::format("first in run {} of cell {}; in {} in all", row.run,
-                                         row.cell, counted(leaf.runs, "run")),
-                     .excerpt = {}});
+    diagnostics.warning({study_.plan.tree_file},
+                        fmt::format("the leaf '{}' ({} of plugin '{}') {}", path, type.id,
+                                    type.plugin, out_of_range_text(progress.reported)),
+                        fmt::format("first in run {} of cell {}; in {} in all", row.run, row.cell,
+                                    counted(leaf.runs, "run")));
   }
 }
 
