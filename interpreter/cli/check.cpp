@@ -92,7 +92,7 @@ std::function<int()> define_check(CLI::App& app) {
 
 }  // namespace
 
-const Command kCheckCommand{
+extern const Command kCheckCommand{
     "check", "Check tree files and report errors and warnings, without running them",
     "Messages go to stderr as file:line:column; in another format they go to stdout.\n"
     "Exit code: 0 no errors, 3 invalid tree, or a warning with --strict, 4 plugin refused,\n"

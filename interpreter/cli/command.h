@@ -1,4 +1,4 @@
-// The commands of the program: one file each, one row each in commands.cpp.
+// The commands of the program: each is a row in a separate file, and commands.cpp lists them.
 #pragma once
 
 #include <functional>
@@ -22,9 +22,6 @@ struct Command {
 
 // One that this build leaves out: it says so, whatever its arguments are.
 Command absent(const char* name);
-
-extern const Command kRunCommand, kCheckCommand, kShowCommand, kNodesCommand, kSchemaCommand,
-    kConvertCommand, kPluginCommand, kLogCommand, kReplayCommand, kStudyCommand, kMonitorCommand;
 
 // All commands, in the order of --help.
 std::span<const Command* const> commands();

@@ -8,7 +8,9 @@
 #include <exception>
 #include <map>
 #include <new>
+#include <optional>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 #include "cli/command.h"
@@ -17,7 +19,7 @@
 #include "cli/help_text.h"
 #include "cli/run/groot.h"
 #include "cli/usage.h"
-#include "plugin/contract/call_mark.h"
+#include "engine/call_mark.h"
 #include "runtime/fuse.h"
 #include "runtime/outlet.h"
 #include "system/descriptors.h"
@@ -27,6 +29,9 @@
 #include "web/server_socket.h"
 
 namespace lockstep::host {
+
+extern const Command kRunCommand, kCheckCommand, kShowCommand, kNodesCommand, kSchemaCommand,
+    kConvertCommand, kPluginCommand, kLogCommand, kReplayCommand, kStudyCommand, kMonitorCommand;
 
 std::span<const Command* const> commands() {
   static constexpr const Command* kAll[] = {&kRunCommand,    &kCheckCommand,  &kShowCommand,
@@ -85,44 +90,76 @@ void parse(CLI::App& app, std::vector<std::string> words) {
   app.parse(std::move(words));
 }
 
-int run_command_line(int argc, char** argv) {
-  CLI::App app{"lockstep: behavior trees that move several things at once and keep them in step",
-               "lockstep"};
-  app.formatter(help_formatter(terminal_size(STDOUT_FILENO).width));
-  app.require_subcommand(1);
-  app.set_version_flag("--version", "lockstep " LOCKSTEP_VERSION);
-  app.footer(
+// The commands as CLI11 knows them. Their options take longer to define than many a command takes,
+// so those of commands that are not named can be left out, but a hint may be about any of them.
+class Program {
+ public:
+  enum class Options { OfNamedCommands, OfAllCommands };
+
+  Program(const std::vector<std::string>& words, Options options);
+
+  CLI::App& app() { return app_; }
+  // Runs the command that was parsed.
+  int run() const;
+
+ private:
+  CLI::App app_{"lockstep: behavior trees that move several things at once and keep them in step",
+                "lockstep"};
+  std::vector<std::pair<const CLI::App*, std::function<int()>>> actions_;
+};
+
+Program::Program(const std::vector<std::string>& words, Options options) {
+  app_.formatter(help_formatter(terminal_size(STDOUT_FILENO).width));
+  app_.require_subcommand(1);
+  app_.set_version_flag("--version", "lockstep " LOCKSTEP_VERSION);
+  app_.footer(
       "Exit code: 0 all is well, 1 the run failed or what was compared differs, 2 usage or a file "
       "that cannot be used, 3 invalid tree, 4 plugin refused, 5 leaf fault, 6 a plugin crashed or "
       "hung, 9 lockstep failed, 124 a limit was reached, 128 + N signal N. The help of a command "
       "has those that it uses.\n\n"
       "Example: lockstep run trees/door_pulling.xml\n\n"
       "`lockstep help COMMAND` shows the options of a command and examples.");
-  std::vector<std::function<int()>> actions;
-  std::vector<CLI::App*> subcommands;
   for (const Command* command : commands()) {
-    CLI::App* subcommand = app.add_subcommand(command->name, command->summary);
+    CLI::App* subcommand = app_.add_subcommand(command->name, command->summary);
+    const bool is_named = std::ranges::find(words, command->name) != words.end();
+    if (options == Options::OfNamedCommands && !is_named) continue;
     subcommand->footer(command->examples);
-    actions.push_back(command->define(*subcommand));
-    subcommands.push_back(subcommand);
+    actions_.emplace_back(subcommand, command->define(*subcommand));
   }
-  app.add_subcommand(kHelp, "Show the help of a command: lockstep help log info");
-  const auto words = complete_addresses(words_of(argc, argv));
-  if (const auto error = find_unknown_command(app, words)) return refuse(*error);
-  try {
-    parse(app, words);
-  } catch (const CLI::Success& success) {  // --help, --version
-    std::ostringstream text;
-    app.exit(success, text);
-    return write_results(text.str());
-  } catch (const CLI::ParseError& error) {
-    return refuse(explain(app, words, error));
-  }
-  for (std::size_t i = 0; i < actions.size(); ++i) {
-    if (!subcommands[i]->parsed()) continue;
-    return actions[i]();
+  app_.add_subcommand(kHelp, "Show the help of a command: lockstep help log info");
+}
+
+int Program::run() const {
+  for (const auto& [command, action] : actions_) {
+    if (command->parsed()) return action();
   }
   return kExitUsage;
+}
+
+// Nothing after a mistake, if the options of some commands are left out.
+std::optional<int> run_words(const std::vector<std::string>& words, Program::Options options) {
+  const bool may_explain = options == Program::Options::OfAllCommands;
+  Program program(words, options);
+  if (const auto error = find_unknown_command(program.app(), words)) {
+    return may_explain ? std::optional(refuse(*error)) : std::nullopt;
+  }
+  try {
+    parse(program.app(), words);
+  } catch (const CLI::Success& success) {  // --help, --version
+    std::ostringstream text;
+    program.app().exit(success, text);
+    return write_results(text.str());
+  } catch (const CLI::ParseError& error) {
+    if (!may_explain) return std::nullopt;
+    return refuse(explain(program.app(), words, error));
+  }
+  return program.run();
+}
+
+int run_command_line(int argc, char** argv) {
+  const auto words = complete_addresses(words_of(argc, argv));
+  if (const auto code = run_words(words, Program::Options::OfNamedCommands)) return *code;
+  return run_words(words, Program::Options::OfAllCommands).value_or(kExitUsage);
 }
 
 void say_out_of_memory() {
@@ -130,7 +167,7 @@ void say_out_of_memory() {
 }
 
 bool is_in_plugin() {
-  return !is_own_thread() || CallMark::this_thread().look().function() != PluginFunction::None;
+  return !is_own_thread() || CallMark::this_thread().look().function != PluginFunction::None;
 }
 
 // A destructor that takes memory, as that of a JSON value does, ends here when there is none. What

@@ -96,7 +96,7 @@ std::function<int()> define_monitor(CLI::App& app) {
 
 }  // namespace
 
-const Command kMonitorCommand{
+extern const Command kMonitorCommand{
     "monitor", "List your runs that have a monitor, open the page of one, or give it one",
     "A row for each run of `lockstep run --monitor` or --monitor-socket: "
     "the number of its process,\n"

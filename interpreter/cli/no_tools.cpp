@@ -3,9 +3,9 @@
 
 namespace lockstep::host {
 
-const Command kShowCommand = absent("show"), kNodesCommand = absent("nodes"),
-              kSchemaCommand = absent("schema"), kConvertCommand = absent("convert"),
-              kPluginCommand = absent("plugin"), kLogCommand = absent("log"),
-              kReplayCommand = absent("replay"), kStudyCommand = absent("study");
+extern const Command kShowCommand = absent("show"), kNodesCommand = absent("nodes"),
+                     kSchemaCommand = absent("schema"), kConvertCommand = absent("convert"),
+                     kPluginCommand = absent("plugin"), kLogCommand = absent("log"),
+                     kReplayCommand = absent("replay"), kStudyCommand = absent("study");
 
 }  // namespace lockstep::host

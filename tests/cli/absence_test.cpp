@@ -79,7 +79,7 @@ TEST_CASE("what docs say is not there is refused, in words") {
     CHECK(contains(page(claim.page), claim.words));
     auto arguments = claim.command;
     arguments.push_back(directory.file("tree.xml", claim.tree));
-    const Outcome outcome = lockstep::host::test::lockstep(arguments);
+    const Outcome outcome = run_lockstep(arguments);
     INFO(outcome.err);
     CHECK(outcome.code != 0);
     CHECK(contains(outcome.err, claim.told));

@@ -9,7 +9,7 @@ using namespace lockstep::host::test;
 namespace {
 
 Outcome barrier_command(std::vector<std::string> arguments) {
-  return lockstep::host::test::lockstep(std::move(arguments));
+  return run_lockstep(std::move(arguments));
 }
 
 std::string barrier_project(const std::string& content) {

@@ -21,7 +21,7 @@ Outcome run_mocked(const std::string& tree, std::vector<std::string> more) {
   std::vector<std::string> arguments{"run",     tree,     "--mock", "--clock",
                                      "virtual", "--view", "none",   "--json"};
   arguments.insert(arguments.end(), more.begin(), more.end());
-  return lockstep::host::test::lockstep(arguments);
+  return run_lockstep(arguments);
 }
 
 }  // namespace
@@ -29,17 +29,17 @@ Outcome run_mocked(const std::string& tree, std::vector<std::string> more) {
 TEST_CASE("check takes a tree without its plugins, and --strict does not") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file("tree.xml", document(kNodes));
-  const Outcome noted = lockstep::host::test::lockstep({"check", tree});
+  const Outcome noted = run_lockstep({"check", tree});
   CHECK(noted.code == 0);
   CHECK(noted.out == tree + ": ok\n");
   for (const char* id : {"Dock", "Rate", "Pick", "IsOpen"}) {
     CHECK(contains(noted.err, "note: no plugin has '" + std::string(id) + "'"));
   }
-  const Outcome strict = lockstep::host::test::lockstep({"check", "--strict", tree});
+  const Outcome strict = run_lockstep({"check", "--strict", tree});
   CHECK(strict.code == 3);
   CHECK(contains(strict.err, "error: unknown node 'Dock'"));
-  CHECK(lockstep::host::test::lockstep({"show", tree}).code == 0);
-  const Outcome run = lockstep::host::test::lockstep({"run", tree, "--clock", "virtual"});
+  CHECK(run_lockstep({"show", tree}).code == 0);
+  const Outcome run = run_lockstep({"run", tree, "--clock", "virtual"});
   CHECK(run.code == 3);
   CHECK(contains(run.err, "error: unknown node 'Dock'"));
 }
@@ -64,7 +64,7 @@ TEST_CASE("run --mock is for lockstep's own trees, too, and for leaves of plugin
   const std::string tree = directory.file(
       "tree.xml", tree_text("<ParallelAbsolute barriers=\"1\"><Dock/><Advance step=\"0.5\"/>"
                             "</ParallelAbsolute>"));
-  CHECK(lockstep::host::test::lockstep({"check", tree}).code == 3);
+  CHECK(run_lockstep({"check", tree}).code == 3);
   CHECK(run_mocked(tree, {}).code == 0);
   CHECK(run_mocked(tree, {"--mock-leaf", "Advance=failure"}).code == 1);
 }
@@ -96,7 +96,7 @@ TEST_CASE("run --mock needs no plugin that is not there yet") {
       "<plugin name=\"motion\"/><BehaviorTree ID=\"Main\"><Sequence memory=\"true\"><Condition "
       "ID=\"IsOpen\"/>"
       "<Action ID=\"MoveTo\"/><Advance step=\"0.5\"/></Sequence></BehaviorTree></root>");
-  CHECK(lockstep::host::test::lockstep({"run", tree}).code == 4);
+  CHECK(run_lockstep({"run", tree}).code == 4);
   const Outcome outcome = run_mocked(tree, {});
   CHECK(outcome.code == 0);
   CHECK(contains(outcome.err, "warning: plugin 'arm' is not found"));
@@ -121,7 +121,7 @@ TEST_CASE("run --mock and check say which leaves are taken for actions") {
   CHECK(contains(run_mocked(tree, {}).err, ":1:55: " + all));
   CHECK(contains(run_mocked(tree, {"--mock-leaf", "Dock=failure"}).err,
                  "warning: no plugin has 'IsOpen': taken for an action"));
-  const Outcome check = lockstep::host::test::lockstep({"check", tree});
+  const Outcome check = run_lockstep({"check", tree});
   CHECK(contains(check.err, "note: no plugin has 'IsOpen'; it is taken for an action"));
   CHECK_FALSE(contains(check.err, "'IsFar'; it is taken"));
 }
@@ -166,14 +166,11 @@ TEST_CASE("files of ROS packages are found in AMENT_PREFIX_PATH, or where --ros-
                                .environment = {{"AMENT_PREFIX_PATH", directory.path("none")}}});
   CHECK(missing.code == 3);
   CHECK(contains(missing.err, "the ROS package 'arms' is not found"));
-  CHECK(lockstep::host::test::lockstep(
-            {"check", "--ros-package", "arms=" + directory.path("."), tree})
-            .code == 0);
+  CHECK(run_lockstep({"check", "--ros-package", "arms=" + directory.path("."), tree}).code == 0);
 }
 
 TEST_CASE("nodes --format btcpp is a model of what Groot2 does not know") {
-  const Outcome outcome =
-      lockstep::host::test::lockstep({"nodes", "--plugin", "motion", "--format", "btcpp"});
+  const Outcome outcome = run_lockstep({"nodes", "--plugin", "motion", "--format", "btcpp"});
   CHECK(outcome.code == 0);
   CHECK(contains(outcome.out, "<root BTCPP_format=\"4\">\n  <TreeNodesModel>\n"));
   CHECK(contains(outcome.out, "    <Control ID=\"ParallelAbsolute\">\n"));
@@ -189,7 +186,7 @@ TEST_CASE("nodes --format btcpp is a model of what Groot2 does not know") {
                      "<root BTCPP_format=\"4\"><BehaviorTree><ParallelAbsolute barriers=\"1\">\n"
                      "<Advance step=\"fast\"/></ParallelAbsolute></BehaviorTree>\n" +
                          model);
-  const Outcome checked = lockstep::host::test::lockstep({"check", tree});
+  const Outcome checked = run_lockstep({"check", tree});
   CHECK(checked.code == 3);
   CHECK(contains(checked.err, "tree.xml:2:16: error: 'fast' is not a number"));
 }

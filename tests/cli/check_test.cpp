@@ -10,20 +10,20 @@ TEST_CASE("check says ok on stdout and what is wrong on stderr, for each file") 
   const TemporaryDirectory directory;
   const std::string good = directory.file("good.xml", tree_text("<Advance/>"));
   const std::string bad = directory.file("bad.xml", tree_text("<Advnce/>"));
-  const Outcome outcome = lockstep::host::test::lockstep({"check", bad, good});
+  const Outcome outcome = run_lockstep({"check", bad, good});
   CHECK(outcome.code == 3);
   CHECK(outcome.out == good + ": ok\n");
   CHECK(contains(outcome.err, bad + ":1:"));
   CHECK(contains(outcome.err, "unknown node 'Advnce'"));
   CHECK(contains(outcome.err, "did you mean 'Advance'?"));
   CHECK(!contains(outcome.err, "\x1b"));
-  CHECK(lockstep::host::test::lockstep({"check", good}).code == 0);
+  CHECK(run_lockstep({"check", good}).code == 0);
 }
 
 TEST_CASE("check --format json is an array on stdout") {
   const TemporaryDirectory directory;
   const std::string bad = directory.file("bad.xml", tree_text("<Advnce/>"));
-  const Outcome outcome = lockstep::host::test::lockstep({"check", "--format", "json", bad});
+  const Outcome outcome = run_lockstep({"check", "--format", "json", bad});
   CHECK(outcome.code == 3);
   CHECK(outcome.err.empty());
   const auto messages = nlohmann::json::parse(outcome.out);
@@ -47,15 +47,14 @@ TEST_CASE("check --strict takes warnings for errors, and notes not") {
   const TemporaryDirectory directory;
   const std::string fine = directory.file("fine.xml", tree_text("<Advance/>"));
   const std::string warned = directory.file("warned.xml", doubtful("<Advance step=\"{x}\"/>"));
-  CHECK(lockstep::host::test::lockstep({"check", "--strict", fine}).code == 0);
-  CHECK(lockstep::host::test::lockstep({"check", warned}).code == 0);
-  const Outcome outcome = lockstep::host::test::lockstep({"check", "--strict", warned, fine});
+  CHECK(run_lockstep({"check", "--strict", fine}).code == 0);
+  CHECK(run_lockstep({"check", warned}).code == 0);
+  const Outcome outcome = run_lockstep({"check", "--strict", warned, fine});
   CHECK(outcome.code == 3);
   CHECK(outcome.out == fine + ": ok\n");
   CHECK(contains(outcome.err, "warning: nothing writes '{x}'"));
   CHECK(contains(outcome.err, warned + ": 1 warning, an error with --strict\n"));
-  const Outcome json =
-      lockstep::host::test::lockstep({"check", "--strict", "--format", "json", warned});
+  const Outcome json = run_lockstep({"check", "--strict", "--format", "json", warned});
   CHECK(json.code == 3);
   CHECK(nlohmann::json::parse(json.out)[0]["severity"] == "warning");
 }
@@ -65,7 +64,7 @@ TEST_CASE("check --format github is a workflow command for each message") {
   const std::string name = directory.file(
       "a,b:c%.xml",
       doubtful("<Advance step=\"{x}\"/>\n<Advnce/>\n<Wait seconds=\"5%&#10;::error::6\"/>"));
-  const Outcome outcome = lockstep::host::test::lockstep({"check", "--format", "github", name});
+  const Outcome outcome = run_lockstep({"check", "--format", "github", name});
   CHECK(outcome.code == 3);
   CHECK(outcome.err.empty());
   const auto told = lines(outcome.out);
@@ -77,7 +76,7 @@ TEST_CASE("check --format github is a workflow command for each message") {
                        "'Advnce'%0Ahint: did you mean 'Advance'?");
   CHECK(told[1].starts_with("::error file=" + file + ",line=4,col=16,title=lockstep::'5%25"));
   CHECK(contains(told[1], "'5%25\\x0A::error::6' is not a number"));
-  const Outcome fine = lockstep::host::test::lockstep(
+  const Outcome fine = run_lockstep(
       {"check", "--format", "github", directory.file("fine.xml", tree_text("<Advance/>"))});
   CHECK(fine.code == 0);
   CHECK(fine.out.empty());
@@ -88,8 +87,8 @@ TEST_CASE("check --format sarif is a log that code scanners read") {
   const std::string path = directory.file(
       "a b.xml", doubtful("<Wait name=\"éé\" seconds=\"x\"/><Advance step=\"{x}\"/>"));
   const std::string warned = directory.file("w.xml", doubtful("<Advance step=\"{x}\"/>"));
-  const Outcome outcome = lockstep::host::test::lockstep(
-      {"check", "--format", "sarif", path, warned, "--plugin-path", "/none"});
+  const Outcome outcome =
+      run_lockstep({"check", "--format", "sarif", path, warned, "--plugin-path", "/none"});
   CHECK(outcome.code == 3);
   CHECK(outcome.err.empty());
   const auto log = nlohmann::json::parse(outcome.out);
@@ -122,7 +121,7 @@ TEST_CASE("a directory for plugins that is not there is warned of") {
     for (const std::string& path : {lost, found}) {
       arguments.insert(arguments.end(), {"--plugin-path", path});
     }
-    const Outcome outcome = lockstep::host::test::lockstep(arguments);
+    const Outcome outcome = run_lockstep(arguments);
     INFO(outcome.err);
     CHECK(outcome.code == 0);
     CHECK(
@@ -158,7 +157,7 @@ TEST_CASE("check tells usage, trees and plugins apart") {
   for (const Row& row : rows) {
     std::vector<std::string> arguments{"check"};
     arguments.insert(arguments.end(), row.arguments.begin(), row.arguments.end());
-    const Outcome outcome = lockstep::host::test::lockstep(arguments);
+    const Outcome outcome = run_lockstep(arguments);
     INFO(outcome.err);
     CHECK(outcome.code == row.code);
     CHECK(contains(outcome.err, row.message));
@@ -166,19 +165,19 @@ TEST_CASE("check tells usage, trees and plugins apart") {
 }
 
 TEST_CASE("the program itself") {
-  CHECK(lockstep::host::test::lockstep({"--version"}).out.rfind("lockstep ", 0) == 0);
-  const Outcome help = lockstep::host::test::lockstep({"--help"});
+  CHECK(run_lockstep({"--version"}).out.rfind("lockstep ", 0) == 0);
+  const Outcome help = run_lockstep({"--help"});
   CHECK(help.code == 0);
   CHECK(help.err.empty());
   for (const std::string command : {"run", "check", "show", "nodes", "schema", "log"}) {
     CHECK(contains(help.out, "  " + command + " "));
-    const Outcome its = lockstep::host::test::lockstep({command, "--help"});
+    const Outcome its = run_lockstep({command, "--help"});
     CHECK(its.code == 0);
     CHECK(contains(its.out, "Example"));
-    CHECK(lockstep::host::test::lockstep({command, "--no-such-option"}).code == 2);
+    CHECK(run_lockstep({command, "--no-such-option"}).code == 2);
   }
-  CHECK(lockstep::host::test::lockstep({}).code == 2);
-  const Outcome unknown = lockstep::host::test::lockstep({"chekc"});
+  CHECK(run_lockstep({}).code == 2);
+  const Outcome unknown = run_lockstep({"chekc"});
   CHECK(unknown.code == 2);
   CHECK(contains(unknown.err, "unknown command 'chekc'"));
   CHECK(contains(unknown.err, "did you mean 'check'?"));

@@ -47,7 +47,7 @@ const std::string kOurs = R"(<?xml version="1.0"?>
 )";
 
 std::string ticks(const std::string& tree) {
-  const Outcome outcome = lockstep::host::test::lockstep(
+  const Outcome outcome = run_lockstep(
       {"run", tree, "--clock", "virtual", "--view", "none", "--json", "--set", "step=0.25"});
   INFO(outcome.err);
   REQUIRE(!outcome.out.empty());
@@ -69,7 +69,7 @@ std::string around(const std::string& root, const std::string& node) {
 TEST_CASE("convert keeps comments and order, and writes XML") {
   const TemporaryDirectory directory;
   const std::string theirs = directory.file("theirs.xml", kTheirs);
-  const Outcome outcome = lockstep::host::test::lockstep({"convert", theirs});
+  const Outcome outcome = run_lockstep({"convert", theirs});
   CHECK(outcome.code == 0);
   CHECK(outcome.out == kOurs);
   CHECK(contains(outcome.err, "note: '_uid' is left out"));
@@ -80,13 +80,13 @@ TEST_CASE("convert keeps comments and order, and writes XML") {
 TEST_CASE("converted there and back, a tree runs as before") {
   const TemporaryDirectory directory;
   const std::string ours = directory.file("ours.xml", kOurs);
-  const Outcome there = lockstep::host::test::lockstep({"convert", "--to", "btcpp4", ours});
+  const Outcome there = run_lockstep({"convert", "--to", "btcpp4", ours});
   CHECK(there.code == 0);
   CHECK(there.err.empty());
   CHECK(contains(there.out, "<root BTCPP_format=\"4\" main"));
   const std::string theirs = directory.file("theirs.xml", there.out);
   CHECK(ticks(theirs) == ticks(ours));
-  const Outcome back = lockstep::host::test::lockstep({"convert", theirs});
+  const Outcome back = run_lockstep({"convert", theirs});
   CHECK(back.code == 0);
   CHECK(ticks(directory.file("back.xml", back.out)) == ticks(ours));
 }
@@ -99,7 +99,7 @@ TEST_CASE("convert warns of what BehaviorTree.CPP does not replace") {
       "<Sequence>\n<Advance step=\"${step}\"/>\n<Advance step=\"${far}\"/><Advance "
       "step=\"${far}\"/>\n"
       "<Say text=\"$${none}\"/></Sequence>\n</BehaviorTree></root>\n");
-  const Outcome there = lockstep::host::test::lockstep({"convert", "--to", "btcpp4", ours});
+  const Outcome there = run_lockstep({"convert", "--to", "btcpp4", ours});
   CHECK(there.code == 0);
   CHECK(contains(there.out, "<arg name=\"step\" default=\"0.5\"/>"));
   CHECK(contains(there.err, "ours.xml:2:1: warning: BehaviorTree.CPP ignores 'arg'"));
@@ -127,19 +127,17 @@ TEST_CASE("convert says rounds and counts in the other language's words, and wha
       "<Parallel success_count=\"1\"><A/><B/></Parallel>\n"
       "<Wait seconds=\"1.5\"/>\n"
       "</Parallel>";
-  const Outcome here = lockstep::host::test::lockstep(
+  const Outcome here = run_lockstep(
       {"convert", directory.file("theirs.xml", around("BTCPP_format=\"4\"", their_nodes))});
   CHECK(here.code == 0);
   CHECK(here.out == around("lockstep=\"1\"", our_nodes));
   CHECK(contains(here.err, "theirs.xml:4:1: warning: 'Repeat' is not quite the same"));
   CHECK(contains(here.err, "theirs.xml:3:1: warning: 'Parallel' is not quite the same"));
-  const Outcome there =
-      lockstep::host::test::lockstep({"convert", directory.file("ours.xml", here.out)});
+  const Outcome there = run_lockstep({"convert", directory.file("ours.xml", here.out)});
   CHECK(there.code == 0);
   CHECK(contains(there.out, "<Repeat num_cycles=\"-1\"><A/></Repeat>\n"));
   CHECK(contains(there.out, "<RetryUntilSuccessful num_attempts=\"3\">"));
-  const Outcome again =
-      lockstep::host::test::lockstep({"convert", directory.file("again.xml", there.out)});
+  const Outcome again = run_lockstep({"convert", directory.file("again.xml", there.out)});
   CHECK(again.out == here.out);
 }
 
@@ -160,12 +158,10 @@ TEST_CASE("convert says scripts and branches in the other language's words") {
       "on_failure=\"n := 3\"/></WhileDoElse>\n"
       "</IfThenElse>";
   const std::string theirs = around("BTCPP_format=\"4\"", their_nodes);
-  const Outcome here =
-      lockstep::host::test::lockstep({"convert", directory.file("theirs.xml", theirs)});
+  const Outcome here = run_lockstep({"convert", directory.file("theirs.xml", theirs)});
   CHECK(here.code == 0);
   CHECK(here.out == around("lockstep=\"1\"", our_nodes));
-  const Outcome there =
-      lockstep::host::test::lockstep({"convert", directory.file("ours.xml", here.out)});
+  const Outcome there = run_lockstep({"convert", directory.file("ours.xml", here.out)});
   CHECK(there.code == 0);
   CHECK(there.out == theirs);
 }
@@ -174,7 +170,7 @@ TEST_CASE("convert warns of a Sleep that may be held") {
   const TemporaryDirectory directory;
   const auto told = [&](const std::string& node) {
     const std::string tree = around("BTCPP_format=\"4\"", node);
-    return lockstep::host::test::lockstep({"convert", directory.file("tree.xml", tree)}).err;
+    return run_lockstep({"convert", directory.file("tree.xml", tree)}).err;
   };
   CHECK(told("<Sequence><Sleep msec=\"100\"/></Sequence>").empty());
   CHECK(contains(told("<ParallelRelative delta=\"1\"><Sequence>\n<Sleep msec=\"100\"/></Sequence>"
@@ -193,18 +189,16 @@ TEST_CASE("convert makes a list of the cases of a Switch, and back") {
       "<Switch on=\"mode\" cases=\"dock;a\\;b\" name=\"m\"><A/><B/>"
       "<Switch on=\"'x'\" cases=\"1;2;x\"><A/><A/><A/><A/></Switch>"
       "</Switch>";
-  const Outcome here = lockstep::host::test::lockstep(
+  const Outcome here = run_lockstep(
       {"convert", directory.file("theirs.xml", around("BTCPP_format=\"4\"", their_nodes))});
   CHECK(here.code == 0);
   CHECK(here.out == around("lockstep=\"1\"", our_nodes));
   CHECK(contains(here.err, "theirs.xml:3:1: warning: 'Switch2' is not quite the same"));
-  const Outcome there =
-      lockstep::host::test::lockstep({"convert", directory.file("ours.xml", here.out)});
+  const Outcome there = run_lockstep({"convert", directory.file("ours.xml", here.out)});
   CHECK(there.code == 0);
   CHECK(contains(there.out,
                  "<Switch2 variable=\"{mode}\" case_1=\"dock\" case_2=\"a;b\" name=\"m\">"));
-  const Outcome again =
-      lockstep::host::test::lockstep({"convert", directory.file("again.xml", there.out)});
+  const Outcome again = run_lockstep({"convert", directory.file("again.xml", there.out)});
   CHECK(again.out == here.out);
 }
 
@@ -235,7 +229,7 @@ TEST_CASE("what lockstep's language cannot say is an error at its place") {
   for (const Row& row : rows) {
     INFO(row.node);
     const std::string tree = directory.file("tree.xml", around("BTCPP_format=\"4\"", row.node));
-    const Outcome outcome = lockstep::host::test::lockstep({"convert", tree});
+    const Outcome outcome = run_lockstep({"convert", tree});
     CHECK(outcome.code == 3);
     CHECK(outcome.out.empty());
     INFO(outcome.err);
@@ -261,7 +255,7 @@ TEST_CASE("what BehaviorTree.CPP cannot say is an error at its place") {
   for (const Row& row : rows) {
     INFO(row.node);
     const std::string tree = directory.file("tree.xml", around("lockstep=\"1\"", row.node));
-    const Outcome outcome = lockstep::host::test::lockstep({"convert", tree});
+    const Outcome outcome = run_lockstep({"convert", tree});
     CHECK(outcome.code == 3);
     INFO(outcome.err);
     CHECK(contains(outcome.err, row.message));
@@ -271,11 +265,10 @@ TEST_CASE("what BehaviorTree.CPP cannot say is an error at its place") {
 TEST_CASE("convert says what is wrong with its file") {
   const TemporaryDirectory directory;
   const std::string ours = directory.file("ours.xml", kOurs);
-  const Outcome same = lockstep::host::test::lockstep({"convert", "--to", "lockstep", ours});
+  const Outcome same = run_lockstep({"convert", "--to", "lockstep", ours});
   CHECK(same.code == 3);
   CHECK(contains(same.err, "is in that language already"));
-  CHECK(contains(lockstep::host::test::lockstep({"convert", directory.path("none.xml")}).err,
-                 "cannot be read"));
+  CHECK(contains(run_lockstep({"convert", directory.path("none.xml")}).err, "cannot be read"));
   const std::string broken = directory.file("broken.xml", "<root>\n<A");
-  CHECK(contains(lockstep::host::test::lockstep({"convert", broken}).err, "2:1: error: "));
+  CHECK(contains(run_lockstep({"convert", broken}).err, "2:1: error: "));
 }

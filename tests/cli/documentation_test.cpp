@@ -29,7 +29,7 @@ std::string help_of(const std::string& command) {
   std::vector<std::string> words = {"help"};
   std::istringstream in(command);
   for (std::string word; in >> word;) words.push_back(word);
-  return text = lockstep::host::test::lockstep(words).out;
+  return text = run_lockstep(words).out;
 }
 
 // "run" and "--record" of each `lockstep run t.xml --record x`, in code or in a line of a script.

@@ -11,7 +11,7 @@ namespace {
 
 Outcome run_command(const std::string& attributes) {
   const TemporaryDirectory directory;
-  return lockstep::host::test::lockstep(
+  return run_lockstep(
       {"run",
        directory.file("tree.xml",
                       "<root lockstep=\"1\"><plugin name=\"exec\" program=\"exec.py\" "
@@ -48,7 +48,7 @@ TEST_CASE("no shell reads a command, unless it is asked for") {
 TEST_CASE("a command that is halted ends with all that it has started, and no other command does") {
   const TemporaryDirectory directory;
   const std::string other = directory.path("other"), survivor = directory.path("survivor");
-  const Outcome outcome = lockstep::host::test::lockstep(
+  const Outcome outcome = run_lockstep(
       {"run",
        directory.file(
            "tree.xml",
@@ -70,7 +70,7 @@ command="(trap '' TERM; sleep 2.5; touch ')" +
 
 TEST_CASE("the output of a command is its progress, and a command that is halted ends") {
   const TemporaryDirectory directory;
-  const Outcome outcome = lockstep::host::test::lockstep(
+  const Outcome outcome = run_lockstep(
       {"run",
        directory.file("tree.xml", R"(<root lockstep="1"><plugin name="exec" program="exec.py"/>
 <plugin name="motion"/><BehaviorTree ID="Main"><Parallel success_count="1"><ParallelAbsolute barriers="0.3;0.5">

@@ -57,7 +57,7 @@ void check_all(const std::vector<Hostile>& files) {
       std::ofstream out(path, std::ios::binary);
       hostile.write(directory, out);
     }
-    const Outcome outcome = lockstep::host::test::lockstep({"check", path});
+    const Outcome outcome = run_lockstep({"check", path});
     INFO(hostile.name);
     INFO(fmt::format("{:.2f} s, {:.0f} MB", outcome.cpu_seconds, outcome.peak_megabytes));
     if (std::getenv("LOCKSTEP_TELL_COST") != nullptr) {
@@ -305,8 +305,7 @@ TEST_CASE("a plugin is a name, never a path") {
     directory.file("x.so", "");
     const std::string path =
         directory.file("tree.xml", kHead + "<plugin name=\"" + name + "\"/>\n" + kTree + "</root>");
-    const Outcome outcome =
-        lockstep::host::test::lockstep({"check", path, "--plugin-path", directory.path("a/b")});
+    const Outcome outcome = run_lockstep({"check", path, "--plugin-path", directory.path("a/b")});
     INFO(outcome.err);
     CHECK(outcome.code == 4);
     CHECK(contains(outcome.err, path + ":2:15: error: '"));
@@ -324,7 +323,7 @@ TEST_CASE("half a million errors take little more time than half a million nodes
     many(kHead + "<BehaviorTree ID=\"A\"><Sequence>", 500'000, node + "\n",
          "</Sequence></BehaviorTree></root>")(directory, out);
     out.close();
-    const Outcome outcome = lockstep::host::test::lockstep({"check", path});
+    const Outcome outcome = run_lockstep({"check", path});
     CHECK(outcome.code == code);
     return outcome.cpu_seconds;
   };
@@ -460,7 +459,7 @@ TEST_CASE("no message is long, whatever is") {
   for (const std::string& it : texts) {
     const TemporaryDirectory directory;
     const std::string path = directory.file("tree.xml", it);
-    const Outcome outcome = lockstep::host::test::lockstep({"check", path});
+    const Outcome outcome = run_lockstep({"check", path});
     std::string abbreviated = it;
     for (auto at = abbreviated.find(word); at != std::string::npos; at = abbreviated.find(word))
       abbreviated.replace(at, word.size(), "w…");

@@ -97,7 +97,7 @@ TEST_CASE("a hostile line of a recording is refused or read, in a few times its 
       const double readers = command[1] == "diff" ? 2 : 1;
       if (readers == 2) command.push_back(file);
       if (command[1] == "csv") command.insert(command.end(), {"--out", "/dev/null"});
-      const Outcome outcome = lockstep::host::test::lockstep(command);
+      const Outcome outcome = run_lockstep(command);
       INFO(hostile.name << ", " << command[1] << ": " << outcome.err);
       if (std::getenv("LOCKSTEP_TELL_COST") != nullptr) {
         WARN(fmt::format("{}, {}: {:.2f} s, {:.0f} MB", hostile.name, command[1],

@@ -119,8 +119,8 @@ TEST_CASE("Ctrl-Z gives the terminal back, fg draws the view again") {
   const std::string program = LOCKSTEP_BINARY_DIR "/lockstep ";
   const std::string file = directory.path("run.jsonl");
   const std::string run = program + "run " + directory.file("tree.xml", kEndless);
-  REQUIRE(lockstep::host::test::lockstep({"run", directory.path("tree.xml"), "--clock", "virtual",
-                                          "--max-ticks", "100", "--view", "none", "--record", file})
+  REQUIRE(run_lockstep({"run", directory.path("tree.xml"), "--clock", "virtual", "--max-ticks",
+                        "100", "--view", "none", "--record", file})
               .code == 124);
   for (const std::string& command : {run, program + "replay --speed 0.001 " + file}) {
     CAPTURE(command);

@@ -9,7 +9,7 @@ using nlohmann::json;
 namespace {
 
 Outcome call(std::vector<std::string> arguments) {
-  return lockstep::host::test::lockstep(std::move(arguments));
+  return run_lockstep(std::move(arguments));
 }
 
 std::string record(const TemporaryDirectory& directory, const std::string& name,

@@ -1,7 +1,12 @@
 // `lockstep log page`: the file that it writes, and what it refuses. tests/page/ looks at it in a
 // browser.
+#include <sys/stat.h>
+
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <fstream>
+#include <thread>
 
 #include "cli/program.h"
 
@@ -10,17 +15,16 @@ using namespace lockstep::host::test;
 namespace {
 
 std::string record_ticks(const TemporaryDirectory& directory, const std::string& ticks) {
-  const std::string tree = directory.file("tree.xml", tree_text("<Advance step=\"0.001\"/>"));
+  const std::string tree = directory.file("tree.xml", tree_text("<Advance step=\"1e-6\"/>"));
   const std::string file = directory.path("run.jsonl");
-  const Outcome outcome =
-      lockstep::host::test::lockstep({"run", tree, "--clock", "virtual", "--view", "none",
-                                      "--max-ticks", ticks, "--record", file});
+  const Outcome outcome = run_lockstep({"run", tree, "--clock", "virtual", "--view", "none",
+                                        "--max-ticks", ticks, "--record", file});
   REQUIRE(outcome.code == 124);
   return file;
 }
 
 Outcome log_page(const std::string& recording, const std::string& page) {
-  return lockstep::host::test::lockstep({"log", "page", recording, "--out", page});
+  return run_lockstep({"log", "page", recording, "--out", page});
 }
 
 // As a browser finds it.
@@ -93,4 +97,41 @@ TEST_CASE("log page writes nothing where there is nothing to show") {
     CHECK(outcome.code == 2);
     CHECK(outcome.err.find("cannot write '/dev/full'") != std::string::npos);
   }
+}
+
+TEST_CASE("log page keeps no more of a recording in memory than log info does") {
+  const TemporaryDirectory directory;
+  const std::string recording = record_ticks(directory, "400000");
+  const double megabytes = static_cast<double>(std::filesystem::file_size(recording)) / (1u << 20u);
+  CHECK(megabytes > 24);
+  const Outcome page = log_page(recording, directory.path("run.html"));
+  CHECK(page.code == 0);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  const Outcome info = run_lockstep({"log", "info", recording});
+  CHECK(page.peak_megabytes < info.peak_megabytes + megabytes / 3);
+#endif
+}
+
+TEST_CASE("log page says on a terminal how much it has read, and in the end no more") {
+  const TemporaryDirectory directory;
+  const auto text = lines(read_file(record_ticks(directory, "1")));
+  const std::string pipe = directory.path("pipe.jsonl");
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  Process process({.arguments = {"log", "page", pipe, "--out", directory.path("run.html")}},
+                  Process::Output::Terminal);
+  std::atomic<bool> is_shown = false;
+  std::thread writer([&] {
+    std::ofstream out(pipe);
+    out << text.front() << "\n";
+    for (unsigned tick = 0; !is_shown && out; ++tick) {
+      out << R"({"tick":)" << tick << R"(,"time_s":0,"nodes":[]})" << std::endl;
+    }
+  });
+  CHECK(process.wait_for(" MB"));
+  is_shown = true;
+  writer.join();
+  const Outcome outcome = process.finish();
+  CHECK(outcome.code == 0);
+  const std::string& out = outcome.out;
+  CHECK(contains(out.substr(out.rfind(" MB")), "\r\x1b[K"));
 }

@@ -27,15 +27,15 @@ const std::string kR1 =
 std::string record(const TemporaryDirectory& directory, const std::string& node) {
   const std::string tree = directory.file("tree.xml", tree_text(node));
   const std::string file = directory.path("run.jsonl");
-  const Outcome outcome = lockstep::host::test::lockstep(
-      {"run", tree, "--clock", "virtual", "--view", "none", "--record", file});
+  const Outcome outcome =
+      run_lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--record", file});
   REQUIRE(outcome.code == 0);
   return file;
 }
 
 Outcome log(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "log");
-  return lockstep::host::test::lockstep(std::move(arguments));
+  return run_lockstep(std::move(arguments));
 }
 
 double measure(const std::string& recording, const std::string& name) {
@@ -239,8 +239,8 @@ TEST_CASE("log plot of a large recording takes what its picture needs, not what 
   for (int i = 0; i < 999; ++i) node += "<Advance step=\"0\"/>";
   const std::string tree = directory.file("tree.xml", tree_text(node + "</ParallelRelative>"));
   const std::string recording = directory.path("run.jsonl");
-  REQUIRE(lockstep::host::test::lockstep({"run", tree, "--clock", "virtual", "--view", "none",
-                                          "--max-ticks", "20000", "--record", recording})
+  REQUIRE(run_lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--max-ticks", "20000",
+                        "--record", recording})
               .code == 124);
   const Outcome outcome = log({"plot", recording, "--out", directory.path("x.svg")});
   CHECK(outcome.code == 0);
@@ -324,7 +324,7 @@ TEST_CASE(
     "barriers from an entry: recording, plot and replay show those that counted in each tick") {
   const TemporaryDirectory directory;
   const std::string file = directory.path("run.jsonl");
-  const Outcome outcome = lockstep::host::test::lockstep(
+  const Outcome outcome = run_lockstep(
       {"run", LOCKSTEP_SOURCE_DIR "/trees/replanning.xml", "--clock", "virtual", "--record", file});
   REQUIRE(outcome.code == 0);
   CHECK(contains(outcome.err,
@@ -351,6 +351,6 @@ TEST_CASE(
   CHECK(limit_at.at(2) == 0.55);
   CHECK(limit_at.at(4.5) == 1);
   CHECK(contains(read_file(directory.path("plot.gp")), "(barriers from an entry)"));
-  const Outcome replay = lockstep::host::test::lockstep({"replay", file, "--print", "--at", "150"});
+  const Outcome replay = run_lockstep({"replay", file, "--print", "--at", "150"});
   CHECK(contains(replay.out, "waits for arm at barrier 0.4"));
 }

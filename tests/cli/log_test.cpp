@@ -18,8 +18,8 @@ std::string record(const TemporaryDirectory& directory) {
                             "<Advance name=\"arm\" step=\"0.1\"/>"
                             "<Advance name=\"base\" step=\"0.3\"/></ParallelAbsolute>"));
   const std::string file = directory.path("run.jsonl");
-  const Outcome outcome = lockstep::host::test::lockstep(
-      {"run", tree, "--clock", "virtual", "--view", "none", "--record", file});
+  const Outcome outcome =
+      run_lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--record", file});
   REQUIRE(outcome.code == 0);
   return file;
 }
@@ -31,7 +31,7 @@ std::string with_loss(std::string closing) {
 
 Outcome log(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "log");
-  return lockstep::host::test::lockstep(std::move(arguments));
+  return run_lockstep(std::move(arguments));
 }
 
 }  // namespace
@@ -69,9 +69,7 @@ TEST_CASE("log info counts one node as one") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file("tree.xml", tree_text("<AlwaysSuccess/>"));
   const std::string file = directory.path("run.jsonl");
-  REQUIRE(
-      lockstep::host::test::lockstep({"run", tree, "--clock", "virtual", "--record", file}).code ==
-      0);
+  REQUIRE(run_lockstep({"run", tree, "--clock", "virtual", "--record", file}).code == 0);
   const Outcome outcome = log({"info", file});
   CHECK(contains(outcome.out, "\n  1 node, 100 Hz"));
   CHECK(contains(outcome.out, "; 0 overruns, 0 deadlines skipped\n"));
@@ -95,8 +93,8 @@ TEST_CASE("log info tells why a run failed, in the words of the run") {
                             "<ParallelAbsolute barriers=\"0.5\"><Advance/><Advance/>"
                             "</ParallelAbsolute></Sequence>"));
   const std::string file = directory.path("run.jsonl");
-  const Outcome run = lockstep::host::test::lockstep(
-      {"run", tree, "--clock", "virtual", "--view", "none", "--record", file});
+  const Outcome run =
+      run_lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--record", file});
   CHECK(run.code == 1);
   const std::string why =
       "  decided by Main/mission/Fallback/AlwaysFailure:\n"
@@ -136,7 +134,7 @@ TEST_CASE("the summary, log info and log measure agree on how long a run took") 
   const auto agree = [&](std::vector<std::string> more, const std::string& ticks) {
     std::vector<std::string> arguments{"run", tree, "--record", file, "--view", "none"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    const std::string summary = lockstep::host::test::lockstep(arguments).out;
+    const std::string summary = run_lockstep(arguments).out;
     const auto from = summary.find("after " + ticks + ", ");
     REQUIRE(from != std::string::npos);
     const std::string took = summary.substr(from, summary.find(" s\n") - from);
@@ -211,7 +209,7 @@ TEST_CASE("what cannot be read, and wrong usage, end with 2") {
   CHECK(missing.code == 2);
   CHECK(contains(missing.err, "No such file or directory"));
   CHECK(log({"info", directory.path("")}).code == 2);
-  CHECK(lockstep::host::test::lockstep({"log"}).code == 2);
+  CHECK(run_lockstep({"log"}).code == 2);
   CHECK(log({"csv"}).code == 2);
   CHECK(log({"table", "x.jsonl"}).code == 2);
 }
@@ -221,8 +219,7 @@ TEST_CASE("a reader that goes away is no error") {
   const std::string tree =
       directory.file("tree.xml", tree_text("<Parallel><Advance step=\"0.0001\"/></Parallel>"));
   const std::string recording = directory.path("run.jsonl");
-  REQUIRE(lockstep::host::test::lockstep(
-              {"run", tree, "--clock", "virtual", "--view", "none", "--record", recording})
+  REQUIRE(run_lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--record", recording})
               .code == 0);
   for (const std::string before : {"", "trap '' PIPE; "}) {
     const Outcome outcome = run({.arguments = {"-c", before + "\"$0\" log csv \"$1\" | head -n 1",

@@ -12,7 +12,7 @@ namespace {
 json listed(std::vector<std::string> more) {
   std::vector<std::string> arguments{"nodes", "--format", "json"};
   arguments.insert(arguments.end(), more.begin(), more.end());
-  const Outcome outcome = lockstep::host::test::lockstep(arguments);
+  const Outcome outcome = run_lockstep(arguments);
   CHECK(outcome.code == 0);
   CHECK(outcome.err.empty());
   return json::parse(outcome.out);
@@ -26,7 +26,7 @@ std::size_t characters(const std::string& line) {
 }  // namespace
 
 TEST_CASE("nodes as text has all built-ins in groups, in at most 100 columns") {
-  const Outcome outcome = lockstep::host::test::lockstep({"nodes"});
+  const Outcome outcome = run_lockstep({"nodes"});
   CHECK(outcome.code == 0);
   CHECK(outcome.err.empty());
   for (const json& node : listed({})) {
@@ -82,12 +82,12 @@ TEST_CASE("LOCKSTEP_PLUGIN_PATH is searched, after --plugin-path") {
 }
 
 TEST_CASE("one node in full, and did you mean") {
-  const Outcome one = lockstep::host::test::lockstep({"nodes", "ParallelRelative"});
+  const Outcome one = run_lockstep({"nodes", "ParallelRelative"});
   CHECK(one.code == 0);
   CHECK(contains(one.out, "<ParallelRelative delta=\"…\"> … </ParallelRelative>"));
   CHECK(contains(one.out, "double, from 0 to 1, required"));
   CHECK(!contains(one.out, "Sequence"));
-  const Outcome unknown = lockstep::host::test::lockstep({"nodes", "Sequnce"});
+  const Outcome unknown = run_lockstep({"nodes", "Sequnce"});
   CHECK(unknown.code == 2);
   CHECK(unknown.out.empty());
   CHECK(contains(unknown.err, "unknown node 'Sequnce'"));
@@ -96,17 +96,16 @@ TEST_CASE("one node in full, and did you mean") {
 
 TEST_CASE("a plugin that is refused ends nodes and schema with 4") {
   for (const std::string command : {"nodes", "schema"}) {
-    const Outcome missing =
-        lockstep::host::test::lockstep({command, "--plugin", "/nonexistent.so"});
+    const Outcome missing = run_lockstep({command, "--plugin", "/nonexistent.so"});
     CHECK(missing.code == 4);
     CHECK(missing.out.empty());
     CHECK(contains(missing.err, "'/nonexistent.so' does not exist"));
-    CHECK(lockstep::host::test::lockstep({command, "--plugin", "nonexistent"}).code == 4);
+    CHECK(run_lockstep({command, "--plugin", "nonexistent"}).code == 4);
   }
 }
 
 TEST_CASE("docs/nodes.md is what the program prints") {
-  const Outcome outcome = lockstep::host::test::lockstep({"nodes", "--format", "markdown"});
+  const Outcome outcome = run_lockstep({"nodes", "--format", "markdown"});
   CHECK(outcome.code == 0);
   INFO("docs/nodes.md is stale: lockstep nodes --format markdown > docs/nodes.md");
   CHECK((outcome.out == read_file(LOCKSTEP_SOURCE_DIR "/docs/nodes.md")));

@@ -13,12 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Outcome shell(const std::string& script, const TemporaryDirectory& directory) {
-  return run({.arguments = {"-c", "cd \"$0\" && PATH=\"$1:$PATH\" && " + script, directory.path(""),
-                            LOCKSTEP_BINARY_DIR},
-              .program = "/bin/bash"});
-}
-
 const std::string kTree = tree_text("<Advance step=\"0.1\"/>");
 
 // tree.xml, which includes part.xml; links to both; a plugin; a recording.
@@ -139,7 +133,7 @@ TEST_CASE("a table replaces the file of its name when it is whole") {
   CHECK(read_file(directory.path("old.csv")) == "old");
   CHECK(shell("lockstep log csv run.jsonl --out old.csv", directory).code == 0);
   CHECK(read_file(directory.path("old.csv")) ==
-        lockstep({"log", "csv", directory.path("run.jsonl")}).out);
+        run_lockstep({"log", "csv", directory.path("run.jsonl")}).out);
 }
 
 }  // namespace lockstep::host::test

@@ -16,12 +16,6 @@ using Strings = std::vector<std::string>;
 const std::string kTree =
     "<root lockstep=\"1\"><BehaviorTree ID=\"Main\"><AlwaysSuccess/></BehaviorTree></root>\n";
 
-Outcome shell(const std::string& script, const TemporaryDirectory& directory) {
-  return run({.arguments = {"-c", "cd \"$0\" && PATH=\"$1:$PATH\" && " + script, directory.path(""),
-                            LOCKSTEP_BINARY_DIR},
-              .program = "/bin/bash"});
-}
-
 }  // namespace
 
 TEST_CASE("a tree is read from stdin, from a pipe and from a process substitution") {

@@ -9,7 +9,7 @@ namespace {
 
 // Status and progress of a node in each tick until it succeeds, as log csv has them.
 std::vector<std::string> played(const std::string& recording, const std::string& path) {
-  const Outcome outcome = lockstep::host::test::lockstep({"log", "csv", recording});
+  const Outcome outcome = run_lockstep({"log", "csv", recording});
   CHECK(outcome.code == 0);
   std::vector<std::string> rows;
   for (const std::string& row : lines(outcome.out)) {
@@ -25,8 +25,8 @@ std::vector<std::string> played(const std::string& recording, const std::string&
 Outcome record(const TemporaryDirectory& directory, const std::string& nodes,
                const std::string& file) {
   const std::string tree = directory.file(file + ".xml", tree_text(nodes));
-  return lockstep::host::test::lockstep({"run", tree, "--clock", "virtual", "--view", "none",
-                                         "--seed", "3", "--record", directory.path(file)});
+  return run_lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--seed", "3",
+                       "--record", directory.path(file)});
 }
 
 }  // namespace
@@ -69,8 +69,8 @@ TEST_CASE("a run does not record over the file that its tree plays") {
   const std::string real = directory.path("real.jsonl"), before = read_file(real);
   const std::string tree =
       directory.file("play.xml", tree_text("<Recorded file=\"" + real + "\" node=\"Main/a\"/>"));
-  const Outcome outcome = lockstep::host::test::lockstep(
-      {"run", tree, "--clock", "virtual", "--view", "none", "--record", real});
+  const Outcome outcome =
+      run_lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--record", real});
   CHECK(outcome.code == 2);
   CHECK(contains(outcome.err, "it is the same file as"));
   CHECK(read_file(real) == before);

@@ -11,11 +11,7 @@ namespace {
 Outcome check_plugin(const std::string& file, std::vector<std::string> more = {}) {
   std::vector<std::string> arguments{"plugin", "check", file};
   arguments.insert(arguments.end(), more.begin(), more.end());
-  return lockstep::host::test::lockstep(arguments);
-}
-
-std::string abi_plugin(const std::string& name) {
-  return LOCKSTEP_BINARY_DIR "/tests/abi/plugins/" + name + ".so";
+  return run_lockstep(arguments);
 }
 
 }  // namespace
@@ -47,6 +43,7 @@ TEST_CASE("plugin check: what breaks the contract is named, with its leaf") {
   const std::pair<const char*, const char*> cases[] = {
       {"status_out_of_range", "wrong 'Probe' returned status "},
       {"nan_progress", "wrong 'Probe' reported a progress that is not a number\n"},
+      {"two_progresses", "wrong 'Probe' keeps another progress (LOCKSTEP_KEPT_PROGRESS) than"},
       {"condition_running", "wrong 'Probe' is a condition and returned running\n"},
       {"throws_exception", "wrong 'Probe' threw an exception"},
       {"wrong_abi", "ABI"},

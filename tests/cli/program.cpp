@@ -198,8 +198,18 @@ Outcome run(const Call& call) {
   return Process(call).finish();
 }
 
-Outcome lockstep(std::vector<std::string> arguments) {
+Outcome run_lockstep(std::vector<std::string> arguments) {
   return run({.arguments = std::move(arguments)});
+}
+
+Outcome shell(const std::string& script, const TemporaryDirectory& directory) {
+  return run({.arguments = {"-c", "cd \"$0\" && PATH=\"$1:$PATH\" && " + script, directory.path(""),
+                            LOCKSTEP_BINARY_DIR},
+              .program = "/bin/bash"});
+}
+
+std::string abi_plugin(const std::string& name) {
+  return LOCKSTEP_BINARY_DIR "/tests/abi/plugins/" + name + ".so";
 }
 
 DeadEnd::DeadEnd(Reader reader) {

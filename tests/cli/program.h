@@ -30,7 +30,7 @@ struct Call {
 
 Outcome run(const Call& call);
 // lockstep with these arguments.
-Outcome lockstep(std::vector<std::string> arguments);
+Outcome run_lockstep(std::vector<std::string> arguments);
 
 // The program while it runs.
 class Process {
@@ -100,7 +100,12 @@ class TemporaryDirectory {
   std::string path_;
 };
 
+// Runs a script of bash in the directory; `lockstep` is that of this build.
+Outcome shell(const std::string& script, const TemporaryDirectory& directory);
+
 std::string read_file(const std::string& path);
+// The path of a plugin of tests/abi/plugins.
+std::string abi_plugin(const std::string& name);
 
 // A file of /proc/ID. Empty if that process has ended, be it while it is read.
 std::string read_process_file(pid_t process, const std::string& name);

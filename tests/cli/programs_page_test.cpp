@@ -85,15 +85,15 @@ TEST_CASE("leaves in Python, bash, node, C and Rust give the recording of those 
       built.file("tree.xml",
                  "<root lockstep=\"1\"><plugin name=\"advance\"/><BehaviorTree ID=\"Main\">"
                  "<Advance step=\"0\"/></BehaviorTree></root>");
-  const Outcome panic = lockstep::host::test::lockstep(
-      {"run", tree, "--clock", "virtual", "--plugin-path", built.path("")});
+  const Outcome panic =
+      run_lockstep({"run", tree, "--clock", "virtual", "--plugin-path", built.path("")});
   CHECK(panic.code == 5);
   CHECK(contains(panic.err,
                  "(Advance of plugin 'advance') failed in tick 0 at 0.000 s: port 'step' is 0"));
 }
 
 TEST_CASE("nodes has the leaves and ports of a program") {
-  const Outcome outcome = lockstep::host::test::lockstep(
+  const Outcome outcome = run_lockstep(
       {"nodes", "Advance", "--run-programs", "--plugin", kProgramsFolder + "/advance.py"});
   INFO(outcome.err);
   CHECK(outcome.code == 0);

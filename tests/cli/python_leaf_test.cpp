@@ -31,8 +31,8 @@ struct PythonLeaves {
         "<root lockstep=\"1\"><plugin name=\"grip\" program=\"grip.py\"/><BehaviorTree "
         "ID=\"Main\"><Sequence memory=\"true\">" +
             nodes + "</Sequence></BehaviorTree></root>");
-    return lockstep::host::test::lockstep({"run", tree, "--plugin-path", directory.path(""),
-                                           "--clock", "virtual", "--max-ticks", "100"});
+    return run_lockstep({"run", tree, "--plugin-path", directory.path(""), "--clock", "virtual",
+                         "--max-ticks", "100"});
   }
 };
 
@@ -56,14 +56,11 @@ TEST_CASE("a leaf in Python sets ports that another reads, and its exception has
 
 TEST_CASE("plugin check finds what a program does against the protocol, and saves its leaves") {
   const PythonLeaves leaves;
-  const auto nodes = [&] {
-    return lockstep::host::test::lockstep({"nodes", "Grip", "--plugin", leaves.program});
-  };
+  const auto nodes = [&] { return run_lockstep({"nodes", "Grip", "--plugin", leaves.program}); };
   const Outcome unknown = nodes();
   CHECK(unknown.code == 4);
   CHECK(contains(unknown.err, "is a program, which this command does not run"));
-  const Outcome checked =
-      lockstep::host::test::lockstep({"plugin", "check", leaves.program, "--save"});
+  const Outcome checked = run_lockstep({"plugin", "check", leaves.program, "--save"});
   INFO(checked.out << checked.err);
   CHECK(checked.code == 0);
   CHECK(contains(checked.out, "ok    'Grip 1' answers halt\n"));
@@ -73,7 +70,7 @@ TEST_CASE("plugin check finds what a program does against the protocol, and save
   CHECK(contains(known.out, "force  double in N, from 0 to 100, default 10"));
 
   chmod(leaves.directory.file("grip.py", "#!/bin/sh\necho hello\n").c_str(), 0755);
-  const Outcome wrong = lockstep::host::test::lockstep({"plugin", "check", leaves.program});
+  const Outcome wrong = run_lockstep({"plugin", "check", leaves.program});
   CHECK(wrong.code == 4);
   CHECK(contains(wrong.out, "wrong it does not say what leaves it has: not JSON"));
   CHECK(nodes().code == 0);  // it was not run
@@ -155,7 +152,7 @@ TEST_CASE("a program is found by its name, or it is said what to type") {
   const std::string path = leaves.directory.path("");
   const auto ask = [&](std::vector<std::string> words) {
     words.insert(words.end(), {"--plugin-path", path});
-    return lockstep::host::test::lockstep(words);
+    return run_lockstep(words);
   };
   for (const std::string name : {"grip", "grip.py"}) {
     const Outcome checked = ask({"plugin", "check", name});
@@ -183,7 +180,7 @@ TEST_CASE("a program is found by its name, or it is said what to type") {
 
 TEST_CASE("leaves that were saved before the program has changed are named") {
   const PythonLeaves leaves;
-  REQUIRE(lockstep::host::test::lockstep({"plugin", "check", leaves.program, "--save"}).code == 0);
+  REQUIRE(run_lockstep({"plugin", "check", leaves.program, "--save"}).code == 0);
   const std::string nodes = R"(<Grip width="{w}"/>)";
   CHECK(!contains(leaves.run_tree(nodes).err, "grip.leaves.json"));
   std::string text = read_file(leaves.program);
@@ -198,7 +195,7 @@ TEST_CASE("leaves that were saved before the program has changed are named") {
     std::vector<std::string> words = {"check", leaves.directory.path("tree.xml"), "--plugin-path",
                                       leaves.directory.path("")};
     if (runs) words.push_back("--run-programs");
-    return lockstep::host::test::lockstep(words);
+    return run_lockstep(words);
   };
   CHECK(contains(check(true).err, "has other leaves than"));
   // Without running it, the time of the file says that it may be so.

@@ -29,8 +29,8 @@ TEST_CASE("the README's action compiles and its tree runs as shown") {
   INFO(compiled.err);
   REQUIRE(compiled.code == 0);
 
-  const Outcome outcome = lockstep::host::test::lockstep(
-      {"run", tree, "--plugin-path", directory.path(""), "--clock", "virtual"});
+  const Outcome outcome =
+      run_lockstep({"run", tree, "--plugin-path", directory.path(""), "--clock", "virtual"});
   CHECK(outcome.code == 0);
   std::string shown = block(readme, "console");
   for (int command = 0; command < 2; ++command) shown.erase(0, shown.find('\n') + 1);

@@ -22,7 +22,7 @@ struct Tree {
       "'Main/Sequence/grasp' (Probe of plugin 'real_time')\n  hint: ";
 
   Outcome run(const std::string& clock) const {
-    return lockstep::host::test::lockstep({"run", file, "--plugin", kPlugin, "--clock", clock});
+    return run_lockstep({"run", file, "--plugin", kPlugin, "--clock", clock});
   }
 };
 
@@ -38,9 +38,9 @@ TEST_CASE("a run on the virtual clock warns of leaves that work in real time") {
 
 TEST_CASE("a study warns once of leaves that work in real time") {
   const Tree tree;
-  const Outcome outcome = lockstep::host::test::lockstep(
-      {"study", tree.file, "--runs", "2", "--measure", "duration", "--grid", "rate=50,100",
-       "--plugin", kPlugin, "--no-plots", "--out", tree.directory.path("out")});
+  const Outcome outcome = run_lockstep({"study", tree.file, "--runs", "2", "--measure", "duration",
+                                        "--grid", "rate=50,100", "--plugin", kPlugin, "--no-plots",
+                                        "--out", tree.directory.path("out")});
   INFO(outcome.err);
   CHECK(outcome.code == 0);
   const auto first = outcome.err.find(tree.warning);
@@ -54,17 +54,15 @@ TEST_CASE("of many leaves that work in real time a warning names five") {
   for (int i = 0; i < 8; ++i) leaves += "<Probe/>";
   const std::string file =
       directory.file("tree.xml", tree_text("<Parallel>" + leaves + "</Parallel>"));
-  const Outcome outcome = lockstep::host::test::lockstep(
-      {"run", file, "--plugin", kPlugin, "--clock", "virtual", "--view", "none"});
+  const Outcome outcome =
+      run_lockstep({"run", file, "--plugin", kPlugin, "--clock", "virtual", "--view", "none"});
   CHECK(contains(outcome.err, "'Main/Parallel/Probe#5' (Probe of plugin 'real_time') and 3 more"));
   CHECK_FALSE(contains(outcome.err, "Probe#6' (Probe"));
 }
 
 TEST_CASE("nodes says which leaves work in real time") {
   const auto listed = [](const std::string& format) {
-    return lockstep::host::test::lockstep(
-               {"nodes", "Probe", "--plugin", kPlugin, "--format", format})
-        .out;
+    return run_lockstep({"nodes", "Probe", "--plugin", kPlugin, "--format", format}).out;
   };
   CHECK(contains(listed("text"),
                  "It works in real time: on the virtual clock no tick waits for it."));

@@ -35,9 +35,9 @@ TEST_CASE("a recording holds arguments, and values of the blackboard unless they
       "<BehaviorTree ID=\"Main\"><Advance step=\"{step}\"/></BehaviorTree></root>");
   const std::string file = directory.path("run.jsonl");
   for (const std::string entries : {"all", "none"}) {
-    const Outcome outcome =
-        lockstep({"run", tree, "--arg", "told=argument", "--set", "step=0.7317", "--clock",
-                  "virtual", "--max-ticks", "1", "--record", file, "--record-entries", entries});
+    const Outcome outcome = run_lockstep({"run", tree, "--arg", "told=argument", "--set",
+                                          "step=0.7317", "--clock", "virtual", "--max-ticks", "1",
+                                          "--record", file, "--record-entries", entries});
     INFO(outcome.err);
     CHECK(outcome.code == 124);
     CHECK(contains(read_file(file), "\"told\":\"argument\""));
@@ -58,7 +58,7 @@ TEST_CASE("a recording has the entries that changed and what leaves logged, of e
   const auto recorded = [&](const std::string& key, std::vector<std::string> more) {
     more.insert(more.begin(), {"run", tree, "--clock", "virtual", "--rate", "10", "--set", "s=0.1",
                                "--record", file});
-    CHECK(lockstep::host::test::lockstep(more).code == 0);
+    CHECK(run_lockstep(more).code == 0);
     std::vector<std::string> found;
     for (const std::string& line : lines(read_file(file))) {
       const auto json = nlohmann::json::parse(line);
@@ -79,13 +79,12 @@ TEST_CASE("a recording has the entries that changed and what leaves logged, of e
                                                        {"key":"s","type":"double"}])"));
   CHECK(recorded("logs", {"--log-level", "none"}) ==
         std::vector<std::string>{R"(0[["Main/Sequence/Say","info","says: a \"word\""]])"});
-  const Outcome replay = lockstep::host::test::lockstep({"replay", file, "--print", "--at", "0"});
+  const Outcome replay = run_lockstep({"replay", file, "--print", "--at", "0"});
   CHECK(contains(replay.out, "\ns = 0.1\nMain/Sequence/Say: info: says: a \"word\"\n"));
   CHECK(recorded("entries", {"--record-entries", "s"}) ==
         std::vector<std::string>{R"(0[[0,"0.1"]])"});
   CHECK(recorded("entries", {"--record-entries", "none"}).empty());
-  const Outcome typo =
-      lockstep::host::test::lockstep({"run", tree, "--record", file, "--record-entries", "plam"});
+  const Outcome typo = run_lockstep({"run", tree, "--record", file, "--record-entries", "plam"});
   CHECK(typo.code == 2);
   CHECK(contains(typo.err, "the tree has no entry 'plam'\n  hint: did you mean 'plan'?"));
 }
@@ -95,9 +94,8 @@ TEST_CASE("a recording says which nodes may write an entry: by a port or a scrip
   const auto writers = [&](const std::string& text) {
     const std::string tree = directory.file("tree.xml", text);
     const std::string file = directory.path("run.jsonl");
-    const Outcome outcome =
-        lockstep::host::test::lockstep({"run", tree, "--clock", "virtual", "--view", "none",
-                                        "--max-ticks", "9", "--record", file});
+    const Outcome outcome = run_lockstep({"run", tree, "--clock", "virtual", "--view", "none",
+                                          "--max-ticks", "9", "--record", file});
     INFO(outcome.err);
     CHECK(outcome.code == 0);
     std::map<std::string, std::vector<int>> found;

@@ -7,7 +7,7 @@ using namespace lockstep::host::test;
 namespace {
 
 Outcome call(std::vector<std::string> arguments) {
-  return lockstep::host::test::lockstep(std::move(arguments));
+  return run_lockstep(std::move(arguments));
 }
 
 const std::string kTree = tree_text(

@@ -33,7 +33,7 @@ class Dinner {
   Outcome run(std::vector<std::string> more) const {
     std::vector<std::string> all{"run", tree_, "--clock", "virtual"};
     all.insert(all.end(), more.begin(), more.end());
-    return lockstep::host::test::lockstep(all);
+    return run_lockstep(all);
   }
   const std::string& tree() const { return tree_; }
 
@@ -84,20 +84,19 @@ TEST_CASE("resources: a recording says who owns what in each tick, and log knows
   // a;b, b;c and a;c are the sets 3, 6 and 5; who waits has them negative.
   CHECK_THAT(text, Catch::Contains(R"("limits":[[2,3],[5,-6],[8,-5]])"));
   CHECK_THAT(text, Catch::Contains(R"("limits":[[2,-3],[5,6]])"));
-  const Outcome info = lockstep::host::test::lockstep({"log", "info", dinner.recording()});
+  const Outcome info = run_lockstep({"log", "info", dinner.recording()});
   CHECK(info.code == 0);
   CHECK_THAT(info.out, Catch::Contains("    K/…/eat  waited 10 times"));
-  const Outcome measure = lockstep::host::test::lockstep(
+  const Outcome measure = run_lockstep(
       {"log", "measure", dinner.recording(), "--measure", "held:Main/Parallel/P/UseResources/eat"});
   CHECK(measure.code == 0);
   CHECK_THAT(measure.out, Catch::Contains("18"));
-  const Outcome plot = lockstep::host::test::lockstep(
-      {"log", "plot", dinner.recording(), "--out", dinner.path("dinner.svg")});
+  const Outcome plot =
+      run_lockstep({"log", "plot", dinner.recording(), "--out", dinner.path("dinner.svg")});
   CHECK(plot.code == 0);
   CHECK_THAT(read_file(dinner.path("dinner.dat")), Catch::Contains("# K/…/eat is held"));
   CHECK_THAT(read_file(dinner.path("dinner.gp")), Catch::Contains("Main/forks   (3 resources)"));
-  CHECK(lockstep::host::test::lockstep({"log", "diff", dinner.recording(), dinner.recording()})
-            .code == 0);
+  CHECK(run_lockstep({"log", "diff", dinner.recording(), dinner.recording()}).code == 0);
 }
 
 TEST_CASE("resources: a wrong set in a recording is refused") {
@@ -110,8 +109,7 @@ TEST_CASE("resources: a wrong set in a recording is refused") {
     std::string changed = text;
     changed.replace(changed.find(limit), limit.size(), wrong);
     const TemporaryDirectory directory;
-    const Outcome outcome =
-        lockstep::host::test::lockstep({"log", "info", directory.file("wrong.jsonl", changed)});
+    const Outcome outcome = run_lockstep({"log", "info", directory.file("wrong.jsonl", changed)});
     CHECK(outcome.code == 3);
     CHECK_THAT(outcome.err, Catch::Contains(wrong[1] == '5' ? "the limit of a UseResources is not"
                                                             : "a node's limit is not"));
@@ -120,9 +118,9 @@ TEST_CASE("resources: a wrong set in a recording is refused") {
 
 TEST_CASE("resources: a study measures how long a node waits") {
   const Dinner dinner;
-  const Outcome outcome = lockstep::host::test::lockstep(
-      {"study", dinner.tree(), "--runs", "1", "--measure", "held:Main/Parallel/C/UseResources/eat",
-       "--out", dinner.path("study")});
+  const Outcome outcome =
+      run_lockstep({"study", dinner.tree(), "--runs", "1", "--measure",
+                    "held:Main/Parallel/C/UseResources/eat", "--out", dinner.path("study")});
   CHECK(outcome.code == 0);
   CHECK_THAT(read_file(dinner.path("study") + "/runs.csv"), Catch::Contains(",20"));
 }

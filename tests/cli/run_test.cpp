@@ -16,10 +16,6 @@ const std::string kSynchronized =
     "<Advance name=\"arm\" step=\"0.01\" noise=\"0.005\"/>"
     "<Advance name=\"base\" step=\"0.03\" noise=\"0.005\"/></ParallelAbsolute>";
 
-std::string abi_plugin(const std::string& name) {
-  return LOCKSTEP_BINARY_DIR "/tests/abi/plugins/" + name + ".so";
-}
-
 // A run on the virtual clock.
 struct Simulation {
   explicit Simulation(const std::string& node)
@@ -28,7 +24,7 @@ struct Simulation {
   Outcome run(std::vector<std::string> more = {}) const {
     std::vector<std::string> arguments{"run", file, "--clock", "virtual"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return lockstep::host::test::lockstep(arguments);
+    return run_lockstep(arguments);
   }
 
   TemporaryDirectory directory;
@@ -130,7 +126,7 @@ TEST_CASE("run --arg, --set and --tree choose what runs") {
   const auto ticks = [&](std::vector<std::string> more) {
     std::vector<std::string> arguments{"run", file, "--clock", "virtual", "--json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return json::parse(lockstep::host::test::lockstep(arguments).out)["ticks"].get<int>();
+    return json::parse(run_lockstep(arguments).out)["ticks"].get<int>();
   };
   CHECK(ticks({}) == 1);
   CHECK(ticks({"--arg", "n=3"}) == 3);
@@ -274,7 +270,7 @@ TEST_CASE("wrong usage is 2 and runs nothing") {
     CHECK(outcome.out.empty());
     CHECK(!outcome.err.empty());
   }
-  CHECK(lockstep::host::test::lockstep({"run"}).code == 2);
+  CHECK(run_lockstep({"run"}).code == 2);
 }
 
 TEST_CASE("an invalid tree is 3, a refused plugin 4") {
@@ -319,7 +315,7 @@ TEST_CASE("a port whose entry nobody has written has its default, or the fault n
       directory.file("unwritten.xml", head + "<Say text=\"{words}\"/>" + tail);
   const auto run_tree = [](const std::string& tree, std::vector<std::string> more) {
     more.insert(more.begin(), {"run", tree, "--clock", "virtual", "--json", "--view", "none"});
-    return lockstep::host::test::lockstep(more);
+    return run_lockstep(more);
   };
   const auto ticks = nlohmann::json::parse(run_tree(plain, {}).out)["ticks"];
   for (const auto& more : {std::vector<std::string>{}, std::vector<std::string>{"--isolate"}}) {
@@ -385,8 +381,7 @@ TEST_CASE("the result of a run that a fault ended is fault, whatever its sibling
   const json end = json::parse(lines(read_file(recording)).back())["end"];
   CHECK(end["result"] == "fault");
   CHECK(end["reason"] == "fault");
-  CHECK(contains(lockstep::host::test::lockstep({"log", "info", recording}).out,
-                 "  fault after 1 tick"));
+  CHECK(contains(run_lockstep({"log", "info", recording}).out, "  fault after 1 tick"));
 }
 
 TEST_CASE("a terminal gets the live view, in color unless NO_COLOR asks for none") {

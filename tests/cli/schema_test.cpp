@@ -35,7 +35,7 @@ std::vector<std::string> trees_below(const std::string& directory) {
 }  // namespace
 
 TEST_CASE("schema/lockstep.xsd is what the program prints") {
-  const Outcome outcome = lockstep::host::test::lockstep({"schema"});
+  const Outcome outcome = run_lockstep({"schema"});
   CHECK(outcome.code == 0);
   CHECK(outcome.err.empty());
   INFO("schema/lockstep.xsd is stale: lockstep schema > schema/lockstep.xsd");
@@ -76,7 +76,7 @@ TEST_CASE("what check accepts, the schema accepts") {
       "<BehaviorTree ID=\"B\"><AlwaysSuccess/></BehaviorTree></root>"};
   for (const std::string& text : accepted) {
     const std::string file = directory.file("tree.xml", text);
-    const Outcome checked = lockstep::host::test::lockstep({"check", file});
+    const Outcome checked = run_lockstep({"check", file});
     const Outcome outcome = xmllint(kSchema, file);
     INFO(text << "\n" << outcome.err << checked.err);
     CHECK(checked.code == 0);
@@ -124,14 +124,14 @@ TEST_CASE("what check refuses, the schema refuses where it can say it") {
   for (const std::string& text : refused) {
     const std::string file = directory.file("tree.xml", text);
     INFO(text);
-    CHECK(lockstep::host::test::lockstep({"check", file}).code == kInvalid);
+    CHECK(run_lockstep({"check", file}).code == kInvalid);
     CHECK(xmllint(kSchema, file).code == kInvalid);
   }
 }
 
 TEST_CASE("leaves of plugins are open content until the schema knows them") {
   const TemporaryDirectory directory;
-  const Outcome schema = lockstep::host::test::lockstep({"schema", "--plugin", "motion"});
+  const Outcome schema = run_lockstep({"schema", "--plugin", "motion"});
   CHECK(schema.code == 0);
   const std::string knowing = directory.file("motion.xsd", schema.out);
   const std::string wrong = directory.file("tree.xml", around("<Advance step=\"fast\"/>"));
@@ -148,7 +148,7 @@ TEST_CASE("a strict schema refuses what it does not know") {
   const TemporaryDirectory directory;
   const auto schema = [&](const std::string& name, std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {"schema", "--strict"});
-    const Outcome outcome = lockstep::host::test::lockstep(arguments);
+    const Outcome outcome = run_lockstep(arguments);
     CHECK(outcome.code == 0);
     return directory.file(name, outcome.out);
   };
@@ -184,9 +184,9 @@ TEST_CASE("a strict schema refuses what it does not know") {
 
 TEST_CASE("a strict schema of all plugins accepts every tree that ships") {
   const TemporaryDirectory directory;
-  const Outcome schema = lockstep::host::test::lockstep(
-      {"schema", "--strict", "--plugin", "motion", "--plugin", "r1sim", "--plugin", "fetch",
-       "--plugin", "nav", "--plugin", LOCKSTEP_BINARY_DIR "/plugins/exec.py"});
+  const Outcome schema = run_lockstep({"schema", "--strict", "--plugin", "motion", "--plugin",
+                                       "r1sim", "--plugin", "fetch", "--plugin", "nav", "--plugin",
+                                       LOCKSTEP_BINARY_DIR "/plugins/exec.py"});
   const std::string strict = directory.file("strict.xsd", schema.out);
   const auto files = trees_below(LOCKSTEP_SOURCE_DIR "/trees");
   REQUIRE(files.size() > 3);
@@ -203,9 +203,7 @@ TEST_CASE("recordings keep schema/recording.schema.json, and what is no line doe
   const TemporaryDirectory directory;
   const std::string file = directory.path("run.jsonl");
   const std::string tree = LOCKSTEP_SOURCE_DIR "/trees/door_pulling.xml";
-  REQUIRE(
-      lockstep::host::test::lockstep({"run", tree, "--clock", "virtual", "--record", file}).code ==
-      0);
+  REQUIRE(run_lockstep({"run", tree, "--clock", "virtual", "--record", file}).code == 0);
   const Outcome validated =
       run({.arguments = {"-c", R"(
 import json, jsonschema, sys

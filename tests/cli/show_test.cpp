@@ -50,13 +50,13 @@ TEST_CASE("show draws the expanded tree, with boxes or ASCII as the locale can")
 
 TEST_CASE("show --tree draws another tree") {
   const Shown it;
-  const Outcome outcome = lockstep::host::test::lockstep({"show", it.file, "--tree", "Part"});
+  const Outcome outcome = run_lockstep({"show", it.file, "--tree", "Part"});
   CHECK(outcome.out == "Part\n`-- Inverter\n    `-- AlwaysFailure\n");
 }
 
 TEST_CASE("show --format dot: signs, barriers and delta, shapes, nothing of a label is markup") {
   const Shown it;
-  const Outcome outcome = lockstep::host::test::lockstep({"show", it.file, "--format", "dot"});
+  const Outcome outcome = run_lockstep({"show", it.file, "--format", "dot"});
   CHECK(outcome.code == 0);
   CHECK(outcome.out.rfind("digraph \"Main\" {\n", 0) == 0);
   CHECK(contains(outcome.out, "n0 [shape=square, label=\"→\\nall\\nmemory=\\\"true\\\"\"];"));
@@ -70,7 +70,7 @@ TEST_CASE("show --format dot: signs, barriers and delta, shapes, nothing of a la
 
 TEST_CASE("show --format mermaid: nothing of a label is markup") {
   const Shown it;
-  const Outcome outcome = lockstep::host::test::lockstep({"show", it.file, "--format", "mermaid"});
+  const Outcome outcome = run_lockstep({"show", it.file, "--format", "mermaid"});
   CHECK(outcome.code == 0);
   CHECK(outcome.out.rfind("flowchart TD\n", 0) == 0);
   CHECK(contains(outcome.out, "n1[\"⇉R<br/>Δ = 0.1\"]\n  n0 --- n1\n"));
@@ -84,8 +84,7 @@ TEST_CASE("conditions are ellipses") {
   const std::string file = directory.file(
       "tree.xml", "<root lockstep=\"1\"><BehaviorTree ID=\"Main\"><Probe/></BehaviorTree></root>");
   const auto shown = [&](const std::string& format) {
-    return lockstep::host::test::lockstep({"show", file, "--plugin", plugin, "--format", format})
-        .out;
+    return run_lockstep({"show", file, "--plugin", plugin, "--format", format}).out;
   };
   CHECK(contains(shown("dot"), "[shape=ellipse, label=\"Probe\"]"));
   CHECK(contains(shown("mermaid"), "n0([\"Probe\"])"));
@@ -96,9 +95,9 @@ TEST_CASE("show does not run the init of a plugin, and draws nothing of an inval
   const std::string plugin = LOCKSTEP_BINARY_DIR "/tests/abi/plugins/init_refuses.so";
   const std::string file = directory.file(
       "tree.xml", "<root lockstep=\"1\"><BehaviorTree ID=\"Main\"><Probe/></BehaviorTree></root>");
-  CHECK(lockstep::host::test::lockstep({"show", file, "--plugin", plugin}).code == 0);
-  CHECK(lockstep::host::test::lockstep({"run", file, "--plugin", plugin}).code == 4);
-  const Outcome invalid = lockstep::host::test::lockstep({"show", file});
+  CHECK(run_lockstep({"show", file, "--plugin", plugin}).code == 0);
+  CHECK(run_lockstep({"run", file, "--plugin", plugin}).code == 4);
+  const Outcome invalid = run_lockstep({"show", file});
   CHECK(invalid.code == 3);
   CHECK(invalid.out.empty());
   CHECK(contains(invalid.err, "unknown node 'Probe'"));

@@ -122,7 +122,7 @@ TEST_CASE("a file that may not grow is an error of the recording, not the end of
   CHECK(going_on.code == 0);
   CHECK(contains(going_on.err, "File too large"));
   CHECK(stopped.code == 8);
-  const Outcome info = lockstep::host::test::lockstep({"log", "info", directory.path("run.jsonl")});
+  const Outcome info = run_lockstep({"log", "info", directory.path("run.jsonl")});
   CHECK(info.code == 0);
   CHECK(contains(info.err, "cut"));
 }

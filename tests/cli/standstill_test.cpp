@@ -20,7 +20,7 @@ struct StandingProject {
     arguments.insert(arguments.end(), more.begin(), more.end());
     const bool has_limit = std::ranges::find(more, "--max-ticks") != more.end();
     if (!has_limit) arguments.insert(arguments.end(), {"--max-ticks", "400"});
-    return lockstep::host::test::lockstep(std::move(arguments));
+    return run_lockstep(std::move(arguments));
   }
   // Nothing else is on stderr.
   std::string warnings(std::vector<std::string> more) const {
@@ -269,7 +269,7 @@ TEST_CASE("standstill: the recording has the node's Failure, and a line about it
   CHECK(tick["logs"][0][1] == "warning");
   CHECK(contains(tick["logs"][0][2].get<std::string>(), "Main/Retry/pull is halted and fails: "));
   CHECK(tick["nodes"][0] == json{1, "failure", 0.0, 1, 0});
-  const Outcome info = lockstep::host::test::lockstep({"log", "info", file});
+  const Outcome info = run_lockstep({"log", "info", file});
   CHECK(info.code == 0);
   CHECK(contains(info.out, "    arm   did not wait\n"));
 }

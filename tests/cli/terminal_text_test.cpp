@@ -57,7 +57,7 @@ void check_clean(const Outcome& outcome, const std::string& what, bool on_termin
 
 void check_all(const std::vector<Strings>& commands) {
   for (const Strings& command : commands) {
-    check_clean(lockstep(command), fmt::format("{}", fmt::join(command, " ")));
+    check_clean(run_lockstep(command), fmt::format("{}", fmt::join(command, " ")));
   }
 }
 
@@ -167,10 +167,10 @@ TEST_CASE("a character that changes the direction of text is shown as what it is
   const TemporaryDirectory directory;
   const std::string tree =
       directory.file("tree.xml", in_tree("<AlwaysSuccess name=\"safe\u202elamina\"/>"));
-  CHECK(contains(lockstep({"show", tree}).out, "safe\\u202Elamina"));
+  CHECK(contains(run_lockstep({"show", tree}).out, "safe\\u202Elamina"));
   const std::string legal =
       directory.file("legal.xml", in_tree("<AlwaysSuccess name=\"שלום é 漢\"/>"));
-  CHECK(contains(lockstep({"show", legal}).out, "'שלום é 漢'"));
+  CHECK(contains(run_lockstep({"show", legal}).out, "'שלום é 漢'"));
 }
 
 TEST_CASE("texts of the command line reach the terminal visible") {
@@ -277,11 +277,11 @@ TEST_CASE("texts of a recording reach the terminal visible") {
 TEST_CASE("what programs read is exact: CSV in a pipe, and JSON as it parses") {
   const TemporaryDirectory directory;
   const std::string file = directory.file("run.jsonl", recording());
-  CHECK(contains(lockstep({"log", "csv", file}).out, "T/x/" + kWorse));
-  const auto values = json::parse(lockstep({"log", "measure", file, "--json"}).out);
+  CHECK(contains(run_lockstep({"log", "csv", file}).out, "T/x/" + kWorse));
+  const auto values = json::parse(run_lockstep({"log", "measure", file, "--json"}).out);
   CHECK(values[0]["node"] == "T/" + kWorse);
   const auto summary = json::parse(
-      lockstep({"run", directory.file("good.xml", kGood), "--clock", "virtual", "--json"}).out);
+      run_lockstep({"run", directory.file("good.xml", kGood), "--clock", "virtual", "--json"}).out);
   CHECK(summary["synchronized_nodes"][0]["path"] == "A/" + kEvil);
 }
 

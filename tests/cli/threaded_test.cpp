@@ -20,7 +20,7 @@ class Threaded {
   }
   Outcome run(std::vector<std::string> more = {}) const {
     more.insert(more.begin(), {"run", tree_, "--plugin", kPlugin, "--clock", "virtual"});
-    return lockstep::host::test::lockstep(more);
+    return run_lockstep(more);
   }
   std::string recorded(const std::vector<std::string>& more = {}) const {
     const std::string path = directory_.path("r.jsonl");
@@ -106,7 +106,7 @@ TEST_CASE("a study may have threaded leaves, and is the same on any number of th
   std::vector<std::string> results;
   for (const std::string jobs : {"1", "2"}) {
     const std::string out = directory.path("study" + jobs);
-    const Outcome outcome = lockstep::host::test::lockstep(
+    const Outcome outcome = run_lockstep(
         {"study", it.tree(), "--plugin", kPlugin, "--runs", "40", "--jobs", jobs, "--out", out});
     INFO(outcome.err);
     CHECK(outcome.code == 0);

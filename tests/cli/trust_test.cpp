@@ -32,6 +32,19 @@ struct Installed {
   static void permit(const std::string& path, mode_t mode) {
     REQUIRE(chmod(path.c_str(), mode) == 0);
   }
+  // A copy of lockstep that has the rights of root, whoever starts it; "" where there can be none.
+  std::string setuid_program() const {
+    struct statvfs system {};
+    REQUIRE(statvfs(plugins.c_str(), &system) == 0);
+    if (geteuid() != 0 || (system.f_flag & ST_NOSUID) != 0) {
+      WARN("skipped: needs root, to make a setuid program, and a file system that allows it");
+      return "";
+    }
+    const std::string program = directory.path("lockstep");
+    fs::copy_file(LOCKSTEP_BINARY_DIR "/lockstep", program);
+    permit(program, 04755);
+    return program;
+  }
 };
 
 constexpr const char* kWarning = "warning: everyone may write to the plugin";
@@ -55,7 +68,7 @@ TEST_CASE("a plugin that everyone may replace is warned of, and loaded") {
     Installed::permit(it.plugin, row.plugin);
     Installed::permit(it.plugins, row.directory);
     for (const auto& arguments : {by_name, by_file}) {
-      const Outcome outcome = lockstep::host::test::lockstep(arguments);
+      const Outcome outcome = run_lockstep(arguments);
       INFO(outcome.err);
       CHECK(outcome.code == 0);
       CHECK(contains(outcome.err, kWarning) == !row.warning.empty());
@@ -79,10 +92,8 @@ TEST_CASE("the directories behind a plugin that is a symbolic link are looked at
   fs::rename(it.plugin, last + "/real.so");
   fs::create_symlink("../last/real.so", middle + "/link.so");
   fs::create_symlink(middle + "/link.so", first + "/motion.so");
-  const Outcome by_name =
-      lockstep::host::test::lockstep({"check", it.tree, "--plugin-path", first});
-  const Outcome by_file =
-      lockstep::host::test::lockstep({"check", it.tree, "--plugin", first + "/motion.so"});
+  const Outcome by_name = run_lockstep({"check", it.tree, "--plugin-path", first});
+  const Outcome by_file = run_lockstep({"check", it.tree, "--plugin", first + "/motion.so"});
   for (const Outcome& outcome : {by_name, by_file}) {
     INFO(outcome.err);
     CHECK(outcome.code == 0);
@@ -92,7 +103,7 @@ TEST_CASE("the directories behind a plugin that is a symbolic link are looked at
   }
   Installed::permit(middle, 0755);
   Installed::permit(last, 0755);
-  const Outcome quiet = lockstep::host::test::lockstep({"check", it.tree, "--plugin-path", first});
+  const Outcome quiet = run_lockstep({"check", it.tree, "--plugin-path", first});
   CHECK(quiet.code == 0);
   CHECK_FALSE(contains(quiet.err, kWarning));
 }
@@ -102,8 +113,8 @@ TEST_CASE("a directory that everyone may write to is warned of when it is search
   const std::string open = it.directory.path("open");
   REQUIRE(mkdir(open.c_str(), 0755) == 0);
   Installed::permit(open, 0777);
-  const Outcome outcome = lockstep::host::test::lockstep(
-      {"check", it.tree, "--plugin-path", open, "--plugin-path", it.plugins});
+  const Outcome outcome =
+      run_lockstep({"check", it.tree, "--plugin-path", open, "--plugin-path", it.plugins});
   CHECK(outcome.code == 0);
   CHECK(contains(outcome.err, kWarning + (" directory '" + open + "'")));
 }
@@ -125,15 +136,8 @@ TEST_CASE(
 
 TEST_CASE("a program with more rights than its user takes no relative path and no environment") {
   const Installed it;
-  struct statvfs system {};
-  REQUIRE(statvfs(it.plugins.c_str(), &system) == 0);
-  if (geteuid() != 0 || (system.f_flag & ST_NOSUID) != 0) {
-    WARN("skipped: needs root, to make a setuid program, and a file system that allows it");
-    return;
-  }
-  const std::string program = it.directory.path("lockstep");
-  fs::copy_file(LOCKSTEP_BINARY_DIR "/lockstep", program);
-  Installed::permit(program, 04755);
+  const std::string program = it.setuid_program();
+  if (program.empty()) return;
   Installed::permit(it.tree, 0644);
   const auto check = [&](std::vector<std::string> options, const std::string& path) {
     std::vector<std::string> arguments = {
@@ -166,20 +170,12 @@ TEST_CASE("a program with more rights than its user takes no relative path and n
 
 TEST_CASE("a program with more rights than its user takes gnuplot from where the system has it") {
   const Installed it;
-  struct statvfs system {};
-  REQUIRE(statvfs(it.plugins.c_str(), &system) == 0);
-  if (geteuid() != 0 || (system.f_flag & ST_NOSUID) != 0) {
-    WARN("skipped: needs root, to make a setuid program, and a file system that allows it");
-    return;
-  }
-  const std::string program = it.directory.path("lockstep");
-  fs::copy_file(LOCKSTEP_BINARY_DIR "/lockstep", program);
-  Installed::permit(program, 04755);
+  const std::string program = it.setuid_program();
+  if (program.empty()) return;
   const std::string tree = it.directory.file(
       "sync.xml", tree_text("<ParallelRelative delta=\"0\"><Advance/></ParallelRelative>"));
   const std::string recording = it.directory.path("run.jsonl");
-  REQUIRE(lockstep::host::test::lockstep({"run", tree, "--clock", "virtual", "--record", recording})
-              .code == 0);
+  REQUIRE(run_lockstep({"run", tree, "--clock", "virtual", "--record", recording}).code == 0);
   Installed::permit(recording, 0644);
   const std::string mark = it.directory.path("mark");
   const auto fake = it.directory.file("d/gnuplot", "#!/bin/sh\n: > '" + mark + "'\n");

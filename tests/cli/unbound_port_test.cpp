@@ -51,7 +51,7 @@ Outcome run_leaf(const Language& language, const std::string& attributes) {
                                      "--clock",  "virtual",
                                      "--view",   "none"};
   arguments.insert(arguments.end(), language.more.begin(), language.more.end());
-  return lockstep::host::test::lockstep(arguments);
+  return run_lockstep(arguments);
 }
 
 // The same file as a module, in a program that ticks the tree.

@@ -87,7 +87,7 @@ TEST_CASE("a wrong command line names the word that is wrong, and the help of it
       {{"help", "log", "inf"}, "unknown command 'log inf'", "did you mean 'info'?"},
   };
   for (const Row& row : rows) {
-    const Outcome outcome = lockstep::host::test::lockstep(row.arguments);
+    const Outcome outcome = run_lockstep(row.arguments);
     INFO(row.message << "\n" << outcome.err);
     CHECK(outcome.code == 2);
     CHECK(outcome.out.empty());
@@ -98,10 +98,9 @@ TEST_CASE("a wrong command line names the word that is wrong, and the help of it
 }
 
 TEST_CASE("a word of a command line reaches the terminal short and harmless") {
-  const Outcome control = lockstep::host::test::lockstep({"run", "--\x1b[2J", "t.xml"});
+  const Outcome control = run_lockstep({"run", "--\x1b[2J", "t.xml"});
   CHECK(contains(control.err, "unknown option '--\\x1B[2J'"));
-  const Outcome endless =
-      lockstep::host::test::lockstep({"run", "--" + std::string(100'000, 'x'), "t.xml"});
+  const Outcome endless = run_lockstep({"run", "--" + std::string(100'000, 'x'), "t.xml"});
   CHECK(endless.err.size() < 1000);
 }
 
@@ -116,7 +115,7 @@ TEST_CASE("what is right is not blamed for a likeness") {
         {"help"},
         {"--help"},
         {"help", "help"}}) {
-    const Outcome outcome = lockstep::host::test::lockstep(arguments);
+    const Outcome outcome = run_lockstep(arguments);
     INFO(outcome.err);
     CHECK(outcome.code == 0);
   }
@@ -146,7 +145,7 @@ TEST_CASE("help fits into 80 columns where there is no terminal") {
                                                   {"monitor"}}) {
     std::vector<std::string> words = {"help"};
     words.insert(words.end(), command.begin(), command.end());
-    std::istringstream lines(lockstep::host::test::lockstep(words).out);
+    std::istringstream lines(run_lockstep(words).out);
     std::size_t longest = 0;
     for (std::string line; std::getline(lines, line);) longest = std::max(longest, line.size());
     INFO((command.empty() ? "lockstep" : command.back()));
@@ -162,11 +161,11 @@ TEST_CASE("help COMMAND is COMMAND --help") {
     std::vector<std::string> with_word = {"help"}, with_option = command;
     with_word.insert(with_word.end(), command.begin(), command.end());
     with_option.emplace_back("--help");
-    const Outcome outcome = lockstep::host::test::lockstep(with_word);
+    const Outcome outcome = run_lockstep(with_word);
     CHECK(outcome.code == 0);
     CHECK(outcome.err.empty());
     CHECK(contains(outcome.out, "Usage: lockstep"));
-    CHECK(outcome.out == lockstep::host::test::lockstep(with_option).out);
+    CHECK(outcome.out == run_lockstep(with_option).out);
   }
-  CHECK(contains(lockstep::host::test::lockstep({"help"}).out, "\n  help "));
+  CHECK(contains(run_lockstep({"help"}).out, "\n  help "));
 }

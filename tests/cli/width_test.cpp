@@ -70,8 +70,8 @@ TEST_CASE("summaries and tables fit into 80 columns, and into a narrower termina
 TEST_CASE("where there is no terminal, no line of a table is divided") {
   const Recorded it;
   on_terminal(80, it.study + " 2>/dev/null");
-  const Outcome outcome = lockstep::host::test::lockstep(
-      {"study", "compare", it.directory.path("out"), "--cells", "0", "1"});
+  const Outcome outcome =
+      run_lockstep({"study", "compare", it.directory.path("out"), "--cells", "0", "1"});
   const auto all = lines(outcome.out);
   REQUIRE(all.size() == 7);
   CHECK(longest_line(outcome.out) > 80);

@@ -19,7 +19,7 @@ Outcome without_tools(std::vector<std::string> arguments) {
 
 TEST_CASE("a program without tools runs and checks trees as the whole one does") {
   const std::vector<std::string> arguments{"run", kDoor, "--clock", "virtual", "--view", "plain"};
-  const auto outcome = without_tools(arguments), whole = lockstep::host::test::lockstep(arguments);
+  const auto outcome = without_tools(arguments), whole = run_lockstep(arguments);
   CHECK(outcome.code == 0);
   CHECK(outcome.out + outcome.err == whole.out + whole.err);
   CHECK(without_tools({"check", kDoor}).code == 0);

@@ -35,13 +35,11 @@ void note_leaves_without_progress(const Tree& tree, const std::string& file,
     if (!compares_progress(synchronization(tree.nodes[keeper]))) continue;
     const std::string names = leaves_without_progress(tree, keeper);
     if (names.empty()) continue;
-    diagnostics.add({.severity = Severity::Note,
-                     .location = {file},
-                     .message = fmt::format("the children of '{}' are in step, but these report no "
-                                            "progress and are at 0 until they succeed: {}",
-                                            tree.path(keeper), names),
-                     .hint = "the others wait for them at the first barrier, or within delta of 0",
-                     .excerpt = {}});
+    diagnostics.note({file},
+                     fmt::format("the children of '{}' are in step, but these report no "
+                                 "progress and are at 0 until they succeed: {}",
+                                 tree.path(keeper), names),
+                     "the others wait for them at the first barrier, or within delta of 0");
   }
 }
 

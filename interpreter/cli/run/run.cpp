@@ -345,7 +345,7 @@ std::function<int()> define_run(CLI::App& app) {
 
 }  // namespace
 
-const Command kRunCommand{
+extern const Command kRunCommand{
     "run", "Run a tree at a fixed rate until it completes",
     "The summary goes to stdout, everything else to stderr.\n"
     "Exit code: 0 Success, 1 Failure, 2 usage, 3 invalid tree, 4 plugin refused, 5 leaf fault,\n"

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/checks.h"
+#include "runtime/deadlines.h"
 #include "runtime/stop_signals.h"
 
 namespace lockstep::host {

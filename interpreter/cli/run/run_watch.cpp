@@ -45,6 +45,7 @@ RunWatch::RunWatch(const Tree& tree, const RunCommandOptions& options,
 LeafWatchOptions RunWatch::leaf_watch_options() {
   LeafWatchOptions watch{.budget = options_.tick_budget(),
                          .clock = nullptr,
+                         .looks_after_each_call = false,
                          .on_slow = {},
                          .on_carried = {},
                          .on_float_mode = {}};
@@ -60,9 +61,11 @@ LeafWatchOptions RunWatch::leaf_watch_options() {
         "the budget of {:.3f} ms",
         describe_node(tree_, leaf), milliseconds(took), milliseconds(*options_.tick_budget())));
   };
-  watch.on_float_mode = [this](NodeIndex leaf, PluginFunction function) {
-    print_(fmt::format("{} changed the floating-point mode in {}; it was restored",
-                       describe_node(tree_, leaf), name_of(function)));
+  watch.on_float_mode = [this](std::optional<NodeIndex> leaf, PluginFunction function) {
+    print_(leaf ? fmt::format("{} changed the floating-point mode in {}; it was restored",
+                              describe_node(tree_, *leaf), name_of(function))
+                : "a leaf changed the floating-point mode in this tick; it was restored after the "
+                  "tick, and if a leaf does so again it is named");
   };
   return watch;
 }
@@ -70,12 +73,10 @@ LeafWatchOptions RunWatch::leaf_watch_options() {
 WatchdogOptions RunWatch::watchdog_options() {
   // Hangs are watched since plugins were loaded.
   WatchdogOptions watchdog{.hang_limit = Nanoseconds(0),
-                           .halt_limit = from_seconds(options_.load.plugins.halt_limit),
-                           .on_long_halt = {},
-                           .on_hang = {}};
+                           .halt_limit = from_seconds(options_.load.plugins.halt_limit)};
   watchdog.on_long_halt = [this](const CallMark::Look& call, Nanoseconds lasts) {
-    print_(fmt::format("the {} {} has not returned from halt for {:.1f} s", call.site->kind,
-                       call.site->text, to_seconds(lasts)));
+    print_(fmt::format("the {} {} has not returned from halt for {:.1f} s", call.site->origin->kind,
+                       call.site->text(), to_seconds(lasts)));
   };
   return watchdog;
 }

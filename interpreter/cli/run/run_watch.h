@@ -8,7 +8,7 @@
 #include <string>
 
 #include "cli/run/run_options.h"
-#include "plugin/contract/leaf_watch.h"
+#include "engine/leaf_watch.h"
 #include "runtime/observer.h"
 #include "runtime/watchdog.h"
 #include "summary/summary.h"

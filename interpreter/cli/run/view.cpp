@@ -6,7 +6,7 @@
 #include "cli/console.h"
 #include "core/clock.h"
 #include "core/diagnostics.h"
-#include "summary/summary.h"
+#include "core/wording.h"
 #include "terminal/terminal.h"
 
 namespace lockstep::host {
