@@ -171,20 +171,25 @@ class WatchedRun {
   std::uint64_t tick_ = 0;
 };
 
+template <class Work>
+void check_costs_nothing(Work work) {
+  g_allocations = g_locks = 0;
+  t_counting = true;
+  work();
+  t_counting = false;
+  CHECK(g_allocations == 0);
+  CHECK(g_locks == 0);
+}
+
 }  // namespace
 
 TEST_CASE("a tick allocates nothing and locks nothing") {
   const TickingTree tree;
   WatchedRun run(tree.tree());
   run.tick(10);
-  g_allocations = g_locks = 0;
-  t_counting = true;
-  run.tick(1000);
-  t_counting = false;
+  check_costs_nothing([&] { run.tick(1000); });
   CHECK(run.status() == Status::Running);
   CHECK(run.fault() == nullptr);
-  CHECK(g_allocations == 0);
-  CHECK(g_locks == 0);
 }
 
 TEST_CASE("recording a tick allocates nothing and locks nothing") {
@@ -192,14 +197,9 @@ TEST_CASE("recording a tick allocates nothing and locks nothing") {
   Recorder recorder(tree.tree(), {.path = "/dev/null", .run = {.tree_file = "cost.xml"}});
   WatchedRun run(tree.tree(), &recorder);
   run.tick(10);
-  g_allocations = g_locks = 0;
-  t_counting = true;
-  run.tick(1000);
-  t_counting = false;
+  check_costs_nothing([&] { run.tick(1000); });
   CHECK(run.status() == Status::Running);
   CHECK(recorder.lost() == 0);
-  CHECK(g_allocations == 0);
-  CHECK(g_locks == 0);
 }
 
 TEST_CASE("an entry that is another number in each tick is recorded without allocating") {
@@ -215,13 +215,10 @@ TEST_CASE("an entry that is another number in each tick is recorded without allo
     changes.keep();
   };
   tick(-1);
-  g_allocations = g_locks = 0;
-  t_counting = true;
-  for (int i = 1; i <= 1000; ++i) tick(-1.0 / (3.0e200 * i));
-  t_counting = false;
+  check_costs_nothing([&] {
+    for (int i = 1; i <= 1000; ++i) tick(-1.0 / (3.0e200 * i));
+  });
   CHECK(line.starts_with("],\"entries\":[[0,\"-3.33"));
-  CHECK(g_allocations == 0);
-  CHECK(g_locks == 0);
 }
 
 // Each look at it is a second later, so that each tick is published.
@@ -237,16 +234,13 @@ TEST_CASE(
   LineFeed feed(tree.tree(), {.tree_file = "cost.xml", .rate_hz = 100}, json_lines(), hurried);
   WatchedRun run(tree.tree(), &feed);
   run.tick(10);
-  g_allocations = g_locks = 0;
-  t_counting = true;
-  for (int i = 0; i < 10; ++i) {
-    run.tick(1000);
-    feed.want_full();
-  }
-  t_counting = false;
+  check_costs_nothing([&] {
+    for (int i = 0; i < 10; ++i) {
+      run.tick(1000);
+      feed.want_full();
+    }
+  });
   CHECK(run.fault() == nullptr);
-  CHECK(g_allocations == 0);
-  CHECK(g_locks == 0);
 }
 
 TEST_CASE("statuses for Groot2 are passed on likewise") {
@@ -254,28 +248,20 @@ TEST_CASE("statuses for Groot2 are passed on likewise") {
   StatusFeed feed(tree.tree());
   WatchedRun run(tree.tree(), &feed);
   run.tick(10);
-  g_allocations = g_locks = 0;
-  t_counting = true;
-  run.tick(20'000);
-  t_counting = false;
+  check_costs_nothing([&] { run.tick(20'000); });
   CHECK(run.fault() == nullptr);
-  CHECK(g_allocations == 0);
-  CHECK(g_locks == 0);
 }
 
 TEST_CASE("a run that may be controlled looks for orders without allocating or locking") {
   const TickingTree tree;
   Run run(tree.tree(), {});
   RunControl control;
-  g_allocations = g_locks = 0;
-  t_counting = true;
-  for (int i = 0; i < 1000; ++i) {
-    control.take_orders(run.ticker(), run.blackboard());
-    control.count_tick(run.ticker());
-  }
-  t_counting = false;
-  CHECK(g_allocations == 0);
-  CHECK(g_locks == 0);
+  check_costs_nothing([&] {
+    for (int i = 0; i < 1000; ++i) {
+      control.take_orders(run.ticker(), run.blackboard());
+      control.count_tick(run.ticker());
+    }
+  });
 }
 
 TEST_CASE("a feed takes snapshots and entries that change without allocating or locking") {
@@ -293,16 +279,13 @@ TEST_CASE("a feed takes snapshots and entries that change without allocating or 
     feed.after_tick(run.ticker(), {number, now, run.tick(now)});
   };
   for (std::uint64_t number = 1; number <= 10; ++number) tick(number);
-  g_allocations = g_locks = 0;
-  t_counting = true;
-  for (std::uint64_t number = 11; number <= 1000; ++number) tick(number);
-  t_counting = false;
+  check_costs_nothing([&] {
+    for (std::uint64_t number = 11; number <= 1000; ++number) tick(number);
+  });
   CHECK(run.fault() == nullptr);
   REQUIRE(feed.take());
   CHECK(feed.newest().entries[0].changed == 1000);
   CHECK(feed.newest().entries[0].text == "0.0003;0.6");
-  CHECK(g_allocations == 0);
-  CHECK(g_locks == 0);
 }
 
 TEST_CASE("a script allocates nothing for numbers, and for texts only when it runs first") {
@@ -326,13 +309,10 @@ TEST_CASE("a script allocates nothing for numbers, and for texts only when it ru
     Value value;
     REQUIRE(evaluator.evaluate(*script, entries, value));
     bool ran = true;
-    g_allocations = g_locks = 0;
-    t_counting = true;
-    for (int i = 0; i < 100; ++i) ran = ran && evaluator.evaluate(*script, entries, value);
-    t_counting = false;
+    check_costs_nothing([&] {
+      for (int i = 0; i < 100; ++i) ran = ran && evaluator.evaluate(*script, entries, value);
+    });
     CHECK(ran);
-    CHECK(g_allocations == 0);
-    CHECK(g_locks == 0);
   }
 }
 

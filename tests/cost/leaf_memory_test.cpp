@@ -1,0 +1,117 @@
+// What a leaf of a plugin costs the host in a run: its slot, its caller, its ports and its call
+// site, as the allocator counts them. What the leaf itself allocates is not counted: it has
+// nothing.
+#include <malloc.h>
+
+#include <fmt/format.h>
+#include <catch2/catch.hpp>
+
+#include "definition/resolve.h"
+#include "engine/compile.h"
+#include "loading/plugin_set.h"
+#include "plugin/contract/leaf_set.h"
+
+// Sanitizers have a separate allocator.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
+namespace lockstep::host::test {
+namespace {
+
+lockstep_port input(const char* name) {
+  lockstep_port port{};
+  port.struct_size = sizeof port;
+  port.type = LOCKSTEP_DOUBLE;
+  port.direction = LOCKSTEP_INPUT;
+  port.name = name;
+  return port;
+}
+
+// A plugin with one type of leaf, which has two ports and allocates nothing.
+struct Plain {
+  lockstep_port size = input("size"), step = input("step");
+  const lockstep_port* ports[2] = {&size, &step};
+  lockstep_leaf_type leaf{};
+  const lockstep_leaf_type* leaves[1] = {&leaf};
+  lockstep_plugin plugin{};
+
+  Plain() {
+    leaf.struct_size = sizeof leaf;
+    leaf.kind = LOCKSTEP_ACTION;
+    leaf.id = "Plain";
+    leaf.ports = ports;
+    leaf.port_count = 2;
+    leaf.create = [](const lockstep_host*, const lockstep_caller* caller, void*) -> void* {
+      return const_cast<lockstep_caller*>(caller);
+    };
+    leaf.destroy = [](void*) {};
+    leaf.tick = [](void*) -> lockstep_status { return LOCKSTEP_RUNNING; };
+    plugin.abi_major = LOCKSTEP_ABI_MAJOR;
+    plugin.abi_minor = LOCKSTEP_ABI_MINOR;
+    plugin.struct_size = sizeof plugin;
+    plugin.name = "plain";
+    plugin.version = "1";
+    plugin.leaf_types = leaves;
+    plugin.leaf_type_count = 1;
+  }
+};
+
+class PlainTree {
+ public:
+  explicit PlainTree(int leaves) {
+    Diagnostics diagnostics;
+    REQUIRE(plugins_.add(plain_.plugin, "plain", diagnostics));
+    std::string text = R"(<root lockstep="1"><BehaviorTree ID="Main"><Parallel>)";
+    for (int i = 0; i < leaves; ++i) text += R"(<Plain size="0.5" step="0.25"/>)";
+    text += "</Parallel></BehaviorTree></root>";
+    Catalog catalog;
+    for (const NodeKind* kind : built_in_kinds()) catalog.add(&kind->type);
+    for (const NodeType* type : plugins_.types()) catalog.add(type);
+    const auto project = load_project_text("plain.xml", text, {}, diagnostics);
+    const auto definition = resolve(*project, catalog, {}, diagnostics);
+    for (const Diagnostic& it : diagnostics.all()) UNSCOPED_INFO(it.message);
+    REQUIRE(definition);
+    tree_ = compile(*definition);
+  }
+  const Tree& tree() const { return tree_; }
+
+ private:
+  Plain plain_;
+  PluginSet plugins_;
+  Tree tree_;
+};
+
+std::size_t bytes_in_use() {
+  const struct mallinfo2 info = mallinfo2();
+  return info.uordblks + info.hblkhd;
+}
+
+}  // namespace
+
+TEST_CASE("a leaf with two constant ports takes no more than 400 bytes of the host") {
+  constexpr int kLeaves = 20'000;
+  const PlainTree plain(kLeaves);
+  Blackboard board(plain.tree());
+  const LeafTime time;
+  const std::size_t before = bytes_in_use();
+  const LeafSet set(plain.tree(), board, time, 0);
+  const double per_leaf = static_cast<double>(bytes_in_use() - before) / kLeaves;
+  REQUIRE_FALSE(set.fault());
+  CAPTURE(per_leaf);
+  CHECK(per_leaf > 100);  // it is counted
+  CHECK(per_leaf <= 400);
+}
+
+TEST_CASE("sets of leaves that come and go leave nothing behind that grows") {
+  const PlainTree plain(100);
+  Blackboard board(plain.tree());
+  const LeafTime time;
+  const auto make = [&] { const LeafSet set(plain.tree(), board, time, 0); };
+  for (int i = 0; i < 10; ++i) make();
+  const std::size_t before = bytes_in_use();
+  for (int i = 0; i < 1000; ++i) make();
+  CHECK(bytes_in_use() <= before + 1000);
+}
+
+}  // namespace lockstep::host::test
+
+#endif
