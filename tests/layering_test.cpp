@@ -53,7 +53,7 @@ const std::vector<Layer> kThirdParty{
     {"boost/", {"interpreter/study/distributions.cpp"}},
     {"zlib.h", {"interpreter/web/gzip.cpp"}},
     {"lockstep/",
-     {"interpreter/engine/nodes/leaf.cpp", "interpreter/plugin/", "interpreter/remote/",
+     {"interpreter/engine/leaf_call.h", "interpreter/plugin/", "interpreter/remote/",
       "interpreter/loading/", "interpreter/cli/", "interpreter/embedding/"}},
     {"fmt/", {"interpreter/core/",       "interpreter/system/",    "interpreter/json/",
               "interpreter/blackboard/", "interpreter/document/",  "interpreter/expression/",

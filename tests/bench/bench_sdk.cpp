@@ -19,6 +19,14 @@ class SdkRead : public lockstep::Action<ReadPorts> {
   }
 };
 
+class SdkKeeps : public lockstep::ProgressAction<> {
+ public:
+  Status tick() override {
+    set_progress(0.5);
+    return Status::Running;
+  }
+};
+
 class SdkSequence : public lockstep::Control<> {
  public:
   Status tick() override {
@@ -36,4 +44,5 @@ class SdkSequence : public lockstep::Control<> {
 LOCKSTEP_PLUGIN("bench_sdk", "1.0", "For benchmarks",
                 lockstep::leaf<SdkSuccess>("SdkSuccess", "Succeeds"),
                 lockstep::leaf<SdkRead>("SdkRead", "Reads a port"),
+                lockstep::leaf<SdkKeeps>("SdkKeeps", "Runs, and keeps its progress"),
                 lockstep::leaf<SdkSequence>("SdkSequence", "A Sequence without memory"));

@@ -22,7 +22,9 @@ class BenchTree {
     Diagnostics diagnostics;
     plugins_.load_file(LOCKSTEP_BENCH_LEAVES, diagnostics);
     plugins_.load_file(LOCKSTEP_BENCH_SDK, diagnostics);
+#ifdef LOCKSTEP_BENCH_BTCPP
     plugins_.load_file(LOCKSTEP_BENCH_BTCPP, diagnostics);
+#endif
     const auto project = load_project_text("bench.xml", text, {}, diagnostics);
     Catalog catalog;
     for (const NodeKind* kind : built_in_kinds()) catalog.add(&kind->type);
@@ -37,7 +39,9 @@ class BenchTree {
       : BenchTree(fmt::format("<{} {}>{}</{}>", control, attributes,
                               repeated(fmt::format("<{}/>", leaf), leaves), control)) {}
 
-  const Tree& tree() const { return tree_; }
+  const Tree& tree() const {
+    return tree_;
+  }
 
   static std::string repeated(const std::string& text, std::int64_t times) {
     std::string all;

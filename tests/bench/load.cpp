@@ -77,6 +77,15 @@ std::vector<std::string> named(std::int64_t nodes) {
   return {file_of(tree_of("Main", text + "    </Sequence>\n"))};
 }
 
+// With a name and a parameter each.
+std::vector<std::string> parameters(std::int64_t nodes) {
+  std::string text = "    <Parallel>\n";
+  for (std::int64_t i = 1; i < nodes; ++i) {
+    text += fmt::format("      <Wait name=\"leaf{}\" seconds=\"0.5\"/>\n", i);
+  }
+  return {file_of(tree_of("Main", text + "    </Parallel>\n"))};
+}
+
 void append_binary(std::string& text, std::int64_t nodes, std::size_t depth) {
   text.append(depth, ' ');
   if (nodes < 2) {
@@ -302,6 +311,7 @@ void large(benchmark::internal::Benchmark* benchmark) {
 
 BENCHMARK_CAPTURE(load, flat, flat)->Apply(sizes);
 BENCHMARK_CAPTURE(load, named, named)->Apply(sizes);
+BENCHMARK_CAPTURE(load, parameters, parameters)->Apply(sizes);
 BENCHMARK_CAPTURE(load, nested, nested)->Apply(sizes);
 BENCHMARK_CAPTURE(load, subtrees, subtrees)->Apply(large);
 BENCHMARK_CAPTURE(load, many_trees, many_trees)->Apply(large);

@@ -100,6 +100,9 @@ BENCHMARK_CAPTURE(flat, absolute, "ParallelAbsolute", "barriers='0.75'", "BenchR
     ->Apply(sizes);
 BENCHMARK_CAPTURE(flat, absolute_advance, "ParallelAbsolute", "barrier_count='10'", "BenchAdvance")
     ->Apply(sizes);
+BENCHMARK_CAPTURE(flat, absolute_kept, "ParallelAbsolute", "barriers='0.75'", "SdkKeeps")
+    ->Apply(sizes);
+BENCHMARK_CAPTURE(flat, relative_kept, "ParallelRelative", "delta='0.1'", "SdkKeeps")->Apply(sizes);
 BENCHMARK_CAPTURE(flat, relative, "ParallelRelative", "delta='0.1'", "BenchRunning")->Apply(sizes);
 BENCHMARK_CAPTURE(flat, relative_advance, "ParallelRelative", "delta='0.1'", "BenchAdvance")
     ->Apply(sizes);
@@ -311,13 +314,20 @@ void changing(benchmark::internal::Benchmark* benchmark) {
 OBSERVED(parallel, "Parallel", "");
 OBSERVED(synchronized, "ParallelRelative", "delta='1'");
 
-void watched(benchmark::State& state, bool timed) {
+void watched(benchmark::State& state, bool timed, const char* control, const char* attributes,
+             const char* leaf) {
   LeafWatchOptions options;
   if (timed) options.budget = std::chrono::seconds(1);
   LeafWatch watch(options);
-  tick_all(state, BenchTree("Sequence", "", "BenchSuccess", kLeaves), &watch);
+  tick_all(state, BenchTree(control, attributes, leaf, kLeaves), &watch);
 }
-BENCHMARK_CAPTURE(watched, marked, false);
-BENCHMARK_CAPTURE(watched, timed, true);
+#define WATCHED(name, ...)                                       \
+  BENCHMARK_CAPTURE(watched, name##_marked, false, __VA_ARGS__); \
+  BENCHMARK_CAPTURE(watched, name##_timed, true, __VA_ARGS__)
+WATCHED(sequence, "Sequence", "", "BenchSuccess");
+WATCHED(parallel, "Parallel", "", "BenchRunning");
+WATCHED(absolute, "ParallelAbsolute", "barriers='0.75'", "BenchRunning");
+WATCHED(relative, "ParallelRelative", "delta='0.1'", "BenchRunning");
+WATCHED(absolute_kept, "ParallelAbsolute", "barriers='0.75'", "SdkKeeps");
 
 }  // namespace

@@ -3,19 +3,16 @@
 #include <fmt/format.h>
 
 #include <cstdint>
-#include <cstdlib>
 #include <optional>
 #include <string>
 
 #include "document/project.h"
+#include "require.h"
 
 namespace {
 
 using namespace lockstep::host;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
+using fuzz::require;
 
 // As XML can say it: other control characters are left out.
 std::string clean(std::string_view text) {

@@ -2,8 +2,6 @@
 // or in a tree that ticks under both fault policies. After each tick the laws of the life of a node
 // hold, and a restarted run is the run once more.
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <optional>
 #include <string>
 
@@ -11,22 +9,18 @@
 #include "dialect/btcpp/rules.h"
 #include "document/language_of.h"
 #include "engine/compile.h"
+#include "require.h"
 #include "runtime/run.h"
 
 namespace {
 
 using namespace lockstep::host;
+using fuzz::require;
 
 constexpr int kTicks = 40;
 // A tick may be repeated ten thousand times: for ever, as the tree says.
 constexpr std::size_t kMostTickedNodes = 60;
 constexpr std::uint64_t kMostElements = 400;  // an expansion may be as large as the law allows
-
-void require(bool holds, const char* law) {
-  if (holds) return;
-  std::fprintf(stderr, "broken law: %s\n", law);
-  std::abort();
-}
 
 std::optional<Tree> load(const std::string& text) {
   Catalog catalog;

@@ -3,22 +3,19 @@
 // bytes are cut in two parts of a message.
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 
 #include "definition/resolve.h"
 #include "engine/compile.h"
 #include "groot/answers.h"
+#include "require.h"
 #include "runtime/run.h"
 
 namespace {
 
 using namespace lockstep::host;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
+using fuzz::require;
 
 // A run that never ends, and who answers about it.
 class Answered {

@@ -1,11 +1,12 @@
 #include "mock_leaf.h"
 
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <stdexcept>
 #include <utility>
+
+#include "require.h"
+#include "support/plugin_tables.h"
 
 namespace lockstep::host::fuzz {
 namespace {
@@ -15,12 +16,6 @@ enum Port : std::uint32_t { kScript, kOut };
 std::string g_events;
 std::uint64_t g_tick = 1;
 int g_living = 0;
-
-void require(bool kept, const char* law) {
-  if (kept) return;
-  std::fprintf(stderr, "the host broke the contract: %s\n", law);
-  std::abort();
-}
 
 // Where the leaf is between create and destroy, as leaf.h has it.
 enum class Phase : std::uint8_t { Idle, Running, Paused };
@@ -177,42 +172,16 @@ double progress(void* self) {
   return it.progress;
 }
 
-constexpr lockstep_port kScriptPort = {sizeof(lockstep_port),
-                                       LOCKSTEP_STRING,
-                                       LOCKSTEP_INPUT,
-                                       "script",
-                                       "S",
-                                       nullptr,
-                                       nullptr,
-                                       nullptr,
-                                       0,
-                                       0,
-                                       nullptr,
-                                       0};
-constexpr lockstep_port kOutPort = {sizeof(lockstep_port),
-                                    LOCKSTEP_DOUBLE,
-                                    LOCKSTEP_OUTPUT,
-                                    "out",
-                                    nullptr,
-                                    nullptr,
-                                    nullptr,
-                                    nullptr,
-                                    0,
-                                    0,
-                                    nullptr,
-                                    0};
-constexpr const lockstep_port* kPorts[] = {&kScriptPort, &kOutPort};
+constexpr lockstep_port kPorts[] = {
+    tables::port(LOCKSTEP_STRING, LOCKSTEP_INPUT, "script", "S"),
+    tables::port(LOCKSTEP_DOUBLE, LOCKSTEP_OUTPUT, "out"),
+};
+constexpr auto kPortList = tables::list_of(kPorts);
 
-constexpr lockstep_leaf_type leaf_type(const char* id, lockstep_leaf_kind kind) {
-  lockstep_leaf_type type{};
-  type.struct_size = sizeof type;
-  type.kind = kind;
-  type.id = id;
-  type.port_count = 2;
-  type.ports = kPorts;
-  type.create = create<false>;
-  type.destroy = destroy;
-  type.tick = kind == LOCKSTEP_CONDITION ? tick_condition : tick;
+template <bool kIsBare, auto kTick>
+constexpr lockstep_leaf_type leaf_type(const char* id) {
+  lockstep_leaf_type type = tables::leaf_type(id, create<kIsBare>, destroy, kTick);
+  tables::set_ports(type, kPortList);
   return type;
 }
 
@@ -225,32 +194,21 @@ constexpr lockstep_leaf_type with_all_functions(lockstep_leaf_type type) {
   return type;
 }
 
-constexpr lockstep_leaf_type kMock = with_all_functions(leaf_type("Mock", LOCKSTEP_ACTION));
-constexpr lockstep_leaf_type kCondition =
-    with_all_functions(leaf_type("MockCondition", LOCKSTEP_CONDITION));
-constexpr lockstep_leaf_type kBare = [] {
-  lockstep_leaf_type type = leaf_type("MockBare", LOCKSTEP_ACTION);
-  type.create = create<true>;
-  return type;
-}();
-constexpr const lockstep_leaf_type* kLeaves[] = {&kMock, &kCondition, &kBare};
+constexpr lockstep_leaf_type kTypes[] = {
+    with_all_functions(leaf_type<false, tick>("Mock")),
+    [] {
+      lockstep_leaf_type type =
+          with_all_functions(leaf_type<false, tick_condition>("MockCondition"));
+      type.kind = LOCKSTEP_CONDITION;
+      return type;
+    }(),
+    leaf_type<true, tick>("MockBare"),
+};
+constexpr auto kLeaves = tables::list_of(kTypes);
 
 }  // namespace
 
-const lockstep_plugin kMockPlugin = {LOCKSTEP_ABI_MAJOR,
-                                     LOCKSTEP_ABI_MINOR,
-                                     sizeof(lockstep_plugin),
-                                     "mock",
-                                     nullptr,
-                                     nullptr,
-                                     3,
-                                     kLeaves,
-                                     nullptr,
-                                     nullptr,
-                                     nullptr,
-                                     nullptr,
-                                     nullptr,
-                                     nullptr};
+const lockstep_plugin kMockPlugin = tables::plugin("mock", kLeaves);
 
 std::string take_events() {
   return std::exchange(g_events, {});

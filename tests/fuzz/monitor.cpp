@@ -4,13 +4,13 @@
 #include <sys/socket.h>
 
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 
 #include "definition/resolve.h"
 #include "engine/compile.h"
 #include "live/orders.h"
+#include "require.h"
 #include "runtime/run_control.h"
 #include "web/gate.h"
 #include "web/http_server.h"
@@ -18,10 +18,7 @@
 namespace {
 
 using namespace lockstep::host;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
+using fuzz::require;
 
 constexpr std::string_view kToken = "TOKEN";
 

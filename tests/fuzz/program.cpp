@@ -7,8 +7,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 
@@ -16,17 +14,13 @@
 #include "remote/json_lines/hello.h"
 #include "remote/json_lines/line_input.h"
 #include "remote/json_lines/reply.h"
+#include "require.h"
 #include "system/file_descriptor.h"
 
 namespace {
 
 using namespace lockstep::host;
-
-void require(bool holds, const char* law) {
-  if (holds) return;
-  std::fprintf(stderr, "broken law: %s\n", law);
-  std::abort();
-}
+using fuzz::require;
 
 void check_hello(const std::string& line) {
   const auto hello = Hello::read(line, "fuzz", Hold::AsItSays);

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <string>
 
+#include "measure/measure_spec.h"
 #include "recording/use/recording_csv.h"
 #include "recording/use/recording_diff.h"
 #include "recording/use/recording_info.h"

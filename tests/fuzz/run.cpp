@@ -1,8 +1,6 @@
 // Any bytes as a tree of built-in nodes and mock leaves: loaded, and if it is right ticked a
 // hundred times under both fault policies. After each tick the laws of the life of a node hold, and
 // a restarted run is the run once more.
-#include <cstdio>
-#include <cstdlib>
 #include <optional>
 #include <string>
 
@@ -10,6 +8,7 @@
 #include "engine/compile.h"
 #include "loading/plugin_set.h"
 #include "mock_leaf.h"
+#include "require.h"
 #include "runtime/run.h"
 #include "tree_from_bytes.h"
 
@@ -17,15 +16,10 @@ namespace {
 
 using namespace lockstep::host;
 using fuzz::begin_tick;
+using fuzz::require;
 
 constexpr int kTicks = 100;
 constexpr std::size_t kMaxTickedNodes = 300;
-
-void require(bool holds, const char* law) {
-  if (holds) return;
-  std::fprintf(stderr, "broken law: %s\n", law);
-  std::abort();
-}
 
 // Nothing: it is refused, or too large to be ticked.
 std::optional<Tree> load(const std::string& text, const PluginSet& plugins) {

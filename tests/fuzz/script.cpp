@@ -7,15 +7,13 @@
 #include <string>
 
 #include "expression/expression.h"
+#include "require.h"
 #include "support/script_reference.h"
 
 namespace {
 
 using namespace lockstep::host;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
+using fuzz::require;
 
 void check_compiled(const std::string& text) {
   const auto script = Expression::parse(text);

@@ -4,21 +4,18 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <optional>
 #include <string>
 
 #include "core/value.h"
 #include "definition/resolve.h"
 #include "engine/compile.h"
+#include "require.h"
 
 namespace {
 
 using namespace lockstep::host;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
+using fuzz::require;
 
 bool is_finite(const Value& value) {
   if (const auto* number = std::get_if<double>(&value)) return std::isfinite(*number);

@@ -79,8 +79,8 @@ TEST_CASE("without --groot2-control, breakpoints are refused") {
 
 TEST_CASE("control without a place where Groot2 finds the run is an error") {
   const TemporaryDirectory directory;
-  const Outcome outcome = lockstep::host::test::lockstep(
-      {"run", directory.file("tree.xml", kTree), "--groot2-control"});
+  const Outcome outcome =
+      run_lockstep({"run", directory.file("tree.xml", kTree), "--groot2-control"});
   CHECK(outcome.code == 2);
   CHECK(contains(outcome.err, "--groot2-control needs --groot2"));
 }

@@ -128,8 +128,7 @@ TEST_CASE("a tree with more nodes than Groot2 can number is refused") {
     std::string tree = "<root lockstep=\"1\"><BehaviorTree ID=\"Main\"><Sequence>";
     for (int leaf = 0; leaf < leaves; ++leaf) tree += "<AlwaysSuccess/>";
     tree += "</Sequence></BehaviorTree></root>";
-    return lockstep::host::test::lockstep(
-        {"run", directory.file("tree.xml", tree), "--groot2", "0"});
+    return run_lockstep({"run", directory.file("tree.xml", tree), "--groot2", "0"});
   };
   CHECK(run_with(65'534).code == 0);
   const Outcome refused = run_with(65'535);
@@ -146,17 +145,17 @@ TEST_CASE("a place that is none is an error") {
                                                         {"65536", "the largest port is 65535"},
                                                         {"127.0.0.1:x", "ADDRESS:PORT"},
                                                         {"192.0.2.1:0", "cannot listen on"}}) {
-    const Outcome outcome = lockstep::host::test::lockstep({"run", tree, "--groot2=" + value});
+    const Outcome outcome = run_lockstep({"run", tree, "--groot2=" + value});
     CHECK(outcome.code == 2);
     CHECK(contains(outcome.err, "--groot2: "));
     CHECK(contains(outcome.err, said));
   }
-  CHECK(lockstep::host::test::lockstep({"run", tree, "--groot"}).code == 2);
+  CHECK(run_lockstep({"run", tree, "--groot"}).code == 2);
 }
 
 TEST_CASE("an address that other machines reach is warned of") {
   const TemporaryDirectory directory;
-  const Outcome outcome = lockstep::host::test::lockstep(
+  const Outcome outcome = run_lockstep(
       {"run", directory.file("tree.xml", tree_text("<AlwaysSuccess/>")), "--groot2", "0.0.0.0:0"});
   CHECK(outcome.code == 0);
   CHECK(contains(outcome.err, "can be reached from other machines"));
@@ -216,8 +215,7 @@ TEST_CASE("a port that is taken is an error before the run begins, also the one 
   const TemporaryDirectory directory;
   const std::string tree = directory.file("tree.xml", kPull);
   for (const unsigned port : {it.port(), it.port() - 1, it.port() + 1}) {
-    const Outcome other =
-        lockstep::host::test::lockstep({"run", tree, "--groot2", std::to_string(port)});
+    const Outcome other = run_lockstep({"run", tree, "--groot2", std::to_string(port)});
     CHECK(other.code == 2);
     CHECK(contains(other.err, "--groot2: cannot listen on '"));
     CHECK(other.out.empty());

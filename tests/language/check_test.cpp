@@ -68,6 +68,57 @@ TEST_CASE("hints") {
   }
 }
 
+TEST_CASE("each node is checked for its own attributes, whatever others of its type have") {
+  constexpr ClaimRow kRows[] = {
+      {"one type, other attributes, another order", R"(<root lockstep="1">
+  <BehaviorTree ID="Main">
+    <Sequence memory="true">
+      <Wait seconds="1"/>
+      <Wait name="a" seconds="-1"/>
+      <Wait seconds="-2" name="a"/>
+      <Wait secnds="1" name="c/d"/>
+      <Wait secnds="1" name="c/d"/>
+      <Wait name="d"/>
+      <Wait/>
+      <Action ID="Wait" seconds="-1"/>
+      <Wait ID="Wait" seconds="1"/>
+      <Wait seconds="1" skip_if="1 +"/>
+      <Wait seconds="1" skip_if="2 +"/>
+      <AlwaysSuccess seconds="1"/>
+      <Wait seconds="-1"/>
+    </Sequence>
+  </BehaviorTree>
+</root>)",
+       "5:31 error: -1 is outside the range of 'seconds'\n"
+       "6:22 error: -2 is outside the range of 'seconds'\n"
+       "7:13 error: 'Wait' has no parameter 'secnds'\n"
+       "7:30 error: the name 'c/d' contains '/'\n"
+       "8:13 error: 'Wait' has no parameter 'secnds'\n"
+       "8:30 error: the name 'c/d' contains '/'\n"
+       "9:7 error: 'Wait' needs the parameter 'seconds'\n"
+       "10:7 error: 'Wait' needs the parameter 'seconds'\n"
+       "11:34 error: -1 is outside the range of 'seconds'\n"
+       "12:13 error: 'Wait' has no parameter 'ID'\n"
+       "13:37 error: a value is missing at the end\n"
+       "14:37 error: a value is missing at the end\n"
+       "15:22 error: 'AlwaysSuccess' has no parameter 'seconds'\n"
+       "16:22 error: -1 is outside the range of 'seconds'"},
+  };
+  check_told(kRows);
+}
+
+TEST_CASE("leaves that leave out the same ports share the defaults") {
+  const auto constants = [](std::string_view leaves) {
+    const Pipeline pipeline(fmt::format("<Parallel>{}</Parallel>", leaves));
+    REQUIRE(pipeline.loaded());
+    return pipeline.tree().constants.size();
+  };
+  const std::size_t one = constants(R"(<Advance step="0.5"/>)");
+  CHECK(one > 2);
+  CHECK(constants(R"(<Advance step="0.5"/><Advance step="0.25"/>)") == one + 1);
+  CHECK(constants(R"(<Advance step="0.5"/><Advance/><Advance name="b" step="0.5"/>)") == one + 2);
+}
+
 TEST_CASE("nodes of other libraries: what to write instead") {
   struct Row {
     std::string_view xml, hint;

@@ -401,24 +401,29 @@ class Node {
     return given >= 0 ? given : std::max(all + given + 1, 0);
   }
 
+  // How many were skipped: it, or none.
+  unsigned tick_unless_done(Node& child) {
+    if (done_.contains(&child)) return 0u;
+    const Status result = child.execute();
+    if (result == Status::Success) done_[&child] = true;
+    if (result == Status::Failure) done_[&child] = false;
+    return result == Status::Skipped ? 1u : 0u;
+  }
+
   Status parallel() {
     const int all = static_cast<int>(children_.size());
     const int given = number("success_count", -1);
     const int wanted = count(given), failures = count(number("failure_count", 1));
-    int skipped = 0;
+    unsigned skipped = 0;
     for (const auto& child : children_) {
-      if (!done_.contains(child.get())) {
-        const Status result = child->execute();
-        if (result == Status::Skipped) ++skipped;
-        if (result == Status::Success) done_[child.get()] = true;
-        if (result == Status::Failure) done_[child.get()] = false;
-      }
+      skipped += tick_unless_done(*child);
       int succeeded = 0, failed = 0;
       for (const auto& [node, success] : done_) ++(success ? succeeded : failed);
-      if (succeeded + (given < 0 ? skipped : 0) >= wanted) return end_parallel(Status::Success);
+      if (succeeded + static_cast<int>(given < 0 ? skipped : 0) >= wanted)
+        return end_parallel(Status::Success);
       if (all - failed < wanted || failed == failures) return end_parallel(Status::Failure);
     }
-    return skipped == all ? pass(Status::Skipped) : Status::Running;
+    return skipped == children_.size() ? pass(Status::Skipped) : Status::Running;
   }
   Status end_parallel(Status result) {
     done_.clear();
@@ -428,14 +433,7 @@ class Node {
   Status parallel_all() {
     std::size_t skipped = 0;
     int failed = 0;
-    for (const auto& child : children_) {
-      if (!done_.contains(child.get())) {
-        const Status result = child->execute();
-        if (result == Status::Skipped) ++skipped;
-        if (result == Status::Success) done_[child.get()] = true;
-        if (result == Status::Failure) done_[child.get()] = false;
-      }
-    }
+    for (const auto& child : children_) skipped += tick_unless_done(*child);
     for (const auto& [node, success] : done_) failed += success ? 0 : 1;
     if (skipped == children_.size()) return Status::Skipped;
     if (done_.size() + skipped < children_.size()) return Status::Running;

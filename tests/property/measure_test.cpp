@@ -37,14 +37,17 @@ std::vector<MeasureSpec> all_of(const Tree& tree) {
       has_child = !is_child && add(fmt::format("held-by:{}:{}", path, *other));
     }
   };
-  for (const char* text : {"progress-distance", "progress-distance[1:3]", "spread", "step-length",
-                           "duration", "ticks", "success"}) {
-    add(text);
+  add("progress-distance[1:3]");
+  for (const Measure* measure : all_measures()) {
+    const std::string name(measure->name);
+    if (measure->of == MeasureOf::Run || measure->of == MeasureOf::Parallel) add(name);
+    const bool names_one = measure->of == MeasureOf::Child || measure->of == MeasureOf::User ||
+                           measure->of == MeasureOf::Pool;
+    for (const std::string& path : measured.paths) {
+      if (names_one) add(fmt::format("{}:{}", name, path));
+    }
   }
   for (const std::string& path : measured.paths) {
-    for (const char* measure : {"held", "pauses", "waits", "fairness"}) {
-      add(fmt::format("{}:{}", measure, path));
-    }
     add(fmt::format("predictability:{}@0.5", path));
     add_held_by(path);
   }

@@ -31,7 +31,7 @@ Strings study(const Strings& more) {
 Outcome compare(const StudyCase& it, const std::string& out, const Strings& more) {
   Strings arguments{"study", "compare", it.path(out)};
   arguments.insert(arguments.end(), more.begin(), more.end());
-  return lockstep(std::move(arguments));
+  return run_lockstep(std::move(arguments));
 }
 
 nlohmann::json compared(const StudyCase& it, const std::string& out, const std::string& first,

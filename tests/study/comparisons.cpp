@@ -24,8 +24,9 @@ nlohmann::json Comparisons::between(const Words& from, const Words& to) {
   const std::pair cells{cell_of(from), cell_of(to)};
   auto& measures = made_[cells];
   if (measures.is_null()) {
-    const Outcome outcome = lockstep({"study", "compare", directory_, "--json", "--cells",
-                                      std::to_string(cells.first), std::to_string(cells.second)});
+    const Outcome outcome =
+        run_lockstep({"study", "compare", directory_, "--json", "--cells",
+                      std::to_string(cells.first), std::to_string(cells.second)});
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);
     measures = nlohmann::json::parse(outcome.out)["measures"];

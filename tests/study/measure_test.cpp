@@ -119,15 +119,15 @@ TEST_CASE("studies: the seed of a run gives the same run to lockstep run, bit fo
   for (const std::string& line : lines(it.read("out", "runs.csv"))) {
     if (line.starts_with("cell")) continue;
     const auto row = fields(line);
-    const Outcome run = lockstep({"run", tree, "--clock", "virtual", "--rate", "30", "--view",
-                                  "none", "--json", "--arg", "noise=" + row.at(1), "--seed",
-                                  row.at(3), "--record", it.path("run.jsonl")});
+    const Outcome run = run_lockstep({"run", tree, "--clock", "virtual", "--rate", "30", "--view",
+                                      "none", "--json", "--arg", "noise=" + row.at(1), "--seed",
+                                      row.at(3), "--record", it.path("run.jsonl")});
     REQUIRE(run.code == 0);
     const auto summary = nlohmann::json::parse(run.out);
     CHECK(summary["ticks"] == std::stoull(row.at(4)));
-    const Outcome measured = lockstep({"log", "measure", it.path("run.jsonl"), "--json",
-                                       "--measure", "progress-distance", "--measure", "step-length",
-                                       "--measure", "predictability:a2@0.6"});
+    const Outcome measured = run_lockstep({"log", "measure", it.path("run.jsonl"), "--json",
+                                           "--measure", "progress-distance", "--measure",
+                                           "step-length", "--measure", "predictability:a2@0.6"});
     INFO(measured.err);
     REQUIRE(measured.code == 0);
     const auto values = nlohmann::json::parse(measured.out);
@@ -146,8 +146,8 @@ TEST_CASE("studies: no run sees what the run before it did to its world or its e
     const auto rows = lines(it.read(out, "runs.csv"));
     for (std::size_t i = 1; i < rows.size(); ++i) {
       const auto row = fields(rows[i]);  // cell,run,seed,ticks,result,…
-      const Outcome run = lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--json",
-                                    "--max-ticks", "3000", "--seed", row.at(2)});
+      const Outcome run = run_lockstep({"run", tree, "--clock", "virtual", "--view", "none",
+                                        "--json", "--max-ticks", "3000", "--seed", row.at(2)});
       const auto summary = nlohmann::json::parse(run.out);
       CHECK(summary["ticks"] == std::stoull(row.at(3)));
       const std::map<std::string, int> codes{{"success", 0}, {"failure", 1}, {"limit", 124}};

@@ -9,7 +9,7 @@ namespace lockstep::host::test {
 Outcome StudyCase::study(std::vector<std::string> arguments, const std::string& out) const {
   arguments.insert(arguments.begin(), "study");
   arguments.insert(arguments.end(), {"--no-plots", "--out", path(out)});
-  return lockstep(std::move(arguments));
+  return run_lockstep(std::move(arguments));
 }
 
 void StudyCase::make(std::vector<std::string> arguments, const std::string& out) const {
@@ -21,7 +21,7 @@ void StudyCase::make(std::vector<std::string> arguments, const std::string& out)
 Outcome StudyCase::merge(std::vector<std::string> parts, const std::string& out) const {
   std::vector<std::string> arguments{"study", "merge", "--no-plots", "--out", path(out)};
   for (const std::string& part : parts) arguments.push_back(path(part));
-  return lockstep(std::move(arguments));
+  return run_lockstep(std::move(arguments));
 }
 
 std::string StudyCase::bytes(const std::string& out) const {

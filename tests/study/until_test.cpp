@@ -191,7 +191,7 @@ TEST_CASE("until a precision, cells of one study may have another number of pair
   const StudyCase it;
   it.make(study({"--until-ci", "5%", "--paired"}), "out");
   const Outcome outcome =
-      lockstep({"study", "compare", it.path("out"), "--json", "--cells", "0", "2"});
+      run_lockstep({"study", "compare", it.path("out"), "--json", "--cells", "0", "2"});
   INFO(outcome.err);
   REQUIRE(outcome.code == 0);
   const auto distance = nlohmann::json::parse(outcome.out)["measures"][0];

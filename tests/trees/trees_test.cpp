@@ -58,7 +58,7 @@ std::string without_directory(std::string message, const std::string& directory)
 
 // All that check says, as the comments say it.
 std::vector<std::string> told(const std::string& file, int& code) {
-  const Outcome outcome = lockstep::host::test::lockstep({"check", "--format", "json", file});
+  const Outcome outcome = run_lockstep({"check", "--format", "json", file});
   code = outcome.code;
   CHECK(outcome.err.empty());
   std::vector<std::string> messages;
@@ -81,7 +81,7 @@ std::string result_of(const std::string& file) {
     arguments.push_back("--" + option.substr(0, option.find(' ')));
     arguments.push_back(option.substr(option.find(' ') + 1));
   }
-  const Outcome outcome = lockstep::host::test::lockstep(arguments);
+  const Outcome outcome = run_lockstep(arguments);
   INFO(outcome.err);
   REQUIRE(!outcome.out.empty());
   const json summary = json::parse(outcome.out);
@@ -117,7 +117,7 @@ TEST_CASE("a tree with errors does not run") {
   for (const std::string& file : files) {
     if (comments(file, "expect").front().rfind("error", 0) != 0) continue;
     INFO(file);
-    const Outcome outcome = lockstep::host::test::lockstep({"run", file, "--clock", "virtual"});
+    const Outcome outcome = run_lockstep({"run", file, "--clock", "virtual"});
     CHECK(outcome.code == 3);
     CHECK(outcome.out.empty());
     CHECK(contains(outcome.err, "error: "));
@@ -157,8 +157,8 @@ TEST_CASE("the trees that ship are checked without a warning and run to the resu
 
 TEST_CASE("the door of the demo jams without barriers, and only then") {
   const auto open_door = [](const std::string& barriers) {
-    return lockstep::host::test::lockstep({"run", LOCKSTEP_SOURCE_DIR "/trees/door_pulling.xml",
-                                           "--clock", "virtual", "--arg", "barriers=" + barriers});
+    return run_lockstep({"run", LOCKSTEP_SOURCE_DIR "/trees/door_pulling.xml", "--clock", "virtual",
+                         "--arg", "barriers=" + barriers});
   };
   for (const char* barriers : {"0.25;0.5;0.75", "0.5"}) CHECK(open_door(barriers).code == 0);
   const Outcome jammed = open_door("");

@@ -47,8 +47,7 @@ TEST_CASE("a run that is paused and ticked step by step comes to the same end") 
   const TemporaryDirectory directory;
   const std::string tree = directory.file("tree.xml", kPull);
   const std::vector<std::string> options{"--clock", "virtual", "--set", "pause=0.2"};
-  const Outcome alone =
-      lockstep::host::test::lockstep({"run", tree, "--clock", "virtual", "--set", "pause=0.2"});
+  const Outcome alone = run_lockstep({"run", tree, "--clock", "virtual", "--set", "pause=0.2"});
   Controlled it(kPull, options);
   REQUIRE(it.events().wait_for("\"state\":\"paused\""));
   CHECK(it.order({{"do", "step"}, {"ticks", 3}}).status == 204);
@@ -158,11 +157,10 @@ TEST_CASE("what is no order is refused with a sentence") {
 TEST_CASE("options for control need what they control") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file("tree.xml", kPull);
-  const Outcome alone = lockstep::host::test::lockstep({"run", tree, "--monitor-control"});
+  const Outcome alone = run_lockstep({"run", tree, "--monitor-control"});
   CHECK(alone.code == 2);
   CHECK(contains(alone.err, "--monitor-control needs --monitor"));
-  const Outcome paused =
-      lockstep::host::test::lockstep({"run", tree, "--monitor", "--monitor-paused"});
+  const Outcome paused = run_lockstep({"run", tree, "--monitor", "--monitor-paused"});
   CHECK(paused.code == 2);
   CHECK(contains(paused.err, "--monitor-paused needs --monitor-control"));
 }

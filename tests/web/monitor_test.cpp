@@ -68,19 +68,18 @@ TEST_CASE("what the monitor does not have is said") {
 TEST_CASE("the address of the monitor is checked before the run begins") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file("tree.xml", kEndless);
-  const Outcome wrong = lockstep::host::test::lockstep({"run", tree, "--monitor=somewhere"});
+  const Outcome wrong = run_lockstep({"run", tree, "--monitor=somewhere"});
   CHECK(wrong.code == 2);
   CHECK(contains(wrong.err, "--monitor: 'somewhere' is not an address"));
-  const Outcome large = lockstep::host::test::lockstep(
-      {"run", tree, "--max-ticks", "1", "--monitor", "127.0.0.1:99999"});
+  const Outcome large =
+      run_lockstep({"run", tree, "--max-ticks", "1", "--monitor", "127.0.0.1:99999"});
   CHECK(large.code == 2);
   CHECK(contains(large.err, "hint: the largest port is 65535"));
-  const Outcome foreign = lockstep::host::test::lockstep({"run", tree, "--monitor", "192.0.2.1:0"});
+  const Outcome foreign = run_lockstep({"run", tree, "--monitor", "192.0.2.1:0"});
   CHECK(foreign.code == 2);
   CHECK(contains(foreign.err, "cannot listen on '192.0.2.1:0'"));
   EndlessRun run;
-  const Outcome taken =
-      lockstep::host::test::lockstep({"run", tree, "--monitor", std::to_string(run.port())});
+  const Outcome taken = run_lockstep({"run", tree, "--monitor", std::to_string(run.port())});
   CHECK(taken.code == 2);
   CHECK(contains(taken.err, "Address already in use"));
 }
@@ -94,7 +93,7 @@ TEST_CASE("the value of --monitor may be left out, whatever follows") {
                                                 {"run", "--monitor=:0", tree},
                                                 {"run", tree, "--monitor", "0"},
                                                 {"run", tree, "--monitor"}}) {
-    const Outcome outcome = lockstep::host::test::lockstep(words);
+    const Outcome outcome = run_lockstep(words);
     CHECK(outcome.code == 0);
     CHECK(contains(outcome.err, "monitor: http://127.0.0.1:"));
   }

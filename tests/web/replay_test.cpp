@@ -10,10 +10,9 @@ TEST_CASE("a recording is shown in a browser, until somebody ends it") {
   const std::string tree =
       directory.file("tree.xml", tree_text("<Advance name=\"arm\" step=\"0.5\"/>"));
   const std::string recording = directory.path("run.jsonl");
-  REQUIRE(lockstep::host::test::lockstep({"run", tree, "--clock", "virtual", "--record", recording})
-              .code == 0);
+  REQUIRE(run_lockstep({"run", tree, "--clock", "virtual", "--record", recording}).code == 0);
   const std::string page = directory.path("run.html");
-  REQUIRE(lockstep::host::test::lockstep({"log", "page", recording, "--out", page}).code == 0);
+  REQUIRE(run_lockstep({"log", "page", recording, "--out", page}).code == 0);
   Process process({.arguments = {"replay", recording, "--monitor"}});
   const std::string& said = process.so_far().err;
   while (said.find('\n') == std::string::npos) REQUIRE(process.read_on());
@@ -23,9 +22,8 @@ TEST_CASE("a recording is shown in a browser, until somebody ends it") {
   CHECK(get(port, "/", "Origin: http://evil.example\r\n").status == 403);
   process.signal(SIGINT);
   CHECK(process.finish().code == 130);
-  const Outcome open =
-      lockstep::host::test::lockstep({"replay", recording, "--monitor", "0.0.0.0:0"});
+  const Outcome open = run_lockstep({"replay", recording, "--monitor", "0.0.0.0:0"});
   CHECK(open.code == 2);
   CHECK(contains(open.err, "can be reached from other machines"));
-  CHECK(lockstep::host::test::lockstep({"replay", tree, "--monitor"}).code == 3);
+  CHECK(run_lockstep({"replay", tree, "--monitor"}).code == 3);
 }

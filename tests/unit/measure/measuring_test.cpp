@@ -3,11 +3,10 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <fstream>
 
 #include "measure/live_ticks.h"
 #include "measure/measure_spec.h"
-#include "support/paths.h"
+#include "support/generated_file.h"
 #include "support/scripted_run.h"
 
 namespace lockstep::host {
@@ -43,11 +42,6 @@ std::string error_of(const char* text, std::string_view tree, std::string_view l
   if (!spec) return spec.error().message;
   const test::ScriptedRun run(tree, leaves);
   return Measuring(measured_tree(run.tree()), {&*spec, 1}).error();
-}
-
-std::string text_of(const std::string& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 }  // namespace
@@ -315,15 +309,18 @@ TEST_CASE("an entry is measured when it is a number") {
   CHECK(measure("entry:lap") == "no entry 'lap'");
 }
 
-TEST_CASE("docs/studies.md has the table of the measures") {
-  const std::string docs = text_of(LOCKSTEP_SOURCE_DIR "/docs/studies.md");
-  std::string table = "| Measure | Of | Meaning |\n|---|---|---|\n";
+TEST_CASE("what is generated: the table of the measures") {
+  constexpr const char* kPage = "docs/studies.md";
+  std::string table = "| Measure | Of | Meaning |\n";
+  std::string docs = test::project_file(kPage);
+  const auto begin = docs.find(table), end = docs.find("\n\n", begin);
+  REQUIRE(end != std::string::npos);
+  table += "|---|---|---|\n";
   for (const Measure* measure : all_measures()) {
     table.append("| `").append(measure->name).append(measure->argument).append("` | ");
     table.append(to_string(measure->of)).append(" | ").append(measure->doc).append(" |\n");
   }
-  INFO("the table should be\n" << table);
-  CHECK(docs.find("\n" + table + "\n") != std::string::npos);
+  test::check_generated(kPage, docs.replace(begin, end + 1 - begin, table));
 }
 
 }  // namespace lockstep::host

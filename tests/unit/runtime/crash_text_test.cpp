@@ -13,7 +13,7 @@ const CallSite& kLeaf = CallSite::of({.path = "Main/arm", .id = "Advance", .plug
 const CallSite& kPlugin = CallSite::of_plugin("motion");
 
 CallMark::Look in(const CallSite& site, PluginFunction function) {
-  return {&site, static_cast<std::uint32_t>(function)};
+  return {.site = &site, .function = function};
 }
 
 std::string first_line(const Crash& crash) {
@@ -79,7 +79,7 @@ TEST_CASE("a crash outside of all calls is somebody else's") {
 TEST_CASE("a crash of lockstep is a bug in lockstep, and tells the last call to a leaf") {
   const auto said = [](const CallSite& site) {
     SignalText text;
-    describe(segv({&site, 0x500}), text);
+    describe(segv({.site = &site}), text);
     return std::string(text.text());
   };
   CHECK(said(kLeaf).find("hint: it is a bug in lockstep") != std::string::npos);
@@ -114,7 +114,7 @@ TEST_CASE("exit and hang are told with the function they were in") {
   crash.call = in(kLeaf, PluginFunction::Resume);
   CHECK(first_line(crash) ==
         begin + "has not returned from its resume function for 2.0 s (tick 3)");
-  crash.call = {&kLeaf, 0x100};  // it just has
+  crash.call = {.site = &kLeaf};  // it just has
   CHECK(first_line(crash) == begin + "has not returned from a call for 2.0 s");
 }
 

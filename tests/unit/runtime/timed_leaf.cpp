@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "engine/compile.h"
+#include "support/plugin_tables.h"
 
 namespace lockstep::host::test {
 namespace {
@@ -35,40 +36,15 @@ void resume(void*) {
   ++TimedLeaves::resumed;
 }
 
-const lockstep_leaf_type kLeaf = {sizeof(lockstep_leaf_type),
-                                  LOCKSTEP_ACTION,
-                                  "Timed",
-                                  nullptr,
-                                  0,
-                                  nullptr,
-                                  create,
-                                  destroy,
-                                  nullptr,
-                                  tick,
-                                  halt,
-                                  pause,
-                                  resume,
-                                  nullptr,
-                                  nullptr,
-                                  0,
-                                  0,
-                                  0,
-                                  nullptr};
-const lockstep_leaf_type* const kLeaves[] = {&kLeaf};
-const lockstep_plugin kPlugin = {LOCKSTEP_ABI_MAJOR,
-                                 LOCKSTEP_ABI_MINOR,
-                                 sizeof(lockstep_plugin),
-                                 "timed",
-                                 nullptr,
-                                 nullptr,
-                                 1,
-                                 kLeaves,
-                                 nullptr,
-                                 nullptr,
-                                 nullptr,
-                                 nullptr,
-                                 nullptr,
-                                 nullptr};
+const lockstep_leaf_type kLeaf[] = {[] {
+  lockstep_leaf_type type = tables::leaf_type("Timed", create, destroy, tick);
+  type.halt = halt;
+  type.pause = pause;
+  type.resume = resume;
+  return type;
+}()};
+const auto kLeaves = tables::list_of(kLeaf);
+const lockstep_plugin kPlugin = tables::plugin("timed", kLeaves);
 
 const NodeType& parallel() {
   for (const NodeKind* kind : built_in_kinds()) {

@@ -31,7 +31,7 @@ TEST_CASE("a call that lasts as long as the limit is told of") {
   const MarkedCall call(site, PluginFunction::Create);
   const Told told = promise.get_future().get();
   CHECK(told.call.site == &site);
-  CHECK(told.call.function() == PluginFunction::Create);
+  CHECK(told.call.function == PluginFunction::Create);
   CHECK(told.call == CallMark::this_thread().look());
   CHECK(told.lasts >= 100ms);
 }
