@@ -33,8 +33,16 @@ class Cursor {
   std::string_view text() const { return text_; }
   std::size_t position() const { return position_; }
   void go_to(std::size_t position) { position_ = position; }
-  std::string_view rest() const { return text_.substr(position_); }
+  std::string_view rest() const { return {text_.data() + position_, text_.size() - position_}; }
 
+  bool at_end() const { return position_ == text_.size(); }
+  // Whether this byte comes next.
+  bool is_at(char c) const { return !at_end() && text_[position_] == c; }
+  bool skip(char c) {
+    const bool is_here = is_at(c);
+    position_ += is_here ? 1 : 0;
+    return is_here;
+  }
   bool skip(std::string_view word) {
     const bool is_here = rest().starts_with(word);
     if (is_here) position_ += word.size();
@@ -49,14 +57,16 @@ class Cursor {
 
   // "" when no name begins here.
   std::string_view take_name() {
-    const auto begin = position_;
-    if (begin == text_.size() || (class_of(text_[begin]) & (kStart | kWide)) == 0) return {};
+    const char* const begin = text_.data() + position_;
+    const char* const last = text_.data() + text_.size();
+    if (begin == last || (class_of(*begin) & (kStart | kWide)) == 0) return {};
     unsigned seen = 0;
-    for (; position_ < text_.size() && class_of(text_[position_]) != kOther; ++position_)
-      seen |= class_of(text_[position_]);
-    if ((seen & kWide) != 0)
-      position_ = begin + xml_name_length(text_.substr(begin, position_ - begin));
-    return text_.substr(begin, position_ - begin);
+    const char* end = begin;
+    for (unsigned it = 0; end != last && (it = class_of(*end)) != kOther; ++end) seen |= it;
+    std::string_view name(begin, static_cast<std::size_t>(end - begin));
+    if ((seen & kWide) != 0) name = name.substr(0, xml_name_length(name));
+    position_ += name.size();
+    return name;
   }
 
   // The text between the quotes that begin here; nothing if there are no quotes or they are not

@@ -73,7 +73,7 @@ class Declaration {
       return false;
     }
     at_.skip_blanks();
-    is_sound_ = at_.skip("=");
+    is_sound_ = at_.skip('=');
     at_.skip_blanks();
     begin_ = at_.position() + 1;
     const auto value = at_.take_quoted();
@@ -142,7 +142,7 @@ std::optional<XmlFault> skip_doctype(Cursor& at) {
   at.skip_blanks();
   if (is_sound && at.rest().starts_with('['))
     return XmlFault{at.position(), "definitions in a DOCTYPE are not supported"};
-  if (is_sound && at.skip(">")) return std::nullopt;
+  if (is_sound && at.skip('>')) return std::nullopt;
   return XmlFault{at.position(), "the DOCTYPE is malformed",
                   "write <!DOCTYPE root>, or leave it out"};
 }

@@ -33,8 +33,8 @@ XmlToken Scanner::next() {
 XmlToken Scanner::content() {
   const auto begin = at_.position();
   at_.skip_blanks();
-  if (rest().empty()) return {TokenKind::End, at_.position()};
-  if (rest()[0] == '<') return markup();
+  if (at_.at_end()) return {TokenKind::End, at_.position()};
+  if (at_.is_at('<')) return markup();
   const auto end = std::min(text_.find('<', at_.position()), text_.size());
   at_.go_to(end);
   return {TokenKind::Text, begin, {}, text_.substr(begin, end - begin)};
@@ -45,7 +45,7 @@ XmlToken Scanner::markup() {
   const char second = begin + 1 < text_.size() ? text_[begin + 1] : '\0';
   if (second == '/') return close_tag();
   if (second == '!' || second == '?') return declaration();
-  at_.skip("<");
+  at_.skip('<');
   tag_ = at_.take_name();
   tag_begin_ = begin;
   if (tag_.empty()) return no_tag(begin);
@@ -71,13 +71,13 @@ XmlToken Scanner::no_tag(std::size_t offset) {
 XmlToken Scanner::inside_tag() {
   const bool blanks = at_.skip_blanks();
   const auto begin = at_.position();
-  if (rest().starts_with('>') || rest().starts_with("/>")) {
-    const bool empty = rest()[0] == '/';
-    at_.go_to(begin + (empty ? 2 : 1));
+  const bool is_slash = at_.is_at('/');
+  if (at_.is_at('>') || (is_slash && rest().substr(1).starts_with('>'))) {
+    at_.go_to(begin + (is_slash ? 2 : 1));
     const auto name = std::exchange(tag_, std::string_view());
-    return {empty ? TokenKind::EmptyTagEnd : TokenKind::TagEnd, begin, name};
+    return {is_slash ? TokenKind::EmptyTagEnd : TokenKind::TagEnd, begin, name};
   }
-  if (rest().empty())
+  if (at_.at_end())
     return fail(tag_begin_, fmt::format("the tag '<{}' is not closed", brief(tag_)));
   const auto name = at_.take_name();
   if (name.empty()) {
@@ -91,27 +91,32 @@ XmlToken Scanner::inside_tag() {
 
 XmlToken Scanner::attribute(std::size_t begin, std::string_view name) {
   at_.skip_blanks();
-  if (!at_.skip("="))
+  if (!at_.skip('='))
     return fail(begin, fmt::format("attribute '{}' has no value", brief(name)),
                 fmt::format("write {}=\"…\"", brief(name)));
   at_.skip_blanks();
   const auto open = at_.position();
-  if (!rest().starts_with('"') && !rest().starts_with('\''))
+  if (!at_.is_at('"') && !at_.is_at('\''))
     return fail(open, fmt::format("expected a quote before the value of '{}'", brief(name)),
                 fmt::format("write {}=\"…\"", brief(name)));
+  const char quote = text_[open];
   bool is_coded = false;
-  for (auto at = open + 1; at < text_.size(); ++at) {
-    const char c = text_[at];
-    if (!counts_in_value(c)) continue;
-    if (c == text_[open]) {
-      at_.go_to(at + 1);
-      return {TokenKind::Attribute, begin, name, text_.substr(open + 1, at - open - 1), is_coded};
+  for (const char* at = text_.data() + open + 1; at != text_.data() + text_.size(); ++at) {
+    if (!counts_in_value(*at)) continue;
+    const std::size_t offset = offset_of({at, 1});
+    if (*at == quote) {
+      at_.go_to(offset + 1);
+      return {TokenKind::Attribute,
+              begin,
+              name,
+              {text_.data() + open + 1, offset - open - 1},
+              is_coded};
     }
     // A quote that is forgotten finds the next value's, far below.
-    if (c == '<' && !is_lenient_)
-      return fail(at, fmt::format("'<' in the value of '{}'", brief(name)),
+    if (*at == '<' && !is_lenient_)
+      return fail(offset, fmt::format("'<' in the value of '{}'", brief(name)),
                   "write '&lt;', or close the quote before it");
-    is_coded |= c == '&' || c == '\r';
+    is_coded |= *at == '&' || *at == '\r';
   }
   return fail(open, fmt::format("the quote of '{}' is not closed", brief(name)));
 }
@@ -122,7 +127,7 @@ XmlToken Scanner::close_tag() {
   const auto name = at_.take_name();
   if (name.empty()) return fail(begin, "'</' needs the name of the element that it closes");
   at_.skip_blanks();
-  if (!at_.skip(">")) return fail(begin, fmt::format("the tag '</{}' is not closed", brief(name)));
+  if (!at_.skip('>')) return fail(begin, fmt::format("the tag '</{}' is not closed", brief(name)));
   return {TokenKind::CloseTag, begin, name};
 }
 
@@ -133,7 +138,7 @@ XmlToken Scanner::comment() {
   if (text_.find("-->", at_.position()) == std::string_view::npos)
     return fail(begin, "the comment is not closed", "'-->' ends it");
   at_.go_to(is_lenient_ ? text_.find("-->", end) + 2 : end + 2);
-  if (!at_.skip(">")) return fail(end, "'--' in a comment", "XML does not allow it: write '- -'");
+  if (!at_.skip('>')) return fail(end, "'--' in a comment", "XML does not allow it: write '- -'");
   return {TokenKind::Comment, begin};
 }
 

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/parameter_value.h"
-#include "core/wording.h"
 #include "embedding/handles.h"
 #include "embedding/warnings.h"
 #include "runtime/loop.h"

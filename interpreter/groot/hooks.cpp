@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/diagnostics.h"
-#include "groot/statuses.h"
 #include "json/json.h"
 #include "json/reader.h"
 

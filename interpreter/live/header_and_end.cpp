@@ -1,5 +1,7 @@
 #include "live/header_and_end.h"
 
+#include "engine/synchronized.h"
+
 namespace lockstep::host {
 
 std::vector<RecordedNode> describe(const Tree& tree) {

@@ -7,20 +7,22 @@
 #include <string>
 #include <vector>
 
-#include "engine/synchronized.h"
+#include "core/node_type.h"
+#include "engine/node_kind.h"
+#include "engine/tree.h"
 #include "runtime/leaf_lines.h"
 
 namespace lockstep::host {
 
 struct RecordedNode {
   std::string path, kind, name;
-  std::optional<NodeIndex> parent;  // none: the root
+  std::optional<NodeIndex> parent = {};  // none: the root
   Synchronization synchronization = Synchronization::None;
-  std::optional<std::vector<double>> barriers;  // Absolute; none: an entry gives them
-  std::optional<double> delta;                  // Relative; likewise
-  std::vector<std::string> resources = {};      // of a pool
-  std::vector<NodeIndex> members = {};          // of a group, which has no parent: what they hold
-  bool ignores_idle = false;                    // a group that leaves out who is idle
+  std::optional<std::vector<double>> barriers = {};  // Absolute; none: an entry gives them
+  std::optional<double> delta = {};                  // Relative; likewise
+  std::vector<std::string> resources = {};           // of a pool
+  std::vector<NodeIndex> members = {};  // of a group, which has no parent: what they hold
+  bool ignores_idle = false;            // a group that leaves out who is idle
 };
 
 struct RecordedKey {
@@ -36,15 +38,15 @@ struct RecordingHeader {
   double rate_hz = 0;
   std::string clock;  // "wall" or "virtual"
   std::uint64_t seed = 0;
-  std::map<std::string, std::string, std::less<>> arguments;
-  std::vector<RecordedNode> nodes;        // by index: pre-order
+  std::map<std::string, std::string, std::less<>> arguments = {};
+  std::vector<RecordedNode> nodes = {};   // by index: pre-order
   std::vector<RecordedKey> entries = {};  // those that the recording shows
 };
 
 struct RecordedEnd {
   std::string result, reason;
   std::string fault;  // or ""
-  std::optional<std::uint64_t> signal;
+  std::optional<std::uint64_t> signal = {};
   std::uint64_t ticks = 0;
   double time = 0;  // seconds
   std::uint64_t overruns = 0, skipped = 0;

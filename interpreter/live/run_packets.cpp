@@ -103,14 +103,11 @@ std::string RunPackets::end(const Ticker& ticker, const RunEnd& end, std::uint64
   RecordedEnd closing{.result = std::string(to_string(end.result())),
                       .reason = std::string(to_string(end.reason)),
                       .fault = end.fault ? fault_text(tree_, *end.fault) : "",
-                      .signal = {},
                       .ticks = end.ticks,
                       .time = to_seconds(end.time),
                       .overruns = end.overruns,
                       .skipped = end.skipped,
-                      .lost = lost,
-                      .notes = {},
-                      .logs = {}};
+                      .lost = lost};
   for (const Fault& fault : ticker.tolerated()) {
     closing.notes.push_back(fault_text(tree_, fault, end.ticks));
   }

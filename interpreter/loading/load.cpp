@@ -5,6 +5,7 @@
 #include <optional>
 #include <sstream>
 
+#include "definition/resolve.h"
 #include "engine/compile.h"
 
 namespace lockstep::host {

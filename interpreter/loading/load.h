@@ -8,7 +8,9 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "definition/resolve.h"
+#include "core/diagnostics.h"
+#include "definition/check/stand_ins.h"
+#include "definition/expand/expand.h"
 #include "document/project.h"
 #include "engine/tree.h"
 #include "loading/plugins.h"

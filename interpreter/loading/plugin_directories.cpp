@@ -1,5 +1,4 @@
 #include "loading/plugin_directories.h"
-#include "core/audience.h"
 
 #include <fmt/format.h>
 #include <sys/auxv.h>
@@ -34,12 +33,8 @@ void warn_of_missing_directories(const PluginOptions& options, Diagnostics& diag
   for (const std::string& directory : options.directories) {
     std::error_code error;
     if (fs::is_directory(directory, error)) continue;
-    diagnostics.add({.severity = Severity::Warning,
-                     .location = {},
-                     .message = fmt::format("{} {}: there is no such directory",
-                                            worded("--plugin-path", "plugin path"), directory),
-                     .hint = {},
-                     .excerpt = {}});
+    diagnostics.warning({}, fmt::format("{} {}: there is no such directory",
+                                        worded("--plugin-path", "plugin path"), directory));
   }
 }
 
@@ -74,13 +69,11 @@ bool check_plugin_options(const PluginOptions& options, Diagnostics& diagnostics
   warn_of_missing_directories(options, diagnostics);
   if (!is_privileged()) return true;
   if (std::getenv(kVariable) != nullptr) {
-    diagnostics.add({.severity = Severity::Warning,
-                     .location = {},
-                     .message = fmt::format("{} is not read: this program has more rights than its "
-                                            "user",
-                                            kVariable),
-                     .hint = worded("give --plugin-path", "add the directories to the project"),
-                     .excerpt = {}});
+    diagnostics.warning({},
+                        fmt::format("{} is not read: this program has more rights than its "
+                                    "user",
+                                    kVariable),
+                        worded("give --plugin-path", "add the directories to the project"));
   }
   bool good = true;
   for (const std::string& directory : options.directories) {

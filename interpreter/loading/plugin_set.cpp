@@ -8,7 +8,7 @@
 
 #include "core/plugin_exception.h"
 #include "core/wording.h"
-#include "plugin/contract/call_mark.h"
+#include "engine/call_mark.h"
 #include "plugin/contract/descriptor.h"
 #include "plugin/contract/initialize.h"
 #include "plugin/open/plugin_path.h"
@@ -217,22 +217,17 @@ bool PluginSet::open_program(const Request& request, Hold hold, Diagnostics& dia
     return refuse(request.origin, std::move(opened.error()), diagnostics, request.where);
   }
   if ((*opened)->is_file_stale()) {
-    diagnostics.add({.severity = Severity::Warning,
-                     .location = request.where,
-                     .message = fmt::format("plugin '{}' has other leaves than '{}' says",
-                                            request.expected_name, leaves_file_of(request.origin)),
-                     .hint = "let 'lockstep plugin check --save' write it again",
-                     .excerpt = {}});
+    diagnostics.warning(request.where,
+                        fmt::format("plugin '{}' has other leaves than '{}' says",
+                                    request.expected_name, leaves_file_of(request.origin)),
+                        "let 'lockstep plugin check --save' write it again");
   }
   if ((*opened)->is_file_older()) {
-    diagnostics.add(
-        {.severity = Severity::Note,
-         .location = request.where,
-         .message = fmt::format("'{}' is older than the program: plugin '{}' may have "
-                                "other leaves now",
-                                leaves_file_of(request.origin), request.expected_name),
-         .hint = "give --run-programs, or let 'lockstep plugin check --save' write it again",
-         .excerpt = {}});
+    diagnostics.note(request.where,
+                     fmt::format("'{}' is older than the program: plugin '{}' may have "
+                                 "other leaves now",
+                                 leaves_file_of(request.origin), request.expected_name),
+                     "give --run-programs, or let 'lockstep plugin check --save' write it again");
   }
   return accept(*std::move(opened), request, diagnostics);
 }
@@ -291,14 +286,11 @@ std::unique_ptr<PluginSet::Plugin> PluginSet::split_off(Plugin& isolated, const 
   std::vector<std::string_view> ids;
   for (const auto& leaf : rest->descriptors.leaves) ids.push_back(leaf->node_type.id);
   const std::string why = refuse_isolation(*rest->descriptors.leaves.front())->message;
-  diagnostics.add(
-      {.severity = Severity::Warning,
-       .location = request.where,
-       .message = fmt::format("plugin '{}' is isolated only in part: {} {} in this process",
-                              brief(request.origin), listed(ids), ids.size() == 1 ? "runs" : "run"),
-       .hint =
-           fmt::format("{}; the two parts share nothing but ports", why.substr(why.find(": ") + 2)),
-       .excerpt = {}});
+  diagnostics.warning(
+      request.where,
+      fmt::format("plugin '{}' is isolated only in part: {} {} in this process",
+                  brief(request.origin), listed(ids), ids.size() == 1 ? "runs" : "run"),
+      fmt::format("{}; the two parts share nothing but ports", why.substr(why.find(": ") + 2)));
   return rest;
 }
 

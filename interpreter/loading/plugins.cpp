@@ -86,11 +86,9 @@ bool load_requested_plugins(const PluginOptions& options, const Project& project
   const auto directories = plugin_directories(options);
   for (const PluginRequest& request : requested_plugins(project, diagnostics)) {
     if (missing == MissingPlugins::AreTold && !is_there(request, directories, plugins)) {
-      diagnostics.add({.severity = Severity::Warning,
-                       .location = project.sources.locate_value(request.place),
-                       .message = fmt::format("plugin '{}' is not found", brief(request.name)),
-                       .hint = "its nodes are mocked",
-                       .excerpt = {}});
+      diagnostics.warning(project.sources.locate_value(request.place),
+                          fmt::format("plugin '{}' is not found", brief(request.name)),
+                          "its nodes are mocked");
       continue;
     }
     const auto isolation = request.isolate ? Isolation::Isolated : Isolation::InProcess;
@@ -123,13 +121,9 @@ void warn_of_shadowed(const PluginSet& plugins, const LanguageRules& rules,
     const bool is_shadowed = std::ranges::any_of(
         built_in_kinds(rules), [&](const NodeKind* kind) { return kind->type.id == type->id; });
     if (!is_shadowed) continue;
-    diagnostics.add({.severity = Severity::Warning,
-                     .location = {},
-                     .message = fmt::format("the leaf '{}' of plugin '{}' cannot be used here",
-                                            type->id, type->plugin),
-                     .hint = "the language of the tree has a node of that name; give the leaf "
-                             "another ID",
-                     .excerpt = {}});
+    diagnostics.warning(
+        {}, fmt::format("the leaf '{}' of plugin '{}' cannot be used here", type->id, type->plugin),
+        "the language of the tree has a node of that name; give the leaf another ID");
   }
 }
 

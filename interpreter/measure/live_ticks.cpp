@@ -43,7 +43,7 @@ LiveTicks::LiveTicks(const Tree& tree, const Measuring& measuring)
       node_ticks_(measuring.nodes().size()),
       user_ticks_(users_.size()) {
   for (const NodeIndex node : measuring.parallels()) {
-    parallels_.emplace_back(tree, node, measuring.needs_held());
+    parallels_.emplace_back(tree, node, measuring.needs_flags());
   }
   for (const NodeIndex node : measuring.nodes()) {
     Node measured{.index = node, .parent = {}, .child = 0};

@@ -77,6 +77,8 @@ struct Measure {
   std::string_view doc;
   // Whether there is a second number: the distance of the run from what was requested.
   bool has_gap = false;
+  // Whether it looks at which children of the parallel have succeeded.
+  bool sees_success = false;
   std::unique_ptr<Accumulator> (*make)(const MeasureSpec& spec, const MeasureTarget& target);
   // Whether a run can have this value. If not, a file with it is damaged.
   bool (*is_possible)(double value, const MeasureSpec& spec, const MeasuredRun& run);

@@ -140,7 +140,14 @@ Measuring::Measuring(const MeasuredTree& tree, std::span<const MeasureSpec> spec
 
 void Measuring::add(const MeasureSpec& spec, std::string node, const MeasureTarget& target) {
   columns_.push_back({&spec, std::move(node)});
+  needs_flags_ |= spec.measure->sees_success;
   accumulators_.push_back(spec.measure->make(spec, target));
+}
+
+std::optional<std::size_t> Measuring::found(Result<std::size_t> place) {
+  if (place) return *place;
+  error_ = place.error().message;
+  return std::nullopt;
 }
 
 MeasureTarget Measuring::target_of(const MeasuredTree& tree, NodeIndex parallel) {
@@ -156,11 +163,8 @@ void Measuring::add_parallels(const MeasureSpec& spec, const MeasuredTree& tree)
 }
 
 void Measuring::add_child(const MeasureSpec& spec, const MeasuredTree& tree) {
-  const auto node = find_path(tree.paths, spec.name);
-  if (!node) {
-    error_ = node.error().message;
-    return;
-  }
+  const auto node = found(find_path(tree.paths, spec.name));
+  if (!node) return;
   const auto kept = find_kept(tree, *node);
   if (!kept) {
     error_ = "'" + tree.paths[*node] +
@@ -168,18 +172,15 @@ void Measuring::add_child(const MeasureSpec& spec, const MeasuredTree& tree) {
              "it is never held";
     return;
   }
-  needs_held_ = true;
+  needs_flags_ = true;
   MeasureTarget target = target_of(tree, kept->keeper);
   target.child = kept->child;
   add(spec, tree.paths[*node], target);
 }
 
 void Measuring::add_pair(const MeasureSpec& spec, const MeasuredTree& tree) {
-  const auto node = find_path(tree.paths, spec.name);
-  if (!node) {
-    error_ = node.error().message;
-    return;
-  }
+  const auto node = found(find_path(tree.paths, spec.name));
+  if (!node) return;
   const std::string& path = tree.paths[*node];
   const auto kept = find_kept(tree, *node);
   if (!kept || !compares_progress(tree.nodes[kept->keeper].synchronization)) {
@@ -189,12 +190,10 @@ void Measuring::add_pair(const MeasureSpec& spec, const MeasuredTree& tree) {
     return;
   }
   const Choice others = neighbors(tree, *kept);
-  const auto other = find_path(others.paths, spec.other, "child beside '" + path + "' named");
-  if (!other) {
-    error_ = other.error().message;
-    return;
-  }
-  needs_held_ = true;
+  const auto other =
+      found(find_path(others.paths, spec.other, "child beside '" + path + "' named"));
+  if (!other) return;
+  needs_flags_ = true;
   MeasureTarget target = target_of(tree, kept->keeper);
   target.child = kept->child;
   target.other = others.meant[*other];
@@ -203,11 +202,8 @@ void Measuring::add_pair(const MeasureSpec& spec, const MeasuredTree& tree) {
 
 void Measuring::add_user(const MeasureSpec& spec, const MeasuredTree& tree) {
   const Choice choice = all_users(tree);
-  const auto user = find_path(choice.paths, spec.name, "UseResources");
-  if (!user) {
-    error_ = user.error().message;
-    return;
-  }
+  const auto user = found(find_path(choice.paths, spec.name, "UseResources"));
+  if (!user) return;
   const NodeIndex node = choice.meant[*user];
   add(spec, tree.paths[node], {.place = users_.size()});
   users_.push_back(node);
@@ -215,32 +211,23 @@ void Measuring::add_user(const MeasureSpec& spec, const MeasuredTree& tree) {
 
 void Measuring::add_pool(const MeasureSpec& spec, const MeasuredTree& tree) {
   const Choice choice = all_pools(tree);
-  const auto pool = find_path(choice.paths, spec.name, "pool");
-  if (!pool) {
-    error_ = pool.error().message;
-    return;
-  }
+  const auto pool = found(find_path(choice.paths, spec.name, "pool"));
+  if (!pool) return;
   const auto members = users_of(tree, choice.meant[*pool]);
   add(spec, choice.paths[*pool], {.place = users_.size(), .children = members.size()});
   users_.insert(users_.end(), members.begin(), members.end());
 }
 
 void Measuring::add_node(const MeasureSpec& spec, const MeasuredTree& tree) {
-  const auto node = find_path(tree.paths, spec.name);
-  if (!node) {
-    error_ = node.error().message;
-    return;
-  }
+  const auto node = found(find_path(tree.paths, spec.name));
+  if (!node) return;
   add(spec, tree.paths[*node], {.place = nodes_.size()});
   nodes_.push_back(static_cast<NodeIndex>(*node));
 }
 
 void Measuring::add_entry(const MeasureSpec& spec, const MeasuredTree& tree) {
-  const auto entry = find_path(tree.entries, spec.name, "entry");
-  if (!entry) {
-    error_ = entry.error().message;
-    return;
-  }
+  const auto entry = found(find_path(tree.entries, spec.name, "entry"));
+  if (!entry) return;
   const std::string& type = tree.entry_types[*entry];
   if (!is_number(type)) {
     error_ = "the entry '" + tree.entries[*entry] + "' is a " + type + ", expected a number";

@@ -4,10 +4,12 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/problem.h"
 #include "engine/node_kind.h"
 #include "measure/measure.h"
 
@@ -49,7 +51,7 @@ class Measuring {
   std::span<const NodeIndex> users() const { return users_; }
   std::span<const std::size_t> entries() const { return entries_; }
   // Whether it must also contain which children are held.
-  bool needs_held() const { return needs_held_; }
+  bool needs_flags() const { return needs_flags_; }
 
   void reset();  // for the next run
   void after_tick(const TickView& view);
@@ -66,6 +68,8 @@ class Measuring {
   void add_pool(const MeasureSpec& spec, const MeasuredTree& tree);
   void add_node(const MeasureSpec& spec, const MeasuredTree& tree);
   void add_entry(const MeasureSpec& spec, const MeasuredTree& tree);
+  // Nothing: there is an error.
+  std::optional<std::size_t> found(Result<std::size_t> place);
   MeasureTarget target_of(const MeasuredTree& tree, NodeIndex parallel);
 
   std::vector<Column> columns_;
@@ -73,7 +77,7 @@ class Measuring {
   std::vector<NodeIndex> parallels_, nodes_, users_;
   std::vector<std::size_t> entries_;
   std::map<NodeIndex, std::size_t> places_;  // of the parallels
-  bool needs_held_ = false;
+  bool needs_flags_ = false;
   std::string error_;
 };
 

@@ -33,6 +33,10 @@ std::span<double> copy_sorted(std::span<const double> values, std::span<double> 
 }  // namespace
 
 double progress_distance(std::span<const double> progress, std::span<double> scratch) {
+  if (progress.size() == 2) {
+    const bool is_alone = std::isnan(progress[0]) || std::isnan(progress[1]);
+    return is_alone ? 0 : std::abs(progress[0] - progress[1]);
+  }
   const auto sorted = copy_sorted(progress, scratch);
   // The gap between two neighbors is part of the distance of each pair that lies around it.
   double sum = 0;

@@ -10,8 +10,8 @@
 
 namespace lockstep::host {
 
-// The sum of |p_i - p_j| over all unordered pairs. `scratch` must be as long as `progress`; it
-// holds them in order afterwards. O(n log n), no allocation.
+// The sum of |p_i - p_j| over all unordered pairs. `scratch` must be as long as `progress`; what
+// it holds afterwards has no meaning. O(n log n), no allocation.
 double progress_distance(std::span<const double> progress, std::span<double> scratch);
 
 class ProgressDistance : public Accumulator {

@@ -25,6 +25,7 @@ extern const Measure kStepLength{
         "the largest change of a child's own progress in one tick; a child that succeeds goes to "
         "1, and so does one that fails, is not ticked again, and does not end the parallel; others "
         "stay where they are when the parallel ends",
+    .sees_success = true,
     .make = make_accumulator<StepLength>,
     .is_possible = is_share};
 

@@ -107,11 +107,11 @@ void SynchronizedMeasure::run_ended(Nanoseconds time) {
   for (HeldChild& child : held_) child.run_ended(time);
 }
 
-SynchronizedProbe::SynchronizedProbe(const Tree& tree, NodeIndex node, bool with_held)
+SynchronizedProbe::SynchronizedProbe(const Tree& tree, NodeIndex node, bool with_flags)
     : node_(node),
       children_(children_of(tree, node)),
       is_group_(tree.is_group(node)),
-      with_held_(with_held),
+      with_flags_(with_flags),
       is_pool_(is_pool(tree, node)),
       held_(children_.size()) {
   if (!compares_progress(synchronization(tree.nodes[node]))) {
@@ -123,20 +123,17 @@ SynchronizedProbe::SynchronizedProbe(const Tree& tree, NodeIndex node, bool with
 // the snapshot of a synchronized node: a child that was skipped is left out, and one that has
 // failed for good counts as 1.
 void SynchronizedProbe::before_tick(Ticker& ticker) {
+  if (progress_.empty()) return;
   const bool runs = ticker.status(node_) == Status::Running;
   for (std::size_t child = 0; child < progress_.size(); ++child) {
     progress_[child] = runs ? snapshot_of(ticker, children_[child]) : 0;
   }
 }
 
-SynchronizedTick SynchronizedProbe::read(Ticker& ticker, Nanoseconds time) {
-  SynchronizedTick tick;
-  tick.time = time;
-  tick.ticked = ticker.ticked(node_);
-  tick.status = ticker.status(node_);
-  const bool any_reached = std::ranges::any_of(
-      children_, [&](NodeIndex node) { return with_held_ && ticker.ticked(node); });
-  for (std::size_t child = 0; with_held_ && child < children_.size(); ++child) {
+void SynchronizedProbe::read_held(Ticker& ticker) {
+  const bool any_reached =
+      std::ranges::any_of(children_, [&](NodeIndex node) { return ticker.ticked(node); });
+  for (std::size_t child = 0; child < children_.size(); ++child) {
     const NodeIndex node = children_[child];
     if (is_pool_) {
       held_.set(child, ticker.ticked(node - 1) && waits(limit(ticker, node - 1)));
@@ -147,19 +144,28 @@ SynchronizedTick SynchronizedProbe::read(Ticker& ticker, Nanoseconds time) {
     held_.set(child, ticker.status(node), ticker.ticked(node) || !asked,
               ticker.held(node) && asked);
   }
+}
+
+SynchronizedTick SynchronizedProbe::read(Ticker& ticker, Nanoseconds time) {
+  SynchronizedTick tick;
+  tick.time = time;
+  tick.ticked = ticker.ticked(node_);
+  tick.status = ticker.status(node_);
+  if (with_flags_) read_held(ticker);
   if (!tick.ticked) return tick;
-  if (with_held_) tick.held = held_.held();
   tick.progress = progress_;
   if (progress_.empty()) {
     if (succeeded(ticker, node_)) tick.status = Status::Success;
     tick.limit = limit(ticker, node_);
     tick.progress = child_progress(ticker, node_);
   }
+  if (!with_flags_) return tick;
   const bool has_been_ended =
       tick.status == Status::Success && ticker.status(node_) == Status::Idle;
   for (std::size_t child = 0; child < children_.size(); ++child) {
     held_.set_succeeded(child, ticker.status(children_[child]), has_been_ended);
   }
+  tick.held = held_.held();
   tick.succeeded = held_.succeeded();
   return tick;
 }

@@ -88,8 +88,8 @@ class SynchronizedMeasure {
 // Reads the ticks of one parallel from a Ticker. No allocation after it is made.
 class SynchronizedProbe {
  public:
-  // Without `with_held` its ticks do not say which children are held.
-  SynchronizedProbe(const Tree& tree, NodeIndex node, bool with_held = true);
+  // Without `with_flags` its ticks do not say which children are held or have succeeded.
+  SynchronizedProbe(const Tree& tree, NodeIndex node, bool with_flags = true);
   // A plain parallel does not store the progress of its children, so this reads it.
   void before_tick(Ticker& ticker);
   // Valid until the next call.
@@ -99,10 +99,12 @@ class SynchronizedProbe {
   std::span<const NodeIndex> children() const { return children_; }
 
  private:
+  void read_held(Ticker& ticker);
+
   NodeIndex node_;
   std::vector<NodeIndex> children_;
   bool is_group_;
-  bool with_held_;
+  bool with_flags_;
   bool is_pool_;
   HeldChildren held_;
   std::vector<double> progress_;  // only where the node does not synchronize

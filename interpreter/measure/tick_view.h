@@ -21,7 +21,7 @@ struct SynchronizedTick {
   // The progress of each child as the node used it in this tick; not a number: it was left out.
   std::span<const double> progress = {};
   // True for a child that was running and did not get this tick. It may have been halted since.
-  // Empty if no measure asks for it.
+  // Empty if no measure asks for it, and so is the next.
   std::span<const bool> held = {};
   // True for a child that has succeeded. All have where nobody knows, since an ancestor has ended
   // the node after its success.

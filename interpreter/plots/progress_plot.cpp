@@ -8,10 +8,10 @@
 
 #include "core/diagnostics.h"
 #include "core/wording.h"
+#include "engine/synchronized.h"
 #include "plots/gnuplot.h"
 #include "plots/plot_style.h"
 #include "plots/templates.h"
-#include "summary/summary.h"
 
 namespace lockstep::host {
 namespace {

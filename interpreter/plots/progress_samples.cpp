@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/synchronized.h"
 #include "plots/plot_style.h"
 #include "plots/progress_plot.h"
 #include "recording/use/recorded_probe.h"

@@ -6,7 +6,7 @@
 
 #include <pthread.h>
 
-#include "plugin/contract/call_mark.h"
+#include "engine/call_mark.h"
 
 namespace lockstep::host {
 

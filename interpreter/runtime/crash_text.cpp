@@ -6,15 +6,17 @@ namespace lockstep::host {
 namespace {
 
 bool is_inside_call(const Crash& crash) {
-  return crash.call.function() != PluginFunction::None;
+  return crash.call.function != PluginFunction::None;
 }
 
 void put_site(const CallSite& site, SignalText& text) {
-  if (site.text.empty()) {
-    text << "the plugin '" << site.plugin << "'";
-  } else {
-    text << "the " << site.kind << " " << site.text;
+  const CallSite::Origin& origin = *site.origin;
+  if (site.is_plugin()) {
+    text << "the plugin '" << origin.plugin << "'";
+    return;
   }
+  text << "the " << origin.kind << " '" << site.shown << "' (" << origin.id;
+  text << (origin.id.empty() ? "of plugin '" : " of plugin '") << origin.plugin << "')";
 }
 
 void put_culprit(const Crash& crash, SignalText& text) {
@@ -27,7 +29,7 @@ void put_culprit(const Crash& crash, SignalText& text) {
 
 // "tick 12", "its halt function"
 void put_function(const Crash& crash, SignalText& text) {
-  const PluginFunction function = crash.call.function();
+  const PluginFunction function = crash.call.function;
   if (function == PluginFunction::Tick && crash.tick != CallMark::kNoTick) {
     text << "tick " << crash.tick;
   } else if (function == PluginFunction::Load) {
@@ -43,7 +45,7 @@ void put_function(const Crash& crash, SignalText& text) {
 
 // " (tick 12)" where the function does not say it
 void put_tick(const Crash& crash, SignalText& text) {
-  switch (crash.call.function()) {
+  switch (crash.call.function) {
     case PluginFunction::Start:
     case PluginFunction::StartUnreset:
     case PluginFunction::Halt:
@@ -150,7 +152,7 @@ void put_hints(const Crash& crash, SignalText& text) {
     text << kForAuthor;
     return;
   }
-  const bool is_local = crash.call.site != nullptr && crash.call.site->is_local;
+  const bool is_local = crash.call.site != nullptr && crash.call.site->origin->is_local;
   if (is_inside_call(crash) || crash.is_foreign_thread || crash.kind == CrashKind::Hang) {
     if (!is_local || crash.is_foreign_thread) {
       text << "  hint: with --isolate, the run survives a crash of this plugin\n";
@@ -160,7 +162,7 @@ void put_hints(const Crash& crash, SignalText& text) {
   }
   text << "  hint: it is a bug in lockstep: please report it, with the backtrace\n";
   // Only what runs in a tree has had much occasion to do harm: the last call may be long ago.
-  if (crash.call.site == nullptr || crash.call.site->text.empty()) return;
+  if (crash.call.site == nullptr || crash.call.site->is_plugin()) return;
   text
       << "  hint: unless a plugin has overwritten memory, which with --isolate it cannot; the last "
          "call was to ";

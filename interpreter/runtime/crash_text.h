@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "plugin/contract/call_mark.h"
+#include "engine/call_mark.h"
 #include "runtime/signal_text.h"
 
 namespace lockstep::host {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "runtime/deadlines.h"
 #include "runtime/pace.h"
 #include "runtime/run_control.h"
 #include "runtime/stall_fail.h"

@@ -9,7 +9,6 @@
 #include <span>
 
 #include "core/clock.h"
-#include "runtime/deadlines.h"
 #include "runtime/observer.h"
 #include "runtime/run.h"
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <new>
 
-#include "plugin/contract/call_mark.h"
+#include "engine/call_mark.h"
 #include "plugin/open/shared_object.h"
 #include "runtime/crash_report.h"
 #include "runtime/watchdog.h"

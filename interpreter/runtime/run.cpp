@@ -14,8 +14,8 @@ Run::Run(const Tree& tree, const RunOptions& options)
             .processes = options.virtual_time ? nullptr : &processes_,
             .end_budget = options.end_budget},
       watch_(options.watch),
-      leaves_(tree, blackboard_, time_, options.seed, options.log, options.watch),
-      ticker_(tree, leaves_.slots(), blackboard_, options.on_fault) {
+      leaves_(tree, blackboard_, time_, options.seed, options.log),
+      ticker_(tree, leaves_.slots(), blackboard_, options.on_fault, options.watch) {
   leaves_.set_ticker(ticker_);
 }
 
@@ -54,7 +54,6 @@ void Run::set_now(Nanoseconds now) {
 
 Status Run::tick(Nanoseconds now) {
   set_now(now);
-  if (watch_ != nullptr) watch_->begin_tick(ticker_.tick_number());  // which counts from 1
   look_at_processes();
   Status status = ticker_.tick_root(now);
   if (ticker_.is_asked()) status = tick_again_if_asked(status);

@@ -5,9 +5,9 @@
 #include <memory>
 
 #include "engine/blackboard.h"
+#include "engine/leaf_watch.h"
 #include "engine/ticker.h"
 #include "plugin/contract/leaf_set.h"
-#include "plugin/contract/leaf_watch.h"
 #include "plugin/contract/process_leaves.h"
 #include "plugin/contract/workers.h"
 

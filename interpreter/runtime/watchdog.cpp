@@ -51,16 +51,16 @@ void Watchdog::Implementation::look() {
     halt_told = hang_told = false;
     return;
   }
-  if (call.function() == PluginFunction::None) return;
+  if (call.function == PluginFunction::None) return;
   lasts += elapsed;
   const auto is_over = [this](Nanoseconds limit) {
     return limit > Nanoseconds(0) && lasts >= limit;
   };
-  if (call.function() == PluginFunction::Halt && is_over(options.halt_limit) &&
+  if (call.function == PluginFunction::Halt && is_over(options.halt_limit) &&
       !std::exchange(halt_told, true) && options.on_long_halt) {
     options.on_long_halt(call, lasts);
   }
-  if (!call.is_bounded() && is_over(options.hang_limit) && !std::exchange(hang_told, true) &&
+  if (!call.is_bounded && is_over(options.hang_limit) && !std::exchange(hang_told, true) &&
       options.on_hang) {
     options.on_hang(call, lasts);
   }
@@ -144,7 +144,6 @@ Watchdog::~Watchdog() {
 WatchdogOptions ends_process(Nanoseconds hang_limit) {
   return {.hang_limit = hang_limit,
           .halt_limit = Nanoseconds(0),
-          .on_long_halt = {},
           .on_hang = [thread = pthread_self(), &mark = CallMark::this_thread()](
                          const CallMark::Look&, Nanoseconds lasts) {
             CrashReport::hang(thread, mark, to_seconds(lasts));

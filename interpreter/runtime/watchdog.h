@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "core/clock.h"
-#include "plugin/contract/call_mark.h"
+#include "engine/call_mark.h"
 
 namespace lockstep::host {
 

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "core/wording.h"
+#include "study/folder.h"
 #include "study/plan_json.h"
 #include "study/row_reader.h"
 

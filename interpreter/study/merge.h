@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "core/problem.h"
-#include "study/folder.h"
+#include "study/plan.h"
+#include "study/table.h"
 
 namespace lockstep::host {
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "measure/measure_spec.h"
+
 namespace lockstep::host {
 RowRules::RowRules(const StudyPlan& plan) : plan_(plan), there_(plan.columns.size()) {
   // A plan that was checked has no measures that cannot be read.

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "measure/measure_spec.h"
+#include "measure/measure.h"
 #include "study/plan.h"
 #include "study/row_text.h"
 

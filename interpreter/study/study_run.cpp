@@ -1,5 +1,7 @@
 #include "study/study_run.h"
 
+#include "runtime/deadlines.h"
+
 namespace lockstep::host {
 
 StudyRun::StudyRun(const StudyCell& cell, std::span<const MeasureSpec> measures,

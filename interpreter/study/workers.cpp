@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "plugin/contract/call_mark.h"
+#include "engine/call_mark.h"
 #include "runtime/plugin_thread.h"
 #include "study/row_text.h"
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/wording.h"
 #include "summary/summary.h"
 
 namespace lockstep::host {

@@ -49,23 +49,13 @@ Summary Statistics::summary() const {
                   .reason = end_.reason,
                   .signal = end_.signal,
                   .fault = end_.fault ? fault_text(tree_, *end_.fault) : "",
-                  .why_failed = {},
                   .ticks = end_.ticks,
                   .seconds = to_seconds(end_.time),
-                  .period = {},
-                  .lateness = {},
                   .overruns = end_.overruns,
                   .skipped = end_.skipped,
                   .worst = worst_tick(),
                   .faults = faults_.count(),
-                  .went_on = went_on_,
-                  .tick_budget = {},
-                  .over_budget = {},
-                  .synchronized_nodes = {},
-                  .never_reached = 0,
-                  .standstills = {},
-                  .more_standstills = 0,
-                  .notes = {}};
+                  .went_on = went_on_};
   faults_.append_to(summary.notes);
   summary.notes.insert(summary.notes.end(), progress_notes_.begin(), progress_notes_.end());
   for (const Measured& node : nodes_) {

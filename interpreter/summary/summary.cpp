@@ -10,8 +10,10 @@
 #include <numeric>
 
 #include "core/diagnostics.h"
+#include "core/wording.h"
 #include "measure/measure_spec.h"
 #include "summary/capped_notes.h"
+#include "terminal/style.h"
 #include "terminal/text_table.h"
 
 namespace lockstep::host {

@@ -8,11 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "core/wording.h"
 #include "measure/decision.h"
 #include "measure/synchronized_measure.h"
 #include "runtime/observer.h"
-#include "terminal/style.h"
 
 namespace lockstep::host {
 
@@ -104,24 +102,24 @@ struct StandstillSummary {
 struct Summary {
   RunResult result = RunResult::Stopped;
   StopReason reason = StopReason::Completed;
-  int signal = 0;                           // when reason is Signal
-  std::string fault;                        // when reason is Fault: "Door/pull/arm: threw …"
-  std::vector<DecidingSummary> why_failed;  // from the root down, when it failed
+  int signal = 0;                                // when reason is Signal
+  std::string fault = {};                        // when reason is Fault: "Door/pull/arm: threw …"
+  std::vector<DecidingSummary> why_failed = {};  // from the root down, when it failed
   std::uint64_t ticks = 0;
   double seconds = 0;
-  std::optional<PeriodSummary> period;      // real time only, and from two ticks on
-  std::optional<LatenessSummary> lateness;  // real time only
+  std::optional<PeriodSummary> period = {};      // real time only, and from two ticks on
+  std::optional<LatenessSummary> lateness = {};  // real time only
   std::uint64_t overruns = 0, skipped = 0;
-  std::optional<WorstTickSummary> worst;  // real time only
-  std::uint64_t faults = 0;               // of leaves after which the run went on
-  std::uint64_t went_on = 0;              // leaves that did so while they were held
-  std::optional<double> tick_budget;      // seconds
-  std::vector<LeafTimingSummary> over_budget;
-  std::vector<SynchronizedSummary> synchronized_nodes;  // that a tick reached
-  std::size_t never_reached = 0;                        // of the synchronized nodes
-  std::vector<StandstillSummary> standstills;           // the first ones
-  std::uint64_t more_standstills = 0;                   // than these
-  std::vector<std::string> notes;  // other facts for the user: a recording that is cut, …
+  std::optional<WorstTickSummary> worst = {};  // real time only
+  std::uint64_t faults = 0;                    // of leaves after which the run went on
+  std::uint64_t went_on = 0;                   // leaves that did so while they were held
+  std::optional<double> tick_budget = {};      // seconds
+  std::vector<LeafTimingSummary> over_budget = {};
+  std::vector<SynchronizedSummary> synchronized_nodes = {};  // that a tick reached
+  std::size_t never_reached = 0;                             // of the synchronized nodes
+  std::vector<StandstillSummary> standstills = {};           // the first ones
+  std::uint64_t more_standstills = 0;                        // than these
+  std::vector<std::string> notes = {};  // other facts for the user: a recording that is cut, …
 };
 
 void write_text(const Summary& summary, std::string& out, bool color);

@@ -1,4 +1,5 @@
 
+#include "core/wording.h"
 #include "json/json.h"
 #include "summary/summary.h"
 

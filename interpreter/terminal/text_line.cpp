@@ -4,6 +4,7 @@
 
 #include "core/diagnostics.h"
 #include "core/utf8.h"
+#include "terminal/style.h"
 
 namespace lockstep::host {
 

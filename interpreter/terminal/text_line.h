@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "terminal/style.h"
+#include "core/style.h"
 
 namespace lockstep::host {
 

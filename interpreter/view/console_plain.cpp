@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "core/diagnostics.h"
+#include "engine/resources.h"
+#include "engine/synchronized.h"
 #include "summary/statistics.h"
 #include "summary/summary.h"
 #include "view/waiting.h"

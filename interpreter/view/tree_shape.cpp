@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "engine/synchronized.h"
 #include "measure/measure_spec.h"
 #include "measure/synchronized_measure.h"
 

@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "engine/synchronized.h"
-#include "recording/recording.h"
+#include "core/node_type.h"
+#include "engine/node_kind.h"
+#include "engine/tree.h"
+#include "live/header_and_end.h"
 
 namespace lockstep::host {
 

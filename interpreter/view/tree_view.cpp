@@ -8,6 +8,9 @@
 
 #include "core/diagnostics.h"
 #include "core/utf8.h"
+#include "core/wording.h"
+#include "engine/resources.h"
+#include "engine/synchronized.h"
 #include "summary/summary.h"
 #include "terminal/text_line.h"
 #include "view/lines_below.h"

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/resources.h"
+#include "engine/synchronized.h"
+
 namespace lockstep::host {
 namespace {
 

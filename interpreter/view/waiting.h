@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "engine/resources.h"
+#include "core/node_type.h"
 
 namespace lockstep::host {
 

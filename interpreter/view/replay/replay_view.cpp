@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/wording.h"
 #include "summary/summary.h"
 #include "terminal/text_line.h"
 #include "view/lines_below.h"

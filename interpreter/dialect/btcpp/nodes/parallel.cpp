@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "dialect/btcpp/nodes/kinds.h"
+#include "engine/leaf_call.h"
 #include "engine/nodes/fold.h"
 #include "engine/nodes/parallel_rule.h"
 
@@ -38,7 +39,7 @@ using parallel::Tally;
 Tally& begin_tick(NodeContext& context, NodeIndex self) {
   Tally& tally = context.state<Tally>(self);
   if (context.first_tick(self)) tally = {};
-  tally.skipped = 0;
+  tally.begin_tick();
   return tally;
 }
 
@@ -64,7 +65,7 @@ Status tick_parallel(NodeContext& context, NodeIndex self) {
   bool may_decide = true;
   for (NodeIndex child = self + 1; child != context.end_of(self); child = context.end_of(child)) {
     if (!is_complete(context.status(child))) {
-      const Status status = context.tick(child);
+      const Status status = LeafCall::tick(context, child);
       if (context.faulted()) return Status::Running;
       if (status != Status::Running) {
         may_decide = true;
@@ -75,27 +76,30 @@ Status tick_parallel(NodeContext& context, NodeIndex self) {
     const std::int64_t given = context.parameter(self, kSuccessCount).integer;
     const std::int64_t wanted = count_of(given, all);
     const std::int64_t failures = count_of(context.parameter(self, kFailureCount).integer, all);
-    const std::int64_t counted = tally.succeeded + (given < 0 ? tally.skipped : 0);
+    const std::int64_t counted =
+        tally.of(Status::Success) + (given < 0 ? tally.of(Status::Skipped) : 0);
     const bool success = counted >= wanted;
-    if (success || all - tally.failed < wanted || tally.failed == failures) {
+    if (success || all - tally.of(Status::Failure) < wanted ||
+        tally.of(Status::Failure) == failures) {
       context.halt_running_children(self);
       return success ? Status::Success : Status::Failure;
     }
   }
-  return tally.skipped == all ? Status::Skipped : Status::Running;
+  return tally.of(Status::Skipped) == all ? Status::Skipped : Status::Running;
 }
 
 Status tick_all(NodeContext& context, NodeIndex self) {
   Tally& tally = begin_tick(context, self);
   const std::int64_t all = context.node(self).children;
   for (NodeIndex child = self + 1; child != context.end_of(self); child = context.end_of(child)) {
-    if (!is_complete(context.status(child))) tally.add(context.tick(child));
+    if (!is_complete(context.status(child))) tally.add(LeafCall::tick(context, child));
   }
   if (context.faulted()) return Status::Running;
-  if (tally.skipped == all) return Status::Skipped;
-  if (tally.succeeded + tally.failed + tally.skipped < all) return Status::Running;
+  if (tally.of(Status::Skipped) == all) return Status::Skipped;
+  if (tally.of(Status::Success) + tally.of(Status::Failure) + tally.of(Status::Skipped) < all)
+    return Status::Running;
   const std::int64_t most = count_of(context.parameter(self, kMaxFailures).integer, all);
-  return tally.failed >= most ? Status::Failure : Status::Success;
+  return tally.of(Status::Failure) >= most ? Status::Failure : Status::Success;
 }
 
 double progress_of_parallel(NodeContext& context, NodeIndex self) {
@@ -106,7 +110,7 @@ double progress_of_parallel(NodeContext& context, NodeIndex self) {
 
 void fold_parallel(NodeContext& context, NodeIndex self) {
   fold::dead_when_idle(context, self);
-  context.state<Tally>(self).skipped = 0;
+  context.state<Tally>(self).begin_tick();
 }
 
 // The least progress of the children that are there.
