@@ -13,6 +13,18 @@ bool is_of(const Entry& entry, ValueType type, const ObjectType* object) {
          entry.object == nullptr || object->name() == entry.object->name();
 }
 
+// What a script has put into an entry decides whether its numbers are whole or real. False: the
+// value is none of that kind.
+bool keep_kind(const Entry& entry, Value& value) {
+  const bool is_whole = std::holds_alternative<std::int64_t>(entry.value);
+  if (!is_whole && !std::holds_alternative<double>(entry.value)) return true;
+  if (value.index() == entry.value.index()) return true;
+  auto kept = cast_value(value, is_whole ? ValueType::Int : ValueType::Double, nullptr);
+  if (!kept) return false;
+  value = std::move(*kept);
+  return true;
+}
+
 }  // namespace
 
 bool write_entry(Entry& entry, ValueType type, const ObjectType* object, Value value) {
@@ -29,6 +41,9 @@ bool write_entry(Entry& entry, ValueType type, const ObjectType* object, Value v
     auto converted = convert_value(value, entry.type, entry.object);
     if (!converted) return false;
     value = std::move(*converted);
+    if (entry.typing == Typing::Declared && !keep_kind(entry, value)) return false;
+  } else if (entry.typing == Typing::Declared && !keep_kind(entry, value)) {
+    return false;
   }
   std::swap(entry.value, value);  // what it had is released when the entry is as it will be
   ++entry.writes;

@@ -38,10 +38,10 @@ class Assigned {
   }
 
   std::optional<Value> into_empty(const Operand& operand) const {
-    if (!is_typed()) return operand.value();
-    // A number is read as a text where one is wanted, and stays a number here.
+    // A port declares what it reads the value as; until one writes it, the entry is what it holds.
+    if (entry_.typing != Typing::Strict) return operand.value();
     const bool is_text = entry_.type == ValueType::String && operand.is_number();
-    if (is_text) return operand.value();
+    if (is_text) return std::nullopt;
     return cast_value(operand.value(), entry_.type, entry_.object);
   }
 
@@ -72,7 +72,7 @@ class Assigned {
     return flag ? flag : whole;
   }
 
-  bool may_become_real() const { return !is_typed() || entry_.type == ValueType::Number; }
+  bool may_become_real() const { return is_typed() && entry_.type == ValueType::Number; }
 
   std::optional<Value> as_other(const Operand& operand) const {
     if (operand.kind != Operand::Kind::Other) return std::nullopt;

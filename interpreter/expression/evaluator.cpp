@@ -30,13 +30,11 @@ bool take(const Operand& operand, double& number) {
 }
 
 bool take(const Operand& operand, std::int64_t& number) {
-  if (operand.kind == Operand::Kind::Real) {
-    const auto whole = to_whole(operand.real);
-    number = whole.value_or(0);
-    return whole.has_value();
-  }
-  number = operand.whole;
-  return operand.kind == Operand::Kind::Whole;
+  double real = 0;
+  if (!take(operand, real)) return false;
+  const auto whole = to_whole(real);
+  number = whole.value_or(0);
+  return whole.has_value();
 }
 
 bool take(const Operand& operand, bool& holds) {

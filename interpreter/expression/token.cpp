@@ -98,7 +98,7 @@ class Lexer {
   }
 
   TokenResult number() {
-    if (text_.starts_with("0x")) return hexadecimal();
+    if (text_.starts_with("0x") || text_.starts_with("0X")) return hexadecimal();
     std::size_t length = digits_at(text_, 0);
     bool is_real = false;
     const bool has_point = length < text_.size() && text_[length] == '.';

@@ -150,8 +150,8 @@ class Node {
       } else {
         const bool is_number = value.find_first_not_of("0123456789") == std::string::npos;
         inner.literals.insert(name);
-        literals_.push_back(
-            {name, is_number ? Entry{std::stod(value), 1, true} : Entry{value, 1, false}});
+        literals_.push_back({name, is_number ? Entry{std::stod(value), 1, true, false}
+                                             : Entry{value, 1, false, false}});
       }
     }
     for (const auto& [name, entry] : literals_) inner.entries[name] = entry;
@@ -309,16 +309,23 @@ class Node {
     const std::string value = text("value");
     if (const auto key = key_in(value)) {
       const Entry* from = board_->find(*key);
-      if (from == nullptr || from->value.index() == 0) return Status::Failure;
-      if (from == board_->find(text("output_key"))) return Status::Success;
-      const auto copied = from->value;
+      if (from == nullptr) throw Failed("no " + *key);
+      if (from->value.index() == 0) return Status::Failure;
+      const Entry* const before = board_->find(text("output_key"));
+      if (from == before) return Status::Success;
+      const Entry copied = *from;
+      const bool is_text = before != nullptr ? before->is_text : copied.is_text;
+      if (is_text && std::holds_alternative<double>(copied.value)) throw Failed("a text is wanted");
       Entry& to = board_->make(text("output_key"));
-      to.value = copied;
+      to.value = copied.value;
+      to.is_text = is_text;
       ++to.writes;
       return Status::Success;
     }
+    const bool is_new = board_->find(text("output_key")) == nullptr;
     Entry& to = board_->make(text("output_key"));
     to.value = value;
+    to.is_text = to.is_text || is_new;
     ++to.writes;
     return Status::Success;
   }

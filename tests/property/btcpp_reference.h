@@ -39,7 +39,8 @@ using Document = std::map<std::string, Element>;
 struct Entry {
   std::variant<std::monostate, double, std::string> value = {};
   unsigned writes = 0;
-  bool is_int = false;  // else any, or a text
+  bool is_int = false;   // else any, or a text
+  bool is_text = false;  // of a SetBlackboard with a text, or copied from such a one
 };
 
 class Node;

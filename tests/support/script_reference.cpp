@@ -227,6 +227,10 @@ std::int64_t whole_of(const Value& value) {
   return static_cast<std::int64_t>(*real);
 }
 
+std::int64_t bits_of(const Value& value) {
+  return whole_of(real_of(value));
+}
+
 bool condition_of(const Value& value) {
   if (const auto whole = held_whole(value)) {
     if (*whole != 0 && *whole != 1) throw Failed();
@@ -355,9 +359,9 @@ class Walk {
       const bool b = condition_of(right);
       return (sign == "&&" ? a && b : a || b) ? 1.0 : 0.0;
     }
-    if (sign == "&") return static_cast<double>(whole_of(left) & whole_of(right));
-    if (sign == "|") return static_cast<double>(whole_of(left) | whole_of(right));
-    if (sign == "^") return static_cast<double>(whole_of(left) ^ whole_of(right));
+    if (sign == "&") return static_cast<double>(bits_of(left) & bits_of(right));
+    if (sign == "|") return static_cast<double>(bits_of(left) | bits_of(right));
+    if (sign == "^") return static_cast<double>(bits_of(left) ^ bits_of(right));
     if (sign == ".." || (sign == "+" && is_text(left) && is_text(right))) {
       if (!is_text(left) && !is_text(right)) throw Failed();
       for (const Value& it : {left, right}) {
@@ -395,12 +399,10 @@ class Walk {
     if (std::holds_alternative<NoValue>(value)) throw Failed();
     const bool is_any = entry.typing == Typing::Any;
     const bool is_empty = std::holds_alternative<NoValue>(entry.value);
-    if (is_empty && is_any) {
+    if (is_empty && (is_any || !is_text(value))) {
       entry.value = value;
     } else if (is_text(value) && !is_text(entry.value)) {
       entry.value = is_any ? Value(meant(value)) : typed(entry.type, std::get<std::string>(value));
-    } else if (is_empty) {
-      entry.value = typed(entry.type, value);
     } else if (is_text(entry.value)) {
       if (!is_text(value)) throw Failed();
       entry.value = value;
@@ -417,17 +419,10 @@ class Walk {
     const bool is_fraction =
         real != nullptr && (std::trunc(*real) != *real || *real < -9223372036854775808.0 ||
                             *real >= 9223372036854775808.0);
-    if (is_fraction && entry.typing == Typing::Any) return value;
+    if (is_fraction) throw Failed();
     const std::int64_t whole = whole_of(value);
     const bool is_flag = std::holds_alternative<bool>(entry.value) && (whole == 0 || whole == 1);
     return is_flag ? Value(whole == 1) : Value(whole);
-  }
-
-  static Value typed(ValueType type, const Value& value) {
-    if (type == ValueType::Int) return whole_of(value);
-    if (type == ValueType::Double) return real_of(value);
-    if (type == ValueType::Bool) return condition_of(value);
-    return value;  // a text entry keeps a number
   }
 
   static Value typed(ValueType type, const std::string& text) {

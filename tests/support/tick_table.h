@@ -13,19 +13,11 @@
 #pragma once
 
 #include <span>
-#include <string_view>
 
 #include "engine/ticker.h"
+#include "support/tick_row.h"
 
 namespace lockstep::host::test {
-
-struct TickRow {
-  std::string_view law;
-  std::string_view tree;
-  std::string_view leaves;
-  std::string_view expected;
-  double period = 0.1;  // seconds from tick to tick; the first is at 0
-};
 
 // Fails the Catch test for each row that does not hold, showing law, tree, expected and got.
 void check_rows(std::span<const TickRow> rows, FaultPolicy policy = FaultPolicy::Stop,

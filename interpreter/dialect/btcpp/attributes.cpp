@@ -209,6 +209,7 @@ void read_attributes(const NodeElement& element, const Reporter& report, Checked
                      CheckedTrees& trees) {
   PortChecker(element, report, node, trees).check();
   trees.names_at_run_time |= node.type->opens_entries;
+  trees.shares_entries |= node.type->opens_entries;
   check_hooks(element, report, node, trees);
 }
 

@@ -30,20 +30,20 @@ constexpr Parameter kUnsetParameters[] = {{.name = "key",
                                            .is_key = true,
                                            .own_only = true}};
 
-// A text is converted to the type of the entry, if it has one.
-bool store_text(NodeContext& context, NodeIndex self, Entry& target, const Value& text) {
-  if (!target.is_present) make_entry(target, Typing::Declared, ValueType::String);
-  if (target.typing == Typing::Any) {
-    target.value = text;
+// Into an entry that has a type goes what is of it, and a text that is one.
+bool store(NodeContext& context, NodeIndex self, Entry& target, const Value& value) {
+  const auto* const text = std::get_if<std::string>(&value);
+  if (target.typing == Typing::Any || holds(value, target.type)) {
+    target.value = value;
     return true;
   }
-  auto converted = convert_value(text, target.type, target.object);
+  auto converted =
+      text == nullptr ? std::nullopt : convert_value(value, target.type, target.object);
   if (converted) {
     target.value = std::move(*converted);
     return true;
   }
-  context.set_fault(self, "cannot write '" + brief(std::get<std::string>(text)) +
-                              "' to an entry that holds " +
+  context.set_fault(self, "cannot write '" + brief(to_text(value)) + "' to an entry that holds " +
                               std::string(expected_text(target.type)));
   return false;
 }
@@ -57,17 +57,21 @@ std::optional<Entry*> named(NodeContext& context, NodeIndex self, unsigned port)
 
 Status tick_set(NodeContext& context, NodeIndex self) {
   const auto entry = named(context, self, kOutputKey);
+  const Entry* const source = context.ports().entry(self, kNewValue);
+  if (source != nullptr && !source->is_present) {
+    context.set_fault(self, "there is no entry to copy: 'value' names one that was removed");
+    return Status::Failure;
+  }
   const Value* const value = context.ports().value(self, kNewValue);
   if (!entry || value == nullptr) return Status::Failure;
   Entry* const target = *entry;
   if (target == nullptr) return Status::Success;  // without a name
-  if (const Entry* source = context.ports().entry(self, kNewValue)) {
-    if (source == target) return Status::Success;
-    if (!target->is_present) make_entry(*target, source->typing, source->type, source->object);
-    target->value = *value;
-  } else if (!store_text(context, self, *target, *value)) {
-    return Status::Failure;
+  if (source == target) return Status::Success;
+  if (!target->is_present) {
+    source == nullptr ? make_entry(*target, Typing::Declared, ValueType::String)
+                      : make_entry(*target, source->typing, source->type, source->object);
   }
+  if (!store(context, self, *target, *value)) return Status::Failure;
   ++target->writes;
   return Status::Success;
 }

@@ -59,27 +59,29 @@ class TextOf {
   std::string_view text_;
 };
 
-template <class Number>
-std::optional<Number> number_in(std::string_view text) {
-  Number number{};
+// A number, or a word that stands for one.
+std::optional<double> number_in(std::string_view text, const ScriptEnums* words) {
+  if (words != nullptr) {
+    const auto word = words->find(text);
+    if (word != words->end()) return word->second;
+  }
+  double number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   const bool is_whole_text = error == std::errc() && end == text.data() + text.size();
   return is_whole_text ? std::optional(number) : std::nullopt;
 }
 
-bool are_equal(std::string_view one, std::string_view other) {
+bool are_equal(std::string_view one, std::string_view other, const ScriptEnums* words) {
   if (one == other) return true;
-  const auto whole = number_in<std::int32_t>(one);
-  if (whole && whole == number_in<std::int32_t>(other)) return true;
-  const auto real = number_in<double>(one);
-  const auto second = number_in<double>(other);
+  const auto number = number_in(one, words);
+  const auto second = number_in(other, words);
   constexpr double kTolerance = 1.2e-7;
-  return real && second && std::fabs(*real - *second) < kTolerance;
+  return number && second && std::fabs(*number - *second) < kTolerance;
 }
 
 bool chooses(NodeContext& context, NodeIndex self, const Value& variable, unsigned number) {
   const Value* value = context.ports().value(self, number);
-  return value != nullptr && are_equal(*TextOf(variable), *TextOf(*value));
+  return value != nullptr && are_equal(*TextOf(variable), *TextOf(*value), context.ports().words());
 }
 
 // The child of the first case that fits, else the last.
