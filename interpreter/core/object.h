@@ -33,6 +33,8 @@ class ObjectType {
   // A failure begins with the name of the function.
   virtual Result<std::string> to_bytes(const void* object) const = 0;
   virtual Result<Object> from_bytes(std::string_view bytes) const = 0;
+  // Whether an input of this type may read an entry of the type of that name.
+  virtual bool reads(std::string_view name) const { return name == name_; }
   // Whether its objects are the bytes of objects of another process: PackedType.
   virtual bool is_packed() const { return false; }
 

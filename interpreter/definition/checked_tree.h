@@ -101,6 +101,7 @@ struct CheckedTrees {
   std::map<std::string_view, CheckedTree> trees;  // by the ID of the BehaviorTree
   std::vector<std::string_view> ids;              // as they stand in the documents
   std::vector<CheckedNode> groups;                // declared beside the trees; names are distinct
+  bool shares_entries = false;                    // Definition::shares_entries
   bool names_at_run_time = false;                 // names of entries, or scripts, are in entries
   std::optional<CheckedMain> main;                // none: it is no tree file
 };

@@ -63,6 +63,8 @@ std::optional<Definition> resolve(const Project& project, const Catalog& catalog
   const auto stand_ins =
       add_stand_ins(project, models, options.unknown, options.mocks, known, report);
   CheckedTrees trees = rules.reader->read(project, known, models, diagnostics);
+  trees.names_at_run_time |= options.opens_entries;
+  trees.shares_entries |= options.opens_entries;
   const auto main = choose_main(trees, options.main_tree, report);
   if (!check_references(trees, report) || !main) return std::nullopt;
   Definition definition = expand(trees, *main, options.values, report);

@@ -18,6 +18,7 @@ struct ResolveOptions {
   StartValues values;
   MissingNodes unknown = MissingNodes::AreErrors;
   Mocks mocks = {};
+  bool opens_entries = false;  // the program uses entries by their names
 };
 
 // Returns nothing if there are errors. Also reports warnings and notes.

@@ -2,8 +2,15 @@
 
 namespace lockstep::host {
 
+Blackboard::Blackboard(const Tree& tree)
+    : entries(tree.slots.size()),
+      names(tree.boards, entries),
+      lock(tree.shares_entries ? std::make_shared<EntriesLock>() : nullptr) {
+  reset(tree);
+}
+
 void Blackboard::reset(const Tree& tree) {
-  entries.resize(tree.slots.size());
+  names.reset();
   for (std::size_t slot = 0; slot < entries.size(); ++slot) {
     const Slot& it = tree.slots[slot];
     // A start value counts as written where writes can be waited for.

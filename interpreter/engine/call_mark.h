@@ -39,6 +39,7 @@ enum class PluginFunction : std::uint8_t {
   FromText,
   ToBytes,
   FromBytes,
+  Reads,
   End,  // of a thread or the process: destructors of static objects, and what atexit was given
 };
 

@@ -97,6 +97,7 @@ class Compiler {
     tree_.stand_ins = definition_.stand_ins;
     tree_.rules = definition_.rules;
     tree_.boards = definition_.boards;
+    tree_.shares_entries = definition_.shares_entries;
     tree_.words = definition_.words;
     tree_.nodes.reserve(definition_.nodes.size());
     tree_.ports.reserve(definition_.ports.size());

@@ -5,6 +5,7 @@
 
 #include "engine/groups.h"
 #include "engine/node_scripts.h"
+#include "engine/node_watch.h"
 #include "engine/synchronized.h"
 #include "engine/ticker.h"
 
@@ -39,7 +40,11 @@ Status NodeContext::fail(NodeIndex node) {
   Status status = Status::Failure;
   if (tree_.labels[node].type->leaf != nullptr) {
     leaf(node).failed = true;
-    status = (hooked != nullptr ? hooked->kind : nodes_[node].kind)->tick(*this, node);
+    const bool is_watched = watches_ != nullptr && watches_->is_watched(node);
+    const NodeKind& kind = is_watched          ? watches_->inner_kind(node)
+                           : hooked != nullptr ? *hooked->kind
+                                               : *nodes_[node].kind;
+    status = kind.tick(*this, node);
   } else {
     halt_running_children(node);
     if (compares_progress(synchronization(nodes_[node]))) {
@@ -47,6 +52,7 @@ Status NodeContext::fail(NodeIndex node) {
     }
   }
   if (hooked != nullptr && hooked->ends) status = scripts_.finish(node, *hooked, status);
+  if (watches_ != nullptr) status = tell_result(node, status);
   if (state_.faulted) status = Status::Running;
   state_.activity[node] = static_cast<Activity>(status);
   state_.last_tick[node] = state_.tick_number;

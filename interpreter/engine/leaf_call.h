@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "engine/blackboard.h"
 #include "engine/node_context.h"
 #include "lockstep/leaf.h"
 
@@ -19,7 +20,8 @@ class LeafCall {
         node_(node),
         function_(function),
         around_(mark_.enter(*leaf.site, function)),
-        in_line_(std::exchange(context.in_line_, nullptr)) {
+        in_line_(std::exchange(context.in_line_, nullptr)),
+        in_leaf_(context.board_.lock.get()) {
     if (context.watch_ != nullptr) begun_ = context.watch_->begin(mark_);
   }
   ~LeafCall() {
@@ -62,6 +64,7 @@ class LeafCall {
   const CallMark::Look around_;
   CallMark* const in_line_;
   LeafWatch::Begun begun_;
+  const InLeaf in_leaf_;
 };
 
 template <PluginFunction kFunction, class Result>

@@ -2,13 +2,22 @@
 
 namespace lockstep::host {
 
+Entry* NamedEntries::find(const Home& home) {
+  const auto& known = boards_[home.board].entries;
+  if (const auto slot = known.find(home.key); slot != known.end()) return &slots_[slot->second];
+  auto& made = made_[home.board];
+  const auto found = made.find(home.key);
+  return found == made.end() ? nullptr : &found->second;
+}
+
+Entry* NamedEntries::find(std::uint32_t board, std::string_view key) {
+  return find(home_of(boards_, board, key));
+}
+
 Entry& NamedEntries::at(std::uint32_t board, std::string_view key) {
   const Home home = home_of(boards_, board, key);
-  const auto& known = boards_[home.board].entries;
-  if (const auto slot = known.find(home.key); slot != known.end()) return slots_[slot->second];
-  auto& made = made_[home.board];
-  if (const auto found = made.find(home.key); found != made.end()) return found->second;
-  Entry& entry = made[std::string(home.key)];
+  if (Entry* const found = find(home)) return *found;
+  Entry& entry = made_[home.board][std::string(home.key)];
   unset_entry(entry);
   return entry;
 }
@@ -22,6 +31,14 @@ void NamedEntries::restore(const Made& from) {
   reset();
   for (std::size_t board = 0; board < from.size(); ++board) {
     for (const auto& [key, entry] : from[board]) made_[board][key] = entry;
+  }
+}
+
+void NamedEntries::forget_objects() {
+  for (auto& made : made_) {
+    for (auto& [key, entry] : made) {
+      if (std::holds_alternative<Object>(entry.value)) entry.value = NoValue();
+    }
   }
 }
 

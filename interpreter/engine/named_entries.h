@@ -23,8 +23,19 @@ class NamedEntries {
   // The entry that `key` means on a board; it may be one that is not present. Allocates for a name
   // that is new.
   Entry& at(std::uint32_t board, std::string_view key);
-  // The same, if it belongs to that board; else null.
+  // The same; null: none was made, or used by the tree.
+  Entry* find(std::uint32_t board, std::string_view key);
+  // The same as `at`, if it belongs to that board; else null.
   Entry* own(std::uint32_t board, std::string_view key);
+  // Calls `visit` with the key of each entry that is at home on the board, also of those that are
+  // not present.
+  template <class Visit>
+  void each(std::uint32_t board, Visit visit) {
+    for (const auto& [key, slot] : boards_[board].entries) visit(key, slots_[slot]);
+    for (const auto& [key, entry] : made_[board]) visit(key, entry);
+  }
+  // Entries that were made here have none any more.
+  void forget_objects();
   // As new, for the next run: those that were made here are not present.
   void reset();
 
@@ -34,6 +45,8 @@ class NamedEntries {
   void restore(const Made& from);
 
  private:
+  Entry* find(const Home& home);
+
   std::span<const Board> boards_;
   std::span<Entry> slots_;
   Made made_;

@@ -8,6 +8,7 @@
 #include "engine/held_leaves.h"
 #include "engine/node_ports.h"
 #include "engine/node_scripts.h"
+#include "engine/node_watch.h"
 #include "engine/tree.h"
 
 namespace lockstep::host {
@@ -48,7 +49,8 @@ NodeContext::NodeContext(const Tree& tree, std::span<LeafSlot> leaves, Blackboar
       held_leaves_(beside_->held_leaves),
       policy_(policy),
       watch_(watch),
-      timer_(watch != nullptr && watch->is_timed() ? watch : nullptr) {
+      timer_(watch != nullptr && watch->is_timed() ? watch : nullptr),
+      notes_halts_(tree.has_halt_hooks) {
   if (watch_ != nullptr) watch_->begin_run(tree);
 }
 
@@ -71,7 +73,9 @@ Status NodeContext::tick_unreset(NodeIndex node) {
     state_.activity[node] = how == Unreset::GoesOn ? Activity::Running : Activity::Idle;
     result = kind.tick(*this, node);
   }
-  if (hooked != nullptr) result = scripts_.finish(node, *hooked, result);
+  if (hooked != nullptr) {
+    result = tell_result(node, scripts_.finish(node, *hooked, result));
+  }
   if (state_.faulted) result = Status::Running;
   state_.activity[node] = static_cast<Activity>(result);
   state_.last_tick[node] = state_.tick_number;
@@ -116,7 +120,7 @@ NodeIndex NodeContext::end_activation(NodeIndex node) {
   const NodeKind& kind = *nodes_[node].kind;
   if (activity == Activity::Skipped && kind.forget != nullptr) kind.forget(*this, node);
   activity = Activity::Idle;
-  if (running && tree_.has_halt_hooks) scripts_.note_halt(node);
+  if (running && notes_halts_) scripts_.note_halt(node);
   if (running && kind.halt != nullptr) kind.halt(*this, node);
   return node + 1;
 }

@@ -21,6 +21,8 @@ class Groups;
 class HeldLeaves;
 class NodePorts;
 class NodeScripts;
+class NodeWatch;
+class NodeWatches;
 
 // What a fault does to the run.
 enum class FaultPolicy : std::uint8_t {
@@ -135,9 +137,12 @@ class NodeContext : public RunView {
   // --- beside the life cycle ---------------------------------------------------------------------
 
   BoundParameters& parameters() { return parameters_; }
-  NodePorts& ports() { return ports_; }        // of a kind that reads ports
-  NodeScripts& scripts() { return scripts_; }  // of parameters, and around ticks
-  Groups& groups() { return groups_; }         // barriers and pools
+  NodePorts& ports() { return ports_; }                          // of a kind that reads ports
+  NodeScripts& scripts() { return scripts_; }                    // of parameters, and around ticks
+  Groups& groups() { return groups_; }                           // barriers and pools
+  const NodeWatches* watches() const { return watches_.get(); }  // null: nobody watches nodes
+  // Tells who watches the node what it returns. Gives that, or what is to be in its place.
+  Status tell_result(NodeIndex node, Status status);
 
  protected:
   // All must outlive this; `leaves` has one for each Tree::leaves, in order. `watch` may be null.
@@ -170,6 +175,8 @@ class NodeContext : public RunView {
   // Of the thread that ticks, while a leaf is called with nothing around it but this mark and
   // `timer_`; else null.
   CallMark* in_line_ = nullptr;
+  std::unique_ptr<NodeWatches> watches_;  // null: nobody has ever watched nodes
+  bool notes_halts_;                      // somebody is told of halts: scripts, or who watches
 };
 
 }  // namespace lockstep::host

@@ -21,7 +21,10 @@ class NodePorts {
         nodes_(tree.nodes.data()),
         ports_(tree.ports.data()),
         entries_(board.entries.data()),
-        names_(tree.boards, board.entries) {}
+        names_(board.names) {}
+
+  // That scripts know as numbers; null: none.
+  const ScriptEnums* words() const { return tree_.words.get(); }
 
   // Null: no {key}.
   Entry* entry(NodeIndex node, unsigned index) {
@@ -53,7 +56,7 @@ class NodePorts {
   const Node* const nodes_;  // of the tree
   const PortBinding* const ports_;
   Entry* const entries_;
-  NamedEntries names_;
+  NamedEntries& names_;
 };
 
 }  // namespace lockstep::host

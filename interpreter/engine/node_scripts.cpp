@@ -3,6 +3,8 @@
 #include <string>
 #include <utility>
 
+#include "engine/node_watch.h"
+
 namespace lockstep::host {
 
 NodeScripts::NodeScripts(NodeContext& context, const Tree& tree, Blackboard& board,
@@ -108,16 +110,28 @@ void NodeScripts::note_halt(NodeIndex node) {
   const HookedNode* const hooked = around(node);
   const bool has_script =
       hooked != nullptr && hooked->script(Hook::OnHalted) != HookedNode::kNoScript;
-  if (has_script) halted_.push_back(node);
+  const NodeWatches* const watches = context_.watches();
+  const bool is_watched = watches != nullptr && watches->is_watched(node);
+  if (is_watched) watches->watch()->before_halt(node);
+  if (has_script || is_watched) halted_.push_back(node);
 }
 
 void NodeScripts::run_halted(std::size_t begin, NodeIndex next) {
   while (halted_.size() > begin && tree_.nodes[halted_.back()].end <= next) {
     const NodeIndex node = halted_.back();
     halted_.pop_back();
-    if (scripts_.run(node, around(node)->script(Hook::OnHalted))) continue;
-    fail(node, attribute_of(Hook::OnHalted, *tree_.rules), scripts_.error());
+    run_halted(node);
+    const NodeWatches* const watches = context_.watches();
+    if (watches != nullptr && watches->is_watched(node)) watches->watch()->after_halt(node);
   }
+}
+
+void NodeScripts::run_halted(NodeIndex node) {
+  const HookedNode* const hooked = around(node);
+  const std::uint32_t script =
+      hooked == nullptr ? HookedNode::kNoScript : hooked->script(Hook::OnHalted);
+  if (script == HookedNode::kNoScript || scripts_.run(node, script)) return;
+  fail(node, attribute_of(Hook::OnHalted, *tree_.rules), scripts_.error());
 }
 
 // Under FaultPolicy::Fail the node fails, whatever it is; what runs in it is halted.

@@ -41,10 +41,14 @@ class NodeScripts {
 
   // Scripts of halted nodes run from the left, those of children before those of their parent. A
   // halt notes each node that it halts, and runs what is noted since there were `begin`, of
-  // subtrees that end before the next node. Only in trees with has_halt_hooks.
+  // subtrees that end before the next node. Only in trees with has_halt_hooks, and where nodes are
+  // watched.
   std::size_t halted() const { return halted_.size(); }
   void note_halt(NodeIndex node);
   void run_halted(std::size_t begin, NodeIndex next);
+
+  // From now on with the kinds of nodes that are watched.
+  void use(const HookedNode* hooked) { hooked_ = hooked; }
 
   // As new, for the next run.
   void reset() { scripts_.reset(); }
@@ -52,6 +56,7 @@ class NodeScripts {
  private:
   std::uint32_t script(NodeIndex node, unsigned parameter) const;
   std::string_view name(NodeIndex node, unsigned parameter) const;
+  void run_halted(NodeIndex node);
   Truth ask(NodeIndex node, const HookedNode& hooked, Hook hook);
   std::optional<Status> ask_first(NodeIndex node, const HookedNode& hooked);
   std::optional<Status> ask_while(NodeIndex node, const HookedNode& hooked);
@@ -60,7 +65,7 @@ class NodeScripts {
   NodeContext& context_;
   const Tree& tree_;
   const std::uint32_t* const hooks_;  // of the tree; null when no node has scripts
-  const HookedNode* const hooked_;
+  const HookedNode* hooked_;
   BoundScripts scripts_;
   std::vector<NodeIndex> halted_ = {};  // that have a script for it
 };

@@ -62,7 +62,7 @@ class RunView {
   }
 
   const Tree& tree_;
-  const Node* const nodes_;  // of the tree
+  const Node* nodes_;  // of the tree, or with the kinds of nodes that are watched
   Blackboard& board_;
   RunState state_;
 };

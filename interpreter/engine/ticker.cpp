@@ -3,10 +3,12 @@
 #include "engine/groups.h"
 #include "engine/node_ports.h"
 #include "engine/node_scripts.h"
+#include "engine/node_watch.h"
 
 namespace lockstep::host {
 
 Status Ticker::tick_root(Nanoseconds now) {
+  const InEngine scope(board_.lock.get());
   set_now(now);
   ++state_.tick_number;
   if (!held_leaves_.empty()) [[unlikely]]
@@ -23,6 +25,7 @@ Status Ticker::tick_root(Nanoseconds now) {
 }
 
 Status Ticker::tick_root_again() {
+  const InEngine scope(board_.lock.get());
   begin_calls();
   return end_calls(tick(0));
 }
@@ -31,7 +34,8 @@ void Ticker::begin_calls() {
   CallMark& mark = CallMark::this_thread();
   mark.set_tick(state_.tick_number - 1);
   const bool is_careful = watch_ != nullptr && watch_->looks_after_each_call();
-  in_line_ = state_.interrupted || is_careful ? nullptr : &mark;
+  const bool gives_back = board_.lock != nullptr;  // around each call
+  in_line_ = state_.interrupted || is_careful || gives_back ? nullptr : &mark;
   if (watch_ != nullptr) watch_->begin_calls();
 }
 
@@ -42,15 +46,23 @@ Status Ticker::end_calls(Status result) {
 }
 
 void Ticker::halt_all() {
+  const InEngine scope(board_.lock.get());
   state_.in_last_halt = true;
   halt_range(0, static_cast<NodeIndex>(tree_.nodes.size()));
   state_.in_last_halt = false;
 }
 
+void Ticker::watch_nodes(std::span<const NodeIndex> nodes, NodeWatch* watch) {
+  if (watches_ == nullptr) watches_ = std::make_unique<NodeWatches>(tree_);
+  watches_->watch(nodes, watch);
+  nodes_ = watches_->nodes();
+  scripts_.use(watches_->hooked());
+  notes_halts_ = tree_.has_halt_hooks || watch != nullptr;
+}
+
 void Ticker::reset() {
   state_.reset();
   parameters_.reset();
-  ports_.names().reset();
   scripts_.reset();
   held_leaves_.reset();
   if (watch_ != nullptr) watch_->begin_run(tree_);

@@ -62,6 +62,9 @@ class Ticker : public NodeContext {
   // The same of those that went on while they were held.
   std::span<const WentOn> went_on() const { return held_leaves_.went_on(); }
 
+  // Tells of these nodes, and of no others, while they are ticked; null: of none. Also in a tick.
+  void watch_nodes(std::span<const NodeIndex> nodes, NodeWatch* watch);
+
   // Between two ticks: all of the run but what the leaves keep in themselves. After `restore` the
   // run goes on as it did after `save`. The saved run is one of this ticker, or of another one of
   // the same tree.

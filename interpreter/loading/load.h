@@ -26,6 +26,7 @@ struct LoadOptions {
   Arguments ros_packages = {};  // the share directories of ROS packages, by name
   MissingNodes unknown = MissingNodes::AreErrors;
   Mocks mocks = {};
+  bool opens_entries = false;  // the program uses entries by their names
 };
 
 // A definition without errors, and the objects that it refers to.

@@ -30,7 +30,7 @@ MEMBER_AT(lockstep_port, max, 64);
 MEMBER_AT(lockstep_port, object, 72);
 MEMBER_AT(lockstep_port, flags, 80);
 
-SIZE_IS(lockstep_object_type, 72);
+SIZE_IS(lockstep_object_type, 80);
 MEMBER_AT(lockstep_object_type, struct_size, 0);
 MEMBER_AT(lockstep_object_type, name, 8);
 MEMBER_AT(lockstep_object_type, retain, 16);
@@ -40,10 +40,43 @@ MEMBER_AT(lockstep_object_type, from_text, 40);
 MEMBER_AT(lockstep_object_type, to_bytes, 48);
 MEMBER_AT(lockstep_object_type, from_bytes, 56);
 MEMBER_AT(lockstep_object_type, why_no_object, 64);
+MEMBER_AT(lockstep_object_type, reads, 72);
 
 SIZE_IS(lockstep_text, 16);
 MEMBER_AT(lockstep_text, text, 0);
 MEMBER_AT(lockstep_text, length, 8);
+
+SIZE_IS(lockstep_entry_value, 80);
+MEMBER_AT(lockstep_entry_value, struct_size, 0);
+MEMBER_AT(lockstep_entry_value, type, 4);
+MEMBER_AT(lockstep_entry_value, declared, 8);
+MEMBER_AT(lockstep_entry_value, flag, 12);
+MEMBER_AT(lockstep_entry_value, whole, 16);
+MEMBER_AT(lockstep_entry_value, number, 24);
+MEMBER_AT(lockstep_entry_value, items, 32);
+MEMBER_AT(lockstep_entry_value, count, 40);
+MEMBER_AT(lockstep_entry_value, object, 48);
+MEMBER_AT(lockstep_entry_value, object_type, 56);
+MEMBER_AT(lockstep_entry_value, object_name, 64);
+MEMBER_AT(lockstep_entry_value, writes, 72);
+
+SIZE_IS(lockstep_boards, 128);
+MEMBER_AT(lockstep_boards, struct_size, 0);
+MEMBER_AT(lockstep_boards, of, 8);
+MEMBER_AT(lockstep_boards, of_port, 16);
+MEMBER_AT(lockstep_boards, at, 24);
+MEMBER_AT(lockstep_boards, release, 32);
+MEMBER_AT(lockstep_boards, index, 40);
+MEMBER_AT(lockstep_boards, is_over, 48);
+MEMBER_AT(lockstep_boards, parent, 56);
+MEMBER_AT(lockstep_boards, lock, 64);
+MEMBER_AT(lockstep_boards, unlock, 72);
+MEMBER_AT(lockstep_boards, try_lock, 80);
+MEMBER_AT(lockstep_boards, home, 88);
+MEMBER_AT(lockstep_boards, read, 96);
+MEMBER_AT(lockstep_boards, write, 104);
+MEMBER_AT(lockstep_boards, unset, 112);
+MEMBER_AT(lockstep_boards, each, 120);
 
 SIZE_IS(lockstep_host, 232);
 MEMBER_AT(lockstep_host, abi_major, 0);
@@ -118,7 +151,7 @@ MEMBER_AT(lockstep_children, status, 40);
 MEMBER_AT(lockstep_children, progress, 48);
 MEMBER_AT(lockstep_children, tick_unreset, 56);
 
-SIZE_IS(lockstep_place, 104);
+SIZE_IS(lockstep_place, 112);
 MEMBER_AT(lockstep_place, struct_size, 0);
 MEMBER_AT(lockstep_place, name, 8);
 MEMBER_AT(lockstep_place, path, 16);
@@ -132,6 +165,7 @@ MEMBER_AT(lockstep_place, set_object, 72);
 MEMBER_AT(lockstep_place, open, 80);
 MEMBER_AT(lockstep_place, unset, 88);
 MEMBER_AT(lockstep_place, ask_for_tick, 96);
+MEMBER_AT(lockstep_place, wake, 104);
 
 SIZE_IS(lockstep_words, 24);
 MEMBER_AT(lockstep_words, struct_size, 0);

@@ -41,6 +41,7 @@ class Expander {
     Scope scope(definition_.entries, *trees_.rules);
     for (const auto& [key, text] : values_) scope.set_text(key, text);
     if (trees_.names_at_run_time) definition_.boards.emplace_back();
+    definition_.shares_entries = trees_.shares_entries;
     add(trees_.trees.at(main).root, 0, scope);
     add_groups(scope);
     keep_board(0, scope);
@@ -333,7 +334,11 @@ class Expander {
     }
     if (parameter.type == ValueType::Number && is_number(entry.type)) return true;
     if (parameter.type != entry.type) return false;
-    return parameter.type != ValueType::Object || parameter.object->name() == entry.object->name();
+    if (parameter.type != ValueType::Object) return true;
+    const std::string_view name = entry.object->name();
+    return parameter.direction == Direction::Input && !is_strict()
+               ? parameter.object->reads(name)
+               : parameter.object->name() == name;
   }
 
   // An object of another process is bytes in this one. What is no object yet, such as a text that a

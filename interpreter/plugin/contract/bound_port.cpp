@@ -54,7 +54,8 @@ void PortTable::reserve(std::size_t ports) {
 }
 
 void PortTable::add(BoundPort&& port) {
-  ordinary_.push_back(port.ordinary());
+  const bool is_hidden = hides_entries_ && !port.entry.empty();
+  ordinary_.push_back(is_hidden ? &kNothing : port.ordinary());
   ports_.push_back(std::move(port));
 }
 

@@ -57,6 +57,8 @@ class PortTable {
  public:
   void reserve(std::size_t ports);
   void add(BoundPort&& port);
+  // Values of entries are not handed out without a further look. Before the first is added.
+  void hide_entries() { hides_entries_ = true; }
   std::size_t size() const { return ports_.size(); }
   // The ports from `first` on.
   void give_to(lockstep_caller& caller, std::size_t first = 0);
@@ -65,6 +67,7 @@ class PortTable {
  private:
   std::vector<BoundPort> ports_;
   std::vector<const Value*> ordinary_;  // of each
+  bool hides_entries_ = false;
 };
 
 // Adds those of a node.

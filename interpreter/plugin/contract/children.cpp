@@ -57,6 +57,7 @@ lockstep_status tick_by(const lockstep_caller* caller, std::uint32_t child, Func
   }
   // Code of the child that knows this caller must not use it.
   slot.access = ChildAccess::None;
+  const InEngine scope(caller->run->lock);
   const Status status = function(*caller->run->ticker, node);
   slot.access = ChildAccess::Tick;
   return static_cast<lockstep_status>(status);
@@ -78,6 +79,7 @@ void halt(const lockstep_caller* caller, std::uint32_t child) {
   if (!may(caller, ChildAccess::Tick, "halts", child)) return;
   LeafSlot& slot = *caller->slot;
   slot.access = ChildAccess::None;
+  const InEngine scope(caller->run->lock);
   caller->run->ticker->halt(caller->child(child));
   slot.access = ChildAccess::Tick;
 }
@@ -86,6 +88,7 @@ void pause(const lockstep_caller* caller, std::uint32_t child) {
   if (!may(caller, ChildAccess::Tick, "pauses", child)) return;
   LeafSlot& slot = *caller->slot;
   slot.access = ChildAccess::None;
+  const InEngine scope(caller->run->lock);
   caller->run->ticker->pause(caller->child(child));
   slot.access = ChildAccess::Tick;
 }
@@ -99,6 +102,7 @@ double progress(const lockstep_caller* caller, std::uint32_t child) {
   if (!may(caller, ChildAccess::Look, "asks for", child)) return 0;
   LeafSlot& slot = *caller->slot;
   const ChildAccess access = std::exchange(slot.access, ChildAccess::None);
+  const InEngine scope(caller->run->lock);
   const double value = caller->run->ticker->progress(caller->child(child));
   slot.access = access;
   return value;

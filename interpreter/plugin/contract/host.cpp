@@ -12,6 +12,7 @@
 #include "core/parameter_value.h"
 #include "core/utf8.h"
 #include "core/wording.h"
+#include "plugin/contract/boards.h"
 #include "plugin/contract/held.h"
 #include "plugin/contract/packed_object.h"
 #include "plugin/contract/workers.h"
@@ -67,9 +68,7 @@ bool is_of(const Value& value, ValueType type) {
 }
 
 // As `readable`, for what is not ordinary.
-[[gnu::noinline]] const Value* otherwise_readable(const lockstep_caller& caller, BoundPort& port,
-                                                  ValueType type) {
-  if (port.read == nullptr) return nullptr;
+const Value* found_otherwise(const lockstep_caller& caller, BoundPort& port, ValueType type) {
   const Value* value = port.read;
   if (!is_of(*value, type)) {
     const bool is_empty = std::holds_alternative<NoValue>(*value);
@@ -92,6 +91,17 @@ inline const T* ordinary(const lockstep_caller* caller, std::uint32_t port) {
   return std::get_if<T>(&value);
 }
 
+// Where other threads write entries, too, it is a copy.
+[[gnu::noinline]] const Value* otherwise_readable(const lockstep_caller& caller, BoundPort& port,
+                                                  ValueType type) {
+  if (port.read == nullptr) return nullptr;
+  if (caller.run->lock == nullptr) return found_otherwise(caller, port, type);
+  const InEngine scope(caller.run->lock);
+  const Value* const found = found_otherwise(caller, port, type);
+  const bool may_change = found == port.read && !port.entry.empty();
+  return may_change ? &(port.remembered().converted = *found) : found;
+}
+
 // The port's value when it has one of this type; else null.
 inline const Value* readable(const lockstep_caller* caller, std::uint32_t port, ValueType type) {
   if (caller->is_foreign() || port >= caller->ports.size()) [[unlikely]]
@@ -99,7 +109,11 @@ inline const Value* readable(const lockstep_caller* caller, std::uint32_t port, 
   const Value* const value = caller->ordinary[port];
   if (is_of(*value, type)) [[likely]]
     return value;
-  return otherwise_readable(*caller, caller->ports[port], type);
+  try {
+    return otherwise_readable(*caller, caller->ports[port], type);
+  } catch (const std::exception&) {
+    return nullptr;  // out of memory
+  }
 }
 
 template <class T>
@@ -209,6 +223,7 @@ bool set_loose(const lockstep_caller& caller, const BoundPort& port, ValueType t
 template <class Make, class Assign>
 bool store(const lockstep_caller& caller, const BoundPort& port, ValueType type, Make make,
            Assign assign) {
+  const InEngine scope(caller.run->lock);
   const bool has_limits = port.has_limits && port.parameter->direction != Direction::Input;
   if (has_limits && !may_be_set(caller, port, make())) return false;
   if (is_loose(port, type)) return set_loose(caller, port, type, make());
@@ -255,7 +270,7 @@ bool set(const lockstep_caller* caller, std::uint32_t port, T value) {
   if (entry == nullptr) return false;
   T* const target = std::get_if<T>(&entry->value);
   const bool is_ordinary = target != nullptr && it->type == type_of<T>() && !it->is_generic &&
-                           entry->typing == Typing::Strict && caller->run->written == nullptr;
+                           entry->typing == Typing::Strict && caller->run->sets_plainly();
   if (!is_ordinary || !is_finite(value)) return set_otherwise(*caller, *it, value);
   ++entry->writes;
   *target = value;
@@ -360,6 +375,7 @@ std::optional<Object> settable(const lockstep_caller& caller, const BoundPort& p
 bool set_object(const lockstep_caller* caller, std::uint32_t port, void* object) {
   const BoundPort* const it = port_of(*caller, port);
   if (object == nullptr || it == nullptr || it->object() == nullptr) return false;
+  const InEngine scope(caller->run->lock);
   const bool loose = is_loose(*it, ValueType::Object);
   Value* const target = loose ? nullptr : writable(*caller, *it, ValueType::Object);
   if (!loose && target == nullptr) return false;
@@ -413,12 +429,14 @@ const void* get_extension(const char* id) {
   if (wanted == LOCKSTEP_CHILDREN) return &children_table();
   if (wanted == LOCKSTEP_WORKERS) return &workers_table();
   if (wanted == LOCKSTEP_PLACE) return &place_table();
+  if (wanted == LOCKSTEP_BOARDS) return &boards_table();
   return nullptr;
 }
 
 // A leaf knows its ports, only we know the entries: what leaf.hpp says of a port without a value is
 // made complete.
 Shortened with_entry(const lockstep_caller& caller, const Shortened& message) {
+  const InEngine scope(caller.run->lock);
   for (const BoundPort& port : caller.ports) {
     if (port.entry.empty() ||
         message.text() != fmt::format("port '{}' has no value", port.name())) {

@@ -24,6 +24,8 @@ namespace lockstep::host {
 
 constexpr std::size_t kLongestLogLine = std::size_t{32} << 10;  // bytes; the rest is cut off
 
+class BoardsOfRun;
+
 // What the callers of a run share.
 struct CallerRun {
   const LeafLog* log;
@@ -32,6 +34,11 @@ struct CallerRun {
   const lockstep_plugin* plugin = nullptr;  // of a run: whose run context it is
   // Collects the entries that are set, for a process that only mirrors them; null: not collected.
   std::vector<Entry*>* written = nullptr;
+  BoardsOfRun* boards = nullptr;  // null: nobody uses entries by their names
+  EntriesLock* lock = nullptr;    // Blackboard::lock
+
+  // What a leaf sets goes into its entry, and that is all.
+  bool sets_plainly() const { return written == nullptr && lock == nullptr; }
 };
 
 // Texts of a node that end with a NUL.

@@ -69,7 +69,8 @@ struct LeafSet::Implementation {
     bool created = false;
   };
 
-  Implementation(const Tree& tree, Blackboard& blackboard, const LeafTime& time, LeafLog log);
+  Implementation(const Tree& tree, Blackboard& blackboard, const LeafTime& time, LeafLog log,
+                 BoardsOfRun* boards);
   ~Implementation() { destroy_all(); }
   Implementation(const Implementation&) = delete;
   Implementation& operator=(const Implementation&) = delete;
@@ -113,13 +114,14 @@ struct LeafSet::Implementation {
 };
 
 LeafSet::Implementation::Implementation(const Tree& tree, Blackboard& blackboard,
-                                        const LeafTime& time, LeafLog log)
+                                        const LeafTime& time, LeafLog log, BoardsOfRun* boards)
     : tree_(tree),
       blackboard_(blackboard),
       time_(time),
       log_(std::move(log)),
       slots_(tree.leaves.size()),
-      run_{.log = &log_, .tree = &tree} {
+      run_{.log = &log_, .tree = &tree, .boards = boards, .lock = blackboard.lock.get()} {
+  if (run_.lock != nullptr) ports_.hide_entries();
   callers_.reserve(tree.leaves.size());
   sites_.reserve(tree.leaves.size());
   ports_.reserve(ports_of(tree));
@@ -178,16 +180,14 @@ void LeafSet::Implementation::destroy_all() {
     slot = LeafSlot{.type = slot.type, .site = slot.site};
   }
   // While what the leaves of a run share is still there.
+  const InEngine scope(run_.lock);
+  blackboard_.names.forget_objects();
   for (Entry& entry : blackboard_.entries) {
     if (std::holds_alternative<Object>(entry.value)) entry.value = NoValue();
   }
   for (lockstep_caller& caller : callers_) {
     for (BoundPort& port : caller.ports) {
       if (port.memory != nullptr) port.memory->packed = port.memory->unpacked = Object();
-      const bool is_opened = port.is_generic && port.write != nullptr;
-      if (is_opened && std::holds_alternative<Object>(port.write->value)) {
-        port.write->value = NoValue();
-      }
     }
   }
   for (std::size_t index = contexts_.size(); index-- > 0;) {
@@ -276,8 +276,8 @@ void LeafSet::Implementation::create_all(std::uint64_t seed) {
 }
 
 LeafSet::LeafSet(const Tree& tree, Blackboard& blackboard, const LeafTime& time, std::uint64_t seed,
-                 LeafLog log)
-    : it_(std::make_unique<Implementation>(tree, blackboard, time, std::move(log))) {
+                 LeafLog log, BoardsOfRun* boards)
+    : it_(std::make_unique<Implementation>(tree, blackboard, time, std::move(log), boards)) {
   create_all(seed);
 }
 

@@ -19,9 +19,11 @@ inline const void* this_thread_id() {
   return &id;
 }
 
+class BoardsOfRun;
 class Workers;
 class ProcessLeaves;
 class EndBudget;
+class WakeUp;
 
 // The time of a run as its leaves see it; the owner of the run updates it.
 struct LeafTime {
@@ -31,12 +33,19 @@ struct LeafTime {
   Workers* workers = nullptr;    // on the virtual clock: threads of leaves take turns
   ProcessLeaves* processes = nullptr;  // those that are looked at while they are held
   EndBudget* end_budget = nullptr;     // null: each process has its own patience
+  WakeUp* wake_up = nullptr;           // null: nobody waits between two ticks
 };
 
 // Lines that leaves log: the path of the leaf (or the plugin's name, from create_run), level, text.
 // May be called from any thread.
 using LeafLog =
     std::function<void(std::string_view who, lockstep_log_level level, std::string_view message)>;
+
+// "debug", "info" or "warning".
+constexpr std::string_view name_of(lockstep_log_level level) {
+  if (level == LOCKSTEP_LOG_WARNING) return "warning";
+  return level == LOCKSTEP_LOG_DEBUG ? "debug" : "info";
+}
 
 class LeafSet {
  public:
@@ -45,7 +54,7 @@ class LeafSet {
   // set must not be ticked. `seed` and a leaf's place in the tree determine its stream of random
   // numbers.
   LeafSet(const Tree& tree, Blackboard& blackboard, const LeafTime& time, std::uint64_t seed,
-          LeafLog log = {});
+          LeafLog log = {}, BoardsOfRun* boards = nullptr);
   // Destroys the leaves in reverse order, then the run contexts. No leaf may be running.
   ~LeafSet();
   // The two halves of a restart, as if the set were made again. In between, the owner resets what

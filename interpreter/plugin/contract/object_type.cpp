@@ -80,6 +80,16 @@ class PluginObjectType final : public ObjectType {
     return Object(*this, object);
   }
 
+  bool reads(std::string_view name) const override {
+    if (name == this->name()) return true;
+    bool reads = false;
+    if (it_.reads != nullptr) {
+      const std::string other(name);
+      guarded(PluginFunction::Reads, [&] { reads = it_.reads(other.c_str()); });
+    }
+    return reads;
+  }
+
   bool has_bytes() const override { return has_both(it_); }
   Result<std::string> to_bytes(const void* object) const override {
     std::string bytes;

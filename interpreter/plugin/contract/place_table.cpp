@@ -3,6 +3,7 @@
 #include "engine/ticker.h"
 #include "plugin/contract/host.h"
 #include "plugin/contract/object_type.h"
+#include "plugin/contract/wake_up.h"
 
 namespace lockstep::host {
 
@@ -77,6 +78,7 @@ const Value* value_of(const BoundPort* port) {
 
 // The types of the contract have the numbers of the alternatives.
 lockstep_type value_type(const lockstep_caller* caller, std::uint32_t port) {
+  const InEngine scope(caller->run->lock);
   const Value* const value = value_of(port_of(*caller, port));
   return value == nullptr ? 0 : static_cast<lockstep_type>(value->index());
 }
@@ -90,6 +92,7 @@ const ObjectType* object_type_of(const lockstep_caller* caller,
 
 bool get_object(const lockstep_caller* caller, std::uint32_t port,
                 const lockstep_object_type* declared, void** object) {
+  const InEngine scope(caller->run->lock);
   const Value* const value = value_of(port_of(*caller, port));
   const auto* const found = value == nullptr ? nullptr : std::get_if<Object>(value);
   if (found == nullptr || declared == nullptr || found->type()->is_packed()) return false;
@@ -106,6 +109,7 @@ bool set_object(const lockstep_caller* caller, std::uint32_t port,
   try {
     const ObjectType* const type = object_type_of(caller, declared);
     if (type == nullptr) return false;
+    const InEngine scope(caller->run->lock);
     type->retain(object);
     return write_entry(*it->write, ValueType::Object, type, Object(*type, object));
   } catch (const std::exception&) {
@@ -134,6 +138,7 @@ void open_port(lockstep_caller& caller, std::string_view key) {
   if (caller.rest == nullptr) caller.rest = std::make_unique<CallerRest>();
   CallerRest& rest = *caller.rest;
   if (rest.ports.size() == 0) {
+    if (caller.run->lock != nullptr) rest.ports.hide_entries();
     rest.ports.reserve(caller.ports.size() + 1);
     for (BoundPort& port : caller.ports) rest.ports.add(std::move(port));
     rest.ports.give_to(caller);
@@ -150,6 +155,7 @@ std::uint32_t open(const lockstep_caller* caller, const char* text, std::size_t 
     if (caller->ports[port].entry == key) return static_cast<std::uint32_t>(port);
   }
   try {
+    const InEngine scope(caller->run->lock);
     open_port(mine(caller), key);
   } catch (const std::exception&) {
     return UINT32_MAX;
@@ -160,6 +166,7 @@ std::uint32_t open(const lockstep_caller* caller, const char* text, std::size_t 
 void unset(const lockstep_caller* caller, std::uint32_t port) {
   const BoundPort* const it = port_of(*caller, port);
   if (it == nullptr || port < first_opened(*caller)) return;
+  const InEngine scope(caller->run->lock);
   Entry* const own = caller->run->ticker->ports().own_at(caller->node, it->entry);
   if (own != nullptr) unset_entry(*own);
 }
@@ -168,6 +175,11 @@ void ask_for_tick(const lockstep_caller* caller) {
   if (caller->is_foreign() || caller->run->ticker == nullptr) return;
   const bool may_ask = caller->run->ticker->tree().rules->may_tick_again;
   if (may_ask) caller->run->ticker->ask_for_another_tick(caller->node);
+}
+
+void wake(const lockstep_caller* caller) {
+  WakeUp* const wake_up = caller->time->wake_up;
+  if (wake_up != nullptr) wake_up->wake();
 }
 
 }  // namespace
@@ -185,7 +197,8 @@ const lockstep_place& place_table() {
                                          .set_object = set_object,
                                          .open = open,
                                          .unset = unset,
-                                         .ask_for_tick = ask_for_tick};
+                                         .ask_for_tick = ask_for_tick,
+                                         .wake = wake};
   return kTable;
 }
 

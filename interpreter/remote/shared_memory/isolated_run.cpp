@@ -64,6 +64,8 @@ class IsolatedRun final : public RemoteRun {
   std::uint64_t call(const lockstep_caller& caller, std::span<const std::uint32_t> ports);
   std::uint64_t take_answer(const lockstep_caller& caller, Nanoseconds began);
   void call_last(const lockstep_caller& caller, std::span<const std::uint32_t> ports);
+  std::string write(const lockstep_caller& caller, std::span<const std::uint32_t> ports);
+  bool read(const lockstep_caller& caller, MessageReader& message, bool& refused);
 
   IsolatedPlugin& plugin_;
   std::unique_ptr<Session> session_;
@@ -161,7 +163,7 @@ MessageWriter& IsolatedRun::begin_call(PluginFunction function, std::uint32_t nu
 std::uint64_t IsolatedRun::call(const lockstep_caller& caller,
                                 std::span<const std::uint32_t> ports) {
   const Nanoseconds began = monotonic_now();
-  const std::string reason = entries_.write(ports, session_->request());
+  const std::string reason = write(caller, ports);
   if (!reason.empty()) fail(caller, "cannot be sent an object: " + reason);
   if (!session_->request_fits()) {
     entries_.forget();
@@ -173,13 +175,24 @@ std::uint64_t IsolatedRun::call(const lockstep_caller& caller,
   return 0;
 }
 
+std::string IsolatedRun::write(const lockstep_caller& caller,
+                               std::span<const std::uint32_t> ports) {
+  const InEngine scope(caller.run->lock);
+  return entries_.write(ports, session_->request());
+}
+
+bool IsolatedRun::read(const lockstep_caller& caller, MessageReader& message, bool& refused) {
+  const InEngine scope(caller.run->lock);
+  return entries_.read(message, refused);
+}
+
 // Repeats here what the plugin did there.
 std::uint64_t IsolatedRun::take_answer(const lockstep_caller& caller, Nanoseconds began) {
   MessageReader message = session_->answer();
   const std::size_t size = message.rest().size();
   Answer answer;
   bool refused = false;
-  if (!read_answer(message, answer) || !entries_.read(message, refused)) {
+  if (!read_answer(message, answer) || !read(caller, message, refused)) {
     session_->reject_answer();
     fail(caller, session_->last_words());
     return 0;

@@ -25,6 +25,8 @@ class Leaf : protected Services {
   // Redeclare this as true in a leaf that works between ticks: in threads, with devices. On the
   // virtual clock, where ticks do not wait for it, lockstep warns of it.
   static constexpr bool kRealTime = false;
+  // True in a class that calls wake().
+  static constexpr bool kWakes = false;
   virtual ~Leaf() = default;
 
  protected:

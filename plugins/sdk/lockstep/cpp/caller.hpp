@@ -2,6 +2,7 @@
 // turns C++ exceptions into leaf errors. Included by lockstep/leaf.hpp.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <stdexcept>
@@ -113,6 +114,14 @@ class Services {
   template <class Table>
   const Table* host_extension(const char* id) const {
     return static_cast<const Table*>(caller_.host->get_extension(id));
+  }
+
+  // The tree is ticked at once, by who waits for its next period; from any thread. In a class with
+  // `static constexpr bool kWakes = true`. An older host ticks when the period is over.
+  void wake() const {
+    constexpr std::size_t kSize = offsetof(lockstep_place, wake) + sizeof(lockstep_place::wake);
+    const auto* const place = host_extension<lockstep_place>(LOCKSTEP_PLACE);
+    if (place != nullptr && place->struct_size >= kSize) place->wake(caller_.id);
   }
 
   Services(const Services&) = delete;

@@ -204,7 +204,7 @@ constexpr lockstep_leaf_type leaf_type(const char* id, const char* doc) {
   type.create = &Functions::create;
   type.destroy = &Functions::destroy;
   type.tick = &Functions::tick;
-  type.flags = T::kRealTime ? LOCKSTEP_REAL_TIME : 0;
+  type.flags = (T::kRealTime ? LOCKSTEP_REAL_TIME : 0) | (T::kWakes ? LOCKSTEP_WAKES : 0);
   if constexpr (Functions::kIsAction) add_optional_functions<T>(type);
   if constexpr (std::is_base_of_v<ControlFunctions, T>) {
     type.min_children = T::kMinChildren;

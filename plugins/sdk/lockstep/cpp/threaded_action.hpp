@@ -105,14 +105,19 @@ namespace detail {
 // One thread per activation, and its result. All but the work itself belongs to the run's thread.
 class Worker {
  public:
+  // `tell` is called in the thread when the result is there.
   template <class Work>
   void launch(const Caller& caller, Work work) {
+    launch(caller, work, [] {});
+  }
+  template <class Work, class Tell>
+  void launch(const Caller& caller, Work work, Tell tell) {
     token_.reset();
     done_.store(false, std::memory_order_relaxed);
     error_ = nullptr;
     begin_turns(caller);
     try {
-      thread_ = std::thread([this, work] { live(work); });
+      thread_ = std::thread([this, work, tell] { live(work, tell); });
     } catch (...) {
       end_turns();
       throw;
@@ -144,8 +149,8 @@ class Worker {
 
  private:
   // The whole life of the thread.
-  template <class Work>
-  void live(Work work) {
+  template <class Work, class Tell>
+  void live(Work work, Tell tell) {
     in_worker = true;
     lockstep_worker* const worker = token_.worker_;
     if (worker != nullptr) token_.workers_->start(worker);
@@ -155,6 +160,7 @@ class Worker {
       error_ = std::current_exception();
     }
     done_.store(true, std::memory_order_release);
+    tell();
     if (worker != nullptr) token_.workers_->end(worker);
   }
 
