@@ -20,6 +20,8 @@
 
 namespace lockstep::host {
 
+struct GrootTree;
+
 // The texts of the nodes of a tree, and the types of its entries, as strings that end in a NUL.
 struct TreeTexts {
   explicit TreeTexts(const Tree& tree);
@@ -29,9 +31,12 @@ struct TreeTexts {
 // What a project has loaded. Runs, on any threads, share it.
 class Program {
  public:
-  explicit Program(Runnable loaded) : runnable(std::move(loaded)) {}
+  Program(Runnable loaded, std::string from, std::shared_ptr<const GrootTree> shown)
+      : runnable(std::move(loaded)), file(std::move(from)), groot(std::move(shown)) {}
 
   const Runnable runnable;
+  const std::string file;                        // of the tree, as the program named it
+  const std::shared_ptr<const GrootTree> groot;  // null: Groot2 is not to see it
   // Made when somebody asks for the first time.
   const TreeTexts& texts() const {
     std::call_once(has_texts_, [this] { texts_.emplace(runnable.tree); });
@@ -52,6 +57,7 @@ struct lockstep_project {
   lockstep::host::Diagnostics diagnostics;
   std::shared_ptr<const lockstep::host::Program> program;  // null until it is loaded
   bool load_tried = false;
+  bool shows_groot = false;
   lockstep::host::OwnProcess process;  // that has loaded it, or made it
 };
 

@@ -10,6 +10,7 @@
 #include "core/suggest.h"
 #include "core/utf8.h"
 #include "core/wording.h"
+#include "embedding/groot.h"
 #include "embedding/handles.h"
 
 namespace lockstep::host {
@@ -62,15 +63,18 @@ bool are_texts(std::initializer_list<std::pair<const char*, const char*>> texts)
   });
 }
 
+// `name` is that of the tree's file.
 template <class Load>
-bool load_with(lockstep_project* project, const void* argument, Load load) {
+bool load_with(lockstep_project* project, const char* name, const void* argument, Load load) {
   return set(project, argument, [] {}) && guarded([&] {
            const ForProgram scope;
            project->load_tried = true;
            project->process = OwnProcess();
            auto loaded = load();
            if (loaded && project->plugins->initialize(project->diagnostics)) {
-             project->program = std::make_shared<Program>(make_runnable(std::move(*loaded)));
+             auto shown = project->shows_groot ? groot_of(loaded->definition) : nullptr;
+             project->program = std::make_shared<Program>(make_runnable(std::move(*loaded)), name,
+                                                          std::move(shown));
            }
            project->diagnostics.sort();
            return project->program != nullptr ||
@@ -196,15 +200,23 @@ bool lockstep_project_isolate_all(lockstep_project* project) {
   return set(project, project, [&] { project->options.plugins.isolate = true; });
 }
 
+bool lockstep_project_open_entries(lockstep_project* project) {
+  return set(project, project, [&] { project->options.opens_entries = true; });
+}
+
+bool lockstep_project_show_groot2(lockstep_project* project) {
+  return set(project, project, [&] { project->shows_groot = true; });
+}
+
 bool lockstep_project_load_file(lockstep_project* project, const char* path) {
-  return load_with(project, path, [&] {
+  return load_with(project, path, path, [&] {
     return load(path, project->options, project->diagnostics, project->plugins);
   });
 }
 
 bool lockstep_project_load_text(lockstep_project* project, const char* name, const char* text,
                                 size_t length) {
-  return load_with(project, name == nullptr ? nullptr : text, [&] {
+  return load_with(project, name, name == nullptr ? nullptr : text, [&] {
     return load_text(name, std::string(text, length), project->options, project->diagnostics,
                      project->plugins);
   });

@@ -7,36 +7,72 @@
 #include <utility>
 
 #include "core/parameter_value.h"
+#include "embedding/groot.h"
 #include "embedding/handles.h"
+#include "embedding/node_calls.h"
+#include "embedding/run_limits.h"
+#include "embedding/run_watchers.h"
 #include "embedding/warnings.h"
+#include "plugin/contract/boards.h"
 #include "runtime/loop.h"
 #include "runtime/run.h"
 
 struct lockstep_run {
-  struct Watcher {
+  struct ObserverCall {
     lockstep_observe observe;
     void* user;
   };
 
   lockstep_run(std::shared_ptr<const lockstep::host::Program> loaded,
-               const lockstep::host::RunOptions& options)
+               lockstep::host::RunOptions options, lockstep::host::embedding::RunLimits given)
       : program(std::move(loaded)),
-        run(program->runnable.tree, options),
-        warnings(program->runnable.tree, options.log) {}
+        log(std::move(options.log)),
+        limits(std::move(given), program->runnable.tree, leaf_log()),
+        watchers(program->runnable.tree,
+                 {.tree_file = program->file,
+                  .rate_hz = 1 / lockstep::host::to_seconds(options.period),
+                  .seed = options.seed},
+                 {.period = options.period, .real_time = !options.virtual_time}),
+        run(program->runnable.tree, with_own(std::move(options))),
+        warnings(program->runnable.tree, leaf_log()) {}
+  ~lockstep_run() { end(); }
+
+  // What leaves log goes to the program, and to who watches.
+  lockstep::host::LeafLog leaf_log() {
+    return [this](std::string_view who, lockstep_log_level level, std::string_view line) {
+      watchers.log(who, lockstep::host::name_of(level), line);
+      if (log) log(who, level, line);
+    };
+  }
+  lockstep::host::RunOptions with_own(lockstep::host::RunOptions options) {
+    options.log = leaf_log();
+    options.watch = limits.leaf_watch();
+    return options;
+  }
+  // The end of what is watched.
+  void end() {
+    if (watchers.empty() || !process.is_this()) return;
+    run.halt();
+    watchers.end(run.ticker(), last);
+  }
 
   void notify(double seconds, lockstep_status status,
               std::span<const lockstep::host::Fault> faults) {
     const std::uint64_t tick = run.ticker().tick_number() - 1;
     warnings.tell(run.ticker(), faults, tick);
-    for (std::size_t i = 0; i < watchers.size(); ++i) {
-      watchers[i].observe(watchers[i].user, this, tick, seconds, status);
+    for (std::size_t i = 0; i < observers.size(); ++i) {
+      observers[i].observe(observers[i].user, this, tick, seconds, status);
     }
   }
 
   std::shared_ptr<const lockstep::host::Program> program;
+  std::optional<lockstep::host::embedding::NodeCalls> node_calls;  // the end of a run is told
+  const lockstep::host::LeafLog log;                               // the program's
+  lockstep::host::embedding::RunLimitsWatch limits;
+  lockstep::host::embedding::RunWatchers watchers;
   lockstep::host::Run run;
   lockstep::host::Warnings warnings;
-  std::vector<Watcher> watchers;
+  std::vector<ObserverCall> observers;
   lockstep::host::Nanoseconds last{0};  // when it was ticked last
   bool is_busy = false;                 // in a call that calls back
   const lockstep::host::OwnProcess process;
@@ -83,8 +119,25 @@ bool has_processes(const lockstep_project& project) {
   return std::ranges::any_of(project.plugins->list(), &PluginSet::Info::isolated);
 }
 
+bool refuse(const Problem& wrong) {
+  return fail(wrong.hint.empty() ? wrong.message
+                                 : fmt::format("{}: {}", wrong.message, wrong.hint));
+}
+
+bool may_be_watched(lockstep_run& run) {
+  if (!is_own(run)) return false;
+  if (run.is_busy) return fail("the run is in use: it is watched from its first tick on");
+  return run.run.ticker().tick_number() == 0 ||
+         fail("the run has been ticked already: it is watched from its first tick on");
+}
+
 std::string fault_text(const lockstep_run& run, const Fault& fault) {
   return fmt::format("{}: {}", run.program->texts().paths[fault.node], fault.message);
+}
+
+// While its entries are used.
+EntriesLock* lock_of(lockstep_run* run) {
+  return run == nullptr ? nullptr : run->run.blackboard().lock.get();
 }
 
 // An entry of a run, which its program names by key or by index. Null: there is an error.
@@ -127,6 +180,7 @@ const T* find_value(lockstep_run* run, Where where) {
 template <class T, class Where>
 bool get(lockstep_run* run, Where where, T* value) {
   return guarded([&] {
+    const InEngine scope(lock_of(run));
     if (value == nullptr) return fail("an argument is NULL");
     const T* const found = find_value<T>(run, where);
     if (found != nullptr) *value = *found;
@@ -138,6 +192,7 @@ bool get(lockstep_run* run, Where where, T* value) {
 template <class Where>
 bool get_number(lockstep_run* run, Where where, double* value) {
   return guarded([&] {
+    const InEngine scope(lock_of(run));
     if (value == nullptr) return fail("an argument is NULL");
     const Entry* const entry = find_entry(run, where);
     if (entry == nullptr) return false;
@@ -158,6 +213,7 @@ template <class T, class Item, class Where>
 bool get_list(lockstep_run* run, Where where, const Item** items, std::size_t* count) {
   static_assert(sizeof(T) == sizeof(Item));
   return guarded([&] {
+    const InEngine scope(lock_of(run));
     if (items == nullptr || count == nullptr) return fail("an argument is NULL");
     const auto* const found = find_value<std::vector<T>>(run, where);
     if (found == nullptr) return false;
@@ -187,6 +243,7 @@ bool is_finite(const std::vector<double>& values) {
 template <class T, class Where>
 bool set(lockstep_run* run, Where where, T value) {
   return guarded([&] {
+    const InEngine scope(lock_of(run));
     Entry* const entry = find_entry(run, where);
     if (entry == nullptr) return false;
     if (entry->typing == Typing::Any) return write(*entry, Value(std::move(value)));
@@ -212,6 +269,7 @@ bool set_list(lockstep_run* run, Where where, const Item* items, std::size_t cou
 template <class Where>
 const char* get_text(lockstep_run* run, Where where) {
   return guarded([&]() -> const char* {
+    const InEngine scope(lock_of(run));
     const Entry* const entry = find_entry(run, where);
     if (entry == nullptr) return nullptr;
     if (!entry->has_value()) {
@@ -226,6 +284,7 @@ const char* get_text(lockstep_run* run, Where where) {
 template <class Where>
 bool set_text(lockstep_run* run, Where where, const char* text) {
   return guarded([&] {
+    const InEngine scope(lock_of(run));
     if (!is_text("the text", text)) return false;
     Entry* const entry = find_entry(run, where);
     if (entry == nullptr) return false;
@@ -243,6 +302,7 @@ template <class Where>
 bool get_text_list(lockstep_run* run, Where where, const lockstep_text** values,
                    std::size_t* count) {
   return guarded([&] {
+    const InEngine scope(lock_of(run));
     if (values == nullptr || count == nullptr) return fail("an argument is NULL");
     const auto* const found = find_value<std::vector<std::string>>(run, where);
     if (found == nullptr) return false;
@@ -272,6 +332,7 @@ bool set_text_list(lockstep_run* run, Where where, const lockstep_text* values, 
 template <class Where>
 lockstep_type value_type(lockstep_run* run, Where where) {
   return guarded([&]() -> lockstep_type {
+    const InEngine scope(lock_of(run));
     const Entry* const entry = find_entry(run, where);
     // The types of the contract have the numbers of the alternatives.
     return entry == nullptr ? 0 : static_cast<lockstep_type>(entry->value.index());
@@ -288,6 +349,7 @@ class Observing final : public Observer {
  public:
   explicit Observing(lockstep_run& run) : run_(run) {}
   void after_tick(Ticker&, const TickReport& report) override {
+    const InLeaf scope(lock_of(&run_));
     run_.notify(to_seconds(report.time), static_cast<lockstep_status>(report.status),
                 report.faults);
   }
@@ -315,6 +377,23 @@ int32_t reason_of(StopReason reason) {
   return LOCKSTEP_STOPPED;
 }
 
+// Nothing: an option is wrong.
+std::optional<RunLimits> limits_of(const lockstep_run_options& options) {
+  const auto budget = time_from(options.tick_budget), hang = time_from(options.hang_limit);
+  if (!budget) fail("tick_budget is no number of seconds");
+  if (budget && !hang) fail("hang_limit is no number of seconds");
+  if (!budget || !hang) return std::nullopt;
+  RunLimits limits;
+  if (*budget > Nanoseconds(0)) limits.budget = budget;
+  if (options.hang == nullptr) return limits;
+  limits.hang_limit = *hang;
+  limits.on_hang = [hang = options.hang, user = options.user](
+                       const std::string& who, const char* function, double seconds) {
+    hang(user, who.c_str(), function, seconds);
+  };
+  return limits;
+}
+
 bool run_loop(lockstep_run& run, const lockstep_loop_options& given, RunEnd& end) {
   if (given.overrun < LOCKSTEP_OVERRUN_SKIP || given.overrun > LOCKSTEP_OVERRUN_FAIL) {
     return fail("overrun is none of the LOCKSTEP_OVERRUN_ constants");
@@ -337,9 +416,14 @@ bool run_loop(lockstep_run& run, const lockstep_loop_options& given, RunEnd& end
   WallClock wall;
   VirtualClock virtual_clock;
   Observing observing(run);
-  Observer* const observers[] = {&observing};
+  std::vector<Observer*> observers(run.watchers.observers().begin(),
+                                   run.watchers.observers().end());
+  observers.push_back(&observing);
+  run.limits.watch_this_thread();
   Clock& clock = given.virtual_clock ? static_cast<Clock&>(virtual_clock) : wall;
   end = lockstep::host::run_loop(run.run, clock, options, observers);
+  run.watchers.end_with_loop();
+  run.watchers.end(run.run.ticker(), end.last);
   return true;
 }
 
@@ -373,13 +457,27 @@ lockstep_run* lockstep_run_new(lockstep_project* project, const lockstep_run_opt
     }
     run_options.virtual_time = options.virtual_time;
     if (options.on_fault == LOCKSTEP_ON_FAULT_FAIL) run_options.on_fault = FaultPolicy::Fail;
+    run_options.may_wake = true;
+    if (options.wake != nullptr) {
+      run_options.on_wake = [wake = options.wake, user = options.user] { wake(user); };
+    }
     if (options.log != nullptr) {
       run_options.log = [log = options.log, user = options.user](
                             std::string_view who, lockstep_log_level level, std::string_view text) {
         log(user, std::string(who).c_str(), level, std::string(text).c_str());
       };
     }
-    auto run = std::make_unique<lockstep_run>(project->program, run_options);
+    if (options.prepare != nullptr) {
+      run_options.prepare = [prepare = options.prepare, user = options.user](BoardsOfRun& boards) {
+        lockstep_board* const main = boards.retain(0);
+        prepare(user, main);
+        boards.release();
+      };
+    }
+    auto limits = limits_of(options);
+    if (!limits) return nullptr;
+    auto run = std::make_unique<lockstep_run>(project->program, std::move(run_options),
+                                              std::move(*limits));
     if (run->run.fault() != nullptr) {
       fail(fault_text(*run, *run->run.fault()));
       return nullptr;
@@ -401,6 +499,7 @@ bool lockstep_run_restart(lockstep_run* run, uint64_t seed) {
     if (run == nullptr) return fail("an argument is NULL");
     const Busy busy(*run);
     if (busy.is_refused()) return false;
+    run->end();
     run->last = Nanoseconds(0);
     run->warnings.begin_again();
     run->run.restart(seed);
@@ -408,7 +507,10 @@ bool lockstep_run_restart(lockstep_run* run, uint64_t seed) {
   });
 }
 
-lockstep_status lockstep_run_tick(lockstep_run* run, double seconds) {
+namespace lockstep::host::embedding {
+namespace {
+
+lockstep_status tick(lockstep_run* run, double seconds, bool exactly_once) {
   lockstep_status status = LOCKSTEP_RUNNING;
   const bool is_good = guarded([&] {
     const auto time = time_from(seconds);
@@ -419,12 +521,37 @@ lockstep_status lockstep_run_tick(lockstep_run* run, double seconds) {
     if (busy.is_refused()) return false;
     run->last = *time;
     if (run->run.fault() != nullptr) return true;  // a leaf may be missing
-    status = static_cast<lockstep_status>(run->run.tick(*time));
-    run->notify(seconds, status, run->run.ticker().take_tolerated());
+    run->limits.watch_this_thread();
+    Ticker& ticker = run->run.ticker();
+    if (!run->watchers.empty()) {
+      run->run.set_now(*time);
+      run->watchers.before_tick(ticker, *time);
+    }
+    status = static_cast<lockstep_status>(exactly_once ? run->run.tick_exactly_once(*time)
+                                                       : run->run.tick(*time));
+    const std::vector<Fault> faults = ticker.take_tolerated();
+    if (!run->watchers.empty()) {
+      run->watchers.after_tick(ticker, {.tick = ticker.tick_number() - 1,
+                                        .time = *time,
+                                        .status = static_cast<Status>(status),
+                                        .faults = faults});
+    }
+    run->notify(seconds, status, faults);
     return true;
   });
   if (is_good) forget_error();  // of an observer
   return status;
+}
+
+}  // namespace
+}  // namespace lockstep::host::embedding
+
+lockstep_status lockstep_run_tick(lockstep_run* run, double seconds) {
+  return tick(run, seconds, false);
+}
+
+lockstep_status lockstep_run_tick_once(lockstep_run* run, double seconds) {
+  return tick(run, seconds, true);
 }
 
 void lockstep_run_halt(lockstep_run* run) {
@@ -585,14 +712,99 @@ lockstep_type lockstep_run_value_type_at(lockstep_run* run, uint32_t entry) {
   return value_type(run, entry);
 }
 
+lockstep_board* lockstep_run_board(lockstep_run* run, uint32_t index) {
+  return guarded([&]() -> lockstep_board* {
+    BoardsOfRun* const boards = run == nullptr ? nullptr : run->run.boards();
+    lockstep_board* const board = boards == nullptr ? nullptr : boards->retain(index);
+    if (board == nullptr) fail("the run has no such board: see lockstep_project_open_entries");
+    return board;
+  });
+}
+
+const lockstep_boards* lockstep_boards_table(void) {
+  return &boards_table();
+}
+
+void lockstep_run_wake(lockstep_run* run) {
+  if (run != nullptr) run->run.wake();
+}
+
 bool lockstep_run_observe(lockstep_run* run, lockstep_observe observe, void* user) {
   return guarded([&] {
     if (run == nullptr) return fail("an argument is NULL");
     if (observe != nullptr) {
-      run->watchers.push_back({observe, user});
+      run->observers.push_back({observe, user});
     } else {
-      std::erase_if(run->watchers, [&](const auto& it) { return it.user == user; });
+      std::erase_if(run->observers, [&](const auto& it) { return it.user == user; });
     }
+    return true;
+  });
+}
+
+bool lockstep_run_watch_nodes(lockstep_run* run, const uint32_t* nodes, size_t count,
+                              lockstep_watch_node watch, void* user) {
+  return guarded([&] {
+    if (run == nullptr || (nodes == nullptr && count != 0)) return fail("an argument is NULL");
+    if (!is_own(*run)) return false;
+    const std::span<const uint32_t> all(nodes, count);
+    // A group is beside the tree: nothing is told of it.
+    const NodeIndex end = tree_of(*run).nodes[0].end;
+    if (std::ranges::any_of(all, [end](uint32_t it) { return it >= end; })) {
+      return fail("no such node in the tree of the root");
+    }
+    if (!run->node_calls) run->node_calls.emplace(*run, run->run.ticker());
+    run->node_calls->set(watch, user);
+    run->run.ticker().watch_nodes(all, watch == nullptr ? nullptr : &*run->node_calls);
+    return true;
+  });
+}
+
+bool lockstep_run_record(lockstep_run* run, const char* file) {
+  return guarded([&] {
+    if (run == nullptr || file == nullptr) return fail("an argument is NULL");
+    if (!may_be_watched(*run)) return false;
+    const auto wrong = run->watchers.record(file);
+    return !wrong || refuse(*wrong);
+  });
+}
+
+void lockstep_flush_recordings(void) {
+  AppendFile::emergency_flush();
+}
+
+const char* lockstep_run_monitor(lockstep_run* run, const char* address) {
+  return guarded([&]() -> const char* {
+    if (run == nullptr) fail("an argument is NULL");
+    if (run == nullptr || !is_text("the address", address) || !may_be_watched(*run)) return nullptr;
+    const auto link = run->watchers.monitor(address);
+    if (!link) refuse(link.error());
+    if (!link) return nullptr;
+    run->text = *link;
+    return run->text.c_str();
+  });
+}
+
+bool lockstep_run_groot2(lockstep_run* run, const char* address) {
+  return guarded([&] {
+    if (run == nullptr) return fail("an argument is NULL");
+    if (!is_own(*run)) return false;
+    if (run->is_busy) return fail("the run is in use: it is shown between two ticks");
+    Ticker& ticker = run->run.ticker();
+    if (address == nullptr) {
+      run->watchers.show_groot(nullptr, ticker);
+      return true;
+    }
+    if (!is_text("the address", address)) return false;
+    if (run->watchers.has_groot()) return fail("the run is shown in Groot2 already");
+    const auto& shown = run->program->groot;
+    if (shown == nullptr) {
+      return fail(
+          "nothing is kept for Groot2: call lockstep_project_show_groot2 before the tree is "
+          "loaded; it can number 65534 nodes");
+    }
+    auto observer = show_groot(tree_of(*run), *shown, address);
+    if (!observer) return refuse(observer.error());
+    run->watchers.show_groot(std::move(*observer), ticker);
     return true;
   });
 }

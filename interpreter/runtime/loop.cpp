@@ -3,6 +3,7 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "runtime/deadlines.h"
@@ -27,18 +28,17 @@ class Loop {
         deadlines_(options.rate),
         is_real_(clock.is_real()),
         begun_(clock.now()),
-        start_(begun_) {}
+        start_(begun_),
+        wake_up_(is_real_ ? run.wake_up() : nullptr) {}
 
   RunEnd run() {
-    for (Observer* observer : observers_) {
-      observer->run_started(run_.ticker(), {run_.period(), is_real_});
-    }
+    observe([&](Observer& it) { it.run_started(run_.ticker(), {run_.period(), is_real_}); });
     if (run_.fault() == nullptr) {  // of a leaf that could not be created
       while (may_tick() && is_admitted() && tick() && meet_next()) wait();
     }
     // On the virtual clock the last tick, too, lasts until the next one would begin.
     end_.time = is_real_ ? clock_.now() - start_ : deadlines_.at(end_.ticks);
-    for (Observer* observer : observers_) observer->standing(run_.ticker());
+    observe([&](Observer& it) { it.standing(run_.ticker()); });
     run_.halt();
     end_.budget = run_.end_budget();
     if (end_.budget != nullptr) end_.budget->begin();
@@ -46,11 +46,18 @@ class Loop {
       end_.reason = StopReason::Fault;
       end_.fault = *run_.fault();
     }
-    for (Observer* observer : observers_) observer->run_ended(run_.ticker(), end_);
+    observe([&](Observer& it) { it.run_ended(run_.ticker(), end_); });
     return end_;
   }
 
  private:
+  // Observers read entries.
+  template <class Tell>
+  void observe(Tell tell) {
+    const InEngine scope(run_.blackboard().lock.get());
+    for (Observer* observer : observers_) tell(*observer);
+  }
+
   bool may_tick() {
     rethrow_thread_failure();
     if (stop_requested()) {
@@ -80,13 +87,16 @@ class Loop {
     return is_real_ || keep_pace();
   }
 
-  void take_orders() { options_.control->take_orders(run_.ticker(), run_.blackboard()); }
+  void take_orders() {
+    const InEngine scope(run_.blackboard().lock.get());
+    options_.control->take_orders(run_.ticker(), run_.blackboard());
+  }
 
   // The run's time stands still until it goes on, at the time of the next tick. So the leaves
   // and the nodes that count time lose nothing, and no deadline is missed.
   bool stand() {
     const Nanoseconds time = deadlines_.at(deadline_);
-    for (Observer* observer : observers_) observer->standing(run_.ticker());
+    observe([&](Observer& it) { it.standing(run_.ticker()); });
     if (is_real_) {  // there, leaves go on by themselves
       run_.set_now(time);
       run_.ticker().pause(0);
@@ -129,10 +139,12 @@ class Loop {
   // True while the run goes on.
   bool tick() {
     const Nanoseconds now = clock_.now() - start_;
-    const Nanoseconds late = is_real_ ? now - deadlines_.at(deadline_) : Nanoseconds(0);
+    const bool is_due = is_real_ && !is_woken_;
+    const Nanoseconds late = is_due ? now - deadlines_.at(deadline_) : Nanoseconds(0);
+    if (wake_up_ != nullptr) wakes_ = wake_up_->wakes();
     Ticker& ticker = run_.ticker();
     run_.set_now(now);
-    for (Observer* observer : observers_) observer->before_tick(ticker, end_.ticks, now);
+    observe([&](Observer& it) { it.before_tick(ticker, end_.ticks, now); });
     if (options_.stall_fail != nullptr) options_.stall_fail->before_tick(ticker, now);
     end_.status = run_.tick(now);
     if (options_.stall_fail != nullptr) options_.stall_fail->after_tick(ticker, now);
@@ -142,7 +154,7 @@ class Loop {
     if (!ticker.tolerated().empty()) [[unlikely]]
       faults = ticker.take_tolerated();
     const TickReport report{end_.ticks, now, end_.status, skipped_before_, faults, late};
-    for (Observer* observer : observers_) observer->after_tick(ticker, report);
+    observe([&](Observer& it) { it.after_tick(ticker, report); });
     if (options_.control != nullptr) options_.control->count_tick(ticker);
     ++end_.ticks;
     end_.last = now;
@@ -165,7 +177,7 @@ class Loop {
 
   // Chooses the deadline that the next tick waits for. False: the run ends because it has passed.
   bool meet_next() {
-    ++deadline_;
+    if (!std::exchange(is_woken_, false)) ++deadline_;
     skipped_before_ = 0;
     if (!is_real_) return true;
     const Nanoseconds now = clock_.now() - start_;
@@ -186,15 +198,22 @@ class Loop {
     const Nanoseconds awake = deadline - options_.spin;
     for (auto now = clock_.now(); now < awake; now = clock_.now()) {
       if (is_wait_over()) return;
-      clock_.sleep_until(std::min(awake, now + kLongestSleep));
+      const Nanoseconds end = std::min(awake, now + kLongestSleep);
+      wake_up_ == nullptr ? clock_.sleep_until(end) : wake_up_->wait(wakes_, end - now);
     }
-    while (clock_.now() < deadline && !stop_requested()) {
+    while (clock_.now() < deadline && !stop_requested() && !is_woken()) {
     }
+  }
+
+  // A leaf wants a tick before the deadline, which is met all the same.
+  bool is_woken() {
+    is_woken_ = is_woken_ || (wake_up_ != nullptr && wake_up_->wakes() != wakes_);
+    return is_woken_;
   }
 
   // Before the deadline.
   bool is_wait_over() {
-    if (stop_requested()) return true;
+    if (stop_requested() || is_woken()) return true;
     if (options_.control == nullptr) return false;
     take_orders();
     return options_.control->pauses_at_once() || options_.control->is_halted();
@@ -207,7 +226,10 @@ class Loop {
   const Deadlines deadlines_;
   const bool is_real_;
   const Nanoseconds begun_;
-  Nanoseconds start_;  // as if there had been no pauses
+  Nanoseconds start_;        // as if there had been no pauses
+  WakeUp* const wake_up_;    // null: nobody ends a wait
+  std::uint32_t wakes_ = 0;  // before the last tick
+  bool is_woken_ = false;    // the next tick comes before its deadline
   Pace pace_;
   std::uint64_t deadline_ = 0;  // number of the deadline that the next tick waits for
   std::uint64_t skipped_before_ = 0;

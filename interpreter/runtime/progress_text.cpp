@@ -15,4 +15,9 @@ std::string went_on_text(double from, double to) {
                      to);
 }
 
+std::string over_budget_text(PluginFunction function, Nanoseconds took, Nanoseconds budget) {
+  return fmt::format("took {:.3f} ms in {}, more than the budget of {:.3f} ms",
+                     to_seconds(took) * 1e3, name_of(function), to_seconds(budget) * 1e3);
+}
+
 }  // namespace lockstep::host

@@ -1,7 +1,10 @@
-// What is said of a leaf whose progress is not as it should be. Used by all that tell it.
+// What is said of a leaf whose progress is not as it should be, or whose call takes long. Used by
+// all that tell it.
 #pragma once
 
 #include <string>
+
+#include "engine/call_mark.h"
 
 namespace lockstep::host {
 
@@ -9,5 +12,8 @@ namespace lockstep::host {
 std::string out_of_range_text(double reported);
 // "went on while it was held: its progress rose from 0.25 to 0.27".
 std::string went_on_text(double from, double to);
+
+// "took 3.100 ms in tick, more than the budget of 1.000 ms".
+std::string over_budget_text(PluginFunction function, Nanoseconds took, Nanoseconds budget);
 
 }  // namespace lockstep::host

@@ -2,24 +2,45 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "engine/tree.h"
+
 namespace lockstep::host {
+namespace {
+
+bool has_wakers(const Tree& tree) {
+  return std::ranges::any_of(tree.leaves, [](const LeafNode& it) {
+    return it.type->leaf != nullptr && (it.type->leaf->flags & LOCKSTEP_WAKES) != 0;
+  });
+}
+
+}  // namespace
 
 Run::Run(const Tree& tree, const RunOptions& options)
     : blackboard_(tree),
+      boards_(make_boards(tree, blackboard_)),
+      prepare_(options.prepare),
+      wake_up_(options.on_wake),
+      may_wake_(options.may_wake || has_wakers(tree)),
       exactly_once_(options.exactly_once),
       time_{.now = Nanoseconds(0),
             .period = options.period,
             .thread = this_thread_id(),
             .workers = options.virtual_time ? &workers_ : nullptr,
             .processes = options.virtual_time ? nullptr : &processes_,
-            .end_budget = options.end_budget},
+            .end_budget = options.end_budget,
+            .wake_up = options.virtual_time ? nullptr : &wake_up_},
       watch_(options.watch),
-      leaves_(tree, blackboard_, time_, options.seed, options.log),
+      leaves_((prepare(), tree), blackboard_, time_, options.seed, options.log, boards_.get()),
       ticker_(tree, leaves_.slots(), blackboard_, options.on_fault, options.watch) {
   leaves_.set_ticker(ticker_);
 }
 
-// The ticker has entries that leaves have made by name.
+void Run::prepare() {
+  if (boards_ != nullptr && prepare_) prepare_(*boards_);
+}
+
 Run::~Run() {
   halt();
   leaves_.destroy_all();
@@ -39,7 +60,12 @@ void Run::adopt_thread() {
 void Run::restart(std::uint64_t seed) {
   halt();
   leaves_.destroy_all();
-  blackboard_.reset(ticker_.tree());
+  {
+    const InEngine scope(blackboard_.lock.get());
+    blackboard_.reset(ticker_.tree());
+    if (boards_ != nullptr) boards_->begin_again();
+  }
+  prepare();
   time_.now = Nanoseconds(0);
   leaves_.create_all(seed);
   ticker_.reset();
@@ -52,19 +78,20 @@ void Run::set_now(Nanoseconds now) {
   workers_.give_turns(now);
 }
 
-Status Run::tick(Nanoseconds now) {
+Status Run::tick(Nanoseconds now, bool exactly_once) {
   set_now(now);
   look_at_processes();
   Status status = ticker_.tick_root(now);
-  if (ticker_.is_asked()) status = tick_again_if_asked(status);
+  if (ticker_.is_asked()) status = tick_again_if_asked(status, exactly_once);
   workers_.give_turns(now);
   return status;
 }
 
-Status Run::tick_again_if_asked(Status status) {
+Status Run::tick_again_if_asked(Status status, bool exactly_once) {
   for (int count = 1;; ++count) {
     const auto node = ticker_.take_request();
-    if (!node || exactly_once_ || status != Status::Running || ticker_.faulted()) return status;
+    if (node && exactly_once && !exactly_once_) wake_up_.wake();  // for who waits after this tick
+    if (!node || exactly_once || status != Status::Running || ticker_.faulted()) return status;
     if (count == kMostTicksAtOnce) {
       ticker_.set_fault(*node, fmt::format("asked for another tick {} times in one period: what it "
                                            "repeats completes at once",

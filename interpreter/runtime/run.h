@@ -2,13 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 
 #include "engine/blackboard.h"
 #include "engine/leaf_watch.h"
 #include "engine/ticker.h"
+#include "plugin/contract/boards.h"
 #include "plugin/contract/leaf_set.h"
 #include "plugin/contract/process_leaves.h"
+#include "plugin/contract/wake_up.h"
 #include "plugin/contract/workers.h"
 
 namespace lockstep::host {
@@ -21,7 +24,11 @@ struct RunOptions {
   bool exactly_once = false;   // ticks the root once, also when a node asks for another tick
   bool virtual_time = false;   // time jumps, so ticks wait for the threads of leaves
   LeafWatch* watch = nullptr;  // must outlive the run; null: nothing is watched and nothing costs
-  EndBudget* end_budget = nullptr;  // the same; null: each that waits has its own patience
+  // Gives entries their first values, before leaves are made; of a run with boards.
+  std::function<void(BoardsOfRun& boards)> prepare = {};
+  EndBudget* end_budget = nullptr;     // the same; null: each that waits has its own patience
+  bool may_wake = false;               // its owner calls wake(); else only leaves may
+  std::function<void()> on_wake = {};  // a leaf wants a tick at once; from any thread
 };
 
 class Run {
@@ -44,7 +51,9 @@ class Run {
   void set_now(Nanoseconds now);
   // One tick of the root at `now`; see Ticker::tick_root. While it is Running and a node asks for
   // another tick, it gets one at once, at most kMostTicksAtOnce.
-  Status tick(Nanoseconds now);
+  Status tick(Nanoseconds now) { return tick(now, exactly_once_); }
+  // The same without that other tick.
+  Status tick_exactly_once(Nanoseconds now) { return tick(now, true); }
   // Whether the processes of held leaves are still there, as before each tick: for an owner that
   // lets no tick come.
   void look_at_processes() {
@@ -52,23 +61,35 @@ class Run {
   }
   // Halts every running leaf, in order.
   void halt();
+  // Who waits for the next tick of this run; null: nobody ends that wait.
+  WakeUp* wake_up() { return may_wake_ ? &wake_up_ : nullptr; }
+  // From any thread: as if a leaf wanted a tick.
+  void wake() { wake_up_.wake(); }
 
   // Null while every leaf has kept its contract.
   const Fault* fault() const;
   Ticker& ticker() { return ticker_; }
   // For the owner, between ticks.
   Blackboard& blackboard() { return blackboard_; }
+  BoardsOfRun* boards() { return boards_.get(); }  // null: see make_boards
   Nanoseconds period() const { return time_.period; }
   LeafWatch* watch() const { return watch_; }  // null: not watched
   EndBudget* end_budget() const { return time_.end_budget; }
 
  private:
   void adopt_thread();
-  Status tick_again_if_asked(Status status);
+  Status tick(Nanoseconds now, bool exactly_once);
+  Status tick_again_if_asked(Status status, bool exactly_once);
+
+  void prepare();
 
   Blackboard blackboard_;
+  OwnBoards boards_;
+  const std::function<void(BoardsOfRun& boards)> prepare_;
   Workers workers_;
   ProcessLeaves processes_;
+  WakeUp wake_up_;
+  const bool may_wake_;
   const bool exactly_once_;
   LeafTime time_;
   LeafWatch* watch_;

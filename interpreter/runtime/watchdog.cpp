@@ -97,7 +97,9 @@ void Watchdog::Patrol::add(Implementation& watched) {
   changed_.notify_one();  // which may have to look more often
   if (thread_.joinable()) return;
   try {
-    thread_ = own_thread([this] { work(); }, StopSignals::numbers());
+    const bool handles_signals = watched.options.handles_signals;
+    thread_ = own_thread([this] { work(); },
+                         handles_signals ? StopSignals::numbers() : std::span<const int>());
   } catch (...) {
     const Lock lock(mutex_);
     watched_.clear();

@@ -17,7 +17,8 @@ struct WatchdogOptions {
   // Called on the watching thread, which must not construct or destroy a watchdog then.
   std::function<void(const CallMark::Look& call, Nanoseconds lasts)> on_long_halt = {};
   std::function<void(const CallMark::Look& call, Nanoseconds lasts)> on_hang =
-      {};  // may not return
+      {};                       // may not return
+  bool handles_signals = true;  // in the watching thread; false: they are another program's
 };
 
 class Watchdog {

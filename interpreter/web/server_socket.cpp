@@ -14,6 +14,7 @@
 #include <system_error>
 
 #include "core/diagnostics.h"
+#include "core/value.h"
 
 namespace lockstep::host {
 namespace {
@@ -124,7 +125,41 @@ Result<ServerSocket> listen_at(const Found& found) {
   return listener;
 }
 
+constexpr std::int64_t kLargestPort = 65535;
+// Tries for a free port whose next one is free too.
+constexpr int kTries = 50;
+
+std::string_view port_of(std::string_view address) {
+  return address.substr(address.rfind(':') + 1);
+}
+
+Result<ServerSockets> try_pair(const std::string& address) {
+  auto first = listen_on(address);
+  if (!first) return tl::unexpected(std::move(first.error()));
+  const std::int64_t port = *parse_int(port_of(first->address));
+  if (port == kLargestPort) {
+    return problem(fmt::format("'{}' is not an address", printable(address)),
+                   "the port after it is needed too: the largest is 65534");
+  }
+  const std::string name =
+      first->name.find(':') == std::string::npos ? first->name : fmt::format("[{}]", first->name);
+  auto second = listen_on(fmt::format("{}:{}", name, port + 1));
+  if (!second) {
+    return problem(second.error().message, "the port after the given one is needed too");
+  }
+  return ServerSockets{std::move(*first), std::move(*second)};
+}
+
 }  // namespace
+
+Result<ServerSockets> listen_on_pair(const std::string& address_and_port) {
+  const bool is_any = parse_int(port_of(address_and_port)) == 0;
+  auto pair = try_pair(address_and_port);
+  for (int tries = 1; !pair && is_any && tries < kTries; ++tries) {
+    pair = try_pair(address_and_port);
+  }
+  return pair;
+}
 
 bool looks_like_address(std::string_view text) {
   return text.find('/') == std::string_view::npos && split(text).has_value();

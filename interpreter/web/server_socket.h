@@ -26,6 +26,12 @@ bool looks_like_address(std::string_view text);
 // no other can reach; port 0: one that is free.
 Result<ServerSocket> listen_on(std::string_view address_and_port);
 
+// Two of them: the second has the port after that of the first.
+struct ServerSockets {
+  ServerSocket first, second;
+};
+Result<ServerSockets> listen_on_pair(const std::string& address_and_port);
+
 // For a process that must not wait for a name server: another one asks it, and passes on the
 // result, "192.0.2.1:8080 robot".
 Result<std::string> resolve(std::string_view address_and_port);

@@ -3,11 +3,16 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <lockstep/runtime.hpp>
 #include <thread>
 
@@ -53,6 +58,37 @@ class GoesOn : public lockstep::Action<> {
  public:
   Status tick() override { return Status::Running; }
   double progress() const override { return now(); }
+};
+
+// Does not return before somebody is told so.
+class Slow : public lockstep::Action<> {
+ public:
+  Status tick() override {
+    while (!is_told) std::this_thread::yield();
+    return Status::Success;
+  }
+  static inline std::atomic<bool> is_told = false;
+  static inline std::string told;
+};
+
+// Is done when a thread of its own has said so.
+class Asks : public lockstep::Action<> {
+ public:
+  static constexpr bool kWakes = true;
+  ~Asks() {
+    if (thread_.joinable()) thread_.join();
+  }
+  void start() override {
+    thread_ = std::thread([this] {
+      is_there_ = true;
+      wake();
+    });
+  }
+  Status tick() override { return is_there_ ? Status::Success : Status::Running; }
+
+ private:
+  std::atomic<bool> is_there_ = false;
+  std::thread thread_;
 };
 
 struct Shared {
@@ -835,4 +871,146 @@ TEST_CASE("a program with a smaller struct of an older header is not written bey
   CHECK(state.progress == 5);
   state.struct_size = 0;
   CHECK_FALSE(lockstep_run_node(run.get(), 0, &state));
+}
+
+TEST_CASE("a program ticks exactly once, and is told when a leaf wants a tick") {
+  constexpr const char* kTree = R"(<root BTCPP_format="4"><BehaviorTree ID="Main">
+    <AsyncSequence><AlwaysSuccess/><AlwaysSuccess/></AsyncSequence></BehaviorTree></root>)";
+  runtime::Project project;
+  project.load_text(kTree);
+  int wakes = 0;
+  runtime::RunSettings settings;
+  settings.wake = [&] { ++wakes; };
+  runtime::Run run(project, settings);
+  CHECK(run.tick(0) == Status::Success);
+  CHECK(wakes == 0);
+  run.restart(0);
+  CHECK(run.tick_once(0) == Status::Running);
+  CHECK(wakes == 1);
+  CHECK(run.tick_once(0.01) == Status::Success);
+}
+
+TEST_CASE("another thread ends the wait of a loop for its next period") {
+  const runtime::Project project = project_of("<Step/>");
+  runtime::RunSettings settings;
+  settings.tick_period = 60;
+  runtime::Run run(project, settings);
+  std::atomic<int> ticks = 0;
+  run.on_tick([&](std::uint64_t, double, Status) { ++ticks; });
+  std::thread other([&] {
+    for (int seen = 0; seen < 4;) {
+      if (ticks == seen) {
+        std::this_thread::yield();
+        continue;
+      }
+      seen = ticks;
+      run.wake();
+    }
+  });
+  const auto result = run.loop();
+  other.join();
+  CHECK(result.ticks == 4);
+  CHECK(result.seconds < 30);
+}
+
+TEST_CASE("a leaf ends the wait of a loop from a thread of its own") {
+  runtime::Project project;
+  project.add_leaf<Asks>("Asks", "Asks a thread");
+  project.load_text(tree("<Sequence memory=\"true\"><Asks/><Asks/><Asks/></Sequence>"));
+  runtime::RunSettings settings;
+  settings.tick_period = 60;
+  runtime::Run run(project, settings);
+  const auto result = run.loop();
+  CHECK(result.status == Status::Success);
+  CHECK(result.seconds < 30);
+}
+
+TEST_CASE("a node that is watched is told before and after each tick, and gets another result") {
+  const runtime::Project project = project_of(
+      "<Sequence><Step name=\"a\" step=\"0.5\"/><Step name=\"b\" step=\"0.5\"/></Sequence>");
+  struct Seen {
+    std::vector<std::array<int, 3>> calls;
+    lockstep_status before = LOCKSTEP_IDLE, after = LOCKSTEP_IDLE;
+  } seen;
+  const auto watch = [](void* user, lockstep_run*, std::uint32_t node, std::int32_t what,
+                        lockstep_status status) -> lockstep_status {
+    auto& it = *static_cast<Seen*>(user);
+    it.calls.push_back({static_cast<int>(node), what, status});
+    if (what == LOCKSTEP_BEFORE_TICK) return it.before;
+    return what == LOCKSTEP_AFTER_TICK ? it.after : LOCKSTEP_IDLE;
+  };
+  using Calls = decltype(seen.calls);
+  runtime::Run run(project);
+  const std::array<std::uint32_t, 2> nodes{0, 1};
+  REQUIRE(lockstep_run_watch_nodes(run.get(), nodes.data(), nodes.size(), watch, &seen));
+  CHECK(run.tick(0) == Status::Running);
+  CHECK(seen.calls == Calls{{0, 0, 0}, {1, 0, 0}, {1, 1, 1}, {0, 1, 1}});
+  seen.calls.clear();
+  run.halt();
+  CHECK(seen.calls == Calls{{0, 2, 0}, {1, 2, 0}, {1, 3, 0}, {0, 3, 0}});
+  seen.before = LOCKSTEP_FAILURE;
+  CHECK(run.tick(0.01) == Status::Failure);
+  seen.before = LOCKSTEP_IDLE;
+  CHECK(run.tick(0.02) == Status::Running);
+  seen.after = LOCKSTEP_SUCCESS;
+  calls.clear();
+  CHECK(run.tick(0.03) == Status::Success);
+  CHECK(calls == Strings{"halt"});
+  seen.after = 7;
+  CHECK(error_of([&] { run.tick(0.04); }).find("has returned status 7") != std::string::npos);
+  REQUIRE(lockstep_run_watch_nodes(run.get(), nullptr, 0, nullptr, nullptr));
+  seen.calls.clear();
+  run.restart(0);
+  CHECK(run.tick(0) == Status::Running);
+  CHECK(seen.calls.empty());
+  const std::uint32_t none = 99;
+  CHECK_FALSE(lockstep_run_watch_nodes(run.get(), &none, 1, watch, &seen));
+}
+
+TEST_CASE("a run of a program is recorded and has a monitor, from its first tick to its end") {
+  const runtime::Project project = project_of("<Step/>");
+  const std::string file = std::filesystem::temp_directory_path() /
+                           ("lockstep_embedded_" + std::to_string(getpid()) + ".jsonl");
+  {
+    runtime::Run run(project);
+    run.record(file);
+    CHECK(run.monitor("0").find("http://127.0.0.1:") == 0);
+    CHECK(error_of([&] { run.record(file); }).find("is recorded already") != std::string::npos);
+    for (int i = 0; run.tick(i * 0.01) == Status::Running; ++i) {
+    }
+    CHECK(error_of([&] { run.monitor("0"); }) ==
+          "the run has been ticked already: it is watched from its first tick on");
+  }
+  std::ifstream stream(file);
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  CHECK(text.find("\"end\"") != std::string::npos);
+  CHECK(std::count(text.begin(), text.end(), '\n') == 6);
+  runtime::Run looped(project);
+  looped.record(file);
+  CHECK(looped.loop({true}).ticks == 4);
+  std::filesystem::remove(file);
+  CHECK_THROWS(runtime::Run(project).record("/no/such/folder/run.jsonl"));
+}
+
+TEST_CASE("a call that takes longer than the budget, or does not return, is told") {
+  runtime::Project project;
+  project.add_leaf<Slow>("Slow", "Waits");
+  project.load_text(tree("<Slow/>"));
+  runtime::RunSettings settings;
+  settings.tick_budget = 1e-9;
+  settings.hang_limit = 0.001;
+  std::string line;
+  settings.log = [&](const std::string& who, lockstep::LogLevel, const std::string& text) {
+    line = who + " " + text;
+  };
+  settings.hang = [](const std::string& who, const std::string& function, double) {
+    Slow::told = who + " " + function;
+    Slow::is_told = true;
+  };
+  runtime::Run run(project, settings);
+  CHECK(run.tick(0) == Status::Success);
+  CHECK(line.find("Main/Slow took ") == 0);
+  CHECK(line.find("more than the budget of 0.000 ms") != std::string::npos);
+  CHECK(Slow::told.find("Slow") != std::string::npos);
+  CHECK(Slow::told.find("tick") != std::string::npos);
 }

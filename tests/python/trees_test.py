@@ -407,6 +407,20 @@ class TreesTest(unittest.TestCase):
             with self.assertRaisesRegex(lockstep.Error, "the tree is in use"):
                 it.tick()
 
+    def test_a_recording_and_a_monitor(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "run.jsonl")
+            with tree("<AlwaysSuccess/>") as it:
+                it.record(file)
+                self.assertTrue(it.monitor().startswith("http://127.0.0.1:"))
+                with self.assertRaisesRegex(lockstep.Error, "is recorded already"):
+                    it.record(file)
+                self.assertEqual(it.tick(), "success")
+                with self.assertRaisesRegex(lockstep.Error, "has been ticked already"):
+                    it.monitor()
+            with open(file, encoding="utf-8") as lines:
+                self.assertEqual(len(list(lines)), 3)
+
     def test_a_closed_tree(self):
         it = tree("<Count/>")
         node, entries = it.root, it.entries

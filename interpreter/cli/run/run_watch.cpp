@@ -50,9 +50,8 @@ LeafWatchOptions RunWatch::leaf_watch_options() {
                          .on_carried = {},
                          .on_float_mode = {}};
   watch.on_slow = [this](NodeIndex leaf, PluginFunction function, Nanoseconds took) {
-    print_(fmt::format("{} took {:.3f} ms in {}, more than the budget of {:.3f} ms",
-                       describe_node(tree_, leaf), milliseconds(took), name_of(function),
-                       milliseconds(*options_.tick_budget())));
+    print_(fmt::format("{} {}", describe_node(tree_, leaf),
+                       over_budget_text(function, took, *options_.tick_budget())));
   };
   watch.on_carried = [this](NodeIndex leaf, Nanoseconds took) {
     has_carried_ = true;

@@ -11,11 +11,6 @@
 
 namespace lockstep::host {
 
-std::string_view name_of(lockstep_log_level level) {
-  if (level == LOCKSTEP_LOG_WARNING) return "warning";
-  return level == LOCKSTEP_LOG_DEBUG ? "debug" : "info";
-}
-
 View::View(const std::string& mode, const Tree& tree, lockstep_log_level least) : least_(least) {
   const bool wants_live = mode == "live" || (mode == "auto" && is_terminal(STDERR_FILENO));
   if (wants_live && can_draw()) {

@@ -12,9 +12,6 @@
 
 namespace lockstep::host {
 
-// "debug", "info" or "warning".
-std::string_view name_of(lockstep_log_level level);
-
 class View {
  public:
   // Logs of leaves have the same limit as plain lines, in any view: a burst of lines, then one a

@@ -35,7 +35,7 @@ extern "C" {
 #endif
 
 #define LOCKSTEP_RUNTIME_MAJOR 1u
-#define LOCKSTEP_RUNTIME_MINOR 3u
+#define LOCKSTEP_RUNTIME_MINOR 4u
 
 /* The library's own (major << 16 | minor), which may be newer than the header's. */
 LOCKSTEP_EXPORT uint32_t lockstep_runtime_version(void);
@@ -75,6 +75,12 @@ LOCKSTEP_EXPORT bool lockstep_project_set_main_tree(lockstep_project* project, c
 /* Runs every plugin in a separate process, not only those for which the tree asks it. Leaves that
  * are in the program stay there. */
 LOCKSTEP_EXPORT bool lockstep_project_isolate_all(lockstep_project* project);
+/* Since 1.4: the program uses entries by their names, at any time and in any thread, also those that
+ * no node of the tree names: lockstep_run_board. Each tick locks the entries then. */
+LOCKSTEP_EXPORT bool lockstep_project_open_entries(lockstep_project* project);
+
+/* Since 1.4: keeps what lockstep_run_groot2 shows of the tree. */
+LOCKSTEP_EXPORT bool lockstep_project_show_groot2(lockstep_project* project);
 
 /* Loads the tree, once. False when there are errors; the diagnostics have them, and warnings too
  * when there are none. */
@@ -159,7 +165,22 @@ typedef struct lockstep_run_options {
   /* A line that a leaf logs; from any thread. Since 1.2 also what the run has to say of a leaf:
    * that it reported a progress outside [0, 1], or that it failed and the run goes on. */
   void (*log)(void* user, const char* who, lockstep_log_level level, const char* message);
-  void* user;
+  void* user; /* also of what follows */
+  /* Since 1.4: called before leaves are created, also by a restart: may give entries their first
+   * values. `main` is the board of the main tree, for the time of the call. May be NULL. */
+  void (*prepare)(void* user, lockstep_board* main);
+  /* Since 1.4: a leaf wants a tick before the next period; from any thread. A program that waits in
+   * its own loop ends that wait. It must not call the run, but for lockstep_run_wake. */
+  void (*wake)(void* user);
+  /* Since 1.4, in seconds, 0: none. A call of a leaf that takes longer is told with the lines that
+   * leaves log, at most once a second. */
+  double tick_budget;
+  /* Since 1.4, in seconds, 0: none. `hang` is told once of a call of a leaf that lasts longer and
+   * has not returned: which leaf ("leaf 'Main/arm' …"), in which function, for how long. It is
+   * called in another thread, and must not call the run; the call goes on. A thread that has ticked
+   * does not end before another one ticks, or the run is freed. */
+  double hang_limit;
+  void (*hang)(void* user, const char* who, const char* function, double seconds);
 } lockstep_run_options;
 
 /* A new run, whose leaves are created. NULL when a leaf cannot be. `options` may be NULL. */
@@ -178,6 +199,9 @@ LOCKSTEP_EXPORT bool lockstep_run_restart(lockstep_run* run, uint64_t seed);
  * next tick begins the tree again.
  */
 LOCKSTEP_EXPORT lockstep_status lockstep_run_tick(lockstep_run* run, double seconds);
+/* Since 1.4: the same, but the root is ticked exactly once, also when a node asks for another tick
+ * at once. */
+LOCKSTEP_EXPORT lockstep_status lockstep_run_tick_once(lockstep_run* run, double seconds);
 /* Halts every leaf that runs, in the order of the tree. Refused, with lockstep_last_error, in what
  * the run calls back, as lockstep_run_tick, _restart, _loop and _free are. */
 LOCKSTEP_EXPORT void lockstep_run_halt(lockstep_run* run);
@@ -260,12 +284,84 @@ LOCKSTEP_EXPORT bool lockstep_run_set_text_list_at(lockstep_run* run, uint32_t e
                                                    const lockstep_text* values, size_t count);
 LOCKSTEP_EXPORT lockstep_type lockstep_run_value_type_at(lockstep_run* run, uint32_t entry);
 
+/* Since 1.4: the entries by their names, of a project with lockstep_project_open_entries: the board
+ * of a tree, 0 for the main tree, for whoever releases it; NULL: there is none. The functions of a
+ * board are those of lockstep/leaf.h. */
+LOCKSTEP_EXPORT lockstep_board* lockstep_run_board(lockstep_run* run, uint32_t index);
+LOCKSTEP_EXPORT const lockstep_boards* lockstep_boards_table(void);
+
+/* Since 1.4: the loop of the run ticks at once, if it waits for its next period; from any thread.
+ * As when a leaf wants it: that is for types with LOCKSTEP_WAKES. */
+LOCKSTEP_EXPORT void lockstep_run_wake(lockstep_run* run);
+
 /* Called after each tick, also of the loop, in the thread that ticks. It may read the run, and must
  * not tick, halt or free it. Several may observe; NULL as `observe` removes those of this `user`.
  */
 typedef void (*lockstep_observe)(void* user, lockstep_run* run, uint64_t tick, double seconds,
                                  lockstep_status status);
 LOCKSTEP_EXPORT bool lockstep_run_observe(lockstep_run* run, lockstep_observe observe, void* user);
+
+/* Since 1.4: who else watches the run, as a run of the command `lockstep run`. Each before the
+ * first tick, until lockstep_run_restart, lockstep_run_free or the end of a loop. All long work is
+ * done in other threads; the time of the ticks is that of the program.
+ *
+ * Records the run to a file, for `lockstep replay` and `lockstep log` (--record). What a tick has
+ * changed is written soon after it. */
+LOCKSTEP_EXPORT bool lockstep_run_record(lockstep_run* run, const char* file);
+/* Writes what recordings of this process have not written yet. Async-signal-safe: for a program
+ * that handles its own crash. */
+LOCKSTEP_EXPORT void lockstep_flush_recordings(void);
+/* Shows the run in browsers (--monitor), which may only look. `address` is "8080", "0.0.0.0:8080",
+ * or "0" for a free port. Returns the link for a person, valid until the next call for this run;
+ * NULL: refused. */
+LOCKSTEP_EXPORT const char* lockstep_run_monitor(lockstep_run* run, const char* address);
+/* Shows the run in Groot2 (--groot2), which may only look; also after the first tick. `address` as
+ * above, and the port after it too; NULL: not any more. Only for a project that was loaded with
+ * lockstep_project_show_groot2. */
+LOCKSTEP_EXPORT bool lockstep_run_groot2(lockstep_run* run, const char* address);
+
+/* Since 1.4: what is told of a node that is watched, while the tree is ticked. */
+enum {
+  /* It is ticked now. `status` is what it had; a result that is returned is its result in place of
+   * the tick. Not when a script around it has decided (a pre-condition). */
+  LOCKSTEP_BEFORE_TICK = 0,
+  /* `status` is its result, also of such a script. Another one that is returned takes its place.
+   * Not after a fault. */
+  LOCKSTEP_AFTER_TICK = 1,
+  /* It runs and is halted: before what runs in it, and after that. What is returned is ignored. */
+  LOCKSTEP_BEFORE_HALT = 2,
+  LOCKSTEP_AFTER_HALT = 3
+};
+/* Returns LOCKSTEP_IDLE to leave all as it is. A node that gets a result while it runs is halted.
+ * It may read and write entries, and must not tick, halt, restart or free the run. */
+typedef lockstep_status (*lockstep_watch_node)(void* user, lockstep_run* run, uint32_t node,
+                                               int32_t what, lockstep_status status);
+/* Calls for these nodes, and for no others, in the thread that ticks; NULL as `watch`: for none. A
+ * node that is not watched costs nothing. A node that has completed is idle again, without a call,
+ * when its parent has completed or begins again. Also within such a call. */
+LOCKSTEP_EXPORT bool lockstep_run_watch_nodes(lockstep_run* run, const uint32_t* nodes,
+                                              size_t count, lockstep_watch_node watch, void* user);
+
+/* ---- Scripts -----------------------------------------------------------------------------------
+ */
+
+/* Since 1.4: a script in the language of Script and _skipIf, over values that the program gives. It
+ * is used by one thread at a time. */
+typedef struct lockstep_script lockstep_script;
+/* `words` are known to it as numbers; may be NULL. NULL: the text is no script. */
+LOCKSTEP_EXPORT lockstep_script* lockstep_script_new(const char* text, size_t length,
+                                                     const lockstep_words* words);
+/* NULL is allowed. */
+LOCKSTEP_EXPORT void lockstep_script_free(lockstep_script* script);
+/* The names of entries in it, "@key" with its '@'; valid as long as the script. */
+LOCKSTEP_EXPORT uint32_t lockstep_script_name_count(const lockstep_script* script);
+LOCKSTEP_EXPORT const char* lockstep_script_name(const lockstep_script* script, uint32_t index);
+/* Runs it. `values` has one for each name, `declared` 0 where there is no such entry. After the run
+ * they are what the script has made of them, valid until its next call; `writes` is how often it has
+ * written each. `result` is the value of the last statement; may be NULL. False after an error: what
+ * was assigned before it stays. */
+LOCKSTEP_EXPORT bool lockstep_script_run(lockstep_script* script, lockstep_entry_value* values,
+                                         lockstep_entry_value* result);
 
 /* ---- The fixed-rate loop -----------------------------------------------------------------------
  */

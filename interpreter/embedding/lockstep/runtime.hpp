@@ -132,6 +132,8 @@ class Project {
     return check(lockstep_project_set_main_tree(it_.get(), id.c_str()));
   }
   Project& isolate_all() { return check(lockstep_project_isolate_all(it_.get())); }
+  // Keeps what Run::groot2 shows of the tree.
+  Project& show_groot2() { return check(lockstep_project_show_groot2(it_.get())); }
 
   // Both throw an Error with all error messages; diagnostics() has them as data. Once in the life
   // of a project.
@@ -257,6 +259,16 @@ struct RunSettings {
   // A line that a leaf logs; from any thread. Also what the run has to say of a leaf: that it
   // reported a progress outside [0, 1], or that it failed and the run goes on.
   std::function<void(const std::string& who, LogLevel level, const std::string& message)> log = {};
+  // In seconds; 0: none. A call of a leaf that takes longer is told with what leaves log.
+  double tick_budget = 0;
+  // In seconds; 0: none. A call of a leaf that lasts longer and has not returned is told once, in
+  // another thread; it goes on.
+  double hang_limit = 0;
+  std::function<void(const std::string& who, const std::string& function, double seconds)> hang =
+      {};
+  // A leaf wants a tick before the next period; from any thread. For programs that wait in a loop
+  // of their own.
+  std::function<void()> wake = {};
 };
 
 enum class Overrun {
@@ -296,12 +308,18 @@ class Run {
   explicit Run(const Project& project, RunSettings settings = {})
       : leaves_(project.leaves_), hooks_(std::make_unique<Hooks>()) {
     hooks_->log = std::move(settings.log);
+    hooks_->hang = std::move(settings.hang);
+    hooks_->wake = std::move(settings.wake);
     auto options = detail::sized<lockstep_run_options>();
     options.seed = settings.seed;
     options.tick_period = settings.tick_period;
     options.on_fault = settings.fail_on_fault ? LOCKSTEP_ON_FAULT_FAIL : LOCKSTEP_ON_FAULT_STOP;
     options.virtual_time = settings.virtual_time;
+    options.tick_budget = settings.tick_budget;
+    options.hang_limit = settings.hang_limit;
     if (hooks_->log) options.log = &Hooks::on_log;
+    if (hooks_->hang) options.hang = &Hooks::on_hang;
+    if (hooks_->wake) options.wake = &Hooks::on_wake;
     options.user = hooks_.get();
     it_.reset(lockstep_run_new(project.get(), &options));
     detail::require(it_ != nullptr);
@@ -317,6 +335,31 @@ class Run {
     throw_failures();
     return status;
   }
+  // The same, but the root is ticked exactly once, also when a node asks for another tick at once.
+  Status tick_once(double seconds) {
+    const auto status = static_cast<Status>(lockstep_run_tick_once(it_.get(), seconds));
+    throw_refusal();
+    throw_failures();
+    return status;
+  }
+  // The loop of the run ticks at once, if it waits for its next period. From any thread.
+  void wake() { lockstep_run_wake(it_.get()); }
+
+  // Who else watches the run, each from before its first tick to its end: a file for `lockstep
+  // replay` and `lockstep log`, browsers (the link is returned), Groot2 (after
+  // Project::show_groot2). `address` is "8080", "0.0.0.0:8080", or "0" for a free port.
+  void record(const std::string& file) {
+    detail::require(lockstep_run_record(it_.get(), file.c_str()));
+  }
+  std::string monitor(const std::string& address) {
+    const char* const link = lockstep_run_monitor(it_.get(), address.c_str());
+    detail::require(link != nullptr);
+    return link;
+  }
+  void groot2(const std::string& address) {
+    detail::require(lockstep_run_groot2(it_.get(), address.c_str()));
+  }
+
   // Halts every leaf that runs, in the order of the tree.
   void halt() {
     lockstep_run_halt(it_.get());
@@ -431,8 +474,18 @@ class Run {
   // the tick.
   struct Hooks {
     decltype(RunSettings::log) log;
+    decltype(RunSettings::hang) hang;
+    decltype(RunSettings::wake) wake;
     std::vector<std::function<void(std::uint64_t, double, Status)>> observers;
     std::exception_ptr thrown;
+
+    static void on_hang(void* self, const char* who, const char* function, double seconds) {
+      lockstep::detail::catching([&] { static_cast<Hooks*>(self)->hang(who, function, seconds); },
+                                 [](const char*) {});
+    }
+    static void on_wake(void* self) {
+      lockstep::detail::catching([&] { static_cast<Hooks*>(self)->wake(); }, [](const char*) {});
+    }
 
     static void on_log(void* self, const char* who, lockstep_log_level level, const char* text) {
       lockstep::detail::catching(

@@ -137,7 +137,8 @@ _FUNCTIONS = {
     "run_halt": (None, c_void_p), "run_fault": (c_char_p, c_void_p, POINTER(c_uint32)),
     "run_node": (c_bool, c_void_p, c_uint32, POINTER(NodeState)), "run_value_type_at": (c_int32, c_void_p, c_uint32),
     "run_get_text_at": (c_char_p, c_void_p, c_uint32), "run_set_text_at": (c_bool, c_void_p, c_uint32, c_char_p),
-    "run_observe": (c_bool, c_void_p, OBSERVE, c_void_p),
+    "run_observe": (c_bool, c_void_p, OBSERVE, c_void_p), "run_record": (c_bool, c_void_p, c_char_p),
+    "run_monitor": (c_char_p, c_void_p, c_char_p),
     "run_loop": (c_bool, c_void_p, POINTER(LoopOptions), POINTER(LoopResult)),
 }
 for _name, _item in (("bool", c_bool), ("int", c_int64), ("double", c_double), ("text", Text)):
@@ -154,7 +155,7 @@ class Library:
     def __init__(self, path):
         loaded = ctypes.CDLL(path)
         loaded.lockstep_runtime_version.restype = c_uint32
-        if loaded.lockstep_runtime_version() < (1 << 16 | 3):
+        if loaded.lockstep_runtime_version() < (1 << 16 | 4):
             raise Error(2, f"'{path}' is older than this package: install both from one version of lockstep")
         for name, (result, *arguments) in _FUNCTIONS.items():
             function = getattr(loaded, "lockstep_" + name)

@@ -123,6 +123,21 @@ class Tree:
                    "time_s": end.seconds, "overruns": end.overruns}
         return Run(summary, _CODES.get(result, 124) if completed else 124, "")
 
+    def record(self, file):
+        "Records the tree to a file, from its first tick until it is closed or begins again: lockstep replay, log."
+        self._using(self._watch, self._library.run_record, os.fsencode(file))
+
+    def monitor(self, address="0"):
+        """Shows the tree in browsers, from its first tick until it is closed or begins again. Returns the link.
+        `address` is "8080", "0.0.0.0:8080", or "0" for a free port."""
+        return native.text_of(self._using(self._watch, self._library.run_monitor, native.bytes_of(address)))
+
+    def _watch(self, handle, function, where):
+        answer = function(handle, where)
+        if not answer:
+            raise Error(2, self._library.why())
+        return answer
+
     def halt(self):
         "Halts every leaf that runs, in the order of the tree. The next tick begins the tree again."
         self._using(self._call_or_refuse, self._library.run_halt)

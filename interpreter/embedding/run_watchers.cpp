@@ -1,0 +1,85 @@
+#include "embedding/run_watchers.h"
+
+#include <csignal>
+#include <utility>
+
+#include "web/server_socket.h"
+
+namespace lockstep::host::embedding {
+
+RunWatchers::RunWatchers(const Tree& tree, RunDescription run, RunStart start)
+    : tree_(tree), run_(std::move(run)), start_(start) {}
+
+std::optional<Problem> RunWatchers::record(const std::string& file) {
+  if (recorder_) return Problem{"the run is recorded already", "one recording for each run"};
+  const Lock lock(mutex_);
+  recorder_.emplace(tree_, RecorderOptions{.path = file, .run = run_});
+  if (recorder_->error().empty()) {
+    observers_.push_back(&*recorder_);
+    return std::nullopt;
+  }
+  Problem wrong{recorder_->error(), ""};
+  recorder_.reset();
+  return wrong;
+}
+
+Result<std::string> RunWatchers::monitor(const std::string& address) {
+  if (monitor_) return problem("the run has a monitor already", "one monitor for each run");
+  auto socket = listen_on(address);
+  if (!socket) return tl::unexpected(std::move(socket.error()));
+  const Lock lock(mutex_);
+  monitor_.emplace(tree_, MonitorOptions{.run = run_});
+  observers_.push_back(&*monitor_);
+  return monitor_->open(std::move(*socket));
+}
+
+void RunWatchers::show_groot(std::unique_ptr<Observer> groot, Ticker& ticker) {
+  std::erase(observers_, groot_.get());
+  groot_ = std::move(groot);
+  if (groot_ == nullptr) return;
+  observers_.push_back(groot_.get());
+  if (is_begun_ || ticker.tick_number() != 0) groot_->run_started(ticker, start_);
+  is_begun_ = is_begun_ || ticker.tick_number() != 0;
+}
+
+void RunWatchers::log(std::string_view who, std::string_view level, std::string_view text) {
+  const Lock lock(mutex_);
+  if (recorder_) recorder_->log(who, level, text);
+  if (monitor_) monitor_->log(who, level, text);
+}
+
+void RunWatchers::before_tick(Ticker& ticker, Nanoseconds time) {
+  if (!std::exchange(is_begun_, true)) {
+    for (Observer* const it : observers_) it->run_started(ticker, start_);
+  }
+  for (Observer* const it : observers_) it->before_tick(ticker, ticker.tick_number(), time);
+}
+
+void RunWatchers::after_tick(Ticker& ticker, const TickReport& report) {
+  status_ = report.status;
+  for (Observer* const it : observers_) it->after_tick(ticker, report);
+}
+
+void RunWatchers::end(Ticker& ticker, Nanoseconds last) {
+  if (std::exchange(is_begun_, false)) {
+    RunEnd end;
+    end.status = status_;
+    end.ticks = ticker.tick_number();
+    end.time = end.last = last;
+    if (ticker.fault() != nullptr) {
+      end.reason = StopReason::Fault;
+      end.fault = *ticker.fault();
+    } else if (!has_ended(status_)) {
+      end.reason = StopReason::Signal;
+      end.signal = SIGINT;  // as when a person ends it
+    }
+    for (Observer* const it : observers_) it->run_ended(ticker, end);
+  }
+  observers_.clear();
+  groot_.reset();
+  const Lock lock(mutex_);
+  recorder_.reset();
+  monitor_.reset();
+}
+
+}  // namespace lockstep::host::embedding

@@ -1,0 +1,60 @@
+// Who watches the run of a program as the command's runs are watched: a recording, browsers,
+// Groot2. Only within embedding/.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/problem.h"
+#include "engine/tree.h"
+#include "live/run_packets.h"
+#include "recording/write/recorder.h"
+#include "runtime/observer.h"
+#include "system/mutex.h"
+#include "web/monitor.h"
+
+namespace lockstep::host::embedding {
+
+class RunWatchers {
+ public:
+  RunWatchers(const Tree& tree, RunDescription run, RunStart start);
+
+  // Both before the first tick. What is wrong, or nothing.
+  std::optional<Problem> record(const std::string& file);
+  // The link.
+  Result<std::string> monitor(const std::string& address);
+  // Also after it; null: not any more.
+  void show_groot(std::unique_ptr<Observer> groot, Ticker& ticker);
+  bool has_groot() const { return groot_ != nullptr; }
+
+  // What a leaf logs; from any thread.
+  void log(std::string_view who, std::string_view level, std::string_view text);
+
+  bool empty() const { return observers_.empty(); }
+  std::span<Observer* const> observers() const { return observers_; }
+  // Around the ticks of a program that ticks itself. The loop calls its observers.
+  void before_tick(Ticker& ticker, Nanoseconds time);
+  void after_tick(Ticker& ticker, const TickReport& report);
+  // A loop has called them to the end of the run.
+  void end_with_loop() { is_begun_ = false; }
+  // The end of the run, after its last halt. Nobody watches any more.
+  void end(Ticker& ticker, Nanoseconds last);
+
+ private:
+  const Tree& tree_;
+  const RunDescription run_;
+  const RunStart start_;
+  bool is_begun_ = false;
+  Status status_ = Status::Idle;  // of the root, after the last tick
+  std::vector<Observer*> observers_;
+  std::unique_ptr<Observer> groot_;
+  Mutex mutex_;  // of these two, for threads that log
+  std::optional<Recorder> recorder_;
+  std::optional<Monitor> monitor_;
+};
+
+}  // namespace lockstep::host::embedding
