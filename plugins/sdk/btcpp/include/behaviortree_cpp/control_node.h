@@ -1,4 +1,5 @@
-// A node that decides which of its children are ticked.
+// A node that decides which of its children are ticked. In a tree they are those that the tree has;
+// a program may make nodes by hand and add them, without a tree.
 #pragma once
 
 #include <memory>
@@ -15,6 +16,12 @@ class ControlNode : public TreeNode {
  public:
   ControlNode(const std::string& name, const NodeConfig& config) : TreeNode(name, config) {}
 
+  // It is not owned, and lives longer than the last tick and halt of this node.
+  void addChild(TreeNode* child) {
+    lockstep_detail::check_child(*this, child);
+    children_nodes_.push_back(child);
+  }
+
   std::size_t childrenCount() const { return children_nodes_.size(); }
   const std::vector<TreeNode*>& children() const { return children_nodes_; }
   const TreeNode* child(std::size_t index) const { return children_nodes_.at(index); }
@@ -24,6 +31,9 @@ class ControlNode : public TreeNode {
     resetStatus();
   }
   void haltChildren() { resetChildren(); }
+  [[deprecated("use haltChildren() or haltChild(index)")]] void haltChildren(std::size_t first) {
+    for (std::size_t i = first; i < children_nodes_.size(); ++i) haltChild(i);
+  }
   void resetChildren() {
     for (std::size_t i = 0; i < children_nodes_.size(); ++i) haltChild(i);
   }
@@ -36,7 +46,19 @@ class ControlNode : public TreeNode {
 
   NodeType type() const final { return NodeType::CONTROL; }
 
+  void lockstep_visit(const std::function<void(TreeNode*, std::size_t)>& visitor,
+                      std::size_t depth) override {
+    visitor(this, depth);
+    for (TreeNode* const child : children_nodes_) child->lockstep_visit(visitor, depth + 1);
+  }
+
  protected:
+  // Throws; `wanted` goes on after "has 2 children".
+  [[noreturn]] void lockstep_refuse_children(const std::string& wanted) const {
+    throw LogicError(registrationName() + " '" + name() + "' has " +
+                     std::to_string(childrenCount()) + " children" + wanted);
+  }
+
   std::vector<TreeNode*> children_nodes_;
 
  private:

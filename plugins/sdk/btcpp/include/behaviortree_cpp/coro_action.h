@@ -21,6 +21,18 @@ class CoroActionNode : public ActionNodeBase {
   }
 
   NodeStatus executeTick() final {
+    return lockstep_tick_as([this] { return lockstep_go_on(); });
+  }
+
+  // Forgets where tick() was: what it has on its stack is not destroyed.
+  void halt() override {
+    lockstep_coroutine_.reset();
+    resetStatus();
+  }
+
+ private:
+  NodeStatus lockstep_go_on() {
+    if (status() != NodeStatus::RUNNING) lockstep_coroutine_.reset();
     if (lockstep_coroutine_ == nullptr) {
       lockstep_coroutine_ =
           std::make_unique<lockstep_detail::Coroutine>([this] { lockstep_result_ = tick(); });
@@ -32,17 +44,9 @@ class CoroActionNode : public ActionNodeBase {
       throw LogicError("node '", name(), "': tick() of a CoroActionNode has returned ",
                        toStr(lockstep_result_), "; to run on, it calls setStatusRunningAndYield()");
     }
-    setStatus(lockstep_result_ == NodeStatus::SKIPPED ? NodeStatus::IDLE : lockstep_result_);
     return lockstep_result_;
   }
 
-  // Forgets where tick() was: what it has on its stack is not destroyed.
-  void halt() override {
-    lockstep_coroutine_.reset();
-    resetStatus();
-  }
-
- private:
   std::unique_ptr<lockstep_detail::Coroutine> lockstep_coroutine_;
   NodeStatus lockstep_result_ = NodeStatus::IDLE;
 };

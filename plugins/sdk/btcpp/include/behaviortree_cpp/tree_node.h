@@ -15,10 +15,16 @@
 
 #include "behaviortree_cpp/basic_types.h"
 #include "behaviortree_cpp/blackboard.h"
+#include "behaviortree_cpp/lockstep/node_tree.h"
 #include "behaviortree_cpp/lockstep/registration.h"
 #include "behaviortree_cpp/utils/signal.h"
+#include "behaviortree_cpp/utils/wakeup_signal.hpp"
 
 namespace BT {
+namespace lockstep_detail {
+class Program;
+class TreeWatch;
+}  // namespace lockstep_detail
 
 struct TreeNodeManifest {
   NodeType type = NodeType::UNDEFINED;
@@ -104,12 +110,19 @@ class TreeNode {
   // One tick with what belongs to it. A control node calls it on its children.
   virtual NodeStatus executeTick();
   void haltNode() {
+    if (lockstep_tree_ != nullptr && lockstep_tree_->halt(*this)) return;
     halt();
     resetStatus();
   }
 
   virtual NodeType type() const = 0;
-  NodeStatus status() const { return lockstep_shown_status(); }
+  NodeStatus status() const {
+    const NodeStatus status = lockstep_shown_status();
+    if (lockstep_tree_ == nullptr || !isStatusCompleted(status)) return status;
+    return lockstep_tree_->is_over(*this) ? NodeStatus::IDLE : status;
+  }
+  // Null: it is in no tree of a program.
+  lockstep_detail::NodeTree* lockstep_tree() const { return lockstep_tree_; }
   bool isHalted() const { return status() == NodeStatus::IDLE; }
   const std::string& name() const { return lockstep_name_; }
   const std::string& fullPath() const { return lockstep_config_.path; }
@@ -126,14 +139,18 @@ class TreeNode {
   // Sets an output; an error when the tree gives it no entry, or the entry does not take the value.
   template <class T>
   Result setOutput(StringView port, const T& value);
-  // The same as getInput; how often the entry was written is not known here.
+  // The same as getInput, with how often the entry was written, and when.
   template <class T>
   Expected<Timestamp> getInputStamped(StringView port, T& value) const;
   template <class T>
   Expected<StampedValue<T>> getInputStamped(StringView port) const;
 
   // The value of the port's entry, which may be changed in place; false when it has no entry.
-  [[nodiscard]] AnyPtrLocked getLockedPortContent(const std::string& port);
+  template <class Name = std::string>
+  [[nodiscard]] AnyPtrLocked getLockedPortContent(const Name& port) {
+    lockstep_detail::note_opening<Name>();
+    return lockstep_locked_port(port);
+  }
 
   // As the tree has it.
   StringView getRawPortValue(const std::string& port) const;
@@ -142,9 +159,17 @@ class TreeNode {
   static StringView stripBlackboardPointer(StringView text);
   static Expected<StringView> getRemappedKey(StringView port, StringView given);
 
-  // The tree is ticked once more in this period, if it runs then. Only in a tick.
+  // In a tick: the tree is ticked once more in this period, if it runs then. Else, in any thread:
+  // who waits for the next period ticks it at once.
   void emitWakeUpSignal();
-  bool requiresWakeUp() const { return true; }
+  // False: nobody would tick it once more, so it does all of its work in one tick.
+  bool requiresWakeUp() const { return lockstep_place_ != nullptr || lockstep_wake_up_ != nullptr; }
+
+  // Calls it for the node and all below it, each with its depth.
+  virtual void lockstep_visit(const std::function<void(TreeNode*, std::size_t)>& visitor,
+                              std::size_t depth) {
+    visitor(this, depth);
+  }
 
   // A node of class T, with the constructor that it has.
   template <class T, class... Arguments>
@@ -169,6 +194,20 @@ class TreeNode {
   void resetStatus() { lockstep_forget_status(); }
   NodeConfig& config() { return lockstep_config_; }
   void setRegistrationID(StringView id) { lockstep_registration_name_ = id; }
+  // For a node that a program makes by hand: what emitWakeUpSignal() tells.
+  void setWakeUpInstance(std::shared_ptr<WakeUpSignal> signal) {
+    lockstep_wake_up_ = std::move(signal);
+  }
+  // A tick, and what belongs to it; `work` returns the result.
+  template <class Work>
+  NodeStatus lockstep_tick_as(const Work& work);
+  // Its parts: all but the status, which a thread may set; and the status.
+  template <class Work>
+  NodeStatus lockstep_result_of(const Work& work);
+  void lockstep_note(NodeStatus status);
+  bool lockstep_is_in_tree() const { return lockstep_place_ != nullptr; }
+  // The time of the run; outside of a tree, of the machine: a test may override it.
+  virtual double lockstep_seconds() const;
   template <class Ports>
   void modifyPortsRemapping(const Ports&) {
     static_assert(sizeof(Ports) == 0,
@@ -183,11 +222,15 @@ class TreeNode {
   friend struct lockstep_detail::Leaf;
   friend class lockstep_detail::Child;
   friend class lockstep_detail::NodeThread;
+  friend class lockstep_detail::Program;
+  friend class lockstep_detail::TreeWatch;
 
   virtual NodeStatus lockstep_shown_status() const {
     return lockstep_status_.load(std::memory_order_acquire);
   }
   virtual void lockstep_forget_status() { setStatus(NodeStatus::IDLE); }
+  // False: it has a result that no tick has returned yet.
+  virtual bool lockstep_is_told() const { return true; }
   virtual void lockstep_find_children(lockstep_detail::Place&) {}
 
   template <class T>
@@ -196,6 +239,14 @@ class TreeNode {
   Expected<T> lockstep_read_default(const lockstep_detail::PortEntry& port) const;
   Expected<Any> lockstep_read_any(const lockstep_detail::PortEntry& port) const;
   const lockstep_detail::PortEntry* lockstep_find_port(StringView port) const;
+  AnyPtrLocked lockstep_locked_port(const std::string& port);
+  // Of a node that is in no tree: what its config says.
+  template <class T>
+  Expected<T> lockstep_read_by_hand(const std::string& port) const;
+  Result lockstep_set_by_hand(const std::string& port, Any value, TypeInfo type);
+  // The entry that a port is bound to; no board: none.
+  Blackboard::LockstepPort lockstep_entry_of(const std::string& port) const;
+  Timestamp lockstep_stamp_of(const std::string& port) const;
   std::string lockstep_no_port(StringView port) const;
 
   struct LockstepWatch {
@@ -206,17 +257,25 @@ class TreeNode {
   };
   LockstepWatch& lockstep_watch() {
     if (lockstep_watch_ == nullptr) lockstep_watch_ = std::make_unique<LockstepWatch>();
+    if (lockstep_tree_ != nullptr) lockstep_tree_->begin_watch();
     return *lockstep_watch_;
   }
   void lockstep_tell(NodeStatus before, NodeStatus status);
-  NodeStatus lockstep_watched_tick();
+  template <class Work>
+  NodeStatus lockstep_work(const Work& work);
+  NodeStatus lockstep_watched_tick(const std::function<NodeStatus()>& work);
+  // In a catch: a tree knows which of its nodes has thrown; the caller of another node is told.
+  [[noreturn]] void lockstep_rethrow(const std::exception& thrown) const;
 
   std::string lockstep_name_;
   NodeConfig lockstep_config_;
   std::string lockstep_registration_name_;
   std::atomic<NodeStatus> lockstep_status_{NodeStatus::IDLE};
   lockstep_detail::Place* lockstep_place_ = nullptr;  // null: it is not in a tree
-  std::unique_ptr<LockstepWatch> lockstep_watch_;     // null: nobody watches
+  lockstep_detail::NodeTree* lockstep_tree_ = nullptr;
+  std::uint32_t lockstep_index_ = 0;               // in that tree
+  std::unique_ptr<LockstepWatch> lockstep_watch_;  // null: nobody watches
+  std::shared_ptr<WakeUpSignal> lockstep_wake_up_;  // of a node made by hand
 
   struct LockstepThreadPorts {
     std::vector<Expected<Any>> inputs;  // of each port

@@ -9,7 +9,9 @@ namespace BT {
 
 class AlwaysFailureNode : public SyncActionNode {
  public:
-  explicit AlwaysFailureNode(const std::string& name) : SyncActionNode(name, {}) {}
+  explicit AlwaysFailureNode(const std::string& name) : SyncActionNode(name, {}) {
+    setRegistrationID("AlwaysFailure");
+  }
 
  protected:
   NodeStatus tick() override { return NodeStatus::FAILURE; }

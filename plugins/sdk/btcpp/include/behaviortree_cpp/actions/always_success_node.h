@@ -9,7 +9,9 @@ namespace BT {
 
 class AlwaysSuccessNode : public SyncActionNode {
  public:
-  explicit AlwaysSuccessNode(const std::string& name) : SyncActionNode(name, {}) {}
+  explicit AlwaysSuccessNode(const std::string& name) : SyncActionNode(name, {}) {
+    setRegistrationID("AlwaysSuccess");
+  }
 
  protected:
   NodeStatus tick() override { return NodeStatus::SUCCESS; }

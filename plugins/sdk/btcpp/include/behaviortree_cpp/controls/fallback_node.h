@@ -1,4 +1,4 @@
-// As the tag Fallback, for classes that derive from it.
+// As the tags Fallback and AsyncFallback.
 #pragma once
 
 #include <string>
@@ -11,7 +11,9 @@ class FallbackNode : public lockstep_detail::LockstepRowNode {
  public:
   explicit FallbackNode(const std::string& name, bool make_async = false,
                         const NodeConfig& config = {})
-      : LockstepRowNode(name, NodeStatus::FAILURE, make_async, config) {}
+      : LockstepRowNode(name, NodeStatus::FAILURE, make_async, config) {
+    setRegistrationID(make_async ? "AsyncFallback" : "Fallback");
+  }
 };
 
 }  // namespace BT

@@ -1,4 +1,4 @@
-// As the tag ReactiveFallback, for classes that derive from it.
+// As the tag ReactiveFallback.
 #pragma once
 
 #include <string>
@@ -10,7 +10,9 @@ namespace BT {
 class ReactiveFallback : public lockstep_detail::LockstepReactiveRowNode {
  public:
   explicit ReactiveFallback(const std::string& name)
-      : LockstepReactiveRowNode(name, NodeStatus::FAILURE) {}
+      : LockstepReactiveRowNode(name, NodeStatus::FAILURE) {
+    setRegistrationID("ReactiveFallback");
+  }
 };
 
 }  // namespace BT

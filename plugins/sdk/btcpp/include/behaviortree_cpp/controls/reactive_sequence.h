@@ -1,4 +1,4 @@
-// As the tag ReactiveSequence, for classes that derive from it.
+// As the tag ReactiveSequence.
 #pragma once
 
 #include <string>
@@ -10,7 +10,9 @@ namespace BT {
 class ReactiveSequence : public lockstep_detail::LockstepReactiveRowNode {
  public:
   explicit ReactiveSequence(const std::string& name)
-      : LockstepReactiveRowNode(name, NodeStatus::SUCCESS) {}
+      : LockstepReactiveRowNode(name, NodeStatus::SUCCESS) {
+    setRegistrationID("ReactiveSequence");
+  }
 };
 
 }  // namespace BT

@@ -1,4 +1,4 @@
-// As the tag Sequence, for classes that derive from it.
+// As the tags Sequence and AsyncSequence.
 #pragma once
 
 #include <string>
@@ -11,7 +11,9 @@ class SequenceNode : public lockstep_detail::LockstepRowNode {
  public:
   explicit SequenceNode(const std::string& name, bool make_async = false,
                         const NodeConfig& config = {})
-      : LockstepRowNode(name, NodeStatus::SUCCESS, make_async, config) {}
+      : LockstepRowNode(name, NodeStatus::SUCCESS, make_async, config) {
+    setRegistrationID(make_async ? "AsyncSequence" : "Sequence");
+  }
 };
 
 }  // namespace BT

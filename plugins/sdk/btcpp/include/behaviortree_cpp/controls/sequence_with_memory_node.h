@@ -1,4 +1,4 @@
-// As the tag SequenceWithMemory, for classes that derive from it.
+// As the tag SequenceWithMemory.
 #pragma once
 
 #include <string>
@@ -10,7 +10,9 @@ namespace BT {
 class SequenceWithMemory : public lockstep_detail::LockstepRowNode {
  public:
   explicit SequenceWithMemory(const std::string& name)
-      : LockstepRowNode(name, NodeStatus::SUCCESS, true) {}
+      : LockstepRowNode(name, NodeStatus::SUCCESS, true) {
+    setRegistrationID("SequenceWithMemory");
+  }
 
   // It keeps its place.
   void halt() override { ControlNode::halt(); }

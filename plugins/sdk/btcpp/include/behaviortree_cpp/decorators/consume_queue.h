@@ -22,21 +22,21 @@ class [[deprecated("use LoopNode")]] ConsumeQueue : public DecoratorNode {
   NodeStatus tick() override {
     NodeStatus result = NodeStatus::SUCCESS;
     if (lockstep_is_child_running_) {
-      result = lockstep_tick_child();
+      result = lockstep_go_on();
       if (lockstep_is_child_running_) return result;
     }
     while (const auto item = lockstep_next()) {
       setStatus(NodeStatus::RUNNING);
       setOutput("popped_item", *item);
-      result = lockstep_tick_child();
+      result = lockstep_go_on();
       if (lockstep_is_child_running_ || result == NodeStatus::FAILURE) return result;
     }
     return result;
   }
 
  private:
-  NodeStatus lockstep_tick_child() {
-    const NodeStatus result = child_node_->executeTick();
+  NodeStatus lockstep_go_on() {
+    const NodeStatus result = this->lockstep_tick_child();
     lockstep_is_child_running_ = result == NodeStatus::RUNNING;
     if (!lockstep_is_child_running_) haltChild();
     return result;

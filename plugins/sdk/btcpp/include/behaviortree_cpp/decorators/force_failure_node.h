@@ -1,4 +1,4 @@
-// As the tag ForceFailure, for classes that derive from it.
+// As the tag ForceFailure.
 #pragma once
 
 #include <string>
@@ -9,12 +9,14 @@ namespace BT {
 
 class ForceFailureNode : public DecoratorNode {
  public:
-  explicit ForceFailureNode(const std::string& name) : DecoratorNode(name, {}) {}
+  explicit ForceFailureNode(const std::string& name) : DecoratorNode(name, {}) {
+    setRegistrationID("ForceFailure");
+  }
 
  protected:
   NodeStatus tick() override {
     setStatus(NodeStatus::RUNNING);
-    const NodeStatus result = child_node_->executeTick();
+    const NodeStatus result = lockstep_tick_child();
     return isStatusCompleted(result) ? NodeStatus::FAILURE : result;
   }
 };

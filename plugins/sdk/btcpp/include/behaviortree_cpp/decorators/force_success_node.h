@@ -1,4 +1,4 @@
-// As the tag ForceSuccess, for classes that derive from it.
+// As the tag ForceSuccess.
 #pragma once
 
 #include <string>
@@ -9,12 +9,14 @@ namespace BT {
 
 class ForceSuccessNode : public DecoratorNode {
  public:
-  explicit ForceSuccessNode(const std::string& name) : DecoratorNode(name, {}) {}
+  explicit ForceSuccessNode(const std::string& name) : DecoratorNode(name, {}) {
+    setRegistrationID("ForceSuccess");
+  }
 
  protected:
   NodeStatus tick() override {
     setStatus(NodeStatus::RUNNING);
-    const NodeStatus result = child_node_->executeTick();
+    const NodeStatus result = lockstep_tick_child();
     return isStatusCompleted(result) ? NodeStatus::SUCCESS : result;
   }
 };

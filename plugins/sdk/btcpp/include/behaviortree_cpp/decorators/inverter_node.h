@@ -1,4 +1,4 @@
-// As the tag Inverter, for classes that derive from it.
+// As the tag Inverter.
 #pragma once
 
 #include <string>
@@ -9,12 +9,14 @@ namespace BT {
 
 class InverterNode : public DecoratorNode {
  public:
-  explicit InverterNode(const std::string& name) : DecoratorNode(name, {}) {}
+  explicit InverterNode(const std::string& name) : DecoratorNode(name, {}) {
+    setRegistrationID("Inverter");
+  }
 
  protected:
   NodeStatus tick() override {
     setStatus(NodeStatus::RUNNING);
-    const NodeStatus result = child_node_->executeTick();
+    const NodeStatus result = lockstep_tick_child();
     if (result == NodeStatus::SUCCESS) return NodeStatus::FAILURE;
     return result == NodeStatus::FAILURE ? NodeStatus::SUCCESS : result;
   }

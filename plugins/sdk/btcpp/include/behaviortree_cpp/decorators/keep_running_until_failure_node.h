@@ -1,4 +1,4 @@
-// As the tag KeepRunningUntilFailure, for classes that derive from it.
+// As the tag KeepRunningUntilFailure.
 #pragma once
 
 #include <string>
@@ -9,12 +9,14 @@ namespace BT {
 
 class KeepRunningUntilFailureNode : public DecoratorNode {
  public:
-  explicit KeepRunningUntilFailureNode(const std::string& name) : DecoratorNode(name, {}) {}
+  explicit KeepRunningUntilFailureNode(const std::string& name) : DecoratorNode(name, {}) {
+    setRegistrationID("KeepRunningUntilFailure");
+  }
 
  protected:
   NodeStatus tick() override {
     setStatus(NodeStatus::RUNNING);
-    const NodeStatus result = child_node_->executeTick();
+    const NodeStatus result = lockstep_tick_child();
     if (isStatusCompleted(result)) resetChild();
     return result == NodeStatus::FAILURE ? result : NodeStatus::RUNNING;
   }

@@ -26,7 +26,7 @@ class LoopNode : public DecoratorNode {
   }
 
   NodeStatus tick() override {
-    if (status() == NodeStatus::IDLE) {
+    if (status() != NodeStatus::RUNNING) {
       lockstep_is_child_running_ = false;
       lockstep_items_ = nullptr;
     }
@@ -39,7 +39,7 @@ class LoopNode : public DecoratorNode {
       setOutput("value", item);
     }
     setStatus(NodeStatus::RUNNING);
-    const NodeStatus result = child_node_->executeTick();
+    const NodeStatus result = lockstep_tick_child();
     lockstep_is_child_running_ = result == NodeStatus::RUNNING;
     if (isStatusCompleted(result)) resetChild();
     return result == NodeStatus::FAILURE ? result : NodeStatus::RUNNING;

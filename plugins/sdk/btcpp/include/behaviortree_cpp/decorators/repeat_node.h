@@ -1,4 +1,4 @@
-// As the tag Repeat, for classes that derive from it.
+// As the tag Repeat.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@ namespace BT {
 class RepeatNode : public lockstep_detail::LockstepAgainNode {
  public:
   RepeatNode(const std::string& name, int count)
-      : LockstepAgainNode(name, count, NodeStatus::SUCCESS) {}
+      : LockstepAgainNode(name, count, NodeStatus::SUCCESS, "Repeat") {}
   RepeatNode(const std::string& name, const NodeConfig& config)
-      : LockstepAgainNode(name, config, NodeStatus::SUCCESS, "num_cycles") {}
+      : LockstepAgainNode(name, config, NodeStatus::SUCCESS, "Repeat", "num_cycles") {}
   static PortsList providedPorts() {
     return {InputPort<int>("num_cycles",
                            "how often the child is ticked to its success; -1: for "

@@ -1,4 +1,4 @@
-// As the tag RetryUntilSuccessful, also under another ID.
+// As the tag RetryUntilSuccessful.
 #pragma once
 
 #include <string>
@@ -10,9 +10,10 @@ namespace BT {
 class RetryNode : public lockstep_detail::LockstepAgainNode {
  public:
   RetryNode(const std::string& name, int count)
-      : LockstepAgainNode(name, count, NodeStatus::FAILURE) {}
+      : LockstepAgainNode(name, count, NodeStatus::FAILURE, "RetryUntilSuccessful") {}
   RetryNode(const std::string& name, const NodeConfig& config)
-      : LockstepAgainNode(name, config, NodeStatus::FAILURE, "num_attempts") {}
+      : LockstepAgainNode(name, config, NodeStatus::FAILURE, "RetryUntilSuccessful",
+                          "num_attempts") {}
   static PortsList providedPorts() {
     return {InputPort<int>("num_attempts",
                            "how often a child that fails is ticked; -1: until it "

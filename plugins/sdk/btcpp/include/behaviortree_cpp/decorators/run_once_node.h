@@ -1,4 +1,4 @@
-// As the tag RunOnce, for classes that derive from it.
+// As the tag RunOnce.
 #pragma once
 
 #include <string>
@@ -9,7 +9,9 @@ namespace BT {
 
 class RunOnceNode : public DecoratorNode {
  public:
-  RunOnceNode(const std::string& name, const NodeConfig& config) : DecoratorNode(name, config) {}
+  RunOnceNode(const std::string& name, const NodeConfig& config) : DecoratorNode(name, config) {
+    setRegistrationID("RunOnce");
+  }
   static PortsList providedPorts() {
     return {InputPort<bool>("then_skip", true, "after that: skipped, or the same result again")};
   }
@@ -17,10 +19,10 @@ class RunOnceNode : public DecoratorNode {
  protected:
   NodeStatus tick() override {
     if (isStatusCompleted(lockstep_result_)) {
-      return getInput<bool>("then_skip").value() ? NodeStatus::SKIPPED : lockstep_result_;
+      return getInput<bool>("then_skip").value_or(true) ? NodeStatus::SKIPPED : lockstep_result_;
     }
     setStatus(NodeStatus::RUNNING);
-    const NodeStatus result = child_node_->executeTick();
+    const NodeStatus result = lockstep_tick_child();
     if (isStatusCompleted(result)) {
       lockstep_result_ = result;
       resetChild();

@@ -1,9 +1,10 @@
-// The nodes of the language that are no classes here: the compiler says so where one is made.
+// The classes of the library that are none here: the compiler says so where one is made.
 #pragma once
 
 #include <string>
 
 #include "behaviortree_cpp/action_node.h"
+#include "behaviortree_cpp/condition_node.h"
 #include "behaviortree_cpp/control_node.h"
 #include "behaviortree_cpp/decorator_node.h"
 
@@ -22,64 +23,29 @@ class LockstepAbsentNode : public Base {
   }
   static PortsList providedPorts() { return {}; }
   NodeStatus tick() override { return NodeStatus::IDLE; }
-  void halt() override {}
+};
+
+// It waits for the keys of a terminal.
+template <class Base>
+class LockstepNoTerminalNode : public Base {
+ public:
+  template <class... Arguments>
+  explicit LockstepNoTerminalNode(Arguments&&...) : Base(std::string(), NodeConfig()) {
+    static_assert(sizeof...(Arguments) > 1000,
+                  "lockstep has no ManualSelector: a tick must not wait for a terminal; use a "
+                  "Switch over an entry that your program sets");
+  }
+  static PortsList providedPorts() { return {}; }
+  NodeStatus tick() override { return NodeStatus::IDLE; }
 };
 
 }  // namespace lockstep_detail
 
-class EntryUpdatedAction : public lockstep_detail::LockstepAbsentNode<ActionNodeBase> {
+class ScriptCondition : public lockstep_detail::LockstepAbsentNode<ConditionNode> {
  public:
   using LockstepAbsentNode::LockstepAbsentNode;
 };
-class ScriptCondition : public lockstep_detail::LockstepAbsentNode<ActionNodeBase> {
- public:
-  using LockstepAbsentNode::LockstepAbsentNode;
-};
-class ScriptNode : public lockstep_detail::LockstepAbsentNode<ActionNodeBase> {
- public:
-  using LockstepAbsentNode::LockstepAbsentNode;
-};
-class SetBlackboardNode : public lockstep_detail::LockstepAbsentNode<ActionNodeBase> {
- public:
-  using LockstepAbsentNode::LockstepAbsentNode;
-};
-class SleepNode : public lockstep_detail::LockstepAbsentNode<ActionNodeBase> {
- public:
-  using LockstepAbsentNode::LockstepAbsentNode;
-};
-class UnsetBlackboardNode : public lockstep_detail::LockstepAbsentNode<ActionNodeBase> {
- public:
-  using LockstepAbsentNode::LockstepAbsentNode;
-};
-class IfThenElseNode : public lockstep_detail::LockstepAbsentNode<ControlNode> {
- public:
-  using LockstepAbsentNode::LockstepAbsentNode;
-};
-class ManualSelectorNode : public lockstep_detail::LockstepAbsentNode<ControlNode> {
- public:
-  using LockstepAbsentNode::LockstepAbsentNode;
-};
-class ParallelAllNode : public lockstep_detail::LockstepAbsentNode<ControlNode> {
- public:
-  using LockstepAbsentNode::LockstepAbsentNode;
-};
-class ParallelNode : public lockstep_detail::LockstepAbsentNode<ControlNode> {
- public:
-  using LockstepAbsentNode::LockstepAbsentNode;
-};
-class TryCatchNode : public lockstep_detail::LockstepAbsentNode<ControlNode> {
- public:
-  using LockstepAbsentNode::LockstepAbsentNode;
-};
-class WhileDoElseNode : public lockstep_detail::LockstepAbsentNode<ControlNode> {
- public:
-  using LockstepAbsentNode::LockstepAbsentNode;
-};
-class DelayNode : public lockstep_detail::LockstepAbsentNode<DecoratorNode> {
- public:
-  using LockstepAbsentNode::LockstepAbsentNode;
-};
-class EntryUpdatedDecorator : public lockstep_detail::LockstepAbsentNode<DecoratorNode> {
+class ScriptNode : public lockstep_detail::LockstepAbsentNode<SyncActionNode> {
  public:
   using LockstepAbsentNode::LockstepAbsentNode;
 };
@@ -87,18 +53,9 @@ class PreconditionNode : public lockstep_detail::LockstepAbsentNode<DecoratorNod
  public:
   using LockstepAbsentNode::LockstepAbsentNode;
 };
-class SubTreeNode : public lockstep_detail::LockstepAbsentNode<DecoratorNode> {
+class ManualSelectorNode : public lockstep_detail::LockstepNoTerminalNode<ControlNode> {
  public:
-  using LockstepAbsentNode::LockstepAbsentNode;
-};
-class TimeoutNode : public lockstep_detail::LockstepAbsentNode<DecoratorNode> {
- public:
-  using LockstepAbsentNode::LockstepAbsentNode;
-};
-template <std::size_t kCases>
-class SwitchNode : public lockstep_detail::LockstepAbsentNode<ControlNode> {
- public:
-  using LockstepAbsentNode::LockstepAbsentNode;
+  using LockstepNoTerminalNode::LockstepNoTerminalNode;
 };
 
 }  // namespace BT

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "behaviortree_cpp/decorator_node.h"
+#include "behaviortree_cpp/lockstep/parameter.h"
 
 namespace BT::lockstep_detail {
 
@@ -11,10 +12,14 @@ namespace BT::lockstep_detail {
 class LockstepAgainNode : public DecoratorNode {
  public:
   LockstepAgainNode(const std::string& name, const NodeConfig& config, NodeStatus goes_on,
-                    const char* port)
-      : DecoratorNode(name, config), lockstep_goes_on_(goes_on), lockstep_port_(port) {}
-  LockstepAgainNode(const std::string& name, int most, NodeStatus goes_on)
-      : DecoratorNode(name, {}), lockstep_goes_on_(goes_on), lockstep_most_(most) {}
+                    const char* id, const char* port)
+      : DecoratorNode(name, config), lockstep_goes_on_(goes_on), lockstep_port_(port) {
+    setRegistrationID(id);
+  }
+  LockstepAgainNode(const std::string& name, int most, NodeStatus goes_on, const char* id)
+      : DecoratorNode(name, {}), lockstep_goes_on_(goes_on), lockstep_most_(most) {
+    setRegistrationID(id);
+  }
 
   void halt() override {
     lockstep_count_ = 0;
@@ -27,14 +32,15 @@ class LockstepAgainNode : public DecoratorNode {
     setStatus(NodeStatus::RUNNING);
     while (lockstep_count_ < lockstep_most_ || lockstep_most_ == -1) {
       const bool begins = child_node_->status() == NodeStatus::IDLE;
-      const NodeStatus result = child_node_->executeTick();
+      const NodeStatus result = lockstep_tick_child();
       if (result == NodeStatus::RUNNING) return result;
       resetChild();
       if (result == NodeStatus::SKIPPED) return result;
       if (result != lockstep_goes_on_) return lockstep_end(result);
       ++lockstep_count_;
       lockstep_read_most();
-      if (begins && (lockstep_count_ < lockstep_most_ || lockstep_most_ == -1)) {
+      if (begins && requiresWakeUp() &&
+          (lockstep_count_ < lockstep_most_ || lockstep_most_ == -1)) {
         emitWakeUpSignal();
         return NodeStatus::RUNNING;
       }
@@ -45,9 +51,7 @@ class LockstepAgainNode : public DecoratorNode {
  private:
   void lockstep_read_most() {
     if (lockstep_port_ == nullptr) return;
-    const auto most = getInput<int>(lockstep_port_);
-    if (!most) throw RuntimeError("node '", name(), "': ", most.error());
-    lockstep_most_ = *most;
+    lockstep_most_ = parameter<int>(*this, lockstep_port_);
   }
   NodeStatus lockstep_end(NodeStatus result) {
     lockstep_count_ = 0;

@@ -22,6 +22,12 @@ class Child final : public TreeNode {
   }
 
   NodeType type() const override { return NodeType::UNDEFINED; }
+  void lockstep_visit(const std::function<void(TreeNode*, std::size_t)>& /*visitor*/,
+                      std::size_t /*depth*/) override {
+    throw LogicError("node '" + name() +
+                     "' is visited by way of its parent: a node of a tree knows no more than its "
+                     "children; begin with the rootNode() of the BT::Tree");
+  }
 
   // One that has completed and was not reset goes on from there.
   NodeStatus executeTick() override {
@@ -52,6 +58,13 @@ class Child final : public TreeNode {
   std::uint32_t index_;
   bool is_reset_ = true;
 };
+
+// Of a node that a program makes by hand.
+inline void check_child(const TreeNode& parent, const TreeNode* child) {
+  if (child != nullptr && child != &parent) return;
+  throw LogicError("the child that '" + parent.name() + "' is given is " +
+                   (child == nullptr ? "a null pointer" : "the node itself"));
+}
 
 // The children of a node that was made in a tree, in order.
 inline std::vector<std::unique_ptr<TreeNode>> children_at(Place& place) {

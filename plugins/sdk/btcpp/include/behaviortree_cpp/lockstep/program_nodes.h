@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "behaviortree_cpp/behavior_tree.h"
+#include "behaviortree_cpp/lockstep/outline.h"
 #include "behaviortree_cpp/lockstep/plugin_table.h"
 
 namespace BT::lockstep_detail {
@@ -24,8 +25,9 @@ struct NodePlace {
 };
 
 struct SubtreePlace {
-  std::string name, path;  // "" for the main tree
-  std::string entries;     // what is in front of the keys of its entries
+  std::string name, path;    // "" for the main tree
+  std::string entries;       // what is in front of the keys of its entries
+  std::string tree_id = {};  // "": as its name
 };
 
 // All nodes, in the order of the tree.
@@ -33,7 +35,8 @@ struct NodePlaces {
   std::vector<NodePlace> nodes;
   std::vector<SubtreePlace> subtrees{1};
 
-  explicit NodePlaces(const lockstep_project* project) {
+  // `outline`: what the documents say; null: they could not be read.
+  NodePlaces(const lockstep_project* project, const Outline* outline, PluginTable& table) {
     std::vector<std::size_t> inside;  // of each node: the subtree that its children are in
     for (std::uint32_t i = 0; i < lockstep_project_node_count(project); ++i) {
       lockstep_node it{};
@@ -42,9 +45,25 @@ struct NodePlaces {
       const std::size_t outer = it.parent == i ? 0 : inside[it.parent];
       inside.push_back(add(it, i, outer));
     }
+    if (outline != nullptr) take(*outline, table);
   }
 
  private:
+  // As lockstep has the same nodes.
+  void take(const Outline& outline, PluginTable& table) {
+    if (outline.nodes.size() != nodes.size() || outline.subtrees.size() != subtrees.size()) return;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const OutlineNode& from = outline.nodes[i];
+      nodes[i].name = from.name;
+      nodes[i].number.path = from.path;
+      nodes[i].number.uid = from.uid;
+      read_attributes(*from.element, from.id, table.manifest(from.id), nodes[i].number);
+    }
+    for (std::size_t i = 0; i < subtrees.size(); ++i) {
+      subtrees[i].path = outline.subtrees[i].path;
+      subtrees[i].tree_id = outline.subtrees[i].tree_id;
+    }
+  }
   std::size_t add(const lockstep_node& it, std::uint32_t index, std::size_t outer) {
     NodePlace node{it.parent, it.name, it.id, it.path, {}, outer};
     node.number.uid = static_cast<std::uint16_t>(index + 1);
@@ -59,57 +78,6 @@ struct NodePlaces {
     nodes.push_back(std::move(node));
     return begins ? subtrees.size() - 1 : outer;
   }
-};
-
-class Program;
-
-// A node that is no object of the program: of the language, or of a plugin.
-class ProgramNode final : public TreeNode {
- public:
-  ProgramNode(Program& program, lockstep_run* run, std::uint32_t index, const NodePlaces& places,
-              NodeType type)
-      : TreeNode(places.nodes[index].name, config_of(places.nodes[index])),
-        program_(program),
-        run_(run),
-        index_(index),
-        places_(&places),
-        type_(type) {
-    setRegistrationID(places.nodes[index].id);
-  }
-
-  NodeType type() const override { return type_; }
-  NodeStatus executeTick() override {
-    throw LogicError("node '", name(), "' is ticked by its tree only: BT::Tree::tickOnce()");
-  }
-  Program& program() const { return program_; }
-  std::uint32_t index() const { return index_; }
-  const NodePlaces& places() const { return *places_; }
-
- private:
-  static NodeConfig config_of(const NodePlace& place) {
-    NodeConfig config;
-    config.path = place.number.path;
-    config.uid = place.number.uid;
-    return config;
-  }
-  NodeStatus tick() override { return executeTick(); }
-  // For the root this is the whole tree.
-  void halt() override {
-    if (index_ == 0) lockstep_run_halt(run_);
-  }
-  NodeStatus lockstep_shown_status() const override {
-    lockstep_node_state state{};
-    state.struct_size = sizeof state;
-    if (!lockstep_run_node(run_, index_, &state)) return NodeStatus::IDLE;
-    return static_cast<NodeStatus>(state.status);
-  }
-  void lockstep_forget_status() override {}
-
-  Program& program_;
-  lockstep_run* run_;
-  std::uint32_t index_;
-  const NodePlaces* places_;
-  NodeType type_;
 };
 
 // The type of a node of the language, by its ID.

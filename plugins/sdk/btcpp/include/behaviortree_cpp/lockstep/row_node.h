@@ -22,7 +22,7 @@ class LockstepRowNode : public ControlNode {
 
  protected:
   NodeStatus tick() override {
-    if (status() == NodeStatus::IDLE) lockstep_skipped_ = 0;
+    if (status() != NodeStatus::RUNNING) lockstep_skipped_ = 0;
     setStatus(NodeStatus::RUNNING);
     while (lockstep_current_ < childrenCount()) {
       TreeNode& child = *children_nodes_[lockstep_current_];
@@ -35,7 +35,7 @@ class LockstepRowNode : public ControlNode {
         return lockstep_fail(result);
       }
       ++lockstep_current_;
-      if (result == lockstep_goes_on_ && lockstep_is_async_ && begins &&
+      if (result == lockstep_goes_on_ && lockstep_is_async_ && begins && requiresWakeUp() &&
           lockstep_current_ < childrenCount()) {
         emitWakeUpSignal();
         return NodeStatus::RUNNING;

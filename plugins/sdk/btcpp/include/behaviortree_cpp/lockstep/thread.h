@@ -3,6 +3,7 @@
 
 #include <lockstep/cpp/threaded_action.hpp>
 
+#include <atomic>
 #include <utility>
 
 #include "behaviortree_cpp/tree_node.h"
@@ -11,14 +12,26 @@ namespace BT::lockstep_detail {
 
 class NodeThread {
  public:
-  template <class Work>
-  void launch(const TreeNode& node, Work work) {
-    const Place& place = place_of(node);
-    worker_.launch({place.host, place.caller}, [this, work](lockstep::Token& token) {
-      token_ = &token;
-      status_ = work();
-      return lockstep::Status::Success;
-    });
+  // The tree is ticked at once when the work is done.
+  // `ended` is called in the thread when there is a result.
+  template <class Work, class Ended>
+  void launch(const TreeNode& node, Work work, Ended ended) {
+    const Place* const place = node.lockstep_place_;
+    const lockstep::detail::Caller caller =
+        place != nullptr ? lockstep::detail::Caller{place->host, place->caller}
+                         : lockstep::detail::Caller{&no_host()};
+    status_ = NodeStatus::IDLE;
+    worker_.launch(
+        caller,
+        [this, work, ended](lockstep::Token& token) {
+          token_ = &token;
+          status_ = work();
+          ended();
+          return lockstep::Status::Success;
+        },
+        [place] {
+          if (place != nullptr) place->wake();
+        });
   }
   bool is_done() const { return worker_.done(); }
   // Throws what the work has thrown.
@@ -27,17 +40,27 @@ class NodeThread {
     return status_;
   }
   void stop() { worker_.stop_silently(); }
+  // Of the work that has ended last; IDLE: none has.
+  NodeStatus result() const { return status_; }
   // In the thread.
   void yield() const {
     if (lockstep::detail::in_worker && token_ != nullptr) token_->yield();
   }
 
  private:
-  static const Place& place_of(const TreeNode& node) { return *node.lockstep_place_; }
+  // Of a node that is in no tree: its thread works in real time.
+  static const lockstep_host& no_host() {
+    static const lockstep_host host = [] {
+      lockstep_host none{};
+      none.get_extension = [](const char*) -> const void* { return nullptr; };
+      return none;
+    }();
+    return host;
+  }
 
   lockstep::detail::Worker worker_;
   lockstep::Token* token_ = nullptr;  // the thread's
-  NodeStatus status_ = NodeStatus::IDLE;
+  std::atomic<NodeStatus> status_{NodeStatus::IDLE};
 };
 
 }  // namespace BT::lockstep_detail

@@ -11,13 +11,13 @@ namespace lockstep_detail {
 
 // A value that was read before, as a T.
 template <class T>
-Expected<T> converted(const Expected<Any>& value,
-                      const std::unordered_map<std::string, int>* enums) {
+Expected<T> converted(const Expected<Any>& value, const NodeConfig& config) {
   if (!value) return nonstd::make_unexpected(value.error());
   if constexpr (!std::is_same_v<T, std::string> && !std::is_same_v<T, Any>) {
-    if (value->isString()) return parse_with<T>(value->template cast<std::string>(), enums);
+    if (value->isString())
+      return parse_with<T>(value->template cast<std::string>(), config.enums.get());
   }
-  return value->template tryCast<T>();
+  return config.blackboard->template tryCastWithPolymorphicFallback<T>(&*value);
 }
 
 // Where the node under construction finds its place, so that its class need not pass it on.
@@ -31,25 +31,70 @@ inline TreeNode::TreeNode(std::string name, NodeConfig config)
       lockstep_place_(std::exchange(lockstep_detail::creating, nullptr)) {}
 
 inline NodeStatus TreeNode::executeTick() {
-  const NodeStatus status = lockstep_watch_ == nullptr ? tick() : lockstep_watched_tick();
+  return lockstep_tick_as([this] { return tick(); });
+}
+
+template <class Work>
+NodeStatus TreeNode::lockstep_tick_as(const Work& work) {
+  const NodeStatus status = lockstep_result_of(work);
+  lockstep_note(status);
+  return status;
+}
+
+template <class Work>
+NodeStatus TreeNode::lockstep_result_of(const Work& work) {
+  const NodeStatus status =
+      lockstep_watch_ == nullptr
+          ? lockstep_work(work)
+          : lockstep_watched_tick([this, &work] { return lockstep_work(work); });
   if (status == NodeStatus::IDLE) {
     throw LogicError("node '", lockstep_name_, "' has returned IDLE, which is no result of a tick");
   }
-  setStatus(status == NodeStatus::SKIPPED ? NodeStatus::IDLE : status);
   return status;
+}
+
+inline void TreeNode::lockstep_note(NodeStatus status) {
+  if (status != NodeStatus::SKIPPED) {
+    setStatus(status);
+  } else if (lockstep_place_ != nullptr || type() == NodeType::ACTION ||
+             type() == NodeType::CONDITION) {
+    setStatus(NodeStatus::IDLE);
+  }  // by hand, a node with children keeps its status: its parent halts it, and so them
+}
+
+template <class Work>
+NodeStatus TreeNode::lockstep_work(const Work& work) {
+  try {
+    return work();
+  } catch (const std::exception& thrown) {
+    lockstep_rethrow(thrown);
+  }
+}
+
+[[gnu::cold]] inline void TreeNode::lockstep_rethrow(const std::exception& thrown) const {
+  const bool is_told = dynamic_cast<const NodeExecutionError*>(&thrown) != nullptr;
+  if (lockstep_place_ != nullptr || is_told) throw;
+  const std::string& path = fullPath().empty() ? lockstep_name_ : fullPath();
+  throw NodeExecutionError({lockstep_name_, path, lockstep_registration_name_}, thrown.what());
+}
+
+inline double TreeNode::lockstep_seconds() const {
+  if (lockstep_place_ != nullptr) return lockstep_place_->host->now(lockstep_place_->caller);
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration<double>(now).count();
 }
 
 inline void TreeNode::lockstep_tell(NodeStatus before, NodeStatus status) {
   lockstep_watch_->changes.notify(std::chrono::high_resolution_clock::now(), *this, before, status);
 }
 
-inline NodeStatus TreeNode::lockstep_watched_tick() {
+inline NodeStatus TreeNode::lockstep_watched_tick(const std::function<NodeStatus()>& work) {
   NodeStatus status = NodeStatus::IDLE;
   if (lockstep_watch_->before && !isStatusCompleted(this->status()))
     status = lockstep_watch_->before(*this);
   if (!isStatusCompleted(status)) {
     const auto began = std::chrono::steady_clock::now();
-    status = tick();
+    status = work();
     const auto took = std::chrono::steady_clock::now() - began;
     if (lockstep_watch_->monitor) {
       lockstep_watch_->monitor(*this, status,
@@ -71,8 +116,13 @@ T TreeNode::parseString(const std::string& text) const {
 }
 
 inline void TreeNode::emitWakeUpSignal() {
-  if (lockstep_place_ != nullptr && lockstep_place_->is_in_tick())
+  if (lockstep_wake_up_ != nullptr) lockstep_wake_up_->emitSignal();
+  if (lockstep_place_ == nullptr) return;  // nobody ticks it
+  if (lockstep_place_->is_in_tick()) {
     lockstep_place_->node->ask_for_tick(lockstep_place_->caller);
+  } else {
+    lockstep_place_->wake();
+  }
 }
 
 inline const lockstep_detail::PortEntry* TreeNode::lockstep_find_port(StringView port) const {
@@ -84,19 +134,17 @@ inline const lockstep_detail::PortEntry* TreeNode::lockstep_find_port(StringView
 }
 
 inline std::string TreeNode::lockstep_no_port(StringView port) const {
-  if (lockstep_place_ == nullptr)
-    return StrCat("'", lockstep_name_, "' is not in a tree, so it has no ports");
   return StrCat("'", lockstep_registration_name_, "' has no port '", port,
                 "': list it in its providedPorts()");
 }
 
 template <class T>
 Expected<T> TreeNode::getInput(StringView name) const {
+  if (lockstep_place_ == nullptr) return lockstep_read_by_hand<T>(std::string(name));
   const lockstep_detail::PortEntry* const port = lockstep_find_port(name);
   if (port == nullptr) return nonstd::make_unexpected(lockstep_no_port(name));
   if (lockstep_thread_ != nullptr && lockstep::detail::in_worker) {
-    return lockstep_detail::converted<T>(lockstep_thread_->inputs[port->index],
-                                         lockstep_config_.enums.get());
+    return lockstep_detail::converted<T>(lockstep_thread_->inputs[port->index], lockstep_config_);
   }
   if constexpr (lockstep_detail::port_type<T>() != LOCKSTEP_ANY) {
     if (port->info.lockstep_values().type == lockstep_detail::port_type<T>()) {
@@ -132,10 +180,11 @@ Expected<T> TreeNode::lockstep_read_other(const lockstep_detail::PortEntry& port
       T object{};
       if (lockstep_detail::get(place, port.index, object)) return object;
     }
+    lockstep_detail::get_any_object(place, port.index, value);
   } else if (!lockstep_detail::get_any(place, port.index, type, value)) {
     port.info.lockstep_values().get(place, port.index, value);
   }
-  auto cast = value.tryCast<T>();
+  auto cast = lockstep_config_.blackboard->template tryCastWithPolymorphicFallback<T>(&value);
   if (cast) return std::move(*cast);
   return nonstd::make_unexpected(StrCat("port '", port.name, "': ", cast.error()));
 }
@@ -146,7 +195,9 @@ inline Expected<Any> TreeNode::lockstep_read_any(const lockstep_detail::PortEntr
   return lockstep_read_other<Any>(port);
 }
 
+// A node that is in no tree reads and writes the entries of its blackboard, from any thread.
 inline void TreeNode::lockstep_begin_thread() {
+  if (lockstep_place_ == nullptr) return;
   lockstep_thread_ = std::make_unique<LockstepThreadPorts>();
   for (const lockstep_detail::PortEntry& port : lockstep_place_->registration->ports) {
     lockstep_thread_->inputs.push_back(lockstep_read_any(port));
@@ -155,6 +206,7 @@ inline void TreeNode::lockstep_begin_thread() {
 
 inline void TreeNode::lockstep_end_thread() {
   const auto ports = std::move(lockstep_thread_);
+  if (ports == nullptr) return;
   for (const auto& [port, value] : ports->outputs) {
     const lockstep_detail::PortValues& values = port->info.lockstep_values();
     values.set(*lockstep_place_, port->index,
@@ -183,6 +235,15 @@ Expected<T> TreeNode::lockstep_read_default(const lockstep_detail::PortEntry& po
 
 template <class T>
 Result TreeNode::setOutput(StringView name, const T& value) {
+  if (lockstep_place_ == nullptr) {
+    using Held =
+        std::conditional_t<lockstep_detail::is_text_v<std::decay_t<const T>>, std::string, T>;
+    if constexpr (std::is_same_v<T, Any>) {
+      return lockstep_set_by_hand(std::string(name), value, TypeInfo::Create<Any>());
+    } else {
+      return lockstep_set_by_hand(std::string(name), Any(value), TypeInfo::Create<Held>());
+    }
+  }
   const lockstep_detail::PortEntry* const port = lockstep_find_port(name);
   if (port == nullptr) return nonstd::make_unexpected(lockstep_no_port(name));
   if (port->info.direction() == PortDirection::INPUT) {
@@ -214,32 +275,117 @@ Result TreeNode::setOutput(StringView name, const T& value) {
     return nonstd::make_unexpected(
         StrCat("port '", name, "' is bound to no entry; write ", name, "=\"{key}\""));
   }
-  return nonstd::make_unexpected(
-      StrCat("port '", name, "': the entry '", given, "' does not take this value"));
+  throw LogicError("port '", name, "': the entry '", given, "' does not take this value");
 }
 
 template <class T>
 Expected<Timestamp> TreeNode::getInputStamped(StringView name, T& value) const {
+  lockstep_detail::note_opening<T>();
   const auto result = getInput(name, value);
   if (!result) return nonstd::make_unexpected(result.error());
-  return Timestamp{};
+  return lockstep_stamp_of(std::string(name));
 }
 
 template <class T>
 Expected<StampedValue<T>> TreeNode::getInputStamped(StringView name) const {
+  lockstep_detail::note_opening<T>();
   auto value = getInput<T>(name);
   if (!value) return nonstd::make_unexpected(value.error());
-  return StampedValue<T>{std::move(*value), {}};
+  return StampedValue<T>{std::move(*value), lockstep_stamp_of(std::string(name))};
 }
 
-inline AnyPtrLocked TreeNode::getLockedPortContent(const std::string& name) {
-  const lockstep_detail::PortEntry* const port = lockstep_find_port(name);
-  if (port == nullptr) return {};
-  const char* const given = lockstep_place_->node->given(lockstep_place_->caller, port->index);
-  if (given == nullptr || !isBlackboardPointer(given)) return {};
-  return {lockstep_read_any(*port).value_or(Any()), [this, port](const Any& changed) {
-            port->info.lockstep_values().set(*lockstep_place_, port->index, changed);
-          }};
+inline Blackboard::LockstepPort TreeNode::lockstep_entry_of(const std::string& port) const {
+  if (lockstep_place_ != nullptr) {
+    const lockstep_detail::PortEntry* const it = lockstep_find_port(port);
+    if (it == nullptr) return {};
+    return Blackboard::lockstep_of_port(*lockstep_place_, it->index);
+  }
+  std::string given;
+  for (const PortsRemapping* ports :
+       {&lockstep_config_.input_ports, &lockstep_config_.output_ports}) {
+    if (const auto found = ports->find(port); found != ports->end()) given = found->second;
+  }
+  if (const TreeNodeManifest* const it = lockstep_config_.manifest;
+      given.empty() && it != nullptr) {
+    const auto declared = it->ports.find(port);
+    if (declared != it->ports.end()) given = declared->second.defaultValueString();
+  }
+  const auto key = getRemappedKey(port, given);
+  if (!key) return {};
+  return {lockstep_config_.blackboard, std::string(*key)};
+}
+
+inline Timestamp TreeNode::lockstep_stamp_of(const std::string& port) const {
+  const auto it = lockstep_entry_of(port);
+  const auto entry = it.board == nullptr ? nullptr : it.board->lockstep_find(it.key).entry;
+  if (entry == nullptr) return {};
+  const std::lock_guard lock(entry->entry_mutex);
+  return {entry->sequence_id, entry->stamp};
+}
+
+inline AnyPtrLocked TreeNode::lockstep_locked_port(const std::string& port) {
+  const auto it = lockstep_entry_of(port);
+  if (it.board == nullptr) return {};
+  auto found = it.board->lockstep_find(it.key);
+  if (found.entry == nullptr) {
+    it.board->lockstep_create(it.key, {});
+    found = it.board->lockstep_find(it.key);
+  }
+  return Blackboard::lockstep_locked(std::move(found));
+}
+
+template <class T>
+Expected<T> TreeNode::lockstep_read_by_hand(const std::string& port) const {
+  const auto found = lockstep_config_.input_ports.find(port);
+  const std::unordered_map<std::string, int>* const enums = lockstep_config_.enums.get();
+  std::string given;
+  if (found != lockstep_config_.input_ports.end()) {
+    given = found->second;
+  } else {
+    const TreeNodeManifest* const manifest = lockstep_config_.manifest;
+    if (manifest == nullptr || manifest->ports.count(port) == 0) {
+      return nonstd::make_unexpected(StrCat("'", lockstep_name_, "' has no value for the port '",
+                                            port, "': put one into NodeConfig::input_ports"));
+    }
+    const Any& value = manifest->ports.at(port).defaultValue();
+    if (value.empty()) {
+      return nonstd::make_unexpected(StrCat("port '", port, "' has no value and no default"));
+    }
+    if (!value.isString()) return value.tryCast<T>();
+    given = value.cast<std::string>();
+  }
+  const auto key = getRemappedKey(port, given);
+  if (!key) return lockstep_detail::parse_with<T>(given, enums);
+  if (lockstep_config_.blackboard == nullptr) {
+    return nonstd::make_unexpected(
+        StrCat("port '", port, "' names an entry, and the NodeConfig has no blackboard"));
+  }
+  const auto content =
+      Blackboard::lockstep_locked(lockstep_config_.blackboard->lockstep_find(std::string(*key)));
+  if (!content || content.get()->empty()) {
+    return nonstd::make_unexpected(
+        StrCat("port '", port, "' has no value: nothing has written the entry '", given, "'"));
+  }
+  return lockstep_detail::converted<T>(Expected<Any>(*content.get()), lockstep_config_);
+}
+
+inline Result TreeNode::lockstep_set_by_hand(const std::string& port, Any value, TypeInfo type) {
+  const auto found = lockstep_config_.output_ports.find(port);
+  if (lockstep_config_.blackboard == nullptr) {
+    return nonstd::make_unexpected(
+        StrCat("setOutput: the NodeConfig of '", lockstep_name_, "' has no blackboard"));
+  }
+  if (found == lockstep_config_.output_ports.end()) {
+    return nonstd::make_unexpected(StrCat("'", lockstep_name_, "' has no entry for the port '",
+                                          port, "': put one into NodeConfig::output_ports"));
+  }
+  const auto key = getRemappedKey(port, found->second);
+  if (!key) {
+    return nonstd::make_unexpected(
+        StrCat("port '", port, "' is bound to no entry; write ", port, "=\"{key}\""));
+  }
+  lockstep_config_.blackboard->lockstep_set(std::string(*key), std::move(value), std::move(type));
+  return std::monostate{};
 }
 
 inline StringView TreeNode::getRawPortValue(const std::string& port) const {
