@@ -1,8 +1,11 @@
-// The entries of a tree, by name. In a tree they are those of lockstep: a leaf reads and writes
-// them in the thread that ticks it. A Blackboard that a program makes holds its values itself.
+// The entries of a tree, by name: for nodes, also in their constructors, for programs, and for
+// nodes that a program makes by hand. In a tree that runs it is a view of the entries that its
+// scripts and ports have; else it holds them itself. Any thread may use it at any time.
 #pragma once
 
-#include <iterator>
+#include <chrono>
+#include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -13,8 +16,10 @@
 #include <vector>
 
 #include "behaviortree_cpp/basic_types.h"
-#include "behaviortree_cpp/lockstep/opened_entry.h"
+#include "behaviortree_cpp/lockstep/board_link.h"
+#include "behaviortree_cpp/lockstep/opening_mark.h"
 #include "behaviortree_cpp/utils/locked_reference.hpp"
+#include "behaviortree_cpp/utils/polymorphic_cast_registry.hpp"
 
 namespace BT {
 
@@ -24,218 +29,201 @@ struct StampedValue {
   Timestamp stamp;
 };
 
-namespace lockstep_detail {
-
-// Entries of a tree that a program ticks.
-class EntryStore {
- public:
-  virtual ~EntryStore() = default;
-  // False: there is no such entry, or it has no value; it does not take the value.
-  virtual bool get(const std::string& key, Any& value) const = 0;
-  virtual bool set(const std::string& key, const Any& value) = 0;
-};
-
-}  // namespace lockstep_detail
-
-class Blackboard {
+class Blackboard : public lockstep_detail::BoardCasts,
+                   public std::enable_shared_from_this<Blackboard> {
  public:
   using Ptr = std::shared_ptr<Blackboard>;
 
-  // What an entry is when it is asked for.
+  // In a tree that runs, the value is what it was when the entry was asked for, or after the last
+  // tick. What is written to `value` directly is not seen by the tree: getAnyLocked is for that.
   struct Entry {
     explicit Entry(const TypeInfo& type) : info(type), string_converter(type.converter()) {}
+    Entry(const Entry&) = delete;
+    Entry& operator=(const Entry&) = delete;
+
     Any value;
     TypeInfo info;
     StringConverter string_converter;
-    mutable std::mutex entry_mutex;  // a tree is ticked by one thread: nothing to lock
-    std::uint64_t sequence_id = 0;
+    mutable std::mutex entry_mutex;  // of all others
+    std::uint64_t sequence_id = 0;   // how often it was written
     std::chrono::nanoseconds stamp{0};
+
+    std::uint64_t lockstep_writes = 0;  // what the tree has counted
   };
+
+  // What it does not have, it looks for in the parent, as it is told to.
   static Ptr create(Ptr parent = {}) { return Ptr(new Blackboard(std::move(parent))); }
+  virtual ~Blackboard() = default;
   Blackboard(const Blackboard&) = delete;
   Blackboard& operator=(const Blackboard&) = delete;
 
   // Throws when there is no entry, no value, or one of another type.
   template <class T>
-  [[nodiscard]] T get(const std::string& key) const {
-    auto value = lockstep_read<T>(key);
-    if (value) return std::move(*value);
-    const std::string message = "Blackboard::get: " + value.error();
-    if (lockstep_has_value(key)) throw std::runtime_error(message);  // of another type
-    throw RuntimeError(message);
-  }
-  template <class T>
-  Expected<StampedValue<T>> getStamped(const std::string& key) const {
-    auto value = lockstep_read<T>(key);
-    if (!value) return nonstd::make_unexpected(value.error());
-    return StampedValue<T>{std::move(*value), {}};
-  }
-  template <class T>
-  Expected<Timestamp> getStamped(const std::string& key, T& value) const {
-    auto read_value = lockstep_read<T>(key);
-    if (!read_value) return nonstd::make_unexpected(read_value.error());
-    value = std::move(*read_value);
-    return Timestamp{};
-  }
+  [[nodiscard]] T get(const std::string& key) const;
   // False when there is no value; throws when it has another type.
   template <class T>
-  bool get(const std::string& key, T& value) const {
-    if (!lockstep_has_value(key)) return false;
-    value = get<T>(key);
-    return true;
-  }
+  [[nodiscard]] bool get(const std::string& key, T& value) const;
   template <class T>
-  void set(const std::string& key, const T& value) {
-    using Value = std::decay_t<const T>;
-    if (lockstep_place_ != nullptr) {
-      lockstep_detail::OpenedEntry(*lockstep_place_, lockstep_prefix_ + key)
-          .template set<Value>(value);
-    } else if constexpr (std::is_same_v<Value, Any>) {
-      lockstep_keep(key, value);
-    } else {
-      lockstep_keep(key, Any(value));
-    }
+  [[nodiscard]] Expected<StampedValue<T>> getStamped(const std::string& key) const;
+  template <class T>
+  [[nodiscard]] Expected<Timestamp> getStamped(const std::string& key, T& value) const;
+
+  // The first value gives an entry its type, but a text; another type throws, unless it is a number
+  // of that value, or a text that is read as one.
+  template <class T>
+  void set(const std::string& key, const T& value);
+  // An entry without a value. Throws when there is one of another type.
+  template <class Key = std::string>
+  void createEntry(const Key& key, const TypeInfo& type) {
+    lockstep_open<Key>();
+    lockstep_create(key, type);
   }
+  // Removes an entry of this board.
   template <class Key = std::string>
   void unset(const Key& key) {
-    if (lockstep_place_ != nullptr) {
-      lockstep_detail::OpenedEntry(*lockstep_place_, lockstep_prefix_ + key).unset();
-    } else {
-      lockstep_values_.erase(std::string(key));
-    }
+    lockstep_open<Key>();
+    lockstep_unset(key);
   }
 
-  // The value, which may be changed in place; false when there is none.
-  template <class Key = std::string>
-  [[nodiscard]] AnyPtrLocked getAnyLocked(const Key& key) const {
-    Any value;
-    if (lockstep_place_ != nullptr) {
-      const lockstep_detail::OpenedEntry entry(*lockstep_place_, lockstep_prefix_ + key);
-      if (!entry.get(value)) return {};
-      return {std::move(value), [entry](const Any& changed) { entry.set(changed); }};
-    }
-    if (!lockstep_find(key, value)) return {};
-    auto* const self = const_cast<Blackboard*>(this);  // NOLINT: as getAnyLocked promises
-    return {std::move(value),
-            [self, key](const Any& changed) { self->lockstep_keep(key, changed); }};
-  }
-
-  // A copy of it; null: there is no such entry, or it has no value.
+  // Null, false: there is no such entry.
   template <class Key = std::string>
   [[nodiscard]] std::shared_ptr<Entry> getEntry(const Key& key) const {
-    const AnyPtrLocked value = getAnyLocked(key);
-    if (!value) return nullptr;
-    auto entry = std::make_shared<Entry>(TypeInfo::lockstep_of(*value));
-    entry->value = *value;
-    return entry;
+    lockstep_open<Key>();
+    return lockstep_find(key).entry;
   }
-  // The type of the value that it has; null: it has none.
   template <class Key = std::string>
-  [[nodiscard]] const TypeInfo* entryInfo(const Key& key) {
+  [[nodiscard]] const TypeInfo* entryInfo(const Key& key) const {
     const auto entry = getEntry(key);
-    if (entry == nullptr) return nullptr;
-    return &(lockstep_types_[std::string(key)] = entry->info);
+    return entry == nullptr ? nullptr : &entry->info;
+  }
+  template <class Key = std::string>
+  [[nodiscard]] AnyPtrLocked getAnyLocked(const Key& key) const {
+    lockstep_open<Key>();
+    return lockstep_locked(lockstep_find(key));
   }
 
-  // The one of the main tree, and the one outside.
-  Blackboard* rootBlackboard() {
-    return lockstep_place_ != nullptr    ? lockstep_root_.get()
-           : lockstep_parent_ != nullptr ? lockstep_parent_->rootBlackboard()
-                                         : this;
-  }
+  // Which keys are entries of the parent: one of them, or all that begin with no '_'.
+  void addSubtreeRemapping(StringView internal, StringView external);
+  void enableAutoRemapping(bool remapping);
+
+  // Of the main tree, or outside of trees the outermost.
+  Blackboard* rootBlackboard();
   const Blackboard* rootBlackboard() const {
-    return const_cast<Blackboard*>(this)->rootBlackboard();  // NOLINT
+    return const_cast<Blackboard*>(this)->rootBlackboard();  // NOLINT: it is not changed
   }
-  Ptr parent() const { return lockstep_parent_; }
+  Ptr parent() const;
 
-  // The entries of a Blackboard that a program has made.
-  std::vector<StringView> getKeys() const {
-    std::vector<StringView> keys;
-    for (const auto& [key, value] : lockstep_values_) keys.push_back(key);
+  // Of its own entries; valid as long as they are there.
+  template <class Key = StringView>
+  [[nodiscard]] std::vector<Key> getKeys() const {
+    lockstep_open<Key>();
+    std::vector<Key> keys;
+    lockstep_each([&keys](const std::string& key, Entry&) { keys.push_back(Key(key)); });
     return keys;
   }
-  const std::map<std::string, Any>& lockstep_values() const { return lockstep_values_; }
+  template <class Key = std::string>
+  void clear() {
+    for (const Key& key : getKeys<Key>()) lockstep_unset(key);
+  }
+  // Its own entries, with their types; what the other has beside them is removed.
+  template <class Key = std::string>
   void cloneInto(Blackboard& other) const {
-    for (const auto& [key, value] : lockstep_values_) other.lockstep_keep(key, value);
+    lockstep_open<Key>();
+    lockstep_clone_into(other);
   }
+  template <class Key = std::string>
   void debugMessage() const {
-    for (const auto& [key, value] : lockstep_values_) {
-      std::cout << key << " (" << demangle(value.type()) << ")" << std::endl;
-    }
+    lockstep_open<Key>();
+    lockstep_print();
   }
 
-  // For the tree that has it. What was set before becomes values of its entries.
-  void lockstep_attach(const std::shared_ptr<lockstep_detail::EntryStore>& entries) {
-    if (lockstep_parent_ != nullptr) lockstep_parent_->lockstep_attach(entries);
-    lockstep_entries_ = entries;
-    for (auto it = lockstep_values_.begin(); it != lockstep_values_.end();) {
-      it = lockstep_entries_->set(it->first, it->second) ? lockstep_values_.erase(it)
-                                                         : std::next(it);
-    }
-  }
+  // --- for the headers of lockstep ---------------------------------------------------------------
 
-  // For the node that has it.
-  static Ptr lockstep_at(lockstep_detail::Place& place) {
-    auto root = Ptr(new Blackboard({}));
-    root->lockstep_place_ = &place;
-    root->lockstep_prefix_ = "@";
-    auto board = Ptr(new Blackboard({}));
-    board->lockstep_place_ = &place;
-    board->lockstep_root_ = std::move(root);
-    return board;
-  }
+  struct LockstepFound {
+    std::shared_ptr<Entry> entry = nullptr;                            // null: there is none
+    std::shared_ptr<const lockstep_detail::BoardLink> link = nullptr;  // null: no tree has it
+    std::string key = {};                                              // there
+  };
+  LockstepFound lockstep_find(const std::string& key) const;
+  void lockstep_set(const std::string& key, Any value, TypeInfo type);
+  // A value that has its type already, as a script gives it.
+  void lockstep_store(const std::string& key, Any value, const TypeInfo& type);
+  void lockstep_create(const std::string& key, const TypeInfo& type);
+  void lockstep_unset(const std::string& key);
+  static AnyPtrLocked lockstep_locked(LockstepFound found);
+  void lockstep_clone_into(Blackboard& other) const;
+  void lockstep_print() const;
+  // Of its own entries.
+  void lockstep_each(const std::function<void(const std::string& key, Entry& entry)>& visit) const;
+
+  // Its entries become those of a board that runs, which has them already; and its own again.
+  void lockstep_attach(std::shared_ptr<lockstep_detail::BoardFamily> family, std::uint32_t index);
+  void lockstep_detach();
+  bool lockstep_is_attached() const { return lockstep_link() != nullptr; }
+  // Gives the tree what it holds itself, and what its parents hold: before leaves are made.
+  void lockstep_give();
+  // After a tick: entries that somebody has, and those of parents.
+  void lockstep_refresh();
+  // Before a tick: what parents have that is new.
+  void lockstep_take_from_parents();
+  // The one of a node, and of a board of a run.
+  static Ptr lockstep_at(const lockstep_detail::Place& place);
+  static Ptr lockstep_of(const std::shared_ptr<lockstep_detail::BoardFamily>& family,
+                         std::uint32_t index);
+  struct LockstepPort {
+    Ptr board = nullptr;  // null: the port is bound to no entry
+    std::string key = {};
+  };
+  static LockstepPort lockstep_of_port(const lockstep_detail::Place& place, std::uint32_t port);
+  // What an entry is for C++, when the tree knows it only as its own type.
+  void lockstep_declare(const std::string& key, const TypeInfo& type);
 
  private:
-  void lockstep_keep(const std::string& key, Any value) {
-    if (lockstep_entries_ != nullptr && lockstep_entries_->set(key, value)) return;
-    lockstep_values_[key] = std::move(value);
-  }
-
   explicit Blackboard(Ptr parent) : lockstep_parent_(std::move(parent)) {}
 
-  template <class T>
-  Expected<T> lockstep_read(const std::string& key) const {
-    if (lockstep_place_ != nullptr)
-      return lockstep_detail::OpenedEntry(*lockstep_place_, lockstep_prefix_ + key)
-          .template get<T>();
-    Any value;
-    if (!lockstep_find(key, value)) {
-      return nonstd::make_unexpected(StrCat("there is no entry '", key, "'"));
-    }
-    if constexpr (!std::is_same_v<T, std::string> && !std::is_same_v<T, Any>) {
-      if (value.isString()) {
-        const auto text = value.cast<std::string>();
-        Any object;  // of an entry that a tree has: its text is JSON
-        if (lockstep_entries_ != nullptr && lockstep_detail::read_json(typeid(T), text, object)) {
-          return object.tryCast<T>();
-        }
-        return lockstep_detail::parse<T>(text);
-      }
-    }
-    return value.tryCast<T>();
+  class Locked;
+  template <class Use>
+  void lockstep_open() const {
+    lockstep_detail::note_opening<Use>();
+    if (lockstep_is_closed_) lockstep_refuse();
   }
-  template <class Key>
-  bool lockstep_has_value(const Key& key) const {
-    Any value;
-    if (lockstep_place_ != nullptr)
-      return lockstep_detail::OpenedEntry(*lockstep_place_, lockstep_prefix_ + key).has_value();
-    return lockstep_find(key, value);
-  }
-  bool lockstep_find(const std::string& key, Any& value) const {
-    if (lockstep_entries_ != nullptr && lockstep_entries_->get(key, value)) return true;
-    const auto found = lockstep_values_.find(key);
-    if (found == lockstep_values_.end())
-      return lockstep_parent_ != nullptr && lockstep_parent_->lockstep_find(key, value);
-    value = found->second;
-    return true;
-  }
+  [[noreturn]] void lockstep_refuse() const;
 
-  Ptr lockstep_parent_, lockstep_root_;
-  std::string lockstep_prefix_;
-  lockstep_detail::Place* lockstep_place_ = nullptr;
-  std::shared_ptr<lockstep_detail::EntryStore> lockstep_entries_;
-  std::map<std::string, Any> lockstep_values_;
-  std::map<std::string, TypeInfo> lockstep_types_;  // that entryInfo has given
+  std::shared_ptr<const lockstep_detail::BoardLink> lockstep_link() const {
+    const std::lock_guard lock(lockstep_mutex_);
+    return lockstep_link_;
+  }
+  std::shared_ptr<Entry> lockstep_own(const std::string& key) const;
+  std::shared_ptr<Entry> lockstep_keep(const std::string& key, const TypeInfo& type) const;
+  std::shared_ptr<Entry> lockstep_pull(const lockstep_detail::BoardLink& link,
+                                       const std::string& key) const;
+  static void lockstep_push(const LockstepFound& found);
+  static void lockstep_assign(const LockstepFound& found, Any value, const TypeInfo& type,
+                              bool is_new);
+  // Where a key that is not its own is made.
+  void lockstep_give_to_parents(const lockstep_detail::BoardLink& link);
+  void lockstep_take(const std::string& key, LockstepFound found);
+  LockstepFound lockstep_make(const std::string& key, const TypeInfo& type);
+  std::string lockstep_remapped(const std::string& key) const;
+  std::vector<std::pair<std::string, std::shared_ptr<Entry>>> lockstep_list() const;
+
+  mutable std::mutex lockstep_mutex_;  // of all that follows; nothing is called under it
+  mutable std::map<std::string, std::shared_ptr<Entry>, std::less<>> lockstep_entries_;
+  std::shared_ptr<const lockstep_detail::BoardLink> lockstep_link_;  // null: no tree has it
+  const Ptr lockstep_parent_;
+  Ptr lockstep_root_;  // of the board of a SubTree, so that it stays
+  std::map<std::string, std::string, std::less<>> lockstep_remaps_;
+  bool lockstep_remaps_all_ = false;
+  bool lockstep_is_closed_ = false;  // of a node that may not open entries
+
+  // Of the main tree: what its parents have, and how often it was written when it was exchanged.
+  struct FromParent {
+    LockstepFound outside = {};  // no entry: it is the tree's own
+    std::uint64_t theirs = 0, ours = 0;
+  };
+  std::map<std::string, FromParent> lockstep_from_parents_;  // by the thread that ticks
 };
 
 }  // namespace BT
+
+#include "behaviortree_cpp/lockstep/blackboard_functions.h"  // IWYU pragma: export

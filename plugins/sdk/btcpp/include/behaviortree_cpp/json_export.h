@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "behaviortree_cpp/basic_types.h"
+#include "behaviortree_cpp/blackboard.h"
 #include "behaviortree_cpp/contrib/json.hpp"
 
 namespace BT {
@@ -30,8 +30,12 @@ class JsonExporter {
     if (text) json = nlohmann::json::parse(text->substr(5));
     return text.has_value();
   }
-  // An object as one of the type that its "__type" names.
+  // A number, a flag or a text; an object as one of the type that its "__type" names.
   ExpectedEntry fromJson(const nlohmann::json& json) const {
+    if (json.is_boolean()) return entry_of(json.get<bool>());
+    if (json.is_number_integer()) return entry_of(json.get<std::int64_t>());
+    if (json.is_number_float()) return entry_of(json.get<double>());
+    if (json.is_string()) return entry_of(json.get<std::string>());
     const nlohmann::json& first = json.is_array() && !json.empty() ? json.front() : json;
     const auto type = first.is_object() ? first.find("__type") : first.end();
     if (type == first.end() || !type->is_string()) {
@@ -80,6 +84,11 @@ class JsonExporter {
   }
 
  private:
+  template <class T>
+  static Entry entry_of(const T& value) {
+    return {Any(value), TypeInfo::Create<T>()};
+  }
+
   JsonExporter() {
     addConverter<std::vector<double>>();
     addConverter<std::vector<int>>();
@@ -153,6 +162,57 @@ class JsonExporter {
 template <class T>
 void RegisterJsonDefinition() {
   JsonExporter::get().addConverter<T>();
+}
+
+// The entries of a board with values that have a text in JSON, by their keys.
+template <class Board>
+[[nodiscard]] nlohmann::json ExportBlackboardToJSON(const Board& blackboard) {
+  nlohmann::json all = nlohmann::json::object();
+  for (const std::string& key : blackboard.template getKeys<std::string>()) {
+    const auto content = std::as_const(blackboard).getAnyLocked(key);
+    const Any* const value = std::as_const(content).get();
+    if (value == nullptr || value->empty()) continue;
+    nlohmann::json json;
+    if (value->isType<bool>()) {
+      all[key] = value->cast<bool>();
+    } else if (JsonExporter::get().toJson(*value, json)) {
+      all[key] = std::move(json);
+    }
+  }
+  return all;
+}
+// Sets the entries that it names; one that is not there is made, of the type that the JSON has.
+template <class Board>
+void ImportBlackboardFromJSON(const nlohmann::json& json, Board& blackboard) {
+  for (const auto& [key, value] : json.items()) {
+    if (const auto entry = JsonExporter::get().fromJson(value)) {
+      lockstep_detail::note_opening<Board>();
+      blackboard.lockstep_store(key, entry->first, entry->second);
+    }
+  }
+}
+
+// The same of all boards of a BT::Tree, by the names of its subtrees.
+template <class AnyTree>
+[[nodiscard]] nlohmann::json ExportTreeToJSON(const AnyTree& tree) {
+  nlohmann::json all;
+  for (const auto& subtree : tree.subtrees) {
+    all[subtree->instance_name.empty() ? subtree->tree_ID : subtree->instance_name] =
+        ExportBlackboardToJSON(*subtree->blackboard);
+  }
+  return all;
+}
+// Throws when it is of a tree with other boards.
+template <class AnyTree>
+void ImportTreeFromJSON(const nlohmann::json& json, AnyTree& tree) {
+  for (const auto& subtree : tree.subtrees) {
+    const std::string& name =
+        subtree->instance_name.empty() ? subtree->tree_ID : subtree->instance_name;
+    if (!json.contains(name)) {
+      throw LogicError("ImportTreeFromJSON: the JSON has no board of '", name, "'");
+    }
+    ImportBlackboardFromJSON(json.at(name), *subtree->blackboard);
+  }
 }
 
 }  // namespace BT

@@ -92,6 +92,45 @@ class expected {
   std::variant<T, Error> it_;
 };
 
+// Equal: both have equal values, or both have equal errors; a value is equal to one that is there.
+template <class T, class U, class Error>
+constexpr bool operator==(const expected<T, Error>& a, const expected<U, Error>& b) {
+  if (a.has_value() != b.has_value()) return false;
+  return a.has_value() ? *a == *b : a.error() == b.error();
+}
+template <class T, class U, class Error>
+constexpr bool operator!=(const expected<T, Error>& a, const expected<U, Error>& b) {
+  return !(a == b);
+}
+template <class T, class Error, class U,
+          class = decltype(static_cast<bool>(std::declval<const T&>() == std::declval<const U&>()))>
+constexpr bool operator==(const expected<T, Error>& a, const U& value) {
+  return a.has_value() && *a == value;
+}
+template <class T, class Error, class U,
+          class = decltype(static_cast<bool>(std::declval<const T&>() == std::declval<const U&>()))>
+constexpr bool operator==(const U& value, const expected<T, Error>& a) {
+  return a == value;
+}
+template <class T, class Error, class U,
+          class = decltype(static_cast<bool>(std::declval<const T&>() == std::declval<const U&>()))>
+constexpr bool operator!=(const expected<T, Error>& a, const U& value) {
+  return !(a == value);
+}
+template <class T, class Error, class U,
+          class = decltype(static_cast<bool>(std::declval<const T&>() == std::declval<const U&>()))>
+constexpr bool operator!=(const U& value, const expected<T, Error>& a) {
+  return !(a == value);
+}
+template <class T, class Error, class Other>
+constexpr bool operator==(const expected<T, Error>& a, const unexpected_type<Other>& error) {
+  return !a.has_value() && a.error() == error.error();
+}
+template <class T, class Error, class Other>
+constexpr bool operator!=(const expected<T, Error>& a, const unexpected_type<Other>& error) {
+  return !(a == error);
+}
+
 // Success, or why there is none.
 template <class Error>
 class expected<void, Error> {

@@ -4,6 +4,7 @@
 #include <lockstep/leaf.h>
 #include <lockstep/cpp/port_traits.hpp>
 
+#include <atomic>
 #include <cstdint>
 #include <cstdio>
 #include <string>
@@ -17,7 +18,7 @@ namespace BT::lockstep_detail {
 
 // As it is written. Where the contract does not take that as a name, what replaces it is made
 // unique by a number.
-inline std::string object_name(const std::type_info& type) {
+inline std::string object_name(std::type_index type) {
   std::string name = readable(type);
   bool is_plain = name.size() <= 100;
   std::uint64_t hash = 14695981039346656037u;  // FNV-1a
@@ -45,6 +46,9 @@ inline std::string object_name(const std::type_info& type) {
 [[gnu::visibility("hidden")]] inline const char* why_no_object() {
   return reason().empty() ? nullptr : reason().c_str();
 }
+
+template <class T>
+TypeInfo type_info_of();  // lockstep/ports.h has it
 
 template <class T>
 struct ObjectCalls {
@@ -96,14 +100,25 @@ struct ObjectCalls {
   }
 };
 
-// The types of objects that this shared object knows.
+// Whether a cast from the type of that name is registered: by the plugin, or the program that makes
+// a tree now.
+[[gnu::visibility("hidden")]] bool reads_object(std::type_index type, const char* name);
+
+// The types of objects that this shared object knows: a list that only grows, from any thread.
 struct KnownObject {
   const lockstep_object_type* type;
-  Any (*value)(const void* object);
+  Any (*value)(const void* object);  // shared, not copied
+  TypeInfo (*info)();
+  const KnownObject* next;
 };
-[[gnu::visibility("hidden")]] inline std::vector<KnownObject>& known_objects() {
-  static std::vector<KnownObject> all;
-  return all;
+[[gnu::visibility("hidden")]] inline std::atomic<const KnownObject*>& first_known_object() {
+  static std::atomic<const KnownObject*> first = nullptr;
+  return first;
+}
+inline void know_object(KnownObject& it) {
+  it.next = first_known_object().load();
+  while (!first_known_object().compare_exchange_weak(it.next, &it)) {
+  }
 }
 
 // Made when it is first asked for: when the plugin has registered its types for JSON.
@@ -119,6 +134,9 @@ const lockstep_object_type* object_type() {
     type.release = Calls::Common::release;
     type.from_text = Calls::from_text;
     type.why_no_object = why_no_object;
+    if constexpr (is_shared_pointer_v<T>) {
+      type.reads = [](const char* from) { return reads_object(typeid(T), from); };
+    }
     const JsonFunctions* const json = find_json(typeid(T));
     if (json != nullptr && json->write) type.to_text = Calls::to_text;
     if (json != nullptr && json->write && json->read) {
@@ -127,13 +145,15 @@ const lockstep_object_type* object_type() {
     }
     return type;
   }();
-  static const bool is_known = [] {
-    known_objects().push_back({&table, [](const void* object) {
-                                 using Holder = typename ObjectCalls<T>::Holder;
-                                 return Any(*static_cast<const Holder*>(object)->value);
-                               }});
-    return true;
-  }();
+  static KnownObject known{
+      &table,
+      [](const void* object) {
+        using Holder = typename ObjectCalls<T>::Holder;
+        const auto& value = static_cast<const Holder*>(object)->value;
+        return Any::lockstep_share(std::const_pointer_cast<T>(value));  // a copy of it is changed
+      },
+      type_info_of<T>, nullptr};
+  static const bool is_known = (know_object(known), true);
   static_cast<void>(is_known);
   return &table;
 }

@@ -6,6 +6,7 @@
 #include <lockstep/cpp/caller.hpp>
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -24,6 +25,11 @@ struct Place {
   bool is_in_tick() const {
     const pthread_t thread = ticking.load(std::memory_order_relaxed);
     return thread != 0 && thread == pthread_self();
+  }
+  // The tree is ticked at once; from any thread. An older host cannot do that.
+  void wake() const {
+    constexpr std::size_t kSize = offsetof(lockstep_place, wake) + sizeof(lockstep_place::wake);
+    if (node != nullptr && node->struct_size >= kSize) node->wake(caller);
   }
 };
 

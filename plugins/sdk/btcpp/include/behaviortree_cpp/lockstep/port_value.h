@@ -206,10 +206,10 @@ Expected<T> parse_with(StringView text, const std::unordered_map<std::string, in
 
 // An object of a type that this shared object knows.
 inline bool get_any_object(const Place& place, std::uint32_t port, Any& value) {
-  for (const KnownObject& known : known_objects()) {
+  for (const auto* known = first_known_object().load(); known != nullptr; known = known->next) {
     void* object = nullptr;
-    if (!place.node->get_object(place.caller, port, known.type, &object)) continue;
-    value = known.value(object);
+    if (!place.node->get_object(place.caller, port, known->type, &object)) continue;
+    value = known->value(object);
     return true;
   }
   return false;

@@ -46,6 +46,13 @@ class TypeInfo {
   const lockstep_detail::PortValues* values_ = &lockstep_detail::PortValue<AnyTypeAllowed>::kTable;
 };
 
+namespace lockstep_detail {
+template <class T>
+TypeInfo type_info_of() {
+  return TypeInfo::Create<T>();
+}
+}  // namespace lockstep_detail
+
 class PortInfo : public TypeInfo {
  public:
   explicit PortInfo(PortDirection direction = PortDirection::INOUT) : direction_(direction) {}

@@ -1,4 +1,4 @@
-// Not in lockstep: the compiler says so.
+// What the library's parser of scripts is made of; nothing of it is for users.
 #pragma once
 
-#error "lockstep gives scripts to no C++ code: write a Script node or _skipIf in the tree, 'lockstep check' reads it"
+#include "behaviortree_cpp/scripting/script_parser.hpp"  // IWYU pragma: export

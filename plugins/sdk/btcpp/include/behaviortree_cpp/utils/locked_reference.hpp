@@ -1,8 +1,11 @@
-// A value of an entry, to be read and changed in place. What was changed is written when this goes.
+// A value of an entry, to be read and changed in place. Nobody else uses it as long as this is
+// there.
 #pragma once
 
 #include <functional>
+#include <mutex>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 #include "behaviortree_cpp/utils/safe_any.hpp"
@@ -10,67 +13,67 @@
 namespace BT {
 
 template <class T>
-class LockedPtr;
-
-template <>
-class LockedPtr<Any> {
+class LockedPtr {
  public:
-  using Write = std::function<void(const Any&)>;
+  // Called when it ends; true: the value may have changed.
+  using Finish = std::function<void(bool may_have_changed)>;
 
   LockedPtr() = default;
-  LockedPtr(Any value, Write write)
-      : value_(std::move(value)), write_(std::move(write)), is_there_(true) {}
+  LockedPtr(T* value, std::mutex* mutex) : value_(value), mutex_(mutex) { mutex_->lock(); }
+  // What is locked already; `finish` unlocks it.
+  LockedPtr(T* value, Finish finish) : value_(value), finish_(std::move(finish)) {}
   LockedPtr(LockedPtr&& other) noexcept { *this = std::move(other); }
   LockedPtr& operator=(LockedPtr&& other) noexcept {
-    finish();
-    value_ = std::move(other.value_);
-    write_ = std::exchange(other.write_, nullptr);
-    is_there_ = std::exchange(other.is_there_, false);
-    may_have_changed_ = std::exchange(other.may_have_changed_, false);
+    std::swap(value_, other.value_);
+    std::swap(mutex_, other.mutex_);
+    std::swap(finish_, other.finish_);
+    std::swap(may_have_changed_, other.may_have_changed_);
     return *this;
   }
-  ~LockedPtr() { finish(); }
+  ~LockedPtr() {
+    if (mutex_ != nullptr) mutex_->unlock();
+    if (finish_) finish_(may_have_changed_);
+  }
 
   // False: there is no such entry.
-  operator bool() const { return is_there_; }  // NOLINT: as in the library
+  operator bool() const { return value_ != nullptr; }  // NOLINT: as in the library
 
-  const Any* get() const { return is_there_ ? &value_ : nullptr; }
-  Any* get() {
-    may_have_changed_ = is_there_;
-    return is_there_ ? &value_ : nullptr;
+  const T* get() const { return value_; }
+  T* get() {
+    may_have_changed_ = true;
+    return value_;
   }
-  const Any* operator->() const { return get(); }
-  Any* operator->() { return get(); }
-  const Any& operator*() const { return value_; }
+  const T* operator->() const { return value_; }
+  T* operator->() { return get(); }
+  const T& operator*() const { return *value_; }
+  T& operator*() { return *get(); }
 
-  // The ticks of a tree are in one thread, so there is nothing to lock.
-  void lock() {}
-  void unlock() {}
+  void lock() {
+    if (mutex_ != nullptr) mutex_->lock();
+  }
+  void unlock() {
+    if (mutex_ != nullptr) mutex_->unlock();
+  }
 
+  // Of an Any: as it has the value inside.
   template <class Value>
   void assign(const Value& value) {
-    if (!is_there_) throw std::runtime_error("LockedPtr::assign: there is no such entry");
-    if constexpr (std::is_same_v<Value, Any>) {
-      value_ = value;
+    if (value_ == nullptr) throw std::runtime_error("LockedPtr::assign: there is no such entry");
+    may_have_changed_ = true;
+    if constexpr (!std::is_same_v<T, Any> || std::is_same_v<Value, Any>) {
+      *value_ = value;
+    } else if (value_->empty()) {
+      *value_ = Any(value);
     } else {
-      value_ = Any(value);
+      Any(value).copyInto(*value_);
     }
-    may_have_changed_ = is_there_;
   }
 
  private:
-  void finish() noexcept {
-    if (!may_have_changed_ || !write_) return;
-    try {
-      if (!value_.empty()) write_(value_);
-    } catch (...) {  // NOLINT(bugprone-empty-catch): the entry stays as it was
-    }
-    may_have_changed_ = false;
-  }
-
-  Any value_;
-  Write write_;
-  bool is_there_ = false, may_have_changed_ = false;
+  T* value_ = nullptr;
+  std::mutex* mutex_ = nullptr;
+  Finish finish_;
+  bool may_have_changed_ = false;
 };
 
 using AnyPtrLocked = LockedPtr<Any>;

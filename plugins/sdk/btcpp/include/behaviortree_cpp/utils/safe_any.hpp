@@ -21,9 +21,15 @@
 
 namespace BT {
 
+class PolymorphicCastRegistry;
+
 namespace lockstep_detail {
 
 struct Place;
+struct EntryValue;
+// An object as a value of an entry; lockstep/entry_value.h has it.
+template <class T>
+void describe_object(const std::shared_ptr<void>& value, EntryValue& described);
 // An object into a port of any type; lockstep/port_value.h has it.
 template <class T>
 bool store_object(const Place& place, std::uint32_t port, const void* value);
@@ -32,6 +38,11 @@ template <class T>
 inline constexpr bool is_text_v =
     std::is_same_v<T, std::string> || std::is_same_v<T, std::string_view> ||
     std::is_same_v<T, const char*> || std::is_same_v<T, char*>;
+
+template <class T>
+inline constexpr bool is_shared_pointer_v = false;
+template <class T>
+inline constexpr bool is_shared_pointer_v<std::shared_ptr<T>> = true;
 
 // A number as one of another type; false: it is not exactly one.
 template <class To, class From>
@@ -133,6 +144,11 @@ class Any {
                          lockstep_detail::readable(typeid(T))));
   }
 
+  // The same; of a std::shared_ptr also one to a base or a derived class that is registered.
+  template <class T>
+  nonstd::expected<T, std::string> tryCastWithRegistry(
+      const PolymorphicCastRegistry& registry) const;
+
   template <class T>
   T cast() const {
     auto value = tryCast<T>();
@@ -171,6 +187,21 @@ class Any {
     return object != nullptr && object->ops->store(place, port, object->value.get());
   }
 
+  // For entries: false when it is no object.
+  bool lockstep_describe(lockstep_detail::EntryValue& described) const {
+    const auto* const object = std::get_if<Object>(&it_);
+    if (object != nullptr) object->ops->describe(object->value, described);
+    return object != nullptr;
+  }
+  // An object that is not copied: it has other owners.
+  template <class T>
+  static Any lockstep_share(std::shared_ptr<T> value) {
+    Any any;
+    any.type_ = typeid(T);
+    any.it_ = Object{std::move(value), &kOperations<T>};
+    return any;
+  }
+
   // The value as one of the type that `other` has. Throws when it is none.
   void copyInto(Any& other) const {
     if (other.empty() || castedType() == other.castedType()) {
@@ -196,13 +227,15 @@ class Any {
     const std::type_info& type;
     std::shared_ptr<void> (*clone)(const void*);
     bool (*store)(const lockstep_detail::Place& place, std::uint32_t port, const void* value);
+    void (*describe)(const std::shared_ptr<void>& value, lockstep_detail::EntryValue& described);
   };
   template <class T>
   static std::shared_ptr<void> clone(const void* value) {
     return std::make_shared<T>(*static_cast<const T*>(value));
   }
   template <class T>
-  inline static const Operations kOperations{typeid(T), clone<T>, lockstep_detail::store_object<T>};
+  inline static const Operations kOperations{typeid(T), clone<T>, lockstep_detail::store_object<T>,
+                                             lockstep_detail::describe_object<T>};
 
   struct Object {
     std::shared_ptr<void> value;

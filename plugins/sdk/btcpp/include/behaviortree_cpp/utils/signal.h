@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -17,19 +18,31 @@ class Signal {
 
   Subscriber subscribe(CallableFunction function) {
     auto subscriber = std::make_shared<CallableFunction>(std::move(function));
+    const std::lock_guard<std::mutex> lock(mutex_);
     subscribers_.emplace_back(subscriber);
     return subscriber;
   }
+  // From any thread. What is called may subscribe others.
   void notify(Arguments... arguments) {
-    for (std::size_t i = 0; i < subscribers_.size(); ++i) {  // one may subscribe another
-      if (const Subscriber it = subscribers_[i].lock()) (*it)(arguments...);
-    }
-    subscribers_.erase(std::remove_if(subscribers_.begin(), subscribers_.end(),
-                                      [](const auto& it) { return it.expired(); }),
-                       subscribers_.end());
+    for (const Subscriber& it : living()) (*it)(arguments...);
   }
 
  private:
+  std::vector<Subscriber> living() {
+    std::vector<Subscriber> all;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    subscribers_.erase(std::remove_if(subscribers_.begin(), subscribers_.end(),
+                                      [&all](const auto& it) {
+                                        Subscriber living = it.lock();
+                                        if (living == nullptr) return true;
+                                        all.push_back(std::move(living));
+                                        return false;
+                                      }),
+                       subscribers_.end());
+    return all;
+  }
+
+  std::mutex mutex_;
   std::vector<std::weak_ptr<CallableFunction>> subscribers_;
 };
 
