@@ -1,22 +1,27 @@
 // Registers the nodes of a plugin.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <unordered_map>
 #include <utility>
 
 #include "behaviortree_cpp/behavior_tree.h"
-#include "behaviortree_cpp/lockstep/documents.h"
 #include "behaviortree_cpp/lockstep/enum_names.h"
 #include "behaviortree_cpp/lockstep/node_ids.h"
 #include "behaviortree_cpp/lockstep/plugin_table.h"
 #if __has_include(<lockstep/runtime.h>)
+#include "behaviortree_cpp/lockstep/document_check.h"
+#include "behaviortree_cpp/lockstep/documents.h"
+#include "behaviortree_cpp/lockstep/outline.h"
 #include "behaviortree_cpp/lockstep/program.h"
 #endif
+#include "behaviortree_cpp/lockstep/visiting.h"  // IWYU pragma: export
 
 namespace BT {
 
@@ -76,6 +81,7 @@ class BehaviorTreeFactory {
     if (builtinNodes().count(manifest.registration_ID) != 0) {
       throw BehaviorTreeException("ID [", manifest.registration_ID, "] is that of a built-in node");
     }
+    for (const auto& [name, port] : manifest.ports) lockstep_detail::check_port_name(name);
     lockstep_plugin_->add(manifest, builder);
   }
   template <class T>
@@ -113,47 +119,98 @@ class BehaviorTreeFactory {
   lockstep_detail::PluginTable& lockstep_table() { return *lockstep_plugin_; }
 
 #if __has_include(<lockstep/runtime.h>)
-  // In a program that ticks trees itself. All throw when the tree has errors.
+  // In a program that ticks trees itself. All throw when a tree has errors.
   void registerFromPlugin(const std::string& file) {
+    if (file.find('/') != std::string::npos && !std::filesystem::exists(file)) {
+      throw RuntimeError("the plugin '", file, "' is not there");
+    }
     lockstep_plugins_.push_back(file);
   }
-  Tree createTreeFromText(const std::string& text,
-                          Blackboard::Ptr blackboard = Blackboard::create()) {
-    return lockstep_make({lockstep_plugin_, lockstep_plugins_, lockstep_documents_.text(text), "",
-                          lockstep_detail::Documents::main_of(text)},
-                         std::move(blackboard));
-  }
-  Tree createTreeFromFile(const std::string& file,
-                          Blackboard::Ptr blackboard = Blackboard::create()) {
-    if (lockstep_documents_.tree_ids().empty()) {
-      return lockstep_make({lockstep_plugin_, lockstep_plugins_, "", file, ""},
-                           std::move(blackboard));
-    }
+  [[nodiscard]] Tree createTreeFromText(const std::string& text,
+                                        Blackboard::Ptr blackboard = Blackboard::create()) {
     lockstep_detail::Documents all = lockstep_documents_;
-    const std::string main = lockstep_detail::Documents::main_of(all.add_file(file));
-    return lockstep_make({lockstep_plugin_, lockstep_plugins_, all.text(), "", main},
-                         std::move(blackboard));
+    const std::string main = all.add_text(text, lockstep_check());
+    return lockstep_make_and_keep(std::move(all), main, std::move(blackboard));
+  }
+  [[nodiscard]] Tree createTreeFromFile(const std::filesystem::path& file,
+                                        Blackboard::Ptr blackboard = Blackboard::create()) {
+    lockstep_detail::Documents all = lockstep_documents_;
+    const std::string main = all.add_file(file, lockstep_check());
+    return lockstep_make_and_keep(std::move(all), main, std::move(blackboard));
   }
   // A tree of what was registered; a later tree of the same ID replaces an earlier one.
-  void registerBehaviorTreeFromFile(const std::string& file) {
-    lockstep_documents_.add_file(file);
+  void registerBehaviorTreeFromFile(const std::filesystem::path& file) {
+    lockstep_documents_.add_file(file, lockstep_check());
   }
   void registerBehaviorTreeFromText(const std::string& text) {
-    lockstep_documents_.add_text(text);
+    lockstep_documents_.add_text(text, lockstep_check());
   }
-  std::vector<std::string> registeredBehaviorTrees() const {
+  [[nodiscard]] std::vector<std::string> registeredBehaviorTrees() const {
     return lockstep_documents_.tree_ids();
   }
   void clearRegisteredBehaviorTrees() {
     lockstep_documents_ = {};
   }
-  Tree createTree(const std::string& tree, Blackboard::Ptr blackboard = Blackboard::create()) {
-    return lockstep_make(
-        {lockstep_plugin_, lockstep_plugins_, lockstep_documents_.text(), "", tree},
-        std::move(blackboard));
+  [[nodiscard]] Tree createTree(const std::string& tree,
+                                Blackboard::Ptr blackboard = Blackboard::create()) {
+    if (lockstep_documents_.set().trees.count(tree) == 0) {
+      throw std::runtime_error(StrCat(
+          "no tree '", tree, "' is registered: registerBehaviorTreeFromFile() and -Text() do it"));
+    }
+    return lockstep_make(lockstep_documents_, tree, std::move(blackboard));
+  }
+
+  // What takes the place of nodes in trees that are made from now on: `filter` is the name of a
+  // node, its ID, or a pattern of its path, with * and ?. A rule is the ID of a registered node, or
+  // what a TestNode does.
+  using SubstitutionRule = lockstep_detail::SubstitutionRule;
+  void addSubstitutionRule(StringView filter, SubstitutionRule rule) {
+    lockstep_rules_[std::string(filter)] = std::move(rule);
+  }
+  // Adds those of {"TestNodeConfigs": {…}, "SubstitutionRules": {…}}.
+  void loadSubstitutionRuleFromJSON(const std::string& text) {
+    for (auto& [filter, rule] : lockstep_detail::rules_from_json(text)) {
+      lockstep_rules_[filter] = rule;
+    }
+  }
+  void clearSubstitutionRules() {
+    lockstep_rules_.clear();
+  }
+  [[nodiscard]] const std::unordered_map<std::string, SubstitutionRule>& substitutionRules() const {
+    return lockstep_rules_;
+  }
+
+  // For an XMLParser: what refuses a document, and a tree of documents.
+  lockstep_detail::Documents::Check lockstep_check() const {
+    return lockstep_detail::DocumentCheck(
+        [table = lockstep_plugin_](const std::string& id) {
+          const TreeNodeManifest* const manifest = table->manifest(id);
+          return manifest == nullptr ? NodeType::UNDEFINED : manifest->type;
+        },
+        lockstep_plugins_.empty());
+  }
+  Tree lockstep_make(const lockstep_detail::Documents& documents, const std::string& main,
+                     Blackboard::Ptr blackboard) const {
+    auto loaded = documents.loaded(main);
+    auto& table = *lockstep_plugin_;
+    auto outline =
+        lockstep_detail::OutlineMaker(documents.set(), lockstep_rules_, table.manifests())
+            .make(main);
+    if (outline != nullptr) {
+      lockstep_detail::check_constants(*outline, table.manifests(), *table.words());
+      if (!outline->text.empty()) loaded = {outline->text, "", main};
+      if (!outline->tests.empty()) lockstep_add_test_node();
+    }
+    if (blackboard == nullptr || blackboard->lockstep_is_attached()) {
+      blackboard = Blackboard::create(std::move(blackboard));  // another tree has it: a parent
+      blackboard->enableAutoRemapping(true);
+    }
+    return Tree(std::make_shared<lockstep_detail::Program>(lockstep_detail::Program::Source{
+        lockstep_plugin_, lockstep_plugins_, std::move(loaded.text), std::move(loaded.file),
+        std::move(loaded.main_tree), std::move(blackboard), std::move(outline)}));
   }
 #endif
-  // What is registered, without the nodes that every tree has.
+  // What is registered, and the nodes that every tree has.
   const std::unordered_map<std::string, TreeNodeManifest>& manifests() const {
     return lockstep_plugin_->manifests();
   }
@@ -171,7 +228,8 @@ class BehaviorTreeFactory {
   void addMetadataToManifest(const std::string& node_ID, const KeyValueVector& metadata) {
     const auto found = lockstep_plugin_->manifests().find(node_ID);
     if (found == lockstep_plugin_->manifests().end()) {
-      throw RuntimeError("addMetadataToManifest: ID [", node_ID, "] is not registered");
+      throw std::runtime_error(
+          StrCat("addMetadataToManifest: ID [", node_ID, "] is not registered"));
     }
     found->second.metadata = metadata;
   }
@@ -186,24 +244,22 @@ class BehaviorTreeFactory {
     return node;
   }
 
+  // Ports of std::shared_ptr<Base> read entries of std::shared_ptr<Derived>; those of Derived read
+  // entries of Base that point to a Derived.
   template <class Derived, class Base>
   void registerPolymorphicCast() {
-    static_assert(sizeof(Derived) == 0,
-                  "lockstep has no polymorphic casts: give the port the type of the base, "
-                  "std::shared_ptr<Base>");
+    lockstep_detail::object_type<std::shared_ptr<Derived>>();
+    lockstep_detail::object_type<std::shared_ptr<Base>>();
+    polymorphicCastRegistry().registerCast<Derived, Base>();
   }
-  template <class Text>
-  void loadSubstitutionRuleFromJSON(const Text&) {
-    static_assert(sizeof(Text) == 0,
-                  "lockstep has no substitution rules: 'lockstep run --mock-leaf ID=failure' "
-                  "replaces a leaf for a test");
+  [[nodiscard]] PolymorphicCastRegistry& polymorphicCastRegistry() {
+    return *lockstep_plugin_->casts();
   }
-  void clearSubstitutionRules() {}
-  template <class Filter, class Rule>
-  void addSubstitutionRule(const Filter&, const Rule&) {
-    static_assert(sizeof(Rule) == 0,
-                  "lockstep has no substitution rules: 'lockstep run --mock-leaf ID=failure' "
-                  "replaces a leaf for a test");
+  [[nodiscard]] const PolymorphicCastRegistry& polymorphicCastRegistry() const {
+    return *lockstep_plugin_->casts();
+  }
+  [[nodiscard]] std::shared_ptr<PolymorphicCastRegistry> polymorphicCastRegistryPtr() const {
+    return lockstep_plugin_->casts();
   }
 
  private:
@@ -227,15 +283,40 @@ class BehaviorTreeFactory {
   }
 
 #if __has_include(<lockstep/runtime.h>)
-  static Tree lockstep_make(lockstep_detail::Program::Source source, Blackboard::Ptr blackboard) {
-    return {std::make_shared<lockstep_detail::Program>(std::move(source)), std::move(blackboard)};
+  // The trees of the document are registered from now on, as those of the library are; one without
+  // an ID can only be made here.
+  Tree lockstep_make_and_keep(lockstep_detail::Documents documents, const std::string& main,
+                              Blackboard::Ptr blackboard) {
+    Tree tree = lockstep_make(documents, main, std::move(blackboard));
+    if (!documents.has_unnamed()) lockstep_documents_ = std::move(documents);
+    return tree;
+  }
+  // The leaf that trees have where a rule has put a TestNode.
+  void lockstep_add_test_node() const {
+    TreeNodeManifest manifest;
+    manifest.type = NodeType::ACTION;
+    manifest.registration_ID = lockstep_detail::kTestNodeId;
+    manifest.ports = {InputPort<Any>(TestNode::kLockstepPort)};
+    lockstep_plugin_->add_unlisted(
+        manifest,
+        [table = lockstep_plugin_.get()](const std::string& name, const NodeConfig& config) {
+          const auto test = table->tests.find(config.path);
+          if (test == table->tests.end()) {
+            throw LogicError("'", name, "' stands for a TestNode, but no rule is for '",
+                             config.path, "'");
+          }
+          return std::make_unique<TestNode>(name, config, test->second);
+        });
   }
 #endif
 
   std::shared_ptr<lockstep_detail::PluginTable> lockstep_plugin_ =
       std::make_shared<lockstep_detail::PluginTable>();
   std::vector<std::string> lockstep_plugins_;
+#if __has_include(<lockstep/runtime.h>)
   lockstep_detail::Documents lockstep_documents_;  // of createTree
+  lockstep_detail::SubstitutionRules lockstep_rules_;
+#endif
 };
 
 }  // namespace BT

@@ -13,6 +13,7 @@ namespace BT::lockstep_detail {
 // The type of that id; null: none.
 [[gnu::visibility("hidden")]] const Registration* find_registration(const std::string& id);
 [[gnu::visibility("hidden")]] const std::shared_ptr<ScriptingEnumsRegistry>& registered_enums();
+[[gnu::visibility("hidden")]] const std::shared_ptr<PolymorphicCastRegistry>& registered_casts();
 // In a program: what the library calls the node, null otherwise; a node that was made there.
 [[gnu::visibility("hidden")]] const NodeNumber* number_of(const std::string& path);
 [[gnu::visibility("hidden")]] void note_made(const std::string& path, TreeNode& node);
@@ -21,6 +22,7 @@ struct Leaf {
   Place place;
   std::unique_ptr<TreeNode> node;
   NodeStatus last = NodeStatus::IDLE;  // of tick_at_once
+  bool is_unreset = false;             // its parent has not reset it
 
   static void* create(const lockstep_host* host, const lockstep_caller* id, void* /*context*/) {
     return lockstep::detail::guarded({host, id}, static_cast<void*>(nullptr), [&]() -> void* {
@@ -48,13 +50,20 @@ struct Leaf {
   // For a node that is mostly done in one tick, and so is not told of the first one.
   static lockstep_status tick_at_once(void* self) {
     Leaf& leaf = *static_cast<Leaf*>(self);
+    const bool is_in_program = leaf.node->lockstep_tree_ != nullptr;
+    if (is_in_program && !std::exchange(leaf.is_unreset, false) &&
+        isStatusCompleted(leaf.node->lockstep_status_.load(std::memory_order_relaxed))) {
+      leaf.node->setStatus(NodeStatus::IDLE);
+    }
     const lockstep_status status = tick(self);
     leaf.last = static_cast<NodeStatus>(status);
-    if (status != LOCKSTEP_RUNNING) leaf.node->setStatus(NodeStatus::IDLE);
+    // A program may look at its result.
+    if (status != LOCKSTEP_RUNNING && !is_in_program) leaf.node->setStatus(NodeStatus::IDLE);
     return status;
   }
   static void start_unreset_at_once(void* self) {
-    const Leaf& leaf = *static_cast<Leaf*>(self);
+    Leaf& leaf = *static_cast<Leaf*>(self);
+    leaf.is_unreset = true;
     leaf.node->lockstep_status_.store(leaf.last, std::memory_order_release);  // it has not changed
   }
   static void halt(void* self) {
@@ -126,26 +135,46 @@ struct Leaf {
     if (node == nullptr) throw RuntimeError("its builder returned no node");
     node->lockstep_place_ = &place;
     lockstep_find_children(host);
-    node->lockstep_registration_name_ = place.registration->manifest->registration_ID;
+    const NodeNumber* const number = number_of(place.node->path(id));
+    node->lockstep_registration_name_ = number != nullptr && number->is_read
+                                            ? number->id
+                                            : place.registration->manifest->registration_ID;
     note_made(place.node->path(id), *node);
   }
 
   void lockstep_find_children(const lockstep_host& host) {
-    if (node->type() != NodeType::CONTROL && node->type() != NodeType::DECORATOR) return;
+    if (node->type() == NodeType::ACTION || node->type() == NodeType::CONDITION) return;
     place.children = static_cast<const lockstep_children*>(host.get_extension(LOCKSTEP_CHILDREN));
     if (place.children == nullptr) throw RuntimeError("this lockstep has no control nodes");
     node->lockstep_find_children(place);
   }
 
+  // In a program, an entry has the C++ type of the first port that names it.
+  void declare_entries() const {
+    for (const PortEntry& port : place.registration->ports) {
+      const auto entry = Blackboard::lockstep_of_port(place, port.index);
+      if (entry.board != nullptr) entry.board->lockstep_declare(entry.key, port.info);
+    }
+  }
+
   NodeConfig make_config() {
     NodeConfig config;
     config.blackboard = Blackboard::lockstep_at(place);
+    config.blackboard->setPolymorphicCastRegistry(registered_casts());
     config.enums = registered_enums();
     config.manifest = place.registration->manifest;
     config.path = place.node->path(place.caller);
     if (const NodeNumber* const number = number_of(config.path)) {
       config.path = number->path;
       config.uid = number->uid;
+      declare_entries();
+      if (number->is_read) {
+        config.manifest = number->manifest;
+        config.input_ports = number->input_ports;
+        config.output_ports = number->output_ports;
+        config.other_attributes = number->other_attributes;
+        return config;
+      }
     }
     for (const PortEntry& port : place.registration->ports) {
       const char* const given = place.node->given(place.caller, port.index);

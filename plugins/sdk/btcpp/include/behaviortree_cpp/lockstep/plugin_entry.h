@@ -21,6 +21,11 @@ namespace BT::lockstep_detail {
 inline PluginTable& made_table() {
   return making != nullptr ? *making : plugin_factory().lockstep_table();
 }
+inline bool reads_object(std::type_index type, const char* name) {
+  const auto sources = made_table().casts()->lockstep_sources(type);
+  return std::any_of(sources.begin(), sources.end(),
+                     [name](std::type_index it) { return object_name(it) == name; });
+}
 inline const Registration* find_registration(const std::string& id) {
   return made_table().find(id);
 }
@@ -31,6 +36,9 @@ inline const NodeNumber* number_of(const std::string& path) {
 }
 inline void note_made(const std::string& path, TreeNode& node) {
   if (making != nullptr) making->made[path] = &node;
+}
+inline const std::shared_ptr<PolymorphicCastRegistry>& registered_casts() {
+  return made_table().casts();
 }
 inline const std::shared_ptr<ScriptingEnumsRegistry>& registered_enums() {
   return made_table().words();

@@ -11,7 +11,12 @@
 #include <utility>
 #include <vector>
 
+#include "behaviortree_cpp/lockstep/builtin_manifests.h"
 #include "behaviortree_cpp/lockstep/leaf.h"
+
+namespace BT {
+struct TestNodeConfig;
+}  // namespace BT
 
 namespace BT::lockstep_detail {
 
@@ -22,19 +27,34 @@ class PluginTable {
     const auto [kept, is_new] = manifests_.emplace(id, manifest);
     if (!is_new) throw BehaviorTreeException("ID [", id, "] is registered already");
     builders_.emplace(id, build);
-    auto registration = std::make_unique<Registration>();
-    registration->manifest = &kept->second;
-    registration->build = build;
-    types_.emplace(id, std::move(registration));
+    add_type(kept->second, build);
   }
-  // False: there is no such type.
+  // One that trees are rewritten to use: it is not listed.
+  void add_unlisted(const TreeNodeManifest& manifest, const NodeBuilder& build) {
+    if (types_.count(manifest.registration_ID) != 0) return;
+    add_type(unlisted_.emplace(manifest.registration_ID, manifest).first->second, build);
+  }
+  // False: there is no such type. Trees that have its nodes keep them.
   bool remove(const std::string& id) {
     builders_.erase(id);
-    types_.erase(id);
-    return manifests_.erase(id) == 1;
+    const auto type = types_.find(id);
+    if (type == types_.end()) return false;
+    removed_types_.push_back(std::move(type->second));
+    types_.erase(type);
+    removed_manifests_.push_back(manifests_.extract(id));
+    return true;
   }
 
-  std::unordered_map<std::string, TreeNodeManifest>& manifests() { return manifests_; }
+  // With those of the nodes that every tree has.
+  std::unordered_map<std::string, TreeNodeManifest>& manifests() {
+    if (!std::exchange(has_builtin_, true)) add_builtin_manifests(manifests_);
+    return manifests_;
+  }
+  // Null: there is none.
+  const TreeNodeManifest* manifest(const std::string& id) {
+    const auto found = manifests().find(id);
+    return found == manifests_.end() ? nullptr : &found->second;
+  }
   const std::unordered_map<std::string, NodeBuilder>& builders() const { return builders_; }
 
   const Registration* find(const std::string& id) const {
@@ -51,9 +71,13 @@ class PluginTable {
   }
   const std::shared_ptr<ScriptingEnumsRegistry>& words() const { return words_; }
 
+  const std::shared_ptr<PolymorphicCastRegistry>& casts() const { return casts_; }
+
   // In a program: how its nodes are numbered, by their paths, and those that were made.
   std::map<std::string, NodeNumber> numbers;
   std::map<std::string, TreeNode*> made;
+  // What its TestNodes do, by the path that the library gives them.
+  std::map<std::string, std::shared_ptr<TestNodeConfig>> tests;
 
   // The words as the host reads them; valid until one is added.
   const lockstep_words* described_words() {
@@ -90,6 +114,13 @@ class PluginTable {
   }
 
  private:
+  void add_type(const TreeNodeManifest& manifest, const NodeBuilder& build) {
+    auto registration = std::make_unique<Registration>();
+    registration->manifest = &manifest;
+    registration->build = build;
+    types_.emplace(manifest.registration_ID, std::move(registration));
+  }
+
   static const char* keep(Registration& registration, std::string text) {
     return registration.texts.emplace_back(std::move(text)).c_str();
   }
@@ -126,7 +157,7 @@ class PluginTable {
     if (manifest.lockstep_hooks.pause != nullptr) type.pause = Leaf::pause;
     if (manifest.lockstep_hooks.resume != nullptr) type.resume = Leaf::resume;
     if (manifest.lockstep_hooks.progress != nullptr) type.progress = Leaf::progress;
-    type.flags = LOCKSTEP_HALTS_CHILDREN;
+    type.flags = LOCKSTEP_HALTS_CHILDREN | LOCKSTEP_WAKES;
     if (manifest.type == NodeType::CONDITION) type.flags |= LOCKSTEP_MAY_RUN;
     if (manifest.lockstep_hooks.is_at_once) type.flags |= LOCKSTEP_AT_ONCE;
     if (opens_entries()) type.flags |= LOCKSTEP_OPENS;
@@ -139,6 +170,7 @@ class PluginTable {
       case NodeType::CONTROL:
         return LOCKSTEP_CONTROL;
       case NodeType::DECORATOR:
+      case NodeType::SUBTREE:
         return LOCKSTEP_DECORATOR;
       default:
         return LOCKSTEP_ACTION;
@@ -174,16 +206,47 @@ class PluginTable {
     }
   }
 
-  std::unordered_map<std::string, TreeNodeManifest> manifests_;
+  using Manifests = std::unordered_map<std::string, TreeNodeManifest>;
+  Manifests manifests_, unlisted_;
+  bool has_builtin_ = false;
   std::unordered_map<std::string, NodeBuilder> builders_;
   std::map<std::string, std::unique_ptr<Registration>> types_;
+  // Nodes of trees point to them.
+  std::vector<Manifests::node_type> removed_manifests_;
+  std::vector<std::unique_ptr<Registration>> removed_types_;
   std::shared_ptr<ScriptingEnumsRegistry> words_ = std::make_shared<ScriptingEnumsRegistry>();
+  std::shared_ptr<PolymorphicCastRegistry> casts_ = std::make_shared<PolymorphicCastRegistry>();
   std::vector<const char*> word_list_;
   std::vector<double> word_numbers_;
   lockstep_words word_table_{};
   std::string name_;
   std::vector<const lockstep_leaf_type*> listed_;
   lockstep_plugin plugin_{};
+};
+
+// The manifests that a tree's nodes have, as long as it lives.
+class ManifestsOfTree {
+ public:
+  using Map = std::unordered_map<std::string, TreeNodeManifest>;
+  ManifestsOfTree() = default;
+  explicit ManifestsOfTree(std::shared_ptr<PluginTable> table) : table_(std::move(table)) {}
+
+  Map::const_iterator begin() const { return map().begin(); }
+  Map::const_iterator end() const { return map().end(); }
+  Map::const_iterator find(const std::string& id) const { return map().find(id); }
+  const TreeNodeManifest& at(const std::string& id) const { return map().at(id); }
+  std::size_t count(const std::string& id) const { return map().count(id); }
+  std::size_t size() const { return map().size(); }
+  bool empty() const { return map().empty(); }
+  operator const Map&() const { return map(); }  // NOLINT(google-explicit-constructor): it is one
+
+ private:
+  const Map& map() const {
+    static const Map kNone;
+    return table_ == nullptr ? kNone : table_->manifests();
+  }
+
+  std::shared_ptr<PluginTable> table_;
 };
 
 // Whose nodes are being made in this thread: those of a program. Null: of this plugin.

@@ -4,6 +4,7 @@
 
 #include <lockstep/runtime.h>
 
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <iostream>
@@ -16,6 +17,8 @@
 #include "behaviortree_cpp/blackboard.h"
 #include "behaviortree_cpp/lockstep/plugin_table.h"
 #include "behaviortree_cpp/lockstep/program_nodes.h"
+#include "behaviortree_cpp/lockstep/stand_in.h"
+#include "behaviortree_cpp/lockstep/tree_watch.h"
 #include "behaviortree_cpp/utils/wakeup_signal.hpp"
 #include "behaviortree_cpp/utils/wildcards.hpp"
 
@@ -43,104 +46,156 @@ inline std::string project_errors(lockstep_project* project) {
   return text;
 }
 
+// A program that shows its trees in Groot2 sets it before it makes one: groot2_publisher.h.
+inline bool groot_is_wanted = false;
+
 // One tree that can be ticked, with its leaves.
-class Program : public EntryStore {
+class Program : public NodeTree, public std::enable_shared_from_this<Program> {
  public:
   struct Source {
     std::shared_ptr<PluginTable> nodes;
     std::vector<std::string> plugins;
-    std::string text, file, main_tree;  // one of the first two
+    std::string text, file, main_tree;     // one of the first two
+    Blackboard::Ptr blackboard = nullptr;  // of the main tree
+    std::shared_ptr<const Outline> outline = nullptr;
   };
 
   explicit Program(Source source) : source_(std::move(source)) {
     if (project_ == nullptr) throw RuntimeError(lockstep_last_error());
     const Making scope(*source_.nodes);
     load();
-    places_ = std::make_unique<const NodePlaces>(project_.get());
     source_.nodes->numbers.clear();
     source_.nodes->made.clear();
+    source_.nodes->tests.clear();
+    if (source_.outline != nullptr) source_.nodes->tests = source_.outline->tests;
+    places_ =
+        std::make_unique<const NodePlaces>(project_.get(), source_.outline.get(), *source_.nodes);
     for (const NodePlace& it : places_->nodes) source_.nodes->numbers[it.own_path] = it.number;
     lockstep_run_options options{};
     options.struct_size = sizeof options;
     options.tick_period = 0.01;
+    options.prepare = prepare;
+    options.user = this;
+    options.wake = [](void* user) { static_cast<Program*>(user)->wake_up_->emitSignal(); };
     run_.reset(lockstep_run_new(project_.get(), &options));
     if (run_ == nullptr) throw RuntimeError(lockstep_last_error());
-    for (std::uint32_t i = 0; i < places_->nodes.size(); ++i) nodes_.push_back(make_node(i));
-    root_ = std::make_unique<ProgramNode>(*this, run_.get(), 0, *places_, nodes_.front()->type());
+    for (std::uint32_t i = 0; i < places_->nodes.size(); ++i) {
+      nodes_.push_back(make_node(i));
+      auto* const parent = dynamic_cast<StandsIn*>(nodes_[places_->nodes[i].parent].get());
+      if (i != 0 && parent != nullptr) parent->adopt(*nodes_[i]);
+    }
+    watch_ = std::make_unique<TreeWatch>(run_.get(), *places_, nodes_);
+    bool is_watched = false;  // a node may subscribe in its constructor
+    for (const TreeNode::Ptr& it : nodes_) {
+      it->lockstep_tree_ = this;
+      it->lockstep_index_ = static_cast<std::uint32_t>(&it - nodes_.data());
+      is_watched = is_watched || it->lockstep_watch_ != nullptr;
+    }
+    if (is_watched) watch_->begin();
   }
 
-  NodeStatus tick() {
+  ~Program() {
+    is_busy_ = true;
+    lockstep_run_halt(run_.get());
+  }
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  // Once, or again while a node asks for it.
+  NodeStatus tick(bool exactly_once) {
+    source_.blackboard->lockstep_take_from_parents();
     const std::chrono::duration<double> since = std::chrono::steady_clock::now() - began_;
-    const auto status = static_cast<NodeStatus>(lockstep_run_tick(run_.get(), since.count()));
-    for (std::size_t i = 0; i < observers_.size(); ++i) {
-      if (const auto observe = observers_[i].lock()) (*observe)();
+    const bool is_inner = is_busy_.exchange(true);
+    const auto status = static_cast<NodeStatus>(
+        (exactly_once ? lockstep_run_tick_once : lockstep_run_tick)(run_.get(), since.count()));
+    is_busy_ = is_inner;
+    source_.blackboard->lockstep_refresh();
+    if (watch_->has_thrown()) {
+      halt();
+      watch_->rethrow();
     }
     throw_fault();
     return status;
   }
-  void halt() { lockstep_run_halt(run_.get()); }
+  void halt() {
+    const bool is_inner = is_busy_.exchange(true);
+    lockstep_run_halt(run_.get());
+    is_busy_ = is_inner;
+    if (!is_inner) watch_->forget_all();
+  }
 
+  // Ends a sleep between two ticks; nodes emit it from any thread.
+  const std::shared_ptr<WakeUpSignal>& wake_up() const { return wake_up_; }
   lockstep_project* project() const { return project_.get(); }
   lockstep_run* run() const { return run_.get(); }
-  // As long as the result lives.
-  std::shared_ptr<std::function<void()>> observe(std::function<void()> after_tick) {
-    auto observer = std::make_shared<std::function<void()>>(std::move(after_tick));
-    observers_.push_back(observer);
-    return observer;
-  }
   const NodePlaces& places() const { return *places_; }
+  // What the documents say; null: they could not be read.
+  const Outline* outline() const { return source_.outline.get(); }
+  const std::shared_ptr<PluginTable>& table() const { return source_.nodes; }
   // In the order of the tree: objects of the program's classes, or what stands for others.
   const std::vector<TreeNode::Ptr>& nodes() const { return nodes_; }
-  TreeNode* root() const { return root_.get(); }
-  // After the last tick.
+  TreeNode* root() const { return nodes_.front().get(); }
+  Blackboard::Ptr blackboard_of(std::size_t subtree) const {
+    BoardHandle root(*lockstep_boards_table(), lockstep_run_board(run_.get(), 0));
+    return Blackboard::lockstep_of(BoardFamily::of(std::move(root)),
+                                   static_cast<std::uint32_t>(subtree));
+  }
+  // Of a node that is no object of the program.
   NodeStatus status_of(std::uint32_t index) const {
-    lockstep_node_state state{};
-    state.struct_size = sizeof state;
-    if (!lockstep_run_node(run_.get(), index, &state)) return NodeStatus::IDLE;
-    return static_cast<NodeStatus>(state.status);
+    if (watch_ != nullptr && watch_->is_on()) {
+      return nodes_[index]->lockstep_status_.load(std::memory_order_acquire);
+    }
+    const NodeStatus status = engine_status(index);
+    return status == NodeStatus::SKIPPED ? NodeStatus::IDLE : status;
   }
 
-  bool get(const std::string& key, Any& value) const override {
-    const char* const name = key.c_str();
-    bool flag = false;
-    std::int64_t whole = 0;
-    double real = 0;
-    if (lockstep_run_get_bool(run_.get(), name, &flag)) {
-      value = Any(flag);
-    } else if (lockstep_run_get_int(run_.get(), name, &whole)) {
-      value = Any(whole);
-    } else if (lockstep_run_get_double(run_.get(), name, &real)) {
-      value = Any(real);
-    } else if (const char* const text = lockstep_run_get_text(run_.get(), name)) {
-      value = Any(text);
-    } else {
-      return false;
+  void begin_watch() override {
+    if (watch_ != nullptr) watch_->begin();
+  }
+  bool is_over(const TreeNode& node) const override {
+    if (is_busy_ || watch_ == nullptr || watch_->is_on()) return false;
+    const std::uint32_t index = node.lockstep_index_;
+    const std::uint32_t parent = places_->nodes[index].parent;
+    return parent == index || engine_status(parent) != NodeStatus::RUNNING;
+  }
+  bool halt(const TreeNode& node) override {
+    if (is_busy_) return false;
+    if (node.lockstep_index_ != 0) {
+      throw LogicError("node '", node.name(), "' is halted by its tree only: BT::Tree::haltTree()");
     }
+    halt();
     return true;
   }
-  bool set(const std::string& key, const Any& value) override {
-    const char* const name = key.c_str();
-    if (value.isString()) {
-      return lockstep_run_set_text(run_.get(), name, value.cast<std::string>().c_str());
+  void visit(const TreeNode& first, const Visitor& visitor) const override {
+    const std::uint32_t begin = first.lockstep_index_;
+    std::vector<std::size_t> depths;  // of the nodes below: those that follow, until one is not
+    for (std::uint32_t i = begin; i < nodes_.size(); ++i) {
+      const std::uint32_t parent = places_->nodes[i].parent;
+      if (i != begin && parent < begin) return;
+      depths.push_back(i == begin ? 0 : depths[parent - begin] + 1);
+      visitor(nodes_[i].get(), depths.back());
     }
-    const auto whole = value.tryCast<std::int64_t>();
-    const auto real = value.tryCast<double>();
-    if (value.isType<bool>() && lockstep_run_set_bool(run_.get(), name, value.cast<bool>())) {
-      return true;
-    }
-    if (whole && lockstep_run_set_int(run_.get(), name, *whole)) return true;
-    if (real && lockstep_run_set_double(run_.get(), name, *real)) return true;
-    const auto json = toJsonString(value);  // of an object
-    return json && lockstep_run_set_text(run_.get(), name, json->c_str());
   }
 
  private:
+  // The blackboard is that of the run, before its nodes are made.
+  static void prepare(void* user, lockstep_board* main) {
+    const Program& program = *static_cast<const Program*>(user);
+    const lockstep_boards& table = *lockstep_boards_table();
+    Blackboard& board = *program.source_.blackboard;
+    board.lockstep_attach(BoardFamily::of({table, table.at(main, 0)}), 0);
+    board.lockstep_give();
+  }
+
   void load() {
     const lockstep_plugin& leaves = source_.nodes->describe("program", table_extension);
-    bool good = leaves.leaf_type_count == 0 || lockstep_project_add_leaves(project_.get(), &leaves);
+    lockstep_project_open_entries(project_.get());
+    const bool is_empty = leaves.leaf_type_count == 0 && source_.nodes->words()->empty();
+    bool good = is_empty || lockstep_project_add_leaves(project_.get(), &leaves);
     for (const std::string& plugin : source_.plugins) {
       good = good && lockstep_project_add_plugin(project_.get(), plugin.c_str());
     }
+    if (groot_is_wanted) good = good && lockstep_project_show_groot2(project_.get());
     if (!source_.main_tree.empty()) {
       good = good && lockstep_project_set_main_tree(project_.get(), source_.main_tree.c_str());
     }
@@ -177,38 +232,41 @@ class Program : public EntryStore {
     const NodePlace& place = places_->nodes[index];
     const auto made = source_.nodes->made.find(place.own_path);
     if (made != source_.nodes->made.end()) return {made->second, [](TreeNode*) {}};
-    const auto known = source_.nodes->manifests().find(place.id);
-    const NodeType type =
-        known == source_.nodes->manifests().end() ? type_of_id(place.id) : known->second.type;
-    return std::make_shared<ProgramNode>(*this, run_.get(), index, *places_, type);
+    const TreeNodeManifest* const known = source_.nodes->manifest(place.id);
+    const NodeType type = known == nullptr ? type_of_id(place.id) : known->type;
+    return make_stand_in(*this, index, place, type);
+  }
+
+  NodeStatus engine_status(std::uint32_t index) const {
+    lockstep_node_state state{};
+    state.struct_size = sizeof state;
+    if (!lockstep_run_node(run_.get(), index, &state)) return NodeStatus::IDLE;
+    return static_cast<NodeStatus>(state.status);
   }
 
   Source source_;  // outlives the run
   std::unique_ptr<lockstep_project, FreeProject> project_{lockstep_project_new()};
-  std::unique_ptr<lockstep_run, FreeRun> run_;
-  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
-  std::vector<std::weak_ptr<std::function<void()>>> observers_;
+  const std::shared_ptr<WakeUpSignal> wake_up_ = std::make_shared<WakeUpSignal>();
   std::unique_ptr<const NodePlaces> places_;
   std::vector<TreeNode::Ptr> nodes_;
-  std::unique_ptr<ProgramNode> root_;
+  std::unique_ptr<TreeWatch> watch_;
+  std::atomic<bool> is_busy_{false};  // it is ticked, or halted, or ends
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  std::unique_ptr<lockstep_run, FreeRun> run_;  // it ends before what it calls back
+  // The blackboard has its entries for itself again before the run goes.
+  struct Attachment {
+    const Source& source;
+    ~Attachment() { source.blackboard->lockstep_detach(); }
+  };
+  const Attachment attachment_{source_};
 };
 
-// The entries of a SubTree.
-class SubtreeEntries : public EntryStore {
- public:
-  SubtreeEntries(std::shared_ptr<Program> program, std::string prefix)
-      : program_(std::move(program)), prefix_(std::move(prefix)) {}
-  bool get(const std::string& key, Any& value) const override {
-    return program_->get(prefix_ + key, value);
-  }
-  bool set(const std::string& key, const Any& value) override {
-    return program_->set(prefix_ + key, value);
-  }
-
- private:
-  std::shared_ptr<Program> program_;
-  std::string prefix_;
-};
+inline NodeStatus status_in(const Program& program, std::uint32_t index) {
+  return program.status_of(index);
+}
+inline NodeStatus tick_root(Program& program) {
+  return program.tick(true);
+}
 
 }  // namespace lockstep_detail
 
@@ -219,22 +277,21 @@ class Tree {
     std::vector<TreeNode::Ptr> nodes;
     Blackboard::Ptr blackboard;
     std::string instance_name;  // "" of the main tree
-    std::string tree_ID;        // the name of the SubTree
+    std::string tree_ID;
   };
   std::vector<Subtree::Ptr> subtrees;  // the main tree first
+  // Of all nodes that the tree may have; those of config().manifest.
+  lockstep_detail::ManifestsOfTree manifests;
 
   Tree() = default;
-  Tree(std::shared_ptr<lockstep_detail::Program> program, Blackboard::Ptr blackboard)
-      : program_(std::move(program)), blackboard_(std::move(blackboard)) {
-    blackboard_->lockstep_attach(program_);
+  explicit Tree(std::shared_ptr<lockstep_detail::Program> program)
+      : manifests(program->table()), program_(std::move(program)) {
     for (const lockstep_detail::SubtreePlace& it : program_->places().subtrees) {
-      Blackboard::Ptr entries = subtrees.empty() ? blackboard_ : Blackboard::create();
-      if (!subtrees.empty()) {
-        entries->lockstep_attach(
-            std::make_shared<lockstep_detail::SubtreeEntries>(program_, it.entries));
-      }
       subtrees.push_back(
-          std::make_shared<Subtree>(Subtree{{}, std::move(entries), it.path, it.name}));
+          std::make_shared<Subtree>(Subtree{{},
+                                            program_->blackboard_of(subtrees.size()),
+                                            it.path,
+                                            it.tree_id.empty() ? it.name : it.tree_id}));
     }
     const auto& nodes = program_->nodes();
     for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -242,9 +299,9 @@ class Tree {
     }
   }
 
-  // One period: the tree is ticked again while a node asks for it.
-  NodeStatus tickOnce() { return lockstep_program().tick(); }
-  NodeStatus tickExactlyOnce() { return lockstep_program().tick(); }
+  // The tree is ticked again while a node asks for it.
+  NodeStatus tickOnce() { return lockstep_program().tick(false); }
+  NodeStatus tickExactlyOnce() { return lockstep_program().tick(true); }
   NodeStatus tickWhileRunning(
       std::chrono::milliseconds sleep_time = std::chrono::milliseconds(10)) {
     NodeStatus status = tickOnce();
@@ -255,18 +312,22 @@ class Tree {
     return status;
   }
   void haltTree() { lockstep_program().halt(); }
-  // True: emitWakeUpSignal() has ended it.
+  // True: emitWakeUpSignal() of the tree or of a node has ended it.
   template <class Rep, class Period>
   bool sleep(std::chrono::duration<Rep, Period> duration) {
-    return wake_up_->waitFor(std::chrono::duration_cast<std::chrono::microseconds>(duration));
+    return wakeUpSignal()->waitFor(std::chrono::duration_cast<std::chrono::microseconds>(duration));
   }
   // From any thread.
-  void emitWakeUpSignal() { wake_up_->emitSignal(); }
-  [[nodiscard]] std::shared_ptr<WakeUpSignal> wakeUpSignal() const { return wake_up_; }
-  // The entries of the main tree: numbers, texts, and objects as texts.
-  Blackboard::Ptr rootBlackboard() { return blackboard_; }
+  void emitWakeUpSignal() { wakeUpSignal()->emitSignal(); }
+  [[nodiscard]] std::shared_ptr<WakeUpSignal> wakeUpSignal() const {
+    return lockstep_program().wake_up();
+  }
+  // Of the main tree; null: the tree is empty.
+  Blackboard::Ptr rootBlackboard() const {
+    return subtrees.empty() ? nullptr : subtrees.front()->blackboard;
+  }
 
-  // It stands for the whole tree: haltNode() halts it.
+  // Its haltNode() halts the whole tree, its executeTick() ticks it.
   [[nodiscard]] TreeNode* rootNode() const { return lockstep_program().root(); }
   // A program's own nodes are the objects that its classes made; others have a name, a path, a type
   // and a status.
@@ -293,41 +354,27 @@ class Tree {
 
  private:
   std::shared_ptr<lockstep_detail::Program> program_;
-  Blackboard::Ptr blackboard_;
   std::shared_ptr<WakeUpSignal> wake_up_ = std::make_shared<WakeUpSignal>();
 };
 
-template <class AnyTree>
-std::vector<Blackboard::Ptr> BlackboardBackup(const AnyTree&) {
-  static_assert(sizeof(AnyTree) == 0,
-                "lockstep keeps no backups of a blackboard: rootBlackboard() reads and sets its "
-                "entries one by one");
-  return {};
-}
-template <class AnyTree>
-void BlackboardRestore(const std::vector<Blackboard::Ptr>& backup, AnyTree& tree) {
-  BlackboardBackup(tree);
-  static_cast<void>(backup);
-}
-template <class AnyTree>
-std::string ExportTreeToJSON(const AnyTree&) {
-  static_assert(sizeof(AnyTree) == 0,
-                "lockstep has no ExportTreeToJSON: 'lockstep run --record run.jsonl' records the "
-                "entries of a run");
-  return {};
-}
-
-// The names of all nodes, each below its parent.
-inline void printTreeRecursively(const TreeNode* root, std::ostream& out = std::cout) {
-  const auto* const node = dynamic_cast<const lockstep_detail::ProgramNode*>(root);
-  if (node == nullptr || node->index() != 0) throw LogicError("it is not the root of a BT::Tree");
-  std::vector<std::size_t> depth;
-  out << "----------------" << std::endl;
-  for (const lockstep_detail::NodePlace& it : node->places().nodes) {
-    depth.push_back(depth.empty() ? 0 : depth[it.parent] + 1);
-    out << std::string(3 * depth.back(), ' ') << it.name << std::endl;
+// What all boards of a tree have, in the order of Tree::subtrees.
+[[nodiscard]] inline std::vector<Blackboard::Ptr> BlackboardBackup(const Tree& tree) {
+  std::vector<Blackboard::Ptr> backup;
+  for (const auto& subtree : tree.subtrees) {
+    backup.push_back(Blackboard::create());
+    subtree->blackboard->cloneInto(*backup.back());
   }
-  out << "----------------" << std::endl;
+  return backup;
+}
+// Throws when it is of a tree with other boards.
+inline void BlackboardRestore(const std::vector<Blackboard::Ptr>& backup, Tree& tree) {
+  if (backup.size() != tree.subtrees.size()) {
+    throw LogicError("BlackboardRestore: the backup has ", std::to_string(backup.size()),
+                     " boards, the tree ", std::to_string(tree.subtrees.size()));
+  }
+  for (std::size_t i = 0; i < backup.size(); ++i) {
+    backup[i]->cloneInto(*tree.subtrees[i]->blackboard);
+  }
 }
 
 }  // namespace BT

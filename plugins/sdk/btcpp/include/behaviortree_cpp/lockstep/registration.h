@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 #include <type_traits>
+#include <unordered_map>
 #include <vector>
 
 #include "behaviortree_cpp/basic_types.h"
@@ -52,9 +53,16 @@ template <class T>
 inline constexpr bool has_on_resumed<T, std::void_t<decltype(std::declval<T&>().onResumed())>> =
     true;
 
+// A class of the library whose code is in these headers.
+template <class T, class = void>
+inline constexpr bool opens_by_class = false;
+template <class T>
+inline constexpr bool opens_by_class<T, std::void_t<typename T::LockstepOpens>> = true;
+
 template <class T>
 ClassHooks hooks_of() {
   ClassHooks hooks;
+  if constexpr (opens_by_class<T>) note_opening<T>();
   hooks.is_at_once = std::is_base_of_v<SyncActionNode, T>;
   if constexpr (has_progress<T>) {
     hooks.progress = [](const TreeNode& node) -> double {
@@ -76,10 +84,15 @@ struct PortEntry {
   std::uint32_t index;  // for the host
 };
 
-// What the library calls a node of a tree.
+// What the library calls a node of a tree, and what the document gives it.
 struct NodeNumber {
   std::string path;
   std::uint16_t uid = 0;
+  bool is_read = false;  // the rest is there
+  std::string id = {};
+  const TreeNodeManifest* manifest = nullptr;
+  std::unordered_map<std::string, std::string> input_ports = {}, output_ports = {},
+                                               other_attributes = {};
 };
 
 // One type of node.

@@ -1,10 +1,13 @@
-// Calls a function for each change of a node's status that is seen after a tick.
+// Calls a function for each change of a node's status, when it happens.
 #pragma once
 
+#include <atomic>
 #include <chrono>
-#include <memory>
+#include <mutex>
+#include <utility>
 #include <vector>
 
+#include "behaviortree_cpp/behavior_tree.h"
 #include "behaviortree_cpp/bt_factory.h"
 
 namespace BT {
@@ -14,7 +17,7 @@ enum class TimestampType { absolute, relative };
 class StatusChangeLogger {
  public:
   explicit StatusChangeLogger(TreeNode* root_node) { subscribeToTreeChanges(root_node); }
-  virtual ~StatusChangeLogger() = default;
+  virtual ~StatusChangeLogger() { unsubscribeFromTreeChanges(); }
   StatusChangeLogger(const StatusChangeLogger&) = delete;
   StatusChangeLogger& operator=(const StatusChangeLogger&) = delete;
 
@@ -29,37 +32,40 @@ class StatusChangeLogger {
   void enableTransitionToIdle(bool enable) { lockstep_shows_idle_ = enable; }
 
  protected:
+  // For a class that subscribes when it is complete.
   StatusChangeLogger() = default;
   void subscribeToTreeChanges(TreeNode* root_node) {
-    const auto* const root = dynamic_cast<const lockstep_detail::ProgramNode*>(root_node);
-    if (root == nullptr) throw LogicError("a logger wants the rootNode() of a BT::Tree");
-    lockstep_statuses_.assign(root->places().nodes.size(), NodeStatus::IDLE);
-    lockstep_observer_ = root->program().observe([this, root] { lockstep_look(root->program()); });
+    if (root_node == nullptr) throw LogicError("a logger wants the rootNode() of a BT::Tree");
+    const std::lock_guard lock(lockstep_mutex_);
+    lockstep_subscribers_.clear();
+    lockstep_began_ = std::chrono::high_resolution_clock::now();
+    applyRecursiveVisitor(root_node, [this](TreeNode* node) {
+      lockstep_subscribers_.push_back(node->subscribeToStatusChange(
+          [this](TimePoint time, const TreeNode& it, NodeStatus before, NodeStatus now) {
+            lockstep_note(time, it, before, now);
+          }));
+    });
   }
-  void unsubscribeFromTreeChanges() { lockstep_observer_ = nullptr; }
+  // No callback any more; one that is in progress has returned then.
+  void unsubscribeFromTreeChanges() {
+    const std::lock_guard lock(lockstep_mutex_);
+    lockstep_subscribers_.clear();
+  }
 
  private:
-  void lockstep_look(const lockstep_detail::Program& program) {
-    using Clock = std::chrono::high_resolution_clock;
-    const Duration now = lockstep_type_ == TimestampType::relative
-                             ? Clock::now() - lockstep_began_
-                             : Clock::now().time_since_epoch();
-    for (std::uint32_t i = 0; i < lockstep_statuses_.size(); ++i) {
-      const NodeStatus status = program.status_of(i);
-      const NodeStatus before = std::exchange(lockstep_statuses_[i], status);
-      if (before == status || !lockstep_enabled_ ||
-          (status == NodeStatus::IDLE && !lockstep_shows_idle_))
-        continue;
-      callback(now, *program.nodes()[i], before, status);
-    }
+  void lockstep_note(TimePoint time, const TreeNode& node, NodeStatus before, NodeStatus now) {
+    const std::lock_guard lock(lockstep_mutex_);
+    if (lockstep_subscribers_.empty() || !lockstep_enabled_) return;
+    if (now == NodeStatus::IDLE && !lockstep_shows_idle_) return;
+    const bool is_relative = lockstep_type_ == TimestampType::relative;
+    callback(is_relative ? time - lockstep_began_ : time.time_since_epoch(), node, before, now);
   }
 
-  std::vector<NodeStatus> lockstep_statuses_;
-  bool lockstep_enabled_ = true, lockstep_shows_idle_ = true;
-  TimestampType lockstep_type_ = TimestampType::absolute;
-  std::chrono::high_resolution_clock::time_point lockstep_began_ =
-      std::chrono::high_resolution_clock::now();
-  std::shared_ptr<std::function<void()>> lockstep_observer_;
+  std::recursive_mutex lockstep_mutex_;  // a callback may be in a thread of a node
+  std::vector<TreeNode::StatusChangeSubscriber> lockstep_subscribers_;
+  std::atomic<bool> lockstep_enabled_{true}, lockstep_shows_idle_{true};
+  std::atomic<TimestampType> lockstep_type_{TimestampType::absolute};
+  TimePoint lockstep_began_;
 };
 
 }  // namespace BT

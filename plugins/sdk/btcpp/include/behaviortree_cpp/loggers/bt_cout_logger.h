@@ -1,4 +1,4 @@
-// Prints each change of a node's status that is seen after a tick.
+// Prints each change of a node's status, when it happens.
 #pragma once
 
 #include <cstdio>
@@ -12,6 +12,7 @@ namespace BT {
 class StdCoutLogger : public StatusChangeLogger {
  public:
   explicit StdCoutLogger(const Tree& tree) : StatusChangeLogger(tree.rootNode()) {}
+  ~StdCoutLogger() override { unsubscribeFromTreeChanges(); }
   void flush() override { std::cout << std::flush; }
 
  private:

@@ -9,9 +9,11 @@ class SqliteLogger {
  public:
   template <class... Arguments>
   explicit SqliteLogger(Arguments&&...) {
-    static_assert(sizeof...(Arguments) > 1000,
-                  "lockstep has no SqliteLogger: 'lockstep run --record run.jsonl' records a run, "
-                  "'lockstep log' makes tables of it");
+    static_assert(
+        sizeof...(Arguments) > 1000,
+        "lockstep has no SqliteLogger: FileLogger2 writes a log for Groot2, and "
+        "lockstep_run_record() of lockstep/runtime.h a recording, of which 'lockstep log' "
+        "makes tables");
   }
 };
 

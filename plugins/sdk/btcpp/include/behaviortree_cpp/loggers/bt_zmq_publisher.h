@@ -2,4 +2,4 @@
 #pragma once
 
 #error \
-    "lockstep has neither the logs nor the protocol of Groot: 'lockstep run --record run.jsonl' records a run, --view live shows it"
+    "lockstep has no publisher for Groot 1: Groot2Publisher of loggers/groot2_publisher.h shows a tree in Groot2"

@@ -1,5 +1,3 @@
-// Not in lockstep: the compiler says so.
+// The messages of Groot2's protocol are not for programs here: loggers/groot2_publisher.h speaks
+// it. Sources that only include this compile.
 #pragma once
-
-#error \
-    "lockstep has the protocol of Groot2 as an option, not as a header: 'lockstep run --groot2' shows a run there, --record run.jsonl records it"

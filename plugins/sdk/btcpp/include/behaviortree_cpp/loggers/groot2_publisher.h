@@ -1,18 +1,43 @@
-// Not in lockstep: the compiler says what to use instead.
+// Shows a tree in Groot2 while it is ticked.
 #pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
 
 #include "behaviortree_cpp/bt_factory.h"
 
 namespace BT {
+namespace lockstep_detail {
 
+inline const bool groot_was_included = groot_is_wanted = true;
+
+}  // namespace lockstep_detail
+
+// On two ports of this machine, which any other reaches that reaches this one. Groot2 looks at the
+// tree and at its entries; it cannot change them or stop the tree.
 class Groot2Publisher {
  public:
-  template <class... Arguments>
-  explicit Groot2Publisher(Arguments&&...) {
-    static_assert(sizeof...(Arguments) > 1000,
-                  "lockstep has no Groot2Publisher: 'lockstep run --groot2' shows a run in Groot2, "
-                  "--monitor in a browser, --record keeps it");
+  explicit Groot2Publisher(const Tree& tree, unsigned server_port = 1667)
+      : program_(tree.lockstep_program().weak_from_this()) {
+    const std::string address = "0.0.0.0:" + std::to_string(server_port);
+    if (!lockstep_run_groot2(tree.lockstep_program().run(), address.c_str())) {
+      throw RuntimeError("Groot2Publisher: ", lockstep_last_error());
+    }
   }
+  ~Groot2Publisher() {
+    if (const auto program = program_.lock()) lockstep_run_groot2(program->run(), nullptr);
+  }
+  Groot2Publisher(const Groot2Publisher&) = delete;
+  Groot2Publisher& operator=(const Groot2Publisher&) = delete;
+
+  // Connections need no heartbeat here: one that is idle costs nothing.
+  void setMaxHeartbeatDelay(std::chrono::milliseconds delay) { heartbeat_ = delay; }
+  std::chrono::milliseconds maxHeartbeatDelay() const { return heartbeat_; }
+
+ private:
+  std::weak_ptr<lockstep_detail::Program> program_;
+  std::chrono::milliseconds heartbeat_{5000};
 };
 
 }  // namespace BT
