@@ -72,6 +72,15 @@ TEST_CASE("programs for BehaviorTree.CPP: they print what they print with the li
   CHECK(seen >= 1);
 }
 
+TEST_CASE("leaves for BehaviorTree.CPP: another thread of one ends the wait for the next period") {
+  const TemporaryDirectory directory;
+  const auto tree = directory.file("tree.xml", tree_of("<Sequence><Reply/><Work/></Sequence>"));
+  const Outcome outcome = run_lockstep({"run", tree, "--plugin", plugin("wakes"), "--clock", "wall",
+                                        "--view", "none", "--rate", "0.01", "--timeout", "60"});
+  INFO(outcome.err);
+  CHECK(outcome.code == 0);
+}
+
 TEST_CASE("leaves for BehaviorTree.CPP: they print the same from a separate process") {
   for (const std::string name : {"asked", "halts", "register", "waiting"}) {
     INFO(name);
@@ -87,7 +96,7 @@ TEST_CASE("leaves for BehaviorTree.CPP: they print the same from a separate proc
     return run_tree(std::string(kSources) + name + ".xml", name, {"--isolate"});
   };
   CHECK(contains(isolated("entries").err,
-                 "cannot be used by its name here: in a constructor, in an isolated plugin"));
+                 "entries cannot be used by their names here: in an isolated plugin"));
   CHECK(contains(isolated("words").err, "nothing makes the entry 'Red'"));
 }
 

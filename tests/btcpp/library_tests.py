@@ -124,7 +124,7 @@ class Builder:
     def link(self, name, objects):
         target = self.work / name
         done = subprocess.run([*self.compiler, *objects, *self.objects, "-o", target, f"-L{self.build}",
-                               f"-Wl,-rpath,{self.build}", "-llockstep-runtime", "-lgtest_main", "-lgtest", "-lpthread",
+                               f"-Wl,-rpath,{self.build}", "-llockstep-runtime", "-lgmock", "-lgtest_main", "-lgtest", "-lpthread",
                                "-ldl"], capture_output=True, text=True)
         return target if done.returncode == 0 else done.stderr
 

@@ -10,6 +10,7 @@
 #include <set>
 #include <sstream>
 
+#include "definition/check/models.h"
 #include "definition/definition.h"
 #include "dialect/btcpp/hints.h"
 #include "dialect/btcpp/pairs.h"
@@ -313,6 +314,74 @@ inline const std::set<std::string>& node_ids() {{
 }}  // namespace BT::lockstep_detail
 )",
           fmt::join(ids, ",\n" + indent)));
+}
+
+std::string cpp_text(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + "\"";
+}
+
+// With their ports, for manifests() and writeTreeNodesModelXML().
+TEST_CASE("what is generated: the ports of the nodes that every tree has, for the SDK") {
+  constexpr std::string_view kTypes[] = {"CONTROL", "DECORATOR", "ACTION", "CONDITION", "SUBTREE"};
+  constexpr std::string_view kDirections[] = {"INPUT", "OUTPUT", "INOUT"};
+  std::string nodes;
+  std::string ports;
+  for (const NodeKind* kind : btcpp::kRules.kinds) {
+    const NodeType& type = kind->type;
+    if (type.id == "ParallelAbsolute" || type.id == "ParallelRelative") continue;
+    nodes += fmt::format("    {{{}, NodeType::{}}},\n", cpp_text(type.id),
+                         kTypes[static_cast<unsigned>(type.category)]);
+    for (const Parameter& it : type.parameters) {
+      // The library reads and writes an entry by its name.
+      const bool is_both = it.is_key && it.is_generic;
+      const Direction direction = is_both ? Direction::InOut : it.direction;
+      const std::string given = it.default_text ? cpp_text(*it.default_text) : "nullptr";
+      ports +=
+          fmt::format("    {{{}, {}, PortDirection::{}, {}, {},\n     {}}},\n", cpp_text(type.id),
+                      cpp_text(it.name), kDirections[static_cast<unsigned>(direction)],
+                      cpp_text(it.is_generic ? "BT::AnyTypeAllowed" : cpp_type_of(it.type)), given,
+                      cpp_text(it.doc));
+    }
+  }
+  check_generated(
+      "plugins/sdk/btcpp/include/behaviortree_cpp/lockstep/node_ports.h",
+      fmt::format(
+          R"(// The nodes that every tree has, with their ports. Generated from the rows of the language:
+// ./dev generate.
+#pragma once
+
+#include "behaviortree_cpp/basic_types.h"
+
+namespace BT::lockstep_detail {{
+
+struct BuiltinNode {{
+  const char* id;
+  NodeType type;
+}};
+struct BuiltinPort {{
+  const char* node;
+  const char* name;
+  PortDirection direction;
+  const char* type;
+  const char* given;  // its default; null: it has none
+  const char* text;
+}};
+
+// clang-format off
+inline constexpr BuiltinNode kBuiltinNodes[] = {{
+{}}};
+inline constexpr BuiltinPort kBuiltinPorts[] = {{
+{}}};
+// clang-format on
+
+}}  // namespace BT::lockstep_detail
+)",
+          nodes, ports));
 }
 
 TEST_CASE("links inside the page lead to its headings") {

@@ -5,15 +5,7 @@
 #include "behaviortree_cpp/actions/script_node.h"
 #include "behaviortree_cpp/actions/test_node.h"
 #include "behaviortree_cpp/bt_factory.h"
-#include "behaviortree_cpp/controls/parallel_node.h"
-#include "behaviortree_cpp/controls/switch_node.h"
-#include "behaviortree_cpp/decorators/timeout_node.h"
-#include "behaviortree_cpp/loggers/bt_file_logger_v2.h"
-#include "behaviortree_cpp/loggers/bt_minitrace_logger.h"
-#include "behaviortree_cpp/loggers/bt_observer.h"
 #include "behaviortree_cpp/loggers/bt_sqlite_logger.h"
-#include "behaviortree_cpp/loggers/groot2_publisher.h"
-#include "behaviortree_cpp/xml_parsing.h"
 
 using namespace BT;
 
@@ -70,33 +62,16 @@ BT_REGISTER_NODES(factory) {
   factory.registerNodeType<NoNode>("NoNode");
 #elif MISTAKE == 6
   auto tree = factory.createTreeFromText("");
-  const Groot2Publisher publisher(tree);
-#elif MISTAKE == 7
-  writeTreeNodesModelXML(factory);
-#elif MISTAKE == 8
-  factory.registerNodeType<WhileDoElseNode>("AsLong");
-#elif MISTAKE == 9
-  factory.addSubstitutionRule("talk", TestNodeConfig());
-#elif MISTAKE == 10
-#include "behaviortree_cpp/scripting/script_parser.hpp"
-#elif MISTAKE == 11
-#include "behaviortree_cpp/loggers/groot2_protocol.h"
-#elif MISTAKE == 12
-#include "behaviortree_cpp/utils/polymorphic_cast_registry.hpp"
-#elif MISTAKE == 13
-  auto tree = factory.createTreeFromText("");
-  const FileLogger2 file(tree, "run.btlog");
   const SqliteLogger table(tree, "run.db3");
-  const MinitraceLogger trace(tree, "run.json");
-  const TreeObserver observer(tree);
-  WriteTreeToXML(tree);
+#elif MISTAKE == 7
   factory.registerNodeType<TestNode>("Test");
-  factory.registerNodeType<SwitchNode<2> >("Choice");
-  factory.registerNodeType<TimeoutNode>("Soon");
-#elif MISTAKE == 14
-  factory.registerNodeType<ParallelNode>("All");
+#elif MISTAKE == 8
+  factory.registerNodeType<ManualSelectorNode>("Pick");
+#elif MISTAKE == 9
   factory.registerNodeType<ScriptNode>("Code");
-  const auto function = ParseScript("a := 1");
-  const auto copy = BlackboardBackup(*factory.createTreeFromText("").rootBlackboard());
+#elif MISTAKE == 10
+#include "behaviortree_cpp/loggers/bt_zmq_publisher.h"
+#elif MISTAKE == 11
+  factory.registerPolymorphicCast<Good, Abstract>();
 #endif
 }
