@@ -60,7 +60,7 @@ int main(int, char** arguments) {
   tree.haltTree();
 
   try {
-    factory.createTreeFromText(
+    (void)factory.createTreeFromText(
         "<root BTCPP_format=\"4\"><BehaviorTree ID=\"Other\"><Unknown/></BehaviorTree></root>");
   } catch (const std::exception&) {
     std::cout << "refused" << std::endl;
