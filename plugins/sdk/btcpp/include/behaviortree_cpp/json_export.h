@@ -30,13 +30,20 @@ class JsonExporter {
     if (text) json = nlohmann::json::parse(text->substr(5));
     return text.has_value();
   }
-  // A number, a flag or a text; an object as one of the type that its "__type" names.
+  // A number, a flag, a text or a list of these; an object as one of the type that its "__type"
+  // names.
   ExpectedEntry fromJson(const nlohmann::json& json) const {
     if (json.is_boolean()) return entry_of(json.get<bool>());
     if (json.is_number_integer()) return entry_of(json.get<std::int64_t>());
     if (json.is_number_float()) return entry_of(json.get<double>());
     if (json.is_string()) return entry_of(json.get<std::string>());
     const nlohmann::json& first = json.is_array() && !json.empty() ? json.front() : json;
+    if (json.is_array()) {
+      if (first.is_boolean()) return fromJson(json, typeid(std::vector<bool>));
+      if (first.is_number_integer()) return fromJson(json, typeid(std::vector<int>));
+      if (first.is_number_float()) return fromJson(json, typeid(std::vector<double>));
+      if (first.is_string()) return fromJson(json, typeid(std::vector<std::string>));
+    }
     const auto type = first.is_object() ? first.find("__type") : first.end();
     if (type == first.end() || !type->is_string()) {
       return nonstd::make_unexpected(std::string("Missing field '__type'"));

@@ -187,7 +187,7 @@ inline void Blackboard::lockstep_assign(const LockstepFound& found, Any value, c
   Entry& entry = *found.entry;
   const bool is_any = type.type() == typeid(Any);
   const bool is_strong = entry.info.isStronglyTyped();
-  if (is_any || is_new) {
+  if (is_new || (is_any && (!is_strong || entry.info.type() == value.type()))) {
     entry.value = std::move(value);
   } else if (!is_strong) {
     entry.info = type;
@@ -241,8 +241,12 @@ inline void Blackboard::lockstep_set(const std::string& key, Any value, TypeInfo
     return lockstep_parent_->lockstep_set(outside, std::move(value), std::move(type));
   }
   // A text gives no type: it may be read as one of any.
-  const bool is_loose = type.type() == typeid(std::string) || type.type() == typeid(Any);
-  lockstep_assign(lockstep_make(key, is_loose ? TypeInfo() : type), std::move(value), type, true);
+  if (type.type() == typeid(Any)) {
+    type = TypeInfo::lockstep_of_number(value);
+  } else if (type.type() == typeid(std::string)) {
+    type = {};
+  }
+  lockstep_assign(lockstep_make(key, type), std::move(value), type, true);
 }
 
 inline void Blackboard::lockstep_create(const std::string& key, const TypeInfo& type) {

@@ -269,6 +269,8 @@ struct PortValue {
   static bool get(const Place& place, std::uint32_t port, Any& any) {
     if constexpr (port_type<T>() == LOCKSTEP_ANY) {
       return false;
+    } else if constexpr (!std::is_default_constructible_v<T>) {
+      return get_any_object(place, port, any);
     } else {
       T value{};
       if (!lockstep_detail::get(place, port, value)) return false;

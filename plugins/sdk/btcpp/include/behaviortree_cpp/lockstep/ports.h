@@ -23,12 +23,10 @@ class TypeInfo {
     return info;
   }
   TypeInfo() = default;
-  // For a value that is there.
-  static TypeInfo lockstep_of(const Any& value) {
-    TypeInfo info;
-    info.type_ = value.type();
-    info.name_ = demangle(value.type());
-    return info;
+  // That of the number that is there; any for the rest.
+  static TypeInfo lockstep_of_number(const Any& value) {
+    return lockstep_first_of<int, double, bool, std::int64_t, std::uint64_t, float, unsigned,
+                             std::int16_t, std::uint16_t, std::int8_t, std::uint8_t>(value);
   }
 
   const std::type_index& type() const { return type_; }
@@ -41,6 +39,13 @@ class TypeInfo {
   const lockstep_detail::PortValues& lockstep_values() const { return *values_; }
 
  private:
+  template <class... Types>
+  static TypeInfo lockstep_first_of(const Any& value) {
+    TypeInfo info;
+    static_cast<void>(((value.type() == typeid(Types) && (info = Create<Types>(), true)) || ...));
+    return info;
+  }
+
   std::type_index type_ = typeid(AnyTypeAllowed);
   std::string name_ = "AnyTypeAllowed";
   const lockstep_detail::PortValues* values_ = &lockstep_detail::PortValue<AnyTypeAllowed>::kTable;
