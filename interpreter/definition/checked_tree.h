@@ -102,6 +102,7 @@ struct CheckedTrees {
   std::vector<std::string_view> ids;              // as they stand in the documents
   std::vector<CheckedNode> groups;                // declared beside the trees; names are distinct
   bool shares_entries = false;                    // Definition::shares_entries
+  bool has_outside = false;                       // "@key" is of a board outside of the main tree
   bool names_at_run_time = false;                 // names of entries, or scripts, are in entries
   std::optional<CheckedMain> main;                // none: it is no tree file
 };

@@ -98,7 +98,7 @@ struct Definition {
   std::vector<NodeHooks> hooks = {};
   std::vector<BoundScript> scripts = {};
   std::vector<Board> boards =
-      {};  // if names are looked up at run time; in the order of their nodes
+      {};                       // if names are looked up at run time; in the order of their nodes
   bool shares_entries = false;  // leaves, or a program, use them by their names at any time
   std::list<std::string> texts = {};               // names that are not as a document has them
   std::shared_ptr<const StandIns> stand_ins = {};  // the types of some nodes

@@ -65,6 +65,7 @@ std::optional<Definition> resolve(const Project& project, const Catalog& catalog
   CheckedTrees trees = rules.reader->read(project, known, models, diagnostics);
   trees.names_at_run_time |= options.opens_entries;
   trees.shares_entries |= options.opens_entries;
+  trees.has_outside = options.has_outside;
   const auto main = choose_main(trees, options.main_tree, report);
   if (!check_references(trees, report) || !main) return std::nullopt;
   Definition definition = expand(trees, *main, options.values, report);

@@ -19,6 +19,7 @@ struct ResolveOptions {
   MissingNodes unknown = MissingNodes::AreErrors;
   Mocks mocks = {};
   bool opens_entries = false;  // the program uses entries by their names
+  bool has_outside = false;    // "@key" is none of the main tree, but of a board of the program
 };
 
 // Returns nothing if there are errors. Also reports warnings and notes.

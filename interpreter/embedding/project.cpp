@@ -200,8 +200,11 @@ bool lockstep_project_isolate_all(lockstep_project* project) {
   return set(project, project, [&] { project->options.plugins.isolate = true; });
 }
 
-bool lockstep_project_open_entries(lockstep_project* project) {
-  return set(project, project, [&] { project->options.opens_entries = true; });
+bool lockstep_project_open_entries(lockstep_project* project, bool has_outside) {
+  return set(project, project, [&] {
+    project->options.opens_entries = true;
+    project->options.has_outside = has_outside;
+  });
 }
 
 bool lockstep_project_show_groot2(lockstep_project* project) {

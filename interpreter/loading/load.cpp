@@ -48,10 +48,10 @@ tl::expected<Loaded, LoadFailure> load(std::unique_ptr<Project> project, const L
   std::optional<Definition> definition;
   if (project) {
     warn_of_shadowed(*plugins, *project->rules, diagnostics);
-    definition = resolve(
-        *project, make_catalog(*plugins, *project->rules),
-        {options.main_tree, options.values, options.unknown, options.mocks, options.opens_entries},
-        diagnostics);
+    definition = resolve(*project, make_catalog(*plugins, *project->rules),
+                         {options.main_tree, options.values, options.unknown, options.mocks,
+                          options.opens_entries, options.has_outside},
+                         diagnostics);
   }
   if (const auto wrong = failure_of(project.get(), diagnostics)) return tl::unexpected(*wrong);
   return Loaded{std::move(plugins), std::move(project), std::move(definition).value()};

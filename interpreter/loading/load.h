@@ -27,6 +27,7 @@ struct LoadOptions {
   MissingNodes unknown = MissingNodes::AreErrors;
   Mocks mocks = {};
   bool opens_entries = false;  // the program uses entries by their names
+  bool has_outside = false;    // "@key" is none of the main tree, but of a board of the program
 };
 
 // A definition without errors, and the objects that it refers to.

@@ -38,7 +38,7 @@ class Expander {
     for (std::size_t i = 0; i < members_.size(); ++i) groups_.emplace(trees_.groups[i].name, i);
     definition_.nodes.reserve(trees_.nodes.size());  // without subtrees, all that will be needed
     definition_.ports.reserve(trees_.ports.size());
-    Scope scope(definition_.entries, *trees_.rules);
+    Scope scope(definition_.entries, *trees_.rules, trees_.has_outside);
     for (const auto& [key, text] : values_) scope.set_text(key, text);
     if (trees_.names_at_run_time) definition_.boards.emplace_back();
     definition_.shares_entries = trees_.shares_entries;

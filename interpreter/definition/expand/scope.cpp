@@ -8,7 +8,9 @@ bool Scope::passes_on(std::string_view key) const {
 
 Scope::Found Scope::find(std::string_view key) {
   if (rules_.marked_keys && key.size() > 1 && key[0] == '@') {
-    return main().find(key.substr(1));
+    Scope& top = main();
+    if (!top.has_outside_) return top.find(key.substr(1));
+    if (&top != this) return top.find(key);
   }
   if (const auto it = known_.find(key); it != known_.end()) return {it->second, false, {}, false};
   const auto remapped = remapped_.find(key);
@@ -30,11 +32,11 @@ Scope::Found Scope::find(std::string_view key) {
 }
 
 Board Scope::board() const {
-  Board board{.autoremap = autoremap_};
+  Board board{.autoremap = autoremap_, .has_outside = has_outside_};
   for (const auto& [inner, outer] : remapped_) board.remapped.emplace(inner, outer);
   for (const auto& [key, text] : texts_) board.own.emplace(key);
   for (const auto& [key, entry] : known_) {
-    if (is_own(key)) board.entries.emplace(key, entry);
+    if (is_own(key) || (has_outside_ && key.starts_with('@'))) board.entries.emplace(key, entry);
   }
   return board;
 }

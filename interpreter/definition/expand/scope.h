@@ -18,9 +18,9 @@ class Scope {
  public:
   static constexpr std::uint32_t kNone = Port::kNone;
 
-  // The scope of the main tree.
-  Scope(std::vector<BlackboardEntry>& entries, const LanguageRules& rules)
-      : entries_(entries), rules_(rules) {}
+  // The scope of the main tree. With a board outside, "@key" is not its "key".
+  Scope(std::vector<BlackboardEntry>& entries, const LanguageRules& rules, bool has_outside)
+      : entries_(entries), rules_(rules), has_outside_(has_outside) {}
   // The scope of a SubTree inside `outer`; `prefix` names it in messages ("grasp/").
   Scope(Scope& outer, const std::string& prefix, bool autoremap)
       : entries_(outer.entries_),
@@ -65,6 +65,7 @@ class Scope {
   Scope* outer_ = nullptr;
   std::string prefix_;
   bool autoremap_ = false;
+  bool has_outside_ = false;
   std::map<std::string_view, std::string_view> remapped_;
   std::map<std::string_view, std::string_view> texts_;
   std::map<std::string_view, std::uint32_t> known_;

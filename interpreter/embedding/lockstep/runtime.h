@@ -76,8 +76,10 @@ LOCKSTEP_EXPORT bool lockstep_project_set_main_tree(lockstep_project* project, c
  * are in the program stay there. */
 LOCKSTEP_EXPORT bool lockstep_project_isolate_all(lockstep_project* project);
 /* Since 1.4: the program uses entries by their names, at any time and in any thread, also those that
- * no node of the tree names: lockstep_run_board. Each tick locks the entries then. */
-LOCKSTEP_EXPORT bool lockstep_project_open_entries(lockstep_project* project);
+ * no node of the tree names: lockstep_run_board. Each tick locks the entries then. With has_outside,
+ * {@key} in a tree for BehaviorTree.CPP is the entry "@key" of the main board, which the program
+ * exchanges with a board outside; else it is the entry "key". */
+LOCKSTEP_EXPORT bool lockstep_project_open_entries(lockstep_project* project, bool has_outside);
 
 /* Since 1.4: keeps what lockstep_run_groot2 shows of the tree. */
 LOCKSTEP_EXPORT bool lockstep_project_show_groot2(lockstep_project* project);

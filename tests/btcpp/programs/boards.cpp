@@ -157,6 +157,32 @@ static void in_a_tree() {
   law("values stay after the tree", board->get<int>("count") == 5 && board->get<int>("speed") == 2);
 }
 
+// A board for all trees, whose entries have an '@' there.
+static void outside() {
+  const auto world = Blackboard::create();
+  world->set("n", 2);
+  const auto mine = Blackboard::create(world);
+  mine->set("n", 30);
+  BehaviorTreeFactory factory;
+  factory.registerNodeType<Drive>("Drive");
+  auto tree = factory.createTreeFromText(R"(<root BTCPP_format="4" main_tree_to_execute="Main">
+    <BehaviorTree ID="Main"><SubTree ID="Deep" n="{n}"/></BehaviorTree>
+    <BehaviorTree ID="Deep"><Script code="@sum := n + @n; @n += 1; n += 1"/></BehaviorTree>
+    </root>)",
+                                         mine);
+  tree.tickOnce();
+  law("'@' is the board outside of the main tree",
+      world->get<int>("sum") == 32 && world->get<int>("n") == 3 && mine->get<int>("n") == 31);
+  law("not its own", !mine->getEntry("sum") && mine->get<int>("@sum") == 32);
+  const auto deep = tree.subtrees.at(1)->blackboard;
+  deep->set("@later", 1);
+  law("code of a SubTree writes there, too", world->get<int>("later") == 1);
+  world->set("n", 8);
+  tree.tickOnce();
+  law("what changed there is seen in the next tick", world->get<int>("sum") == 39);
+  law("and is in no list of the inner keys", mine->getKeys().size() == 1);
+}
+
 // A board that two trees have, and one outside of both.
 static void shared() {
   const auto world = Blackboard::create();
@@ -217,6 +243,7 @@ int main() {
   RegisterJsonDefinition<Point>();
   by_itself();
   in_a_tree();
+  outside();
   shared();
   from_threads();
 }

@@ -203,6 +203,7 @@ class Blackboard : public lockstep_detail::BoardCasts,
   // Where a key that is not its own is made.
   void lockstep_give_to_parents(const lockstep_detail::BoardLink& link);
   void lockstep_take(const std::string& key, LockstepFound found);
+  LockstepFound lockstep_find_home(const std::string& key) const;
   LockstepFound lockstep_make(const std::string& key, const TypeInfo& type);
   std::string lockstep_remapped(const std::string& key) const;
   std::vector<std::pair<std::string, std::shared_ptr<Entry>>> lockstep_list() const;
@@ -221,7 +222,7 @@ class Blackboard : public lockstep_detail::BoardCasts,
     LockstepFound outside = {};  // no entry: it is the tree's own
     std::uint64_t theirs = 0, ours = 0;
   };
-  std::map<std::string, FromParent> lockstep_from_parents_;  // by the thread that ticks
+  std::map<std::string, FromParent> lockstep_from_parents_;  // changed by the thread that ticks
 };
 
 }  // namespace BT

@@ -322,3 +322,6 @@ class BehaviorTreeFactory {
 }  // namespace BT
 
 #include "behaviortree_cpp/lockstep/plugin_entry.h"  // IWYU pragma: export
+#if __has_include(<nlohmann/json.hpp>)
+#include "behaviortree_cpp/json_export.h"  // IWYU pragma: export
+#endif

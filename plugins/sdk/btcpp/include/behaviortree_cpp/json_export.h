@@ -171,10 +171,10 @@ void RegisterJsonDefinition() {
   JsonExporter::get().addConverter<T>();
 }
 
-// The entries of a board with values that have a text in JSON, by their keys.
+// The entries of a board with values that have a text in JSON, by their keys; null: it has none.
 template <class Board>
 [[nodiscard]] nlohmann::json ExportBlackboardToJSON(const Board& blackboard) {
-  nlohmann::json all = nlohmann::json::object();
+  nlohmann::json all;
   for (const std::string& key : blackboard.template getKeys<std::string>()) {
     const auto content = std::as_const(blackboard).getAnyLocked(key);
     const Any* const value = std::as_const(content).get();

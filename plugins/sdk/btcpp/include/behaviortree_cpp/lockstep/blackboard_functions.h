@@ -93,6 +93,7 @@ inline void Blackboard::lockstep_refuse() const {
 }
 
 inline std::shared_ptr<Blackboard::Entry> Blackboard::lockstep_own(const std::string& key) const {
+  if (lockstep_detail::is_of_root(key)) return nullptr;
   const std::lock_guard lock(lockstep_mutex_);
   const auto found = lockstep_entries_.find(key);
   return found == lockstep_entries_.end() ? nullptr : found->second;
@@ -157,6 +158,7 @@ inline Blackboard::LockstepFound Blackboard::lockstep_find(const std::string& ke
     }
     std::string name(home.key);
     if (auto entry = lockstep_pull(*link, name)) return {std::move(entry), link, std::move(name)};
+    if (lockstep_detail::is_of_root(name)) return rootBlackboard()->lockstep_find(name.substr(1));
   } else if (lockstep_detail::is_of_root(key)) {
     return rootBlackboard()->lockstep_find(key.substr(1));
   } else if (auto entry = lockstep_own(key)) {
@@ -231,11 +233,12 @@ inline void Blackboard::lockstep_set(const std::string& key, Any value, TypeInfo
       return lockstep_of(link->family(), home.board)
           ->lockstep_set(std::string(home.key), std::move(value), std::move(type));
     }
-  } else if (lockstep_detail::is_of_root(key)) {
-    return rootBlackboard()->lockstep_set(key.substr(1), std::move(value), std::move(type));
   }
   auto entry = link != nullptr ? lockstep_pull(*link, key) : lockstep_own(key);
   if (entry != nullptr) return lockstep_assign({entry, link, key}, std::move(value), type, false);
+  if (lockstep_detail::is_of_root(key)) {
+    return rootBlackboard()->lockstep_set(key.substr(1), std::move(value), std::move(type));
+  }
   const std::string outside = lockstep_remapped(key);
   if (!outside.empty()) {
     return lockstep_parent_->lockstep_set(outside, std::move(value), std::move(type));
@@ -257,11 +260,12 @@ inline void Blackboard::lockstep_create(const std::string& key, const TypeInfo& 
     if (home.board != link->index() || home.key.size() != key.size()) {
       return lockstep_of(link->family(), home.board)->lockstep_create(std::string(home.key), type);
     }
-  } else if (lockstep_detail::is_of_root(key)) {
-    return rootBlackboard()->lockstep_create(key.substr(1), type);
   }
   auto entry = link != nullptr ? lockstep_pull(*link, key) : lockstep_own(key);
   if (entry == nullptr) {
+    if (lockstep_detail::is_of_root(key)) {
+      return rootBlackboard()->lockstep_create(key.substr(1), type);
+    }
     const std::string outside = lockstep_remapped(key);
     if (!outside.empty()) return lockstep_parent_->lockstep_create(outside, type);
     const LockstepFound made = lockstep_make(key, type);
@@ -323,7 +327,9 @@ inline void Blackboard::lockstep_each(
     const std::lock_guard lock(lockstep_mutex_);
     for (const auto& [key, entry] : lockstep_entries_) all.emplace_back(&key, entry);
   }
-  for (const auto& [key, entry] : all) visit(*key, *entry);
+  for (const auto& [key, entry] : all) {
+    if (!lockstep_detail::is_of_root(*key)) visit(*key, *entry);
+  }
 }
 
 inline void Blackboard::lockstep_clone_into(Blackboard& other) const {
@@ -484,28 +490,45 @@ inline void Blackboard::lockstep_detach() {
     const std::lock_guard lock(board->lockstep_mutex_);
     board->lockstep_link_.reset();
     board->lockstep_root_.reset();
+    board->lockstep_from_parents_.clear();
   }
-  lockstep_from_parents_.clear();
 }
 
 inline void Blackboard::lockstep_give() {
   const auto link = lockstep_link();
-  lockstep_from_parents_.clear();
-  for (const auto& [key, entry] : lockstep_list()) {
-    const LockstepFound found{entry, link, key};
-    lockstep_from_parents_[key] = {};  // its own
+  const auto all = lockstep_list();
+  {
+    const std::lock_guard lock(lockstep_mutex_);
+    lockstep_from_parents_.clear();
+    for (const auto& [key, entry] : all) lockstep_from_parents_[key] = {};  // its own
+  }
+  for (const auto& [key, entry] : all) {
     const std::lock_guard lock(entry->entry_mutex);
-    lockstep_push(found);
+    lockstep_push({entry, link, key});
   }
   lockstep_take_from_parents();
+}
+
+// Not the copy that a tree has of what its parents hold.
+inline Blackboard::LockstepFound Blackboard::lockstep_find_home(const std::string& key) const {
+  {
+    const std::lock_guard lock(lockstep_mutex_);
+    const auto copied = lockstep_from_parents_.find(key);
+    const bool is_copied = copied != lockstep_from_parents_.end();
+    if (is_copied && copied->second.outside.entry != nullptr) return copied->second.outside;
+  }
+  return lockstep_find(key);
 }
 
 // What a parent has, if it is news.
 inline void Blackboard::lockstep_take(const std::string& key, LockstepFound found) {
   if (found.entry == nullptr) return;
-  const auto [known, is_new] = lockstep_from_parents_.try_emplace(key);
-  FromParent& it = known->second;
-  if (is_new) it.outside = std::move(found);
+  const bool is_new = lockstep_from_parents_.count(key) == 0;
+  if (is_new) {
+    const std::lock_guard lock(lockstep_mutex_);
+    lockstep_from_parents_[key].outside = std::move(found);
+  }
+  FromParent& it = lockstep_from_parents_.at(key);
   if (it.outside.entry == nullptr) return;
   Any value;
   TypeInfo info;
@@ -529,32 +552,32 @@ inline void Blackboard::lockstep_take_from_parents() {
   if (lockstep_parent_ == nullptr) return;
   Blackboard* const root = lockstep_parent_->rootBlackboard();
   root->lockstep_each(
-      [&](const std::string& key, Entry&) { lockstep_take(key, root->lockstep_find(key)); });
+      [&](const std::string& key, Entry&) { lockstep_take('@' + key, root->lockstep_find(key)); });
   for (const Blackboard* it = lockstep_parent_.get(); lockstep_remaps_all_ && it != nullptr;
        it = it->lockstep_parent_.get()) {
     it->lockstep_each([&](const std::string& key, Entry&) {
-      if (!StartWith(key, '_')) lockstep_take(key, lockstep_parent_->lockstep_find(key));
+      if (!StartWith(key, '_')) lockstep_take(key, lockstep_parent_->lockstep_find_home(key));
     });
   }
   for (const auto& [internal, external] : lockstep_remaps_) {
-    lockstep_take(internal, lockstep_parent_->lockstep_find(external));
+    lockstep_take(internal, lockstep_parent_->lockstep_find_home(external));
   }
 }
 
 // What the tree has made of it.
 inline void Blackboard::lockstep_give_to_parents(const lockstep_detail::BoardLink& link) {
   if (lockstep_parent_ == nullptr) return;
-  if (lockstep_remaps_all_) {
-    for (const std::string& key : link.keys()) {
-      if (StartWith(key, '_') || lockstep_from_parents_.count(key) != 0) continue;
-      const auto own = lockstep_pull(link, key);
-      if (own == nullptr || own->value.empty()) continue;
-      lockstep_parent_->lockstep_store(key, own->value, own->info);
-      FromParent& known = lockstep_from_parents_[key];
-      known.outside = lockstep_parent_->lockstep_find(key);
-      known.theirs = known.outside.entry->sequence_id;
-      known.ours = own->lockstep_writes;
-    }
+  for (const std::string& key : link.keys()) {
+    const bool is_theirs =
+        lockstep_detail::is_of_root(key) || (lockstep_remaps_all_ && !StartWith(key, '_'));
+    if (!is_theirs || lockstep_from_parents_.count(key) != 0) continue;
+    const auto own = lockstep_pull(link, key);
+    if (own == nullptr || own->value.empty()) continue;
+    lockstep_parent_->lockstep_store(key, own->value, own->info);
+    auto outside = lockstep_parent_->lockstep_find(key);
+    const std::uint64_t theirs = outside.entry->sequence_id;
+    const std::lock_guard lock(lockstep_mutex_);
+    lockstep_from_parents_[key] = {std::move(outside), theirs, own->lockstep_writes};
   }
   for (auto& [key, known] : lockstep_from_parents_) {
     if (known.outside.entry == nullptr) continue;

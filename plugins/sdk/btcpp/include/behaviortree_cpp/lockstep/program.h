@@ -189,7 +189,7 @@ class Program : public NodeTree, public std::enable_shared_from_this<Program> {
 
   void load() {
     const lockstep_plugin& leaves = source_.nodes->describe("program", table_extension);
-    lockstep_project_open_entries(project_.get());
+    lockstep_project_open_entries(project_.get(), source_.blackboard->parent() != nullptr);
     const bool is_empty = leaves.leaf_type_count == 0 && source_.nodes->words()->empty();
     bool good = is_empty || lockstep_project_add_leaves(project_.get(), &leaves);
     for (const std::string& plugin : source_.plugins) {

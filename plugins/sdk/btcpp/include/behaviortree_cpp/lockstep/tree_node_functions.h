@@ -142,7 +142,12 @@ template <class T>
 Expected<T> TreeNode::getInput(StringView name) const {
   if (lockstep_place_ == nullptr) return lockstep_read_by_hand<T>(std::string(name));
   const lockstep_detail::PortEntry* const port = lockstep_find_port(name);
-  if (port == nullptr) return nonstd::make_unexpected(lockstep_no_port(name));
+  if (port == nullptr) {  // one of the node that it stands in for
+    if (lockstep_config_.input_ports.count(std::string(name)) == 0) {
+      return nonstd::make_unexpected(lockstep_no_port(name));
+    }
+    return lockstep_read_by_hand<T>(std::string(name));
+  }
   if (lockstep_thread_ != nullptr && lockstep::detail::in_worker) {
     return lockstep_detail::converted<T>(lockstep_thread_->inputs[port->index], lockstep_config_);
   }
@@ -235,7 +240,13 @@ Expected<T> TreeNode::lockstep_read_default(const lockstep_detail::PortEntry& po
 
 template <class T>
 Result TreeNode::setOutput(StringView name, const T& value) {
-  if (lockstep_place_ == nullptr) {
+  const lockstep_detail::PortEntry* const port = lockstep_find_port(name);
+  if (port == nullptr) {
+    // Of no tree, or one of the node that it stands in for.
+    const bool is_given = lockstep_config_.output_ports.count(std::string(name)) != 0;
+    if (lockstep_place_ != nullptr && !is_given) {
+      return nonstd::make_unexpected(lockstep_no_port(name));
+    }
     using Held =
         std::conditional_t<lockstep_detail::is_text_v<std::decay_t<const T>>, std::string, T>;
     if constexpr (std::is_same_v<T, Any>) {
@@ -244,8 +255,6 @@ Result TreeNode::setOutput(StringView name, const T& value) {
       return lockstep_set_by_hand(std::string(name), Any(value), TypeInfo::Create<Held>());
     }
   }
-  const lockstep_detail::PortEntry* const port = lockstep_find_port(name);
-  if (port == nullptr) return nonstd::make_unexpected(lockstep_no_port(name));
   if (port->info.direction() == PortDirection::INPUT) {
     return nonstd::make_unexpected(StrCat("port '", name, "' is an input"));
   }
