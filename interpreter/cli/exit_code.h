@@ -14,6 +14,7 @@ enum ExitCode : int {
   kExitOverrun = 7,    // --overrun fail
   kExitRecording = 8,  // --on-record-error stop
   kExitInternal = 9,   // lockstep itself failed: out of memory, an unexpected exception
+  kExitProperty = 10,  // --on-violation end
   kExitLimit = 124,    // --timeout or --max-ticks
   kExitSignal = 128,   // + the signal
 };

@@ -372,6 +372,7 @@ int32_t reason_of(StopReason reason) {
       return LOCKSTEP_OVERRUN;
     case StopReason::Signal:
     case StopReason::Recording:
+    case StopReason::Property:
       break;
   }
   return LOCKSTEP_STOPPED;

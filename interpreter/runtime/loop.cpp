@@ -67,6 +67,9 @@ class Loop {
     if (options_.recording_failed && options_.recording_failed()) {
       return stop(StopReason::Recording);
     }
+    if (options_.property_violated && options_.property_violated()) {
+      return stop(StopReason::Property);
+    }
     if (options_.max_ticks && end_.ticks >= *options_.max_ticks) return stop(StopReason::MaxTicks);
     if (options_.timeout && clock_.now() - begun_ >= *options_.timeout) {
       return stop(StopReason::Timeout);

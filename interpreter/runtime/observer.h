@@ -34,7 +34,8 @@ enum class StopReason : std::uint8_t {
   MaxTicks,
   Signal,
   Overrun,
-  Recording
+  Recording,
+  Property
 };
 
 // The longest tick, from its beginning until the root had its status; real time only.

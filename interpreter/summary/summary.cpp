@@ -35,6 +35,8 @@ std::string why(const Summary& summary) {
       return "a tick missed the next deadline";
     case StopReason::Recording:
       return "the recording cannot be written";
+    case StopReason::Property:
+      return "a property is violated";
   }
   return {};
 }
@@ -128,6 +130,14 @@ void write_deciding(const DecidingSummary& node, std::size_t indent, std::string
   out += '\n';
 }
 
+void write_property(const PropertySummary& property, std::string& out, bool color) {
+  const bool is_violated = property.verdict == "violated";
+  out += fmt::format("  property   {}: {}", printable(property.name),
+                     styled(property.verdict, is_violated ? Style::Bad : Style::Good, color));
+  if (property.tick) out += fmt::format(" in tick {}", *property.tick);
+  out += '\n';
+}
+
 void write_note(std::span<const std::string> lines, std::string& out, bool color) {
   out += styled("note:", Style::Warning, color);
   std::string_view indent = " ";
@@ -156,8 +166,8 @@ Style style_of(RunResult result) {
 }
 
 std::string_view to_string(StopReason reason) {
-  constexpr std::string_view kNames[] = {"completed", "fault",   "timeout",  "max_ticks",
-                                         "signal",    "overrun", "recording"};
+  constexpr std::string_view kNames[] = {"completed", "fault",   "timeout",   "max_ticks",
+                                         "signal",    "overrun", "recording", "property"};
   return kNames[static_cast<unsigned>(reason)];
 }
 
@@ -238,6 +248,7 @@ void write_text(const Summary& summary, std::string& out, bool color) {
   out += timing(summary) + worst_tick(summary);
   write_over_budget(summary, out, color);
   write_text(summary.synchronized_nodes, summary.never_reached, out, color);
+  for (const PropertySummary& it : summary.properties) write_property(it, out, color);
   for (const std::string& note : summary.notes) write_note({&note, 1}, out, color);
   for (const auto& note : standstill_notes(summary)) write_note(note, out, color);
 }

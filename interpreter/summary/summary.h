@@ -99,6 +99,12 @@ struct StandstillSummary {
   double failed_at = 0;            // seconds
 };
 
+struct PropertySummary {
+  std::string name, text;
+  std::string verdict;                     // "holds", "violated" or "open"
+  std::optional<std::uint64_t> tick = {};  // that has decided; none: the end, or nothing
+};
+
 struct Summary {
   RunResult result = RunResult::Stopped;
   StopReason reason = StopReason::Completed;
@@ -119,6 +125,7 @@ struct Summary {
   std::size_t never_reached = 0;                             // of the synchronized nodes
   std::vector<StandstillSummary> standstills = {};           // the first ones
   std::uint64_t more_standstills = 0;                        // than these
+  std::vector<PropertySummary> properties = {};
   std::vector<std::string> notes = {};  // other facts for the user: a recording that is cut, …
 };
 

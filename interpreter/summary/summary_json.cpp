@@ -108,6 +108,15 @@ Json json_of(const std::vector<StandstillSummary>& standstills) {
   return list;
 }
 
+Json json_of(const std::vector<PropertySummary>& properties) {
+  Json list = Json::array();
+  for (const PropertySummary& it : properties) {
+    list.push_back(
+        {{"name", it.name}, {"property", it.text}, {"verdict", it.verdict}, {"tick", it.tick}});
+  }
+  return list;
+}
+
 // The notes of the run, and what stood still.
 std::vector<std::string> all_notes(const Summary& summary) {
   std::vector<std::string> notes = summary.notes;
@@ -140,6 +149,7 @@ std::string to_json(const Summary& summary) {
   }
   json["never_reached"] = summary.never_reached;
   json["standstills"] = json_of(summary.standstills);
+  if (!summary.properties.empty()) json["properties"] = json_of(summary.properties);
   json["notes"] = all_notes(summary);
   return json.printable();
 }

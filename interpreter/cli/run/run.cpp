@@ -14,12 +14,14 @@
 #include "cli/run/watchers.h"
 #include "core/suggest.h"
 #include "core/wording.h"
+#include "measure/live_properties.h"
 #include "recording/write/recorder.h"
 #include "runtime/crash_report.h"
 #include "runtime/loop.h"
 #include "runtime/outlet.h"
 #include "runtime/stall_fail.h"
 #include "runtime/stop_signals.h"
+#include "summary/property_watch.h"
 #include "summary/standstills.h"
 #include "summary/statistics.h"
 #include "system/freed_memory.h"
@@ -45,6 +47,8 @@ int exit_code_of(const RunEnd& end) {
       return kExitOverrun;
     case StopReason::Recording:
       return kExitRecording;
+    case StopReason::Property:
+      return kExitProperty;
   }
   return kExitLeafFault;
 }
@@ -80,10 +84,19 @@ bool knows_recorded_keys(const RunCommandOptions& options, const Tree& tree) {
   return true;
 }
 
+// Nothing after a mistake in one, which is reported.
+std::optional<std::vector<Property>> properties_of(const RunCommandOptions& options,
+                                                   const Tree& tree) {
+  const PropertyOptions& given = options.properties;
+  if (given.texts.empty() && given.files.empty()) return std::vector<Property>();
+  return read_properties(given, property_names(tree));
+}
+
 // There is one, and its members end in the order in which they may.
 class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
  public:
-  RunCommand(const RunCommandOptions& options, const Runnable& runnable, WatcherSockets sockets)
+  RunCommand(const RunCommandOptions& options, const Runnable& runnable,
+             std::vector<Property> properties, WatcherSockets sockets)
       : options_(options),
         tree_(runnable.tree),
         end_budget_(options.end_limit()),
@@ -98,6 +111,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
       recorder_.emplace(tree_, recorder_options());
     }
     if (options.stall > 0 || options.stall_fail > 0) watch_standstills();
+    if (!properties.empty()) watch_properties(std::move(properties));
   }
 
   // Runs the tree to its end; initializes `plugins` before and deinitializes them after.
@@ -115,7 +129,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
       return kExitPluginRefused;
     }
     const auto end = run_tree();
-    const int code = end ? first_failure(exit_code_of(*end), print_summary()) : kExitUsage;
+    const int code = end ? first_failure(code_of(*end), print_summary()) : kExitUsage;
     plugins.reset();
     watchers_.linger();
     return code;
@@ -183,6 +197,22 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     return recorder;
   }
 
+  // A violation in the last tick, or at the end, counts too.
+  int code_of(const RunEnd& end) const {
+    const bool counts = options_.ends_on_violation && properties_ && properties_->is_violated();
+    return counts && end.reason == StopReason::Completed ? kExitProperty : exit_code_of(end);
+  }
+
+  void watch_properties(std::vector<Property> properties) {
+    properties_.emplace(tree_, std::move(properties), [this](const Property& it, const auto& when) {
+      const std::string who = it.has_name() ? fmt::format("property {}", it.name()) : "property";
+      const std::string text = fmt::format("violated {}: {}", when, it.text());
+      if (recorder_) recorder_->log(who, "warning", text);
+      watchers_.log(who, "warning", text);
+      view_.print(fmt::format("warning: {} is {}", who, text));
+    });
+  }
+
   void watch_standstills() {
     std::optional<Nanoseconds> limit;
     if (options_.stall > 0) limit = from_seconds(options_.stall);
@@ -214,6 +244,9 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   LoopOptions loop_options() {
     LoopOptions loop = options_.loop();
     if (stall_fail_) loop.stall_fail = &*stall_fail_;
+    if (properties_ && options_.ends_on_violation) {
+      loop.property_violated = [this] { return properties_->is_violated(); };
+    }
     loop.control = watchers_.control();
     if (recorder_ && options_.stop_on_record_error) {
       loop.recording_failed = [this] { return recorder_->failed(); };
@@ -224,6 +257,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   std::span<Observer* const> observers() {
     observers_ = {&statistics_};
     if (standstills_) observers_.push_back(&*standstills_);  // before those that it tells
+    if (properties_) observers_.push_back(&*properties_);    // likewise
     if (recorder_) observers_.push_back(&*recorder_);
     watchers_.add_to(observers_);
     if (view_.observer() != nullptr) observers_.push_back(view_.observer());
@@ -239,6 +273,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
                                           counted(recorder_->lost(), "tick")));
     }
     if (standstills_) standstills_->add_to(summary);
+    if (properties_) properties_->add_to(summary);
     watch_.add_to(summary);
     settle_messages(summary.notes);
     if (std::string late = end_budget_.note(); !late.empty()) summary.notes.push_back(late);
@@ -269,6 +304,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   std::optional<Recorder> recorder_;
   Watchers watchers_;
   std::optional<Standstills> standstills_;
+  std::optional<PropertyWatch> properties_;
   std::optional<StallFail> stall_fail_;
   LineBudget standstill_budget_{ConsolePlain::kBurstOfFaults};
   std::vector<Observer*> observers_;
@@ -327,6 +363,8 @@ int run(const RunCommandOptions& options) {
   Runnable runnable = make_runnable(std::move(*loaded));
   return_freed_memory();
   if (!knows_recorded_keys(options, runnable.tree)) return kExitUsage;
+  auto properties = properties_of(options, runnable.tree);
+  if (!properties) return kExitUsage;
   Diagnostics notes;
   note_leaves_without_progress(runnable.tree, options.tree, notes);
   if (!options.is_wall()) {
@@ -334,7 +372,8 @@ int run(const RunCommandOptions& options) {
                              notes);
   }
   print_diagnostics(notes, Severity::Note);
-  return RunCommand(options, runnable, std::move(*sockets)).run(runnable.plugins);
+  return RunCommand(options, runnable, std::move(*properties), std::move(*sockets))
+      .run(runnable.plugins);
 }
 
 std::function<int()> define_run(CLI::App& app) {
@@ -350,7 +389,8 @@ extern const Command kRunCommand{
     "The summary goes to stdout, everything else to stderr.\n"
     "Exit code: 0 Success, 1 Failure, 2 usage, 3 invalid tree, 4 plugin refused, 5 leaf fault,\n"
     "6 a plugin crashed or hung, 7 --overrun fail, 8 --on-record-error stop, 9 lockstep failed,\n"
-    "124 --timeout or --max-ticks, 128 + N signal N, as 130 for SIGINT (running leaves are halted "
+    "10 --on-violation end, 124 --timeout or --max-ticks, 128 + N signal N, as 130 for SIGINT "
+    "(running leaves are halted "
     "in\n"
     "order; a second one ends the program at once), 141 the reader of stdout has gone.\n"
     "\n"
@@ -359,6 +399,7 @@ extern const Command kRunCommand{
     "  lockstep run trees/door_pulling.xml --arg barriers=0.5 --record run.jsonl\n"
     "  lockstep run trees/door_pulling.xml --clock virtual --seed 7 --json\n"
     "  lockstep run trees/door_pulling.xml --monitor 8080 --groot2 1667\n"
+    "  lockstep run trees/door_pulling.xml --property 'base.held at most 200 ticks'\n"
     "  lockstep run trees/door_pulling.xml --realtime --cpu 1 --spin 50",
     define_run};
 

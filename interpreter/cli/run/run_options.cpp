@@ -133,6 +133,14 @@ void define_fault_options(CLI::App& app, RunCommandOptions& options) {
       ->capture_default_str();
 }
 
+void define_property_options(CLI::App& app, RunCommandOptions& options) {
+  add_property_options(app, options.properties);
+  add_choice<bool>(app, "--on-violation", options.ends_on_violation,
+                   {{"warn", false}, {"end", true}},
+                   "When the run violates a property: say so, or also end the run, with exit code "
+                   "10");
+}
+
 void define_monitor_options(CLI::App& app, RunCommandOptions& options) {
   app.add_option("--monitor", options.monitor,
                  "Show the run in a browser (default: 127.0.0.1 and a free port); the link is on "
@@ -195,6 +203,7 @@ void define_run_options(CLI::App& app, RunCommandOptions& options) {
   define_loop_options(app, options);
   define_time_options(app, options);
   define_fault_options(app, options);
+  define_property_options(app, options);
   app.add_option("--record", options.record,
                  "Write a recording (JSON Lines; see docs/recording.md)")
       ->type_name("FILE.jsonl");

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cli/load/load_options.h"
+#include "cli/properties.h"
 #include "lockstep/leaf.h"
 #include "runtime/loop.h"
 #include "runtime/realtime.h"
@@ -30,6 +31,9 @@ struct RunCommandOptions {
   std::optional<Processors> helper_processors;  // of lockstep's other threads
   double spin_us = 0;                           // before each tick, without sleep
   FaultPolicy on_fault = FaultPolicy::Stop;
+
+  PropertyOptions properties;
+  bool ends_on_violation = false;
 
   std::string record;
   bool stop_on_record_error = false;

@@ -74,11 +74,13 @@ std::function<int()> define_log(CLI::App& app) {
   const auto plot = define_log_plot(app);
   const auto difference = define_log_diff(app);
   const auto page = define_log_page(app);
+  const auto check = define_log_check(app);
   return [=] {
     if (measures.app->parsed()) return measures.run();
     if (plot.app->parsed()) return plot.run();
     if (difference.app->parsed()) return difference.run();
     if (page.app->parsed()) return page.run();
+    if (check.app->parsed()) return check.run();
     return table->parsed() ? csv(*options) : info(*options);
   };
 }
@@ -90,9 +92,10 @@ extern const Command kLogCommand{
     "A recording that ends early, as after a kill, is read up to its last "
     "whole line; a message on\n"
     "stderr says so.\n"
-    "Exit code: 0 read, 1 two recordings differ, 2 usage, a file that "
-    "cannot be read, or a plot\n"
-    "without gnuplot, 3 not a recording or a damaged one.\n"
+    "Exit code: 0 read, 1 two recordings differ or a property is violated, 2 usage, a file that "
+    "cannot\n"
+    "be read, or a plot without gnuplot, 3 not a recording or a damaged one, 124 a property is "
+    "open.\n"
     "\n"
     "Examples:\n"
     "  lockstep run trees/door_pulling.xml --record run.jsonl\n"
@@ -101,7 +104,8 @@ extern const Command kLogCommand{
     "  lockstep log measure run.jsonl --measure predictability:arm@0.5\n"
     "  lockstep log plot run.jsonl --out progress.svg\n"
     "  lockstep log page run.jsonl --out run.html\n"
-    "  lockstep log diff run.jsonl again.jsonl",
+    "  lockstep log diff run.jsonl again.jsonl\n"
+    "  lockstep log check run.jsonl --property 'arm.held at most 200 ticks'",
     define_log};
 
 }  // namespace lockstep::host

@@ -1,0 +1,91 @@
+#include "cli/properties.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string_view>
+
+#include "cli/console.h"
+
+namespace lockstep::host {
+namespace {
+
+class PropertyReader {
+ public:
+  explicit PropertyReader(const PropertyNames& names) : names_(names) {}
+
+  // The text is that line of what is called `source`.
+  void read(std::string_view text, const std::string& source, std::uint32_t line) {
+    auto property = Property::parse(text, names_);
+    if (property) {
+      properties_.push_back(std::move(*property));
+      return;
+    }
+    const PropertyError& error = property.error();
+    const std::string_view before = text.substr(0, error.offset);
+    const auto line_begin = before.rfind('\n') + 1;  // 0 when there is none
+    const auto line_end = std::min(text.find('\n', line_begin), text.size());
+    diagnostics_.error(
+        {source, line + static_cast<std::uint32_t>(std::ranges::count(before, '\n')),
+         static_cast<std::uint32_t>(error.offset - line_begin + 1)},
+        error.message, error.hint,
+        {.text = std::string(text.substr(line_begin, line_end - line_begin)), .column = 1});
+  }
+
+  // One on each line that is neither blank nor begins with #.
+  void read_file(const std::string& path) {
+    std::ifstream file(path);
+    if (!file) {
+      diagnostics_.error({path}, fmt::format("cannot read it: {}", std::strerror(errno)));
+      return;
+    }
+    std::uint32_t number = 0;
+    for (std::string line; std::getline(file, line);) {
+      ++number;
+      const auto first = line.find_first_not_of(" \t\r");
+      if (first == std::string::npos || line[first] == '#') continue;
+      read(line, path, number);
+    }
+  }
+
+  std::optional<std::vector<Property>> result() {
+    if (!diagnostics_.has_errors()) return std::move(properties_);
+    print_diagnostics(diagnostics_, Severity::Error);
+    return std::nullopt;
+  }
+
+ private:
+  const PropertyNames& names_;
+  Diagnostics diagnostics_;
+  std::vector<Property> properties_;
+};
+
+}  // namespace
+
+void add_property_options(CLI::App& app, PropertyOptions& options) {
+  app.add_option("--property", options.texts,
+                 "A property, as 'grip: never grip.running and not gripper.held'; may be repeated. "
+                 "docs/properties.md has the language")
+      ->type_name("TEXT")
+      ->allow_extra_args(false);
+  app.add_option("--property-file", options.files,
+                 "A file with a property on each line; # begins a comment; may be repeated")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+}
+
+std::optional<std::vector<Property>> read_properties(const PropertyOptions& options,
+                                                     const PropertyNames& names) {
+  PropertyReader reader(names);
+  for (const std::string& text : options.texts) reader.read(text, "--property", 1);
+  for (const std::string& file : options.files) reader.read_file(file);
+  return reader.result();
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,27 @@
+// Properties on the command line, the same for each command that has them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "property/property.h"
+
+namespace CLI {
+class App;
+}
+
+namespace lockstep::host {
+
+struct PropertyOptions {
+  std::vector<std::string> texts;
+  std::vector<std::string> files;
+};
+
+void add_property_options(CLI::App& app, PropertyOptions& options);
+
+// Prints what is wrong, each at its column, and returns nothing then.
+std::optional<std::vector<Property>> read_properties(const PropertyOptions& options,
+                                                     const PropertyNames& names);
+
+}  // namespace lockstep::host

@@ -1,0 +1,76 @@
+#include "measure/live_properties.h"
+
+#include <algorithm>
+
+#include "core/parameter_value.h"
+#include "engine/blackboard.h"
+#include "engine/synchronized.h"
+#include "engine/ticker.h"
+#include "measure/synchronized_measure.h"
+
+namespace lockstep::host {
+
+static_assert(kSameProgress == kProgressEpsilon);
+
+PropertyNames property_names(const Tree& tree) {
+  PropertyNames names;
+  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) names.paths.push_back(tree.path(node));
+  for (const Slot& slot : tree.slots) {
+    names.entries.push_back({.key = slot.name,
+                             .type = std::string(type_name(slot.type, slot.object)),
+                             .is_strict = slot.typing == Typing::Strict});
+  }
+  return names;
+}
+
+LiveProperties::LiveProperties(const Tree& tree, PropertyChecks& checks)
+    : checks_(checks), writes_(checks.comparisons().size()) {
+  for (std::size_t place = 0; place < checks.nodes().size(); ++place) {
+    if (checks.needs_progress(place)) asked_.push_back(place);
+  }
+  if (!asked_.empty()) {
+    for (const NodeIndex keeper : synchronized_nodes(tree)) {
+      if (!compares_progress(synchronization(tree.nodes[keeper]))) continue;
+      const auto children = children_of(tree, keeper);
+      for (const std::size_t place : asked_) {
+        const auto child = std::ranges::find(children, checks.nodes()[place]);
+        if (child == children.end()) continue;
+        used_.push_back({place, keeper, static_cast<std::size_t>(child - children.begin())});
+      }
+    }
+  }
+  room_.reserve(2 * EntryComparison::kLongest);
+}
+
+void LiveProperties::before_tick(Ticker& ticker) {
+  for (const std::size_t place : asked_) {
+    checks_.seen()[place].progress = ticker.progress(checks_.nodes()[place]);
+  }
+}
+
+std::span<const std::size_t> LiveProperties::after_tick(Ticker& ticker, std::uint64_t tick) {
+  const auto seen = checks_.seen();
+  for (std::size_t place = 0; place < seen.size(); ++place) {
+    const NodeIndex node = checks_.nodes()[place];
+    seen[place].status = ticker.status(node);
+    seen[place].ticked = ticker.ticked(node);
+    seen[place].held = ticker.held(node);
+  }
+  // What a synchronized node has seen counts more than what was seen before its tick.
+  for (const Used& it : used_) {
+    if (!ticker.ticked(it.keeper)) continue;
+    const double used = child_progress(ticker, it.keeper)[it.child];
+    seen[it.place].progress = is_left_out(used) ? 0 : used;
+  }
+  for (std::size_t i = 0; i < writes_.size(); ++i) {
+    const EntryComparison& comparison = checks_.comparisons()[i];
+    const Entry& entry = ticker.blackboard().entries[comparison.entry];
+    // Without a value, recordings keep the one before.
+    if (writes_[i] == entry.writes || std::holds_alternative<NoValue>(entry.value)) continue;
+    writes_[i] = entry.writes;
+    checks_.compared()[i] = comparison.holds_for(entry.value, room_);
+  }
+  return checks_.step(tick);
+}
+
+}  // namespace lockstep::host

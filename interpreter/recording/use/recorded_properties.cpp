@@ -1,0 +1,83 @@
+#include "recording/use/recorded_properties.h"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "core/diagnostics.h"
+#include "json/json.h"
+#include "terminal/text_table.h"
+
+namespace lockstep::host {
+namespace {
+
+void see(const RecordedTick& tick, PropertyChecks& checks) {
+  const auto seen = checks.seen();
+  for (std::size_t place = 0; place < seen.size(); ++place) {
+    const RecordedState& state = tick.nodes[checks.nodes()[place]];
+    seen[place] = {state.status, state.ticked, state.held, state.progress};
+  }
+  const auto comparisons = checks.comparisons();
+  for (const RecordedEntry& entry : tick.entries) {
+    for (std::size_t i = 0; i < comparisons.size(); ++i) {
+      if (comparisons[i].entry != entry.entry) continue;
+      checks.compared()[i] = entry.value ? comparisons[i].holds_for_text(*entry.value)
+                                         : comparisons[i].holds_without_value();
+    }
+  }
+}
+
+RunIsOver how_it_ended(const std::optional<RecordedEnd>& end) {
+  const bool by_itself = end && (end->reason == "completed" || end->reason == "fault");
+  return by_itself ? RunIsOver::ByItself : RunIsOver::FromOutside;
+}
+
+}  // namespace
+
+PropertyNames property_names(const RecordingHeader& header) {
+  PropertyNames names;
+  for (const RecordedNode& node : header.nodes) names.paths.push_back(node.path);
+  for (const RecordedKey& entry : header.entries) {
+    // In a tree for BehaviorTree.CPP it may hold other values, and the header does not say so.
+    names.entries.push_back({.key = entry.key, .type = entry.type, .is_strict = false});
+  }
+  return names;
+}
+
+void check_recording(RecordingReader& reader, PropertyChecks& checks) {
+  std::uint64_t next = 0;
+  while (const auto tick = reader.next()) {
+    if (tick->tick != next) checks.give_up();
+    next = tick->tick + 1;
+    see(*tick, checks);
+    checks.step(tick->tick);
+  }
+  if (!reader.gaps().empty()) checks.give_up();
+  checks.end(how_it_ended(reader.end()));
+}
+
+std::string to_table(const PropertyChecks& checks) {
+  std::vector<TableRow> rows = {{"verdict", "tick", "property"}};
+  for (std::size_t i = 0; i < checks.all().size(); ++i) {
+    const Property& it = checks.all()[i];
+    const auto tick = checks.decided(i);
+    rows.push_back({std::string(to_string(checks.verdict(i))),
+                    tick ? fmt::format("{}", *tick) : "-",
+                    printable(it.has_name() ? it.name() + ": " + it.text() : it.text())});
+  }
+  return text_table(rows, rows.front().size());
+}
+
+std::string to_json(const PropertyChecks& checks) {
+  Json json = Json::array();
+  for (std::size_t i = 0; i < checks.all().size(); ++i) {
+    const Property& it = checks.all()[i];
+    json.push_back({{"name", it.name()},
+                    {"property", it.text()},
+                    {"verdict", to_string(checks.verdict(i))},
+                    {"tick", checks.decided(i)}});
+  }
+  return json.printable();
+}
+
+}  // namespace lockstep::host
