@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "cli/console.h"
+#include "measure/live_properties.h"
 
 namespace lockstep::host {
 namespace {
@@ -86,6 +87,16 @@ std::optional<std::vector<Property>> read_properties(const PropertyOptions& opti
   for (const std::string& text : options.texts) reader.read(text, "--property", 1);
   for (const std::string& file : options.files) reader.read_file(file);
   return reader.result();
+}
+
+std::optional<std::vector<Property>> all_properties(std::vector<Property> of_file,
+                                                    const PropertyOptions& options,
+                                                    const Tree& tree) {
+  if (options.texts.empty() && options.files.empty()) return of_file;
+  auto more = read_properties(options, property_names(tree));
+  if (!more) return std::nullopt;
+  std::ranges::move(*more, std::back_inserter(of_file));
+  return of_file;
 }
 
 }  // namespace lockstep::host

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/tree.h"
 #include "property/property.h"
 
 namespace CLI {
@@ -23,5 +24,9 @@ void add_property_options(CLI::App& app, PropertyOptions& options);
 // Prints what is wrong, each at its column, and returns nothing then.
 std::optional<std::vector<Property>> read_properties(const PropertyOptions& options,
                                                      const PropertyNames& names);
+// Those of a tree file, and then these.
+std::optional<std::vector<Property>> all_properties(std::vector<Property> of_file,
+                                                    const PropertyOptions& options,
+                                                    const Tree& tree);
 
 }  // namespace lockstep::host

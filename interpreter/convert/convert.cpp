@@ -148,10 +148,12 @@ class Converter {
       if (!to_ours() && tag == "arg") warn_of_argument(element);
       return;
     }
-    if (to_ours()) {
+    if (to_ours() || tag == "property") {
       open_.back().is_left_out = true;
       report_.at(place, fmt::format("'{}' is left out", brief(tag)),
-                 "lockstep's language does not have it; it has no effect on a run", Severity::Note);
+                 fmt::format("{} does not have it; it has no effect on a run",
+                             to_ours() ? "lockstep's language" : "BehaviorTree.CPP"),
+                 Severity::Note);
     } else {
       cannot(place, fmt::format("'{}'", brief(tag)));
     }

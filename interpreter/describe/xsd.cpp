@@ -107,6 +107,19 @@ constexpr std::string_view kPrologueEnd = R"xsd(  <xs:simpleType name="boolean">
           <xs:annotation><xs:documentation>Another file whose trees are used here; its path is relative to this file.</xs:documentation></xs:annotation>
           <xs:complexType><xs:group ref="nothing"/><xs:attribute name="path" type="word" use="required"/></xs:complexType>
         </xs:element>
+        <xs:element name="property">
+          <xs:annotation><xs:documentation>What each run of the main tree is to satisfy, as text: never arm.failure. `lockstep run` checks it.</xs:documentation></xs:annotation>
+          <xs:complexType>
+            <xs:simpleContent>
+              <xs:extension base="xs:string">
+                <xs:attribute name="name" use="required">
+                  <xs:simpleType><xs:union memberTypes="identifier substituted"/></xs:simpleType>
+                </xs:attribute>
+                <xs:attribute name="_description" type="xs:string"/>
+              </xs:extension>
+            </xs:simpleContent>
+          </xs:complexType>
+        </xs:element>
         <xs:element name="TreeNodesModel">
           <xs:annotation><xs:documentation>What editors know of the nodes. lockstep reads it for 'run --mock' only.</xs:documentation></xs:annotation>
           <xs:complexType mixed="true">
@@ -136,6 +149,7 @@ constexpr std::string_view kPrologueEnd = R"xsd(  <xs:simpleType name="boolean">
   <xs:element name="plugin" abstract="true"/>
   <xs:element name="arg" abstract="true"/>
   <xs:element name="include" abstract="true"/>
+  <xs:element name="property" abstract="true"/>
   <xs:element name="TreeNodesModel" abstract="true"/>
 )xsd";
 

@@ -26,6 +26,18 @@ void append_with_known_references(std::string_view value, std::string& text) {
   text += value;
 }
 
+std::string without_quotes(std::string_view value) {
+  std::string text;
+  for (const char c : value) {
+    if (c == '"') {
+      text += "&quot;";
+    } else {
+      text += c;
+    }
+  }
+  return text;
+}
+
 // A program that links lockstep::runtime may have another version of tinyxml2 in it, whose
 // functions are then called with this object: it has room for a document of any version, and
 // functions of theirs that are in a header or virtual are not called.
@@ -96,9 +108,10 @@ bool Document::Implementation::read_coded(Diagnostics& diagnostics) {
     const auto [number, is_new] = numbers.try_emplace(value, numbers.size());
     number_of.push_back(number->second);
     if (!is_new) continue;
-    const char quote = value.data()[-1];
+    const bool is_text = attributes[index].name.empty();  // which may have both quotes in it
+    const char quote = is_text ? '"' : value.data()[-1];
     (text += "<a v=") += quote;
-    append_with_known_references(value, text);
+    append_with_known_references(is_text ? without_quotes(value) : value, text);
     (text += quote) += "/>";
   }
   text += "</r>";

@@ -11,9 +11,9 @@
 namespace lockstep::host {
 
 struct Attribute {
-  std::string_view name;
+  std::string_view name;   // "": it is the text of the element, which only <property> has
   std::string_view value;  // entities resolved, and arguments once the project has substituted them
-  Place place = {};        // of its name
+  Place place = {};        // of its name; of a text: of its first byte
 };
 
 struct Element {

@@ -37,7 +37,7 @@ struct XmlToken {
   // The text of an attribute between the quotes, what counts of a Text, or all of an Instruction or
   // a Doctype.
   std::string_view value = {};
-  bool is_coded = false;  // a value with a reference or a line end: it is read as another
+  bool is_coded = false;  // an attribute with a reference or a line end: it is read as another
 };
 
 class Scanner {

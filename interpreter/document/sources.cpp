@@ -35,7 +35,11 @@ SourceLocation Source::locate(Place place) const {
 }
 
 SourceLocation Source::locate_value(Place attribute, std::size_t byte) const {
-  const auto open = text_.find_first_of("\"'", attribute.byte - first_.byte);
+  const std::size_t place = attribute.byte - first_.byte;
+  if (place > 0 && (text_[place - 1] == '>' || text_[place - 1] == '[')) {  // it is a text
+    return at(place + raw_offset(text().substr(place), byte));
+  }
+  const auto open = text_.find_first_of("\"'", place);
   const auto begin = open + 1;
   const auto raw = text().substr(begin, text_.find(text_[open], begin) - begin);
   return at(begin + raw_offset(raw, byte));

@@ -32,8 +32,8 @@ class Source {
   Place next() const { return place_of(text_.size() + 1); }  // for the text after this one
 
   SourceLocation locate(Place place) const;
-  // Inside the quotes of the attribute whose name is at `attribute`, at byte `byte` of its value as
-  // it was read from the text.
+  // Inside the quotes of the attribute whose name is at `attribute`, or in the text of an element
+  // that is there, at byte `byte` of its value as it was read from the text.
   SourceLocation locate_value(Place attribute, std::size_t byte = 0) const;
   // The line of a place without its line end; of a longer one 200 bytes with the place in them.
   Excerpt excerpt(std::uint32_t line, std::uint32_t column = 1) const;

@@ -181,12 +181,34 @@ class Checker {
     const auto offset = blank ? token.begin : static_cast<std::size_t>(first - text_.data());
     const bool is_section = text_.substr(token.begin).starts_with("<![CDATA[");
     if (is_in_models()) return;  // what ports are for
+    if (!is_lenient_ && is_in_property()) return property(token, is_section);
     if (is_lenient_ && (is_section || !open_.empty() || !has_root()))
       return warn({offset, "text is ignored", "put it into a comment: <!-- … -->"});
     if (open_.empty())
       return stop(
           {offset, fmt::format("text {} the root element", has_root() ? "after" : "before")});
     add({offset, "text is not part of the language", "put it into a comment: <!-- … -->"});
+  }
+
+  // Its text is kept as an attribute without a name.
+  void property(const XmlToken& token, bool is_section) {
+    const auto begin = scanner_.offset_of(token.value);
+    auto& element = result_.elements.back();
+    const bool has_text = element.attribute_count > 0 && result_.attributes.back().name.empty();
+    if (open_.back() + 1 != result_.elements.size() || has_text) {
+      return add({begin, "a property has one text", "move comments out of it"});
+    }
+    ++element.attribute_count;
+    Attribute text{{}, token.value, {first_.byte + static_cast<std::uint32_t>(begin)}};
+    XmlToken value = token;
+    value.is_coded = !is_section && token.value.find_first_of("&\r") != std::string_view::npos;
+    if (value.is_coded) result_.coded.push_back(count(result_.attributes));
+    result_.attributes.push_back(text);
+    if (value.is_coded) references(value);
+  }
+
+  bool is_in_property() const {
+    return open_.size() == 2 && result_.elements[open_[1]].tag == "property";
   }
 
   bool is_in_models() const {

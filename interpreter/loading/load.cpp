@@ -7,6 +7,7 @@
 
 #include "definition/resolve.h"
 #include "engine/compile.h"
+#include "loading/tree_properties.h"
 
 namespace lockstep::host {
 namespace {
@@ -54,7 +55,10 @@ tl::expected<Loaded, LoadFailure> load(std::unique_ptr<Project> project, const L
                          diagnostics);
   }
   if (const auto wrong = failure_of(project.get(), diagnostics)) return tl::unexpected(*wrong);
-  return Loaded{std::move(plugins), std::move(project), std::move(definition).value()};
+  auto properties = tree_properties(*project, *definition, diagnostics);
+  if (const auto wrong = failure_of(project.get(), diagnostics)) return tl::unexpected(*wrong);
+  return Loaded{std::move(plugins), std::move(project), std::move(definition).value(),
+                std::move(properties)};
 }
 
 }  // namespace
@@ -77,7 +81,7 @@ tl::expected<Loaded, LoadFailure> load_text(const std::string& path, std::string
 
 Runnable make_runnable(Loaded loaded) {
   Runnable runnable{std::move(loaded.plugins), std::move(loaded.project->arguments),
-                    compile(loaded.definition)};
+                    compile(loaded.definition), std::move(loaded.properties)};
   loaded.definition = {};
   loaded.project.reset();
   return runnable;

@@ -14,6 +14,7 @@
 #include "document/project.h"
 #include "engine/tree.h"
 #include "loading/plugins.h"
+#include "property/property.h"
 
 namespace lockstep::host {
 
@@ -35,6 +36,7 @@ struct Loaded {
   std::shared_ptr<PluginSet> plugins;
   std::unique_ptr<Project> project;
   Definition definition;
+  std::vector<Property> properties = {};  // of the main file
 };
 
 // Why loading failed; the errors have the details.
@@ -60,6 +62,7 @@ struct Runnable {
   std::shared_ptr<PluginSet> plugins;
   std::vector<DeclaredArgument> arguments;
   Tree tree;
+  std::vector<Property> properties;
 };
 
 [[nodiscard]] Runnable make_runnable(Loaded loaded);

@@ -14,11 +14,25 @@ using Kind = PropertyToken::Kind;
 
 constexpr double kMostTicks = 1e9;
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r\n";
-  const auto first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+// On one line: blanks that are in no quotes become one.
+std::string on_one_line(std::string_view text) {
+  std::string line;
+  char quote = '\0';
+  for (const char c : text) {
+    const bool is_blank = c == ' ' || c == '\t' || c == '\r' || c == '\n';
+    if (quote == '\0' && is_blank) {
+      if (!line.empty() && line.back() != ' ') line += ' ';
+      continue;
+    }
+    if (quote == '\0' && (c == '\'' || c == '"')) {
+      quote = c;
+    } else if (c == quote) {
+      quote = '\0';
+    }
+    line += c;
+  }
+  if (line.ends_with(' ')) line.pop_back();
+  return line;
 }
 
 }  // namespace
@@ -31,7 +45,7 @@ class PropertyParser {
 
   Property parse() {
     std::string_view name = take_name();
-    property_.text_ = trimmed(text_.substr(parser_.token().offset));
+    property_.text_ = on_one_line(text_.substr(parser_.token().offset));
     property_.name_ = name.empty() ? property_.text_ : std::string(name);
     pattern();
     if (parser_.token().kind != Kind::End) {

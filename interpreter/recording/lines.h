@@ -193,7 +193,8 @@ constexpr Field kTickFields[] = {
     {"logs", "LogLine[]", kMaybe,
      "only if there are any: {} for each line that a leaf logged since the line before: the path "
      "of the leaf or the name of "
-     "its plugin (of a standstill that is reported or ended in this tick: the path of the node), "
+     "its plugin (of a standstill that is reported or ended in this tick: the path of the node; of "
+     "a property that the tick violates: `property` and its name), "
      "`debug`, `info` or `warning`, the text. At most 64 KiB for each tick; the closing `notes` "
      "count the rest. `--log-level` has no effect"},
     {"counts", "NodeCounts[]", kMaybe,
@@ -219,8 +220,8 @@ constexpr Field kEndFields[] = {
      "running; `fault` when a leaf failed as a program",
      &RecordedEnd::result},
     {"reason", "Text", kAlways,
-     "`completed`, `fault`, `timeout`, `max_ticks`, `signal`, `overrun` (with `--overrun fail`) or "
-     "`recording` (with `--on-record-error stop`)",
+     "`completed`, `fault`, `timeout`, `max_ticks`, `signal`, `overrun` (with `--overrun fail`), "
+     "`recording` (with `--on-record-error stop`) or `property` (with `--on-violation end`)",
      &RecordedEnd::reason},
     {"fault", "Text", kMaybe,
      "only after a fault: the path of the leaf and what it did, in a tick or when it was created",

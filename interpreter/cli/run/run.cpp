@@ -14,7 +14,6 @@
 #include "cli/run/watchers.h"
 #include "core/suggest.h"
 #include "core/wording.h"
-#include "measure/live_properties.h"
 #include "recording/write/recorder.h"
 #include "runtime/crash_report.h"
 #include "runtime/loop.h"
@@ -82,14 +81,6 @@ bool knows_recorded_keys(const RunCommandOptions& options, const Tree& tree) {
     return false;
   }
   return true;
-}
-
-// Nothing after a mistake in one, which is reported.
-std::optional<std::vector<Property>> properties_of(const RunCommandOptions& options,
-                                                   const Tree& tree) {
-  const PropertyOptions& given = options.properties;
-  if (given.texts.empty() && given.files.empty()) return std::vector<Property>();
-  return read_properties(given, property_names(tree));
 }
 
 // There is one, and its members end in the order in which they may.
@@ -363,7 +354,8 @@ int run(const RunCommandOptions& options) {
   Runnable runnable = make_runnable(std::move(*loaded));
   return_freed_memory();
   if (!knows_recorded_keys(options, runnable.tree)) return kExitUsage;
-  auto properties = properties_of(options, runnable.tree);
+  auto properties =
+      all_properties(std::move(runnable.properties), options.properties, runnable.tree);
   if (!properties) return kExitUsage;
   Diagnostics notes;
   note_leaves_without_progress(runnable.tree, options.tree, notes);

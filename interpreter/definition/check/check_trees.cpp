@@ -33,8 +33,8 @@ const LanguageRules* language_marked(std::string_view attribute) {
 }
 
 std::string element_hint(std::string_view tag) {
-  constexpr std::string_view kTags[] = {"BehaviorTree", "plugin",  "arg",
-                                        "include",      "barrier", "resources"};
+  constexpr std::string_view kTags[] = {"BehaviorTree", "plugin",    "arg",     "include",
+                                        "barrier",      "resources", "property"};
   const std::string hint = foreign_node_hint(tag, {});
   return hint.empty() ? suggest(tag, kTags, "elements of 'root'") : hint;
 }
@@ -78,6 +78,8 @@ class TreeChecker {
       } else if (const NodeType* type = catalog_.find(tag);
                  type != nullptr && type->category == NodeCategory::Group) {
         check_group(child, *type);
+      } else if (tag == "property") {
+        check_property(child);
       } else if (!is_read_elsewhere(tag)) {
         if (report_.counted_only(Severity::Error)) continue;
         report_.at(element(child).place, fmt::format("unknown element '{}' in 'root'", brief(tag)),
@@ -143,6 +145,46 @@ class TreeChecker {
       group.name = name->value;
       enter_group(group, name->place);
     }
+  }
+
+  // What it says is checked against the expanded tree (loading/tree_properties.h).
+  void check_property(std::uint32_t index) {
+    const Place place = element(index).place;
+    if (element(index).end > index + 1) {
+      report_.at(element(index + 1).place, "'property' cannot contain elements");
+    }
+    bool has_name = false, has_text = false;
+    for (const Attribute& attribute : attributes(index)) {
+      has_text |= attribute.name.empty();
+      if (attribute.name == "name") {
+        has_name = true;
+        check_property_name(attribute);
+      } else if (!attribute.name.empty() && attribute.name != "_description") {
+        report_.at(attribute.place,
+                   fmt::format("'property' has no attribute '{}'", brief(attribute.name)),
+                   "attributes of 'property': name");
+      }
+    }
+    if (!has_name) {
+      report_.at(place, "'property' needs the attribute 'name'", "write <property name=\"…\">");
+    }
+    if (!has_text) {
+      report_.at(place, "the property says nothing",
+                 "write it as text: <property name=\"…\">never arm.failure</property>");
+    }
+  }
+
+  void check_property_name(const Attribute& name) {
+    if (!is_identifier(name.value)) {
+      return report_.at_value(name.place,
+                              fmt::format("'{}' is not a name for 'property'", brief(name.value)),
+                              fmt::format("such a name is {}", kIdentifierRule));
+    }
+    const auto [first, is_new] = property_places_.try_emplace(name.value, name.place);
+    if (is_new || report_.counted_only(Severity::Error)) return;
+    report_.at_value(
+        name.place, fmt::format("a property '{}' exists already", brief(name.value)),
+        fmt::format("the first is at {}", to_text(project_.sources.locate(first->second))));
   }
 
   void enter_group(const CheckedNode& group, Place name) {
@@ -327,7 +369,7 @@ class TreeChecker {
   AttributeLayouts layouts_;
   CheckedTree tree_;                          // that is being checked
   std::map<std::string_view, Place> places_;  // of the trees, by ID
-  std::map<std::string_view, Place> group_places_;
+  std::map<std::string_view, Place> group_places_, property_places_;
   const Document* document_ = nullptr;
   std::span<const Element> elements_;  // of the document
   const NodeType* last_type_ = nullptr;
