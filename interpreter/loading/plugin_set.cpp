@@ -54,6 +54,10 @@ std::optional<Problem> refuse_isolation(const Descriptors::Leaf& leaf) {
                                port.name, leaf.type.id, port.object->name()),
                    "load it without isolation, or give the type both functions"};
   }
+  if ((leaf.type.flags & LOCKSTEP_OPENS) != 0) {
+    return Problem{fmt::format("cannot be isolated: '{}' uses entries by their names", leaf.type.id),
+                   "load it without isolation, or give it ports for them"};
+  }
   // The children of a control node are leaves of other processes, or of this one.
   if (leaf.type.kind != LOCKSTEP_CONTROL && leaf.type.kind != LOCKSTEP_DECORATOR) {
     return std::nullopt;

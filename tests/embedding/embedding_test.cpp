@@ -517,6 +517,28 @@ TEST_CASE("entries are listed with their types, and a run knows what they have n
         "no node uses an entry 'numbr'; did you mean 'number'?");
 }
 
+TEST_CASE("objects go in and out by reference") {
+  runtime::Project project;
+  project.add_leaf<Carry>("Carry", "Adds something to each of its ports");
+  project.load_text(tree(R"(<Carry number="{number}" from="{from}" to="{to}"/>)"));
+  runtime::Run run(project);
+  CHECK(error_of([&] { run.get_object<Pose>("from"); }) == "nothing has written the entry 'from'");
+  const auto given = std::make_shared<Pose>(Pose{1, 2});
+  run.set("from", given);
+  CHECK(run.get_object<Pose>("from") == given);
+  CHECK(given.use_count() == 2);
+  run.set("number", 1);
+  CHECK(run.tick(0) == Status::Success);
+  const auto to = project.find_entry("to");
+  CHECK(run.get_object<Pose>(to)->x == 2);
+  run.set(to, std::shared_ptr<const Pose>(given));
+  CHECK(run.get_object<Pose>(to) == given);
+  CHECK(error_of([&] { run.set("number", given); }) ==
+        "the entry 'number' is of type int or double, not test.Pose");
+  CHECK(error_of([&] { run.set("from", std::shared_ptr<Pose>()); }) == "an object is null");
+  CHECK(lockstep_run_get_object(run.get(), "from", nullptr) == nullptr);
+}
+
 TEST_CASE("lists and objects that do not fit their entry are errors") {
   runtime::Project project;
   project.add_leaf<Carry>("Carry", "Adds something to each of its ports");

@@ -42,6 +42,8 @@ constexpr Case kCases[] = {
      Watched::Yes},
     {"Sequence, leaf over leaf.hpp", "Sequence", "", "SdkSuccess"},
     {"Sequence, leaf that reads a port", "Sequence", "", "SdkRead a='1.5'"},
+    {"Sequence, node for BehaviorTree.CPP", "Sequence", "", "BtSuccess"},
+    {"Sequence, node for BehaviorTree.CPP that reads a port", "Sequence", "", "BtRead a='1.5'"},
 };
 
 // Ticks a tree of one control node and this many leaves.

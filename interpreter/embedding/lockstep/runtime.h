@@ -75,10 +75,10 @@ LOCKSTEP_EXPORT bool lockstep_project_set_main_tree(lockstep_project* project, c
 /* Runs every plugin in a separate process, not only those for which the tree asks it. Leaves that
  * are in the program stay there. */
 LOCKSTEP_EXPORT bool lockstep_project_isolate_all(lockstep_project* project);
-/* Since 1.4: the program uses entries by their names, at any time and in any thread, also those that
- * no node of the tree names: lockstep_run_board. Each tick locks the entries then. With has_outside,
- * {@key} in a tree for BehaviorTree.CPP is the entry "@key" of the main board, which the program
- * exchanges with a board outside; else it is the entry "key". */
+/* Since 1.4: the program uses entries by their names, at any time and in any thread, also those
+ * that no node of the tree names: lockstep_run_board. Each tick locks the entries then. With
+ * has_outside, {@key} in a tree for BehaviorTree.CPP is the entry "@key" of the main board, which
+ * the program exchanges with a board outside; else it is the entry "key". */
 LOCKSTEP_EXPORT bool lockstep_project_open_entries(lockstep_project* project, bool has_outside);
 
 /* Since 1.4: keeps what lockstep_run_groot2 shows of the tree. */
@@ -286,6 +286,18 @@ LOCKSTEP_EXPORT bool lockstep_run_set_text_list_at(lockstep_run* run, uint32_t e
                                                    const lockstep_text* values, size_t count);
 LOCKSTEP_EXPORT lockstep_type lockstep_run_value_type_at(lockstep_run* run, uint32_t entry);
 
+/* Since 1.4: objects by reference, of a type that the program knows as the plugins do; an error for
+ * an entry of another type, or of objects in another process. What get returns is borrowed, until
+ * the next tick or write; set retains it. */
+LOCKSTEP_EXPORT void* lockstep_run_get_object(lockstep_run* run, const char* key,
+                                              const lockstep_object_type* type);
+LOCKSTEP_EXPORT bool lockstep_run_set_object(lockstep_run* run, const char* key,
+                                             const lockstep_object_type* type, void* object);
+LOCKSTEP_EXPORT void* lockstep_run_get_object_at(lockstep_run* run, uint32_t entry,
+                                                 const lockstep_object_type* type);
+LOCKSTEP_EXPORT bool lockstep_run_set_object_at(lockstep_run* run, uint32_t entry,
+                                                const lockstep_object_type* type, void* object);
+
 /* Since 1.4: the entries by their names, of a project with lockstep_project_open_entries: the board
  * of a tree, 0 for the main tree, for whoever releases it; NULL: there is none. The functions of a
  * board are those of lockstep/leaf.h. */
@@ -359,9 +371,9 @@ LOCKSTEP_EXPORT void lockstep_script_free(lockstep_script* script);
 LOCKSTEP_EXPORT uint32_t lockstep_script_name_count(const lockstep_script* script);
 LOCKSTEP_EXPORT const char* lockstep_script_name(const lockstep_script* script, uint32_t index);
 /* Runs it. `values` has one for each name, `declared` 0 where there is no such entry. After the run
- * they are what the script has made of them, valid until its next call; `writes` is how often it has
- * written each. `result` is the value of the last statement; may be NULL. False after an error: what
- * was assigned before it stays. */
+ * they are what the script has made of them, valid until its next call; `writes` is how often it
+ * has written each. `result` is the value of the last statement; may be NULL. False after an error:
+ * what was assigned before it stays. */
 LOCKSTEP_EXPORT bool lockstep_script_run(lockstep_script* script, lockstep_entry_value* values,
                                          lockstep_entry_value* result);
 

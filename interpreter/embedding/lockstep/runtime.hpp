@@ -441,6 +441,25 @@ class Run {
           texts.size());
   }
 
+  // An object by reference, of a type that LOCKSTEP_OBJECT_TYPE names, as the ports of plugins have
+  // it. Throws when the entry has another type, or its objects are in another process.
+  template <class T>
+  void set(const EntryName& entry, const std::shared_ptr<T>& object) {
+    if (object == nullptr) throw Error("an object is null");
+    auto* const holder = new lockstep::detail::ObjectHolder<std::remove_const_t<T>>{object};
+    const bool is_set = entry.call(lockstep_run_set_object, lockstep_run_set_object_at, it_.get(),
+                                   object_type<T>(), static_cast<void*>(holder));
+    object_type<T>()->release(holder);
+    detail::require(is_set);
+  }
+  template <class T>
+  std::shared_ptr<const T> get_object(const EntryName& entry) const {
+    const void* const object = entry.call(lockstep_run_get_object, lockstep_run_get_object_at,
+                                          it_.get(), object_type<T>());
+    detail::require(object != nullptr);
+    return static_cast<const lockstep::detail::ObjectHolder<T>*>(object)->value;
+  }
+
   // Called after each tick, also of the loop, with the tick's number from 0, its time and the
   // status of the root. It may read the run, and must not tick or halt it.
   void on_tick(std::function<void(std::uint64_t tick, double seconds, Status status)> observe) {
@@ -452,6 +471,10 @@ class Run {
  private:
   using Stop = std::function<bool()>;
 
+  template <class T>
+  static constexpr const lockstep_object_type* object_type() {
+    return &lockstep::detail::kObjectTable<std::remove_const_t<T>>;
+  }
   template <class ByKey, class ByIndex, class... Rest>
   void write(const EntryName& entry, ByKey by_key, ByIndex by_index, Rest... value) {
     detail::require(entry.call(by_key, by_index, it_.get(), value...));

@@ -22,11 +22,10 @@ class SyncActionNode : public ActionNodeBase {
       : ActionNodeBase(name, config) {}
 
   NodeStatus executeTick() override {
-    const NodeStatus status = ActionNodeBase::executeTick();
+    const NodeStatus status = lockstep_tick_as([this] { return tick(); });
     if (status == NodeStatus::RUNNING) {
-      throw LogicError("node '", name(),
-                       "' is a SyncActionNode and has returned RUNNING; derive "
-                       "it from StatefulActionNode");
+      lockstep_refuse(
+          "is a SyncActionNode and has returned RUNNING; derive it from StatefulActionNode");
     }
     return status;
   }

@@ -183,7 +183,7 @@ class TreeNode {
 
   virtual NodeStatus tick() = 0;
   virtual void halt() = 0;
-  void setStatus(NodeStatus status) {
+  [[gnu::always_inline]] void setStatus(NodeStatus status) {
     const NodeStatus before = lockstep_status_.load(std::memory_order_relaxed);
     lockstep_status_.store(status, std::memory_order_release);
     if (lockstep_watch_ != nullptr && before != status) lockstep_tell(before, status);
@@ -200,11 +200,13 @@ class TreeNode {
   }
   // A tick, and what belongs to it; `work` returns the result.
   template <class Work>
-  NodeStatus lockstep_tick_as(const Work& work);
+  [[gnu::always_inline]] NodeStatus lockstep_tick_as(const Work& work);
   // Its parts: all but the status, which a thread may set; and the status.
   template <class Work>
-  NodeStatus lockstep_result_of(const Work& work);
+  [[gnu::always_inline]] NodeStatus lockstep_result_of(const Work& work);
   void lockstep_note(NodeStatus status);
+  // Throws: what the node did wrong.
+  [[noreturn]] void lockstep_refuse(const char* what) const;
   bool lockstep_is_in_tree() const { return lockstep_place_ != nullptr; }
   // The time of the run; outside of a tree, of the machine: a test may override it.
   virtual double lockstep_seconds() const;
@@ -262,7 +264,11 @@ class TreeNode {
   }
   void lockstep_tell(NodeStatus before, NodeStatus status);
   template <class Work>
-  NodeStatus lockstep_work(const Work& work);
+  [[gnu::always_inline]] NodeStatus lockstep_work(const Work& work);
+  template <class Work>
+  [[gnu::noinline]] NodeStatus lockstep_watched_work(const Work& work) {
+    return lockstep_watched_tick([this, &work] { return lockstep_work(work); });
+  }
   NodeStatus lockstep_watched_tick(const std::function<NodeStatus()>& work);
   // In a catch: a tree knows which of its nodes has thrown; the caller of another node is told.
   [[noreturn]] void lockstep_rethrow(const std::exception& thrown) const;

@@ -90,7 +90,7 @@ struct Leaf {
   class InTick {
    public:
     explicit InTick(Place& place) : place_(place) {
-      place_.ticking.store(pthread_self(), std::memory_order_relaxed);
+      place_.ticking.store(this_thread(), std::memory_order_relaxed);
     }
     ~InTick() { place_.ticking.store({}, std::memory_order_relaxed); }
     InTick(const InTick&) = delete;

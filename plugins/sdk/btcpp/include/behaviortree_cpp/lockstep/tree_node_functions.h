@@ -35,22 +35,23 @@ inline NodeStatus TreeNode::executeTick() {
 }
 
 template <class Work>
-NodeStatus TreeNode::lockstep_tick_as(const Work& work) {
+inline NodeStatus TreeNode::lockstep_tick_as(const Work& work) {
   const NodeStatus status = lockstep_result_of(work);
   lockstep_note(status);
   return status;
 }
 
 template <class Work>
-NodeStatus TreeNode::lockstep_result_of(const Work& work) {
+inline NodeStatus TreeNode::lockstep_result_of(const Work& work) {
   const NodeStatus status =
-      lockstep_watch_ == nullptr
-          ? lockstep_work(work)
-          : lockstep_watched_tick([this, &work] { return lockstep_work(work); });
-  if (status == NodeStatus::IDLE) {
-    throw LogicError("node '", lockstep_name_, "' has returned IDLE, which is no result of a tick");
-  }
+      lockstep_watch_ == nullptr ? lockstep_work(work) : lockstep_watched_work(work);
+  if (status == NodeStatus::IDLE)
+    lockstep_refuse("has returned IDLE, which is no result of a tick");
   return status;
+}
+
+[[gnu::cold, gnu::noinline]] inline void TreeNode::lockstep_refuse(const char* what) const {
+  throw LogicError("node '", lockstep_name_, "' ", what);
 }
 
 inline void TreeNode::lockstep_note(NodeStatus status) {
@@ -63,7 +64,7 @@ inline void TreeNode::lockstep_note(NodeStatus status) {
 }
 
 template <class Work>
-NodeStatus TreeNode::lockstep_work(const Work& work) {
+inline NodeStatus TreeNode::lockstep_work(const Work& work) {
   try {
     return work();
   } catch (const std::exception& thrown) {
@@ -84,7 +85,7 @@ inline double TreeNode::lockstep_seconds() const {
   return std::chrono::duration<double>(now).count();
 }
 
-inline void TreeNode::lockstep_tell(NodeStatus before, NodeStatus status) {
+[[gnu::noinline]] inline void TreeNode::lockstep_tell(NodeStatus before, NodeStatus status) {
   lockstep_watch_->changes.notify(std::chrono::high_resolution_clock::now(), *this, before, status);
 }
 
