@@ -47,16 +47,17 @@ auto constant_of(const std::string& file) {
 
 // Why a leaf cannot run in a separate process. The message says what is wrong with its plugin.
 std::optional<Problem> refuse_isolation(const Descriptors::Leaf& leaf) {
+  if ((leaf.type.flags & LOCKSTEP_OPENS) != 0) {
+    return Problem{
+        fmt::format("cannot be isolated: '{}' uses entries by their names", leaf.type.id),
+        "load it without isolation, or give it ports for them"};
+  }
   for (const Parameter& port : leaf.parameters) {
     if (port.object == nullptr || port.object->has_bytes()) continue;
     return Problem{fmt::format("cannot be isolated: the port '{}' of '{}' carries objects, and the "
                                "type '{}' has no to_bytes and from_bytes",
                                port.name, leaf.type.id, port.object->name()),
                    "load it without isolation, or give the type both functions"};
-  }
-  if ((leaf.type.flags & LOCKSTEP_OPENS) != 0) {
-    return Problem{fmt::format("cannot be isolated: '{}' uses entries by their names", leaf.type.id),
-                   "load it without isolation, or give it ports for them"};
   }
   // The children of a control node are leaves of other processes, or of this one.
   if (leaf.type.kind != LOCKSTEP_CONTROL && leaf.type.kind != LOCKSTEP_DECORATOR) {

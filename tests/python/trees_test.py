@@ -92,6 +92,14 @@ class Does(Action):
         return Does.todo(self)
 
 
+class Long(Action):
+    "Returns when its tick was told to last too long."
+    told = threading.Event()
+
+    def tick(self):
+        return "success" if self.told.wait(60) else "failure"
+
+
 def text_of(nodes, head=""):
     return f'<root lockstep="1">{head}<BehaviorTree ID="Main">{nodes}</BehaviorTree></root>'
 
@@ -420,6 +428,29 @@ class TreesTest(unittest.TestCase):
                     it.monitor()
             with open(file, encoding="utf-8") as lines:
                 self.assertEqual(len(list(lines)), 3)
+
+    def test_a_call_that_takes_long(self):
+        lines, hangs = [], []
+
+        def on_hang(*call):
+            hangs.append(call)
+            Long.told.set()
+        with tree("<Long/>", leaves=[Long], log=lambda *it: lines.append(it), clock="wall", tick_budget=1e-9,
+                  hang_limit=0.01, on_hang=on_hang) as it:
+            self.assertEqual(it.tick(), "success")
+        (who, function, seconds), = hangs
+        self.assertEqual(who, "'Main/Long' (Long of plugin 'trees_test')")
+        self.assertEqual(function, "tick")
+        self.assertGreaterEqual(seconds, 0.01)
+        self.assertIn("budget", "".join(text for _, _, text in lines))
+
+    def test_groot2(self):
+        project = lockstep.Project(text=text_of("<AlwaysSuccess/>"), groot2=True)
+        with lockstep.Tree(project) as it:
+            it.groot2("0")
+        with tree("<AlwaysSuccess/>") as it:
+            with self.assertRaisesRegex(lockstep.Error, "Groot2"):
+                it.groot2("0")
 
     def test_a_closed_tree(self):
         it = tree("<Count/>")

@@ -178,9 +178,9 @@ typedef struct lockstep_run_options {
    * leaves log, at most once a second. */
   double tick_budget;
   /* Since 1.4, in seconds, 0: none. `hang` is told once of a call of a leaf that lasts longer and
-   * has not returned: which leaf ("leaf 'Main/arm' …"), in which function, for how long. It is
-   * called in another thread, and must not call the run; the call goes on. A thread that has ticked
-   * does not end before another one ticks, or the run is freed. */
+   * has not returned: which leaf ("'Main/arm' (Reach of plugin 'arm')"), in which function, for how
+   * long. It is called in another thread, and must not call the run; the call goes on. A thread
+   * that has ticked does not end before another one ticks, or the run is freed. */
   double hang_limit;
   void (*hang)(void* user, const char* who, const char* function, double seconds);
 } lockstep_run_options;

@@ -98,11 +98,13 @@ class NodeState(Structure):
 LOG = CFUNCTYPE(None, c_void_p, c_char_p, c_int32, c_char_p)
 OBSERVE = CFUNCTYPE(None, c_void_p, c_void_p, c_uint64, c_double, c_int32)
 STOP = CFUNCTYPE(c_bool, c_void_p)
+HANG = CFUNCTYPE(None, c_void_p, c_char_p, c_char_p, c_double)
 
 
 class RunOptions(Structure):
     _fields_ = [("struct_size", c_uint32), ("on_fault", c_int32), ("seed", c_uint64), ("tick_period", c_double),
-                ("virtual_time", c_bool), ("log", LOG), ("user", c_void_p)]
+                ("virtual_time", c_bool), ("log", LOG), ("user", c_void_p), ("prepare", c_void_p),
+                ("wake", c_void_p), ("tick_budget", c_double), ("hang_limit", c_double), ("hang", HANG)]
 
 
 class LoopOptions(Structure):
@@ -138,7 +140,8 @@ _FUNCTIONS = {
     "run_node": (c_bool, c_void_p, c_uint32, POINTER(NodeState)), "run_value_type_at": (c_int32, c_void_p, c_uint32),
     "run_get_text_at": (c_char_p, c_void_p, c_uint32), "run_set_text_at": (c_bool, c_void_p, c_uint32, c_char_p),
     "run_observe": (c_bool, c_void_p, OBSERVE, c_void_p), "run_record": (c_bool, c_void_p, c_char_p),
-    "run_monitor": (c_char_p, c_void_p, c_char_p),
+    "run_monitor": (c_char_p, c_void_p, c_char_p), "run_groot2": (c_bool, c_void_p, c_char_p),
+    "project_show_groot2": (c_bool, c_void_p),
     "run_loop": (c_bool, c_void_p, POINTER(LoopOptions), POINTER(LoopResult)),
 }
 for _name, _item in (("bool", c_bool), ("int", c_int64), ("double", c_double), ("text", Text)):

@@ -43,23 +43,23 @@ class Project:
     """A tree file (or `text`) with its includes, plugins and leaves. Trees are made of it: `Tree(project)`.
 
     `leaves` are classes of lockstep_leaf, and modules that have some. They run in this process, and take the place
-    of a <plugin> that has the name of their module."""
+    of a <plugin> that has the name of their module. With `groot2`, trees may be shown in Groot2."""
 
     def __init__(self, tree=None, *, text=None, leaves=(), args=None, set=None, plugins=(), plugin_path=(),
-                 main_tree=None, isolate=False):
+                 main_tree=None, isolate=False, groot2=False):
         if (tree is None) == (text is None):
             raise TypeError("a project has a file or a text, one of the two")
         self._library = library = native.load()
         self._leaves = list(leaves_.plugins_of(leaves))
         self._held = _Held(library, self._leaves)
         try:
-            self._configure(args or {}, set or {}, plugins, plugin_path, main_tree, isolate)
+            self._configure(args or {}, set or {}, plugins, plugin_path, main_tree, isolate, groot2)
             self._load(tree, text)
         except BaseException:
             self.close()
             raise
 
-    def _configure(self, args, values, plugins, plugin_path, main_tree, isolate):
+    def _configure(self, args, values, plugins, plugin_path, main_tree, isolate, groot2):
         library, handle = self._library, self._held.handle
         steps = [(library.project_add_leaves, ctypes.byref(it)) for it in self._leaves]
         steps += [(library.project_add_plugin_path, os.fsencode(it)) for it in _list(plugin_path)]
@@ -71,6 +71,8 @@ class Project:
             steps.append((library.project_set_main_tree, native.bytes_of(main_tree)))
         if isolate:
             steps.append((library.project_isolate_all,))
+        if groot2:
+            steps.append((library.project_show_groot2,))
         for function, *arguments in steps:
             if not function(handle, *arguments):
                 raise Error(4, library.why())

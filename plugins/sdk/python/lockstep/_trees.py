@@ -22,9 +22,14 @@ class Tree:
     `tree` is a file or a Project; the other keywords of a Project may be given with a file. `clock` is "virtual", on
     which ticks come as fast as they can and a leaf sees times that are `period` apart, or "wall". `on_fault` is
     "stop" or "fail": the leaf fails, and the tree goes on. `log(path, level, text)` gets what leaves log; without it
-    the logger "lockstep" of logging does."""
+    the logger "lockstep" of logging does.
 
-    def __init__(self, tree=None, *, seed=0, period=0.01, clock="virtual", on_fault="stop", log=None, **project):
+    In seconds, 0 for none: a call of a leaf that takes longer than `tick_budget` is told to `log`, at most once a second;
+    one that lasts longer than `hang_limit` and has not returned, once to `on_hang(who, function, seconds)`, from another
+    thread, or to `log` without it."""
+
+    def __init__(self, tree=None, *, seed=0, period=0.01, clock="virtual", on_fault="stop", log=None,
+                 tick_budget=0, hang_limit=0, on_hang=None, **project):
         if clock not in ("virtual", "wall"):
             raise ValueError(f"the clock is {clock!r}, expected virtual or wall")
         if on_fault not in ("stop", "fail"):
@@ -42,9 +47,10 @@ class Tree:
             raise Error(2, "the project is closed")
         self._library, self._handle = project._library, None
         self._entries, self._seed, self._period, self._clock = project.entries, seed, period, clock
-        self._on_fault = on_fault
+        self._on_fault, self._tick_budget, self._hang_limit = on_fault, tick_budget, hang_limit
         self._state = state = State(log or log_, clock)
-        self._callbacks = native.LOG(state.on_log), native.OBSERVE(state.on_tick), native.STOP(state.stops)
+        self._callbacks = (native.LOG(state.on_log), native.OBSERVE(state.on_tick), native.STOP(state.stops),
+                           native.HANG(_hang(on_hang, state.log)))
         self._begin(project, held)
         self.nodes = [Node(self, it) for it in project.nodes]
         self._by_path = {it.path: it for it in self.nodes}
@@ -54,7 +60,8 @@ class Tree:
         library, state = self._library, self._state
         options = native.sized(native.RunOptions, on_fault=int(self._on_fault == "fail"), seed=_seed(self._seed),
                                tick_period=self._period, virtual_time=self._clock == "virtual",
-                               log=self._callbacks[0])
+                               log=self._callbacks[0], tick_budget=self._tick_budget,
+                               hang_limit=self._hang_limit, hang=self._callbacks[3])
         with state:
             handle = library.run_new(held.handle, options)
         if not handle:
@@ -131,6 +138,10 @@ class Tree:
         """Shows the tree in browsers, from its first tick until it is closed or begins again. Returns the link.
         `address` is "8080", "0.0.0.0:8080", or "0" for a free port."""
         return native.text_of(self._using(self._watch, self._library.run_monitor, native.bytes_of(address)))
+
+    def groot2(self, address="1667"):
+        "Shows the tree in Groot2, which may only look. Of a project with groot2=True."
+        self._using(self._watch, self._library.run_groot2, native.bytes_of(address))
 
     def _watch(self, handle, function, where):
         answer = function(handle, where)
@@ -253,6 +264,17 @@ class Tree:
         with self._state:
             self._library.run_halt(handle)
         return error
+
+
+def _hang(on_hang, log):
+    "What the library calls. An exception ends here: nobody waits for the call."
+    def told(_, who, function, seconds):
+        who, function = native.text_of(who), native.text_of(function)
+        if on_hang is not None:
+            on_hang(who, function, seconds)
+        else:
+            log(who, "warning", f"{function} has not returned after {seconds:.3g} s")
+    return told
 
 
 def _free_run(library, handle, process, state, _kept):
