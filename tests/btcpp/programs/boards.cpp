@@ -73,6 +73,8 @@ static void by_itself() {
   law("a text that is one does", (board->set("n", "4"), board->get<int>("n") == 4));
   law("nor does a number without that value", throws<LogicError>([&] { board->set("n", 4.5); }));
   board->createEntry("small", TypeInfo::Create<std::uint8_t>());
+  board->set("long", std::int64_t{5});
+  law("an int goes into an int64_t", (board->set("long", -7), board->get<int>("long") == -7));
   law("300 goes into no uint8", throws<LogicError>([&] { board->set("small", 300); }));
   law("255 does", (board->set("small", 255), board->get<int>("small") == 255));
   law("an entry has one type",
@@ -143,6 +145,13 @@ static void in_a_tree() {
   law("its parent is the board outside", inside->parent() == board);
   law("a tree's entries keep their type too",
       throws<LogicError>([&] { board->set("where", "nowhere"); }));
+  law("its XML says what is remapped",
+      throws<LogicError>([&] { board->addSubtreeRemapping("a", "b"); }) &&
+          throws<LogicError>([&] { board->enableAutoRemapping(true); }));
+  law("no number above the range of int64_t goes into it",
+      throws<LogicError>([&] { board->set("huge", std::uint64_t{1} << 63); }));
+  law("what is written into an entry's value is not seen by the tree",
+      (held->value = Any(9.0), board->get<int>("speed") == 2));
   const auto backup = BlackboardBackup(tree);
   board->set("count", 40);
   inside->set("more", 1);

@@ -187,6 +187,8 @@ inline void Blackboard::lockstep_assign(const LockstepFound& found, Any value, c
                                         bool is_new) {
   const Locked lock(found);
   Entry& entry = *found.entry;
+  const Any before = entry.value;
+  const TypeInfo info_before = entry.info;
   const bool is_any = type.type() == typeid(Any);
   const bool is_strong = entry.info.isStronglyTyped();
   if (is_new || (is_any && (!is_strong || entry.info.type() == value.type()))) {
@@ -221,7 +223,14 @@ inline void Blackboard::lockstep_assign(const LockstepFound& found, Any value, c
   }
   ++entry.sequence_id;
   entry.stamp = lockstep_detail::stamp_now();
-  lockstep_push(found);
+  try {
+    lockstep_push(found);
+  } catch (...) {
+    --entry.sequence_id;
+    entry.value = before;
+    entry.info = info_before;
+    throw;
+  }
 }
 
 inline void Blackboard::lockstep_set(const std::string& key, Any value, TypeInfo type) {
@@ -249,7 +258,14 @@ inline void Blackboard::lockstep_set(const std::string& key, Any value, TypeInfo
   } else if (type.type() == typeid(std::string)) {
     type = {};
   }
-  lockstep_assign(lockstep_make(key, type), std::move(value), type, true);
+  const LockstepFound made = lockstep_make(key, type);
+  try {
+    lockstep_assign(made, std::move(value), type, true);
+  } catch (...) {
+    const std::lock_guard lock(lockstep_mutex_);
+    lockstep_entries_.erase(key);
+    throw;
+  }
 }
 
 inline void Blackboard::lockstep_create(const std::string& key, const TypeInfo& type) {
